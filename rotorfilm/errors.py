@@ -1,0 +1,103 @@
+"""Errors and warnings: each message names the argument, the rule and the value."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+
+class RotorfilmError(Exception):
+    """Base of every error that rotorfilm raises on purpose."""
+
+
+class InputError(RotorfilmError, ValueError):
+    """An argument breaks a rule; the message names the argument, the rule and the value."""
+
+
+class SceneError(RotorfilmError, ValueError):
+    """A scene file breaks its schema; the message names the file and the dotted key."""
+
+
+class FilmContactError(RotorfilmError):
+    """The journal touches or has crossed the bearing wall, where no film law holds."""
+
+
+class UndefinedDerivativeError(RotorfilmError):
+    """A film law has no derivative at this state, so no stiffness or damping matrix exists there."""
+
+
+class EquilibriumError(RotorfilmError):
+    """No static equilibrium was found, for instance because the load is beyond the film's capacity."""
+
+
+class FmuError(RotorfilmError):
+    """A model cannot be exported, or an FMU answered with an error status."""
+
+
+class PartialResultError(RotorfilmError):
+    """A simulation went wrong; what it had computed until then is kept.
+
+    Parameters
+    ----------
+    message : str
+        What went wrong, with the time and the values.
+    partial : Any
+        The result up to the failure, of the same type as a complete one.
+    """
+
+    def __init__(self, message: str, partial: Any = None) -> None:
+        super().__init__(message)
+        self.partial = partial
+
+
+class ConvergenceError(PartialResultError):
+    """An iteration or a time integration did not converge."""
+
+
+class CouplingError(PartialResultError):
+    """A co-simulation is past its stability limit, so its result is not an answer."""
+
+
+class ContactError(PartialResultError, FilmContactError):
+    """The journal reached the wall during a simulation."""
+
+
+class ValidityWarning(UserWarning):
+    """A model is used outside the range in which it was verified."""
+
+
+def require_positive(name: str, value: float) -> None:
+    """Raise InputError unless `value` is a finite positive number."""
+    if not _is_number(value) or not np.isfinite(value) or value <= 0.0:
+        raise InputError(f"{name} must be finite and positive, got {value!r}")
+
+
+def require_non_negative(name: str, value: float) -> None:
+    """Raise InputError unless `value` is a finite number >= 0."""
+    if not _is_number(value) or not np.isfinite(value) or value < 0.0:
+        raise InputError(f"{name} must be finite and not negative, got {value!r}")
+
+
+def require_finite(name: str, value: ArrayLike) -> NDArray[np.float64]:
+    """Return `value` as an array of floats; raise InputError where an entry is not finite."""
+    try:
+        array = np.asarray(value, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(f"{name} must be numeric, got {value!r}") from None
+    if not np.all(np.isfinite(array)):
+        raise InputError(f"{name} must be finite, got {value!r}")
+    return array
+
+
+def require_vector(name: str, value: ArrayLike) -> NDArray[np.float64]:
+    """Return `value` as a finite array of shape (2, ...); raise InputError otherwise."""
+    array = require_finite(name, value)
+    if array.ndim == 0 or array.shape[0] != 2:
+        raise InputError(f"{name} must have shape (2, ...), got shape {array.shape}")
+    return array
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)

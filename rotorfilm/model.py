@@ -1,0 +1,140 @@
+"""The protocols that everything pluggable obeys: Model, Dynamic, Stepped, Reaction.
+
+A model maps (t, x, u), that is time [s], state (n_states,) and input (n_inputs,), to its output
+(n_outputs,), all in the SI units of its signals. Linearization, export, co-simulation and charts know
+these protocols and never a particular bearing.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple, Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .signals import Signal
+
+Array = NDArray[np.float64]
+
+
+class Linearization(NamedTuple):
+    """The exact first derivatives of a model at a state: dx' = A dx + B du, dy = C dx + D du.
+
+    Attributes
+    ----------
+    A : ndarray, shape (n_states, n_states)
+    B : ndarray, shape (n_states, n_inputs)
+    C : ndarray, shape (n_outputs, n_states)
+    D : ndarray, shape (n_outputs, n_inputs)
+    """
+
+    A: Array
+    B: Array
+    C: Array
+    D: Array
+
+
+def static_linearization(feedthrough: Array) -> Linearization:
+    """Return the linearization of a model without states from its matrix D (n_outputs, n_inputs)."""
+    n_outputs, n_inputs = feedthrough.shape
+    return Linearization(np.zeros((0, 0)), np.zeros((0, n_inputs)), np.zeros((n_outputs, 0)), feedthrough)
+
+
+@runtime_checkable
+class Model(Protocol):
+    """Anything that turns inputs into outputs; without states it is a static map."""
+
+    @property
+    def inputs(self) -> tuple[Signal, ...]:
+        """The input signals, in the order of u."""
+
+    @property
+    def outputs(self) -> tuple[Signal, ...]:
+        """The output signals, in the order of y."""
+
+    @property
+    def states(self) -> tuple[Signal, ...]:
+        """The state signals, in the order of x."""
+
+    def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return the output, shape (n_outputs,)."""
+
+    def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
+        """Return the exact derivatives at (t, x, u)."""
+
+
+@runtime_checkable
+class Dynamic(Model, Protocol):
+    """A model with states that an ODE solver integrates."""
+
+    @property
+    def initial_state(self) -> Array:
+        """The state at t = 0, shape (n_states,)."""
+
+    def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return dx/dt, shape (n_states,)."""
+
+
+@runtime_checkable
+class Stepped(Protocol):
+    """A model with a time integrator of its own; it exports to Co-Simulation only."""
+
+    @property
+    def inputs(self) -> tuple[Signal, ...]:
+        """The input signals, in the order of u."""
+
+    @property
+    def outputs(self) -> tuple[Signal, ...]:
+        """The output signals, in the order of y."""
+
+    def start(self, u: ArrayLike) -> Any:
+        """Return the state that is stationary under the input u; the state copies by copy.deepcopy."""
+
+    def step(self, state: Any, t: float, u: ArrayLike, dt: float) -> tuple[Any, Array, Any]:
+        """Advance from t by dt under u; return the new state, the output and a report."""
+
+
+@runtime_checkable
+class Reaction(Model, Protocol):
+    """A model whose first two outputs are the force on the journal.
+
+    Its first five inputs are the journal's position x, y [m], velocity vx, vy [m/s] and speed [rad/s].
+    """
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance [m]: the journal centre stays within this distance of the origin."""
+
+    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+        """Return the force on the journal [N], shape (2, ...)."""
+
+    def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+        """Return d(force_x, force_y)/d(x, y, vx, vy, speed), shape (2, 5, ...)."""
+
+
+def journal_inputs(clearance: float, nominal_speed: float) -> tuple[Signal, ...]:
+    """Return the five input signals that every Reaction begins with.
+
+    Parameters
+    ----------
+    clearance : float
+        Radial clearance [m], the nominal value of positions.
+    nominal_speed : float
+        Typical angular speed [rad/s]; with the clearance it makes the nominal velocity.
+    """
+    velocity = clearance * nominal_speed
+    return (
+        Signal(name="x", unit="m", nominal=clearance, description="journal position along x"),
+        Signal(name="y", unit="m", nominal=clearance, description="journal position along y"),
+        Signal(name="vx", unit="m/s", nominal=velocity, description="journal velocity along x"),
+        Signal(name="vy", unit="m/s", nominal=velocity, description="journal velocity along y"),
+        Signal(name="speed", unit="rad/s", nominal=nominal_speed, description="angular speed about +z"),
+    )
+
+
+def force_outputs(nominal_force: float) -> tuple[Signal, ...]:
+    """Return the two output signals that every Reaction begins with (nominal force in N)."""
+    return (
+        Signal(name="force_x", unit="N", nominal=nominal_force, description="force on the journal along x"),
+        Signal(name="force_y", unit="N", nominal=nominal_force, description="force on the journal along y"),
+    )

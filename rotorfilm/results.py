@@ -1,0 +1,146 @@
+"""Results: frozen data that linear, transient and co-simulation analyses return."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Equilibrium:
+    """The static position of a journal at which the film balances the load.
+
+    Attributes
+    ----------
+    position : ndarray, shape (2,) [m]
+        Journal centre from the bearing centre.
+    speed : float [rad/s]
+        Angular speed about +z.
+    load : ndarray, shape (2,) [N]
+        External static force on the journal.
+    eccentricity_ratio : float [1]
+        |position| / clearance.
+    attitude_angle : float [rad]
+        Angle from the load line to the journal centre, in the sense of rotation.
+    minimum_film : float [m]
+        clearance - |position|.
+    residual : float [1]
+        |film force + load| / |load|.
+    iterations : int
+        Newton steps taken.
+    """
+
+    position: Array
+    speed: float
+    load: Array
+    eccentricity_ratio: float
+    attitude_angle: float
+    minimum_film: float
+    residual: float
+    iterations: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class Coefficients:
+    """Stiffness K = -dF/dq and damping C = -dF/dv of a film at a position, F being the force on the journal.
+
+    Attributes
+    ----------
+    stiffness : ndarray, shape (2, 2) [N/m]
+        Rows: force x, y; columns: position x, y.
+    damping : ndarray, shape (2, 2) [N s/m]
+        Rows: force x, y; columns: velocity x, y.
+    position : ndarray, shape (2,) [m]
+    speed : float [rad/s]
+    """
+
+    stiffness: Array
+    damping: Array
+    position: Array
+    speed: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class WhirlThreshold:
+    """The onset of self-excited whirl of a rigid rotor, or the reason why there is none.
+
+    Attributes
+    ----------
+    speed : float or None [rad/s]
+        Angular speed at onset; None when no threshold exists in the range asked for.
+    whirl_ratio : float or None [1]
+        Whirl frequency / speed at onset.
+    critical_mass : float or None [kg]
+        Mass carried by the bearing at onset.
+    speed_parameter : float or None [1]
+        speed * sqrt(clearance * mass / load) at onset.
+    equilibrium : Equilibrium or None
+        Static equilibrium at onset.
+    reason : str
+        Empty, or why there is no threshold.
+    """
+
+    speed: float | None
+    whirl_ratio: float | None
+    critical_mass: float | None
+    speed_parameter: float | None
+    equilibrium: Equilibrium | None
+    reason: str = ""
+
+    @property
+    def exists(self) -> bool:
+        """Whether there is a threshold."""
+        return self.speed is not None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Trajectory:
+    """Signals over time, from a time integration or a co-simulation.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,) [s]
+    signals : dict of str to ndarray, shape (n,)
+        One series for each signal name, in the SI unit of the signal.
+    work : dict of str to int
+        Counters of the work done: film evaluations, Jacobians, steps.
+    """
+
+    time: Array
+    signals: dict[str, Array]
+    work: dict[str, int]
+
+    def __getitem__(self, name: str) -> Array:
+        """Return the series of one signal, shape (n,)."""
+        return self.signals[name]
+
+    @property
+    def position(self) -> Array:
+        """Journal position, shape (2, n) [m]."""
+        return np.stack([self.signals["x"], self.signals["y"]])
+
+    @property
+    def velocity(self) -> Array:
+        """Journal velocity, shape (2, n) [m/s]."""
+        return np.stack([self.signals["vx"], self.signals["vy"]])
+
+
+def to_plain(value: Any) -> Any:
+    """Return a result as plain dicts, lists and numbers, ready for JSON."""
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        return {f.name: to_plain(getattr(value, f.name)) for f in dataclasses.fields(value)}
+    if isinstance(value, dict):
+        return {str(key): to_plain(entry) for key, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [to_plain(entry) for entry in value]
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, np.generic):
+        return value.item()
+    return value

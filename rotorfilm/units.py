@@ -1,0 +1,93 @@
+"""Units: the SI base exponents that FMI wants, and the factors that scene files and the CLI accept."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass, field
+
+from .errors import InputError
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A unit as a factor times powers of the SI base units (kg, m, s, K, rad).
+
+    Attributes
+    ----------
+    factor : float
+        Value of one unit in SI base units.
+    exponents : dict of str to int
+        Power of each SI base unit; absent means zero.
+    """
+
+    factor: float
+    exponents: dict[str, int] = field(default_factory=dict)
+
+
+UNITS: dict[str, Unit] = {
+    "1": Unit(1.0),
+    "m": Unit(1.0, {"m": 1}),
+    "s": Unit(1.0, {"s": 1}),
+    "kg": Unit(1.0, {"kg": 1}),
+    "rad": Unit(1.0, {"rad": 1}),
+    "m/s": Unit(1.0, {"m": 1, "s": -1}),
+    "m/s2": Unit(1.0, {"m": 1, "s": -2}),
+    "rad/s": Unit(1.0, {"rad": 1, "s": -1}),
+    "rad/s2": Unit(1.0, {"rad": 1, "s": -2}),
+    "N": Unit(1.0, {"kg": 1, "m": 1, "s": -2}),
+    "N/m": Unit(1.0, {"kg": 1, "s": -2}),
+    "N.s/m": Unit(1.0, {"kg": 1, "s": -1}),
+    "Pa": Unit(1.0, {"kg": 1, "m": -1, "s": -2}),
+    "Pa.s": Unit(1.0, {"kg": 1, "m": -1, "s": -1}),
+    "kg.m": Unit(1.0, {"kg": 1, "m": 1}),
+}
+"""The SI units of signals, by their FMI spelling."""
+
+DISPLAY_UNITS: dict[str, Unit] = {
+    **UNITS,
+    "Pa s": UNITS["Pa.s"],
+    "kg m": UNITS["kg.m"],
+    "mm": Unit(1e-3, {"m": 1}),
+    "um": Unit(1e-6, {"m": 1}),
+    "ms": Unit(1e-3, {"s": 1}),
+    "g": Unit(1e-3, {"kg": 1}),
+    "kN": Unit(1e3, {"kg": 1, "m": 1, "s": -2}),
+    "mPa s": Unit(1e-3, {"kg": 1, "m": -1, "s": -1}),
+    "g mm": Unit(1e-6, {"kg": 1, "m": 1}),
+    "deg": Unit(math.pi / 180.0, {"rad": 1}),
+    "rpm": Unit(math.pi / 30.0, {"rad": 1, "s": -1}),
+}
+"""Units accepted in scene files and at the command line, besides plain SI numbers."""
+
+_QUANTITY = re.compile(r"^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
+
+
+def parse_quantity(text: str | float, unit: str) -> float:
+    """Return a quantity in SI.
+
+    Parameters
+    ----------
+    text : str or float
+        A plain number in `unit`, or a number with its unit, as `"0.1 mm"` or `"1500 rpm"`.
+    unit : str
+        The SI unit that the quantity must have, a key of `UNITS`.
+
+    Raises
+    ------
+    InputError
+        If the text is no quantity, its unit is unknown, or it measures something else than `unit`.
+    """
+    if isinstance(text, bool):
+        raise InputError(f"quantity must be a number or a number with a unit, got {text!r}")
+    if isinstance(text, int | float):
+        return float(text)
+    match = _QUANTITY.match(text)
+    if match is None:
+        raise InputError(f"quantity must be a number with a unit such as '1 {unit}', got {text!r}")
+    name = match[2] or unit
+    if name not in DISPLAY_UNITS:
+        raise InputError(f"unit must be one of {sorted(DISPLAY_UNITS)}, got {name!r} in {text!r}")
+    if DISPLAY_UNITS[name].exponents != UNITS[unit].exponents:
+        raise InputError(f"quantity must be measured in {unit} or a multiple of it, got {text!r}")
+    return float(match[1]) * DISPLAY_UNITS[name].factor
