@@ -1,0 +1,7 @@
+"""Journal film laws: pure, dimensionless physics; one law per file."""
+
+from .law import FilmLaw
+from .rupture import FixedArc, RotatingArc, Rupture
+from .short import ShortFilm
+
+__all__ = ["FilmLaw", "FixedArc", "RotatingArc", "Rupture", "ShortFilm"]

@@ -1,0 +1,1 @@
+"""Bearing reactions for rotor dynamics, handed to any simulator."""

@@ -1,0 +1,207 @@
+"""The plain journal bearing in SI units: geometry, validation, and the film law under it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import (
+    FilmContactError,
+    InputError,
+    require_finite,
+    require_positive,
+    require_vector,
+)
+from ..films.law import FilmLaw
+from ..films.short import ShortFilm
+from ..model import Array, Linearization, force_outputs, journal_inputs, static_linearization
+from ..signals import Signal
+
+NOMINAL_SPEED = 100.0
+"""Typical angular speed [rad/s] behind the nominal values of velocities and forces."""
+
+ROUNDOFF = 1e-14
+"""A source below this fraction of its two terms is their cancellation, hence zero."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class JournalBearing:
+    """A full (360 degree) cylindrical journal bearing: a Reaction and a static Model.
+
+    x and y are Cartesian from the bearing center, rotation is about +z, the force acts on the journal.
+
+    Parameters
+    ----------
+    radius : float [m]
+        Bearing radius.
+    length : float [m]
+        Axial length.
+    clearance : float [m]
+        Radial clearance, much smaller than the radius.
+    viscosity : float [Pa s]
+        Dynamic viscosity of the lubricant.
+    film : FilmLaw
+        The film law; exchangeable by `dataclasses.replace`.
+
+    Raises
+    ------
+    InputError
+        If a dimension or the viscosity is not finite and positive, or the clearance is not below the radius.
+
+    Examples
+    --------
+    >>> bearing = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
+    >>> bearing.force(position=[0.0, -5e-5], velocity=[0.0, 0.0], speed=157.08).shape
+    (2,)
+    """
+
+    radius: float
+    length: float
+    clearance: float
+    viscosity: float
+    film: FilmLaw = field(default_factory=ShortFilm)
+
+    def __post_init__(self) -> None:
+        for name in ("radius", "length", "clearance", "viscosity"):
+            require_positive(name, getattr(self, name))
+        if self.clearance >= self.radius:
+            raise InputError(f"clearance must be below the radius {self.radius!r}, got {self.clearance!r}")
+        if not isinstance(self.film, FilmLaw):
+            raise InputError(f"film must be a film law with force and jacobian, got {self.film!r}")
+
+    @property
+    def slenderness(self) -> float:
+        """Length / diameter [1]."""
+        return self.length / (2.0 * self.radius)
+
+    @property
+    def force_scale(self) -> float:
+        """Viscosity * length * radius^3 / clearance^2 [N s], the film's unit of force per 1/s."""
+        return self.viscosity * self.length * self.radius**3 / self.clearance**2
+
+    @property
+    def inputs(self) -> tuple[Signal, ...]:
+        """Signals x, y, vx, vy, speed."""
+        return journal_inputs(self.clearance, NOMINAL_SPEED)
+
+    @property
+    def outputs(self) -> tuple[Signal, ...]:
+        """Signals force_x, force_y: the force on the journal."""
+        return force_outputs(self.force_scale * NOMINAL_SPEED * min(1.0, self.slenderness**2))
+
+    @property
+    def states(self) -> tuple[Signal, ...]:
+        """No states: the film is quasi-static."""
+        return ()
+
+    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+        """Return the film force on the journal.
+
+        Parameters
+        ----------
+        position : array_like, shape (2, ...) [m]
+            Journal center from the bearing center.
+        velocity : array_like, shape (2, ...) [m/s]
+            Velocity of the journal center.
+        speed : array_like, shape (...) [rad/s]
+            Angular speed about +z, of either sign.
+
+        Returns
+        -------
+        ndarray, shape (2, ...) [N]
+
+        Raises
+        ------
+        InputError
+            If an argument is not finite or of the wrong shape.
+        FilmContactError
+            If the journal touches the wall anywhere in the batch.
+        """
+        return self.prepared_force(*self._validated(position, velocity, speed))
+
+    def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+        """Return the exact derivatives of the force.
+
+        Parameters
+        ----------
+        position, velocity, speed
+            As in `force`.
+
+        Returns
+        -------
+        ndarray, shape (2, 5, ...)
+            d(force_x, force_y)/d(x, y, vx, vy, speed) in [N/m], [N s/m] and [N s/rad].
+
+        Raises
+        ------
+        InputError, FilmContactError
+            As in `force`.
+        UndefinedDerivativeError
+            Where the film has no derivative: at rest without rotation, and in exact half-speed whirl.
+        """
+        return self.prepared_jacobian(*self._validated(position, velocity, speed))
+
+    def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `force` for inner loops: float arrays of equal batch shape, checked for contact only."""
+        eccentricity, source = self._kinematics(position, velocity, speed)
+        return self.force_scale * self.film.force(eccentricity, source, self.slenderness)
+
+    def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `jacobian` for inner loops: float arrays of equal batch shape, checked for contact only."""
+        eccentricity, source = self._kinematics(position, velocity, speed)
+        film = self.force_scale * self.film.jacobian(eccentricity, source, self.slenderness)
+        by_eccentricity, by_source = film[:, :2], film[:, 2:]
+        # w = v/c - (speed/2) (-e_y, e_x), so the columns of F_w (z^ x .) are (F_wy, -F_wx).
+        turned = np.stack([by_source[:, 1], -by_source[:, 0]], axis=1)
+        by_position = (by_eccentricity - 0.5 * speed * turned) / self.clearance
+        by_speed = 0.5 * (by_source[:, 0] * eccentricity[1] - by_source[:, 1] * eccentricity[0])
+        return np.concatenate([by_position, by_source / self.clearance, by_speed[:, None]], axis=1)
+
+    def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return (force_x, force_y) [N] for the input u = (x, y, vx, vy, speed); t and x are not used."""
+        values = _input_vector(u)
+        return self.force(values[:2], values[2:4], values[4])
+
+    def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
+        """Return the exact derivatives at u: all of them in the feedthrough matrix D (2, 5)."""
+        values = _input_vector(u)
+        return static_linearization(self.jacobian(values[:2], values[2:4], values[4]))
+
+    def _validated(
+        self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike
+    ) -> tuple[Array, Array, Array]:
+        q = require_vector("position", position)
+        v = require_vector("velocity", velocity)
+        omega = require_finite("speed", speed)
+        try:
+            x, y, vx, vy, omega = np.broadcast_arrays(q[0], q[1], v[0], v[1], omega)
+        except ValueError:
+            raise InputError(
+                "position (2, ...), velocity (2, ...) and speed (...) must broadcast, "
+                f"got shapes {q.shape}, {v.shape} and {omega.shape}"
+            ) from None
+        return np.stack([x, y]), np.stack([vx, vy]), omega
+
+    def _kinematics(self, position: Array, velocity: Array, speed: Array) -> tuple[Array, Array]:
+        """Return the eccentricity and the source w = v/c - (speed/2) z^ x e of the film laws."""
+        eccentricity = position / self.clearance
+        chi = np.hypot(eccentricity[0], eccentricity[1])
+        if np.any(chi >= 1.0):
+            raise FilmContactError(
+                f"position must keep the journal inside the clearance {self.clearance!r} m, "
+                f"got an eccentricity of {np.max(chi) * self.clearance:.6g} m"
+            )
+        squeeze = velocity / self.clearance
+        wedge = 0.5 * speed * np.stack([eccentricity[1], -eccentricity[0]])
+        source = squeeze + wedge
+        cancelled = np.abs(source).max(axis=0) <= ROUNDOFF * (np.abs(squeeze) + np.abs(wedge)).max(axis=0)
+        return eccentricity, np.where(cancelled, 0.0, source)
+
+
+def _input_vector(u: ArrayLike) -> Array:
+    values = require_finite("u", u)
+    if values.shape != (5,):
+        raise InputError(f"u must have shape (5,) for x, y, vx, vy, speed, got shape {values.shape}")
+    return values

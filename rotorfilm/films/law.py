@@ -1,0 +1,134 @@
+"""What every journal film law answers, and how a polar law becomes a Cartesian one.
+
+Notation, for all films: the eccentricity e = (x, y)/c and the source w = v/c - (speed/2) z^ x e [1/s]
+carry the whole kinematics of an isotropic film. With chi = |e|, e_r = e/chi and e_t = z^ x e_r,
+
+    w.e_t = g_s = chi (phidot - speed/2),    w.e_r = g_c = chidot,
+
+and the film, h = c (1 + chi cos gamma), is fed by g = g_s sin gamma + g_c cos gamma, gamma being measured
+from the line of maximum film. A polar law answers with the 2 x 2 matrix A of (F_t, F_r) = -A (g_s, g_c).
+Forces are in units of viscosity * length * radius^3 / clearance^2.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Protocol, runtime_checkable
+
+import numpy as np
+
+from ..errors import UndefinedDerivativeError
+from ..model import Array
+
+CENTER = 1e-8
+"""Eccentricity ratio below which the derivative is taken on this circle around the center."""
+
+
+@runtime_checkable
+class FilmLaw(Protocol):
+    """A dimensionless, isotropic film force with exact derivatives."""
+
+    def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
+        """Return the force on the journal [viscosity length radius^3 / clearance^2 / s].
+
+        Parameters
+        ----------
+        eccentricity : ndarray, shape (2, ...) [1]
+            Journal position / clearance, inside the unit circle.
+        source : ndarray, shape (2, ...) [1/s]
+            velocity / clearance - (speed/2) z^ x eccentricity.
+        slenderness : float [1]
+            Bearing length / diameter.
+
+        Returns
+        -------
+        ndarray, shape (2, ...)
+        """
+
+    def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
+        """Return d force / d (eccentricity, source), shape (2, 4, ...)."""
+
+
+class PolarFrame(NamedTuple):
+    """The journal's state in polar axes, batch axis first.
+
+    Attributes
+    ----------
+    chi : ndarray, shape (B,)
+        Eccentricity ratio.
+    axes : ndarray, shape (B, 2, 2)
+        Columns e_t and e_r.
+    source : ndarray, shape (B, 2)
+        (g_s, g_c) [1/s].
+    """
+
+    chi: Array
+    axes: Array
+    source: Array
+
+    @property
+    def turn(self) -> Array:
+        """Direction t of the source, g = |g| cos(gamma - t), shape (B,) [rad]."""
+        return np.arctan2(self.source[:, 0], self.source[:, 1])
+
+
+class PolarResponse(NamedTuple):
+    """The matrix A of a polar law and its derivatives, each of shape (B, 2, 2), order (sin, cos)."""
+
+    A: Array
+    A_chi: Array
+    A_turn: Array
+
+
+def polar_frame(eccentricity: Array, source: Array, floor: float = 0.0) -> PolarFrame:
+    """Return the polar frame of states given as (2, B); a chi below `floor` is raised to it."""
+    chi = np.hypot(eccentricity[0], eccentricity[1])
+    off_center = chi > 0.0
+    safe = np.where(off_center, chi, 1.0)
+    cos = np.where(off_center, eccentricity[0] / safe, 1.0)
+    sin = np.where(off_center, eccentricity[1] / safe, 0.0)
+    axes = np.stack([np.stack([-sin, cos], -1), np.stack([cos, sin], -1)], -1)
+    polar = np.stack([cos * source[1] - sin * source[0], cos * source[0] + sin * source[1]], -1)
+    return PolarFrame(np.maximum(chi, floor), axes, polar)
+
+
+def cartesian_force(frame: PolarFrame, A: Array) -> Array:
+    """Return the Cartesian force, shape (2, B), of the polar law with matrix A (B, 2, 2)."""
+    return np.einsum("bij,bjk,bk->ib", -frame.axes, A, frame.source)
+
+
+def cartesian_jacobian(frame: PolarFrame, response: PolarResponse) -> Array:
+    """Return d force / d (eccentricity, source), shape (2, 4, B), of a polar law.
+
+    With F = Q f(chi, Q^T w), Q = (e_t, e_r) and J the quarter turn, F_w = Q f_g Q^T and
+    F_e = Q f_chi e_r^T + (J F - F_w J w) e_t^T / chi, where f_g = -A - A_turn g (dt/dg)^T.
+    """
+    g, Q = frame.source, frame.axes
+    squared = np.einsum("bi,bi->b", g, g)
+    turn_slope = np.stack([g[:, 1], -g[:, 0]], -1) / np.where(squared > 0.0, squared, 1.0)[:, None]
+    f_source = -response.A - np.einsum("bij,bj,bk->bik", response.A_turn, g, turn_slope)
+    F_source = Q @ f_source @ Q.swapaxes(-1, -2)
+    F = -np.einsum("bij,bjk,bk->bi", Q, response.A, g)
+    F_chi = -np.einsum("bij,bjk,bk->bi", Q, response.A_chi, g)
+    w = np.einsum("bij,bj->bi", Q, g)
+    F_angle = _quarter_turn(F) - np.einsum("bij,bj->bi", F_source, _quarter_turn(w))
+    F_ecc = F_chi[:, :, None] * Q[:, None, :, 1] + (F_angle / frame.chi[:, None])[:, :, None] * Q[:, None, :, 0]
+    return np.moveaxis(np.concatenate([F_ecc, F_source], axis=-1), 0, -1)
+
+
+def require_direction(frame: PolarFrame) -> None:
+    """Raise UndefinedDerivativeError where the source vanishes off center.
+
+    There a film whose arc turns with the source has a force of zero but a derivative that depends on
+    the direction of approach: at rest without rotation, and in exact half-speed whirl.
+    """
+    vanishing = ~np.any(frame.source, axis=-1) & (frame.chi > CENTER)
+    if np.any(vanishing):
+        chi = frame.chi[vanishing][0]
+        raise UndefinedDerivativeError(
+            "source w = velocity/clearance - (speed/2) z^ x eccentricity must not vanish where a "
+            f"derivative is asked for, got w = 0 at eccentricity ratio {chi:.6g}"
+        )
+
+
+def _quarter_turn(vectors: Array) -> Array:
+    return np.stack([-vectors[:, 1], vectors[:, 0]], -1)

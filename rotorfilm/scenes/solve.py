@@ -1,0 +1,58 @@
+"""Answer a scene: equilibrium, stiffness and damping, whirl threshold."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..bearings.journal import JournalBearing
+from ..linear import coefficients, equilibrium, whirl_threshold
+from ..results import Coefficients, Equilibrium, WhirlThreshold
+
+
+@dataclass(frozen=True, kw_only=True)
+class Answer:
+    """What a scene has been answered with.
+
+    Attributes
+    ----------
+    model : str
+        The film law that answered.
+    equilibrium : Equilibrium
+    coefficients : Coefficients
+        Stiffness [N/m] and damping [N s/m] at the equilibrium.
+    whirl_threshold : WhirlThreshold or None
+        Onset of self-excited whirl; None when the scene has no rotor.
+    """
+
+    model: str
+    equilibrium: Equilibrium
+    coefficients: Coefficients
+    whirl_threshold: WhirlThreshold | None
+
+
+def solve(
+    bearing: JournalBearing, *, load: tuple[float, float], speed: float, mass: float | None = None
+) -> Answer:
+    """Answer the static and the linear questions about a bearing at a working point.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+    load : (float, float) [N]
+        Whole static force on the journal.
+    speed : float [rad/s]
+    mass : float, optional [kg]
+        Mass carried; without it there is no whirl threshold.
+
+    Raises
+    ------
+    EquilibriumError
+        If the film cannot carry the load.
+    """
+    at = equilibrium(bearing, load, speed)
+    return Answer(
+        model=repr(bearing.film),
+        equilibrium=at,
+        coefficients=coefficients(bearing, at.position, speed),
+        whirl_threshold=None if mass is None else whirl_threshold(bearing, load, mass),
+    )

@@ -1,0 +1,164 @@
+"""Read tables of a scene file into dataclasses: each field says by its annotation how it is read."""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple, TypeVar, get_type_hints
+
+from ..errors import InputError, SceneError
+from ..units import parse_quantity
+
+Reader = Callable[[str, Any], Any]
+"""Turns (where, value) into the value of a field; `where` is `FILE: dotted.key`, for the messages."""
+
+T = TypeVar("T")
+
+
+class Quantity(NamedTuple):
+    """Reader of a physical quantity: a number in `unit`, or a string with its own unit.
+
+    Attributes
+    ----------
+    unit : str
+        SI unit, a key of `rotorfilm.units.UNITS`.
+    twice : str
+        Another key that may give twice the value instead, as `diameter` for `radius`; empty for none.
+    """
+
+    unit: str
+    twice: str = ""
+
+    def __call__(self, where: str, value: Any) -> float:
+        """Return the value in SI; raise SceneError if it is no such quantity."""
+        if isinstance(value, bool) or not isinstance(value, int | float | str):
+            raise SceneError(f"{where} must be a number or a string such as '1 {self.unit}', got {value!r}")
+        try:
+            return parse_quantity(value, self.unit)
+        except InputError as error:
+            raise SceneError(f"{where}: {error}") from None
+
+
+class Table(NamedTuple):
+    """Reader of a sub-table with a fixed set of keys."""
+
+    table: type
+
+    def __call__(self, where: str, value: Any) -> Any:
+        """Return the sub-table as a dataclass."""
+        return read_table(self.table, f"{where}.", value)
+
+
+class Variant(NamedTuple):
+    """Reader of a sub-table whose key `tag` names one of several dataclasses."""
+
+    tag: str
+    variants: Mapping[str, type]
+
+    def __call__(self, where: str, value: Any) -> Any:
+        """Return the sub-table as the dataclass that its tag names."""
+        data = dict(require_table(where, value))
+        if self.tag not in data:
+            raise SceneError(f"{where}.{self.tag} is required: one of {sorted(self.variants)}")
+        name = data.pop(self.tag)
+        if not isinstance(name, str) or name not in self.variants:
+            hint = nearest(name, self.variants)
+            raise SceneError(
+                f"{where}.{self.tag} must be one of {sorted(self.variants)}, got {name!r}{hint}"
+            )
+        return read_table(self.variants[name], f"{where}.", data)
+
+
+def text(where: str, value: Any) -> str:
+    """Read a string."""
+    if not isinstance(value, str):
+        raise SceneError(f"{where} must be a string, got {value!r}")
+    return value
+
+
+def flag(where: str, value: Any) -> bool:
+    """Read true or false."""
+    if not isinstance(value, bool):
+        raise SceneError(f"{where} must be true or false, got {value!r}")
+    return value
+
+
+def require_table(where: str, value: Any) -> Mapping[str, Any]:
+    """Return `value` if it is a TOML table; raise SceneError otherwise."""
+    if not isinstance(value, Mapping):
+        raise SceneError(f"{where} must be a table, got {value!r}")
+    return value
+
+
+def nearest(name: object, known: Mapping[str, Any]) -> str:
+    """Return a hint with the known name nearest to `name`, or an empty string."""
+    close = difflib.get_close_matches(str(name), list(known), n=1)
+    return f"; did you mean {close[0]!r}?" if close else ""
+
+
+def read_table(table: type[T], where: str, data: Any) -> T:
+    """Return the TOML table `data` as the dataclass `table`.
+
+    Parameters
+    ----------
+    table : type
+        A dataclass whose fields are annotated as `Annotated[type, reader]`.
+    where : str
+        `FILE: dotted.key.`, the prefix of each key in messages.
+    data : Mapping
+        What the TOML parser returned.
+
+    Raises
+    ------
+    SceneError
+        If a key is unknown, missing, given twice over, or its value breaks a rule.
+    """
+    values = dict(require_table(where.removesuffix("."), data))
+    readers = {name: hint.__metadata__[0] for name, hint in _annotated_fields(table).items()}
+    _require_known(where, values, readers)
+    found = {
+        name: value
+        for name, reader in readers.items()
+        for value in _read_field(where, name, reader, values)
+    }
+    _require_complete(where, table, found)
+    try:
+        return table(**found)
+    except InputError as error:  # its message begins with the name of the key
+        raise SceneError(f"{where}{error}") from None
+
+
+def _annotated_fields(table: type) -> dict[str, Any]:
+    hints = get_type_hints(table, include_extras=True)
+    return {field.name: hints[field.name] for field in dataclasses.fields(table)}  # type: ignore[arg-type]
+
+
+def _require_known(where: str, values: Mapping[str, Any], readers: Mapping[str, Reader]) -> None:
+    known = {key: None for name, reader in readers.items() for key in (name, _twice(reader)) if key}
+    for key in values:
+        if key not in known:
+            raise SceneError(
+                f"{where}{key} is no known key; known here: {', '.join(known)}{nearest(key, known)}"
+            )
+
+
+def _read_field(where: str, name: str, reader: Reader, values: Mapping[str, Any]) -> list[Any]:
+    """Return a list of the value of one field, or an empty list when the file does not give it."""
+    twice = _twice(reader)
+    if name in values and twice in values:
+        raise SceneError(f"{where}{name} and {where}{twice} must not both be given")
+    if name in values:
+        return [reader(where + name, values[name])]
+    return [0.5 * reader(where + twice, values[twice])] if twice in values else []
+
+
+def _twice(reader: Reader) -> str:
+    return reader.twice if isinstance(reader, Quantity) else ""
+
+
+def _require_complete(where: str, table: type, found: Mapping[str, Any]) -> None:
+    for field in dataclasses.fields(table):  # type: ignore[arg-type]
+        required = field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
+        if required and field.name not in found:
+            raise SceneError(f"{where}{field.name} is required and missing")
