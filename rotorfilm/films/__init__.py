@@ -3,5 +3,6 @@
 from .law import FilmLaw
 from .rupture import FixedArc, RotatingArc, Rupture
 from .short import ShortFilm
+from .splitting import SplittingFilm
 
-__all__ = ["FilmLaw", "FixedArc", "RotatingArc", "Rupture", "ShortFilm"]
+__all__ = ["FilmLaw", "FixedArc", "RotatingArc", "Rupture", "ShortFilm", "SplittingFilm"]

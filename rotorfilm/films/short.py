@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..model import Array
+from .gram import arc_gram
 from .law import (
     CENTER,
     PolarFrame,
@@ -17,7 +18,6 @@ from .law import (
     require_direction,
 )
 from .rupture import RotatingArc
-from .sommerfeld import arc_gram
 
 
 @dataclass(frozen=True)

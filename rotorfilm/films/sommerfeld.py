@@ -1,28 +1,19 @@
-"""Closed arc integrals of (1, 1 + cos gamma, sin gamma) products over H^3, exact for every eccentricity.
+"""Closed arc integrals of the products of (1, 1 + cos gamma, sin gamma) over H^3.
 
 The Sommerfeld substitution H = 1 + chi cos gamma = s^2/(1 - chi cos zeta), s = sqrt(1 - chi^2), turns
 
     <f_a f_b> = int f_a f_b H^-3 dgamma,   f = (1, w, sin gamma),   w = 1 + cos gamma
 
 into polynomials of degree two in (cos zeta, sin zeta), and their derivatives with respect to chi into
-polynomials of degree three, so neither chi -> 0 nor chi -> 1 loses digits.
+polynomials of degree three. Nothing cancels as chi -> 0, nor as chi -> 1 on an arc through the minimum film.
 (Sussi & Fridman 1978 give the same integrals as a table reference, I_n^{lm}.)
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
 from ..model import Array
-
-
-class ArcGram(NamedTuple):
-    """Gram matrix of (1, w, sin) over an arc and its chi-derivative, each of shape (B, 3, 3)."""
-
-    gram: Array
-    gram_chi: Array
 
 
 def sommerfeld_angle(chi: Array, gamma: Array) -> Array:
@@ -31,8 +22,8 @@ def sommerfeld_angle(chi: Array, gamma: Array) -> Array:
     return gamma - 2.0 * np.arctan2(beta * np.sin(gamma), 1.0 + beta * np.cos(gamma))
 
 
-def arc_gram(chi: Array, start: Array, end: Array) -> ArcGram:
-    """Return the Gram matrix of (1, w, sin) with weight H^-3 over [start, end].
+def closed_gram(chi: Array, start: Array, end: Array) -> tuple[Array, Array]:
+    """Return the Gram matrix of (1, w, sin) with weight H^-3 over [start, end] and its chi-derivative.
 
     Parameters
     ----------
@@ -43,7 +34,7 @@ def arc_gram(chi: Array, start: Array, end: Array) -> ArcGram:
 
     Returns
     -------
-    ArcGram
+    gram, gram_chi : ndarray, shape (B, 3, 3)
     """
     powers = _trigonometric_integrals(sommerfeld_angle(chi, start), sommerfeld_angle(chi, end))
     s2 = (1.0 - chi) * (1.0 + chi)
@@ -60,7 +51,7 @@ def arc_gram(chi: Array, start: Array, end: Array) -> ArcGram:
     third = _products(powers, (1, 0)) - chi[:, None, None] * second
     gram = functions @ second @ functions.swapaxes(-1, -2) * (s2**-2.5)[:, None, None]
     slope = functions @ third @ functions.swapaxes(-1, -2) * (-3.0 * s2**-3.5)[:, None, None]
-    return ArcGram(gram, slope)
+    return gram, slope
 
 
 def _products(powers: dict[tuple[int, int], Array], extra: tuple[int, int]) -> Array:

@@ -1,0 +1,177 @@
+"""Splitting method of Sussi & Fridman (1978) for any number of circumferential and axial functions.
+
+Axial mode j, k = j alpha, alpha = pi R/b, of (H^3 u')' - k^2 H^3 u = g on the film's arc is solved for the
+coupling function psi = (H^3 u')' by Galerkin's method,
+
+    (k^2 K + M) b = <X g>,    (F_t, F_r) = -sum_j 96/(pi j)^2 (K b)_(sin, cos),
+
+with K and M of `coupling`. All axial modes share the eigenvectors of K against M, so their sum is one
+scalar function of each eigenvalue (`axial`), also when it runs over all modes.
+"""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..errors import InputError, ValidityWarning
+from ..model import Array
+from .axial import AxialSum, axial_sum
+from .coupling import CouplingIntegrals, PairIntegrals, coupling_integrals, pair_integrals, whitened
+from .law import (
+    CENTER,
+    PolarFrame,
+    PolarResponse,
+    cartesian_force,
+    cartesian_jacobian,
+    polar_frame,
+    require_direction,
+)
+from .rupture import FixedArc, Rupture
+
+LONG_ARC = 3.6
+"""Extent [rad] beyond which the series without the constant function stalls."""
+
+CHUNK = 2048
+"""States evaluated at once, which bounds the memory of a large batch."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SplittingFilm:
+    """Splitting-method film of order (n, m).
+
+    Parameters
+    ----------
+    order : tuple of int and (int or None)
+        n circumferential functions (sin gamma, cos gamma, sin 2 gamma, ...) and m odd axial modes; None
+        means all axial modes. (1, 1) and (2, 1) are the published first and second approximation.
+    constant : bool
+        Adds the function X = 1, needed by arcs longer than about 3.6 rad.
+    rupture : Rupture
+        Where the film ends: `FixedArc()` as published, or `RotatingArc()` for large motion.
+
+    Raises
+    ------
+    InputError
+        If n or m is not a positive integer.
+
+    Warns
+    -----
+    ValidityWarning
+        If the arc is longer than 3.6 rad and the constant function is left out.
+
+    Notes
+    -----
+    With n = 1 the damping matrix has rank one and no whirl threshold exists. From n = 2 on, a fixed arc
+    gives symmetric damping exactly.
+    """
+
+    order: tuple[int, int | None] = (2, None)
+    constant: bool = False
+    rupture: Rupture = field(default_factory=FixedArc)
+
+    def __post_init__(self) -> None:
+        if len(self.order) != 2:
+            raise InputError(f"order must be (n, m), got {self.order!r}")
+        n, m = self.order
+        if not isinstance(n, int) or n < 1 or not (m is None or (isinstance(m, int) and m >= 1)):
+            raise InputError(f"order must be (n, m) of positive integers, m may be None, got {self.order!r}")
+        if self.constant and n < 2:
+            raise InputError(f"order must have n >= 2 when constant is set, got {self.order!r}")
+        if not isinstance(self.rupture, Rupture):
+            raise InputError(f"rupture must be an arc such as FixedArc(), got {self.rupture!r}")
+        if self.rupture.extent > LONG_ARC and not self.constant:
+            warnings.warn(
+                f"extent must not exceed {LONG_ARC} rad without constant=True, got {self.rupture.extent:.6g}: "
+                "the splitting series stalls at errors of up to 32 %",
+                ValidityWarning,
+                stacklevel=3,
+            )
+
+    def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
+        """Return the force on the journal, shape (2, ...); see `FilmLaw.force`."""
+        e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
+        parts = []
+        for part in _chunks(e.shape[1]):
+            frame = polar_frame(e[:, part], w[:, part])
+            parts.append(cartesian_force(frame, self._response(frame, slenderness).A))
+        return np.concatenate(parts, axis=-1).reshape(eccentricity.shape)
+
+    def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
+        """Return d force / d (eccentricity, source), shape (2, 4, ...); see `FilmLaw.jacobian`."""
+        e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
+        parts = []
+        for part in _chunks(e.shape[1]):
+            frame = polar_frame(e[:, part], w[:, part], floor=CENTER)
+            if self.rupture.turns:
+                require_direction(frame)
+            parts.append(cartesian_jacobian(frame, self._response(frame, slenderness)))
+        return np.concatenate(parts, axis=-1).reshape(2, 4, *eccentricity.shape[1:])
+
+    def _response(self, frame: PolarFrame, slenderness: float) -> PolarResponse:
+        n, m = self.order
+        start, end = self.rupture.arc(frame.turn)
+        axial = axial_sum(m, slenderness)
+        if n <= 2 and not self.constant:
+            pair = pair_integrals(frame.chi, start, end)
+            response = first_order_response(pair, axial) if n == 1 else galerkin_response(whitened(pair), axial)
+        else:
+            integrals = coupling_integrals(frame.chi, start, end, n, self.constant)
+            response = galerkin_response(integrals, axial)
+        return response if self.rupture.turns else response._replace(A_turn=np.zeros_like(response.A))
+
+
+def galerkin_response(integrals: CouplingIntegrals, axial: AxialSum) -> PolarResponse:
+    """Return A = E^T M^(1/2) phi(M^(-1/2) K M^(-1/2)) M^(1/2) E and its derivatives.
+
+    E holds the coordinates of (sin, cos). In the eigenvectors of K, where M = 1, perturbations dK and dM
+    change the matrix function by phi[l_i, l_j] (dK - dM (l_i + l_j)/2) + dM (phi_i + phi_j)/2.
+    """
+    eigenvalues, vectors = np.linalg.eigh(integrals.K)
+    ratio = np.maximum(eigenvalues, np.finfo(float).tiny)
+    P = vectors.swapaxes(-1, -2) @ integrals.source
+    phi, divided = axial.value(ratio), axial.divided(ratio)
+    mean_ratio = 0.5 * (ratio[:, :, None] + ratio[:, None, :])
+    mean_phi = 0.5 * (phi[:, :, None] + phi[:, None, :])
+
+    def change(dM: Array, dK: Array) -> Array:
+        dM, dK = (vectors.swapaxes(-1, -2) @ matrix @ vectors for matrix in (dM, dK))
+        return P.swapaxes(-1, -2) @ (divided * (dK - mean_ratio * dM) + mean_phi * dM) @ P
+
+    return PolarResponse(
+        P.swapaxes(-1, -2) @ (phi[:, :, None] * P),
+        change(integrals.M_chi, integrals.K_chi),
+        change(integrals.M_turn, integrals.K_turn),
+    )
+
+
+def first_order_response(pair: PairIntegrals, axial: AxialSum) -> PolarResponse:
+    """Return A = (K_11, K_21)^T phi(lambda)/lambda (1, M_12/M_11), lambda = K_11/M_11, and its derivatives.
+
+    With the single function sin gamma the source enters only through <sin g>, so A has rank one.
+    """
+    ratio = pair.K[:, 0, 0] / pair.M[:, 0, 0]
+    gain = axial.value(ratio) / ratio
+    gain_slope = (axial.slope(ratio) - gain) / ratio
+    column, row = pair.K[:, :, 0], pair.M[:, 0, :] / pair.M[:, :1, 0]
+
+    def change(dM: Array, dK: Array) -> Array:
+        d_ratio = (dK[:, 0, 0] - ratio * dM[:, 0, 0]) / pair.M[:, 0, 0]
+        d_row = (dM[:, 0, :] - row * dM[:, :1, 0]) / pair.M[:, :1, 0]
+        return (
+            _dyad(gain_slope * d_ratio, column, row) + _dyad(gain, dK[:, :, 0], row) + _dyad(gain, column, d_row)
+        )
+
+    return PolarResponse(
+        _dyad(gain, column, row), change(pair.M_chi, pair.K_chi), change(pair.M_turn, pair.K_turn)
+    )
+
+
+def _dyad(factor: Array, column: Array, row: Array) -> Array:
+    return factor[:, None, None] * column[:, :, None] * row[:, None, :]
+
+
+def _chunks(size: int) -> list[slice]:
+    return [slice(begin, begin + CHUNK) for begin in range(0, max(size, 1), CHUNK)]
