@@ -3,6 +3,7 @@
 from .law import FilmLaw
 from .rupture import FixedArc, RotatingArc, Rupture
 from .short import ShortFilm
+from .spectral import SpectralArcFilm
 from .splitting import SplittingFilm
 
-__all__ = ["FilmLaw", "FixedArc", "RotatingArc", "Rupture", "ShortFilm", "SplittingFilm"]
+__all__ = ["FilmLaw", "FixedArc", "RotatingArc", "Rupture", "ShortFilm", "SpectralArcFilm", "SplittingFilm"]

@@ -87,11 +87,11 @@ def whitened(pair: PairIntegrals) -> CouplingIntegrals:
     """Return the integrals of a pair in coordinates in which M = 1."""
     lower = np.linalg.cholesky(pair.M)
     inverse = np.linalg.inv(lower)
-    matrices = (
+    K, M_chi, K_chi, M_turn, K_turn = (
         inverse @ matrix @ inverse.swapaxes(-1, -2)
         for matrix in (pair.K, pair.M_chi, pair.K_chi, pair.M_turn, pair.K_turn)
     )
-    return CouplingIntegrals(*matrices, lower.swapaxes(-1, -2))
+    return CouplingIntegrals(K, M_chi, K_chi, M_turn, K_turn, lower.swapaxes(-1, -2))
 
 
 def coupling_integrals(
@@ -166,4 +166,3 @@ def _end_derivatives(
 
 def _outer(vectors: Array, weight: Array) -> Array:
     return weight[:, None, None] * vectors[:, :, None] * vectors[:, None, :]
-

@@ -1,6 +1,7 @@
-"""Gram matrix of (1, 1 + cos gamma, sin gamma) with weight H^-3: closed form or quadrature, whichever is accurate.
+"""Gram matrix of (1, 1 + cos gamma, sin gamma) over H^3, from the accurate one of two methods.
 
-Against 40-digit integrals to chi = 0.9999 the choice below is right to 1e-11 for every arc.
+The closed form is exact and cheap; quadrature takes over where it cancels. Against 40-digit integrals to
+chi = 0.9999 the choice below is right to 1e-11 for every arc.
 """
 
 from __future__ import annotations

@@ -111,8 +111,9 @@ def cartesian_jacobian(frame: PolarFrame, response: PolarResponse) -> Array:
     F_chi = -np.einsum("bij,bjk,bk->bi", Q, response.A_chi, g)
     w = np.einsum("bij,bj->bi", Q, g)
     F_angle = _quarter_turn(F) - np.einsum("bij,bj->bi", F_source, _quarter_turn(w))
-    F_ecc = F_chi[:, :, None] * Q[:, None, :, 1] + (F_angle / frame.chi[:, None])[:, :, None] * Q[:, None, :, 0]
-    return np.moveaxis(np.concatenate([F_ecc, F_source], axis=-1), 0, -1)
+    F_across = F_angle / frame.chi[:, None]
+    F_eccentricity = F_chi[:, :, None] * Q[:, None, :, 1] + F_across[:, :, None] * Q[:, None, :, 0]
+    return np.moveaxis(np.concatenate([F_eccentricity, F_source], axis=-1), 0, -1)
 
 
 def require_direction(frame: PolarFrame) -> None:

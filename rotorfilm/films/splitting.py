@@ -11,6 +11,7 @@ scalar function of each eigenvalue (`axial`), also when it runs over all modes.
 
 from __future__ import annotations
 
+import math
 import warnings
 from dataclasses import dataclass, field
 
@@ -48,7 +49,9 @@ class SplittingFilm:
         n circumferential functions (sin gamma, cos gamma, sin 2 gamma, ...) and m odd axial modes; None
         means all axial modes. (1, 1) and (2, 1) are the published first and second approximation.
     constant : bool
-        Adds the function X = 1, needed by arcs longer than about 3.6 rad.
+        Adds the function X = 1, needed by arcs longer than about 3.6 rad. On an arc of exactly 2 pi the
+        film without it is periodic (a full film, no pressure imposed anywhere on the circumference); with
+        it the film is cut where the arc starts.
     rupture : Rupture
         Where the film ends: `FixedArc()` as published, or `RotatingArc()` for large motion.
 
@@ -60,7 +63,7 @@ class SplittingFilm:
     Warns
     -----
     ValidityWarning
-        If the arc is longer than 3.6 rad and the constant function is left out.
+        If the arc is longer than 3.6 rad, shorter than 2 pi, and the constant function is left out.
 
     Notes
     -----
@@ -82,10 +85,10 @@ class SplittingFilm:
             raise InputError(f"order must have n >= 2 when constant is set, got {self.order!r}")
         if not isinstance(self.rupture, Rupture):
             raise InputError(f"rupture must be an arc such as FixedArc(), got {self.rupture!r}")
-        if self.rupture.extent > LONG_ARC and not self.constant:
+        if LONG_ARC < self.rupture.extent < 2.0 * math.pi and not self.constant:
             warnings.warn(
-                f"extent must not exceed {LONG_ARC} rad without constant=True, got {self.rupture.extent:.6g}: "
-                "the splitting series stalls at errors of up to 32 %",
+                f"extent must not exceed {LONG_ARC} rad without constant=True, "
+                f"got {self.rupture.extent:.6g}: the splitting series stalls",
                 ValidityWarning,
                 stacklevel=3,
             )
@@ -116,7 +119,10 @@ class SplittingFilm:
         axial = axial_sum(m, slenderness)
         if n <= 2 and not self.constant:
             pair = pair_integrals(frame.chi, start, end)
-            response = first_order_response(pair, axial) if n == 1 else galerkin_response(whitened(pair), axial)
+            first = n == 1
+            response = (
+                first_order_response(pair, axial) if first else galerkin_response(whitened(pair), axial)
+            )
         else:
             integrals = coupling_integrals(frame.chi, start, end, n, self.constant)
             response = galerkin_response(integrals, axial)
@@ -160,9 +166,8 @@ def first_order_response(pair: PairIntegrals, axial: AxialSum) -> PolarResponse:
     def change(dM: Array, dK: Array) -> Array:
         d_ratio = (dK[:, 0, 0] - ratio * dM[:, 0, 0]) / pair.M[:, 0, 0]
         d_row = (dM[:, 0, :] - row * dM[:, :1, 0]) / pair.M[:, :1, 0]
-        return (
-            _dyad(gain_slope * d_ratio, column, row) + _dyad(gain, dK[:, :, 0], row) + _dyad(gain, column, d_row)
-        )
+        by_gain = _dyad(gain_slope * d_ratio, column, row)
+        return by_gain + _dyad(gain, dK[:, :, 0], row) + _dyad(gain, column, d_row)
 
     return PolarResponse(
         _dyad(gain, column, row), change(pair.M_chi, pair.K_chi), change(pair.M_turn, pair.K_turn)
