@@ -38,15 +38,16 @@ def read_load(where: str, value: Any) -> tuple[float, float]:
 
 def read_order(where: str, value: Any) -> tuple[int, int | None]:
     """Read an order [n, m] of the splitting method; m may be "inf", all axial modes."""
-    pair = value if isinstance(value, list) and len(value) == 2 else [None, None]
-    n, m = pair[0], None if pair[1] == "inf" else pair[1]
-    if not _is_count(n) or not (_is_count(m) or pair[1] == "inf"):
-        raise SceneError(f"{where} must be [n, m] of positive integers, m also 'inf', got {value!r}")
-    return n, m
+    match value:
+        case [int() as n, "inf"] if _is_count(n):
+            return n, None
+        case [int() as n, int() as m] if _is_count(n) and _is_count(m):
+            return n, m
+    raise SceneError(f"{where} must be [n, m] of positive integers, m also 'inf', got {value!r}")
 
 
-def _is_count(value: Any) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool) and value > 0
+def _is_count(value: int) -> bool:
+    return not isinstance(value, bool) and value > 0
 
 
 @dataclass(frozen=True, kw_only=True)

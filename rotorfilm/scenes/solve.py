@@ -1,11 +1,11 @@
-"""Answer a scene: equilibrium, stiffness and damping, whirl threshold."""
+"""Answer a scene: equilibrium, stiffness and damping, whirl."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from ..bearings.journal import JournalBearing
-from ..linear import coefficients, equilibrium, whirl_threshold
+from ..linear import CriticalMass, coefficients, critical_mass, equilibrium, whirl_threshold
 from ..results import Coefficients, Equilibrium, WhirlThreshold
 
 
@@ -20,6 +20,8 @@ class Answer:
     equilibrium : Equilibrium
     coefficients : Coefficients
         Stiffness [N/m] and damping [N s/m] at the equilibrium.
+    critical_mass : CriticalMass
+        Heaviest rigid rotor that is stable at the equilibrium.
     whirl_threshold : WhirlThreshold or None
         Onset of self-excited whirl; None when the scene has no rotor.
     """
@@ -27,6 +29,7 @@ class Answer:
     model: str
     equilibrium: Equilibrium
     coefficients: Coefficients
+    critical_mass: CriticalMass
     whirl_threshold: WhirlThreshold | None
 
 
@@ -50,9 +53,11 @@ def solve(
         If the film cannot carry the load.
     """
     at = equilibrium(bearing, load, speed)
+    derivatives = coefficients(bearing, at.position, speed)
     return Answer(
         model=repr(bearing.film),
         equilibrium=at,
-        coefficients=coefficients(bearing, at.position, speed),
+        coefficients=derivatives,
+        critical_mass=critical_mass(derivatives),
         whirl_threshold=None if mass is None else whirl_threshold(bearing, load, mass),
     )

@@ -64,9 +64,7 @@ class Variant(NamedTuple):
         name = data.pop(self.tag)
         if not isinstance(name, str) or name not in self.variants:
             hint = nearest(name, self.variants)
-            raise SceneError(
-                f"{where}.{self.tag} must be one of {sorted(self.variants)}, got {name!r}{hint}"
-            )
+            raise SceneError(f"{where}.{self.tag} must be one of {sorted(self.variants)}, got {name!r}{hint}")
         return read_table(self.variants[name], f"{where}.", data)
 
 
@@ -118,9 +116,7 @@ def read_table(table: type[T], where: str, data: Any) -> T:
     readers = {name: hint.__metadata__[0] for name, hint in _annotated_fields(table).items()}
     _require_known(where, values, readers)
     found = {
-        name: value
-        for name, reader in readers.items()
-        for value in _read_field(where, name, reader, values)
+        name: value for name, reader in readers.items() for value in _read_field(where, name, reader, values)
     }
     _require_complete(where, table, found)
     try:

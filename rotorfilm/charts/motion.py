@@ -1,0 +1,67 @@
+"""Charts of the journal's motion: orbits and the locus of static equilibria."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ..results import Trajectory
+from .canvas import new_axes
+
+
+def plot_orbits(
+    orbits: Mapping[str, Trajectory],
+    *,
+    clearance: float,
+    center: Iterable[float] | None = None,
+    axes: Axes | None = None,
+) -> Axes:
+    """Draw journal orbits.
+
+    Parameters
+    ----------
+    orbits : mapping of str to Trajectory
+        Label and motion; later ones are drawn dashed over earlier ones.
+    clearance : float [m]
+        Scale of both axes.
+    center : iterable of 2 floats, optional [m]
+        Static equilibrium, marked by a cross.
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+    """
+    axes = axes or new_axes("Orbit of the journal center", size=(5.6, 5.2))
+    for number, (label, orbit) in enumerate(orbits.items()):
+        x, y = orbit.position / clearance
+        axes.plot(x, y, ("-", "--", ":")[min(number, 2)], label=label, linewidth=1.6)
+    if center is not None:
+        x0, y0 = center
+        axes.plot(x0 / clearance, y0 / clearance, "k+", markersize=10, label="static equilibrium")
+    axes.set(xlabel="x / clearance", ylabel="y / clearance", aspect="equal")
+    axes.legend(fontsize=8)
+    return axes
+
+
+def plot_locus(curves: Mapping[str, tuple[np.ndarray, np.ndarray]], *, axes: Axes | None = None) -> Axes:
+    """Draw the loci of the journal center under a load along -y, rotation counter-clockwise.
+
+    Parameters
+    ----------
+    curves : mapping of str to (ndarray, ndarray)
+        Label, eccentricity ratio [1] and attitude angle [rad], each of shape (n,).
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+    """
+    axes = axes or new_axes("Locus of the journal center, load along -y", size=(5.6, 5.2))
+    turn = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 181)
+    axes.plot(np.cos(turn), np.sin(turn), "k-", linewidth=1.0, label="clearance circle")
+    for label, (eccentricity_ratio, attitude_angle) in curves.items():
+        x = eccentricity_ratio * np.sin(attitude_angle)
+        y = -eccentricity_ratio * np.cos(attitude_angle)
+        axes.plot(x, y, label=label, linewidth=1.4)
+    axes.set(
+        xlabel="x / clearance", ylabel="y / clearance", aspect="equal", xlim=(-0.05, 1.05), ylim=(-1.05, 0.1)
+    )
+    axes.legend(fontsize=7, loc="lower right")
+    return axes

@@ -1,0 +1,60 @@
+"""Charts draw the numbers that they are given, on the axes that they are given."""
+
+import numpy as np
+import pytest
+
+from rotorfilm.charts import (
+    new_axes,
+    plot_accuracy,
+    plot_coupling_error,
+    plot_locus,
+    plot_orbits,
+    plot_stability,
+    save,
+)
+from rotorfilm.results import Trajectory
+
+
+def orbit():
+    t = np.linspace(0.0, 1.0, 5)
+    return Trajectory(time=t, signals={"x": 1e-5 * t, "y": -2e-5 * t}, work={})
+
+
+def test_orbits_are_scaled_by_the_clearance():
+    axes = plot_orbits({"monolithic": orbit()}, clearance=1e-4, center=(1e-5, 2e-5))
+    line, cross = axes.get_lines()
+    np.testing.assert_allclose(line.get_xdata()[-1], 0.1)
+    np.testing.assert_allclose([cross.get_xdata()[0], cross.get_ydata()[0]], [0.1, 0.2])
+    assert axes.get_xlabel() == "x / clearance"
+
+
+def test_locus_puts_the_attitude_angle_from_the_load_line_in_the_sense_of_rotation():
+    axes = plot_locus({"film": (np.array([0.5]), np.array([0.5 * np.pi]))})
+    line = axes.get_lines()[1]
+    np.testing.assert_allclose([line.get_xdata()[0], line.get_ydata()[0]], [0.5, 0.0], atol=1e-15)
+
+
+def test_stability_leaves_gaps_and_names_the_film_without_a_threshold():
+    curves = {"a": (np.array([0.1, 0.9]), [2.7, None]), "b": (np.array([0.1, 0.9]), [None, None])}
+    axes = plot_stability(curves, point=(0.3, 1.0))
+    labels = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert labels == ["a", "b: no threshold exists", "working point"]
+    assert np.isnan(axes.get_lines()[0].get_ydata()[1])
+
+
+def test_accuracy_draws_microseconds():
+    axes = plot_accuracy({"short": (2e-6, 1e-2, 1e-1)}, reference="converged film")
+    assert axes.get_lines()[1].get_xdata()[0] == pytest.approx(2.0)
+    assert "converged film" in axes.get_title()
+
+
+def test_coupling_error_marks_the_limit():
+    axes = plot_coupling_error(np.radians([1.0, 2.0]), np.array([1e-3, 2e-3]), limit=np.radians(10.0))
+    assert axes.get_lines()[2].get_xdata()[0] == pytest.approx(10.0)
+
+
+def test_charts_draw_on_given_axes_and_save(tmp_path):
+    axes = new_axes("mine")
+    assert plot_orbits({"a": orbit()}, clearance=1e-4, axes=axes) is axes
+    path = save(axes, tmp_path / "chart.png")
+    assert path.read_bytes().startswith(b"\x89PNG")

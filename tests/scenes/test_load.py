@@ -1,0 +1,190 @@
+"""Reading scene files: what they mean in SI, and what is said about each way to get one wrong."""
+
+import math
+
+import pytest
+
+from rotorfilm.errors import SceneError
+from rotorfilm.films import FixedArc, RotatingArc, ShortFilm, SplittingFilm
+from rotorfilm.scenes import Scene, bundled_scene, parse_scene
+
+GOOD = """
+schema = 1
+[journal]
+radius = 0.05
+length = "30 mm"
+clearance = "0.1 mm"
+viscosity = "0.1 Pa s"
+[operation]
+speed = "1500 rpm"
+load = "525 N"
+"""
+ROTOR = '[rigid_rotor]\nmass = "50 kg"\nunbalance = "2000 g mm"\nunbalance_angle = "90 deg"\n'
+
+
+def parse(document):
+    return parse_scene(document, "case.toml")
+
+
+def test_quantities_arrive_in_si():
+    scene = parse(GOOD + ROTOR)
+    assert (scene.journal.radius, scene.journal.length) == (0.05, pytest.approx(0.03))
+    assert scene.operation.speed == pytest.approx(50.0 * math.pi)
+    assert scene.rigid_rotor.unbalance == pytest.approx(2e-3)
+    assert scene.rigid_rotor.unbalance_angle == pytest.approx(math.pi / 2.0)
+
+
+def test_diameter_is_twice_the_radius():
+    assert parse(GOOD.replace("radius = 0.05", 'diameter = "100 mm"')) == parse(GOOD)
+
+
+def test_magnitude_of_load_acts_downward():
+    assert parse(GOOD).static_load == (0.0, -525.0)
+
+
+def test_load_vector_is_taken_as_it_is():
+    assert parse(GOOD.replace('"525 N"', '["0.1 kN", -500]')).static_load == (100.0, -500.0)
+
+
+def test_weight_of_the_rotor_is_the_load_where_none_is_given():
+    scene = parse(GOOD.replace('load = "525 N"', "") + ROTOR)
+    assert scene.static_load == (0.0, pytest.approx(-50.0 * 9.80665))
+
+
+def test_rotor_carries_the_whole_static_load_once():
+    rotor = parse(GOOD + ROTOR).rotor
+    assert rotor.static_force == (0.0, -525.0)
+    assert rotor.gravity == (0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("film", "expected"),
+    [
+        ('{ name = "short" }', ShortFilm()),
+        (
+            '{ name = "splitting", order = [2, "inf"] }',
+            SplittingFilm(order=(2, None), constant=False, rupture=FixedArc(start=0.0, extent=math.pi)),
+        ),
+        (
+            '{ name = "splitting", order = [4, 2], constant = true, rupture = { kind = "rotating" } }',
+            SplittingFilm(order=(4, 2), constant=True, rupture=RotatingArc()),
+        ),
+        (
+            '{ name = "splitting", order = [3, 1], rupture = { kind = "fixed", extent = "120 deg" } }',
+            SplittingFilm(order=(3, 1), constant=False, rupture=FixedArc(extent=math.radians(120.0))),
+        ),
+    ],
+)
+def test_film_is_chosen_by_name(film, expected):
+    scene = parse(GOOD.replace("[operation]", f"film = {film}\n[operation]"))
+    assert scene.bearing.film == expected
+
+
+def test_film_is_short_where_none_is_named():
+    assert parse(GOOD).bearing.film == ShortFilm()
+
+
+def test_bundled_scene_is_the_bearing_of_the_book():
+    scene = bundled_scene()
+    assert scene.journal.radius == pytest.approx(0.05)
+    assert scene.static_load == (0.0, -525.0)
+    assert scene.rotor.mass * 9.80665 == pytest.approx(525.0, rel=1e-5)
+
+
+def test_file_is_read(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(GOOD, encoding="utf-8")
+    assert Scene.load(path) == parse(GOOD)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("schema = 1", "", r"case.toml: schema must be 1 \(write `schema = 1`\), got nothing"),
+        ("schema = 1", "schema = 2", r"case.toml: schema must be 1 .*, got 2"),
+        ("schema = 1", "schema = true", r"case.toml: schema must be 1 .*, got True"),
+        ("schema = 1", "schema = = 1", r"case.toml: not valid TOML: .*\(at line 2, column 10\)"),
+        (
+            "clearance",
+            "clearence",
+            r"case.toml: journal.clearence is no known key; known here: radius, diameter, length, clearance, "
+            r"viscosity, film; did you mean 'clearance'\?",
+        ),
+        ("[journal]", "[jurnal]", r"case.toml: jurnal is no known key; .*; did you mean 'journal'\?"),
+        ('clearance = "0.1 mm"', "", "case.toml: journal.clearance is required and missing"),
+        ("[journal]", "[[journal]]", r"case.toml: journal must be a table, got \[{"),
+        (
+            '"0.1 mm"',
+            '"-0.1 mm"',
+            "case.toml: journal.clearance must be finite and positive, got -0.0001",
+        ),
+        ('"0.1 mm"', "nan", "case.toml: journal.clearance must be finite and positive, got nan"),
+        (
+            '"0.1 mm"',
+            '"0.1 kg"',
+            "case.toml: journal.clearance: quantity must be measured in m or a multiple of it, got '0.1 kg'",
+        ),
+        (
+            '"0.1 mm"',
+            "true",
+            "case.toml: journal.clearance must be a number or a string such as '1 m', got True",
+        ),
+        ("radius = 0.05", "radius = 1\ndiameter = 2", "journal.radius and .*journal.diameter must not both"),
+        ('"525 N"', "-525.0", "case.toml: operation.load must be a positive magnitude or .*, got -525.0"),
+        ('"525 N"', "[1, 2, 3]", r"case.toml: operation.load must be one magnitude or .*, got \[1, 2, 3\]"),
+        ('"525 N"', '[0, "5 m"]', r"case.toml: operation.load\[1\]: quantity must be measured in N"),
+        ('load = "525 N"', "", r"case.toml: operation.load is required where there is no \[rigid_rotor\]"),
+        ("[operation]", "film = 3\n[operation]", "case.toml: journal.film must be a table, got 3"),
+        (
+            "[operation]",
+            "film = { order = [1, 1] }\n[operation]",
+            r"case.toml: journal.film.name is required: one of \['short', 'splitting'\]",
+        ),
+        (
+            "[operation]",
+            'film = { name = "spliting" }\n[operation]',
+            r"case.toml: journal.film.name must be one of .*, got 'spliting'; did you mean 'splitting'\?",
+        ),
+        (
+            "[operation]",
+            'film = { name = "splitting", order = [2, 0] }\n[operation]',
+            r"case.toml: journal.film.order must be \[n, m\] of positive integers, .*, got \[2, 0\]",
+        ),
+        (
+            "[operation]",
+            'film = { name = "splitting", order = [2, 1], constant = 1 }\n[operation]',
+            "case.toml: journal.film.constant must be true or false, got 1",
+        ),
+        (
+            "[operation]",
+            'film = { name = "splitting", order = [2, 1], rupture = { kind = "fixed", extent = -1 } }\n'
+            "[operation]",
+            r"case.toml: journal.film.rupture.extent must be in \(0, 2 pi\], got -1.0",
+        ),
+        ("schema = 1", "schema = 1\ntitle = 5", "case.toml: title must be a string, got 5"),
+        (
+            "[operation]",
+            "[rigid_rotor]\nmass = -1\n[operation]",
+            "case.toml: rigid_rotor.mass must be finite and positive, got -1.0",
+        ),
+        (
+            "[operation]",
+            "[cosimulation]\nmacro_angle = 0\n[operation]",
+            "case.toml: cosimulation.macro_angle must be finite and positive, got 0.0",
+        ),
+    ],
+)
+def test_wrong_scene_is_named(old, new, message):
+    with pytest.raises(SceneError, match=message):
+        parse(GOOD.replace(old, new))
+
+
+def test_missing_file_is_named(tmp_path):
+    with pytest.raises(SceneError, match=r"absent.toml: scene file cannot be read: No such file"):
+        Scene.load(tmp_path / "absent.toml")
+
+
+def test_binary_file_is_named(tmp_path):
+    (tmp_path / "image.toml").write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(SceneError, match=r"image.toml: scene file cannot be read: it is not UTF-8 text"):
+        Scene.load(tmp_path / "image.toml")

@@ -1,0 +1,100 @@
+"""Answers to scenes, against published numbers and exact identities."""
+
+import json
+
+import numpy as np
+import pytest
+
+from rotorfilm.errors import EquilibriumError, InputError
+from rotorfilm.results import to_plain
+from rotorfilm.scenes import bundled_scene, parse_scene
+
+SCENE = """
+schema = 1
+[journal]
+diameter = "100 mm"
+length = "30 mm"
+clearance = "0.1 mm"
+viscosity = "0.1 Pa s"
+film = {film}
+[operation]
+speed = "{speed}"
+load = ["{load_x} N", "{load_y} N"]
+{rotor}
+"""
+
+
+def answer(film='{ name = "short" }', speed="1500 rpm", load=(0.0, -525.0), rotor=""):
+    document = SCENE.format(film=film, speed=speed, load_x=load[0], load_y=load[1], rotor=rotor)
+    return parse_scene(document, "case.toml").solve()
+
+
+@pytest.mark.literature
+def test_bundled_scene_has_the_stiffness_that_the_book_prints():
+    # Friswell et al. (2010), example 5.9.6: x horizontal, load along -y, counterclockwise rotation.
+    stiffness = bundled_scene().solve().coefficients.stiffness
+    np.testing.assert_array_equal(np.trunc(stiffness.ravel()), [12807959, 16393593, -25060393, 8815302])
+
+
+@pytest.mark.closed_form
+def test_film_force_balances_the_load():
+    result = answer(load=(300.0, -400.0))
+    scene = bundled_scene()
+    force = scene.bearing.force(result.equilibrium.position, np.zeros(2), scene.operation.speed)
+    np.testing.assert_allclose(force, [-300.0, 400.0], rtol=1e-10)
+
+
+@pytest.mark.closed_form
+def test_turning_load_and_bearing_together_changes_no_scalar():
+    down, aside = (
+        answer(rotor="[rigid_rotor]\nmass = 50"),
+        answer(load=(525.0, 0.0), rotor="[rigid_rotor]\nmass = 50"),
+    )
+    assert aside.equilibrium.attitude_angle == pytest.approx(down.equilibrium.attitude_angle, rel=1e-10)
+    assert aside.critical_mass.mass == pytest.approx(down.critical_mass.mass, rel=1e-9)
+    assert aside.whirl_threshold.speed == pytest.approx(down.whirl_threshold.speed, rel=1e-9)
+
+
+@pytest.mark.closed_form
+def test_critical_mass_at_the_threshold_is_the_mass_of_the_rotor():
+    result = answer(rotor="[rigid_rotor]\nmass = 50")
+    speed = result.whirl_threshold.speed
+    at_threshold = answer(speed=f"{speed!r} rad/s", rotor="[rigid_rotor]\nmass = 50")
+    assert at_threshold.critical_mass.mass == pytest.approx(50.0, rel=1e-7)
+
+
+def test_scene_without_rotor_has_no_threshold():
+    assert answer().whirl_threshold is None
+
+
+def test_scene_without_rotor_has_none_to_run():
+    document = SCENE.format(film='{ name = "short" }', speed=150, load_x=0, load_y=-525, rotor="")
+    scene = parse_scene(document, "case.toml")
+    with pytest.raises(InputError, match="rigid_rotor is required"):
+        _ = scene.rotor
+
+
+def test_first_order_splitting_gives_a_reason_and_no_number():
+    result = answer(film='{ name = "splitting", order = [1, 1] }', rotor="[rigid_rotor]\nmass = 50")
+    assert result.whirl_threshold.speed is None
+    assert result.whirl_threshold.reason
+    assert result.critical_mass.mass is None
+
+
+def test_film_changes_the_answer():
+    short, splitting = answer(), answer(film='{ name = "splitting", order = [2, "inf"] }')
+    assert "SplittingFilm" in splitting.model
+    assert short.equilibrium.eccentricity_ratio != pytest.approx(
+        splitting.equilibrium.eccentricity_ratio, rel=1e-3
+    )
+
+
+def test_load_beyond_capacity_is_named():
+    with pytest.raises(EquilibriumError, match=r"load must be within the film's capacity .*1e\+14"):
+        answer(load=(0.0, -1e14))
+
+
+def test_answer_is_plain_json():
+    plain = json.loads(json.dumps(to_plain(answer(rotor="[rigid_rotor]\nmass = 50")), allow_nan=False))
+    assert plain["equilibrium"]["load"] == [0.0, -525.0]
+    assert len(plain["coefficients"]["stiffness"]) == 2
