@@ -1,1 +1,59 @@
-"""Bearing reactions for rotor dynamics, handed to any simulator."""
+"""Bearing reactions for rotor dynamics, handed to any simulator.
+
+The public names below load on first use, so that `import rotorfilm` costs nothing that is not needed.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+_HOMES = {
+    "bearings": ("JournalBearing",),
+    "cosim": ("cosimulate", "coupling_stability", "critical_macro_step"),
+    "films": ("FixedArc", "RotatingArc", "ShortFilm", "SpectralArcFilm", "SplittingFilm"),
+    "fmu": ("export_fmu",),
+    "linear": (
+        "OperatingPoint",
+        "closed_loop",
+        "coefficients",
+        "critical_mass",
+        "equilibrium",
+        "linearize",
+        "to_nlsys",
+        "transmissibility",
+        "whirl_threshold",
+    ),
+    "model": ("Dynamic", "Linearization", "Model", "Reaction", "Stepped"),
+    "results": ("Coefficients", "Equilibrium", "Trajectory", "WhirlThreshold"),
+    "rotors": ("RigidRotor", "SpeedProfile"),
+    "scenes": ("Answer", "Scene"),
+    "signals": ("Signal",),
+    "transient": ("simulate",),
+    "errors": (
+        "ConvergenceError",
+        "CouplingError",
+        "EquilibriumError",
+        "FilmContactError",
+        "FmuError",
+        "InputError",
+        "RotorfilmError",
+        "SceneError",
+        "UndefinedDerivativeError",
+        "ValidityWarning",
+    ),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+
+__all__ = sorted(_HOME_OF)
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name from its home on first use (PEP 562)."""
+    if name not in _HOME_OF:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f".{_HOME_OF[name]}", __name__), name)
+
+
+def __dir__() -> list[str]:
+    return [*globals(), *__all__]

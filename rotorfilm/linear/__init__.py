@@ -1,0 +1,23 @@
+"""Linear analysis: equilibrium, coefficients, whirl, and systems for python-control."""
+
+from .closed_loop import closed_loop, transmissibility
+from .coefficients import coefficients
+from .critical_mass import CriticalMass, critical_mass
+from .equilibrium import equilibrium
+from .linearize import OperatingPoint, linearize
+from .nonlinear_system import ModelSystem, to_nlsys
+from .whirl import whirl_threshold
+
+__all__ = [
+    "CriticalMass",
+    "ModelSystem",
+    "OperatingPoint",
+    "closed_loop",
+    "coefficients",
+    "critical_mass",
+    "equilibrium",
+    "linearize",
+    "to_nlsys",
+    "transmissibility",
+    "whirl_threshold",
+]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import tomllib
 from dataclasses import dataclass, field
 from importlib import resources
@@ -103,6 +104,22 @@ class Scene:
         if self.rigid_rotor is None:
             raise InputError("rigid_rotor is required for a transient and for a rotor FMU, got no such table")
         return self.rigid_rotor.build(self.operation.speed, self.static_load)
+
+    @property
+    def macro_step(self) -> float:
+        """Time between two exchanges of signals in a co-simulation [s]; the shaft must turn."""
+        return self.time_of(self.cosimulation.macro_angle)
+
+    @property
+    def duration(self) -> float:
+        """Length of a run [s]; the shaft must turn."""
+        return self.time_of(2.0 * math.pi * self.cosimulation.revolutions)
+
+    def time_of(self, angle: float) -> float:
+        """Return the time [s] in which the shaft turns by `angle` [rad]."""
+        if self.operation.speed == 0.0:
+            raise InputError("operation.speed must not be zero for a run in turns of the shaft, got 0.0")
+        return angle / abs(self.operation.speed)
 
 
 def parse_scene(document: str, source: str) -> Scene:

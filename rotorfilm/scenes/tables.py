@@ -127,7 +127,7 @@ def read_table(table: type[T], where: str, data: Any) -> T:
 
 def _annotated_fields(table: type) -> dict[str, Any]:
     hints = get_type_hints(table, include_extras=True)
-    return {field.name: hints[field.name] for field in dataclasses.fields(table)}  # type: ignore[arg-type]
+    return {field.name: hints[field.name] for field in dataclasses.fields(table)}
 
 
 def _require_known(where: str, values: Mapping[str, Any], readers: Mapping[str, Reader]) -> None:
@@ -154,7 +154,7 @@ def _twice(reader: Reader) -> str:
 
 
 def _require_complete(where: str, table: type, found: Mapping[str, Any]) -> None:
-    for field in dataclasses.fields(table):  # type: ignore[arg-type]
+    for field in dataclasses.fields(table):
         required = field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
         if required and field.name not in found:
             raise SceneError(f"{where}{field.name} is required and missing")

@@ -1,0 +1,166 @@
+"""Build the shipped FMUs into fmus/dist/ and check each against its reference trajectory.
+
+    python fmus/build.py              build and check
+    python fmus/build.py --reference  compute the reference trajectories again, from the models directly
+
+A recipe is a module here with COMPONENT, model(), start() and stimulus(). A reference CSV has the columns
+time, inputs, outputs; the inputs of a row are held until the next row, the outputs belong to the row's time.
+"""
+
+import argparse
+import shutil
+import sys
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from fmpy import extract, read_model_description
+from fmpy.fmi2 import FMU2Slave
+from fmpy.validation import validate_fmu
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+
+from rotorfilm.fmu import export_fmu
+from rotorfilm.signals import to_fmi_name
+
+HERE = Path(__file__).parent
+RECIPES = ("journal", "rotor")
+
+TOLERANCE = 1e-8
+"""Largest accepted deviation from the reference, in nominal values."""
+
+
+def load_recipe(name: str) -> Any:
+    """Return the recipe module `name` of this folder."""
+    spec = spec_from_file_location(f"fmu_recipe_{name}", HERE / f"{name}.py")
+    recipe = module_from_spec(spec)
+    spec.loader.exec_module(recipe)
+    return recipe
+
+
+def columns(recipe: Any) -> list[str]:
+    """Return the column names of a reference CSV."""
+    model = recipe.model()
+    signals = [*model.inputs, *model.outputs]
+    return ["time", *(to_fmi_name(recipe.COMPONENT, signal.name) for signal in signals)]
+
+
+def compute_reference(recipe: Any) -> NDArray:
+    """Return the reference table, computed by calling the model itself."""
+    model = recipe.model()
+    time, inputs = recipe.stimulus()
+    states = _states(model, time, inputs)
+    outputs = [model.output(t, x, u) for t, x, u in zip(time, states, inputs, strict=True)]
+    return np.column_stack([time, inputs, np.array(outputs)])
+
+
+def _states(model: Any, time: NDArray, inputs: NDArray) -> list[NDArray]:
+    """Return the state at each time, integrated by another method than the FMU's."""
+    if not model.states:
+        return [np.zeros(0)] * len(time)
+    nominal = np.array([signal.nominal for signal in model.states])
+    states = [model.initial_state]
+    for t, end, u in zip(time[:-1], time[1:], inputs[:-1], strict=True):
+        solution = solve_ivp(
+            lambda s, x, u=u: model.derivative(s, x, u),
+            (t, end),
+            states[-1],
+            method="RK45",
+            rtol=1e-12,
+            atol=1e-12 * nominal,
+        )
+        states.append(solution.y[:, -1])
+    return states
+
+
+def reference_path(name: str) -> Path:
+    """Return the path of a reference CSV."""
+    return HERE / "reference" / f"{name}.csv"
+
+
+def write_reference(name: str) -> Path:
+    """Compute and write a reference CSV."""
+    recipe = load_recipe(name)
+    header = ",".join(columns(recipe))
+    path = reference_path(name)
+    path.parent.mkdir(exist_ok=True)
+    np.savetxt(path, compute_reference(recipe), "%.17g", ",", header=header, comments="")
+    return path
+
+
+def read_reference(name: str) -> NDArray:
+    """Return the table of a reference CSV."""
+    return np.loadtxt(reference_path(name), delimiter=",", skiprows=1)
+
+
+def build(name: str, folder: Path) -> Path:
+    """Export the FMU of a recipe into `folder`."""
+    recipe = load_recipe(name)
+    return export_fmu(
+        recipe.model(), folder / f"{name}.fmu", component=recipe.COMPONENT, start=recipe.start()
+    )
+
+
+def deviation(name: str, path: Path) -> float:
+    """Return the largest deviation of an FMU from its reference, in nominal values."""
+    recipe = load_recipe(name)
+    reference = read_reference(name)
+    outputs = recipe.model().outputs
+    answers = run(path, reference[:, 0], reference[:, 1 : -len(outputs)])
+    nominal = np.array([signal.nominal for signal in outputs])
+    return float(np.max(np.abs(answers - reference[:, -len(outputs) :]) / nominal))
+
+
+def run(path: Path, time: NDArray, inputs: NDArray) -> NDArray:
+    """Return the outputs of an FMU at the given times, shape (n, n_outputs), with inputs held between."""
+    description = read_model_description(str(path))
+    by_causality = {
+        causality: [v.valueReference for v in description.modelVariables if v.causality == causality]
+        for causality in ("input", "output")
+    }
+    folder = extract(str(path))
+    fmu = FMU2Slave(
+        guid=description.guid,
+        modelIdentifier=description.coSimulation.modelIdentifier,
+        unzipDirectory=folder,
+    )
+    try:
+        fmu.instantiate(loggingOn=True)
+        fmu.setupExperiment(startTime=time[0])
+        fmu.enterInitializationMode()
+        fmu.setReal(by_causality["input"], inputs[0])
+        fmu.exitInitializationMode()
+        rows = [fmu.getReal(by_causality["output"])]
+        for t, end, u, following in zip(time[:-1], time[1:], inputs[:-1], inputs[1:], strict=True):
+            fmu.setReal(by_causality["input"], u)
+            fmu.doStep(t, end - t)
+            fmu.setReal(by_causality["input"], following)
+            rows.append(fmu.getReal(by_causality["output"]))
+        fmu.terminate()
+        fmu.freeInstance()
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+    return np.array(rows)
+
+
+def main() -> int:
+    """Build and check all recipes; return the number of FMUs that are not right."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--reference", action="store_true", help="compute the reference trajectories again")
+    arguments = parser.parse_args()
+    wrong = 0
+    for name in RECIPES:
+        if arguments.reference:
+            print(f"{write_reference(name)} written")
+            continue
+        path = build(name, HERE / "dist")
+        problems, worst = validate_fmu(str(path)), deviation(name, path)
+        right = not problems and worst <= TOLERANCE
+        wrong += not right
+        print(f"{path}: {'right' if right else 'WRONG'}, deviation {worst:.1e}, {len(problems)} problems")
+    return wrong
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,165 @@
+"""The command line: solve a scene, tabulate coefficients, export FMUs, run the demonstration."""
+
+# Packages that take long to import are imported inside the commands, so that --help answers at once.
+
+from __future__ import annotations
+
+import sys
+import warnings
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from . import console
+from .errors import InputError, RotorfilmError, SceneError
+
+if TYPE_CHECKING:
+    from .scenes.schema import FilmTable, JournalTable
+
+BAD_INPUT = 2
+FAILED = 1
+
+app = typer.Typer(
+    help="Bearing films for rotor dynamics: static and dynamic coefficients, FMUs, coupled simulation.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+class Film(StrEnum):
+    """Film laws that the command line offers."""
+
+    SHORT = "short"
+    SPLITTING = "splitting"
+
+
+class Rupture(StrEnum):
+    """Rupture rules of the splitting film."""
+
+    FIXED = "fixed"
+    ROTATING = "rotating"
+
+
+SceneFile = Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file of schema 1.")]
+Json = Annotated[bool, typer.Option("--json", help="Print JSON on stdout instead of tables.")]
+
+
+@app.command(epilog="Example: rotorfilm solve examples/friswell.toml --json")
+def solve(scene: SceneFile, json: Json = False) -> None:
+    """Find equilibrium, stiffness, damping and whirl threshold of a scene."""
+    from .scenes import Scene
+
+    loaded = Scene.load(scene)
+    answer = loaded.solve()
+    if json:
+        console.print_json(answer)
+        return
+    rows = [("film", answer.model), *console.equilibrium_rows(answer.equilibrium)]
+    rows += console.coefficient_rows(answer.coefficients)
+    console.print_rows(loaded.title, rows + console.whirl_rows(answer.whirl_threshold))
+
+
+@app.command(
+    epilog='Example: rotorfilm coefficients --radius "50 mm" --length "30 mm" --clearance "0.1 mm" '
+    '--viscosity "0.1 Pa s" --load "525 N" --speed "1500 rpm"'
+)
+def coefficients(
+    radius: Annotated[str, typer.Option(help="Journal radius.", metavar='"50 mm"')],
+    length: Annotated[str, typer.Option(help="Axial length.", metavar='"30 mm"')],
+    clearance: Annotated[str, typer.Option(help="Radial clearance.", metavar='"0.1 mm"')],
+    viscosity: Annotated[str, typer.Option(help="Dynamic viscosity.", metavar='"0.1 Pa s"')],
+    load: Annotated[str, typer.Option(help='Static load: downward, or "X,Y" components.', metavar='"525 N"')],
+    speed: Annotated[str, typer.Option(help="Angular speed about +z.", metavar='"1500 rpm"')],
+    film: Annotated[Film, typer.Option(help="Film law.")] = Film.SHORT,
+    order: Annotated[
+        str | None, typer.Option(help='Splitting order, "N,M" or "N,inf".', metavar="2,inf")
+    ] = None,
+    rupture: Annotated[Rupture | None, typer.Option(help="Where the splitting film ends.")] = None,
+    json: Json = False,
+) -> None:
+    """Find equilibrium, stiffness and damping of a journal bearing; numbers without a unit are SI."""
+    from .linear import coefficients as film_coefficients
+    from .linear import equilibrium
+
+    geometry = {"radius": radius, "length": length, "clearance": clearance, "viscosity": viscosity}
+    bearing = _journal(geometry, _film(film, order, rupture)).build()
+    force, rate = _operation(load, speed)
+    at = equilibrium(bearing, force, rate)
+    derivatives = film_coefficients(bearing, at.position, rate)
+    if json:
+        console.print_json({"model": repr(bearing.film), "equilibrium": at, "coefficients": derivatives})
+        return
+    rows = [("film", repr(bearing.film)), *console.equilibrium_rows(at)]
+    console.print_rows("journal bearing", rows + console.coefficient_rows(derivatives))
+
+
+@app.command(epilog="Example: rotorfilm fmu examples/friswell.toml --out fmus")
+def fmu(
+    scene: SceneFile,
+    out: Annotated[Path, typer.Option(help="Folder for the FMUs; made if absent.")] = Path("."),
+    json: Json = False,
+) -> None:
+    """Export the film and the rotor of a scene as FMI 2.0 co-simulation FMUs."""
+    from .scenes import Scene
+    from .scenes.export import export_scene
+
+    files = {name: str(path) for name, path in export_scene(Scene.load(scene), out)._asdict().items()}
+    if json:
+        console.print_json(files)
+        return
+    console.print_rows("FMUs", list(files.items()))
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run the command line; exit with 0, with 1 for a failed computation, with 2 for bad input."""
+    try:
+        with warnings.catch_warnings():
+            warnings.showwarning = _show_warning  # type: ignore[assignment]
+            app(arguments)
+    except (InputError, SceneError, OSError) as error:
+        console.complain("error", error)
+        sys.exit(BAD_INPUT)
+    except RotorfilmError as error:
+        console.complain("error", error)
+        sys.exit(FAILED)
+
+
+def _show_warning(message: Warning | str, *_: Any) -> None:
+    console.complain("warning", message)
+
+
+def _film(film: Film, order: str | None, rupture: Rupture | None) -> FilmTable:
+    from .scenes.schema import FILMS
+    from .scenes.tables import read_table
+
+    options: dict[str, Any] = {}
+    if order is not None:
+        options["order"] = [int(part) if part.strip().isdigit() else part for part in order.split(",")]
+    if rupture is not None:
+        options["rupture"] = {"kind": rupture.value}
+    return read_table(FILMS[film.value], "--", options)
+
+
+def _journal(geometry: dict[str, str], film: FilmTable) -> JournalTable:
+    from dataclasses import replace
+
+    from .scenes.schema import JournalTable
+    from .scenes.tables import read_table
+
+    return replace(read_table(JournalTable, "--", geometry), film=film)
+
+
+def _operation(load: str, speed: str) -> tuple[tuple[float, float], float]:
+    """Return the load [N] and the speed [rad/s]."""
+    from .scenes.schema import OperationTable
+    from .scenes.tables import read_table
+
+    components = load.split(",")
+    options = {"load": components if len(components) > 1 else load, "speed": speed}
+    table = read_table(OperationTable, "--", options)
+    assert table.load is not None
+    return table.load, table.speed

@@ -1,0 +1,86 @@
+"""What the command line prints: tables for people on stdout, progress and complaints on stderr."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.table import Table
+
+from .results import Coefficients, Equilibrium, WhirlThreshold, to_plain
+
+if TYPE_CHECKING:
+    from .scenes.progress import Report
+
+
+def complain(kind: str, message: object) -> None:
+    """Print one line `kind: message` on stderr."""
+    line = " ".join(str(message).split())
+    Console(stderr=True, soft_wrap=True, highlight=False).print(f"{kind}: {line}", markup=False)
+
+
+def print_json(value: Any) -> None:
+    """Print a result as JSON, alone on stdout."""
+    Console(soft_wrap=True, highlight=False).out(json.dumps(to_plain(value), indent=2, allow_nan=False))
+
+
+def print_rows(title: str, rows: list[tuple[str, str]]) -> None:
+    """Print names and values in two columns."""
+    table = Table(title=title, title_justify="left", show_header=False, box=None, pad_edge=False)
+    for row in rows:
+        table.add_row(*row)
+    Console(highlight=False).print(table)
+
+
+@contextmanager
+def progress_display() -> Iterator[Report]:
+    """Yield a function (fraction, text) that moves a progress bar on stderr."""
+    columns = (BarColumn(bar_width=30), TimeElapsedColumn(), TextColumn("{task.description}"))
+    with Progress(*columns, console=Console(stderr=True)) as bar:
+        task = bar.add_task("", total=1.0)
+        yield lambda fraction, text: bar.update(task, completed=fraction, description=text)
+
+
+def equilibrium_rows(at: Equilibrium) -> list[tuple[str, str]]:
+    """Return the rows that describe an equilibrium."""
+    return [
+        ("load", f"{_pair(at.load)} N"),
+        ("speed", f"{at.speed:.6g} rad/s = {at.speed * 30.0 / math.pi:.6g} rpm"),
+        ("position", f"{_pair(at.position * 1e6)} um"),
+        ("eccentricity ratio", f"{at.eccentricity_ratio:.6g}"),
+        ("attitude angle", f"{math.degrees(at.attitude_angle):.6g} deg"),
+        ("minimum film", f"{at.minimum_film * 1e6:.6g} um"),
+    ]
+
+
+def coefficient_rows(film: Coefficients) -> list[tuple[str, str]]:
+    """Return the rows of a stiffness and a damping matrix."""
+    (kxx, kxy), (kyx, kyy) = film.stiffness
+    (cxx, cxy), (cyx, cyy) = film.damping
+    return [
+        ("stiffness K [N/m]", f"xx {kxx:14.7g}   xy {kxy:14.7g}"),
+        ("", f"yx {kyx:14.7g}   yy {kyy:14.7g}"),
+        ("damping C [N s/m]", f"xx {cxx:14.7g}   xy {cxy:14.7g}"),
+        ("", f"yx {cyx:14.7g}   yy {cyy:14.7g}"),
+    ]
+
+
+def whirl_rows(threshold: WhirlThreshold | None) -> list[tuple[str, str]]:
+    """Return the rows of a whirl threshold, or of the reason why there is none."""
+    if threshold is None:
+        return []
+    if threshold.speed is None:
+        return [("whirl threshold", f"none: {threshold.reason}")]
+    speed = f"{threshold.speed:.6g} rad/s = {threshold.speed * 30.0 / math.pi:.6g} rpm"
+    ratio = "" if threshold.whirl_ratio is None else f", whirl ratio {threshold.whirl_ratio:.4g}"
+    return [("whirl threshold", speed + ratio)]
+
+
+def _pair(values: np.ndarray) -> str:
+    return f"({values[0]:.6g}, {values[1]:.6g})"

@@ -1,0 +1,104 @@
+"""Finds, from the exchanged forces alone, whether a co-simulation chatters past its stability limit.
+
+Past the limit of an explicit coupling the force overshoots from step to step. The run seldom blows up: the
+film saturates the alternation, the sampled position may even stand still and the mean force stays
+plausible, so only the alternation itself tells. It is told from physics by three marks together: the
+second difference of the force reverses from step to step (a motion resolved by the macro step reverses
+it twice a period), it does so on, and it does not decay, as every alternation below the limit does.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import ArrayLike, NDArray
+
+from ..errors import InputError, require_finite
+from ..model import Array
+
+WINDOW = 12
+"""Consecutive steps that are judged together."""
+
+REVERSALS = 10
+"""Reversals within the window that make an alternation: past 1.4 times the limit it is not quite regular."""
+
+REVERSED = -0.5
+"""Cosine between consecutive second differences below which they count as reversed."""
+
+SIGNIFICANT = 0.01
+"""Amplitude of an alternation that matters, in root mean square forces of the run."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CouplingReport:
+    """What the exchanged forces say about a coupling.
+
+    Attributes
+    ----------
+    chatter : bool
+        Whether the force alternates from step to step without decaying: the macro step is past the
+        stability limit, or too coarse for the motion, and the run is no answer.
+    onset : float or None [s]
+        When the alternation begins.
+    amplitude : float [1]
+        Largest amplitude of such an alternation, in root mean square forces of the run; 0 without one.
+    hold_defect : float [1]
+        Root mean square of half the force increments, in root mean square forces: the mean error of
+        holding the force over a step. The order of magnitude of the coupling error in the force.
+    """
+
+    chatter: bool
+    onset: float | None
+    amplitude: float
+    hold_defect: float
+
+
+def inspect_coupling(time: ArrayLike, force: ArrayLike) -> CouplingReport:
+    """Return what the exchanged forces say about the coupling.
+
+    Parameters
+    ----------
+    time : array_like, shape (n,) [s]
+        Communication points.
+    force : array_like, shape (k, n) [N]
+        The forces exchanged there.
+
+    Raises
+    ------
+    InputError
+        If a value is not finite or the shapes do not fit.
+    """
+    times, forces = require_finite("time", time), require_finite("force", force)
+    if times.ndim != 1 or forces.ndim != 2 or forces.shape[1] != times.size:
+        raise InputError(f"force must have shape (k, {times.size}), got {forces.shape}")
+    level = _rms(forces)
+    # Second differences of an alternation of amplitude a have the size 4 a.
+    swing = np.diff(forces, n=2, axis=1) / 4.0
+    sustained, amplitudes = _sustained(swing)
+    hit = np.flatnonzero(sustained & (amplitudes > SIGNIFICANT * level))
+    return CouplingReport(
+        chatter=hit.size > 0,
+        onset=float(times[hit[0]]) if hit.size else None,
+        amplitude=float(amplitudes[hit].max() / level) if hit.size else 0.0,
+        hold_defect=0.5 * _rms(np.diff(forces, axis=1)) / level if level > 0.0 else 0.0,
+    )
+
+
+def _sustained(swing: Array) -> tuple[NDArray[np.bool_], Array]:
+    """Return, for each window of second differences, whether they alternate undamped, and how strongly."""
+    if swing.shape[1] < WINDOW + 1:
+        return np.zeros(0, dtype=bool), np.zeros(0)
+    size = np.hypot.reduce(swing, axis=0)
+    reversed_ = np.sum(swing[:, 1:] * swing[:, :-1], axis=0) < REVERSED * size[1:] * size[:-1]
+    alternating = sliding_window_view(reversed_, WINDOW).sum(axis=1) >= REVERSALS
+    sizes = sliding_window_view(size, WINDOW + 1)
+    half = (WINDOW + 1) // 2
+    early, late = np.mean(sizes[:, :half] ** 2, axis=1), np.mean(sizes[:, -half:] ** 2, axis=1)
+    return alternating & (late >= early), np.sqrt(np.mean(sizes**2, axis=1))
+
+
+def _rms(vectors: Array) -> float:
+    """Return the root mean square length of vectors (k, n)."""
+    return float(np.sqrt(np.mean(np.sum(vectors**2, axis=0)))) if vectors.shape[1] else 0.0

@@ -1,0 +1,60 @@
+"""The zip that an FMU is, byte for byte determined by its content, and what comes from installed packages."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Mapping
+from importlib.metadata import distribution
+from importlib.resources import files
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+
+from ..errors import FmuError
+
+EPOCH = (1980, 1, 1, 0, 0, 0)
+"""The earliest time that a zip entry can have; the build time would make each build different."""
+
+BINARIES = ("linux64/libpythonfmu-export.so", "win64/pythonfmu-export.dll")
+"""PythonFMU's libraries for the FMI 2.0 platforms that it supports."""
+
+
+def to_zip(contents: Mapping[str, bytes]) -> bytes:
+    """Return a zip of `contents` (by path), with sorted entries and fixed times."""
+    buffer = io.BytesIO()
+    with ZipFile(buffer, "w", ZIP_DEFLATED) as archive:
+        for path, content in sorted(contents.items()):
+            entry = ZipInfo(path, EPOCH)
+            entry.compress_type = ZIP_DEFLATED
+            entry.create_system = 3
+            entry.external_attr = 0o100644 << 16
+            archive.writestr(entry, content)
+    return buffer.getvalue()
+
+
+def binaries(identifier: str) -> dict[str, bytes]:
+    """Return PythonFMU's libraries by their path in the FMU.
+
+    Raises
+    ------
+    FmuError
+        If the installed pythonfmu lacks one.
+    """
+    found = {}
+    for name in BINARIES:
+        source = files("pythonfmu").joinpath("resources", "binaries", name)
+        if not source.is_file():
+            raise FmuError(f"pythonfmu must contain resources/binaries/{name}, install pythonfmu>=0.7")
+        platform, _, library = name.partition("/")
+        suffix = library.rpartition(".")[2]
+        found[f"binaries/{platform}/{identifier}.{suffix}"] = source.read_bytes()
+    return found
+
+
+def licenses(packages: tuple[str, ...]) -> dict[str, bytes]:
+    """Return the license of each installed package by its path in the FMU."""
+    texts = {name: _license(name) for name in packages}
+    return {f"documentation/licenses/{name}.txt": text.encode() for name, text in texts.items()}
+
+
+def _license(package: str) -> str:
+    text = distribution(package).read_text("licenses/LICENSE")
+    return text if text is not None else f"{package} is distributed under the MIT license.\n"

@@ -1,0 +1,102 @@
+"""The Python source that an FMU carries, under names that no other FMU or installation has."""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+from collections.abc import Iterable, Iterator, Mapping
+from importlib.util import resolve_name
+from pathlib import Path
+from typing import NamedTuple
+
+from .usermodule import read_user_module, renamed_source
+
+ROOT = Path(__file__).parents[1]
+PACKAGE = __name__.partition(".")[0]
+
+SHELVES = {PACKAGE, f"{PACKAGE}.fmu"}
+"""Packages whose __init__ only gathers names, from far more than an FMU needs: they go empty."""
+
+SLAVE = f"{PACKAGE}.fmu.slave"
+
+
+class Bundle(NamedTuple):
+    """Source files for `resources/`, and the new names of the modules in them.
+
+    Attributes
+    ----------
+    files : dict of str to bytes
+        Contents by path below `resources/`.
+    modules : dict of str to str
+        New module name by original name.
+    """
+
+    files: dict[str, bytes]
+    modules: dict[str, str]
+
+
+def bundle_source(modules: Iterable[str]) -> Bundle:
+    """Return the source that a model with classes from `modules` needs.
+
+    Of this package that is what those modules, and the slave, import; a user's module goes along by itself.
+
+    Raises
+    ------
+    FmuError
+        If a user's module has no source or imports what the FMU does not carry.
+    """
+    own = {name for name in modules if name.partition(".")[0] == PACKAGE}
+    users = sorted(set(modules) - own)
+    read = {name: read_user_module(name, users, PACKAGE) for name in users}
+    sources = _closure({SLAVE, *own}.union(*(module.needs for module in read.values())))
+    package = f"{PACKAGE}_{content_hash(sources)}"
+    names = {name: name.replace(PACKAGE, package, 1) for name in sources}
+    texts = {name: ast.unparse(module.tree).encode() for name, module in read.items()}
+    tag = content_hash({**texts, package: b""})
+    names.update({name: f"{name.replace('.', '_')}_{tag}" for name in users})
+    files = {_path(name).replace(PACKAGE, package, 1): source for name, source in sources.items()}
+    files.update({f"{names[name]}.py": renamed_source(read[name].tree, names).encode() for name in users})
+    return Bundle(files, names)
+
+
+def content_hash(contents: Mapping[str, bytes]) -> str:
+    """Return 16 hexadecimal digits that change with any name or content."""
+    digest = hashlib.sha256()
+    for name, content in sorted(contents.items()):
+        for part in (name.encode(), content):
+            digest.update(len(part).to_bytes(8, "big") + part)
+    return digest.hexdigest()[:16]
+
+
+def _closure(modules: Iterable[str]) -> dict[str, bytes]:
+    """Return the source of `modules` and of all that they import from this package, by module name."""
+    sources: dict[str, bytes] = {}
+    waiting = list(modules)
+    while waiting:
+        name = waiting.pop()
+        if name in sources:
+            continue
+        sources[name] = b"" if name in SHELVES else (ROOT.parent / _path(name)).read_bytes()
+        waiting += [found for found in _imported(name, sources[name]) if _is_module(found)]
+        waiting += [name.rpartition(".")[0]] if "." in name else []
+    return sources
+
+
+def _imported(name: str, source: bytes) -> Iterator[str]:
+    """Yield the names that relative imports in `source` may mean; not all of them are modules."""
+    package = name if _path(name).endswith("__init__.py") else name.rpartition(".")[0]
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.ImportFrom) and node.level:
+            base = resolve_name("." * node.level + (node.module or ""), package)
+            yield base
+            yield from (f"{base}.{alias.name}" for alias in node.names)
+
+
+def _is_module(name: str) -> bool:
+    return (ROOT.parent / _path(name)).is_file()
+
+
+def _path(name: str) -> str:
+    """Return the path of a module of this package, below the folder that holds the package."""
+    path = name.replace(".", "/")
+    return f"{path}/__init__.py" if (ROOT.parent / path).is_dir() else f"{path}.py"

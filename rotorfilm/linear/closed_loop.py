@@ -1,0 +1,128 @@
+"""A rotor on its film, closed by python-control, and what of its unbalance reaches the housing."""
+
+from __future__ import annotations
+
+import control
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import InputError, require_finite
+from ..model import Dynamic, Reaction
+from ..results import Equilibrium
+from ..signals import names
+from .equilibrium import equilibrium
+from .linearize import OperatingPoint, linearize
+
+MOTION = ("x", "y", "vx", "vy")
+FORCE = ("force_x", "force_y")
+HOUSING = ("housing_force_x", "housing_force_y")
+
+
+def closed_loop(
+    rotor: Dynamic, reaction: Reaction, at: Equilibrium, name: str | None = None
+) -> control.StateSpace:
+    """Return a rotor on its film, linearized about an equilibrium.
+
+    Parameters
+    ----------
+    rotor : Dynamic
+        Takes force_x, force_y and gives x, y, vx, vy of the journal; the connection is by these names.
+    reaction : Reaction
+        The film.
+    at : Equilibrium
+        Where the film is linearized; the rotor is taken at its initial state at t = 0.
+    name : str, optional
+        Name of the system.
+
+    Returns
+    -------
+    control.StateSpace
+        Inputs force_x, force_y: small external force on the journal [N]. Outputs x, y, vx, vy: small motion
+        about the equilibrium [m, m/s], and housing_force_x, housing_force_y: change of the force on the
+        housing [N], the opposite of the film force on the journal. The speed is constant.
+
+    Raises
+    ------
+    InputError
+        If the rotor lacks one of these signals.
+    """
+    _require_signals(rotor)
+    shaft = OperatingPoint(x=rotor.initial_state, u=-at.load)
+    return control.interconnect(
+        [linearize(rotor, shaft, name="rotor"), linearize(reaction, at, name="film")],
+        connections=[
+            *([f"film.{signal}", f"rotor.{signal}"] for signal in MOTION),
+            *([f"rotor.{signal}", f"film.{signal}"] for signal in FORCE),
+        ],
+        inplist=[f"rotor.{signal}" for signal in FORCE],
+        inputs=list(FORCE),
+        outlist=[*(f"rotor.{signal}" for signal in MOTION), *(f"-film.{signal}" for signal in FORCE)],
+        outputs=[*MOTION, *HOUSING],
+        name=name,
+        # the speed is a parameter of the linear loop, whatever the rotor says about it
+        check_unused=False,
+    )
+
+
+def transmissibility(
+    rotor: Dynamic, reaction: Reaction, load: ArrayLike, speeds: ArrayLike
+) -> control.FrequencyResponseData:
+    """Return the force on the housing per force on the journal that turns with the shaft.
+
+    Parameters
+    ----------
+    rotor : Dynamic
+        As in `closed_loop`.
+    reaction : Reaction
+        The film.
+    load : array_like, shape (2,) [N]
+        External static force on the journal, weight included.
+    speeds : array_like, shape (n,) [rad/s]
+        Angular speeds, positive and rising. At each of them the film is linearized at the equilibrium of
+        that speed and the response is taken at that frequency, as an unbalance excites it.
+
+    Returns
+    -------
+    control.FrequencyResponseData
+        Inputs force_x, force_y: phasors of the force on the journal. Outputs housing_force_x,
+        housing_force_y. An unbalance U (mass times eccentricity) at speed w turning about +z has the phasors
+        U w^2 and -i U w^2 at exp(i w t).
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+    EquilibriumError
+        If there is no equilibrium at one of the speeds.
+    """
+    frequencies = require_finite("speeds", speeds)
+    if (
+        frequencies.ndim != 1
+        or not frequencies.size
+        or frequencies[0] <= 0
+        or np.any(np.diff(frequencies) <= 0)
+    ):
+        raise InputError(f"speeds must be a list of positive and rising numbers, got {speeds!r}")
+    responses = [_at_own_speed(rotor, reaction, load, float(speed)) for speed in frequencies]
+    return control.FrequencyResponseData(
+        np.stack(responses, axis=-1),
+        frequencies,
+        inputs=list(FORCE),
+        outputs=list(HOUSING),
+        name="transmissibility",
+    )
+
+
+def _at_own_speed(rotor: Dynamic, reaction: Reaction, load: ArrayLike, speed: float) -> np.ndarray:
+    """Return the (2, 2) complex gains to the housing at the frequency of rotation."""
+    loop = closed_loop(rotor, reaction, equilibrium(reaction, load, speed))
+    return np.asarray(loop(1j * speed, squeeze=False))[len(MOTION) :]
+
+
+def _require_signals(rotor: Dynamic) -> None:
+    missing = [*set(FORCE) - set(names(rotor.inputs)), *set(MOTION) - set(names(rotor.outputs))]
+    if missing:
+        raise InputError(
+            f"rotor must have the inputs {list(FORCE)} and the outputs {list(MOTION)}, "
+            f"got one without {sorted(missing)}"
+        )

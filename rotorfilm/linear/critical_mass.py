@@ -1,0 +1,124 @@
+"""The rigid mass at which a film with given stiffness and damping starts to whirl."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..results import Coefficients
+
+_RANK_TOLERANCE = 1e-10
+
+
+@dataclass(frozen=True, kw_only=True)
+class CriticalMass:
+    """The mass at the border of stability, or the reason why there is none.
+
+    Attributes
+    ----------
+    mass : float or None [kg]
+        Lighter rotors are stable, heavier ones whirl; None when there is no such border.
+    whirl_frequency : float or None [rad/s]
+        Frequency of the undamped whirl at the border.
+    whirl_ratio : float or None [1]
+        whirl_frequency / |speed|; None at zero speed too.
+    reason : str
+        Empty, or why there is no critical mass.
+    """
+
+    mass: float | None
+    whirl_frequency: float | None
+    whirl_ratio: float | None
+    reason: str = ""
+
+
+def critical_mass(coefficients: Coefficients) -> CriticalMass:
+    """Return the mass at which the rotor m q'' + C q' + K q = 0 loses stability.
+
+    Parameters
+    ----------
+    coefficients : Coefficients
+        Film stiffness K and damping C; they act on the whole mass.
+
+    Notes
+    -----
+    At the border q = q0 exp(i nu t), so that with k = m nu^2 the matrix K - k I + i nu C is singular. The
+    imaginary and the real part of its determinant give
+
+        k = (Kxx Cyy + Kyy Cxx - Kxy Cyx - Kyx Cxy) / (Cxx + Cyy),
+        nu^2 = ((Kxx - k)(Kyy - k) - Kxy Kyx) / det C,    m = k / nu^2
+
+    (the stability criterion in Lund (1987), J. Tribol. 109, 37-41, doi:10.1115/1.3261324).
+    """
+    reason = _why_no_border(coefficients)
+    if reason:
+        return CriticalMass(mass=None, whirl_frequency=None, whirl_ratio=None, reason=reason)
+    k = effective_stiffness(coefficients)
+    squared = _shifted_determinant(coefficients, k) / _determinant(coefficients.damping)
+    frequency = math.sqrt(squared)
+    speed = abs(coefficients.speed)
+    return CriticalMass(
+        mass=k / squared,
+        whirl_frequency=frequency,
+        whirl_ratio=frequency / speed if speed else None,
+    )
+
+
+def effective_stiffness(coefficients: Coefficients) -> float:
+    """Return k = m nu^2 [N/m], the stiffness that the whirling rotor feels at the border."""
+    K, C = coefficients.stiffness, coefficients.damping
+    mixed = K[0, 0] * C[1, 1] + K[1, 1] * C[0, 0] - K[0, 1] * C[1, 0] - K[1, 0] * C[0, 1]
+    return float(mixed / (C[0, 0] + C[1, 1]))
+
+
+def damping_has_rank_one(coefficients: Coefficients) -> bool:
+    """Return whether det C vanishes to roundoff, so that stability does not depend on the mass."""
+    C = coefficients.damping
+    # Compared with the whole matrix: products of its entries depend on the axes, and may all be roundoff.
+    return bool(abs(_determinant(C)) <= _RANK_TOLERANCE * np.sum(C**2))
+
+
+def is_stable(coefficients: Coefficients, mass: float) -> bool:
+    """Return whether all roots of det(m s^2 + C s + K) have negative real parts (Routh, Hurwitz)."""
+    return bool(
+        np.trace(coefficients.damping) > 0.0
+        and effective_stiffness(coefficients) > 0.0
+        and _determinant(coefficients.stiffness) > 0.0
+        and whirl_margin(coefficients, mass) > 0.0
+    )
+
+
+def whirl_margin(coefficients: Coefficients, mass: float) -> float:
+    """Return the third Hurwitz determinant, scaled to [-1, 1]: positive if no whirl grows.
+
+    It is k det C - m ((Kxx - k)(Kyy - k) - Kxy Kyx), divided by the sum of the sizes of both terms.
+    """
+    k = effective_stiffness(coefficients)
+    resisting = k * _determinant(coefficients.damping)
+    driving = mass * _shifted_determinant(coefficients, k)
+    return float((resisting - driving) / (abs(resisting) + abs(driving)))
+
+
+def _why_no_border(coefficients: Coefficients) -> str:
+    if damping_has_rank_one(coefficients):
+        return "damping matrix has rank 1 (det C = 0): stability does not depend on the mass"
+    if np.trace(coefficients.damping) <= 0.0 or _determinant(coefficients.damping) < 0.0:
+        return "damping matrix is not positive (trace C <= 0 or det C < 0): no light rotor is stable"
+    if _determinant(coefficients.stiffness) <= 0.0:
+        return "position is statically unstable (det K <= 0) whatever the mass"
+    k = effective_stiffness(coefficients)
+    if k <= 0.0:
+        return "position is unstable whatever the mass (effective stiffness <= 0)"
+    if _shifted_determinant(coefficients, k) <= 0.0:
+        return "stable whatever the mass"
+    return ""
+
+
+def _determinant(matrix: np.ndarray) -> float:
+    return float(matrix[0, 0] * matrix[1, 1] - matrix[0, 1] * matrix[1, 0])
+
+
+def _shifted_determinant(coefficients: Coefficients, k: float) -> float:
+    return _determinant(coefficients.stiffness - k * np.eye(2))

@@ -1,0 +1,93 @@
+"""Models at an operating point, as linear python-control systems with named signals."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import control
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import InputError, require_finite
+from ..model import Array, Linearization, Model
+from ..results import Equilibrium
+from ..signals import Signal, names
+
+
+@dataclass(frozen=True, kw_only=True)
+class OperatingPoint:
+    """The time, state and input at which a model is linearized.
+
+    Attributes
+    ----------
+    t : float [s]
+        Time; matters only to models that depend on it.
+    x : array_like, shape (n_states,)
+        State, in the order and SI units of `model.states`.
+    u : array_like, shape (n_inputs,)
+        Input, in the order and SI units of `model.inputs`.
+    """
+
+    t: float = 0.0
+    x: ArrayLike = ()
+    u: ArrayLike = ()
+
+
+def linearize(model: Model, at: OperatingPoint | Equilibrium, name: str | None = None) -> control.StateSpace:
+    """Return the exact linearization of a model, in SI units and with the model's signal names.
+
+    Parameters
+    ----------
+    model : Model
+        A static film gives a system without states whose D holds its derivatives.
+    at : OperatingPoint or Equilibrium
+        An Equilibrium stands for the journal at rest there, as input of a film.
+    name : str, optional
+        Name of the system; python-control numbers it by default.
+
+    Raises
+    ------
+    InputError
+        If the point does not fit the model, or an Equilibrium is given for a model that is no film.
+    """
+    point = _film_point(model, at) if isinstance(at, Equilibrium) else at
+    x = checked_vector("x", point.x, len(model.states))
+    u = checked_vector("u", point.u, len(model.inputs))
+    matrices = model.linearization(point.t, x, u)
+    return state_space(matrices, model.inputs, model.outputs, model.states, name)
+
+
+def state_space(
+    matrices: Linearization,
+    inputs: tuple[Signal, ...],
+    outputs: tuple[Signal, ...],
+    states: tuple[Signal, ...],
+    name: str | None,
+) -> control.StateSpace:
+    """Return a linearization as a python-control system that carries the names of its signals."""
+    return control.StateSpace(
+        *matrices,
+        inputs=names(inputs),
+        outputs=names(outputs),
+        states=names(states),
+        name=name,
+        remove_useless_states=False,
+    )
+
+
+def checked_vector(name: str, value: ArrayLike, size: int) -> Array:
+    """Return a vector of `size` finite numbers; raise InputError otherwise."""
+    array = require_finite(name, value)
+    if array.shape != (size,):
+        raise InputError(f"{name} must have shape ({size},) to fit the model, got shape {array.shape}")
+    return array
+
+
+def _film_point(model: Model, at: Equilibrium) -> OperatingPoint:
+    given = names(model.inputs)
+    if given != ["x", "y", "vx", "vy", "speed"] or model.states:
+        raise InputError(
+            "at must be an OperatingPoint for a model that is no film with the inputs x, y, vx, vy, speed, "
+            f"got an Equilibrium for the inputs {given}"
+        )
+    return OperatingPoint(u=np.array([*at.position, 0.0, 0.0, at.speed]))

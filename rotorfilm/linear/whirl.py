@@ -1,0 +1,138 @@
+"""The speed at which a rigid rotor on a film starts to whirl."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.optimize import brentq
+
+from ..errors import EquilibriumError, InputError, require_finite, require_positive
+from ..model import Array, Reaction
+from ..results import Coefficients, Equilibrium, WhirlThreshold
+from .coefficients import coefficients
+from .critical_mass import critical_mass, damping_has_rank_one, is_stable, whirl_margin
+from .equilibrium import checked_load, equilibrium
+
+_POINTS_PER_DECADE = 12
+_SPEED_FACTOR = 100.0
+
+
+def whirl_threshold(
+    reaction: Reaction, load: ArrayLike, mass: float, speed_range: tuple[float, float] | None = None
+) -> WhirlThreshold:
+    """Return the lowest speed at which the static equilibrium loses stability as the speed rises.
+
+    Parameters
+    ----------
+    reaction : Reaction
+        The film.
+    load : array_like, shape (2,) [N]
+        External static force on the journal, weight included.
+    mass : float [kg]
+        Rigid mass that the bearing carries.
+    speed_range : tuple of two floats, optional [rad/s]
+        Lowest and highest speed searched, both positive; by default 1/100 and
+        100 times sqrt(|load| / (clearance mass)).
+
+    Returns
+    -------
+    WhirlThreshold
+        With speed None and a reason where there is no threshold in the range. Speeds too low for the film
+        to carry the load are passed over.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+    UndefinedDerivativeError
+        If the film has no derivative at an equilibrium.
+
+    Notes
+    -----
+    The range is scanned upwards in steps of 21 % and the first loss of stability is refined to roundoff;
+    stability lost and regained within one step goes unseen.
+    """
+    require_positive("mass", mass)
+    force = checked_load(load)
+    low, high = _checked_range(speed_range, math.sqrt(math.hypot(*force) / (reaction.clearance * mass)))
+    before, stable = None, []
+    for at in _scan(reaction, force, low, high):
+        if damping_has_rank_one(at):
+            return _none(critical_mass(at).reason)
+        stable.append(is_stable(at, mass))
+        if before is not None and stable[-2:] == [True, False]:
+            return _refined(reaction, force, mass, (before, at))
+        before = at
+    return _none(_why_none(stable, low, high))
+
+
+def _checked_range(speed_range: tuple[float, float] | None, natural: float) -> tuple[float, float]:
+    if speed_range is None:
+        return natural / _SPEED_FACTOR, natural * _SPEED_FACTOR
+    ends = require_finite("speed_range", speed_range)
+    if ends.shape != (2,) or not 0.0 < ends[0] < ends[1]:
+        raise InputError(f"speed_range must be (low, high) with 0 < low < high, got {speed_range!r}")
+    return float(ends[0]), float(ends[1])
+
+
+def _scan(reaction: Reaction, load: Array, low: float, high: float) -> Iterator[Coefficients]:
+    """Yield the coefficients at the equilibria, from the lowest speed at which there is one."""
+    points = max(3, 1 + math.ceil(_POINTS_PER_DECADE * math.log10(high / low)))
+    for speed in np.geomspace(low, high, points):
+        try:
+            at = equilibrium(reaction, load, float(speed))
+        except EquilibriumError:
+            continue
+        yield coefficients(reaction, at.position, at.speed)
+
+
+def _refined(
+    reaction: Reaction, load: Array, mass: float, bracket: tuple[Coefficients, Coefficients]
+) -> WhirlThreshold:
+    def margin(log_speed: float) -> float:
+        at = equilibrium(reaction, load, math.exp(log_speed))
+        return whirl_margin(coefficients(reaction, at.position, at.speed), mass)
+
+    stable, unstable = bracket
+    if whirl_margin(unstable, mass) > 0.0:
+        return _none(
+            f"static stability is lost (det K <= 0) between {stable.speed:.6g} and {unstable.speed:.6g} rad/s"
+        )
+    root = brentq(margin, math.log(stable.speed), math.log(unstable.speed), xtol=1e-14)
+    return _threshold(equilibrium(reaction, load, math.exp(root)), reaction, mass)
+
+
+def _threshold(onset: Equilibrium, reaction: Reaction, mass: float) -> WhirlThreshold:
+    border = critical_mass(coefficients(reaction, onset.position, onset.speed))
+    return WhirlThreshold(
+        speed=onset.speed,
+        whirl_ratio=border.whirl_ratio,
+        critical_mass=border.mass,
+        speed_parameter=onset.speed * math.sqrt(reaction.clearance * mass / math.hypot(*onset.load)),
+        equilibrium=onset,
+    )
+
+
+def _none(reason: str) -> WhirlThreshold:
+    return WhirlThreshold(
+        speed=None,
+        whirl_ratio=None,
+        critical_mass=None,
+        speed_parameter=None,
+        equilibrium=None,
+        reason=reason,
+    )
+
+
+def _why_none(stable: list[bool], low: float, high: float) -> str:
+    between = f"from {low:.6g} to {high:.6g} rad/s"
+    if not stable:
+        return f"no static equilibrium at any speed {between}"
+    if all(stable):
+        return f"stable at every speed {between}"
+    if not any(stable):
+        return f"unstable at every speed {between}"
+    return f"unstable at low speeds and then stable, with no loss of stability {between}"

@@ -1,0 +1,158 @@
+"""A rigid rotor's share on one journal: two degrees of freedom, gravity, unbalance, any speed profile."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import InputError, require_finite, require_non_negative, require_positive
+from ..model import Array, Linearization, force_outputs
+from ..signals import Signal
+from .profile import SpeedProfile
+
+NOMINAL_LENGTH = 1e-4
+"""Typical journal displacement [m], a radial clearance; the rotor does not know its bearing's."""
+
+NOMINAL_ACCELERATION = 9.80665
+"""Typical acceleration [m/s2]: the nominal force of a journal is its weight."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RigidRotor:
+    """One journal's share of a rigid rotor that moves without tilting: a Dynamic model.
+
+    m a = film force + m gravity + static force + unbalance force. The mass center lies at
+    q + (unbalance/m) (cos p, sin p), p = angle(t) + unbalance_angle, off the journal center q; two time
+    derivatives give the unbalance force on the journal
+
+        unbalance * (w^2 cos p + alpha sin p, w^2 sin p - alpha cos p)
+
+    with the angular speed w = dp/dt and the angular acceleration alpha = dw/dt.
+
+    Parameters
+    ----------
+    mass : float [kg]
+        Mass carried by this journal.
+    speed : float or SpeedProfile [rad/s]
+        Angular speed about +z.
+    unbalance : float [kg m]
+        Mass times eccentricity of the mass center, not negative.
+    unbalance_angle : float [rad]
+        Angle of the mass center from +x at t = 0, positive about +z.
+    gravity : tuple of two floats [m/s2]
+    static_force : tuple of two floats [N]
+        Constant external force on the journal besides the weight.
+    position, velocity : tuple of two floats [m], [m/s]
+        Of the journal center at t = 0.
+
+    Raises
+    ------
+    InputError
+        If the mass is not positive, the unbalance is negative, or a value is not finite or no pair.
+    """
+
+    mass: float
+    speed: float | SpeedProfile
+    unbalance: float = 0.0
+    unbalance_angle: float = 0.0
+    gravity: tuple[float, float] = (0.0, -9.80665)
+    static_force: tuple[float, float] = (0.0, 0.0)
+    position: tuple[float, float] = (0.0, 0.0)
+    velocity: tuple[float, float] = (0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        require_positive("mass", self.mass)
+        require_non_negative("unbalance", self.unbalance)
+        for name in ("unbalance_angle", *(() if isinstance(self.speed, SpeedProfile) else ("speed",))):
+            if require_finite(name, getattr(self, name)).ndim:
+                raise InputError(f"{name} must be one number, got {getattr(self, name)!r}")
+        for name in ("gravity", "static_force", "position", "velocity"):
+            pair = require_finite(name, getattr(self, name))
+            if pair.shape != (2,):
+                raise InputError(f"{name} must be a pair of numbers, got {getattr(self, name)!r}")
+            object.__setattr__(self, name, tuple(pair.tolist()))
+
+    @property
+    def profile(self) -> SpeedProfile:
+        """The speed as a profile, also where it was given as a number."""
+        return self._profile
+
+    @property
+    def static_load(self) -> Array:
+        """External static force on the journal, mass * gravity + static_force, shape (2,) [N]."""
+        return self.mass * np.array(self.gravity) + np.array(self.static_force)
+
+    @property
+    def breakpoints(self) -> tuple[float, ...]:
+        """Times [s] at which the angular acceleration jumps, where an integrator should stop."""
+        return self._profile.times if len(self._profile.times) > 1 else ()
+
+    @property
+    def inputs(self) -> tuple[Signal, ...]:
+        """Signals force_x, force_y: the film force on the journal."""
+        return force_outputs(self.mass * NOMINAL_ACCELERATION)
+
+    @property
+    def outputs(self) -> tuple[Signal, ...]:
+        """Signals x, y, vx, vy, speed: what a film needs."""
+        speed = Signal(
+            name="speed", unit="rad/s", nominal=self._nominal_speed, description="angular speed about +z"
+        )
+        return (*self.states, speed)
+
+    @property
+    def states(self) -> tuple[Signal, ...]:
+        """Signals x, y, vx, vy of the journal center."""
+        length, velocity = NOMINAL_LENGTH, NOMINAL_LENGTH * self._nominal_speed
+        return (
+            Signal(name="x", unit="m", nominal=length, description="journal position along x"),
+            Signal(name="y", unit="m", nominal=length, description="journal position along y"),
+            Signal(name="vx", unit="m/s", nominal=velocity, description="journal velocity along x"),
+            Signal(name="vy", unit="m/s", nominal=velocity, description="journal velocity along y"),
+        )
+
+    @property
+    def initial_state(self) -> Array:
+        """The state (x, y, vx, vy) at t = 0, shape (4,) [m, m, m/s, m/s]."""
+        return np.array([*self.position, *self.velocity])
+
+    def unbalance_force(self, t: float) -> Array:
+        """Return the force of the unbalance on the journal at the time t [s], shape (2,) [N]."""
+        p = self._profile.angle(t) + self.unbalance_angle
+        w, alpha = self._profile.speed(t), self._profile.acceleration(t)
+        cos, sin = math.cos(p), math.sin(p)
+        return self.unbalance * np.array([w * w * cos + alpha * sin, w * w * sin - alpha * cos])
+
+    def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return d(x, y, vx, vy)/dt, shape (4,), at the time t [s] for u = (force_x, force_y) [N]."""
+        state = np.asarray(x, dtype=float)
+        force = np.asarray(u, dtype=float) + self._static_load + self.unbalance_force(t)
+        return np.concatenate([state[2:], force / self.mass])
+
+    def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return (x, y, vx, vy, speed) at the time t [s]; the input u is not used."""
+        return np.append(np.asarray(x, dtype=float), self._profile.speed(t))
+
+    def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
+        """Return the exact derivatives, the same at every (t, x, u)."""
+        A, B = np.zeros((4, 4)), np.zeros((4, 2))
+        A[:2, 2:] = np.eye(2)
+        B[2:] = np.eye(2) / self.mass
+        return Linearization(A, B, np.eye(5, 4), np.zeros((5, 2)))
+
+    # Cached because they are the inner loop of every integrator; a frozen dataclass cannot go stale.
+    @cached_property
+    def _profile(self) -> SpeedProfile:
+        return self.speed if isinstance(self.speed, SpeedProfile) else SpeedProfile.constant(self.speed)
+
+    @cached_property
+    def _static_load(self) -> Array:
+        return self.static_load
+
+    @cached_property
+    def _nominal_speed(self) -> float:
+        return max(abs(speed) for speed in self._profile.speeds) or 1.0

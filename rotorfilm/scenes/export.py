@@ -1,0 +1,78 @@
+"""The bearing and the rotor of a scene as FMUs that fit together."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+from typing import NamedTuple
+
+from ..fmu import export_fmu
+from ..linear import equilibrium
+from ..model import Model
+from ..rotors.rigid import RigidRotor
+from .scene import Scene
+
+
+class ExportedScene(NamedTuple):
+    """Where the two FMUs of a scene are.
+
+    Attributes
+    ----------
+    film, rotor : Path
+    """
+
+    film: Path
+    rotor: Path
+
+
+def resting_rotor(scene: Scene) -> RigidRotor:
+    """Return the rotor of a scene at rest in its static equilibrium.
+
+    Raises
+    ------
+    InputError
+        If the scene has no rotor.
+    EquilibriumError
+        If the film cannot carry the load.
+    """
+    at = equilibrium(scene.bearing, scene.static_load, scene.operation.speed)
+    return dataclasses.replace(scene.rotor, position=(float(at.position[0]), float(at.position[1])))
+
+
+def export_scene(scene: Scene, folder: Path) -> ExportedScene:
+    """Write `film.fmu` and `rotor.fmu`, both starting at the static equilibrium.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a rotor.
+    folder : Path
+        Made if absent.
+
+    Raises
+    ------
+    InputError
+        If the scene has no rotor.
+    EquilibriumError
+        If the film cannot carry the load.
+    FmuError
+        If a model cannot be exported.
+    """
+    rotor = resting_rotor(scene)
+    start = {"x": rotor.position[0], "y": rotor.position[1], "speed": scene.operation.speed}
+    return ExportedScene(
+        film=_exported(scene, scene.bearing, folder / "film.fmu", start),
+        rotor=_exported(scene, rotor, folder / "rotor.fmu", {}),
+    )
+
+
+def _exported(scene: Scene, model: Model, path: Path, start: dict[str, float]) -> Path:
+    """Write one FMU, whose component is named as its file."""
+    return export_fmu(
+        model,
+        path,
+        component=path.stem,
+        start=start,
+        step_size=scene.macro_step,
+        stop_time=scene.duration,
+    )

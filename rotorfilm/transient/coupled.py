@@ -1,0 +1,162 @@
+"""A rotor and a film joined into one system of ordinary differential equations."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import NamedTuple
+
+import numpy as np
+
+from ..errors import (
+    ConvergenceError,
+    FilmContactError,
+    InputError,
+    UndefinedDerivativeError,
+)
+from ..model import Array, Dynamic, Reaction
+from ..signals import names
+
+JOURNAL_INPUTS = 5
+"""Inputs of every Reaction: x, y, vx, vy, speed."""
+
+FORCES = 2
+"""First outputs of every Reaction: force_x, force_y."""
+
+NUDGE = 1e-6
+"""Velocity, in nominal velocities, at which a derivative is taken where the film has none."""
+
+
+class Wiring(NamedTuple):
+    """Which rotor outputs feed the film, and which rotor inputs take its force, as indices."""
+
+    motion: list[int]
+    force: list[int]
+
+
+def connect(rotor: Dynamic, reaction: Reaction) -> Wiring:
+    """Return the wiring of a rotor and a film by the names of their signals.
+
+    Raises
+    ------
+    InputError
+        If the rotor lacks an output that the film needs or an input for its force, has a further input,
+        which nobody would drive, or if the film has states.
+    """
+    needed = names(reaction.inputs)[:JOURNAL_INPUTS]
+    forces = names(reaction.outputs)[:FORCES]
+    outputs, inputs = names(rotor.outputs), names(rotor.inputs)
+    missing = [name for name in needed if name not in outputs]
+    if missing:
+        raise InputError(f"rotor must have the outputs {needed}, got {outputs} without {missing}")
+    if sorted(inputs) != sorted(forces):
+        raise InputError(f"rotor must have exactly the inputs {forces}, got {inputs}")
+    if reaction.states:
+        raise InputError(f"reaction must have no states, got {names(reaction.states)}")
+    return Wiring([outputs.index(name) for name in needed], [inputs.index(name) for name in forces])
+
+
+class Coupled:
+    """dx/dt = g(t, x) of a rotor whose only input is the film force, with its exact Jacobian.
+
+    Parameters
+    ----------
+    rotor : Dynamic
+    reaction : Reaction
+
+    Attributes
+    ----------
+    work : Counter
+        Work so far: film_evaluations, jacobians, steps, restarts.
+    furthest : float [s]
+        Latest time at which `derivative` was asked for; reset it at will.
+    """
+
+    def __init__(self, rotor: Dynamic, reaction: Reaction) -> None:
+        self.rotor = rotor
+        self.reaction = reaction
+        self.wiring = connect(rotor, reaction)
+        self.work: Counter[str] = Counter(film_evaluations=0, jacobians=0, steps=0, restarts=0)
+        self.furthest = 0.0
+        self._no_force = np.zeros(len(self.wiring.force))
+
+    def scale(self) -> Array:
+        """Return the magnitude of each state: the film's nominal value where it has the same signal."""
+        nominal = {signal.name: signal.nominal for signal in self.reaction.inputs}
+        return np.array([nominal.get(signal.name, signal.nominal) for signal in self.rotor.states])
+
+    def motion(self, t: float, x: Array) -> Array:
+        """Return (x, y, vx, vy, speed) of the journal at a state."""
+        return self.rotor.output(t, x, self._no_force)[self.wiring.motion]
+
+    def gap(self, t: float, x: Array) -> float:
+        """Return the clearance left on the closest side, relative to the radial clearance [1]."""
+        journal = self.motion(t, x)
+        return 1.0 - float(np.hypot(journal[0], journal[1])) / self.reaction.clearance
+
+    def derivative(self, t: float, x: Array) -> Array:
+        """Return dx/dt at a state.
+
+        Raises
+        ------
+        FilmContactError
+            If the journal is not inside the clearance.
+        ConvergenceError
+            If the film answers with something that is not finite.
+        """
+        self.furthest = max(self.furthest, t)
+        return self.rotor.derivative(t, x, self._input(t, self.motion(t, x)))
+
+    def jacobian(self, t: float, x: Array) -> Array:
+        """Return d(dx/dt)/dx: the rotor's own, plus the film's through the wiring."""
+        self.work["jacobians"] += 1
+        journal = self.motion(t, x)
+        u = self._input(t, journal)
+        rotor = self.rotor.linearization(t, x, u)
+        try:
+            film = self._film_jacobian(journal)
+        except UndefinedDerivativeError:
+            film = self._film_jacobian(self._nudged(t, x, u, journal))
+        return rotor.A + rotor.B[:, self.wiring.force] @ film @ rotor.C[self.wiring.motion]
+
+    def forces(self, journal: Array) -> Array:
+        """Return the film force along a batch of journal states (5, n), shape (2, n) [N]."""
+        return self.reaction.force(journal[:2], journal[2:4], journal[4])
+
+    def _input(self, t: float, journal: Array) -> Array:
+        """Return the rotor's input at a journal state: the film force, in the rotor's order."""
+        self._require_inside(t, journal)
+        self.work["film_evaluations"] += 1
+        force = self.reaction.force(journal[:2], journal[2:4], journal[4])
+        if not np.all(np.isfinite(force)):
+            raise ConvergenceError(f"film force must be finite, got {force} at t = {t:.9g} s")
+        u = np.empty(len(self.wiring.force))
+        u[self.wiring.force] = force
+        return u
+
+    def _require_inside(self, t: float, journal: Array) -> None:
+        eccentricity = np.hypot(journal[0], journal[1])
+        # Written so that NaN, which an integrator may try, counts as outside.
+        if not eccentricity < self.reaction.clearance:
+            raise FilmContactError(
+                f"position must keep the journal inside the clearance {self.reaction.clearance!r} m, "
+                f"got an eccentricity of {eccentricity:.6g} m at t = {t:.9g} s"
+            )
+
+    def _film_jacobian(self, journal: Array) -> Array:
+        return self.reaction.jacobian(journal[:2], journal[2:4], journal[4])
+
+    def _nudged(self, t: float, x: Array, u: Array, journal: Array) -> Array:
+        """Return the journal state with a trace of the velocity that it is about to have.
+
+        A film without source has no derivative, but one along every direction of departure: the journal
+        leaves along its acceleration, read from the change of the outputs along dx/dt.
+        """
+        rotor = self.rotor.linearization(t, x, u)
+        rate = rotor.C[self.wiring.motion] @ self.rotor.derivative(t, x, u)
+        acceleration = rate[2:4]
+        norm = float(np.hypot(*acceleration))
+        direction = acceleration / norm if norm > 0.0 else np.array([1.0, 0.0])
+        nominal = self.reaction.inputs[2].nominal
+        nudged = journal.copy()
+        nudged[2:4] += NUDGE * nominal * direction
+        return nudged

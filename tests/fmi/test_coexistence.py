@@ -1,0 +1,59 @@
+"""Several FMUs in one process: each answers with its own physics."""
+
+import sys
+from dataclasses import replace
+
+import numpy as np
+
+from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.fmu import export_fmu
+
+BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
+STATE = {"bearing.x": 3e-5, "bearing.y": -4e-5, "bearing.speed": 157.0}
+
+
+def force(instance):
+    instance.initialize(STATE)
+    return np.array(instance.get("bearing.force_x", "bearing.force_y"))
+
+
+def test_two_parameter_sets_give_two_forces(load, tmp_path):
+    thin = load(export_fmu(BEARING, tmp_path / "thin.fmu", component="bearing"))
+    thick = load(export_fmu(replace(BEARING, viscosity=0.2), tmp_path / "thick.fmu", component="bearing"))
+    np.testing.assert_allclose(force(thick), 2.0 * force(thin), rtol=1e-12)
+    np.testing.assert_allclose(2.0 * force(load(tmp_path / "thin.fmu")), force(thick), rtol=1e-12)
+
+
+def test_two_laws_of_one_module_name_give_two_answers(write_module, own_source, load, tmp_path):
+    first = write_module("own_law").Proportional()
+    export_fmu(first, tmp_path / "first.fmu", component="law")
+    second = write_module("own_law", own_source.replace("GAIN = 2.0", "GAIN = 5.0")).Proportional()
+    export_fmu(second, tmp_path / "second.fmu", component="law")
+    instances = [load(tmp_path / "first.fmu"), load(tmp_path / "second.fmu")]
+    for instance in instances:
+        instance.initialize({"law.a": 1.0})
+    assert [instance.get("law.b") for instance in instances] == [[2.0], [5.0]]
+
+
+def test_two_instances_of_one_fmu_do_not_share_values(load, tmp_path):
+    path = export_fmu(BEARING, tmp_path / "a.fmu", component="bearing")
+    first, second = load(path), load(path)
+    first.initialize(STATE)
+    second.initialize({"bearing.x": 1e-5})
+    assert first.get("bearing.x") == [3e-5]
+    assert second.get("bearing.x") == [1e-5]
+
+
+def test_nothing_is_left_in_the_search_path(load, tmp_path):
+    before = list(sys.path)
+    load(export_fmu(BEARING, tmp_path / "a.fmu", component="bearing"))
+    assert sys.path == before
+
+
+def test_the_modules_inside_are_not_those_outside(load, tmp_path):
+    load(export_fmu(BEARING, tmp_path / "a.fmu", component="bearing"))
+    inside = [
+        m for name, m in sys.modules.items() if name.startswith("rotorfilm_") and name.endswith(".journal")
+    ]
+    assert inside
+    assert all(module.JournalBearing is not JournalBearing for module in inside)

@@ -1,0 +1,80 @@
+"""The shipped recipes: build, agree with their reference trajectories, and are described in the README."""
+
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+
+import numpy as np
+import pytest
+from fmpy.validation import validate_fmu
+
+from rotorfilm.fmu import fmi_variables
+
+FMUS = Path(__file__).parents[2] / "fmus"
+
+
+@pytest.fixture(scope="module")
+def shipped():
+    """Return the build script as a module."""
+    spec = spec_from_file_location("fmu_build_script", FMUS / "build.py")
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+NAMES = ["journal", "rotor"]
+
+
+def test_all_recipes_are_tested(shipped):
+    assert list(shipped.RECIPES) == NAMES
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_an_fmu_follows_its_reference(shipped, name, tmp_path):
+    path = shipped.build(name, tmp_path)
+    assert validate_fmu(str(path)) == []
+    assert shipped.deviation(name, path) <= shipped.TOLERANCE
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_reference_follows_from_the_model(shipped, name):
+    recipe = shipped.load_recipe(name)
+    header = shipped.reference_path(name).read_text().splitlines()[0]
+    assert header.split(",") == shipped.columns(recipe)
+    stored, computed = shipped.read_reference(name), shipped.compute_reference(recipe)
+    model = recipe.model()
+    nominal = [signal.nominal for signal in (*model.inputs, *model.outputs)]
+    assert np.abs((stored - computed)[:, 1:] / nominal).max() < 1e-9
+    assert np.ptp(stored[:, 1:], axis=0).max() > 0.0
+
+
+@pytest.mark.closed_form
+def test_the_rotor_reference_obeys_the_impulse_theorem(shipped):
+    recipe = shipped.load_recipe("rotor")
+    model, table = recipe.model(), shipped.read_reference("rotor")
+    time, force, velocity = table[:, 0], table[:, 1:3], table[:, 5:7]
+    weight = np.array([0.0, -recipe.LOAD])
+    impulse = np.sum((force[:-1] + weight) * np.diff(time)[:, None], axis=0)
+    angle = recipe.SPEED * time[-1]
+    wobble = model.unbalance * recipe.SPEED * np.array([np.sin(angle), 1.0 - np.cos(angle)])
+    np.testing.assert_allclose(model.mass * velocity[-1], impulse + wobble, rtol=1e-9, atol=1e-9)
+
+
+def test_a_wrong_fmu_is_noticed(shipped, tmp_path, monkeypatch):
+    path = shipped.build("journal", tmp_path)
+    wrong = 1.0001 * shipped.read_reference("journal")
+    monkeypatch.setattr(shipped, "read_reference", lambda name: wrong)
+    monkeypatch.setattr(shipped, "run", lambda path, time, inputs: wrong[:, -2:] / 1.0001)
+    assert shipped.deviation("journal", path) > shipped.TOLERANCE
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_readme_lists_every_variable(shipped, name):
+    recipe = shipped.load_recipe(name)
+    rows = {
+        tuple(cell.strip().strip("`") for cell in line.strip("|").split("|"))[:3]
+        for line in (FMUS / "README.md").read_text().splitlines()
+        if line.startswith("|")
+    }
+    for variable in fmi_variables(recipe.model(), recipe.COMPONENT, recipe.start()):
+        kind = "state" if variable.causality == "local" else variable.causality
+        assert (variable.name, kind, variable.signal.unit) in rows

@@ -1,0 +1,207 @@
+"""What an exported file is: deterministic, self-contained, valid, documented; and what is refused."""
+
+import os
+import subprocess
+import sys
+import zipfile
+from dataclasses import dataclass, replace
+
+import fmpy
+import numpy as np
+import pytest
+from fmpy.validation import validate_fmu
+
+from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.errors import FmuError, InputError
+from rotorfilm.films import RotatingArc, SplittingFilm
+from rotorfilm.fmu import export_fmu
+from rotorfilm.rotors.rigid import RigidRotor
+from rotorfilm.units import UNITS
+
+BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
+SPLIT = replace(BEARING, film=SplittingFilm(order=(2, 1), rupture=RotatingArc()))
+ROTOR = RigidRotor(mass=50.0, speed=157.0, unbalance=8e-4)
+
+EXPORT_ELSEWHERE = """
+import sys
+from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.fmu import export_fmu
+bearing = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
+export_fmu(bearing, sys.argv[1], component="bearing")
+"""
+
+RUN_ALONE = """
+import sys
+for name in ("rotorfilm", "pythonfmu", "control", "matplotlib"):
+    sys.modules[name] = None
+import shutil, fmpy
+from fmpy.fmi2 import FMU2Slave
+folder = fmpy.extract(sys.argv[1])
+description = fmpy.read_model_description(sys.argv[1])
+fmu = FMU2Slave(guid=description.guid, modelIdentifier="bearing", unzipDirectory=folder, instanceName="a")
+fmu.instantiate(loggingOn=True)
+shutil.rmtree(folder)
+fmu.setupExperiment()
+fmu.enterInitializationMode()
+fmu.exitInitializationMode()
+fmu.setReal([0, 1, 2, 3, 4], [3e-5, -4e-5, 1e-3, 2e-3, 157.0])
+print([repr(value) for value in fmu.getReal([5, 6])])
+"""
+
+
+@dataclass(frozen=True)
+class Wrapped:
+    """Anything but a model."""
+
+    a: float = 1.0
+
+
+@pytest.mark.parametrize("model", [BEARING, SPLIT, ROTOR], ids=["short", "split", "rotor"])
+def test_fmpy_finds_nothing_wrong(model, tmp_path):
+    assert validate_fmu(str(export_fmu(model, tmp_path / "a.fmu"))) == []
+
+
+def test_equal_models_give_equal_bytes(tmp_path):
+    first = export_fmu(BEARING, tmp_path / "a.fmu", component="bearing").read_bytes()
+    second = export_fmu(replace(BEARING), tmp_path / "other" / "b.fmu", component="bearing").read_bytes()
+    assert first == second
+
+
+def test_another_process_builds_the_same_bytes(tmp_path):
+    here = export_fmu(BEARING, tmp_path / "a.fmu", component="bearing")
+    environment = {**os.environ, "PYTHONHASHSEED": "1"}
+    command = [sys.executable, "-c", EXPORT_ELSEWHERE, str(tmp_path / "b.fmu")]
+    subprocess.run(command, check=True, env=environment, cwd=tmp_path)
+    assert here.read_bytes() == (tmp_path / "b.fmu").read_bytes()
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"model": replace(BEARING, viscosity=0.2)},
+        {"model": SPLIT},
+        {"component": "other"},
+        {"start": {"speed": 1.0}},
+        {"stop_time": 2.0},
+    ],
+)
+def test_the_guid_changes_with_the_content(change, tmp_path):
+    first = export_fmu(BEARING, tmp_path / "a.fmu")
+    second = export_fmu(**{"model": BEARING, "path": tmp_path / "b.fmu", **change})
+    assert fmpy.read_model_description(str(first)).guid != fmpy.read_model_description(str(second)).guid
+
+
+def test_the_fmu_needs_neither_this_package_nor_its_own_folder(tmp_path):
+    path = export_fmu(BEARING, tmp_path / "a.fmu", component="bearing")
+    command = [sys.executable, "-c", RUN_ALONE, str(path)]
+    answer = subprocess.run(command, check=False, capture_output=True, text=True, cwd=tmp_path)
+    # The model's data is read and its source imported at the start; after that the files may go.
+    expected = BEARING.force([3e-5, -4e-5], [1e-3, 2e-3], 157.0)
+    assert answer.stdout.strip() == str([repr(float(value)) for value in expected]), answer.stderr
+
+
+def test_variables_carry_units_nominal_and_start_values(tmp_path):
+    path = export_fmu(BEARING, tmp_path / "a.fmu", component="bearing", start={"speed": 157.0})
+    description = fmpy.read_model_description(str(path))
+    variables = {v.name: v for v in description.modelVariables}
+    speed, force = variables["bearing.speed"], variables["bearing.force_x"]
+    assert (speed.causality, speed.variability, speed.start, speed.unit) == (
+        "input",
+        "continuous",
+        "157.0",
+        "rad/s",
+    )
+    assert (force.causality, force.initial, force.start, force.unit) == ("output", "calculated", None, "N")
+    assert float(force.nominal) == BEARING.outputs[0].nominal
+
+
+def test_unit_definitions_have_the_exponents_of_the_units(tmp_path):
+    description = fmpy.read_model_description(str(export_fmu(BEARING, tmp_path / "a.fmu")))
+    for unit in description.unitDefinitions:
+        powers = {name: getattr(unit.baseUnit, name) for name in ("kg", "m", "s", "rad", "A", "K")}
+        assert {name: power for name, power in powers.items() if power} == UNITS[unit.name].exponents
+
+
+def test_the_structure_names_the_dependencies(tmp_path):
+    film = fmpy.read_model_description(str(export_fmu(BEARING, tmp_path / "a.fmu")))
+    assert [{v.name.split(".")[1] for v in u.dependencies} for u in film.outputs] == [
+        {"x", "y", "vx", "vy", "speed"}
+    ] * 2
+    rotor = fmpy.read_model_description(str(export_fmu(ROTOR, tmp_path / "b.fmu", component="r")))
+    assert [u.dependencies for u in rotor.outputs] == [[]] * 5
+    assert [[v.name for v in u.dependencies] for u in rotor.initialUnknowns] == [
+        ["r.state_x"],
+        ["r.state_y"],
+        ["r.state_vx"],
+        ["r.state_vy"],
+        [],
+    ]
+
+
+def test_documentation_and_licenses_are_inside(tmp_path):
+    path = export_fmu(BEARING, tmp_path / "a.fmu", component="bearing")
+    with zipfile.ZipFile(path) as archive:
+        entries = archive.namelist()
+        page = archive.read("documentation/index.html").decode()
+        assert b"NTNU" in archive.read("documentation/licenses/pythonfmu.txt")
+        assert b"MIT License" in archive.read("documentation/licenses/rotorfilm.txt")
+        assert archive.testzip() is None
+    assert "<td>bearing.force_x</td>" in page
+    assert "&quot;viscosity&quot;: 0.1" in page
+    assert entries == sorted(entries)
+    assert {"binaries/linux64/bearing.so", "binaries/win64/bearing.dll"} <= set(entries)
+
+
+def test_the_component_is_named_after_the_class_by_default(tmp_path):
+    description = fmpy.read_model_description(str(export_fmu(BEARING, tmp_path / "a.fmu")))
+    assert description.modelName == "journal_bearing"
+    assert description.modelVariables[0].name == "journal_bearing.x"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"version": "3.0"}, r"version must be '2\.0' for the python backend.*got '3\.0'"),
+        ({"version": "1.0"}, r"version must be '2\.0', got '1\.0'"),
+        ({"backend": "native"}, "backend must be 'python', got 'native'"),
+        ({"component": "a.b"}, r"component must be an ASCII identifier without dots, got 'a\.b'"),
+        ({"start": {"z": 1.0}}, r"start must have keys from the inputs \['x', .*got 'z'"),
+        ({"start": {"x": 2e-4}}, r"start must be values at which the model has an output, got .*0\.0002"),
+        ({"path": "a.zip"}, r"path must end in \.fmu, got 'a\.zip'"),
+        ({"model": Wrapped()}, "model must have inputs, outputs, states"),
+    ],
+)
+def test_bad_arguments_are_refused(arguments, message, tmp_path):
+    with pytest.raises(FmuError, match=message):
+        export_fmu(**{"model": BEARING, "path": tmp_path / "a.fmu", **arguments})
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"start": {"x": np.nan}}, r"start\['x'\] must be finite, got nan"),
+        ({"stop_time": 0.0}, "stop_time must be finite and positive, got 0.0"),
+        ({"step_size": -1.0}, "step_size must be finite and positive, got -1.0"),
+    ],
+)
+def test_bad_numbers_are_refused(arguments, message, tmp_path):
+    with pytest.raises(InputError, match=message):
+        export_fmu(BEARING, tmp_path / "a.fmu", **arguments)
+
+
+def test_a_field_that_is_no_data_is_refused_by_name(write_module, tmp_path):
+    model = write_module("own_law").Proportional(offset={"a": 1})
+    with pytest.raises(FmuError, match=r"model\.offset must be a number, .*got \{'a': 1\}"):
+        export_fmu(model, tmp_path / "a.fmu")
+
+
+def test_a_model_that_forgets_its_fields_is_refused(write_module, own_source, tmp_path):
+    forgetful = (
+        "    def __post_init__(self):\n        object.__setattr__(self, 'offset', self.offset + 1.0)\n"
+    )
+    model = write_module("own_law", own_source + forgetful).Proportional(1.0)
+    with pytest.raises(
+        FmuError, match=r"model must keep the fields it is built by, got .*3\.0.* from .*2\.0"
+    ):
+        export_fmu(model, tmp_path / "a.fmu")

@@ -1,0 +1,54 @@
+"""Dependencies: claimed wherever a derivative may differ from zero, and only there."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.errors import UndefinedDerivativeError
+from rotorfilm.fmu.structure import dependencies
+from rotorfilm.model import static_linearization
+from rotorfilm.rotors.rigid import RigidRotor
+from rotorfilm.signals import Signal
+
+
+def signals(*names):
+    return tuple(Signal(name=name, unit="1", nominal=1.0, description="") for name in names)
+
+
+@dataclass(frozen=True)
+class Product:
+    """y = a b, z = c: at the origin, all of the first row of D vanishes."""
+
+    inputs = signals("a", "b", "c")
+    outputs = signals("y", "z")
+    states = ()
+
+    def linearization(self, t, x, u):
+        return static_linearization(np.array([[u[1], u[0], 0.0], [0.0, 0.0, 1.0]]))
+
+
+class Kinked(Product):
+    def linearization(self, t, x, u):
+        raise UndefinedDerivativeError("nowhere")
+
+
+def test_a_derivative_that_vanishes_at_the_start_only_is_a_dependency():
+    found = dependencies(Product(), np.zeros(3))
+    assert found.on_inputs.tolist() == [[True, True, False], [False, False, True]]
+    assert found.on_states.shape == (2, 0)
+
+
+def test_without_derivatives_everything_may_depend():
+    assert dependencies(Kinked(), np.zeros(3)).on_inputs.all()
+
+
+def test_a_film_feeds_every_input_through():
+    bearing = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
+    assert dependencies(bearing, np.zeros(5)).on_inputs.all()
+
+
+def test_a_rotor_feeds_nothing_through():
+    found = dependencies(RigidRotor(mass=50.0, speed=157.0), np.zeros(2))
+    assert not found.on_inputs.any()
+    assert found.on_states.tolist() == np.eye(5, 4, dtype=bool).tolist()

@@ -1,0 +1,159 @@
+import math
+import re
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rotorfilm.errors import EquilibriumError, InputError
+from rotorfilm.films import FixedArc, RotatingArc, ShortFilm, SplittingFilm
+from rotorfilm.linear import equilibrium
+
+SPEED = 1500 * math.pi / 30
+ECCENTRICITIES = [1e-6, 0.001, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.95, 0.99, 0.995]
+angles = st.floats(-math.pi, math.pi)
+sizes = st.floats(-3.0, 7.0).map(lambda power: 10.0**power)
+few = settings(max_examples=25, deadline=None)
+
+
+def along(angle):
+    return np.array([math.cos(angle), math.sin(angle)])
+
+
+def turned(angle):
+    return np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+@pytest.mark.parametrize("eps", ECCENTRICITIES)
+def test_short_bearing_in_every_direction(bearing, ocvirk, eps, sense):
+    attitude = ocvirk.attitude_angle(eps)
+    for direction in np.arange(-3, 4) * 0.9:
+        at = equilibrium(bearing, ocvirk.load(eps, SPEED) * along(direction), sense * SPEED)
+        assert at.eccentricity_ratio == pytest.approx(eps, rel=1e-11)
+        assert at.attitude_angle == pytest.approx(attitude, abs=1e-11)
+        np.testing.assert_allclose(
+            at.position,
+            eps * bearing.clearance * along(direction + sense * attitude),
+            atol=1e-11 * eps * 1e-4,
+        )
+        assert at.minimum_film == pytest.approx((1 - eps) * bearing.clearance, rel=1e-10)
+        assert at.residual <= 1e-12
+        assert at.iterations <= 8
+
+
+@pytest.mark.closed_form
+def test_attitude_angle_is_an_angle_of_the_short_bearing_formula(bearing, ocvirk):
+    # 70.62 deg at the eccentricity .2663 of 525 N; a slip of operator precedence made 11.4 deg of it elsewhere
+    at = equilibrium(bearing, [0.0, -525.0], SPEED)
+    eps = at.eccentricity_ratio
+    assert math.tan(at.attitude_angle) == pytest.approx(
+        math.pi * math.sqrt(1 - eps**2) / (4 * eps), rel=1e-12
+    )
+    assert math.degrees(at.attitude_angle) == pytest.approx(70.62, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    "film",
+    [SplittingFilm(order=(1, 1)), SplittingFilm(order=(4, 2), rupture=RotatingArc())],
+    ids=["first approximation", "rotating arc"],
+)
+@pytest.mark.parametrize("eps", [1e-6, 0.001, 0.5, 0.99, 0.995])
+def test_other_films_are_found_where_their_force_is_the_load(with_film, film, eps):
+    bearing = with_film(film)
+    position = eps * bearing.clearance * along(0.4)
+    for speed in (SPEED, -SPEED):
+        at = equilibrium(bearing, -bearing.force(position, [0, 0], speed), speed)
+        np.testing.assert_allclose(at.position, position, atol=1e-10 * eps * bearing.clearance)
+        assert at.residual <= 1e-12
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("eps", [0.01, 0.3, 0.8, 0.99])
+def test_film_that_depends_on_direction(skewed_film, bearing, eps):
+    for direction in np.arange(6):
+        load = -skewed_film.force(eps * bearing.clearance * along(direction), [0, 0], SPEED)
+        at = equilibrium(skewed_film, load, SPEED)
+        np.testing.assert_allclose(
+            at.position, eps * bearing.clearance * along(direction), atol=1e-10 * eps * bearing.clearance
+        )
+
+
+@pytest.mark.closed_form
+def test_spring_is_found_without_rotation(linear_film):
+    film = linear_film([[3e6, 1e6], [-2e6, 1e6]], np.eye(2))
+    load = np.array([100.0, -500.0])
+    np.testing.assert_allclose(
+        equilibrium(film, load, 0.0).position, np.linalg.solve(film.stiffness, load), rtol=1e-11
+    )
+
+
+@few
+@given(size=sizes, direction=angles, turn=angles, speed=st.floats(1.0, 1e4))
+def test_turning_the_load_turns_the_position(bearing, size, direction, turn, speed):
+    one = equilibrium(bearing, size * along(direction), speed)
+    other = equilibrium(bearing, size * along(direction + turn), speed)
+    np.testing.assert_allclose(
+        other.position, turned(turn) @ one.position, atol=1e-9 * math.hypot(*one.position)
+    )
+    assert other.attitude_angle == pytest.approx(one.attitude_angle, abs=1e-9)
+
+
+@few
+@given(size=sizes, direction=angles, splitting=st.booleans())
+def test_mirror_image_rotates_the_other_way(with_film, size, direction, splitting):
+    film = SplittingFilm(order=(2, None)) if splitting else ShortFilm()
+    # a fixed arc belongs to one sense of rotation, so its mirror image is another film
+    mirrored = SplittingFilm(order=(2, None), rupture=FixedArc(start=-math.pi)) if splitting else film
+    one = equilibrium(with_film(film), size * along(direction), SPEED)
+    other = equilibrium(with_film(mirrored), size * along(-direction), -SPEED)
+    np.testing.assert_allclose(other.position, one.position * [1, -1], atol=1e-9 * math.hypot(*one.position))
+    assert other.attitude_angle == pytest.approx(one.attitude_angle, abs=1e-9)
+    assert 0 < one.attitude_angle < math.pi / 2
+
+
+@few
+@given(size=sizes, factor=st.floats(0.1, 10.0))
+def test_load_and_speed_matter_by_their_ratio_only(bearing, size, factor):
+    one = equilibrium(bearing, [size, 0.0], SPEED)
+    other = equilibrium(bearing, [factor * size, 0.0], factor * SPEED)
+    np.testing.assert_allclose(other.position, one.position, rtol=1e-9)
+
+
+def test_load_beyond_capacity_is_named_with_the_force_at_the_limit(bearing, ocvirk):
+    limit = ocvirk.load(0.9999, SPEED)
+    with pytest.raises(EquilibriumError, match=re.escape(f"0.9999 is {limit:.6g} N, got load [0.0, -1e+30]")):
+        equilibrium(bearing, [0.0, -1e30], SPEED)
+    with pytest.raises(EquilibriumError, match="capacity"):
+        equilibrium(bearing, [1.001 * limit, 0.0], -SPEED)
+    assert equilibrium(bearing, [0.999 * limit, 0.0], -SPEED).eccentricity_ratio < 0.9999
+
+
+def test_no_wedge_without_rotation(bearing):
+    with pytest.raises(EquilibriumError, match=r"speed must make the film carry load.* 0\.0 rad/s.*525"):
+        equilibrium(bearing, [0.0, -525.0], 0.0)
+
+
+def test_force_that_cannot_point_against_the_load(linear_film):
+    # K has rank one: the force has one direction only
+    film = linear_film([[1e6, 0.0], [0.0, 0.0]], np.eye(2))
+    with pytest.raises(EquilibriumError, match="search found none"):
+        equilibrium(film, [1.0, -1.0], SPEED)
+
+
+@pytest.mark.parametrize(
+    ("load", "speed", "message"),
+    [
+        ([0.0, 0.0], SPEED, "load must not be zero"),
+        ([math.nan, 1.0], SPEED, "load must be finite"),
+        ([1.0, 1.0, 1.0], SPEED, "load must have shape"),
+        (5.0, SPEED, "load must have shape"),
+        ([1.0, 0.0], math.inf, "speed must be finite"),
+        ([1.0, 0.0], [1.0, 2.0], "speed must be a single number"),
+    ],
+)
+def test_bad_arguments(bearing, load, speed, message):
+    with pytest.raises(InputError, match=message):
+        equilibrium(bearing, load, speed)

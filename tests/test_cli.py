@@ -1,0 +1,184 @@
+"""The command line: its numbers, its JSON, its exit codes, and one clear line for each mistake."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rotorfilm import cli
+
+SCENE = """
+schema = 1
+[journal]
+diameter = "100 mm"
+length = "30 mm"
+clearance = "0.1 mm"
+viscosity = "0.1 Pa s"
+[operation]
+speed = "1500 rpm"
+load = "525 N"
+[rigid_rotor]
+mass = "53.535 kg"
+"""
+GEOMETRY = {
+    "--radius": "50 mm",
+    "--length": "30 mm",
+    "--clearance": "0.1 mm",
+    "--viscosity": "0.1 Pa s",
+    "--load": "525 N",
+    "--speed": "1500 rpm",
+}
+
+
+def coefficients(**changes):
+    options = GEOMETRY | {f"--{name}": value for name, value in changes.items()}
+    return ["coefficients", *(word for pair in options.items() for word in pair)]
+
+
+@pytest.fixture
+def scene(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(SCENE, encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def run(capsys):
+    def call(*arguments):
+        with pytest.raises(SystemExit) as exit_:
+            cli.main([str(argument) for argument in arguments])
+        out, err = capsys.readouterr()
+        return exit_.value.code or 0, out, err
+
+    return call
+
+
+@pytest.mark.literature
+def test_coefficients_are_those_of_the_book(run):
+    # Friswell et al. (2010), example 5.9.6
+    code, out, err = run(*coefficients(), "--json")
+    assert (code, err) == (0, "")
+    stiffness = json.loads(out)["coefficients"]["stiffness"]
+    assert [int(k) for row in stiffness for k in row] == [12807959, 16393593, -25060393, 8815302]
+
+
+def test_solve_gives_the_same_numbers_as_coefficients(run, scene):
+    solved = json.loads(run("solve", scene, "--json")[1])
+    direct = json.loads(run(*coefficients(), "--json")[1])
+    for matrix in ("stiffness", "damping"):
+        np.testing.assert_allclose(solved["coefficients"][matrix], direct["coefficients"][matrix], rtol=1e-12)
+    assert solved["whirl_threshold"]["speed"] > 0.0
+
+
+def test_solve_prints_what_people_read(run, scene):
+    code, out, _ = run("solve", scene)
+    assert code == 0
+    assert "0.266298" in out  # eccentricity ratio
+    assert "70.62 deg" in out
+    assert "1500 rpm" in out
+
+
+def test_splitting_film_takes_its_options(run):
+    options = ("--film", "splitting", "--order", "2,inf", "--rupture", "rotating", "--json")
+    code, out, _ = run(*coefficients(), *options)
+    assert code == 0
+    assert json.loads(out)["model"].startswith("SplittingFilm(order=(2, None)")
+    assert "RotatingArc()" in json.loads(out)["model"]
+
+
+def test_load_vector_turns_the_answer(run):
+    down = json.loads(run(*coefficients(), "--json")[1])["equilibrium"]
+    aside = json.loads(run(*coefficients(load="525 N,0 N"), "--json")[1])["equilibrium"]
+    assert aside["position"][0] == pytest.approx(-down["position"][1], rel=1e-9)
+    assert aside["position"][1] == pytest.approx(down["position"][0], rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "message"),
+    [
+        (
+            coefficients(clearance="-0.1 mm"),
+            2,
+            "error: --clearance must be finite and positive, got -0.0001",
+        ),
+        (coefficients(clearance="nan"), 2, "error: --clearance: quantity must be a number with a unit"),
+        (coefficients(radius="50 parsec"), 2, "got 'parsec' in '50 parsec'"),
+        (coefficients(load="1,2,3"), 2, "error: --load must be one magnitude or two components [x, y]"),
+        ([*coefficients(), "--film", "splitting"], 2, "error: --order is required and missing"),
+        ([*coefficients(), "--film", "splitting", "--order", "2"], 2, "error: --order must be [n, m]"),
+        ([*coefficients(), "--order", "2,1"], 2, "error: --order is no known key"),
+        (coefficients(load="1e20 N"), 1, "error: load must be within the film's capacity"),
+        (coefficients(speed="0 rpm"), 1, "error: speed must make the film carry load"),
+        (["solve", "absent.toml"], 2, "error: absent.toml: scene file cannot be read"),
+    ],
+)
+def test_mistake_gives_one_line_and_its_exit_code(run, arguments, code, message):
+    actual, out, err = run(*arguments)
+    assert actual == code
+    assert out == ""
+    assert message in err
+    assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "arguments", [["coefficients"], ["solve"], ["frobnicate"], [*coefficients(), "--film", "thick"]]
+)
+def test_wrong_usage_exits_with_2(run, arguments):
+    code, out, err = run(*arguments)
+    assert (code, out) == (2, "")
+    assert "Usage" in err
+
+
+def test_unknown_key_in_a_scene_is_named(run, scene):
+    scene.write_text(SCENE.replace("clearance", "clearence"), encoding="utf-8")
+    code, _, err = run("solve", scene)
+    assert code == 2
+    assert "journal.clearence is no known key" in err
+    assert "did you mean 'clearance'?" in err
+
+
+@pytest.mark.parametrize("command", ["solve", "coefficients", "fmu", "demo"])
+def test_help_shows_an_example(run, command):
+    code, out, _ = run(command, "--help")
+    assert code == 0
+    assert f"Example: rotorfilm {command}" in out
+    assert "--json" in out
+
+
+def test_installed_command_answers_without_heavy_imports(tmp_path):
+    script = Path(sys.executable).with_name("rotorfilm")
+    done = subprocess.run(
+        [str(script), "--help"], capture_output=True, text=True, check=False, cwd=tmp_path, env=os.environ
+    )
+    assert done.returncode == 0
+    assert "coefficients" in done.stdout
+    check = (
+        "import sys, rotorfilm.cli; print([m for m in ('control', 'matplotlib', 'fmpy') if m in sys.modules])"
+    )
+    loaded = subprocess.run(
+        [sys.executable, "-c", check], capture_output=True, text=True, check=True, cwd=tmp_path
+    )
+    assert loaded.stdout.strip() == "[]"
+
+
+def test_warning_is_one_line_on_stderr(run, scene, monkeypatch):
+    import warnings
+
+    from rotorfilm.errors import ValidityWarning
+    from rotorfilm.scenes import Scene
+
+    def solve(self):
+        warnings.simplefilter("always")
+        warnings.warn("length / diameter must be below 0.5, got 2", ValidityWarning, stacklevel=2)
+        return answer
+
+    answer = Scene.load(scene).solve()
+    monkeypatch.setattr(Scene, "solve", solve)
+    code, out, err = run("solve", scene, "--json")
+    assert code == 0
+    assert err == "warning: length / diameter must be below 0.5, got 2\n"
+    json.loads(out)

@@ -1,0 +1,86 @@
+"""Errors: each rule lets the right values pass, and names the argument, the rule and the value otherwise."""
+
+import numpy as np
+import pytest
+
+from rotorfilm import errors
+from rotorfilm.errors import (
+    ContactError,
+    FilmContactError,
+    InputError,
+    RotorfilmError,
+    require_finite,
+    require_non_negative,
+    require_positive,
+    require_vector,
+)
+
+BAD_NUMBERS = [float("nan"), float("inf"), -float("inf"), "1", None, True, [1.0]]
+
+
+@pytest.mark.parametrize("value", [1e-300, 3, np.float64(2.0), np.int64(5)])
+def test_positive_numbers_pass(value):
+    require_positive("clearance", value)
+
+
+@pytest.mark.parametrize("value", [0.0, -5e-5, *BAD_NUMBERS])
+def test_not_positive_is_named(value):
+    with pytest.raises(InputError) as caught:
+        require_positive("clearance", value)
+    assert str(caught.value) == f"clearance must be finite and positive, got {value!r}"
+
+
+def test_zero_is_not_negative():
+    require_non_negative("unbalance", 0.0)
+
+
+@pytest.mark.parametrize("value", [-1e-300, *BAD_NUMBERS])
+def test_negative_is_named(value):
+    with pytest.raises(InputError) as caught:
+        require_non_negative("unbalance", value)
+    assert str(caught.value) == f"unbalance must be finite and not negative, got {value!r}"
+
+
+def test_finite_values_become_an_array_of_floats():
+    array = require_finite("load", [1, 2])
+    assert array.dtype == float
+    np.testing.assert_array_equal(array, [1.0, 2.0])
+
+
+@pytest.mark.parametrize(
+    ("value", "message"),
+    [
+        ([1.0, float("nan")], r"load must be finite, got \[1.0, nan\]"),
+        ("heavy", "load must be numeric, got 'heavy'"),
+        ([[1.0], [1.0, 2.0]], "load must be numeric"),
+        (None, "load must be finite, got None"),
+    ],
+)
+def test_not_finite_is_named(value, message):
+    with pytest.raises(InputError, match=message):
+        require_finite("load", value)
+
+
+@pytest.mark.parametrize("shape", [(2,), (2, 3), (2, 0), (2, 4, 5)])
+def test_vectors_keep_their_batch_axes(shape):
+    assert require_vector("position", np.ones(shape)).shape == shape
+
+
+@pytest.mark.parametrize("shape", [(), (3,), (1, 2), (0,)])
+def test_other_shapes_are_named(shape):
+    with pytest.raises(InputError) as caught:
+        require_vector("position", np.ones(shape))
+    assert str(caught.value) == f"position must have shape (2, ...), got shape {shape}"
+
+
+def test_every_error_is_caught_by_the_base():
+    kinds = [kind for kind in vars(errors).values() if isinstance(kind, type) and issubclass(kind, Exception)]
+    own = [kind for kind in kinds if not issubclass(kind, Warning)]
+    assert len(own) >= 10
+    assert all(issubclass(kind, RotorfilmError) for kind in own)
+
+
+def test_contact_during_a_run_keeps_the_partial_result():
+    with pytest.raises(FilmContactError) as caught:
+        raise ContactError("journal touches the wall at t = 0.1 s", partial=[1, 2])
+    assert caught.value.partial == [1, 2]

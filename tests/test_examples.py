@@ -1,0 +1,47 @@
+"""Every example runs as a user runs it, is short, and ends in a number that is checked here."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from rotorfilm.scenes import Scene, bundled_scene
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+SCRIPTS = sorted(EXAMPLES.glob("*.py"))
+SCENES = sorted(EXAMPLES.glob("*.toml"))
+LAST_NUMBER = {
+    # Friswell et al. (2010), example 5.9.6
+    "static_coefficients.py": pytest.approx(12807959, abs=1.0),
+    # short bearing: omega sqrt(c/g) at the threshold, e = 0.5
+    "whirl_threshold.py": pytest.approx(2.541731, abs=1e-6),
+    # tan(attitude) = pi sqrt(1 - e^2) / (4 e) at e = 0.266297509
+    "solve_scene.py": pytest.approx(70.62004, abs=1e-4),
+    # whirl ratio of a lightly loaded full film: one half
+    "python_control.py": pytest.approx(0.5, abs=2e-3),
+}
+
+
+@pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: path.name)
+def test_example_ends_in_its_number(path, tmp_path):
+    environment = {**os.environ, "MPLBACKEND": "Agg", "PYTHONWARNINGS": "error"}
+    command = [sys.executable, str(path)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path, env=environment)
+    assert done.returncode == 0, done.stderr
+    assert float(done.stdout.split()[-1]) == LAST_NUMBER[path.name]
+
+
+@pytest.mark.parametrize("path", [*SCRIPTS, *SCENES], ids=lambda path: path.name)
+def test_example_is_short(path):
+    assert len(path.read_text(encoding="utf-8").splitlines()) < 80
+
+
+@pytest.mark.parametrize("path", SCENES, ids=lambda path: path.name)
+def test_scene_file_loads_and_solves(path):
+    assert Scene.load(path).solve().equilibrium.residual < 1e-10
+
+
+def test_shown_scene_is_the_bundled_one():
+    assert Scene.load(EXAMPLES / "friswell.toml") == bundled_scene()

@@ -1,0 +1,69 @@
+"""Model: the protocols tell models from other things, and the signals of a Reaction are fixed."""
+
+import numpy as np
+import pytest
+
+from rotorfilm.bearings import JournalBearing
+from rotorfilm.errors import InputError
+from rotorfilm.model import (
+    Dynamic,
+    Model,
+    Reaction,
+    Stepped,
+    force_outputs,
+    journal_inputs,
+    static_linearization,
+)
+from rotorfilm.rotors.rigid import RigidRotor
+from rotorfilm.signals import names
+
+BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
+ROTOR = RigidRotor(mass=50.0, speed=100.0)
+
+
+def test_bearing_is_a_reaction_without_states():
+    assert isinstance(BEARING, Reaction)
+    assert isinstance(BEARING, Model)
+    assert not isinstance(BEARING, Dynamic)
+    assert not isinstance(BEARING, Stepped)
+    assert BEARING.states == ()
+
+
+def test_rotor_is_dynamic_and_no_reaction():
+    assert isinstance(ROTOR, Dynamic)
+    assert not isinstance(ROTOR, Reaction)
+    assert len(ROTOR.states) == len(ROTOR.initial_state)
+
+
+def test_rotor_and_bearing_fit_together():
+    assert names(ROTOR.outputs) == names(BEARING.inputs)
+    assert names(BEARING.outputs) == names(ROTOR.inputs)
+    assert [s.unit for s in ROTOR.outputs] == [s.unit for s in BEARING.inputs]
+    assert [s.unit for s in BEARING.outputs] == [s.unit for s in ROTOR.inputs]
+
+
+def test_signals_of_a_reaction():
+    inputs = journal_inputs(clearance=1e-4, nominal_speed=200.0)
+    assert [(s.name, s.unit, s.nominal) for s in inputs] == [
+        ("x", "m", 1e-4),
+        ("y", "m", 1e-4),
+        ("vx", "m/s", pytest.approx(0.02)),
+        ("vy", "m/s", pytest.approx(0.02)),
+        ("speed", "rad/s", 200.0),
+    ]
+    assert [(s.name, s.unit, s.nominal) for s in force_outputs(300.0)] == [
+        ("force_x", "N", 300.0),
+        ("force_y", "N", 300.0),
+    ]
+
+
+def test_negative_clearance_gives_no_signals():
+    with pytest.raises(InputError, match=r"nominal must be finite and positive, got -0\.0001"):
+        journal_inputs(clearance=-1e-4, nominal_speed=200.0)
+
+
+def test_static_linearization_is_all_feedthrough():
+    D = np.arange(10.0).reshape(2, 5)
+    A, B, C, feedthrough = static_linearization(D)
+    assert (A.shape, B.shape, C.shape) == ((0, 0), (0, 5), (2, 0))
+    np.testing.assert_array_equal(feedthrough, D)
