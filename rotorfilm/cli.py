@@ -58,9 +58,7 @@ def solve(scene: SceneFile, json: Json = False) -> None:
     if json:
         console.print_json(answer)
         return
-    rows = [("film", answer.model), *console.equilibrium_rows(answer.equilibrium)]
-    rows += console.coefficient_rows(answer.coefficients)
-    console.print_rows(loaded.title, rows + console.whirl_rows(answer.whirl_threshold))
+    console.print_answer(loaded.title, answer)
 
 
 @app.command(
@@ -112,6 +110,29 @@ def fmu(
         console.print_json(files)
         return
     console.print_rows("FMUs", list(files.items()))
+
+
+@app.command(epilog="Example: rotorfilm demo --out rotorfilm-demo")
+def demo(
+    out: Annotated[Path, typer.Option(help="Folder for results, FMUs and charts.")] = Path("rotorfilm-demo"),
+    json: Json = False,
+) -> None:
+    """Run the whole way on a real bearing: equilibrium, stability, FMUs, coupled simulation, charts."""
+    with console.progress_display() as report:
+        report(0.0, "packages")
+        from .gallery import draw_demo
+        from .scenes import bundled_scene
+        from .scenes.demo import plain_results, run_demo
+
+        result = run_demo(out, bundled_scene(), report)
+        report(0.95, "charts")
+        charts = draw_demo(result, out)
+        report(1.0, "done")
+    if json:
+        console.print_json({**plain_results(result), "charts": [chart.name for chart in charts]})
+        return
+    console.print_demo(result)
+    console.print_rows("files", [(path.name, "") for path in sorted(out.iterdir())])
 
 
 def main(arguments: list[str] | None = None) -> None:

@@ -16,7 +16,10 @@ from rich.table import Table
 from .results import Coefficients, Equilibrium, WhirlThreshold, to_plain
 
 if TYPE_CHECKING:
+    from .scenes.coupling import CoupledRun
+    from .scenes.demo import DemoResult
     from .scenes.progress import Report
+    from .scenes.solve import Answer
 
 
 def complain(kind: str, message: object) -> None:
@@ -80,6 +83,40 @@ def whirl_rows(threshold: WhirlThreshold | None) -> list[tuple[str, str]]:
     speed = f"{threshold.speed:.6g} rad/s = {threshold.speed * 30.0 / math.pi:.6g} rpm"
     ratio = "" if threshold.whirl_ratio is None else f", whirl ratio {threshold.whirl_ratio:.4g}"
     return [("whirl threshold", speed + ratio)]
+
+
+def print_answer(title: str, answer: Answer) -> None:
+    """Print equilibrium, coefficients and whirl threshold."""
+    rows = [("film", answer.model), *equilibrium_rows(answer.equilibrium)]
+    rows += coefficient_rows(answer.coefficients)
+    print_rows(title, rows + whirl_rows(answer.whirl_threshold))
+
+
+def print_demo(result: DemoResult) -> None:
+    """Print the summary of the demonstration."""
+    print_answer(result.scene.title, result.answer)
+    table = Table(title="coupled FMUs beside the monolithic solution", title_justify="left", box=None)
+    for heading in ("macro step", "spectral radius", "orbit error / clearance", "time"):
+        table.add_column(heading, justify="right")
+    for run in result.coupling.runs:
+        table.add_row(*_coupled_cells(run))
+    Console(highlight=False).print("", table)
+    limit, order = result.critical_macro_angle, result.coupling.observed_order
+    rows = [
+        ("stability limit of the macro step", "none" if limit is None else f"{math.degrees(limit):.4g} deg"),
+        ("order of convergence", "not observed" if order is None else f"{order:.3f}"),
+        ("refused", "; ".join(run.refused for run in result.coupling.runs if run.refused) or "no run"),
+    ]
+    print_rows("", rows)
+
+
+def _coupled_cells(run: CoupledRun) -> tuple[str, str, str, str]:
+    return (
+        f"{math.degrees(run.macro_angle):.4g} deg",
+        f"{run.spectral_radius:.5f}",
+        f"{run.orbit_error:.3g}" + (" (refused)" if run.refused else ""),
+        f"{run.wall_time:.2f} s",
+    )
 
 
 def _pair(values: np.ndarray) -> str:

@@ -4,12 +4,14 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from fmpy import read_model_description
 
-from rotorfilm import cli
+from rotorfilm import cli, scenes
 
 SCENE = """
 schema = 1
@@ -163,6 +165,43 @@ def test_installed_command_answers_without_heavy_imports(tmp_path):
         [sys.executable, "-c", check], capture_output=True, text=True, check=True, cwd=tmp_path
     )
     assert loaded.stdout.strip() == "[]"
+
+
+def test_fmu_writes_two_fmus_that_fit_together(run, scene, tmp_path):
+    code, out, err = run("fmu", scene, "--out", tmp_path / "fmus", "--json")
+    assert (code, err) == (0, "")
+    files = json.loads(out)
+    film, rotor = (read_model_description(files[name]) for name in ("film", "rotor"))
+    assert (film.modelName, rotor.modelName) == ("film", "rotor")
+    inputs = {v.name.removeprefix("film.") for v in film.modelVariables if v.causality == "input"}
+    outputs = {v.name.removeprefix("rotor.") for v in rotor.modelVariables if v.causality == "output"}
+    assert inputs == outputs == {"x", "y", "vx", "vy", "speed"}
+
+
+def test_fmu_of_a_scene_without_rotor_is_refused(run, scene):
+    scene.write_text(SCENE.partition("[rigid_rotor]")[0], encoding="utf-8")
+    code, _, err = run("fmu", scene)
+    assert code == 2
+    assert "rigid_rotor is required" in err
+
+
+def test_folder_that_cannot_be_made_is_named(run, scene, tmp_path):
+    code, _, err = run("fmu", scene, "--out", scene / "below-a-file")
+    assert code == 2
+    assert "below-a-file" in err
+    assert err.count("\n") == 1
+
+
+def test_demo_prints_json_alone_on_stdout(run, tmp_path, monkeypatch):
+    bundled = scenes.bundled_scene()
+    short = replace(bundled, cosimulation=replace(bundled.cosimulation, revolutions=0.5))
+    monkeypatch.setattr(scenes, "bundled_scene", lambda: short)
+    code, out, err = run("demo", "--out", tmp_path / "demo", "--json")
+    assert code == 0
+    assert "done" in err
+    result = json.loads(out)
+    assert [(tmp_path / "demo" / chart).exists() for chart in result["charts"]] == [True] * 5
+    assert result["coupling"]["runs"][-1]["refused"]
 
 
 def test_warning_is_one_line_on_stderr(run, scene, monkeypatch):

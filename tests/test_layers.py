@@ -15,7 +15,7 @@ LAYERS = [
     ["bearings", "rotors"],
     ["linear", "transient", "cosim", "fmu"],
     ["scenes", "charts"],
-    ["console"],
+    ["console", "gallery"],
     ["cli"],
 ]
 RANK = {name: rank for rank, layer in enumerate(LAYERS) for name in layer}

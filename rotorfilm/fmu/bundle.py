@@ -18,6 +18,7 @@ SHELVES = {PACKAGE, f"{PACKAGE}.fmu"}
 """Packages whose __init__ only gathers names, from far more than an FMU needs: they go empty."""
 
 SLAVE = f"{PACKAGE}.fmu.slave"
+API = f"{PACKAGE}.fmu.pythonfmu_api"
 
 
 class Bundle(NamedTuple):

@@ -16,7 +16,7 @@ import numpy as np
 from ..errors import FmuError, require_finite, require_positive
 from ..model import Array, Dynamic, Model
 from .archive import binaries, licenses, to_zip
-from .bundle import PACKAGE, SLAVE, Bundle, bundle_source, content_hash
+from .bundle import API, PACKAGE, SLAVE, Bundle, bundle_source, content_hash
 from .codec import class_modules, decode, encode
 from .description import Description, to_xml
 from .documentation import to_html
@@ -30,7 +30,11 @@ ENTRY = '''"""Entry point of the FMU: PythonFMU loads the class Slave."""
 
 import importlib
 
+from {api} import keep
 from {slave} import ModelSlave
+
+# PythonFMU runs this file for each instance and then releases its globals, which it only borrowed.
+keep(globals())
 
 # All at once, because the folder may be gone when another instance of this FMU needs one of them.
 for name in {modules}:
@@ -206,7 +210,13 @@ def _resources(data: Any, component: str, start: Mapping[str, float], bundle: Bu
     tag = content_hash({**bundle.files, "model.json": text})
     entry = f"{component}_{tag}"
     modules = "".join(f"\n    {name!r}," for name in sorted(bundle.modules.values()))
-    source = ENTRY.format(slave=bundle.modules[SLAVE], modules=f"({modules}\n)", title=component, tag=tag)
+    source = ENTRY.format(
+        api=bundle.modules[API],
+        slave=bundle.modules[SLAVE],
+        modules=f"({modules}\n)",
+        title=component,
+        tag=tag,
+    )
     files = {
         **bundle.files,
         "model.json": text,

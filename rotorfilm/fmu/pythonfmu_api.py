@@ -1,4 +1,4 @@
-"""What PythonFMU's compiled part expects of a slave, and how a failure gets past it unharmed.
+"""What PythonFMU's compiled part expects of a slave, and how to survive its reference counting.
 
 PythonFMU 0.7.0 (PySlaveInstance.cpp) knows three outcomes: a method returns, fmi2OK; do_step returns False,
 fmi2Discard with fmi2Terminated true; a method raises, fmi2Fatal with the exception's repr in the log.
@@ -8,7 +8,7 @@ There is no way to fmi2Error.
 from __future__ import annotations
 
 import ctypes
-from typing import NoReturn
+from typing import Any, NoReturn
 
 
 class Fmi2Slave:
@@ -31,6 +31,12 @@ class SlaveFailure(Exception):
         return str(self)
 
 
+def keep(*held: Any) -> None:
+    """Take one more reference to each object, for one that PythonFMU releases without having it."""
+    for value in held:
+        ctypes.pythonapi.Py_IncRef(ctypes.py_object(value))
+
+
 def abort(slave: Fmi2Slave, log_queue: list[LogMessage], message: str) -> NoReturn:
     """Raise SlaveFailure such that the instance, and the process, outlive it.
 
@@ -39,6 +45,5 @@ def abort(slave: Fmi2Slave, log_queue: list[LogMessage], message: str) -> NoRetu
     The queue must be empty, because PythonFMU would call the logger with the exception pending and lose it.
     """
     log_queue.clear()
-    for held in (type(slave), slave, log_queue):
-        ctypes.pythonapi.Py_IncRef(ctypes.py_object(held))
+    keep(type(slave), slave, log_queue)
     raise SlaveFailure(message)

@@ -104,6 +104,8 @@ class _Resolver(ast.NodeTransformer):
     def _defining_import(self, module: str, alias: ast.alias) -> ast.stmt:
         if alias.name == "*":
             raise self._error(f"from {module} import *", "name what is imported")
+        if module != self.package:
+            self._carry(module)
         definer = module if module in self.users else _definer(module, alias.name)
         self._carry(definer)
         return ast.ImportFrom(module=definer, names=[alias], level=0)

@@ -15,6 +15,7 @@ from ..model import Array
 from ..results import Trajectory
 from ..transient import simulate
 from .export import ExportedScene, resting_rotor
+from .progress import Report
 from .scene import Scene
 
 REFERENCE_TOLERANCE = 1e-9
@@ -70,7 +71,7 @@ class CouplingStudy:
 
 
 def study_coupling(
-    scene: Scene, fmus: ExportedScene, macro_angles: Sequence[float], report: Callable[[float], None]
+    scene: Scene, fmus: ExportedScene, macro_angles: Sequence[float], report: Report
 ) -> CouplingStudy:
     """Couple the FMUs of a scene at several macro steps and compare with the monolithic solution.
 
@@ -82,10 +83,11 @@ def study_coupling(
     macro_angles : sequence of float [rad]
         At least one.
     report : callable
-        Called with the fraction done, after each macro step of each run.
+        Told how far the study is, after each macro step of each run.
     """
     angles = sorted(macro_angles)
     raw = [_run(scene, fmus, angle, _part(scene, angles, angle, report)) for angle in angles]
+    report(1.0 / 1.1, "monolithic solution")
     monolithic = _monolithic(scene, [simulation.trajectory.time for simulation, _, _ in raw])
     runs = tuple(
         _compared(scene, angle, monolithic, *outcome) for angle, outcome in zip(angles, raw, strict=True)
@@ -93,13 +95,12 @@ def study_coupling(
     return CouplingStudy(monolithic=monolithic, runs=runs, observed_order=_observed_order(runs))
 
 
-def _part(
-    scene: Scene, angles: list[float], angle: float, report: Callable[[float], None]
-) -> Callable[[float], None]:
+def _part(scene: Scene, angles: list[float], angle: float, report: Report) -> Callable[[float], None]:
     """Return a function of the time reached in one run that reports the fraction of all runs done."""
     steps = {each: 1.0 / each for each in angles}  # the work is in proportion to the number of steps
-    before = sum(steps[each] for each in angles if each < angle)
-    return lambda t: report((before + steps[angle] * t / scene.duration) / sum(steps.values()))
+    before, total = sum(steps[each] for each in angles if each < angle), 1.1 * sum(steps.values())
+    text = f"coupled FMUs, macro step {math.degrees(angle):.3g} deg"
+    return lambda t: report((before + steps[angle] * t / scene.duration) / total, text)
 
 
 def _run(

@@ -62,11 +62,17 @@ class DemoResult:
     curves: dict[str, FilmCurve]
     accuracy: dict[str, FilmAccuracy]
 
+    @property
+    def scene_run(self) -> CoupledRun:
+        """The coupled run at the macro step of the scene."""
+        wanted = self.scene.cosimulation.macro_angle
+        return min(self.coupling.runs, key=lambda run: abs(run.macro_angle - wanted))
+
 
 def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
     """Solve a scene, export its FMUs, couple them, and compare with the monolithic solution.
 
-    Writes `film.fmu`, `rotor.fmu`, `results.json` and the trajectories as CSV.
+    Writes `film.fmu`, `rotor.fmu`, `results.json`, `monolithic.csv` and `coupled.csv`.
 
     Parameters
     ----------
@@ -95,11 +101,11 @@ def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
     accuracy = film_accuracy(
         scene.bearing, ladder_laws(), lambda label: report(0.15, f"film laws: accuracy and cost of {label}")
     )
-    report(0.3, "FMUs")
+    report(0.25, "FMUs")
     fmus = export_scene(scene, folder)
     limit = _critical_macro_angle(scene)
     coupling = study_coupling(
-        scene, fmus, _macro_angles(scene, limit), lambda part: report(0.3 + 0.7 * part, "coupled FMUs")
+        scene, fmus, _macro_angles(scene, limit), lambda part, text: report(0.3 + 0.65 * part, text)
     )
     result = DemoResult(
         scene=scene,
@@ -112,7 +118,7 @@ def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
         accuracy=accuracy,
     )
     write_results(result, folder)
-    report(1.0, "done")
+    report(0.95, "results written")
     return result
 
 
@@ -121,8 +127,7 @@ def write_results(result: DemoResult, folder: Path) -> None:
     text = json.dumps(plain_results(result), indent=2, allow_nan=False)
     (folder / "results.json").write_text(text + "\n", encoding="utf-8")
     _write_csv(folder / "monolithic.csv", result.coupling.monolithic)
-    for run in result.coupling.runs:
-        _write_csv(folder / f"coupled_{math.degrees(run.macro_angle):.4g}_deg.csv", run.trajectory)
+    _write_csv(folder / "coupled.csv", result.scene_run.trajectory)
 
 
 def plain_results(result: DemoResult) -> dict[str, Any]:

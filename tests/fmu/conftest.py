@@ -46,6 +46,8 @@ def own_source():
 def write_module(tmp_path, monkeypatch):
     """Return a function that writes a module and imports it."""
     monkeypatch.syspath_prepend(str(tmp_path))
+    # A module written twice within a second would be read from the bytecode of the first.
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)
     written = []
 
     def write(name, text=PROPORTIONAL):

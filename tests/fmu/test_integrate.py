@@ -53,7 +53,7 @@ def test_finite_escape_time_is_approached_accurately():
 
 
 def test_beyond_the_escape_time_there_is_an_error_with_the_state_reached():
-    with np.errstate(all="ignore"), pytest.raises(ConvergenceError, match="must reach t = 1.5 s") as caught:
+    with np.errstate(all="ignore"), pytest.raises(ConvergenceError, match=r"must reach t = 1\.5 s") as caught:
         advance(BlowUp(), 0.0, np.array([1.0]), np.zeros(0), 1.5)
     assert caught.value.partial[0] > 1e6
 

@@ -46,7 +46,7 @@ def test_short_bearing_in_every_direction(bearing, ocvirk, eps, sense):
 
 @pytest.mark.closed_form
 def test_attitude_angle_is_an_angle_of_the_short_bearing_formula(bearing, ocvirk):
-    # 70.62 deg at the eccentricity .2663 of 525 N; a slip of operator precedence made 11.4 deg of it elsewhere
+    # 70.62 deg at the eccentricity .2663 of 525 N; operator precedence made 11.4 deg of it elsewhere
     at = equilibrium(bearing, [0.0, -525.0], SPEED)
     eps = at.eccentricity_ratio
     assert math.tan(at.attitude_angle) == pytest.approx(

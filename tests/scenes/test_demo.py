@@ -1,0 +1,104 @@
+"""The demonstration, on a short run: theory, coupled FMUs and monolithic solution agree with each other."""
+
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rotorfilm.errors import InputError
+from rotorfilm.gallery import draw_demo
+from rotorfilm.scenes import bundled_scene
+from rotorfilm.scenes.demo import plain_results, run_demo
+
+FILES = {"film.fmu", "rotor.fmu", "results.json", "monolithic.csv", "coupled.csv"}
+CHARTS = ["orbit.png", "locus.png", "stability.png", "accuracy.png", "coupling.png"]
+
+
+@pytest.fixture(scope="module")
+def scene():
+    bundled = bundled_scene()
+    return replace(bundled, cosimulation=replace(bundled.cosimulation, revolutions=1.0))
+
+
+@pytest.fixture(scope="module")
+def demo(scene, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("demo")
+    reports = []
+    result = run_demo(folder, scene, lambda fraction, text: reports.append((fraction, text)))
+    return result, folder, reports
+
+
+@pytest.mark.convergence
+def test_coupling_error_falls_with_the_first_order(demo):
+    result, _, _ = demo
+    assert result.coupling.observed_order == pytest.approx(1.0, abs=0.08)
+    errors = [run.orbit_error for run in result.coupling.runs]
+    assert errors == sorted(errors)
+    assert 0.0 < errors[0] < 2e-4
+
+
+def test_only_the_run_past_the_theoretical_limit_is_refused(demo):
+    result, _, _ = demo
+    for run in result.coupling.runs:
+        past = run.macro_angle > result.critical_macro_angle
+        assert bool(run.refused) == past == (run.spectral_radius > 1.0)
+    assert "macro_step must be below the stability limit" in result.coupling.runs[-1].refused
+
+
+@pytest.mark.closed_form
+def test_limit_is_that_of_the_stiff_squeeze_damping(demo):
+    # H < 2 m / c, c the largest eigenvalue of the film damping: stiffness adds little in so short a time
+    result, _, _ = demo
+    damping = np.linalg.eigvalsh(result.answer.coefficients.damping).max()
+    expected = 2.0 * result.scene.rotor.mass / damping * result.scene.operation.speed
+    assert result.critical_macro_angle == pytest.approx(expected, rel=0.02)
+
+
+def test_runs_start_at_the_equilibrium_and_keep_time(demo):
+    result, _, _ = demo
+    at = result.answer.equilibrium.position
+    for run in result.coupling.runs:
+        np.testing.assert_allclose(run.trajectory.position[:, 0], at, rtol=1e-12)
+    assert result.scene_run.macro_angle == pytest.approx(math.radians(1.0))
+    assert result.scene_run.trajectory.time.size == 361
+    assert result.scene_run.trajectory.time[-1] == pytest.approx(2.0 * math.pi / result.scene.operation.speed)
+
+
+def test_results_are_on_disk(demo):
+    result, folder, _ = demo
+    assert {path.name for path in folder.iterdir()} >= FILES
+    written = json.loads((folder / "results.json").read_text(encoding="utf-8"))
+    assert written == json.loads(json.dumps(plain_results(result)))
+    assert written["answer"]["equilibrium"]["eccentricity_ratio"] == pytest.approx(0.2662975, abs=1e-7)
+    table = np.genfromtxt(folder / "coupled.csv", delimiter=",", names=True)
+    np.testing.assert_allclose(table["x"], result.scene_run.trajectory["x"], rtol=1e-8)
+
+
+def test_charts_are_pictures(demo):
+    result, folder, _ = demo
+    charts = draw_demo(result, folder)
+    assert [chart.name for chart in charts] == CHARTS
+    for chart in charts:
+        assert chart.read_bytes().startswith(b"\x89PNG")
+
+
+def test_progress_only_grows(demo):
+    _, _, reports = demo
+    fractions = [fraction for fraction, _ in reports]
+    assert fractions == sorted(fractions)
+    assert fractions[0] == 0.0
+    assert fractions[-1] <= 1.0
+    assert all(text for _, text in reports)
+
+
+def test_scene_without_rotor_is_refused(scene, tmp_path):
+    with pytest.raises(InputError, match="rigid_rotor is required for the demonstration"):
+        run_demo(tmp_path, replace(scene, rigid_rotor=None))
+
+
+def test_shaft_at_rest_has_no_revolutions(scene):
+    still = replace(scene, operation=replace(scene.operation, speed=0.0))
+    with pytest.raises(InputError, match=r"operation\.speed must not be zero"):
+        _ = still.duration
