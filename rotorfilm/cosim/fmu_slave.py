@@ -192,7 +192,7 @@ def _callbacks(log: list[str]) -> fmi2CallbackFunctions:
 
     def logger(environment: Any, instance: bytes, status: int, category: bytes, message: bytes) -> None:
         if status != FMI_OK:
-            log.append(message.decode("utf-8", errors="replace"))
+            log.append(" ".join(message.decode("utf-8", errors="replace").split()))
 
     callbacks = fmi2CallbackFunctions()
     callbacks.logger = fmi2CallbackLoggerTYPE(logger)

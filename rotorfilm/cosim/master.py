@@ -20,13 +20,18 @@ from ..errors import (
     PartialResultError,
     require_positive,
 )
+from ..model import force_outputs
 from ..results import Trajectory
+from ..signals import names
 from .chatter import CouplingReport, inspect_coupling
 from .fmu_slave import open_fmu
 from .slaves import Slave
 
 ORDER = 1
 """Order of convergence in the macro step."""
+
+FORCES = tuple(names(force_outputs(1.0)))
+"""What a film gives and a rotor takes; it tells which is which."""
 
 
 class FmuRunError(PartialResultError, FmuError):
@@ -122,8 +127,8 @@ class _Run:
 
     def __init__(self, rotor: Slave, film: Slave, macro_step: float) -> None:
         self._rotor, self._film, self._macro_step = rotor, film, macro_step
-        self._motion_names = _motion_names(rotor, film)
         self._force_names = _force_names(rotor, film)
+        self._motion_names = _motion_names(rotor, film)
         self._times: list[float] = []
         self._motions: list[dict[str, float]] = []
         self._forces: list[dict[str, float]] = []
@@ -149,8 +154,8 @@ class _Run:
         time = np.array(self._times)
         signals = {
             name: np.array([values[name] for values in series])
-            for series, names in ((self._motions, self._rotor.outputs), (self._forces, self._film.outputs))
-            for name in names
+            for series, outputs in ((self._motions, self._rotor.outputs), (self._forces, self._film.outputs))
+            for name in outputs
         }
         forces = np.array([signals[name] for name in self._force_names])
         work = {"steps": max(time.size - 1, 0), "film_evaluations": time.size}
@@ -179,10 +184,10 @@ def _motion_names(rotor: Slave, film: Slave) -> list[str]:
 def _force_names(rotor: Slave, film: Slave) -> list[str]:
     """Return the signals from film to rotor; further inputs of the rotor keep their start values."""
     shared = [name for name in rotor.inputs if name in film.outputs]
-    if not shared:
+    if not set(FORCES) <= set(shared):
         raise InputError(
-            f"rotor must have an input among the outputs of the film {list(film.outputs)}, "
-            f"got {list(rotor.inputs)}"
+            f"rotor must take and film must give {list(FORCES)}, "
+            f"got the inputs {list(rotor.inputs)} and the outputs {list(film.outputs)}"
         )
     return shared
 
@@ -194,8 +199,8 @@ def _steps(macro_step: float, duration: float) -> list[tuple[float, float]]:
     return [(start, end - start) for start, end in pairwise(points)]
 
 
-def _picked(values: Mapping[str, float], names: list[str]) -> dict[str, float]:
-    return {name: values[name] for name in names}
+def _picked(values: Mapping[str, float], wanted: list[str]) -> dict[str, float]:
+    return {name: values[name] for name in wanted}
 
 
 def _finite(who: str, t: float, values: dict[str, float]) -> dict[str, float]:

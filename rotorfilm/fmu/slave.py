@@ -126,7 +126,7 @@ class ModelSlave(Fmi2Slave):
             try:
                 return method(*arguments)
             except BaseException as error:
-                abort(self, self._log_queue, self._described(error))
+                self._failure = self._described(error)
         abort(self, self._log_queue, self._failure)
 
     def _described(self, error: BaseException) -> str:

@@ -45,6 +45,12 @@ def test_a_name_is_imported_from_where_it_is_defined(write_module):
     assert f"from {package}.films.short import ShortFilm" in source
 
 
+def test_a_name_from_the_top_of_the_package_too(write_module):
+    write_module("own_law", "from rotorfilm import JournalBearing\n")
+    bundle, source = bundled("own_law")
+    assert f"from {bundle.modules['rotorfilm.bearings.journal']} import JournalBearing" in source
+
+
 def test_modules_under_a_name_of_their_own(write_module):
     write_module("own_law", "import rotorfilm.units as units\nimport numpy as np\n")
     bundle, source = bundled("own_law")

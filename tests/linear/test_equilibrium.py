@@ -1,5 +1,6 @@
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -79,6 +80,13 @@ def test_film_that_depends_on_direction(skewed_film, bearing, eps):
         np.testing.assert_allclose(
             at.position, eps * bearing.clearance * along(direction), atol=1e-10 * eps * bearing.clearance
         )
+
+
+def test_film_so_skewed_that_the_first_start_fails(skewed_film):
+    film = replace(skewed_film, skew=np.array([[-2.86, -2.55], [0.77, 0.70]]))
+    position = 0.045 * film.clearance * along(6.1)
+    at = equilibrium(film, -film.force(position, [0, 0], SPEED), SPEED)
+    np.testing.assert_allclose(at.position, position, rtol=1e-8)
 
 
 @pytest.mark.closed_form

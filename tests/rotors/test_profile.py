@@ -97,7 +97,7 @@ def test_bad_functions_are_named():
         SpeedProfile.from_function(lambda t: float(t > 0.3), 1.0, 0.1)
     with pytest.raises(InputError, match=r"function\(0.0\) must be finite, got inf"):
         SpeedProfile.from_function(lambda t: np.inf, 1.0, 0.1)
-    with pytest.raises(InputError, match="tolerance must be finite and positive, got 0.0"):
+    with pytest.raises(InputError, match=r"tolerance must be finite and positive, got 0.0"):
         SpeedProfile.from_function(np.sin, 1.0, 0.0)
-    with pytest.raises(InputError, match="duration must be finite and positive, got -1.0"):
+    with pytest.raises(InputError, match=r"duration must be finite and positive, got -1.0"):
         SpeedProfile.from_function(np.sin, -1.0, 0.1)

@@ -1,4 +1,4 @@
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -28,17 +28,19 @@ def test_free_fall_hits_the_wall_at_the_right_time(make_linear_film, rtol):
 
 def test_a_journal_thrown_at_the_wall_is_caught_by_the_squeeze_film():
     """The integrator tries states beyond the wall on the way; they must cost a step, not the run."""
-    rotor = RigidRotor(mass=50.0, speed=100.0, velocity=(0.0, -0.6))
-    rough = simulate(rotor, BEARING, duration=2e-3, samples=41, rtol=1e-3)
-    fine = simulate(rotor, BEARING, duration=2e-3, samples=41, rtol=1e-9)
+    rotor = RigidRotor(mass=1000.0, speed=100.0, velocity=(0.0, -5.0))
+    rough = simulate(rotor, BEARING, duration=2e-3, samples=41, rtol=1e-2)
+    fine = simulate(rotor, BEARING, duration=2e-3, samples=41, rtol=1e-7)
     assert rough.work["restarts"] > 0
-    assert np.hypot(*fine.position).max() > 0.9 * BEARING.clearance
+    assert np.hypot(*fine.position).max() > 0.97 * BEARING.clearance
     assert_allclose(rough.position, fine.position, atol=1e-2 * BEARING.clearance)
 
 
 def test_a_start_at_the_wall_is_refused(make_linear_film):
     rotor = RigidRotor(mass=1.0, speed=1.0, position=(0.0, 2e-4))
-    with pytest.raises(ContactError, match=r"reached the wall at t = 0 s: -1 of the clearance 0.0001 m is left"):
+    with pytest.raises(
+        ContactError, match=r"reached the wall at t = 0 s: -1 of the clearance 0.0001 m is left"
+    ):
         simulate(rotor, make_linear_film(), duration=1.0)
 
 
@@ -63,7 +65,7 @@ class BrokenFilm:
 
 def test_a_force_that_is_not_a_number_ends_the_run_with_what_was_computed():
     rotor = RigidRotor(mass=50.0, speed=100.0)
-    with pytest.raises(ConvergenceError, match="film force must be finite, got .*nan") as caught:
+    with pytest.raises(ConvergenceError, match=r"film force must be finite, got .*nan") as caught:
         simulate(rotor, BrokenFilm(BEARING, -1e-5), duration=0.05, samples=501)
     partial = caught.value.partial
     sound = simulate(rotor, BEARING, duration=0.05, times=partial.time)
@@ -72,23 +74,19 @@ def test_a_force_that_is_not_a_number_ends_the_run_with_what_was_computed():
 
 
 @dataclass(frozen=True)
-class JumpingRotor(RigidRotor):
-    """A rotor whose acceleration is not a function: no step size satisfies the error estimate."""
+class RunawayRotor(RigidRotor):
+    """A rotor that reaches infinite velocity, tan(t), at t = pi/2."""
 
     def derivative(self, t, x, u):
-        rate = super().derivative(t, x, u)
-        rate[2:] += 1e6 * (hash((t, float(x[0]))) % 1000)
-        return rate
+        return np.array([x[2], x[3], 1.0 + x[2] ** 2, 0.0])
 
 
 def test_an_integrator_that_gives_up_says_where(make_linear_film):
-    rotor = JumpingRotor(mass=1.0, speed=1.0)
-    with pytest.raises(ConvergenceError, match=r"integration failed at t = .* s: Required step size") as caught:
-        simulate(rotor, make_linear_film(clearance=1e9), duration=1.0)
-    assert caught.value.partial.time[0] == 0.0
-
-
-def test_contact_at_a_batch_of_loads_names_the_clearance():
-    rotor = replace(RigidRotor(mass=1.0, speed=1.0), position=(9.9999999999e-5, 0.0))
-    with pytest.raises(ContactError, match="clearance 0.0001 m"):
-        simulate(rotor, BEARING, duration=1.0)
+    rotor = RunawayRotor(mass=1.0, speed=1.0)
+    with pytest.raises(
+        ConvergenceError, match=r"integration failed at t = 1.570.* s: Required step"
+    ) as caught:
+        simulate(rotor, make_linear_film(clearance=1e3), duration=2.0, samples=2001)
+    partial = caught.value.partial
+    assert_allclose(partial.time[-1], np.pi / 2.0, atol=1e-3)
+    assert_allclose(partial["vx"][:1000], np.tan(partial.time[:1000]), atol=1e-3)
