@@ -146,13 +146,20 @@ class JournalBearing:
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape, checked for contact only."""
         eccentricity, source = self._kinematics(position, velocity, speed)
-        return self.force_scale * self.film.force(eccentricity, source, self.slenderness)
+        mirror = _mirror(speed)
+        return (
+            self.force_scale
+            * mirror
+            * self.film.force(mirror * eccentricity, mirror * source, self.slenderness)
+        )
 
     def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `jacobian` for inner loops: float arrays of equal batch shape, checked for contact only."""
         eccentricity, source = self._kinematics(position, velocity, speed)
-        film = self.force_scale * self.film.jacobian(eccentricity, source, self.slenderness)
-        by_eccentricity, by_source = film[:, :2], film[:, 2:]
+        mirror = _mirror(speed)
+        film = self.force_scale * self.film.jacobian(mirror * eccentricity, mirror * source, self.slenderness)
+        by_eccentricity = mirror[:, None] * film[:, :2] * mirror
+        by_source = mirror[:, None] * film[:, 2:] * mirror
         # w = v/c - (speed/2) (-e_y, e_x), so the columns of F_w (z^ x .) are (F_wy, -F_wx).
         turned = np.stack([by_source[:, 1], -by_source[:, 0]], axis=1)
         by_position = (by_eccentricity - 0.5 * speed * turned) / self.clearance
@@ -198,6 +205,14 @@ class JournalBearing:
         source = squeeze + wedge
         cancelled = np.abs(source).max(axis=0) <= ROUNDOFF * (np.abs(squeeze) + np.abs(wedge)).max(axis=0)
         return eccentricity, np.where(cancelled, 0.0, source)
+
+
+def _mirror(speed: Array) -> Array:
+    """Return the signs (1, +-1) of the reflection that makes the rotation positive, shape (2, ...).
+
+    Film laws know positive rotation only: the arc of `FixedArc` follows the sense of rotation.
+    """
+    return np.stack([np.ones_like(speed), np.where(speed < 0.0, -1.0, 1.0)])
 
 
 def _input_vector(u: ArrayLike) -> Array:

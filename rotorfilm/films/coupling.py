@@ -85,7 +85,7 @@ def pair_integrals(chi: Array, start: Array, end: Array) -> PairIntegrals:
 
 def whitened(pair: PairIntegrals) -> CouplingIntegrals:
     """Return the integrals of a pair in coordinates in which M = 1."""
-    lower = np.linalg.cholesky(pair.M)
+    lower = np.asarray(np.linalg.cholesky(pair.M), dtype=np.float64)
     inverse = np.linalg.inv(lower)
     K, M_chi, K_chi, M_turn, K_turn = (
         inverse @ matrix @ inverse.swapaxes(-1, -2)

@@ -38,7 +38,7 @@ class FixedArc:
     Parameters
     ----------
     start : float [rad]
-        First end, from the line of maximum film in the sense of +z.
+        First end, from the line of maximum film in the sense of rotation.
     extent : float [rad]
         Angle covered, 0 < extent <= 2 pi.
     """

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import Annotated, Any
 
 from ..bearings.journal import JournalBearing
-from ..errors import SceneError, require_positive
+from ..errors import SceneError, require_finite, require_positive
 from ..films import FixedArc, RotatingArc, ShortFilm, SplittingFilm
 from ..rotors.rigid import RigidRotor
 from .tables import Quantity, Variant, flag
@@ -175,6 +175,11 @@ class OperationTable:
 
     speed: Annotated[float, Quantity("rad/s")]
     load: Annotated[tuple[float, float] | None, read_load] = None
+
+    def __post_init__(self) -> None:
+        require_finite("speed", self.speed)
+        if self.load is not None:
+            require_finite("load", self.load)
 
 
 @dataclass(frozen=True, kw_only=True)

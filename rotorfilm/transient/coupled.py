@@ -116,7 +116,7 @@ class Coupled:
             film = self._film_jacobian(journal)
         except UndefinedDerivativeError:
             film = self._film_jacobian(self._nudged(t, x, u, journal))
-        return rotor.A - rotor.B[:, self.wiring.force] @ film @ rotor.C[self.wiring.motion]
+        return rotor.A + rotor.B[:, self.wiring.force] @ film @ rotor.C[self.wiring.motion]
 
     def forces(self, journal: Array) -> Array:
         """Return the film force along a batch of journal states (5, n), shape (2, n) [N]."""

@@ -130,6 +130,8 @@ def test_file_is_read(tmp_path):
             "case.toml: journal.clearance must be a number or a string such as '1 m', got True",
         ),
         ("radius = 0.05", "radius = 1\ndiameter = 2", "journal.radius and .*journal.diameter must not both"),
+        ('"1500 rpm"', "nan", "case.toml: operation.speed must be finite, got nan"),
+        ('"525 N"', "[0, inf]", r"case.toml: operation.load must be finite, got \(0.0, inf\)"),
         ('"525 N"', "-525.0", "case.toml: operation.load must be a positive magnitude or .*, got -525.0"),
         ('"525 N"', "[1, 2, 3]", r"case.toml: operation.load must be one magnitude or .*, got \[1, 2, 3\]"),
         ('"525 N"', '[0, "5 m"]', r"case.toml: operation.load\[1\]: quantity must be measured in N"),
