@@ -48,5 +48,5 @@ def _draw_coupling(result: DemoResult, path: Path) -> Path:
     runs = result.coupling.runs
     angles = np.array([run.macro_angle for run in runs])
     errors = np.array([run.orbit_error for run in runs])
-    limit = math.nan if result.critical_macro_angle is None else result.critical_macro_angle
-    return save(plot_coupling_error(angles, errors, limit=limit), path)
+    refused = np.array([bool(run.refused) for run in runs])
+    return save(plot_coupling_error(angles, errors, refused, limit=result.critical_macro_angle), path)

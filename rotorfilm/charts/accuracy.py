@@ -39,7 +39,12 @@ def plot_accuracy(
 
 
 def plot_coupling_error(
-    macro_angles: np.ndarray, errors: np.ndarray, *, limit: float, axes: Axes | None = None
+    macro_angles: np.ndarray,
+    errors: np.ndarray,
+    refused: np.ndarray,
+    *,
+    limit: float | None = None,
+    axes: Axes | None = None,
 ) -> Axes:
     """Draw the error of the coupled run against the monolithic one over the macro step.
 
@@ -49,16 +54,23 @@ def plot_coupling_error(
         Shaft rotation between two exchanges.
     errors : ndarray, shape (n,) [1]
         Largest distance of the orbits / clearance.
-    limit : float [rad]
+    refused : ndarray of bool, shape (n,)
+        Runs that are no answer; drawn as crosses.
+    limit : float, optional [rad]
         Explicit stability limit of the coupling.
     axes : Axes, optional
         Where to draw; a new figure by default.
     """
     axes = axes or new_axes("Co-simulation error against macro step")
-    degrees = np.degrees(macro_angles)
-    axes.loglog(degrees, errors, "o-", label="Gauss-Seidel, force held")
-    axes.loglog(degrees, errors[0] * degrees / degrees[0], "k:", label="first order")
-    axes.axvline(np.degrees(limit), color="C3", label="explicit stability limit")
+    degrees, good = np.degrees(macro_angles), ~np.asarray(refused)
+    axes.loglog(degrees[good], errors[good], "o-", label="Gauss-Seidel, force held")
+    axes.loglog(degrees[~good], errors[~good], "x", color="C3", label="refused")
+    if np.any(good):
+        axes.loglog(degrees, errors[good][0] * degrees / degrees[good][0], "k:", label="first order")
+    if limit is not None:
+        axes.axvline(np.degrees(limit), color="C3", linewidth=1.0, label="explicit stability limit")
+    axes.set_xticks(degrees, [f"{angle:.3g}" for angle in degrees])
+    axes.minorticks_off()
     axes.set(xlabel="macro step [deg of shaft rotation]", ylabel="largest orbit error / clearance")
     axes.legend(fontsize=8)
     return axes

@@ -2,7 +2,7 @@
 
 from .chatter import CouplingReport, inspect_coupling
 from .fmu_slave import FmuSlave, open_fmu
-from .master import CoSimulation, cosimulate, couple
+from .master import CoSimulation, FmuRunError, cosimulate, couple
 from .slaves import ModelSlave, Slave
 from .stability import CouplingStability, CriticalMacroStep, coupling_stability, critical_macro_step
 
@@ -11,6 +11,7 @@ __all__ = [
     "CouplingReport",
     "CouplingStability",
     "CriticalMacroStep",
+    "FmuRunError",
     "FmuSlave",
     "ModelSlave",
     "Slave",

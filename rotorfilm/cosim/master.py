@@ -145,7 +145,7 @@ class _Run:
         self._rotor.set(_picked(self._forces[-1], self._force_names))
         self._rotor.step(t, dt)
         motion = _finite("rotor", t + dt, self._rotor.get())
-        self._film.set(_picked(self._motions[-1], self._motion_names))
+        self._film.set(_picked(motion, self._motion_names))
         self._film.step(t, dt)
         self._keep(t + dt, motion, _finite("film", t + dt, self._film.get()))
 

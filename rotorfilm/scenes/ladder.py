@@ -23,6 +23,9 @@ STATES = 300
 REPEATS = 5
 """Runs of which the shortest counts."""
 
+REFERENCE_DEGREE = 80
+"""Degree of the converged film that errors are measured against."""
+
 SEED = 1978
 """Seed of those states, so that every run compares the same ones."""
 
@@ -80,7 +83,8 @@ def ladder_laws() -> dict[str, FilmLaw]:
         f"({n}, {'inf' if m is None else m})": SplittingFilm(order=(n, m), rupture=RotatingArc())
         for n, m in orders
     }
-    return {"short": ShortFilm(), **splitting}
+    converged = {"converged": SpectralArcFilm(rupture=RotatingArc())}
+    return {"short": ShortFilm(), **splitting, **converged}
 
 
 def film_curve(bearing: JournalBearing, eccentricity_ratio: Array) -> FilmCurve:
@@ -121,7 +125,8 @@ def film_accuracy(
     """
     state = _random_states(bearing.clearance)
     report("converged film")
-    reference = replace(bearing, film=SpectralArcFilm(rupture=RotatingArc())).force(*state)
+    finest = SpectralArcFilm(rupture=RotatingArc(), degree=REFERENCE_DEGREE)
+    reference = replace(bearing, film=finest).force(*state)
     result = {}
     for label, law in laws.items():
         report(label)

@@ -48,9 +48,14 @@ def test_accuracy_draws_microseconds():
     assert "converged film" in axes.get_title()
 
 
-def test_coupling_error_marks_the_limit():
-    axes = plot_coupling_error(np.radians([1.0, 2.0]), np.array([1e-3, 2e-3]), limit=np.radians(10.0))
-    assert axes.get_lines()[2].get_xdata()[0] == pytest.approx(10.0)
+def test_coupling_error_marks_the_limit_and_the_refused_runs():
+    angles, errors = np.radians([1.0, 2.0, 12.0]), np.array([1e-3, 2e-3, 0.1])
+    axes = plot_coupling_error(angles, errors, np.array([False, False, True]), limit=np.radians(10.0))
+    runs, refused, slope, limit = axes.get_lines()
+    np.testing.assert_allclose(runs.get_xdata(), [1.0, 2.0])
+    np.testing.assert_allclose(refused.get_ydata(), [0.1])
+    np.testing.assert_allclose(slope.get_ydata(), [1e-3, 2e-3, 12e-3])
+    assert limit.get_xdata()[0] == pytest.approx(10.0)
 
 
 def test_charts_draw_on_given_axes_and_save(tmp_path):

@@ -75,6 +75,11 @@ def test_resolved_forces_do_not_alarm(force):
     assert report.amplitude == 0.0
 
 
+def test_a_coarsely_resolved_rotating_force_does_not_alarm():
+    angle = np.radians(75.0) * STEPS
+    assert not inspected(np.cos(angle), np.sin(angle)).chatter
+
+
 def test_a_run_too_short_to_judge_is_not_judged():
     for count in (0, 1, 2, 3, 13):
         assert not inspected(1.0 + 0.1 * ALTERNATION[:count]).chatter

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rotorfilm.films import FixedArc, RotatingArc, SpectralArcFilm, SplittingFilm
 from rotorfilm.scenes import bundled_scene
 from rotorfilm.scenes.ladder import compared_laws, film_accuracy, film_curve, ladder_laws
 
@@ -43,3 +44,19 @@ def test_errors_fall_as_the_order_rises():
     assert errors[0] > 5.0 * errors[1] > 50.0 * errors[2]
     assert all(law.high_error >= law.median_error for law in accuracy.values())
     assert seen == ["converged film", *laws]
+
+
+@pytest.mark.literature
+@pytest.mark.parametrize(
+    ("film", "critical_mass"),
+    [
+        (SplittingFilm(order=(2, 1)), 3.81),
+        (SpectralArcFilm(rupture=FixedArc()), 3.56),
+        (SpectralArcFilm(rupture=RotatingArc()), 6.06),
+    ],
+)
+def test_threshold_depends_on_the_order_and_on_the_extent_of_the_film(film, critical_mass):
+    # c M omega^2 / W at L/D = 0.5 and eccentricity ratio 0.5
+    bearing = replace(BEARING, length=BEARING.radius, film=film)
+    (speed_parameter,) = film_curve(bearing, np.array([0.5])).speed_parameter
+    assert speed_parameter**2 == pytest.approx(critical_mass, abs=0.005)
