@@ -10,10 +10,18 @@ from typing import Any
 
 _HOMES = {
     "bearings": ("JournalBearing",),
-    "cosim": ("cosimulate", "coupling_stability", "critical_macro_step"),
-    "films": ("FixedArc", "RotatingArc", "ShortFilm", "SpectralArcFilm", "SplittingFilm"),
+    "cosim": ("CoSimulation", "CouplingReport", "cosimulate", "coupling_stability", "critical_macro_step"),
+    "films": (
+        "FilmLaw",
+        "FixedArc",
+        "RotatingArc",
+        "ShortFilm",
+        "SpectralArcFilm",
+        "SplittingFilm",
+    ),
     "fmu": ("export_fmu",),
     "linear": (
+        "CriticalMass",
         "OperatingPoint",
         "closed_loop",
         "coefficients",
@@ -31,12 +39,14 @@ _HOMES = {
     "signals": ("Signal",),
     "transient": ("simulate",),
     "errors": (
+        "ContactError",
         "ConvergenceError",
         "CouplingError",
         "EquilibriumError",
         "FilmContactError",
         "FmuError",
         "InputError",
+        "PartialResultError",
         "RotorfilmError",
         "SceneError",
         "UndefinedDerivativeError",

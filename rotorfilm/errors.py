@@ -91,6 +91,12 @@ def require_finite(name: str, value: ArrayLike) -> NDArray[np.float64]:
     return array
 
 
+def require_number(name: str, value: float) -> None:
+    """Raise InputError unless `value` is a single finite number."""
+    if not _is_number(value) or not np.isfinite(value):
+        raise InputError(f"{name} must be a single finite number, got {value!r}")
+
+
 def require_vector(name: str, value: ArrayLike) -> NDArray[np.float64]:
     """Return `value` as a finite array of shape (2, ...); raise InputError otherwise."""
     array = require_finite(name, value)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import ArrayLike
 from ..errors import (
     FilmContactError,
     InputError,
+    ValidityWarning,
     require_finite,
     require_positive,
     require_vector,
@@ -50,6 +52,11 @@ class JournalBearing:
     InputError
         If a dimension or the viscosity is not finite and positive, or the clearance is not below the radius.
 
+    Warns
+    -----
+    ValidityWarning
+        If length / diameter is beyond the `slenderness_limit` that the film law declares.
+
     Examples
     --------
     >>> bearing = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
@@ -68,8 +75,16 @@ class JournalBearing:
             require_positive(name, getattr(self, name))
         if self.clearance >= self.radius:
             raise InputError(f"clearance must be below the radius {self.radius!r}, got {self.clearance!r}")
-        if not isinstance(self.film, FilmLaw):
+        if isinstance(self.film, type) or not isinstance(self.film, FilmLaw):
             raise InputError(f"film must be a film law with force and jacobian, got {self.film!r}")
+        limit = getattr(self.film, "slenderness_limit", None)
+        if limit is not None and self.slenderness > limit:
+            warnings.warn(
+                f"length / diameter must not exceed {limit} for {self.film!r}, got {self.slenderness:.6g}: "
+                "the film force can be wrong by half and more",
+                ValidityWarning,
+                stacklevel=3,
+            )
 
     @property
     def slenderness(self) -> float:

@@ -8,7 +8,7 @@ from typing import Protocol, runtime_checkable
 
 import numpy as np
 
-from ..errors import InputError, require_finite
+from ..errors import InputError, require_number
 from ..model import Array
 
 
@@ -41,14 +41,19 @@ class FixedArc:
         First end, from the line of maximum film in the sense of rotation.
     extent : float [rad]
         Angle covered, 0 < extent <= 2 pi.
+
+    Raises
+    ------
+    InputError
+        If an angle is not a finite number or the extent is out of range.
     """
 
     start: float = 0.0
     extent: float = math.pi
 
     def __post_init__(self) -> None:
-        require_finite("start", self.start)
-        require_finite("extent", self.extent)
+        require_number("start", self.start)
+        require_number("extent", self.extent)
         if not 0.0 < self.extent <= 2.0 * math.pi:
             raise InputError(f"extent must be in (0, 2 pi], got {self.extent!r}")
 
