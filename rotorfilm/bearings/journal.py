@@ -16,7 +16,7 @@ from ..errors import (
     require_positive,
     require_vector,
 )
-from ..films.law import FilmLaw
+from ..films.law import CENTER, FilmLaw
 from ..films.short import ShortFilm
 from ..model import Array, Linearization, force_outputs, journal_inputs, static_linearization
 from ..signals import Signal
@@ -170,7 +170,7 @@ class JournalBearing:
 
     def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `jacobian` for inner loops: float arrays of equal batch shape, checked for contact only."""
-        eccentricity, source = self._kinematics(position, velocity, speed)
+        eccentricity, source = self._kinematics(self._off_center(position), velocity, speed)
         mirror = _mirror(speed)
         film = self.force_scale * self.film.jacobian(mirror * eccentricity, mirror * source, self.slenderness)
         by_eccentricity = mirror[:, None] * film[:, :2] * mirror
@@ -205,6 +205,16 @@ class JournalBearing:
                 f"got shapes {q.shape}, {v.shape} and {omega.shape}"
             ) from None
         return np.stack([x, y]), np.stack([vx, vy]), omega
+
+    def _off_center(self, position: Array) -> Array:
+        """Return the position, moved onto the circle `CENTER` * clearance where it is inside that.
+
+        A law in polar axes has its derivative at the center as a limit; moving the position, and the source
+        with it, takes the limit along x.
+        """
+        distance = np.hypot(position[0], position[1])
+        on_circle = np.stack([np.full_like(distance, CENTER * self.clearance), np.zeros_like(distance)])
+        return np.where(distance < CENTER * self.clearance, on_circle, position)
 
     def _kinematics(self, position: Array, velocity: Array, speed: Array) -> tuple[Array, Array]:
         """Return the eccentricity and the source w = v/c - (speed/2) z^ x e of the film laws."""

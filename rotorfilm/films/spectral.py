@@ -61,24 +61,24 @@ class SpectralArcFilm:
     def __post_init__(self) -> None:
         if not isinstance(self.degree, int) or self.degree < 2:
             raise InputError(f"degree must be an integer >= 2, got {self.degree!r}")
-        if not isinstance(self.rupture, Rupture):
+        if isinstance(self.rupture, type) or not isinstance(self.rupture, Rupture):
             raise InputError(f"rupture must be an arc such as FixedArc(), got {self.rupture!r}")
 
     def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
         """Return the force on the journal, shape (2, ...); see `FilmLaw.force`."""
         e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
-        forces = [
-            self._single_force(e[:, i : i + 1], w[:, i : i + 1], slenderness) for i in range(e.shape[1])
-        ]
-        return np.concatenate(forces, axis=-1).reshape(eccentricity.shape)
+        forces = np.empty(e.shape)
+        for i in range(e.shape[1]):
+            forces[:, i : i + 1] = self._single_force(e[:, i : i + 1], w[:, i : i + 1], slenderness)
+        return forces.reshape(eccentricity.shape)
 
     def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
         """Return d force / d (eccentricity, source), shape (2, 4, ...); see `FilmLaw.jacobian`."""
         e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
-        parts = [
-            self._single_jacobian(e[:, i : i + 1], w[:, i : i + 1], slenderness) for i in range(e.shape[1])
-        ]
-        return np.concatenate(parts, axis=-1).reshape(2, 4, *eccentricity.shape[1:])
+        jacobian = np.empty((2, 4, e.shape[1]))
+        for i in range(e.shape[1]):
+            jacobian[..., i : i + 1] = self._single_jacobian(e[:, i : i + 1], w[:, i : i + 1], slenderness)
+        return jacobian.reshape(2, 4, *eccentricity.shape[1:])
 
     def _single_force(self, e: Array, w: Array, slenderness: float) -> Array:
         frame = polar_frame(e, w)

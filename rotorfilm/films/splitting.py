@@ -79,7 +79,7 @@ class SplittingFilm:
         _require_order(self.order)
         if self.constant and self.order[0] < 2:
             raise InputError(f"order must have n >= 2 when constant is set, got {self.order!r}")
-        if not isinstance(self.rupture, Rupture):
+        if isinstance(self.rupture, type) or not isinstance(self.rupture, Rupture):
             raise InputError(f"rupture must be an arc such as FixedArc(), got {self.rupture!r}")
         if LONG_ARC < self.rupture.extent < 2.0 * math.pi and not self.constant:
             warnings.warn(

@@ -167,3 +167,22 @@ def test_no_damping_at_rest_nor_in_exact_half_speed_whirl():
         np.testing.assert_array_equal(bearing.force(q, velocity, speed), 0.0)
         with pytest.raises(UndefinedDerivativeError):
             bearing.jacobian(q, velocity, speed)
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize(
+    "film",
+    [
+        ShortFilm(),
+        SplittingFilm(order=(1, 1)),
+        SplittingFilm(order=(2, None)),
+        SplittingFilm(order=(4, 2), rupture=RotatingArc()),
+        SpectralArcFilm(degree=24),
+    ],
+)
+def test_stiffness_at_the_exact_center_is_the_limit_of_the_force(film):
+    # F is linear in the position near the center: K = -F/q, column by column.
+    bearing, q = JournalBearing(**DIMENSIONS, film=film), 1e-10
+    jacobian = bearing.jacobian([0.0, 0.0], [0.0, 0.0], 100.0)
+    force = bearing.force(q * np.eye(2), np.zeros((2, 2)), 100.0)
+    np.testing.assert_allclose(jacobian[:, :2], force / q, atol=1e-5 * np.abs(force / q).max())

@@ -203,6 +203,16 @@ def test_damping_of_the_first_order_has_rank_one(modes):
     assert np.all(np.abs(C[0, 1] / C[1, 0] - 1.0) > 0.05)
 
 
+@pytest.mark.convergence
+@pytest.mark.parametrize("extent", [1e-3, 0.1, 1.0, np.pi])
+@pytest.mark.parametrize("order", [8, 16, 24, 40])
+def test_high_orders_stay_accurate_where_their_functions_are_all_but_dependent(order, extent):
+    e, w, arc = np.array([0.6, 0.0]), np.array([0.2, -0.3]), FixedArc(extent=extent)
+    exact = SpectralArcFilm(degree=80, rupture=arc).force(e, w, 1.0)
+    force = SplittingFilm(order=(order, None), rupture=arc).force(e, w, 1.0)
+    assert np.linalg.norm(force - exact) < (2e-5 if order == 8 else 1e-6) * np.linalg.norm(exact)
+
+
 def test_high_orders_stay_accurate_near_the_wall():
     e, w = np.array([0.999, 0.0]), np.array([0.0, -0.5])
     exact = SpectralArcFilm(degree=96).force(e, w, 0.5)
@@ -236,7 +246,7 @@ def test_long_arc_without_the_constant_is_warned_about():
         SplittingFilm(rupture=FixedArc(extent=5.0))
 
 
-@pytest.mark.parametrize("extent", [0.0, -1.0, 7.0])
+@pytest.mark.parametrize("extent", [0.0, 1e-5, -1.0, 7.0])
 def test_bad_extent_is_refused(extent):
-    with pytest.raises(InputError, match="extent must be in"):
+    with pytest.raises(InputError, match=r"extent must be from 0.001 to 2 pi, got"):
         FixedArc(extent=extent)
