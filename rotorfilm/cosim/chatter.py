@@ -5,6 +5,10 @@ film saturates the alternation, the sampled position may even stand still and th
 plausible, so only the alternation itself tells. It is told from physics by three marks together: the
 second difference of the force reverses from step to step (a motion resolved by the macro step reverses
 it twice a period), it does so on, and it does not decay, as every alternation below the limit does.
+
+A journal thrown about passes the limit only here and there, in bursts that no such mark sees. What remains of
+them is a force that changes by a good part of itself within single steps: a run that holds it is coarse,
+whatever the cause.
 """
 
 from __future__ import annotations
@@ -31,6 +35,13 @@ SIGNIFICANT = 0.01
 """Amplitude of an alternation that matters, in root mean square forces of the run."""
 
 
+JUMP = 0.25
+"""Half a force increment, in root mean square forces of the run, that makes a step too long."""
+
+JUMPS = 5
+"""Such steps within a window that make a run coarse; a load that comes on at once makes one or two."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class CouplingReport:
     """What the exchanged forces say about a coupling.
@@ -40,8 +51,11 @@ class CouplingReport:
     chatter : bool
         Whether the force alternates from step to step without decaying: the macro step is past the
         stability limit, or too coarse for the motion, and the run is no answer.
+    coarse : bool
+        Whether, within some window, the force jumps by half its root mean square in many steps: the run is
+        no answer either.
     onset : float or None [s]
-        When the alternation begins.
+        When the alternation, or else the coarse window, begins.
     amplitude : float [1]
         Largest amplitude of such an alternation, in root mean square forces of the run; 0 without one.
     hold_defect : float [1]
@@ -50,6 +64,7 @@ class CouplingReport:
     """
 
     chatter: bool
+    coarse: bool
     onset: float | None
     amplitude: float
     hold_defect: float
@@ -78,9 +93,12 @@ def inspect_coupling(time: ArrayLike, force: ArrayLike) -> CouplingReport:
     swing = np.diff(forces, n=2, axis=1) / 4.0
     sustained, amplitudes = _sustained(swing)
     hit = np.flatnonzero(sustained & (amplitudes > SIGNIFICANT * level))
+    jumps = np.flatnonzero(_jumps(forces, level) >= JUMPS)
+    first = [*hit[:1], *jumps[:1]][:1]
     return CouplingReport(
         chatter=hit.size > 0,
-        onset=float(times[hit[0]]) if hit.size else None,
+        coarse=jumps.size > 0,
+        onset=float(times[first[0]]) if first else None,
         amplitude=float(amplitudes[hit].max() / level) if hit.size else 0.0,
         hold_defect=0.5 * _rms(np.diff(forces, axis=1)) / level if level > 0.0 else 0.0,
     )
@@ -97,6 +115,14 @@ def _sustained(swing: Array) -> tuple[NDArray[np.bool_], Array]:
     half = (WINDOW + 1) // 2
     early, late = np.mean(sizes[:, :half] ** 2, axis=1), np.mean(sizes[:, -half:] ** 2, axis=1)
     return alternating & (late >= early), np.sqrt(np.mean(sizes**2, axis=1))
+
+
+def _jumps(forces: Array, level: float) -> NDArray[np.int_]:
+    """Return how many steps of each window change the force by too much."""
+    jump = 0.5 * np.hypot.reduce(np.diff(forces, axis=1), axis=0) > JUMP * level
+    if not jump.size:
+        return np.zeros(0, dtype=int)
+    return sliding_window_view(jump, min(WINDOW, jump.size)).sum(axis=1)
 
 
 def _rms(vectors: Array) -> float:

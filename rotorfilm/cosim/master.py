@@ -109,8 +109,8 @@ def couple(
     except (FilmContactError, FmuError, ConvergenceError) as failure:
         raise _failed(failure, run.result()) from failure
     result = run.result()
-    if result.coupling.chatter:
-        raise CouplingError(_chatter_message(result), result)
+    if result.coupling.chatter or result.coupling.coarse:
+        raise CouplingError(_coupling_message(result), result)
     return result
 
 
@@ -202,7 +202,7 @@ def _finite(who: str, t: float, values: dict[str, float]) -> dict[str, float]:
 def _failed(failure: Exception, result: CoSimulation) -> PartialResultError:
     """Return the error for a run that broke off, by its likeliest cause."""
     if result.coupling.chatter:
-        return CouplingError(f"{_chatter_message(result)}; it ended with: {failure}", result)
+        return CouplingError(f"{_coupling_message(result)}; it ended with: {failure}", result)
     if isinstance(failure, FilmContactError):
         time = result.trajectory.time
         reached = f"after t = {time[-1]:.9g} s" if time.size else "at t = 0"
@@ -216,8 +216,13 @@ def _failed(failure: Exception, result: CoSimulation) -> PartialResultError:
     return ConvergenceError(str(failure), result)
 
 
-def _chatter_message(result: CoSimulation) -> str:
+def _coupling_message(result: CoSimulation) -> str:
     report = result.coupling
+    if not report.chatter:
+        return (
+            f"macro_step must be short enough for the motion, got {result.macro_step:.6g} s: around "
+            f"t = {report.onset:.6g} s the force jumps by half its root mean square from step to step"
+        )
     return (
         f"macro_step must be below the stability limit of the coupling, got {result.macro_step:.6g} s: the "
         f"force alternates from step to step since t = {report.onset:.6g} s, by up to "

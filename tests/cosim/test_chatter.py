@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.cosim import InProcessSlave, couple, inspect_coupling
+from rotorfilm.cosim import InProcessSlave, couple, critical_macro_step, inspect_coupling
 from rotorfilm.errors import CouplingError, InputError
 
 STEPS = np.arange(200.0)
@@ -63,12 +63,12 @@ def test_it_matters_whether_an_alternation_decays_or_grows(ratio):
         np.where(STEPS == 100, 50.0, 1.0),
         np.exp(-STEPS / 20.0),
         STEPS**2,
-        np.cos(np.radians(60.0) * STEPS),
+        np.cos(np.radians(20.0) * STEPS),
         1.0 + np.abs(np.sin(np.radians(10.0) * STEPS)),
         1.0 + 1e-3 * ALTERNATION,
         1.0 + 1e-9 * np.random.default_rng(1).standard_normal(200),
     ],
-    ids=["zero", "constant", "step", "spike", "decay", "growth", "60 deg", "kinks", "tiny", "noise"],
+    ids=["zero", "constant", "step", "spike", "decay", "growth", "20 deg", "kinks", "tiny", "noise"],
 )
 def test_resolved_forces_do_not_alarm(force):
     report = inspected(force)
@@ -88,6 +88,21 @@ def test_a_run_too_short_to_judge_is_not_judged():
 
 
 @pytest.mark.closed_form
+def test_bursts_of_a_force_that_jumps_make_a_run_coarse():
+    angle = np.radians(2.0) * np.arange(721)
+    burst = np.where(abs(np.arange(721) - 404) < 4, 5.0 * (-1.0) ** np.arange(721), 1.0)
+    report = inspected(burst * np.cos(angle), burst * np.sin(angle))
+    assert report.coarse
+    assert not report.chatter
+    assert report.onset == pytest.approx(395.0, abs=7.0)
+    assert not inspected(np.cos(angle), np.sin(angle)).coarse
+
+
+def test_short_runs_are_judged_as_well():
+    assert inspected(np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0]), np.zeros(6)).coarse
+    assert not inspected(np.array([1.0]), np.zeros(1)).coarse
+
+
 def test_hold_defect_of_a_rotating_force_is_the_sine_of_half_the_step():
     angle = np.radians(8.0) * STEPS
     assert_allclose(inspected(np.cos(angle), np.sin(angle)).hold_defect, np.sin(np.radians(4.0)), rtol=1e-12)
@@ -163,3 +178,15 @@ def test_bad_input_is_named():
         inspect_coupling([0.0, 1.0, 2.0], np.zeros((2, 4)))
     with pytest.raises(InputError, match="force must be finite"):
         inspect_coupling([0.0, 1.0], np.full((2, 2), np.nan))
+
+
+@pytest.mark.parametrize(
+    ("unbalance", "fraction", "steps"), [(0.2, 0.7, 600), (0.3, 0.7, 60), (0.3, 0.3, 200)]
+)
+def test_a_journal_thrown_past_the_local_limit_is_no_answer(nondimensional, unbalance, fraction, steps):
+    # Below the critical macro step of the equilibrium the orbit reaches eccentricities where it is shorter.
+    case = nondimensional(0.9, 1.0, unbalance=unbalance)
+    limit = critical_macro_step(case.rotor, case.film, state=case.rotor.initial_state).macro_step
+    with pytest.raises(CouplingError, match="macro_step must be") as caught:
+        run(case, np.degrees(fraction * limit), steps)
+    assert caught.value.partial.coupling.coarse or caught.value.partial.coupling.chatter
