@@ -77,9 +77,7 @@ def flux_by_chi(flux: ArcFlux, slenderness: float) -> Array:
     log_slope = 3.0 * flux.nodes.cosine / flux.nodes.film
     dissipation, leakage = _weights(flux.nodes, slenderness)
     u, u_slope = flux.pressure @ f[:, :DEGREE].T, flux.pressure @ slope[:, :DEGREE].T
-    return flux.reduced(
-        (log_slope * dissipation * u_slope) @ slope + (log_slope * leakage * u) @ f
-    )
+    return flux.reduced((log_slope * dissipation * u_slope) @ slope + (log_slope * leakage * u) @ f)
 
 
 def flux_by_turn(flux: ArcFlux, turn: Array) -> Array:

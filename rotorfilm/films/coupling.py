@@ -145,7 +145,7 @@ class WhitenedFunctions(NamedTuple):
 
     @property
     def log_slope(self) -> Array:
-        """d log(H^-3) / d chi at the nodes, shape (B, N, 1)."""
+        """Derivative of log(H^-3) by chi at the nodes, shape (B, N, 1)."""
         return (-3.0 * self.nodes.cosine / self.nodes.film)[..., None]
 
     def at(self, gamma: Array, basis: Basis) -> tuple[Array, Array]:

@@ -10,21 +10,31 @@ With the film's own coupling functions, in axial mode 1,
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import ConvergenceError, require_finite
 from ..model import Array
 from .coupling import whitened_functions
 from .rupture import Basis, FilmArc
 
+Index = NDArray[np.intp]
+
 STEP = 1e-13
 """Step [rad] at which the end has converged."""
 
 ITERATIONS = 60
-"""Newton needs about six; bisection of the whole bracket forty."""
+"""Newton needs about six; bisection of a stride forty."""
+
+STRIDES = 12
+"""Strides from the edge of the driving half circle to a full turn, in search of the end."""
+
+SHORTEST = 0.05
+"""Shortest film considered, as a share of the way to that edge."""
 
 TURN = 2.0 * math.pi
 
@@ -34,8 +44,9 @@ class ReynoldsArc:
     """Prescribed start, and an end where the pressure of axial mode 1 leaves with no slope.
 
     The end lies between the trailing edge of the half circle where the source drives pressure and one turn
-    past the start. If the pressure still falls there, the film does not rupture and ends where it starts. Take
-    `ComplementarityArc` unless the published condition is what is wanted.
+    past the start. If the pressure still falls there, the film does not rupture and ends where it starts.
+    A start where the source draws the film apart (g > 0) leaves tension next to it, as the condition says
+    nothing of the start; `ComplementarityArc` frees both ends.
 
     Parameters
     ----------
@@ -66,7 +77,8 @@ class ReynoldsArc:
             return ""
         return (
             "order must have n >= 4 and constant=True on ReynoldsArc, "
-            f"got n = {basis.functions} and constant={basis.constant}: PLACEHOLDER"
+            f"got n = {basis.functions} and constant={basis.constant}: {_measured(basis)} "
+            "(n >= 4 and constant=True: 0.2-8 / 0.4-15 %)"
         )
 
     def arc(self, chi: Array, turn: Array, slenderness: float, basis: Basis) -> FilmArc:
@@ -79,8 +91,8 @@ class ReynoldsArc:
             the condition.
         """
         start, start_turn = self._start(turn)
-        lower = start + np.mod(turn + 1.5 * math.pi - start, TURN)
-        end = _rupture_angle(chi, turn, start, lower, slenderness, basis)
+        edge = start + np.mod(turn + 1.5 * math.pi - start, TURN)
+        end = _rupture_angle(chi, turn, start, edge, slenderness, basis)
         slope = _slope(chi, turn, start, end, slenderness, basis)
         free = end < start + TURN
         safe = np.where(free, slope.by_end, 1.0)
@@ -94,6 +106,18 @@ class ReynoldsArc:
         return np.full_like(turn, self.start), np.zeros_like(turn)
 
 
+def _measured(basis: Basis) -> str:
+    """Return the error of a coarse basis against the two-dimensional film, L/D 0.25 to 1, all axial modes."""
+    label = "median / 90 % force error"
+    if basis.functions == 1:
+        return f"{label} 24-97 / 51-124 %"
+    if basis.functions == 2 and not basis.constant:
+        return f"{label} 5-19 / 14-29 %, single states several times the force"
+    if basis.functions < 4:
+        return f"{label} 0.7-8 / 1.3-17 %, single states 50 %"
+    return f"{label} as with it, but single states up to four times the force"
+
+
 class EndSlope(NamedTuple):
     """R = H^3 u' at the end of an arc and its derivatives, each of shape (B,)."""
 
@@ -105,35 +129,57 @@ class EndSlope(NamedTuple):
 
 
 def _rupture_angle(
-    chi: Array, turn: Array, start: Array, lower: Array, slenderness: float, basis: Basis
+    chi: Array, turn: Array, start: Array, edge: Array, slenderness: float, basis: Basis
 ) -> Array:
     """Return the end where R = 0, by Newton's method kept inside a shrinking bracket."""
-    upper = start + TURN
-    end = np.where(_values(chi, turn, start, upper, slenderness, basis) <= 0.0, upper, lower)
-    live = np.flatnonzero(end < upper)
-    low, high = lower.copy(), upper.copy()
-    for iteration in range(ITERATIONS):
+
+    def slope(which: Index, end: Array) -> EndSlope:
+        return _slope(chi[which], turn[which], start[which], end, slenderness, basis)
+
+    low, high = _bracket(slope, start, edge)
+    live = np.flatnonzero(low < high)
+    end = np.where(low < high, 0.5 * (low + high), high)
+    for _ in range(ITERATIONS):
         if not live.size:
             return end
-        here = end[live]
-        slope = _slope(chi[live], turn[live], start[live], here, slenderness, basis)
-        if iteration == 0 and np.any(slope.value > 0.0):
-            raise ConvergenceError(
-                "start must lie where the source drives pressure for the condition dp/dgamma = 0 to have a "
-                f"solution, got {start[live][slope.value > 0.0][0]:.6g} rad"
-            )
-        low[live] = np.where(slope.value <= 0.0, here, low[live])
-        high[live] = np.where(slope.value > 0.0, here, high[live])
+        here, there = end[live], slope(live, end[live])
+        low[live] = np.where(there.value <= 0.0, here, low[live])
+        high[live] = np.where(there.value > 0.0, here, high[live])
         with np.errstate(divide="ignore", invalid="ignore"):
-            newton = here - slope.value / slope.by_end
-        inside = (newton >= low[live]) & (newton < high[live])
+            newton = here - there.value / there.by_end
+        inside = (newton >= low[live]) & (newton <= high[live])
         end[live] = np.where(inside, newton, 0.5 * (low[live] + high[live]))
         live = live[np.abs(end[live] - here) > STEP * np.maximum(1.0, np.abs(here))]
-    raise ConvergenceError(f"the end of the film must converge in {ITERATIONS} iterations, got {end[live][0]!r}")
+    raise ConvergenceError(
+        f"the end of the film must converge in {ITERATIONS} iterations, got {end[live][0]!r} rad"
+    )
 
 
-def _values(chi: Array, turn: Array, start: Array, end: Array, slenderness: float, basis: Basis) -> Array:
-    return _slope(chi, turn, start, end, slenderness, basis).value
+def _bracket(slope: Callable[[Index, Array], EndSlope], start: Array, edge: Array) -> tuple[Array, Array]:
+    """Return ends between which R first rises through zero; both one turn past the start if it never does.
+
+    The root lies past the edge of the half circle that drives pressure, but a basis that is too coarse for
+    a narrow bearing may put it before.
+    """
+    every = np.arange(len(start))
+    before = slope(every, edge).value > 0.0
+    low, high = np.where(before, start + SHORTEST * (edge - start), edge), edge.copy()
+    live = np.flatnonzero(before)
+    drawn = live[slope(live, low[live]).value > 0.0]
+    if drawn.size:
+        raise ConvergenceError(
+            "start must lie where the source drives pressure for an end with dp/dgamma = 0 to exist, "
+            f"got start {start[drawn][0]:.6g} rad"
+        )
+    stride = (start + TURN - edge) / STRIDES
+    live = np.flatnonzero(~before)
+    for stage in range(1, STRIDES + 1):
+        if not live.size:
+            break
+        high[live] = (edge + stage * stride)[live]
+        live = live[slope(live, high[live]).value <= 0.0]
+        low[live] = high[live]
+    return low, high
 
 
 def _slope(chi: Array, turn: Array, start: Array, end: Array, slenderness: float, basis: Basis) -> EndSlope:

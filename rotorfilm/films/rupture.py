@@ -11,7 +11,6 @@ import numpy as np
 from ..errors import InputError, require_finite
 from ..model import Array
 
-
 LONG_ARC = 3.6
 """Extent [rad] beyond which the series without the constant function stalls."""
 

@@ -14,6 +14,7 @@ variable of `elliptic`.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+
 import numpy as np
 
 from ..errors import InputError
@@ -121,7 +122,10 @@ def spectral_response(
     along = (nodes.gamma[0] - arc.start) / (arc.end - arc.start)
 
     def change(log_slope: Array, start_rate: Array, end_rate: Array) -> Array:
-        rate, stretch = start_rate + (end_rate - start_rate) * along, (end_rate - start_rate) / (arc.end - arc.start)
+        rate, stretch = (
+            start_rate + (end_rate - start_rate) * along,
+            (end_rate - start_rate) / (arc.end - arc.start),
+        )
         log_slope = log_slope - 3.0 * chi * rate * sine / nodes.film[0]
         dK = slope.T @ (heft * (log_slope - stretch)[:, None] * slope)
         dM = f.T @ (heft * (log_slope + stretch)[:, None] * f)

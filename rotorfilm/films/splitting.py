@@ -11,7 +11,6 @@ scalar function of each eigenvalue (`axial`), also when it runs over all modes.
 
 from __future__ import annotations
 
-import math
 import warnings
 from dataclasses import dataclass, field
 
