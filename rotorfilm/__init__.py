@@ -12,8 +12,10 @@ _HOMES = {
     "bearings": ("JournalBearing",),
     "cosim": ("CoSimulation", "CouplingReport", "cosimulate", "coupling_stability", "critical_macro_step"),
     "films": (
+        "ComplementarityArc",
         "FilmLaw",
         "FixedArc",
+        "ReynoldsArc",
         "RotatingArc",
         "ShortFilm",
         "SpectralArcFilm",
@@ -45,6 +47,7 @@ _HOMES = {
         "EquilibriumError",
         "FilmContactError",
         "FmuError",
+        "FmuRunError",
         "InputError",
         "PartialResultError",
         "RotorfilmError",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -14,21 +14,68 @@ from ..model import Array
 SHORTEST_ARC = 1e-3
 """Extent [rad] below which arc integrals lose their digits."""
 
+LONG_ARC = 3.6
+"""Extent [rad] beyond which the series without the constant function stalls."""
+
+
+class FilmArc(NamedTuple):
+    """Ends of the film and their derivatives, each of shape (B,).
+
+    Attributes
+    ----------
+    start, end : ndarray [rad]
+    start_chi, end_chi : ndarray [rad]
+        Derivatives with respect to the eccentricity ratio at a fixed direction of the source.
+    start_turn, end_turn : ndarray [1]
+        Derivatives with respect to the direction of the source.
+    """
+
+    start: Array
+    end: Array
+    start_chi: Array
+    end_chi: Array
+    start_turn: Array
+    end_turn: Array
+
+
+class Basis(NamedTuple):
+    """The coupling functions of a film: how many circumferential ones, and whether the constant too."""
+
+    functions: int
+    constant: bool
+
 
 @runtime_checkable
 class Rupture(Protocol):
-    """An arc whose ends follow from the direction t of the source."""
+    """A rule for the ends of the film."""
 
     @property
     def turns(self) -> bool:
-        """Whether the ends turn with t, d(end)/dt = 1; otherwise they are fixed in gamma."""
+        """Whether the ends depend on the direction t of the source."""
 
-    @property
-    def extent(self) -> float:
-        """Angle that the film covers [rad]."""
+    def shortcoming(self, basis: Basis) -> str:
+        """Return why a splitting film of this basis is not fit for the arc; empty if it is."""
 
-    def arc(self, turn: Array) -> tuple[Array, Array]:
-        """Return the ends of the arc [rad], each of the shape of `turn`."""
+    def arc(self, chi: Array, turn: Array, slenderness: float, basis: Basis) -> FilmArc:
+        """Return the ends of the film.
+
+        Parameters
+        ----------
+        chi : ndarray, shape (B,) [1]
+            Eccentricity ratio.
+        turn : ndarray, shape (B,) [rad]
+            Direction t of the source, g = |g| cos(gamma - t).
+        slenderness : float [1]
+            Bearing length / diameter.
+        basis : Basis
+            Coupling functions of the film that asks.
+        """
+
+
+def rigid_arc(start: Array, end: Array, rate: float) -> FilmArc:
+    """Return an arc whose ends both turn at `rate` with the source, whatever the eccentricity."""
+    zero, turn = np.zeros_like(start), np.full_like(start, rate)
+    return FilmArc(start, end, zero, zero, turn, turn)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,9 +113,18 @@ class FixedArc:
         """The ends do not turn with the source."""
         return False
 
-    def arc(self, turn: Array) -> tuple[Array, Array]:
-        """Return the ends of the arc [rad]."""
-        return np.full_like(turn, self.start), np.full_like(turn, self.start + self.extent)
+    def shortcoming(self, basis: Basis) -> str:
+        """Return a warning for long arcs without the constant function."""
+        if basis.constant or not LONG_ARC < self.extent < 2.0 * math.pi:
+            return ""
+        return (
+            f"extent must not exceed {LONG_ARC} rad without constant=True, "
+            f"got {self.extent:.6g}: the splitting series stalls"
+        )
+
+    def arc(self, chi: Array, turn: Array, slenderness: float, basis: Basis) -> FilmArc:
+        """Return the ends of the film, which do not move."""
+        return rigid_arc(np.full_like(turn, self.start), np.full_like(turn, self.start + self.extent), 0.0)
 
 
 @dataclass(frozen=True)
@@ -83,11 +139,10 @@ class RotatingArc:
         """The ends turn with the source."""
         return True
 
-    @property
-    def extent(self) -> float:
-        """Half the circumference [rad]."""
-        return math.pi
+    def shortcoming(self, basis: Basis) -> str:
+        """Return an empty string: half a circle suits every basis."""
+        return ""
 
-    def arc(self, turn: Array) -> tuple[Array, Array]:
-        """Return the ends of the arc [rad]."""
-        return turn + 0.5 * math.pi, turn + 1.5 * math.pi
+    def arc(self, chi: Array, turn: Array, slenderness: float, basis: Basis) -> FilmArc:
+        """Return the ends of the film, which turn with the source."""
+        return rigid_arc(turn + 0.5 * math.pi, turn + 1.5 * math.pi, 1.0)

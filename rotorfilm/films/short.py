@@ -18,7 +18,6 @@ from .law import (
     polar_frame,
     require_direction,
 )
-from .rupture import RotatingArc
 
 
 @dataclass(frozen=True)
@@ -51,7 +50,7 @@ class ShortFilm:
 
     @staticmethod
     def _response(frame: PolarFrame, slenderness: float) -> PolarResponse:
-        gram, gram_chi = arc_gram(frame.chi, *RotatingArc().arc(frame.turn))
+        gram, gram_chi = arc_gram(frame.chi, frame.turn + 0.5 * np.pi, frame.turn + 1.5 * np.pi)
         to_sin_cos = np.array([[0.0, 0.0, 1.0], [-1.0, 1.0, 0.0]])
         factor = 4.0 * slenderness**2
         A = factor * (to_sin_cos @ gram @ to_sin_cos.T)

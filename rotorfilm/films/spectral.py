@@ -14,7 +14,6 @@ variable of `elliptic`, times H^(-7/4).
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cache
 
 import numpy as np
 
@@ -31,7 +30,11 @@ from .law import (
     polar_frame,
     require_direction,
 )
-from .rupture import FixedArc, Rupture
+from .legendre import gauss_weights, trial_functions
+from .rupture import Basis, FilmArc, FixedArc, Rupture
+
+BASIS = Basis(16, constant=True)
+"""What a rupture rule is told that asks for the coupling functions: as good as converged."""
 
 EXTRA_NODES = 32
 """Quadrature nodes beyond the degree, enough for the rational coefficients."""
@@ -88,48 +91,55 @@ class SpectralArcFilm:
         frame = polar_frame(e, w, floor=CENTER)
         if self.rupture.turns:
             require_direction(frame)
-        response = self._response(frame, slenderness)
-        if not self.rupture.turns:
-            response = response._replace(A_turn=np.zeros_like(response.A))
-        return cartesian_jacobian(frame, response)
+        return cartesian_jacobian(frame, self._response(frame, slenderness))
 
     def _response(self, frame: PolarFrame, slenderness: float) -> PolarResponse:
-        start, end = self.rupture.arc(frame.turn)
-        nodes = film_nodes(frame.chi, start, end, self.degree + EXTRA_NODES)
-        return spectral_response(nodes, frame.chi[0], self.degree, FullAxialSum(slenderness))
+        arc = self.rupture.arc(frame.chi, frame.turn, slenderness, BASIS)
+        nodes = film_nodes(frame.chi, arc.start, arc.end, self.degree + EXTRA_NODES)
+        return spectral_response(nodes, arc, frame.chi[0], self.degree, FullAxialSum(slenderness))
 
 
-def spectral_response(nodes: FilmNodes, chi: float, degree: int, axial: FullAxialSum) -> PolarResponse:
+def spectral_response(
+    nodes: FilmNodes, arc: FilmArc, chi: float, degree: int, axial: FullAxialSum
+) -> PolarResponse:
     """Return A and its derivatives, each of shape (1, 2, 2), from the eigenpairs of one arc.
 
-    The chi-derivative changes the weight H^3 by 3 cos gamma / H; turning the arc changes it by
-    -3 chi sin gamma / H and turns (sin, cos) into (cos, -sin).
+    The chi-derivative changes the weight H^3 by 3 cos gamma / H. Ends that move take the trial functions with
+    them, at a rate v linear in gamma: then H^3 v d(log H^3)/dgamma -+ H^3 v' is the change of the weights of
+    f'^2 and f^2, and (sin, cos) changes by its derivative of v (sin, cos).
     """
     dgamma = nodes.weight[0] * nodes.film[0] ** 3
-    f, slope = _trial_functions(degree, nodes.gamma.shape[1])
-    slope = slope * (_gauss_weights(nodes.gamma.shape[1]) / dgamma)[:, None]
-    sine = 2.0 * nodes.half_sine[0] * nodes.half_cosine[0]
+    f, slope = trial_functions(degree, nodes.gamma.shape[1])
+    slope = slope * (gauss_weights(nodes.gamma.shape[1]) / dgamma)[:, None]
+    sine, cosine = 2.0 * nodes.half_sine[0] * nodes.half_cosine[0], nodes.cosine[0]
     f, slope = _balanced(f, slope, nodes.film[0], chi * sine)
     heft = (dgamma * nodes.film[0] ** 3)[:, None]
     eigenvalues, vectors = _generalized_eigen(slope.T @ (heft * slope), f.T @ (heft * f))
     f, slope = f @ vectors, slope @ vectors
-    source = f.T @ (dgamma[:, None] * np.stack([sine, nodes.cosine[0]], -1))
+    circular, quarter = np.stack([sine, cosine], -1), np.stack([cosine, -sine], -1)
+    source = f.T @ (dgamma[:, None] * circular)
     ratio = 1.0 / eigenvalues
     phi = axial.value(ratio)
     divided = -axial.divided(ratio[None])[0] * ratio[:, None] * ratio
+    along = (nodes.gamma[0] - arc.start) / (arc.end - arc.start)
 
-    def change(log_slope: Array) -> Array:
-        weighted = heft * log_slope[:, None]
-        dK, dM = slope.T @ (weighted * slope), f.T @ (weighted * f)
+    def change(log_slope: Array, start_rate: Array, end_rate: Array) -> Array:
+        rate, stretch = (
+            start_rate + (end_rate - start_rate) * along,
+            (end_rate - start_rate) / (arc.end - arc.start),
+        )
+        log_slope = log_slope - 3.0 * chi * rate * sine / nodes.film[0]
+        dK = slope.T @ (heft * (log_slope - stretch)[:, None] * slope)
+        dM = f.T @ (heft * (log_slope + stretch)[:, None] * f)
         mean = 0.5 * (eigenvalues[:, None] + eigenvalues)
         response = divided * (dK - mean * dM) - 0.5 * dM * (phi[:, None] + phi)
-        return source.T @ response @ source
+        d_source = f.T @ (dgamma[:, None] * (rate[:, None] * quarter + stretch * circular))
+        by_source = source.T @ (phi[:, None] * d_source)
+        return source.T @ response @ source + by_source + by_source.T
 
-    A = source.T @ (phi[:, None] * source)
-    quarter = np.array([[0.0, -1.0], [1.0, 0.0]])
-    A_chi = change(3.0 * nodes.cosine[0] / nodes.film[0])
-    A_turn = change(-3.0 * chi * sine / nodes.film[0]) + quarter.T @ A + A @ quarter
-    return PolarResponse(A[None], A_chi[None], A_turn[None])
+    A_chi = change(3.0 * cosine / nodes.film[0], arc.start_chi, arc.end_chi)
+    A_turn = change(np.zeros_like(sine), arc.start_turn, arc.end_turn)
+    return PolarResponse((source.T @ (phi[:, None] * source))[None], A_chi[None], A_turn[None])
 
 
 def _balanced(f: Array, slope: Array, film: Array, chi_sine: Array) -> tuple[Array, Array]:
@@ -146,19 +156,3 @@ def _generalized_eigen(K: Array, M: Array) -> tuple[Array, Array]:
     inverse = np.linalg.inv(np.linalg.cholesky(M))
     eigenvalues, vectors = np.linalg.eigh(inverse @ K @ inverse.T)
     return eigenvalues, inverse.T @ vectors
-
-
-@cache
-def _trial_functions(degree: int, count: int) -> tuple[Array, Array]:
-    """Return integrated Legendre polynomials and slopes at `count` Gauss nodes, each (count, degree)."""
-    x, _ = np.polynomial.legendre.leggauss(count)
-    legendre = np.polynomial.legendre.legvander(x, degree + 1)
-    k = np.arange(1, degree + 1)
-    norm = np.sqrt(k + 0.5)
-    integrated = norm * (legendre[:, 2:] - legendre[:, :-2]) / (2.0 * k + 1.0)
-    return integrated, norm * legendre[:, 1:-1]
-
-
-@cache
-def _gauss_weights(count: int) -> Array:
-    return np.polynomial.legendre.leggauss(count)[1]

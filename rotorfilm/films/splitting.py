@@ -11,7 +11,6 @@ scalar function of each eigenvalue (`axial`), also when it runs over all modes.
 
 from __future__ import annotations
 
-import math
 import warnings
 from dataclasses import dataclass, field
 
@@ -30,10 +29,7 @@ from .law import (
     polar_frame,
     require_direction,
 )
-from .rupture import FixedArc, Rupture
-
-LONG_ARC = 3.6
-"""Extent [rad] beyond which the series without the constant function stalls."""
+from .rupture import Basis, FixedArc, Rupture
 
 CHUNK = 2048
 """States evaluated at once, which bounds the memory of a large batch."""
@@ -53,7 +49,8 @@ class SplittingFilm:
         film without it is periodic (a full film, no pressure imposed anywhere on the circumference); with
         it the film is cut where the arc starts.
     rupture : Rupture
-        Where the film ends: `FixedArc()` as published, or `RotatingArc()` for large motion.
+        Where the film ends: `FixedArc()` as published, `RotatingArc()` for large motion, or where the
+        pressure says: `ReynoldsArc()` and `ComplementarityArc()`.
 
     Raises
     ------
@@ -63,7 +60,8 @@ class SplittingFilm:
     Warns
     -----
     ValidityWarning
-        If the arc is longer than 3.6 rad, shorter than 2 pi, and the constant function is left out.
+        If the rupture rule is not fit for this order: an arc longer than 3.6 rad, shorter than 2 pi, without
+        the constant function, and for `ReynoldsArc` n < 4.
 
     Notes
     -----
@@ -81,13 +79,14 @@ class SplittingFilm:
             raise InputError(f"order must have n >= 2 when constant is set, got {self.order!r}")
         if isinstance(self.rupture, type) or not isinstance(self.rupture, Rupture):
             raise InputError(f"rupture must be an arc such as FixedArc(), got {self.rupture!r}")
-        if LONG_ARC < self.rupture.extent < 2.0 * math.pi and not self.constant:
-            warnings.warn(
-                f"extent must not exceed {LONG_ARC} rad without constant=True, "
-                f"got {self.rupture.extent:.6g}: the splitting series stalls",
-                ValidityWarning,
-                stacklevel=3,
-            )
+        shortcoming = self.rupture.shortcoming(self.basis)
+        if shortcoming:
+            warnings.warn(shortcoming, ValidityWarning, stacklevel=3)
+
+    @property
+    def basis(self) -> Basis:
+        """The circumferential functions."""
+        return Basis(self.order[0], self.constant)
 
     def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
         """Return the force on the journal, shape (2, ...); see `FilmLaw.force`."""
@@ -111,18 +110,12 @@ class SplittingFilm:
 
     def _response(self, frame: PolarFrame, slenderness: float) -> PolarResponse:
         n, m = self.order
-        start, end = self.rupture.arc(frame.turn)
+        arc = self.rupture.arc(frame.chi, frame.turn, slenderness, self.basis)
         axial = axial_sum(m, slenderness)
-        if n <= 2 and not self.constant:
-            pair = pair_integrals(frame.chi, start, end)
-            first = n == 1
-            response = (
-                first_order_response(pair, axial) if first else galerkin_response(whitened(pair), axial)
-            )
-        else:
-            integrals = coupling_integrals(frame.chi, start, end, n, self.constant)
-            response = galerkin_response(integrals, axial)
-        return response if self.rupture.turns else response._replace(A_turn=np.zeros_like(response.A))
+        if n > 2 or self.constant:
+            return galerkin_response(coupling_integrals(frame.chi, arc, self.basis), axial)
+        pair = pair_integrals(frame.chi, arc)
+        return first_order_response(pair, axial) if n == 1 else galerkin_response(whitened(pair), axial)
 
 
 def _require_order(order: object) -> None:

@@ -12,7 +12,7 @@ from typing import Annotated, Any
 
 from ..bearings.journal import JournalBearing
 from ..errors import SceneError, require_finite, require_positive
-from ..films import FixedArc, RotatingArc, ShortFilm, SplittingFilm
+from ..films import ComplementarityArc, FixedArc, ReynoldsArc, RotatingArc, ShortFilm, SplittingFilm
 from ..rotors.rigid import RigidRotor
 from .tables import Quantity, Variant, flag
 
@@ -77,8 +77,43 @@ class RotatingArcTable:
         return RotatingArc()
 
 
-RuptureTable = FixedArcTable | RotatingArcTable
-RUPTURES = {"fixed": FixedArcTable, "rotating": RotatingArcTable}
+@dataclass(frozen=True, kw_only=True)
+class ReynoldsArcTable:
+    """`rupture = {kind = "reynolds"}`: the film ends where its pressure leaves with no slope.
+
+    Parameters
+    ----------
+    start : float or None [rad]
+        Where the film starts, from the line of maximum film; if the file does not say, where the wedge and
+        squeeze begin to press it.
+    """
+
+    start: Annotated[float | None, Quantity("rad")] = None
+
+    def __post_init__(self) -> None:
+        self.build()
+
+    def build(self) -> ReynoldsArc:
+        """Return the rupture rule."""
+        return ReynoldsArc(start=self.start)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ComplementarityArcTable:
+    """`rupture = {kind = "complementarity"}`: the film starts and ends where pressure has no slope."""
+
+    def build(self) -> ComplementarityArc:
+        """Return the rupture rule."""
+        return ComplementarityArc()
+
+
+RuptureTable = FixedArcTable | RotatingArcTable | ReynoldsArcTable | ComplementarityArcTable
+RUPTURES = {
+    "fixed": FixedArcTable,
+    "rotating": RotatingArcTable,
+    "reynolds": ReynoldsArcTable,
+    "complementarity": ComplementarityArcTable,
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,7 +135,7 @@ class SplittingFilmTable:
         Circumferential functions and odd axial modes; `[2, "inf"]` takes all axial modes.
     constant : bool
         Whether the constant function joins the circumferential ones.
-    rupture : FixedArcTable or RotatingArcTable
+    rupture : FixedArcTable, RotatingArcTable, ReynoldsArcTable or ComplementarityArcTable
         Where the film begins and ends.
     """
 

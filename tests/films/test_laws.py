@@ -6,7 +6,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rotorfilm.errors import UndefinedDerivativeError
-from rotorfilm.films import FixedArc, RotatingArc, ShortFilm, SpectralArcFilm, SplittingFilm
+from rotorfilm.films import (
+    ComplementarityArc,
+    FixedArc,
+    ReynoldsArc,
+    RotatingArc,
+    ShortFilm,
+    SpectralArcFilm,
+    SplittingFilm,
+)
 
 CUT = FixedArc(start=0.3, extent=5.9)
 FILMS = {
@@ -23,8 +31,16 @@ FILMS = {
     "(4,all) periodic": SplittingFilm(order=(4, None), rupture=FixedArc(extent=2.0 * np.pi)),
     "spectral": SpectralArcFilm(degree=32),
     "spectral rotating": SpectralArcFilm(degree=32, rupture=RotatingArc()),
+    "(4+c,all) Reynolds": SplittingFilm(order=(4, None), constant=True, rupture=ReynoldsArc()),
+    "(5+c,2) Reynolds": SplittingFilm(order=(5, 2), constant=True, rupture=ReynoldsArc()),
+    "spectral Reynolds": SpectralArcFilm(degree=32, rupture=ReynoldsArc()),
+    "(4+c,8) complementary": SplittingFilm(order=(4, 8), constant=True, rupture=ComplementarityArc()),
+    "spectral complementary": SpectralArcFilm(degree=32, rupture=ComplementarityArc()),
 }
-ROTATING = {name: film for name, film in FILMS.items() if "rotating" in name or name == "short"}
+# Reynolds' condition at one end only is not mirrored by swapping the ends.
+MIRRORED = ("rotating", "short", "complementary")
+ROTATING = {name: film for name, film in FILMS.items() if any(word in name for word in MIRRORED)}
+ROTATING.pop("(2,all) short arc")
 # One circumferential function has no isotropic limit at the center.
 ISOTROPIC = {name: film for name, film in ROTATING.items() if not name.startswith("(1,")}
 films = pytest.mark.parametrize("film", FILMS.values(), ids=FILMS.keys())

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from rotorfilm.bearings.journal import JournalBearing
-from rotorfilm.films import FixedArc, RotatingArc, SplittingFilm
+from rotorfilm.films import ComplementarityArc, FixedArc, ReynoldsArc, RotatingArc, SplittingFilm
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors.profile import SpeedProfile
 from rotorfilm.rotors.rigid import RigidRotor
@@ -17,6 +17,8 @@ FILMS = {
     "short": BEARING,
     "turning": replace(BEARING, film=SplittingFilm(order=(2, None), rupture=RotatingArc())),
     "fixed": replace(BEARING, film=SplittingFilm(order=(4, 2), rupture=FixedArc())),
+    "reynolds": replace(BEARING, film=SplittingFilm(order=(4, 2), constant=True, rupture=ReynoldsArc())),
+    "free": replace(BEARING, film=SplittingFilm(order=(4, 8), constant=True, rupture=ComplementarityArc())),
 }
 INPUTS = ["bearing.x", "bearing.y", "bearing.vx", "bearing.vy", "bearing.speed"]
 FORCES = ["bearing.force_x", "bearing.force_y"]

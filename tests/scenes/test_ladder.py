@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotorfilm.films import FixedArc, RotatingArc, SpectralArcFilm, SplittingFilm
+from rotorfilm.films import ComplementarityArc, FixedArc, RotatingArc, SpectralArcFilm, SplittingFilm
 from rotorfilm.scenes import bundled_scene
 from rotorfilm.scenes.ladder import compared_laws, film_accuracy, film_curve, ladder_laws
 
@@ -53,6 +53,8 @@ def test_errors_fall_as_the_order_rises():
         (SplittingFilm(order=(2, 1)), 3.81),
         (SpectralArcFilm(rupture=FixedArc()), 3.56),
         (SpectralArcFilm(rupture=RotatingArc()), 6.06),
+        # With both ends free in two dimensions, instead of in one axial mode, 6.58.
+        (SpectralArcFilm(rupture=ComplementarityArc()), 6.57),
     ],
 )
 def test_threshold_depends_on_the_order_and_on_the_extent_of_the_film(film, critical_mass):

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from rotorfilm.errors import SceneError
-from rotorfilm.films import FixedArc, RotatingArc, ShortFilm, SplittingFilm
+from rotorfilm.films import ComplementarityArc, FixedArc, ReynoldsArc, RotatingArc, ShortFilm, SplittingFilm
 from rotorfilm.scenes import Scene, bundled_scene, parse_scene
 
 GOOD = """
@@ -72,6 +72,19 @@ def test_rotor_carries_the_whole_static_load_once():
         (
             '{ name = "splitting", order = [3, 1], rupture = { kind = "fixed", extent = "120 deg" } }',
             SplittingFilm(order=(3, 1), constant=False, rupture=FixedArc(extent=math.radians(120.0))),
+        ),
+        (
+            '{ name = "splitting", order = [4, 8], constant = true, rupture = { kind = "complementarity" } }',
+            SplittingFilm(order=(4, 8), constant=True, rupture=ComplementarityArc()),
+        ),
+        (
+            '{ name = "splitting", order = [4, "inf"], constant = true, rupture = { kind = "reynolds" } }',
+            SplittingFilm(order=(4, None), constant=True, rupture=ReynoldsArc()),
+        ),
+        (
+            '{ name = "splitting", order = [4, 1], constant = true, '
+            'rupture = { kind = "reynolds", start = "90 deg" } }',
+            SplittingFilm(order=(4, 1), constant=True, rupture=ReynoldsArc(start=math.radians(90.0))),
         ),
     ],
 )
@@ -161,7 +174,19 @@ def test_file_is_read(tmp_path):
             "[operation]",
             'film = { name = "splitting", order = [2, 1], rupture = { kind = "fixed", extent = -1 } }\n'
             "[operation]",
-            r"case.toml: journal.film.rupture.extent must be in \(0, 2 pi\], got -1.0",
+            r"case.toml: journal.film.rupture.extent must be from 0.001 to 2 pi, got -1.0",
+        ),
+        (
+            "[operation]",
+            'film = { name = "splitting", order = [4, 1], constant = true, '
+            'rupture = { kind = "reynolds", start = nan } }\n[operation]',
+            r"case.toml: journal.film.rupture.start must be finite, got nan",
+        ),
+        (
+            "[operation]",
+            'film = { name = "splitting", order = [4, 1], constant = true, '
+            'rupture = { kind = "complementarity", start = 0 } }\n[operation]',
+            r"case.toml: journal.film.rupture.start is no known key",
         ),
         ("schema = 1", "schema = 1\ntitle = 5", "case.toml: title must be a string, got 5"),
         (
