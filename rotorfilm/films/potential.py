@@ -16,14 +16,14 @@ import numpy as np
 from ..errors import ConvergenceError, InputError
 from ..model import Array
 from .potential_arc import free_arc
-from .potential_domain import Resolution, Source, region
+from .potential_domain import Region, Resolution, Source, local_film, region
 from .potential_ritz import RitzFilm, solve_region
 from .potential_shape import end_state, remainder, shape_step
 
 STEPS = 12
 """Moves of the ends at most; four to eight are needed."""
 
-NEGLIGIBLE = 1e-9
+NEGLIGIBLE = 3e-9
 """Relative change of J by the slopes left at the ends, below which they stay where they are."""
 
 REACH = 0.2
@@ -38,7 +38,8 @@ class Potential(NamedTuple):
     log : float
         L = ln(-J), J in units of viscosity * length * radius^3 / clearance^2.
     error : float
-        Estimated error of `log`: the slopes left at the ends and the last move's effect.
+        Estimated error of `log`: what the slopes left at the ends are worth. It leaves out the truncation
+        of `Resolution`, to be measured with a higher one.
     force : ndarray, shape (2,)
         (F_t, F_r) / J = d ln(-J) / d (g_s, g_c).
     chi_slope : float
@@ -51,14 +52,18 @@ class Potential(NamedTuple):
     chi_slope: float
 
 
-def default_resolution(chi: float) -> Resolution:
-    """Return what converges L to about 1e-6 at this eccentricity ratio."""
-    return Resolution(32, 12, 4) if chi < 0.9 else Resolution(48, 16, 5)
+def default_resolution(chi: float, slenderness: float) -> Resolution:
+    """Return what converges L to about 1e-7.
+
+    A long film near contact has thin layers at its axial ends, of relative thickness sqrt(1 - chi)/(L/D);
+    polynomials need the inverse root of that.
+    """
+    layer = math.sqrt(1.0 - chi) / slenderness
+    along = min(max(math.ceil(2.0 / math.sqrt(layer)), 10), 24)
+    return Resolution(32 if chi < 0.98 else 40, along, 4)
 
 
-def potential(
-    chi: float, turn: float, slenderness: float, resolution: Resolution | None = None
-) -> Potential:
+def potential(chi: float, turn: float, slenderness: float, resolution: Resolution | None = None) -> Potential:
     """Return the potential of a full film with Reynolds rupture.
 
     Parameters
@@ -86,7 +91,8 @@ def potential(
     _check(chi, turn, slenderness)
     cosine = 2.0 * turn - 1.0
     sine = -2.0 * math.sqrt(turn * (1.0 - turn))
-    return directed_potential(Source(chi, sine, cosine, slenderness), resolution or default_resolution(chi))
+    source = Source(chi, sine, cosine, slenderness)
+    return directed_potential(source, resolution or default_resolution(chi, slenderness))
 
 
 def directed_potential(source: Source, resolution: Resolution) -> Potential:
@@ -98,26 +104,46 @@ def directed_potential(source: Source, resolution: Resolution) -> Potential:
     """
     series = np.zeros((2, resolution.shapes))
     series[:, 0] = free_arc(source)
-    previous = math.nan
+    best = _attempt(source, series, resolution)
     for _ in range(STEPS):
-        area = region(series, resolution)
-        film, state = solve_region(source, area, resolution), end_state(source, area)
-        rest, size = remainder(film.end_slope, state, resolution)
-        value = film.potential + rest
-        change = abs(value - previous)
-        if size < NEGLIGIBLE * abs(value) or change < NEGLIGIBLE * abs(value):
+        if best.size < NEGLIGIBLE * abs(best.value):
             break
-        previous = value
-        reach = REACH * float(np.mean(area.half_width))
-        series = series + np.clip(shape_step(film.end_slope, state, resolution), -reach, reach)
-    return _result(film, value, size if math.isnan(change) else min(size, change))
+        reach = REACH * float(np.mean(best.area.half_width))
+        series = series + np.clip(best.step, -reach, reach)
+        trial = _attempt(source, series, resolution)
+        # Where the ends carry next to nothing their slopes sink into roundoff: no step helps any more.
+        if trial.size > best.size:
+            break
+        best = trial
+    return _result(best)
 
 
-def _result(film: RitzFilm, value: float, error: float) -> Potential:
-    if not value < 0.0:
-        raise ConvergenceError(f"the potential must be negative, got {value!r}")
+class _Attempt(NamedTuple):
+    """A film on trial ends: corrected potential, size of the correction, next step."""
+
+    film: RitzFilm
+    area: Region
+    value: float
+    size: float
+    step: Array
+
+
+def _attempt(source: Source, series: Array, resolution: Resolution) -> _Attempt:
+    area = region(series, resolution)
+    if np.any(np.ptp(local_film(source, area.end).gamma, axis=0) > 2.0 * math.pi):
+        raise ConvergenceError("the film must leave a dry gap on every circle, got none: bearing too long")
+    film, state = solve_region(source, area, resolution), end_state(source, area)
+    rest, size = remainder(film.end_slope, state, resolution)
+    step = shape_step(film.end_slope, state, resolution)
+    return _Attempt(film, area, film.potential + rest, size, step)
+
+
+def _result(best: _Attempt) -> Potential:
+    if not best.value < 0.0:
+        raise ConvergenceError(f"the potential must be negative, got {best.value!r}")
+    film, value = best.film, best.value
     return Potential(
-        math.log(-value), error / abs(value), film.force / film.potential, film.chi_slope / film.potential
+        math.log(-value), best.size / -value, film.force / film.potential, film.chi_slope / film.potential
     )
 
 

@@ -64,11 +64,13 @@ def end_shapes(along_count: int, shapes: int) -> tuple[Array, Array]:
     x = along(along_count).node
     polynomial = np.polynomial.legendre
     slopes = [polynomial.legval(x, polynomial.legder(row)) for row in np.eye(2 * shapes - 1)[::2]]
-    return polynomial.legvander(x, 2 * shapes - 2)[:, ::2], np.stack(slopes, -1)
+    values = polynomial.legvander(x, 2 * shapes - 2)[:, ::2]
+    return np.asarray(values, dtype=float), np.asarray(np.stack(slopes, -1), dtype=float)
 
 
 def _integrated_legendre(x: Array, count: int) -> tuple[Array, Array]:
     legendre = np.polynomial.legendre.legvander(x, count + 1)
-    k = np.arange(1, count + 1)
-    norm = np.sqrt(k + 0.5)
-    return norm * (legendre[:, 2:] - legendre[:, :-2]) / (2.0 * k + 1.0), norm * legendre[:, 1:-1]
+    k = np.arange(1.0, count + 1.0)
+    norm = np.asarray(np.sqrt(k + 0.5))
+    value = np.asarray(norm * (legendre[:, 2:] - legendre[:, :-2]) / (2.0 * k + 1.0), dtype=float)
+    return value, np.asarray(norm * legendre[:, 1:-1], dtype=float)

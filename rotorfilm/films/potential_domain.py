@@ -69,7 +69,7 @@ def local_film(source: Source, y: Array) -> Film:
     growth = -6.0 * source.parameter * sn * cn / rate
     cube = thickness**3
     along = cube * rate / source.slenderness**2
-    return Film(2.0 * amplitude, rate, thickness, growth, cube / rate, along)
+    return Film(*map(np.asarray, (2.0 * amplitude, rate, thickness, growth, cube / rate, along)))
 
 
 class Region(NamedTuple):

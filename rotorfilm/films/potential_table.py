@@ -110,6 +110,16 @@ def load_table(path: Path) -> tuple[TableAxes, dict[str, Array]]:
 def save_table(path: Path, axes: TableAxes, fields: dict[str, Array]) -> None:
     """Write axes and fields as plain arrays; a failure leaves the earlier file."""
     partial = path.with_suffix(".partial.npz")
-    arrays = {"X": axes.X, "T": axes.T, "log_slenderness": axes.log_slenderness, **fields}
-    np.savez_compressed(partial, **arrays)
+    log, error, chi_slope, force_t, force_r = (fields[name] for name in FIELDS)
+    np.savez_compressed(
+        partial,
+        X=axes.X,
+        T=axes.T,
+        log_slenderness=axes.log_slenderness,
+        log=log,
+        error=error,
+        chi_slope=chi_slope,
+        force_t=force_t,
+        force_r=force_r,
+    )
     partial.replace(path)
