@@ -6,6 +6,7 @@ Usage: python tools/check_potential.py --states 40
 from __future__ import annotations
 
 import argparse
+import itertools
 import math
 import multiprocessing
 import os
@@ -28,7 +29,7 @@ BANDS = ((0.0, 0.95), (0.95, 0.99), (0.99, 0.999))
 def reference(source: Source) -> tuple[np.ndarray, float]:
     """Return (J, dJ/dg_s, dJ/dg_c) extrapolated twice, and the last gain relative to the force."""
     rows = [np.hstack(grid_potential(source, cells)) for cells in LEVELS]
-    once = [(4.0 * fine - coarse) / 3.0 for coarse, fine in zip(rows, rows[1:], strict=False)]
+    once = [(4.0 * fine - coarse) / 3.0 for coarse, fine in itertools.pairwise(rows)]
     twice = (16.0 * once[1] - once[0]) / 15.0
     return twice, float(np.linalg.norm((twice - once[1])[1:]) / np.linalg.norm(twice[1:]))
 

@@ -1,9 +1,9 @@
 """Potential by finite volumes with complementarity: slow, second order, independent of `potential`.
 
 Nodes are uniform in zeta and in a Moebius angle psi that crowds them at the minimum film,
-cos gamma = (cos psi - eta)/(1 - eta cos psi), eta = 1 - (1 - chi)^0.7. The turn is cut in the dry gap: where
-the source is largest, unless a long film reaches around to there. p >= 0 is imposed node by node with an
-active set (Hintermueller, Ito and Kunisch 2002), so the ends of the film follow the grid instead of a curve.
+cos gamma = (cos psi - eta)/(1 - eta cos psi), eta = 1 - (1 - chi)^0.7. p >= 0 is imposed node by node with an
+active set (Hintermueller, Ito and Kunisch 2002), so the ends of the film follow the grid instead of a curve;
+the turn is cut, for banded elimination, at whatever circle of nodes is dry.
 """
 
 from __future__ import annotations
@@ -21,12 +21,9 @@ from .potential_domain import Source
 SWEEPS = 200
 """Active sets tried before giving up; the ends move several cells per sweep."""
 
-CUTS = 8
-"""Places tried for the cut."""
-
 
 class _Grid(NamedTuple):
-    """Energy of nodal pressures (N, Z): links around (N + 1, Z) and along (N, Z), source (N, Z)."""
+    """Energy of nodal pressures (N, Z), periodic in N: links to the next node around, and along; source."""
 
     around: Array
     along: Array
@@ -40,19 +37,10 @@ def grid_potential(source: Source, cells: tuple[int, int]) -> tuple[float, Array
     Raises
     ------
     ConvergenceError
-        If the active set does not settle.
+        If the active set does not settle, or no circle of nodes is dry.
     """
-    cut = source.turn
-    for _ in range(CUTS):
-        grid, psi = _grid(source, cells, cut)
-        u = _complementary(grid)
-        wet = np.flatnonzero(u.any(axis=1))
-        # A film that touches both sides of the cut leaves a gap narrower than a cell, right there.
-        if (wet[0] > 0) == (wet[-1] < cells[0] - 2):
-            break
-        cut = _gap_middle(source, psi, wet)
-    else:
-        raise ConvergenceError(f"the film must leave a dry gap to cut the turn in, got none in {CUTS} cuts")
+    grid = _grid(source, cells)
+    u = _complementary(grid)
     force = 12.0 * np.einsum("kij,ij->k", grid.trig, u)
     return 6.0 * float(np.sum(grid.drive * u)), force
 
@@ -65,33 +53,22 @@ def richardson_potential(source: Source, cells: tuple[int, int]) -> tuple[float,
     return fine + gain, fine_force + (fine_force - coarse_force) / 3.0, abs(gain)
 
 
-def _gap_middle(source: Source, psi: Array, wet: NDArray[np.int_]) -> float:
-    """Return the angle gamma in the middle of the dry nodes beside a cut that the film touches."""
-    ends = (psi[wet[-1]], psi[-1]) if wet[0] == 0 else (psi[0], psi[wet[0]])
-    gamma, _, _ = _moebius(source, _crowding(source), np.array(0.5 * sum(ends)))
-    return float(gamma)
-
-
-def _crowding(source: Source) -> float:
-    return float(np.sign(source.chi) * (1.0 - (1.0 - abs(source.chi)) ** 0.7))
-
-
-def _grid(source: Source, cells: tuple[int, int], cut: float) -> tuple[_Grid, Array]:
-    eta = _crowding(source)
+def _grid(source: Source, cells: tuple[int, int]) -> _Grid:
+    eta = float(np.sign(source.chi) * (1.0 - (1.0 - abs(source.chi)) ** 0.7))
     stretch = np.sqrt((1.0 - eta) / (1.0 + eta))
-    half = 0.5 * cut
+    half = 0.5 * source.turn
     start = 2.0 * np.arctan2(stretch * np.sin(half), np.cos(half))
     step, rise = 2.0 * np.pi / cells[0], 1.0 / cells[1]
-    node, face = start + step * np.arange(1, cells[0]), start + step * (np.arange(cells[0]) + 0.5)
+    node = start + step * np.arange(cells[0])
     gamma, rate, cube = _moebius(source, eta, node)
-    _, face_rate, face_cube = _moebius(source, eta, face)
+    _, face_rate, face_cube = _moebius(source, eta, node + 0.5 * step)
     height = np.full(cells[1], rise)
     height[0] *= 0.5
     around = np.outer(face_cube / face_rate / step, height)
     along = np.outer(cube * rate * step, np.full(cells[1], 1.0 / (rise * source.slenderness**2)))
     area = np.outer(rate * step, height)
     trig = np.stack([np.sin(gamma)[:, None] * area, np.cos(gamma)[:, None] * area])
-    return _Grid(around, along, source.sine * trig[0] + source.cosine * trig[1], trig), node
+    return _Grid(around, along, source.sine * trig[0] + source.cosine * trig[1], trig)
 
 
 def _moebius(source: Source, eta: float, psi: Array) -> tuple[Array, Array, Array]:
@@ -104,7 +81,7 @@ def _moebius(source: Source, eta: float, psi: Array) -> tuple[Array, Array, Arra
 
 def _complementary(grid: _Grid) -> Array:
     """Return the nodal pressures u >= 0 that minimize the energy."""
-    diagonal = grid.around[:-1] + grid.around[1:] + grid.along
+    diagonal = grid.around + np.roll(grid.around, 1, axis=0) + grid.along
     diagonal[:, 1:] += grid.along[:, :-1]
     active = grid.drive < 0.0
     for _ in range(SWEEPS):
@@ -118,27 +95,28 @@ def _complementary(grid: _Grid) -> Array:
 
 def _solve_active(grid: _Grid, diagonal: Array, active: NDArray[np.bool_]) -> Array:
     """Return the pressure that balances the source on active nodes and vanishes elsewhere."""
-    rows = np.flatnonzero(active.any(axis=1))
-    cut = slice(rows[0], rows[-1] + 1)
-    film, lines = active[cut], active.shape[1]
+    dry = np.flatnonzero(~active.any(axis=1))
+    if dry.size == 0:
+        raise ConvergenceError("the film must leave a dry gap on every circle, got none: bearing too long")
+    film = np.roll(active, -dry[0], axis=0)
+    diagonal, around, along, drive = (
+        np.roll(field, -dry[0], axis=0) for field in (diagonal, grid.around, grid.along, grid.drive)
+    )
+    lines = film.shape[1]
     bands = np.zeros((lines + 1, film.size))
-    bands[0] = np.where(film, diagonal[cut], 1.0).ravel()
+    bands[0] = np.where(film, diagonal, 1.0).ravel()
     axial = np.zeros(film.shape)
-    axial[:, :-1] = -grid.along[cut][:, :-1] * (film[:, :-1] & film[:, 1:])
-    bands[1] = axial.ravel() if lines > 1 else 0.0
-    links = -grid.around[1:-1][rows[0] : rows[-1]] * (film[:-1] & film[1:])
-    bands[lines, : links.size] = links.ravel()
-    drive = np.where(film, -grid.drive[cut], 0.0).ravel()
-    u = np.zeros(active.shape)
-    u[cut] = solveh_banded(bands, drive, lower=True, check_finite=False).reshape(film.shape)
-    return u
+    axial[:, :-1] = -along[:, :-1] * (film[:, :-1] & film[:, 1:])
+    bands[1] = axial.ravel()
+    bands[lines, :-lines] = (-around[:-1] * (film[:-1] & film[1:])).ravel()
+    u = solveh_banded(bands, np.where(film, -drive, 0.0).ravel(), lower=True, check_finite=False)
+    return np.roll(u.reshape(film.shape), dry[0], axis=0)
 
 
 def _excess(grid: _Grid, diagonal: Array, u: Array) -> Array:
     """Return A u + drive: positive where no film is needed."""
-    excess = diagonal * u + grid.drive
-    excess[1:] -= grid.around[1:-1] * u[:-1]
-    excess[:-1] -= grid.around[1:-1] * u[1:]
+    excess = diagonal * u + grid.drive - grid.around * np.roll(u, -1, axis=0)
+    excess -= np.roll(grid.around * u, 1, axis=0)
     excess[:, 1:] -= grid.along[:, :-1] * u[:, :-1]
     excess[:, :-1] -= grid.along[:, :-1] * u[:, 1:]
     return np.asarray(excess)

@@ -7,8 +7,8 @@ dL/dchi.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,11 +20,10 @@ FIELDS = ("log", "error", "chi_slope", "force_t", "force_r")
 """Arrays of a table, each of shape (K, I, J) over (ln(L/D), X, T)."""
 
 
-@dataclass(frozen=True)
-class TableAxes:
+class TableAxes(NamedTuple):
     """Uniform axes of the map.
 
-    Parameters
+    Attributes
     ----------
     X, T, log_slenderness : ndarray, shape (I,), (J,), (K,)
     """

@@ -1,5 +1,7 @@
 """Axes and files of the impedance map's nodes."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -15,6 +17,8 @@ from rotorfilm.films.potential_table import (
     table_row,
     universal_axes,
 )
+
+NODES = Path(__file__).parents[2] / "tools" / "map_nodes.npz"
 
 
 def test_stretched_eccentricity_is_inverted():
@@ -51,3 +55,31 @@ def test_incomplete_file_is_refused(tmp_path):
     np.savez(tmp_path / "nodes.npz", X=np.zeros(2))
     with pytest.raises(InputError, match="must hold"):
         load_table(tmp_path / "nodes.npz")
+
+
+@pytest.fixture(scope="module")
+def nodes():
+    return load_table(NODES)
+
+
+@pytest.mark.closed_form
+def test_nodes_hold_the_parity_at_the_center(nodes):
+    _, fields = nodes
+    slope = fields["chi_slope"][:, 0]
+    np.testing.assert_allclose(slope, -slope[:, ::-1], atol=2e-5)
+    assert np.ptp(fields["log"][:, 0], axis=1).max() < 1e-7
+
+
+@pytest.mark.regression
+@pytest.mark.parametrize("index", [(0, 3, 48), (7, 12, 24), (10, 20, 30), (16, 24, 0)])
+def test_nodes_are_what_the_solver_gives(nodes, index):
+    axes, fields = nodes
+    k, i, j = index
+    film = potential(float(axes.chi[i]), float(axes.T[j]), float(np.exp(axes.log_slenderness[k])))
+    assert fields["log"][index] == pytest.approx(film.log, abs=1e-8)
+
+
+def test_nodes_are_complete(nodes):
+    _, fields = nodes
+    assert all(np.all(np.isfinite(fields[name])) for name in FIELDS)
+    assert fields["error"].max() < 2e-6
