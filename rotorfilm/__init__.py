@@ -11,7 +11,15 @@ from typing import Any
 _HOMES = {
     "bearings": ("JournalBearing",),
     "cosim": ("cosimulate", "coupling_stability", "critical_macro_step"),
-    "films": ("FixedArc", "RotatingArc", "ShortFilm", "SpectralArcFilm", "SplittingFilm"),
+    "films": (
+        "FixedArc",
+        "MapFilm",
+        "MapTable",
+        "RotatingArc",
+        "ShortFilm",
+        "SpectralArcFilm",
+        "SplittingFilm",
+    ),
     "fmu": ("export_fmu",),
     "linear": (
         "OperatingPoint",

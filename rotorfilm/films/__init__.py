@@ -1,9 +1,24 @@
 """Journal film laws: pure, dimensionless physics; one law per file."""
 
 from .law import FilmLaw
+from .map import MapFilm
+from .map_fit import fit_map_table, tabulate_film
+from .map_table import MapTable
 from .rupture import FixedArc, RotatingArc, Rupture
 from .short import ShortFilm
 from .spectral import SpectralArcFilm
 from .splitting import SplittingFilm
 
-__all__ = ["FilmLaw", "FixedArc", "RotatingArc", "Rupture", "ShortFilm", "SpectralArcFilm", "SplittingFilm"]
+__all__ = [
+    "FilmLaw",
+    "FixedArc",
+    "MapFilm",
+    "MapTable",
+    "RotatingArc",
+    "Rupture",
+    "ShortFilm",
+    "SpectralArcFilm",
+    "SplittingFilm",
+    "fit_map_table",
+    "tabulate_film",
+]

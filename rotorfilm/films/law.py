@@ -48,6 +48,27 @@ class FilmLaw(Protocol):
         """Return d force / d (eccentricity, source), shape (2, 4, ...)."""
 
 
+class BoundFilm(Protocol):
+    """A film in one bearing: dimensions inside, SI units outside, nothing between it and its own loop."""
+
+    def call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
+        """Return (force_x, force_y) [N] for numbers; raises what the bearing's `force` raises."""
+
+    def force(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return the force [N], shape (2, ...), for float arrays of equal batch shape."""
+
+    def jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return d force / d (x, y, vx, vy, speed), shape (2, 5, ...)."""
+
+
+@runtime_checkable
+class BindableFilm(FilmLaw, Protocol):
+    """A film law that does the kinematics and the scaling of a bearing by itself, in compiled code."""
+
+    def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundFilm:
+        """Return the film of one bearing; force_scale is viscosity length radius^3 / clearance^2 [N s]."""
+
+
 class PolarFrame(NamedTuple):
     """The journal's state in polar axes, batch axis first.
 

@@ -99,7 +99,9 @@ class BoundMap:
     def force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return the force [N], shape (2, ...)."""
         if position.ndim == 1:
-            return np.array(self.call(*position.tolist(), *velocity.tolist(), float(speed)))
+            x, y = position.tolist()
+            vx, vy = velocity.tolist()
+            return np.array(self.call(x, y, vx, vy, float(speed)))
         rows = position.reshape(2, -1)
         batch = self.kernel.force(rows, velocity.reshape(2, -1), speed.ravel())
         self._report(batch, rows)

@@ -1,4 +1,4 @@
-"""The impedance map of every plain journal bearing as one table: fitting, collapsing, saving, loading.
+"""The impedance map of every plain journal bearing as one table: collapsing, saving, loading.
 
 With J(e, w) = min over films of the dissipation potential (`native/map_kernel.h`),
 
@@ -20,14 +20,12 @@ import numpy as np
 
 from ..errors import InputError, RotorfilmError
 from ..model import Array
-from .quintic import quintic_coefficients, quintic_weights
+from .quintic import quintic_weights
 
 MAGIC = b"RFILMMAP"
 VERSION = 1
 _HEADER = struct.Struct("<8sIIiiii")
 _NUMBER = "<f8"
-_SLOPE_WEIGHTS = np.array([8 / 5, -4 / 5, 8 / 35, -1 / 35])
-"""Weights of an even function at 1, 2, 3, 4 that give its value at 0, to eighth order."""
 
 
 class BearingMap(NamedTuple):
@@ -109,8 +107,8 @@ class MapTable:
         low, high = self.slenderness_range
         if not low * (1.0 - 1e-12) <= slenderness <= high * (1.0 + 1e-12):
             raise InputError(
-                f"length/diameter must be within the table of the film, {low:g} to {high:g}, got {slenderness!r}; "
-                "give MapFilm a table of its own for this bearing"
+                f"length/diameter must be within the table of the film, {low:g} to {high:g}, "
+                f"got {slenderness!r}; give MapFilm a table of its own for this bearing"
             )
         if len(self.center) == 1:
             return BearingMap(self.coefficients[0], self.reach, float(self.center[0]))
@@ -175,77 +173,6 @@ def unstretch(X: Array | float) -> Array:
     """Return the eccentricity ratio of X: the root of chi^4 + X^4 chi^2 = X^4."""
     squared = np.asarray(X, dtype=float) ** 2
     return np.sqrt(2.0 * squared / (squared + np.sqrt(squared**2 + 4.0)))
-
-
-def fit_map_table(
-    log_potential: Array,
-    *,
-    slenderness_range: tuple[float, float],
-    largest_eccentricity_ratio: float,
-    slope: Array | None = None,
-) -> MapTable:
-    """Return the table that interpolates potentials on a uniform grid.
-
-    Parameters
-    ----------
-    log_potential : ndarray, shape (s, cells_x + 1, cells_t + 1)
-        L = ln(-J/|w|^2) at s values of ln(L/D), uniform from the smallest to the largest (s = 1 or s >= 6);
-        at X = 0, ..., X(largest_eccentricity_ratio), uniform; at T = (1 + cos)/2 = 0, ..., 1, uniform.
-        The row X = 0 is the same for all T.
-    slenderness_range : (float, float) [1]
-        Smallest and largest length/diameter.
-    largest_eccentricity_ratio : float [1]
-        Eccentricity ratio of the last node in X.
-    slope : ndarray, shape (s,), optional
-        d L / d (chi cos) at the center; by default extrapolated from the first four nodes in X.
-
-    Returns
-    -------
-    MapTable
-
-    Raises
-    ------
-    InputError
-        If the grid is too small or the row X = 0 depends on T.
-    """
-    L = np.asarray(log_potential, dtype=float)
-    if L.ndim != 3 or min(L.shape[1:]) < 6 or 1 < L.shape[0] < 6:
-        raise InputError(f"log_potential must have 6 nodes per axis at least, got shape {L.shape}")
-    if not np.isfinite(L).all() or np.ptp(L[:, 0], axis=-1).max() > 1e-9:
-        raise InputError("log_potential must be finite, and the same for all directions at X = 0")
-    reach = float(stretch(largest_eccentricity_ratio))
-    M = _exponent(L, reach, slope)
-    coefficients = quintic_coefficients(_with_ghosts(M), axis=1)[:, L.shape[1] - 1 :]
-    coefficients = quintic_coefficients(coefficients, axis=2)
-    center = L[:, 0].mean(axis=-1)
-    if len(L) > 1:
-        coefficients, center = quintic_coefficients(coefficients), quintic_coefficients(center)
-    return MapTable(
-        slenderness_range=slenderness_range, reach=reach, center=center, coefficients=coefficients
-    )
-
-
-def node_eccentricities(largest_eccentricity_ratio: float, cells: int) -> Array:
-    """Return the eccentricity ratios of the nodes of a table, shape (cells + 1,)."""
-    return unstretch(np.linspace(0.0, float(stretch(largest_eccentricity_ratio)), cells + 1))
-
-
-def _exponent(L: Array, reach: float, slope: Array | None) -> Array:
-    """Return M at the nodes; at the center, where it is 0/0, it is linear in the cosine."""
-    chi = unstretch(np.linspace(0.0, reach, L.shape[1]))
-    M = np.zeros_like(L)
-    M[:, 1:] = (L[:, 1:] - L[:, :1]) / chi[1:, None]
-    cos = np.linspace(-1.0, 1.0, L.shape[2])
-    if slope is None:
-        odd = 0.5 * (M - M[:, :, ::-1])
-        slope = np.einsum("i,sij,j->s", _SLOPE_WEIGHTS, odd[:, 1:5], cos) / (cos @ cos)
-    M[:, 0] = np.asarray(slope)[:, None] * cos
-    return M
-
-
-def _with_ghosts(M: Array) -> Array:
-    """Return M with the nodes at -X in front: a step across the center turns the direction around."""
-    return np.concatenate([-M[:, :0:-1, ::-1], M], axis=1)
 
 
 def _checked_shape(content: bytes) -> tuple[int, int, int]:

@@ -1,4 +1,4 @@
-"""Interpolation by quintic B-splines on a uniform grid: sixth order in the cell, four derivatives continuous."""
+"""Interpolation by quintic B-splines on a uniform grid: sixth order, four derivatives continuous."""
 
 from __future__ import annotations
 
@@ -43,7 +43,11 @@ def quintic_weights(at: float, cells: int) -> tuple[int, Array]:
     u = at - cell
     v = 1.0 - u
     half = [
-        (v**5, 26 - 50 * u + 20 * u**2 + 20 * u**3 - 20 * u**4 + 5 * u**5, 66 - 60 * u**2 + 30 * u**4 - 10 * u**5)
+        (
+            v**5,
+            26 - 50 * u + 20 * u**2 + 20 * u**3 - 20 * u**4 + 5 * u**5,
+            66 - 60 * u**2 + 30 * u**4 - 10 * u**5,
+        )
         for u, v in ((u, v), (v, u))
     ]
     return cell, np.array([*half[0], *half[1][::-1]]) / 120.0

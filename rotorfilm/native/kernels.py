@@ -101,9 +101,7 @@ class JournalKernel:
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._arguments
 
-    def call(
-        self, x: float, y: float, vx: float, vy: float, speed: float
-    ) -> tuple[float, float, int]:
+    def call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float, int]:
         """Return (force_x, force_y, status) for numbers."""
         pair = _Pair()
         status = self._call(self._reference, x, y, vx, vy, speed, pair)
@@ -113,7 +111,7 @@ class JournalKernel:
         """Return d(force_x, force_y)/d(x, y, vx, vy, speed), shape (2, 5), at five numbers; and a status."""
         pair, ten = _Pair(), (c_double * 10)()
         status = functions()["rf_journal_jacobian"](self._reference, (c_double * 5)(*state), pair, ten)
-        return np.frombuffer(ten).reshape(2, 5), status
+        return np.array(ten[:]).reshape(2, 5), status
 
     def force(self, position: Array, velocity: Array, speed: Array) -> Batch:
         """Return the forces (2, n) at positions, velocities (2, n) and speeds (n,) or (1,)."""

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from ctypes import POINTER, c_double, c_int, c_int32, c_size_t, c_void_p
 from functools import cache
 from importlib.resources import as_file, files
-from typing import Any
+from typing import Any, ClassVar
 
 from ..errors import RotorfilmError
 
@@ -23,7 +23,7 @@ class NativeLibraryError(RotorfilmError, ImportError):
 class MapStruct(ctypes.Structure):
     """rf_map of map_kernel.h."""
 
-    _fields_: Sequence[Any] = [
+    _fields_: ClassVar[Sequence[Any]] = [
         ("cells_x", c_int32),
         ("cells_t", c_int32),
         ("x_end", c_double),
@@ -35,17 +35,17 @@ class MapStruct(ctypes.Structure):
 class JournalStruct(ctypes.Structure):
     """rf_journal of journal_kernel.h."""
 
-    _fields_: Sequence[Any] = [("map", MapStruct), ("clearance", c_double), ("force_scale", c_double)]
+    _fields_: ClassVar[Sequence[Any]] = [("map", MapStruct), ("clearance", c_double), ("force_scale", c_double)]
 
 
 _ROWS = [c_void_p, c_size_t]
-_SIGNATURES = {
+_BATCH: dict[str, list[Any]] = {
     "rf_map_force_batch": [c_void_p, c_size_t, *_ROWS * 3, c_void_p],
     "rf_map_jacobian_batch": [c_void_p, c_size_t, *_ROWS * 4, c_void_p],
     "rf_journal_force_batch": [c_void_p, c_size_t, *_ROWS * 4, c_void_p],
     "rf_journal_jacobian_batch": [c_void_p, c_size_t, *_ROWS * 5, c_void_p],
 }
-_SCALAR = {
+_SCALAR: dict[str, list[Any]] = {
     "rf_journal_call": [c_void_p, *[c_double] * 5, c_void_p],
     "rf_journal_jacobian": [c_void_p, *[c_void_p] * 3],
 }
@@ -62,7 +62,7 @@ def functions() -> dict[str, Any]:
     NativeLibraryError
         If the library is missing or cannot be loaded.
     """
-    return {**_typed(ctypes.CDLL, _SIGNATURES), **_typed(ctypes.PyDLL, _SCALAR)}
+    return {**_typed(ctypes.CDLL, _BATCH), **_typed(ctypes.PyDLL, _SCALAR)}
 
 
 def _typed(loader: type[ctypes.CDLL], signatures: dict[str, list[Any]]) -> dict[str, Any]:
