@@ -35,7 +35,11 @@ class MapStruct(ctypes.Structure):
 class JournalStruct(ctypes.Structure):
     """rf_journal of journal_kernel.h."""
 
-    _fields_: ClassVar[Sequence[Any]] = [("map", MapStruct), ("clearance", c_double), ("force_scale", c_double)]
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("map", MapStruct),
+        ("clearance", c_double),
+        ("force_scale", c_double),
+    ]
 
 
 _ROWS = [c_void_p, c_size_t]

@@ -6,7 +6,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rotorfilm.errors import UndefinedDerivativeError
-from rotorfilm.films import FixedArc, RotatingArc, ShortFilm, SpectralArcFilm, SplittingFilm
+from rotorfilm.films import (
+    FixedArc,
+    MapFilm,
+    RotatingArc,
+    ShortFilm,
+    SpectralArcFilm,
+    SplittingFilm,
+    tabulate_film,
+)
 
 CUT = FixedArc(start=0.3, extent=5.9)
 FILMS = {
@@ -23,8 +31,9 @@ FILMS = {
     "(4,all) periodic": SplittingFilm(order=(4, None), rupture=FixedArc(extent=2.0 * np.pi)),
     "spectral": SpectralArcFilm(degree=32),
     "spectral rotating": SpectralArcFilm(degree=32, rupture=RotatingArc()),
+    "map": MapFilm(tabulate_film(ShortFilm(), slenderness_range=(0.1, 1.0), cells=(16, 32, 5))),
 }
-ROTATING = {name: film for name, film in FILMS.items() if "rotating" in name or name == "short"}
+ROTATING = {name: film for name, film in FILMS.items() if "rotating" in name or name in ("short", "map")}
 # One circumferential function has no isotropic limit at the center.
 ISOTROPIC = {name: film for name, film in ROTATING.items() if not name.startswith("(1,")}
 films = pytest.mark.parametrize("film", FILMS.values(), ids=FILMS.keys())
@@ -111,6 +120,7 @@ def test_batch_equals_single_states(film):
 
 
 @films
+@pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
 @pytest.mark.parametrize("chi", [0.0, 1e-8, 1e-4, 0.9999])
 def test_finite_over_the_whole_range_of_eccentricity(film, chi):
     e, w = np.array([chi, 0.0]), np.array([0.3, -0.5])
