@@ -1,4 +1,4 @@
-"""The impedance map against the law that it tabulates, all in one run: error, batched and scalar cost, as ratios.
+"""The impedance map against the law that it tabulates, in one run: error, batched and scalar cost, ratios.
 
 The table is made from the short film, whose force is known exactly, so that the error is that of the table
 alone. Baseline of the batch: the short film itself (closed form, NumPy). Baseline of the scalar calls: the
