@@ -107,8 +107,11 @@ def polar_frame(eccentricity: Array, source: Array, floor: float = 0.0) -> Polar
     safe = np.where(off_center, chi, 1.0)
     cos = np.where(off_center, eccentricity[0] / safe, 1.0)
     sin = np.where(off_center, eccentricity[1] / safe, 0.0)
-    axes = np.stack([np.stack([-sin, cos], -1), np.stack([cos, sin], -1)], -1)
-    polar = np.stack([cos * source[1] - sin * source[0], cos * source[0] + sin * source[1]], -1)
+    axes, polar = np.empty((chi.size, 2, 2)), np.empty((chi.size, 2))
+    axes[:, 0, 0], axes[:, 1, 0] = -sin, cos
+    axes[:, 0, 1], axes[:, 1, 1] = cos, sin
+    polar[:, 0] = cos * source[1] - sin * source[0]
+    polar[:, 1] = cos * source[0] + sin * source[1]
     return PolarFrame(np.maximum(chi, floor), axes, polar)
 
 
