@@ -8,19 +8,17 @@ time, inputs, outputs; the inputs of a row are held until the next row, the outp
 """
 
 import argparse
-import shutil
 import sys
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from fmpy import extract, read_model_description
-from fmpy.fmi2 import FMU2Slave
 from fmpy.validation import validate_fmu
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
+from rotorfilm.cosim import open_fmu
 from rotorfilm.fmu import export_fmu
 from rotorfilm.signals import to_fmi_name
 
@@ -113,35 +111,19 @@ def deviation(name: str, path: Path) -> float:
 
 
 def run(path: Path, time: NDArray, inputs: NDArray) -> NDArray:
-    """Return the outputs of an FMU at the given times, shape (n, n_outputs), with inputs held between."""
-    description = read_model_description(str(path))
-    by_causality = {
-        causality: [v.valueReference for v in description.modelVariables if v.causality == causality]
-        for causality in ("input", "output")
-    }
-    folder = extract(str(path))
-    fmu = FMU2Slave(
-        guid=description.guid,
-        modelIdentifier=description.coSimulation.modelIdentifier,
-        unzipDirectory=folder,
-    )
-    try:
-        fmu.instantiate(loggingOn=True)
-        fmu.setupExperiment(startTime=time[0])
-        fmu.enterInitializationMode()
-        fmu.setReal(by_causality["input"], inputs[0])
-        fmu.exitInitializationMode()
-        rows = [fmu.getReal(by_causality["output"])]
-        for t, end, u, following in zip(time[:-1], time[1:], inputs[:-1], inputs[1:], strict=True):
-            fmu.setReal(by_causality["input"], u)
-            fmu.doStep(t, end - t)
-            fmu.setReal(by_causality["input"], following)
-            rows.append(fmu.getReal(by_causality["output"]))
-        fmu.terminate()
-        fmu.freeInstance()
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
-    return np.array(rows)
+    """Return the outputs of an FMU at the given times, shape (n, n_outputs), with inputs held between.
+
+    The time starts at zero; inputs and outputs are in the order of the FMU.
+    """
+    with open_fmu(path) as fmu:
+        rows = [dict(zip(fmu.inputs, u, strict=True)) for u in inputs.tolist()]
+        fmu.start(rows[0])
+        answers = [fmu.get()]
+        for t, end, following in zip(time[:-1], time[1:], rows[1:], strict=True):
+            fmu.step(t, end - t)
+            fmu.set(following)
+            answers.append(fmu.get())
+        return np.array([[answer[name] for name in fmu.outputs] for answer in answers])
 
 
 def main() -> int:

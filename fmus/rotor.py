@@ -1,21 +1,18 @@
-"""The rigid rotor on the bearing of `journal.py`: 525 N at 1500 rpm with unbalance."""
+"""The rotor of the scene that ships with the package, at rest in the equilibrium of its bearing."""
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rotorfilm.rotors.rigid import RigidRotor
+from rotorfilm.scenes import bundled_scene
+from rotorfilm.scenes.export import resting_rotor
 
 COMPONENT = "rotor"
 
-LOAD = 525.0
-GRAVITY = 9.80665
-SPEED = 1500.0 * np.pi / 30.0
-
 
 def model() -> RigidRotor:
-    """Return the rotor, unbalanced by ISO 21940 grade G 2.5 (eccentricity * speed = 2.5 mm/s)."""
-    mass = LOAD / GRAVITY
-    return RigidRotor(mass=mass, speed=SPEED, unbalance=mass * 2.5e-3 / SPEED, gravity=(0.0, -GRAVITY))
+    """Return the rotor: 525 N at 1500 rpm, unbalanced by ISO 21940-11 grade G 6.3."""
+    return resting_rotor(bundled_scene())
 
 
 def start() -> dict[str, float]:
@@ -24,7 +21,8 @@ def start() -> dict[str, float]:
 
 
 def stimulus() -> tuple[NDArray, NDArray]:
-    """Return times [s] and inputs force_x, force_y: about the weight, pulsating at half the speed."""
+    """Return times [s] and inputs force_x, force_y: about the load, pulsating at half the speed."""
+    scene = bundled_scene()
     time = np.linspace(0.0, 0.08, 101)
-    angle = 0.5 * SPEED * time
-    return time, np.column_stack([0.2 * LOAD * np.sin(angle), LOAD * (1.0 + 0.3 * np.cos(angle))])
+    angle, load = 0.5 * scene.operation.speed * time, np.hypot(*scene.static_load)
+    return time, load * np.column_stack([0.2 * np.sin(angle), 1.0 + 0.3 * np.cos(angle)])

@@ -10,8 +10,9 @@ from typing import Any
 
 _HOMES = {
     "bearings": ("JournalBearing",),
-    "cosim": ("cosimulate", "coupling_stability", "critical_macro_step"),
+    "cosim": ("CoSimulation", "CouplingReport", "cosimulate", "coupling_stability", "critical_macro_step"),
     "films": (
+        "FilmLaw",
         "FixedArc",
         "MapFilm",
         "MapTable",
@@ -22,6 +23,7 @@ _HOMES = {
     ),
     "fmu": ("export_fmu",),
     "linear": (
+        "CriticalMass",
         "OperatingPoint",
         "closed_loop",
         "coefficients",
@@ -39,12 +41,14 @@ _HOMES = {
     "signals": ("Signal",),
     "transient": ("simulate",),
     "errors": (
+        "ContactError",
         "ConvergenceError",
         "CouplingError",
         "EquilibriumError",
         "FilmContactError",
         "FmuError",
         "InputError",
+        "PartialResultError",
         "RotorfilmError",
         "SceneError",
         "UndefinedDerivativeError",

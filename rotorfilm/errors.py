@@ -64,6 +64,10 @@ class ContactError(PartialResultError, FilmContactError):
     """The journal reached the wall during a simulation."""
 
 
+class FmuRunError(PartialResultError, FmuError):
+    """An FMU answered with an error status, or something not finite, in a co-simulation."""
+
+
 class ValidityWarning(UserWarning):
     """A model is used outside the range in which it was verified."""
 
@@ -91,12 +95,32 @@ def require_finite(name: str, value: ArrayLike) -> NDArray[np.float64]:
     return array
 
 
+def require_number(name: str, value: float) -> float:
+    """Return `value` as a float; raise InputError unless it is a single finite number."""
+    if not _is_number(value) or not np.isfinite(value):
+        raise InputError(f"{name} must be a single finite number, got {value!r}")
+    return float(value)
+
+
 def require_vector(name: str, value: ArrayLike) -> NDArray[np.float64]:
     """Return `value` as a finite array of shape (2, ...); raise InputError otherwise."""
     array = require_finite(name, value)
     if array.ndim == 0 or array.shape[0] != 2:
         raise InputError(f"{name} must have shape (2, ...), got shape {array.shape}")
     return array
+
+
+def require_inside(position: NDArray[np.float64], clearance: float, when: str = "") -> None:
+    """Raise FilmContactError unless the journal, at position (2, ...) [m], is inside the clearance [m].
+
+    A position that is not a number counts as outside. The message ends with `when`.
+    """
+    eccentricity = np.hypot(position[0], position[1])
+    if not np.all(eccentricity < clearance):
+        raise FilmContactError(
+            f"position must keep the journal inside the clearance {clearance!r} m, "
+            f"got an eccentricity of {np.max(eccentricity):.6g} m{when}"
+        )
 
 
 def _is_number(value: object) -> bool:

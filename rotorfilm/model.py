@@ -1,4 +1,4 @@
-"""The protocols that everything pluggable obeys: Model, Dynamic, Stepped, Reaction.
+"""The protocols that everything pluggable obeys: Model, Dynamic, Kinked, Stepped, Reaction.
 
 A model maps (t, x, u), that is time [s], state (n_states,) and input (n_inputs,), to its output
 (n_outputs,), all in the SI units of its signals. Linearization, export, co-simulation and charts know
@@ -7,14 +7,25 @@ these protocols and never a particular bearing.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .errors import InputError
 from .signals import Signal
 
 Array = NDArray[np.float64]
+
+MOTION_NAMES = ("x", "y", "vx", "vy")
+"""Signals of the journal's motion, which a rotor gives."""
+
+JOURNAL_INPUTS = (*MOTION_NAMES, "speed")
+"""Signals that the inputs of every Reaction begin with."""
+
+FORCE_OUTPUTS = ("force_x", "force_y")
+"""Signals that the outputs of every Reaction begin with; a rotor takes them as inputs."""
 
 
 class Linearization(NamedTuple):
@@ -76,6 +87,15 @@ class Dynamic(Model, Protocol):
 
 
 @runtime_checkable
+class Kinked(Protocol):
+    """What a Dynamic may add, if its derivative is smooth in time only piece by piece."""
+
+    @property
+    def breakpoints(self) -> tuple[float, ...]:
+        """The times [s] at which an integrator should stop, in rising order."""
+
+
+@runtime_checkable
 class Stepped(Protocol):
     """A model with a time integrator of its own; it exports to Co-Simulation only."""
 
@@ -96,14 +116,14 @@ class Stepped(Protocol):
 
 @runtime_checkable
 class Reaction(Model, Protocol):
-    """A model whose first two outputs are the force on the journal.
+    """A model whose outputs begin with FORCE_OUTPUTS, the force on the journal [N].
 
-    Its first five inputs are the journal's position x, y [m], velocity vx, vy [m/s] and speed [rad/s].
+    Its inputs begin with JOURNAL_INPUTS: position x, y [m], velocity vx, vy [m/s] and speed [rad/s].
     """
 
     @property
     def clearance(self) -> float:
-        """Radial clearance [m]: the journal centre stays within this distance of the origin."""
+        """Radial clearance [m]: the journal center stays within this distance of the origin."""
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the force on the journal [N], shape (2, ...)."""
@@ -112,8 +132,35 @@ class Reaction(Model, Protocol):
         """Return d(force_x, force_y)/d(x, y, vx, vy, speed), shape (2, 5, ...)."""
 
 
+def stops(model: Model, start: float, end: float) -> list[float]:
+    """Return the times [s] at which an integration stops: the model's kinks after start, then the end."""
+    kinks = model.breakpoints if isinstance(model, Kinked) else ()
+    return [*(t for t in kinks if start < t < end), end]
+
+
+def indices(owner: str, available: Sequence[str], needed: Sequence[str]) -> list[int]:
+    """Return where each of the signals `needed` is among those available.
+
+    Parameters
+    ----------
+    owner : str
+        Who must have the signals, for the message: `"rotor must have the outputs"`.
+    available, needed : sequence of str
+        Names of signals.
+
+    Raises
+    ------
+    InputError
+        If a signal is missing.
+    """
+    missing = [name for name in needed if name not in available]
+    if missing:
+        raise InputError(f"{owner} {list(needed)}, got {list(available)} without {missing}")
+    return [available.index(name) for name in needed]
+
+
 def journal_inputs(clearance: float, nominal_speed: float) -> tuple[Signal, ...]:
-    """Return the five input signals that every Reaction begins with.
+    """Return the signals JOURNAL_INPUTS that the inputs of every Reaction begin with.
 
     Parameters
     ----------
@@ -123,18 +170,20 @@ def journal_inputs(clearance: float, nominal_speed: float) -> tuple[Signal, ...]
         Typical angular speed [rad/s]; with the clearance it makes the nominal velocity.
     """
     velocity = clearance * nominal_speed
+    x, y, vx, vy, speed = JOURNAL_INPUTS
     return (
-        Signal(name="x", unit="m", nominal=clearance, description="journal position along x"),
-        Signal(name="y", unit="m", nominal=clearance, description="journal position along y"),
-        Signal(name="vx", unit="m/s", nominal=velocity, description="journal velocity along x"),
-        Signal(name="vy", unit="m/s", nominal=velocity, description="journal velocity along y"),
-        Signal(name="speed", unit="rad/s", nominal=nominal_speed, description="angular speed about +z"),
+        Signal(name=x, unit="m", nominal=clearance, description="journal position along x"),
+        Signal(name=y, unit="m", nominal=clearance, description="journal position along y"),
+        Signal(name=vx, unit="m/s", nominal=velocity, description="journal velocity along x"),
+        Signal(name=vy, unit="m/s", nominal=velocity, description="journal velocity along y"),
+        Signal(name=speed, unit="rad/s", nominal=nominal_speed, description="angular speed about +z"),
     )
 
 
 def force_outputs(nominal_force: float) -> tuple[Signal, ...]:
-    """Return the two output signals that every Reaction begins with (nominal force in N)."""
+    """Return the signals FORCE_OUTPUTS that the outputs of every Reaction begin with (nominal force in N)."""
+    x, y = FORCE_OUTPUTS
     return (
-        Signal(name="force_x", unit="N", nominal=nominal_force, description="force on the journal along x"),
-        Signal(name="force_y", unit="N", nominal=nominal_force, description="force on the journal along y"),
+        Signal(name=x, unit="N", nominal=nominal_force, description="force on the journal along x"),
+        Signal(name=y, unit="N", nominal=nominal_force, description="force on the journal along y"),
     )

@@ -19,7 +19,7 @@ class Equilibrium:
     Attributes
     ----------
     position : ndarray, shape (2,) [m]
-        Journal centre from the bearing centre.
+        Journal center from the bearing center.
     speed : float [rad/s]
         Angular speed about +z.
     load : ndarray, shape (2,) [N]
@@ -27,7 +27,7 @@ class Equilibrium:
     eccentricity_ratio : float [1]
         |position| / clearance.
     attitude_angle : float [rad]
-        Angle from the load line to the journal centre, in the sense of rotation.
+        Angle from the load line to the journal center, in the sense of rotation.
     minimum_film : float [m]
         clearance - |position|.
     residual : float [1]

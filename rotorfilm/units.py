@@ -8,6 +8,9 @@ from dataclasses import dataclass, field
 
 from .errors import InputError
 
+STANDARD_GRAVITY = 9.80665
+"""Standard acceleration of gravity [m/s2], by definition."""
+
 
 @dataclass(frozen=True)
 class Unit:

@@ -10,7 +10,9 @@ from rotorfilm.errors import (
     InputError,
     RotorfilmError,
     require_finite,
+    require_inside,
     require_non_negative,
+    require_number,
     require_positive,
     require_vector,
 )
@@ -59,6 +61,30 @@ def test_finite_values_become_an_array_of_floats():
 def test_not_finite_is_named(value, message):
     with pytest.raises(InputError, match=message):
         require_finite("load", value)
+
+
+@pytest.mark.parametrize("value", [3, -2.5, np.float64(2.0), np.int64(0)])
+def test_a_single_number_becomes_a_float(value):
+    found = require_number("speed", value)
+    assert found == value
+    assert type(found) is float
+
+
+@pytest.mark.parametrize("value", BAD_NUMBERS)
+def test_not_a_single_number_is_named(value):
+    with pytest.raises(InputError) as caught:
+        require_number("speed", value)
+    assert str(caught.value) == f"speed must be a single finite number, got {value!r}"
+
+
+def test_a_journal_inside_the_clearance_passes():
+    require_inside(np.array([[0.6, 0.0], [0.7, -0.99]]), 1.0)
+
+
+@pytest.mark.parametrize("position", [[0.6, 0.8], [[0.0, 1.2], [0.0, 0.0]], [np.nan, 0.0]])
+def test_a_journal_at_the_wall_is_named(position):
+    with pytest.raises(FilmContactError, match=r"inside the clearance 1.0 m, got .* m at t = 2 s"):
+        require_inside(np.array(position), 1.0, " at t = 2 s")
 
 
 @pytest.mark.parametrize("shape", [(2,), (2, 3), (2, 0), (2, 4, 5)])

@@ -6,15 +6,20 @@ import pytest
 from rotorfilm.bearings import JournalBearing
 from rotorfilm.errors import InputError
 from rotorfilm.model import (
+    FORCE_OUTPUTS,
+    JOURNAL_INPUTS,
     Dynamic,
+    Kinked,
     Model,
     Reaction,
     Stepped,
     force_outputs,
+    indices,
     journal_inputs,
     static_linearization,
+    stops,
 )
-from rotorfilm.rotors.rigid import RigidRotor
+from rotorfilm.rotors import RigidRotor, SpeedProfile
 from rotorfilm.signals import names
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
@@ -36,8 +41,8 @@ def test_rotor_is_dynamic_and_no_reaction():
 
 
 def test_rotor_and_bearing_fit_together():
-    assert names(ROTOR.outputs) == names(BEARING.inputs)
-    assert names(BEARING.outputs) == names(ROTOR.inputs)
+    assert names(ROTOR.outputs) == names(BEARING.inputs) == list(JOURNAL_INPUTS)
+    assert names(BEARING.outputs) == names(ROTOR.inputs) == list(FORCE_OUTPUTS)
     assert [s.unit for s in ROTOR.outputs] == [s.unit for s in BEARING.inputs]
     assert [s.unit for s in BEARING.outputs] == [s.unit for s in ROTOR.inputs]
 
@@ -67,3 +72,28 @@ def test_static_linearization_is_all_feedthrough():
     A, B, C, feedthrough = static_linearization(D)
     assert (A.shape, B.shape, C.shape) == ((0, 0), (0, 5), (2, 0))
     np.testing.assert_array_equal(feedthrough, D)
+
+
+def test_signals_are_found_by_name_in_any_order():
+    assert indices("rotor must have the outputs", ["b", "c", "a"], ("a", "b")) == [2, 0]
+
+
+def test_missing_signals_are_named():
+    with pytest.raises(InputError) as caught:
+        indices("rotor must have the outputs", ["x", "vx"], ("x", "y", "vx", "vy"))
+    assert str(caught.value) == (
+        "rotor must have the outputs ['x', 'y', 'vx', 'vy'], got ['x', 'vx'] without ['y', 'vy']"
+    )
+
+
+def test_integration_stops_at_the_kinks_inside_and_at_the_end():
+    ramp = RigidRotor(mass=1.0, speed=SpeedProfile(times=(0.5, 1.0, 2.0), speeds=(0.0, 10.0, 0.0)))
+    assert isinstance(ramp, Kinked)
+    assert stops(ramp, 0.5, 2.0) == [1.0, 2.0]
+    assert stops(ramp, 0.0, 3.0) == [0.5, 1.0, 2.0, 3.0]
+    assert stops(ramp, 0.6, 0.9) == [0.9]
+
+
+def test_a_model_without_kinks_stops_at_the_end_only():
+    assert not isinstance(BEARING, Kinked)
+    assert stops(BEARING, 0.0, 3.0) == [3.0]

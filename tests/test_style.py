@@ -4,6 +4,7 @@ import ast
 import io
 import re
 import tokenize
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,7 @@ README = Path(__file__).parents[1] / "README.md"
 MODULES = sorted(PACKAGE.rglob("*.py"))
 MAX_FILE_LINES = 500
 MAX_FUNCTION_LINES = 60
+USUAL_FUNCTION_LINES = 40
 NOT_CODE = {tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT}
 
 
@@ -26,20 +28,36 @@ def parse(path):
     return ast.parse(path.read_text(encoding="utf-8"))
 
 
-def is_public_dataclass(node):
-    if not isinstance(node, ast.ClassDef) or node.name.startswith("_"):
-        return False
+def is_dataclass(node):
     calls = [d.func if isinstance(d, ast.Call) else d for d in node.decorator_list]
     return any(getattr(call, "id", getattr(call, "attr", "")) == "dataclass" for call in calls)
 
 
+def exported_names():
+    """Return the names that the package or one of its parts lists in __all__."""
+    packages = [path.parent.relative_to(PACKAGE.parent).parts for path in PACKAGE.rglob("__init__.py")]
+    return {name for parts in packages for name in getattr(import_module(".".join(parts)), "__all__", ())}
+
+
 def public_fields(path):
-    """Return the names of the fields of the public dataclasses of a file."""
+    """Return the names of the fields of public dataclasses, and of named tuples in an __all__."""
     for node in ast.walk(parse(path)):
-        if is_public_dataclass(node):
+        if not isinstance(node, ast.ClassDef) or node.name.startswith("_"):
+            continue
+        is_record = "NamedTuple" in map(ast.unparse, node.bases) and node.name in exported_names()
+        if is_dataclass(node) or is_record:
             for item in node.body:
                 if isinstance(item, ast.AnnAssign) and isinstance(item.target, ast.Name):
                     yield item.target.id
+
+
+def protocol_arguments(path):
+    """Return the names of the arguments of the methods of the protocols that the package shows."""
+    for node in ast.walk(parse(path)):
+        if isinstance(node, ast.ClassDef) and "Protocol" in map(ast.unparse, node.bases):
+            for method in node.body:
+                if isinstance(method, ast.FunctionDef) and node.name in rotorfilm.__all__:
+                    yield from (argument.arg for argument in method.args.args[1:])
 
 
 def glossary():
@@ -71,8 +89,15 @@ def function_lengths(path):
 
 def test_every_public_field_is_in_the_glossary():
     fields = {name for path in MODULES for name in public_fields(path) if not name.startswith("_")}
-    assert "clearance" in fields
+    assert {"clearance", "A"} <= fields
     missing = sorted(fields - glossary())
+    assert not missing, f"README.md has no glossary row for: {missing}"
+
+
+def test_every_argument_of_a_protocol_is_in_the_glossary():
+    arguments = {name for path in MODULES for name in protocol_arguments(path)}
+    assert {"position", "source"} <= arguments
+    missing = sorted(arguments - glossary())
     assert not missing, f"README.md has no glossary row for: {missing}"
 
 
@@ -91,6 +116,7 @@ def test_functions_are_short(path):
 def test_most_functions_are_very_short():
     counts = sorted(count for path in MODULES for _, count in function_lengths(path))
     assert counts[len(counts) // 2] <= 10
+    assert sum(count <= USUAL_FUNCTION_LINES for count in counts) >= 0.9 * len(counts)
 
 
 def test_code_lines_leave_out_comments_and_blanks():

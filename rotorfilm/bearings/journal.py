@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -12,11 +13,12 @@ from numpy.typing import ArrayLike
 from ..errors import (
     FilmContactError,
     InputError,
+    ValidityWarning,
     require_finite,
     require_positive,
     require_vector,
 )
-from ..films.law import BindableFilm, BoundFilm, FilmLaw
+from ..films.law import CENTER, BindableFilm, BoundFilm, FilmLaw
 from ..films.short import ShortFilm
 from ..model import Array, Linearization, force_outputs, journal_inputs, static_linearization
 from ..signals import Signal
@@ -52,6 +54,11 @@ class JournalBearing:
     InputError
         If a dimension or the viscosity is not finite and positive, or the clearance is not below the radius.
 
+    Warns
+    -----
+    ValidityWarning
+        If length / diameter is beyond the `slenderness_limit` that the film law declares.
+
     Examples
     --------
     >>> bearing = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
@@ -70,8 +77,16 @@ class JournalBearing:
             require_positive(name, getattr(self, name))
         if self.clearance >= self.radius:
             raise InputError(f"clearance must be below the radius {self.radius!r}, got {self.clearance!r}")
-        if not isinstance(self.film, FilmLaw):
+        if isinstance(self.film, type) or not isinstance(self.film, FilmLaw):
             raise InputError(f"film must be a film law with force and jacobian, got {self.film!r}")
+        limit = getattr(self.film, "slenderness_limit", None)
+        if limit is not None and self.slenderness > limit:
+            warnings.warn(
+                f"length / diameter must not exceed {limit} for {self.film!r}, got {self.slenderness:.6g}: "
+                "the film force can be wrong by half and more",
+                ValidityWarning,
+                stacklevel=3,
+            )
 
     @property
     def slenderness(self) -> float:
@@ -171,7 +186,7 @@ class JournalBearing:
         """Return `jacobian` for inner loops: float arrays of equal batch shape, checked for contact only."""
         if self._bound is not None:
             return self._bound.jacobian(position, velocity, speed)
-        eccentricity, source = self._kinematics(position, velocity, speed)
+        eccentricity, source = self._kinematics(self._off_center(position), velocity, speed)
         mirror = _mirror(speed)
         film = self.force_scale * self.film.jacobian(mirror * eccentricity, mirror * source, self.slenderness)
         by_eccentricity = mirror[:, None] * film[:, :2] * mirror
@@ -220,6 +235,16 @@ class JournalBearing:
                 f"got shapes {q.shape}, {v.shape} and {omega.shape}"
             ) from None
         return np.stack([x, y]), np.stack([vx, vy]), omega
+
+    def _off_center(self, position: Array) -> Array:
+        """Return the position, moved onto the circle `CENTER` * clearance where it is inside that.
+
+        A law in polar axes has its derivative at the center as a limit; moving the position, and the source
+        with it, takes the limit along x.
+        """
+        distance = np.hypot(position[0], position[1])
+        on_circle = np.stack([np.full_like(distance, CENTER * self.clearance), np.zeros_like(distance)])
+        return np.where(distance < CENTER * self.clearance, on_circle, position)
 
     def _kinematics(self, position: Array, velocity: Array, speed: Array) -> tuple[Array, Array]:
         """Return the eccentricity and the source w = v/c - (speed/2) z^ x e of the film laws."""

@@ -2,8 +2,8 @@
 
 from .chatter import CouplingReport, inspect_coupling
 from .fmu_slave import FmuSlave, open_fmu
-from .master import CoSimulation, FmuRunError, cosimulate, couple
-from .slaves import ModelSlave, Slave
+from .master import CoSimulation, cosimulate, couple
+from .slaves import InProcessSlave, Slave
 from .stability import CouplingStability, CriticalMacroStep, coupling_stability, critical_macro_step
 
 __all__ = [
@@ -11,9 +11,8 @@ __all__ = [
     "CouplingReport",
     "CouplingStability",
     "CriticalMacroStep",
-    "FmuRunError",
     "FmuSlave",
-    "ModelSlave",
+    "InProcessSlave",
     "Slave",
     "cosimulate",
     "couple",

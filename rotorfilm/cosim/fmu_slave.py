@@ -30,10 +30,6 @@ CONTACT = FilmContactError.__name__
 FMI_OK = 0
 
 
-class FmuContactError(FmuError, FilmContactError):
-    """A film FMU answered with an error status because the journal reached the wall."""
-
-
 class FmuSlave:
     """An instantiated FMU; `open_fmu` makes one and frees it.
 
@@ -115,13 +111,13 @@ class FmuSlave:
 
     @contextmanager
     def _reported(self, doing: str) -> Iterator[None]:
-        """Turn an error status into an FmuError that quotes the log."""
+        """Turn an error status into an FmuError, or FilmContactError, that quotes the log."""
         try:
             yield
         except FMICallException as error:
             self._failed = True
             text = " ".join([f"FMU {self._name!r} failed in {doing}: {error}", *self._log])
-            raise (FmuContactError if CONTACT in text else FmuError)(text) from error
+            raise (FilmContactError if CONTACT in text else FmuError)(text) from error
 
 
 @contextmanager

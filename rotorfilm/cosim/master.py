@@ -16,26 +16,18 @@ from ..errors import (
     CouplingError,
     FilmContactError,
     FmuError,
-    InputError,
+    FmuRunError,
     PartialResultError,
     require_positive,
 )
-from ..model import force_outputs
+from ..model import FORCE_OUTPUTS, indices
 from ..results import Trajectory
-from ..signals import names
 from .chatter import CouplingReport, inspect_coupling
 from .fmu_slave import open_fmu
 from .slaves import Slave
 
 ORDER = 1
 """Order of convergence in the macro step."""
-
-FORCES = tuple(names(force_outputs(1.0)))
-"""What a film gives and a rotor takes; it tells which is which."""
-
-
-class FmuRunError(PartialResultError, FmuError):
-    """An FMU answered with an error status, or something not finite, in a co-simulation."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,6 +84,7 @@ def cosimulate(
     FmuError
         If a file is no such FMU; as FmuRunError, with the CoSimulation until then, if an FMU fails.
     """
+    _require_times(macro_step, duration)
     with open_fmu(rotor_fmu) as rotor, open_fmu(film_fmu) as film:
         return couple(rotor, film, macro_step=macro_step, duration=duration, progress=progress)
 
@@ -105,8 +98,7 @@ def couple(
     progress: Callable[[float], None] | None = None,
 ) -> CoSimulation:
     """Couple two partners that were not started yet; see `cosimulate`, which does this with FMUs."""
-    require_positive("macro_step", macro_step)
-    require_positive("duration", duration)
+    _require_times(macro_step, duration)
     run = _Run(rotor, film, macro_step)
     try:
         run.start()
@@ -120,6 +112,11 @@ def couple(
     if result.coupling.chatter:
         raise CouplingError(_chatter_message(result), result)
     return result
+
+
+def _require_times(macro_step: float, duration: float) -> None:
+    require_positive("macro_step", macro_step)
+    require_positive("duration", duration)
 
 
 class _Run:
@@ -173,23 +170,15 @@ class _Run:
 
 def _motion_names(rotor: Slave, film: Slave) -> list[str]:
     """Return the signals from rotor to film: every input of the film must be among them."""
-    missing = [name for name in film.inputs if name not in rotor.outputs]
-    if missing:
-        raise InputError(
-            f"rotor must have the outputs {list(film.inputs)}, got {list(rotor.outputs)} without {missing}"
-        )
+    indices("rotor must have the outputs", rotor.outputs, film.inputs)
     return list(film.inputs)
 
 
 def _force_names(rotor: Slave, film: Slave) -> list[str]:
     """Return the signals from film to rotor; further inputs of the rotor keep their start values."""
-    shared = [name for name in rotor.inputs if name in film.outputs]
-    if not set(FORCES) <= set(shared):
-        raise InputError(
-            f"rotor must take and film must give {list(FORCES)}, "
-            f"got the inputs {list(rotor.inputs)} and the outputs {list(film.outputs)}"
-        )
-    return shared
+    indices("rotor must have the inputs", rotor.inputs, FORCE_OUTPUTS)
+    indices("film must have the outputs", film.outputs, FORCE_OUTPUTS)
+    return [name for name in rotor.inputs if name in film.outputs]
 
 
 def _steps(macro_step: float, duration: float) -> list[tuple[float, float]]:

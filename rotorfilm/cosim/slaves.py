@@ -40,7 +40,7 @@ class Slave(Protocol):
         """Return the outputs at the present time."""
 
 
-class ModelSlave:
+class InProcessSlave:
     """A model in this process, stepped as its own FMU would step it.
 
     Parameters

@@ -17,7 +17,7 @@ from scipy.linalg import expm
 from scipy.optimize import brentq
 
 from ..errors import InputError, require_finite, require_positive
-from ..model import Array, Dynamic, Model
+from ..model import Array, Dynamic, Model, indices
 from ..signals import names
 
 SHORTEST = 1e-6
@@ -42,15 +42,11 @@ class CouplingStability:
     eigenvalue : complex [1]
         The eigenvalue of that size: near the negative real axis it chatters from step to step, off it the
         delay of the held force drives a whirl.
-    damping_number : float [1]
-        macro_step times the largest eigenvalue of film damping over the local mass. Chatter begins near
-        2; above 1 a warning is due.
     """
 
     macro_step: float
     spectral_radius: float
     eigenvalue: complex
-    damping_number: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,15 +103,8 @@ def coupling_stability(
         If the film has no force or no derivative there.
     """
     require_positive("macro_step", macro_step)
-    loop = _loop(rotor, reaction, state, time)
-    dominant = _dominant(loop, macro_step)
-    damping = -np.linalg.eigvals(loop.feedback @ loop.B).real
-    return CouplingStability(
-        macro_step=macro_step,
-        spectral_radius=abs(dominant),
-        eigenvalue=dominant,
-        damping_number=macro_step * float(damping.max()),
-    )
+    dominant = _dominant(_loop(rotor, reaction, state, time), macro_step)
+    return CouplingStability(macro_step=macro_step, spectral_radius=abs(dominant), eigenvalue=dominant)
 
 
 def critical_macro_step(
@@ -167,8 +156,8 @@ def _loop(rotor: Dynamic, reaction: Model, state: ArrayLike, time: float) -> _Lo
     x = require_finite("state", state)
     if x.shape != (len(rotor.states),):
         raise InputError(f"state must have shape ({len(rotor.states)},), got {x.shape}")
-    motion = _indices("rotor", names(rotor.outputs), names(reaction.inputs))
-    force = _indices("film", names(reaction.outputs), names(rotor.inputs))
+    motion = indices("rotor must have the outputs", names(rotor.outputs), names(reaction.inputs))
+    force = indices("film must have the outputs", names(reaction.outputs), names(rotor.inputs))
     journal = rotor.output(time, x, np.zeros(len(rotor.inputs)))[motion]
     film = reaction.linearization(time, np.zeros(0), journal)
     u = reaction.output(time, np.zeros(0), journal)[force]
@@ -176,10 +165,3 @@ def _loop(rotor: Dynamic, reaction: Model, state: ArrayLike, time: float) -> _Lo
     if np.any(linear.D[motion]):
         raise InputError("rotor must have outputs that its inputs do not reach directly, got a matrix D != 0")
     return _Loop(linear.A, linear.B, film.D[force] @ linear.C[motion])
-
-
-def _indices(who: str, available: list[str], needed: list[str]) -> list[int]:
-    missing = [name for name in needed if name not in available]
-    if missing:
-        raise InputError(f"{who} must have the outputs {needed}, got {available} without {missing}")
-    return [available.index(name) for name in needed]

@@ -76,7 +76,8 @@ class FullAxialSum:
         small = z < SERIES
         safe = np.where(small, 1.0, z)
         closed = 1.0 - 1.5 * np.tanh(safe) / safe + 0.5 / np.cosh(np.minimum(safe, 300.0)) ** 2
-        series = z**4 * (2.0 / 15.0 - 34.0 * z**2 / 315.0 + 62.0 * z**4 / 945.0)
+        near = np.where(small, z, 0.0) ** 2
+        series = near**2 * (2.0 / 15.0 - near * (34.0 / 315.0 - near * 62.0 / 945.0))
         return 12.0 * np.where(small, series, closed)
 
     def divided(self, ratio: Array) -> Array:
@@ -99,5 +100,6 @@ def one_minus_tanh_ratio(z: Array) -> Array:
     """Return 1 - tanh(z)/z to roundoff for every z > 0."""
     small = z < SERIES
     safe = np.where(small, 1.0, z)
-    series = z**2 * (1.0 / 3.0 - z**2 * (2.0 / 15.0 - z**2 * (17.0 / 315.0 - z**2 * 62.0 / 2835.0)))
+    near = np.where(small, z, 0.0) ** 2
+    series = near * (1.0 / 3.0 - near * (2.0 / 15.0 - near * (17.0 / 315.0 - near * 62.0 / 2835.0)))
     return np.where(small, series, 1.0 - np.tanh(safe) / safe)

@@ -26,6 +26,10 @@ ANTIDERIVATIVES = np.array([[0.0, -1.0, 0.0], [0.0, 0.0, 1.0]])
 """S = (-w, sin) in terms of (1, w, sin)."""
 
 
+DEPENDENT = 1e-10
+"""Singular value, relative to the largest, below which coupling functions count as dependent."""
+
+
 class CouplingIntegrals(NamedTuple):
     """Integrals over one arc, batch axis first, in coordinates with M = 1.
 
@@ -112,8 +116,7 @@ def coupling_integrals(
     root = np.sqrt(nodes.weight)[..., None]
     X, S = _functions(nodes.half_sine, nodes.half_cosine, nodes.gamma, functions, constant)
     mean = np.sum(S * root**2, axis=1) / np.sum(root**2, axis=1)
-    Q, R = np.linalg.qr(X * root)
-    transform = np.linalg.inv(R)
+    Q, coordinates, transform = _orthonormalized(X * root)
     Z = ((S - mean[:, None, :]) * root) @ transform
     log_slope = (-3.0 * nodes.cosine / nodes.film)[..., None]
     M_turn, K_turn = _end_derivatives(chi, start, end, mean, transform, functions, constant)
@@ -123,8 +126,23 @@ def coupling_integrals(
         Z.swapaxes(-1, -2) @ (log_slope * Z),
         M_turn,
         K_turn,
-        R[:, :, :2],
+        coordinates[:, :, :2],
     )
+
+
+def _orthonormalized(X: Array) -> tuple[Array, Array, Array]:
+    """Return orthonormal columns Q, coordinates R and T with X = Q R and Q = X T, batch axis first.
+
+    Directions in which the columns of X are dependent to roundoff are dropped (columns of zeros): on a short
+    arc harmonics are all but dependent, and such a direction would carry noise, not film.
+    """
+    scale = np.linalg.norm(X, axis=1)
+    left, singular, right = np.linalg.svd(X / scale[:, None, :], full_matrices=False)
+    keep = singular > DEPENDENT * singular[:, :1]
+    inverse = np.where(keep, 1.0 / np.where(keep, singular, 1.0), 0.0)
+    transform = right.swapaxes(-1, -2) * inverse[:, None, :] / scale[:, :, None]
+    coordinates = (singular * keep)[:, :, None] * right * scale[:, None, :]
+    return left * keep[:, None, :], coordinates, transform
 
 
 def _functions(

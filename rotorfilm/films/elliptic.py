@@ -16,7 +16,7 @@ from scipy.special import ellipj, ellipkinc
 from ..model import Array
 
 GRAM_NODES = 72
-"""Nodes for products of (1, w, sin): 1e-13 relative to chi = 0.99 and 4e-11 to 0.9999."""
+"""Nodes for products of (1, w, sin), enough for 1e-10 up to chi = 0.9999."""
 
 
 class FilmNodes(NamedTuple):

@@ -141,12 +141,12 @@ def cartesian_jacobian(frame: PolarFrame, response: PolarResponse) -> Array:
 
 
 def require_direction(frame: PolarFrame) -> None:
-    """Raise UndefinedDerivativeError where the source vanishes off center.
+    """Raise UndefinedDerivativeError where the source vanishes.
 
     There a film whose arc turns with the source has a force of zero but a derivative that depends on
     the direction of approach: at rest without rotation, and in exact half-speed whirl.
     """
-    vanishing = ~np.any(frame.source, axis=-1) & (frame.chi > CENTER)
+    vanishing = ~np.any(frame.source, axis=-1)
     if np.any(vanishing):
         chi = frame.chi[vanishing][0]
         raise UndefinedDerivativeError(

@@ -58,7 +58,7 @@ def first_approximation(
 def first_approximation_slopes(chi: ArrayLike, slenderness: float) -> tuple[Array, Array]:
     """Return c11* = dP1*/dchi and c21* = dP2*/dchi of the static first approximation, per speed [1].
 
-    The print loses 2 alpha^2 in the bracket of c11* and the term d(s/chi)/dchi of c21*.
+    The printed c11* is too small by the factor 2 alpha^2; c21* lost the term d(s/chi)/dchi.
     """
     chi = np.asarray(chi, dtype=float)
     f = load_function(chi, slenderness)

@@ -8,8 +8,11 @@ from typing import Protocol, runtime_checkable
 
 import numpy as np
 
-from ..errors import InputError, require_finite
+from ..errors import InputError, require_number
 from ..model import Array
+
+SHORTEST_ARC = 1e-3
+"""Extent [rad] below which arc integrals lose their digits."""
 
 
 @runtime_checkable
@@ -33,24 +36,30 @@ class FixedArc:
     """An arc fixed to the line of maximum film, which moves with the attitude angle: as published.
 
     Sussi & Fridman (1978) use start 0 and extent pi. Meant for small motion about a static equilibrium:
-    beyond half-speed whirl this film carries tension.
+    beyond half-speed whirl this film carries tension, and since the arc follows the sense of rotation, the
+    force of a moving journal jumps where the speed passes zero.
 
     Parameters
     ----------
     start : float [rad]
         First end, from the line of maximum film in the sense of rotation.
     extent : float [rad]
-        Angle covered, 0 < extent <= 2 pi.
+        Angle covered, from 0.001 to 2 pi.
+
+    Raises
+    ------
+    InputError
+        If an angle is not a finite number or the extent is out of range.
     """
 
     start: float = 0.0
     extent: float = math.pi
 
     def __post_init__(self) -> None:
-        require_finite("start", self.start)
-        require_finite("extent", self.extent)
-        if not 0.0 < self.extent <= 2.0 * math.pi:
-            raise InputError(f"extent must be in (0, 2 pi], got {self.extent!r}")
+        require_number("start", self.start)
+        require_number("extent", self.extent)
+        if not SHORTEST_ARC <= self.extent <= 2.0 * math.pi:
+            raise InputError(f"extent must be from {SHORTEST_ARC} to 2 pi, got {self.extent!r}")
 
     @property
     def turns(self) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -29,8 +30,12 @@ class ShortFilm:
     (Ocvirk 1952; Szeri 2011, section 4.4). The pressure vanishes with g at both ends, so the turning arc
     adds nothing to the derivative and the damping matrix is symmetric.
 
-    Valid for length / diameter <= 0.25 at any eccentricity, and to about 0.5 below 0.7.
+    Against the converged film on the same arc, at random states of large motion, the force is off by 6 %
+    (median) and 28 % (90th percentile) at length / diameter 0.25, and by 23 % and 97 % at 0.5. A bearing
+    beyond `slenderness_limit` warns.
     """
+
+    slenderness_limit: ClassVar[float] = 0.5
 
     def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
         """Return the force on the journal, shape (2, ...); see `FilmLaw.force`."""

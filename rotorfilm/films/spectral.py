@@ -8,7 +8,7 @@ phi of `axial`
     (F_t, F_r) = -sum_m phi(r_m) <(sin, cos), f_m> <f_m, g>
 
 sums all axial modes in closed form. Trial functions are integrated Legendre polynomials in the elliptic
-variable of `elliptic`.
+variable of `elliptic`, times H^(-7/4).
 """
 
 from __future__ import annotations
@@ -46,7 +46,8 @@ class SpectralArcFilm:
     rupture : Rupture
         Where the film ends.
     degree : int
-        Number of circumferential trial functions; 48 converges to 1e-8 at eccentricity ratios to 0.95.
+        Number of circumferential trial functions: 16 converges to 2e-7 at eccentricity ratios to 0.99,
+        24 to 4e-8 and 48 to 2e-10 at ratios to 0.9999.
 
     Raises
     ------
@@ -60,24 +61,24 @@ class SpectralArcFilm:
     def __post_init__(self) -> None:
         if not isinstance(self.degree, int) or self.degree < 2:
             raise InputError(f"degree must be an integer >= 2, got {self.degree!r}")
-        if not isinstance(self.rupture, Rupture):
+        if isinstance(self.rupture, type) or not isinstance(self.rupture, Rupture):
             raise InputError(f"rupture must be an arc such as FixedArc(), got {self.rupture!r}")
 
     def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
         """Return the force on the journal, shape (2, ...); see `FilmLaw.force`."""
         e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
-        forces = [
-            self._single_force(e[:, i : i + 1], w[:, i : i + 1], slenderness) for i in range(e.shape[1])
-        ]
-        return np.concatenate(forces, axis=-1).reshape(eccentricity.shape)
+        forces = np.empty(e.shape)
+        for i in range(e.shape[1]):
+            forces[:, i : i + 1] = self._single_force(e[:, i : i + 1], w[:, i : i + 1], slenderness)
+        return forces.reshape(eccentricity.shape)
 
     def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
         """Return d force / d (eccentricity, source), shape (2, 4, ...); see `FilmLaw.jacobian`."""
         e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
-        parts = [
-            self._single_jacobian(e[:, i : i + 1], w[:, i : i + 1], slenderness) for i in range(e.shape[1])
-        ]
-        return np.concatenate(parts, axis=-1).reshape(2, 4, *eccentricity.shape[1:])
+        jacobian = np.empty((2, 4, e.shape[1]))
+        for i in range(e.shape[1]):
+            jacobian[..., i : i + 1] = self._single_jacobian(e[:, i : i + 1], w[:, i : i + 1], slenderness)
+        return jacobian.reshape(2, 4, *eccentricity.shape[1:])
 
     def _single_force(self, e: Array, w: Array, slenderness: float) -> Array:
         frame = polar_frame(e, w)
@@ -107,10 +108,11 @@ def spectral_response(nodes: FilmNodes, chi: float, degree: int, axial: FullAxia
     dgamma = nodes.weight[0] * nodes.film[0] ** 3
     f, slope = _trial_functions(degree, nodes.gamma.shape[1])
     slope = slope * (_gauss_weights(nodes.gamma.shape[1]) / dgamma)[:, None]
+    sine = 2.0 * nodes.half_sine[0] * nodes.half_cosine[0]
+    f, slope = _balanced(f, slope, nodes.film[0], chi * sine)
     heft = (dgamma * nodes.film[0] ** 3)[:, None]
     eigenvalues, vectors = _generalized_eigen(slope.T @ (heft * slope), f.T @ (heft * f))
     f, slope = f @ vectors, slope @ vectors
-    sine = 2.0 * nodes.half_sine[0] * nodes.half_cosine[0]
     source = f.T @ (dgamma[:, None] * np.stack([sine, nodes.cosine[0]], -1))
     ratio = 1.0 / eigenvalues
     phi = axial.value(ratio)
@@ -128,6 +130,15 @@ def spectral_response(nodes: FilmNodes, chi: float, degree: int, axial: FullAxia
     A_chi = change(3.0 * nodes.cosine[0] / nodes.film[0])
     A_turn = change(-3.0 * chi * sine / nodes.film[0]) + quarter.T @ A + A @ quarter
     return PolarResponse(A[None], A_chi[None], A_turn[None])
+
+
+def _balanced(f: Array, slope: Array, film: Array, chi_sine: Array) -> tuple[Array, Array]:
+    """Return the trial functions times H^(-7/4), under which the mass matrix has no preferred place.
+
+    Without it H^3 spans twelve decades at chi = 0.9999, more than a factorization survives.
+    """
+    scale = (film**-1.75)[:, None]
+    return f * scale, (slope + f * (1.75 * chi_sine / film)[:, None]) * scale
 
 
 def _generalized_eigen(K: Array, M: Array) -> tuple[Array, Array]:

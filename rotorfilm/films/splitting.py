@@ -76,14 +76,10 @@ class SplittingFilm:
     rupture: Rupture = field(default_factory=FixedArc)
 
     def __post_init__(self) -> None:
-        if len(self.order) != 2:
-            raise InputError(f"order must be (n, m), got {self.order!r}")
-        n, m = self.order
-        if not isinstance(n, int) or n < 1 or not (m is None or (isinstance(m, int) and m >= 1)):
-            raise InputError(f"order must be (n, m) of positive integers, m may be None, got {self.order!r}")
-        if self.constant and n < 2:
+        _require_order(self.order)
+        if self.constant and self.order[0] < 2:
             raise InputError(f"order must have n >= 2 when constant is set, got {self.order!r}")
-        if not isinstance(self.rupture, Rupture):
+        if isinstance(self.rupture, type) or not isinstance(self.rupture, Rupture):
             raise InputError(f"rupture must be an arc such as FixedArc(), got {self.rupture!r}")
         if LONG_ARC < self.rupture.extent < 2.0 * math.pi and not self.constant:
             warnings.warn(
@@ -127,6 +123,14 @@ class SplittingFilm:
             integrals = coupling_integrals(frame.chi, start, end, n, self.constant)
             response = galerkin_response(integrals, axial)
         return response if self.rupture.turns else response._replace(A_turn=np.zeros_like(response.A))
+
+
+def _require_order(order: object) -> None:
+    match order:
+        case (int() as n, int() | None as m) if n >= 1 and (m is None or m >= 1):
+            if not isinstance(n, bool) and not isinstance(m, bool):
+                return
+    raise InputError(f"order must be (n, m) of positive integers, m may be None, got {order!r}")
 
 
 def galerkin_response(integrals: CouplingIntegrals, axial: AxialSum) -> PolarResponse:

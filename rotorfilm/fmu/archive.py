@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Mapping
-from importlib.metadata import distribution
+from importlib.metadata import distribution, version
 from importlib.resources import files
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
@@ -15,6 +15,20 @@ EPOCH = (1980, 1, 1, 0, 0, 0)
 
 BINARIES = ("linux64/libpythonfmu-export.so", "win64/pythonfmu-export.dll")
 """PythonFMU's libraries for the FMI 2.0 platforms that it supports."""
+
+
+VERIFIED = "0.7.0"
+"""The version of pythonfmu for which `pythonfmu_api` counts references."""
+
+
+def require_verified_version() -> None:
+    """Raise FmuError unless the installed pythonfmu is the one that `pythonfmu_api` was verified for.
+
+    With libraries that count differently, the references it takes would leak instances, or crash the host.
+    """
+    installed = version("pythonfmu")
+    if installed != VERIFIED:
+        raise FmuError(f"pythonfmu must be {VERIFIED} to export an FMU, got {installed}")
 
 
 def to_zip(contents: Mapping[str, bytes]) -> bytes:
@@ -42,7 +56,7 @@ def binaries(identifier: str) -> dict[str, bytes]:
     for name in BINARIES:
         source = files("pythonfmu").joinpath("resources", "binaries", name)
         if not source.is_file():
-            raise FmuError(f"pythonfmu must contain resources/binaries/{name}, install pythonfmu>=0.7")
+            raise FmuError(f"pythonfmu must contain resources/binaries/{name}, install pythonfmu {VERIFIED}")
         platform, _, library = name.partition("/")
         suffix = library.rpartition(".")[2]
         found[f"binaries/{platform}/{identifier}.{suffix}"] = source.read_bytes()

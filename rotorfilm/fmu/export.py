@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import FmuError, require_finite, require_positive
+from ..errors import FmuError, InputError, require_finite, require_positive
 from ..model import Array, Dynamic, Model
-from .archive import binaries, licenses, to_zip
+from .archive import binaries, licenses, require_verified_version, to_zip
 from .bundle import API, PACKAGE, SLAVE, Bundle, bundle_source, content_hash
 from .codec import class_modules, decode, encode
 from .description import Description, to_xml
@@ -90,9 +90,12 @@ def export_fmu(
 
     Raises
     ------
+    InputError
+        If another argument breaks its rule; the message names it.
     FmuError
-        If the model cannot be exported, or an argument breaks its rule; the message names it.
+        If the model cannot be exported, or the installed pythonfmu is not the verified version.
     """
+    require_verified_version()
     target = Path(path)
     _require_supported(target, version, backend)
     _require_model(model)
@@ -145,13 +148,13 @@ def _title(model: Model) -> str:
 
 def _require_supported(path: Path, version: str, backend: str) -> None:
     if path.suffix != ".fmu":
-        raise FmuError(f"path must end in .fmu, got {str(path)!r}")
+        raise InputError(f"path must end in .fmu, got {str(path)!r}")
     if version == "3.0":
-        raise FmuError("version must be '2.0' for the python backend: PythonFMU has no FMI 3.0, got '3.0'")
+        raise InputError("version must be '2.0' for the python backend: PythonFMU has no FMI 3.0, got '3.0'")
     if version != "2.0":
-        raise FmuError(f"version must be '2.0', got {version!r}")
+        raise InputError(f"version must be '2.0', got {version!r}")
     if backend != "python":
-        raise FmuError(f"backend must be 'python', got {backend!r}")
+        raise InputError(f"backend must be 'python', got {backend!r}")
 
 
 def _require_model(model: Any) -> None:
@@ -166,7 +169,7 @@ def _require_model(model: Any) -> None:
 
 def _require_component(component: str) -> None:
     if not (component.isidentifier() and component.isascii()):
-        raise FmuError(f"component must be an ASCII identifier without dots, got {component!r}")
+        raise InputError(f"component must be an ASCII identifier without dots, got {component!r}")
 
 
 def _require_rebuilt(data: Any) -> None:
@@ -187,7 +190,7 @@ def _require_output(model: Model, inputs: Array, start: Mapping[str, float]) -> 
     try:
         output = require_finite("output", model.output(0.0, state, inputs))
     except Exception as error:
-        raise FmuError(
+        raise InputError(
             f"start must be values at which the model has an output, got {dict(start)!r}: {error}"
         ) from error
     if output.shape != (len(model.outputs),):
@@ -198,7 +201,7 @@ def _start_values(model: Model, start: Mapping[str, float]) -> dict[str, float]:
     names = [signal.name for signal in model.inputs]
     for name, value in start.items():
         if name not in names:
-            raise FmuError(f"start must have keys from the inputs {names}, got {name!r}")
+            raise InputError(f"start must have keys from the inputs {names}, got {name!r}")
         require_finite(f"start[{name!r}]", value)
     return {name: float(start.get(name, 0.0)) for name in names}
 

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.integrate import DOP853
 
 from ..errors import ConvergenceError
-from ..model import Array, Dynamic
+from ..model import Array, Dynamic, stops
 
 RELATIVE_TOLERANCE = 1e-10
 """Local error tolerance relative to each state, and to its nominal value: far below any coupling error."""
@@ -19,7 +19,7 @@ def advance(model: Dynamic, t: float, x: Array, u: Array, step: float) -> Array:
     """Return the state at t + step under the constant input u.
 
     Dormand and Prince's method of order 8 with error control (Hairer, Norsett & Wanner 1993, II.10), started
-    with the whole step and stopped at the model's `breakpoints` where it has any.
+    with the whole step and stopped at the kinks of a `Kinked` model.
 
     Parameters
     ----------
@@ -35,8 +35,7 @@ def advance(model: Dynamic, t: float, x: Array, u: Array, step: float) -> Array:
     ConvergenceError
         If the tolerance cannot be met; `partial` is the state reached.
     """
-    stops = [b for b in getattr(model, "breakpoints", ()) if t < b < t + step]
-    for end in (*stops, t + step):
+    for end in stops(model, t, t + step):
         # The end may also round to t itself.
         x = _integrate(model, t, x, u, end) if end > t else x
         t = end

@@ -2,7 +2,8 @@
 
 PythonFMU 0.7.0 (PySlaveInstance.cpp) knows three outcomes: a method returns, fmi2OK; do_step returns False,
 fmi2Discard with fmi2Terminated true; a method raises, fmi2Fatal with the exception's repr in the log.
-There is no way to fmi2Error.
+There is no way to fmi2Error. An FMU carries the libraries it is exported with, so that the export is where
+another version is refused (`archive.require_verified_version`).
 """
 
 from __future__ import annotations

@@ -6,7 +6,7 @@ from .critical_mass import CriticalMass, critical_mass
 from .equilibrium import equilibrium
 from .linearize import OperatingPoint, linearize
 from .nonlinear_system import ModelSystem, to_nlsys
-from .whirl import whirl_threshold
+from .whirl import speed_parameter, whirl_threshold
 
 __all__ = [
     "CriticalMass",
@@ -17,6 +17,7 @@ __all__ = [
     "critical_mass",
     "equilibrium",
     "linearize",
+    "speed_parameter",
     "to_nlsys",
     "transmissibility",
     "whirl_threshold",

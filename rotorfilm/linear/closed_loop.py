@@ -7,14 +7,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite
-from ..model import Dynamic, Reaction
+from ..model import FORCE_OUTPUTS, MOTION_NAMES, Dynamic, Reaction, indices
 from ..results import Equilibrium
 from ..signals import names
 from .equilibrium import equilibrium
 from .linearize import OperatingPoint, linearize
 
-MOTION = ("x", "y", "vx", "vy")
-FORCE = ("force_x", "force_y")
 HOUSING = ("housing_force_x", "housing_force_y")
 
 
@@ -46,18 +44,22 @@ def closed_loop(
     InputError
         If the rotor lacks one of these signals.
     """
-    _require_signals(rotor)
+    indices("rotor must have the inputs", names(rotor.inputs), FORCE_OUTPUTS)
+    indices("rotor must have the outputs", names(rotor.outputs), MOTION_NAMES)
     shaft = OperatingPoint(x=rotor.initial_state, u=-at.load)
     return control.interconnect(
         [linearize(rotor, shaft, name="rotor"), linearize(reaction, at, name="film")],
         connections=[
-            *([f"film.{signal}", f"rotor.{signal}"] for signal in MOTION),
-            *([f"rotor.{signal}", f"film.{signal}"] for signal in FORCE),
+            *([f"film.{signal}", f"rotor.{signal}"] for signal in MOTION_NAMES),
+            *([f"rotor.{signal}", f"film.{signal}"] for signal in FORCE_OUTPUTS),
         ],
-        inplist=[f"rotor.{signal}" for signal in FORCE],
-        inputs=list(FORCE),
-        outlist=[*(f"rotor.{signal}" for signal in MOTION), *(f"-film.{signal}" for signal in FORCE)],
-        outputs=[*MOTION, *HOUSING],
+        inplist=[f"rotor.{signal}" for signal in FORCE_OUTPUTS],
+        inputs=list(FORCE_OUTPUTS),
+        outlist=[
+            *(f"rotor.{signal}" for signal in MOTION_NAMES),
+            *(f"-film.{signal}" for signal in FORCE_OUTPUTS),
+        ],
+        outputs=[*MOTION_NAMES, *HOUSING],
         name=name,
         # the speed is a parameter of the linear loop, whatever the rotor says about it
         check_unused=False,
@@ -107,7 +109,7 @@ def transmissibility(
     return control.FrequencyResponseData(
         np.stack(responses, axis=-1),
         frequencies,
-        inputs=list(FORCE),
+        inputs=list(FORCE_OUTPUTS),
         outputs=list(HOUSING),
         name="transmissibility",
     )
@@ -116,13 +118,4 @@ def transmissibility(
 def _at_own_speed(rotor: Dynamic, reaction: Reaction, load: ArrayLike, speed: float) -> np.ndarray:
     """Return the (2, 2) complex gains to the housing at the frequency of rotation."""
     loop = closed_loop(rotor, reaction, equilibrium(reaction, load, speed))
-    return np.asarray(loop(1j * speed, squeeze=False))[len(MOTION) :]
-
-
-def _require_signals(rotor: Dynamic) -> None:
-    missing = [*set(FORCE) - set(names(rotor.inputs)), *set(MOTION) - set(names(rotor.outputs))]
-    if missing:
-        raise InputError(
-            f"rotor must have the inputs {list(FORCE)} and the outputs {list(MOTION)}, "
-            f"got one without {sorted(missing)}"
-        )
+    return np.asarray(loop(1j * speed, squeeze=False))[len(MOTION_NAMES) :]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, require_finite
+from ..errors import InputError, require_finite, require_number
 from ..model import Reaction
 from ..results import Coefficients
 
@@ -32,15 +32,13 @@ def coefficients(reaction: Reaction, position: ArrayLike, speed: float) -> Coeff
         If the film has no derivative there.
     """
     position = require_finite("position", position)
-    rate = require_finite("speed", speed)
+    speed = require_number("speed", speed)
     if position.shape != (2,):
         raise InputError(f"position must have shape (2,), got shape {position.shape}")
-    if rate.ndim != 0:
-        raise InputError(f"speed must be a single number, got shape {rate.shape}")
-    derivative = reaction.jacobian(position, np.zeros(2), float(rate))
+    derivative = reaction.jacobian(position, np.zeros(2), speed)
     return Coefficients(
         stiffness=-derivative[:, :2],
         damping=-derivative[:, 2:4],
         position=position,
-        speed=float(rate),
+        speed=speed,
     )

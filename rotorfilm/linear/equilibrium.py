@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import EquilibriumError, InputError, require_finite
+from ..errors import EquilibriumError, InputError, require_finite, require_number
 from ..model import Array, Reaction
 from ..results import Equilibrium
 
@@ -70,7 +70,7 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     are nearly linear all the way.
     """
     load = checked_load(load)
-    speed = _checked_speed(speed)
+    speed = require_number("speed", speed)
     best: _Point | None = None
     for start in _starts(load, speed):
         point = _newton(reaction, load, speed, start)
@@ -91,13 +91,6 @@ def checked_load(load: ArrayLike) -> Array:
             "(for the centered journal use coefficients at position (0, 0))"
         )
     return array
-
-
-def _checked_speed(speed: float) -> float:
-    array = require_finite("speed", speed)
-    if array.ndim != 0:
-        raise InputError(f"speed must be a single number, got shape {array.shape}")
-    return float(array)
 
 
 def _starts(load: Array, speed: float) -> list[Array]:

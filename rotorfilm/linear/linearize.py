@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite
-from ..model import Array, Linearization, Model
+from ..model import JOURNAL_INPUTS, Array, Linearization, Model
 from ..results import Equilibrium
 from ..signals import Signal, names
 
@@ -85,9 +85,9 @@ def checked_vector(name: str, value: ArrayLike, size: int) -> Array:
 
 def _film_point(model: Model, at: Equilibrium) -> OperatingPoint:
     given = names(model.inputs)
-    if given != ["x", "y", "vx", "vy", "speed"] or model.states:
+    if given != list(JOURNAL_INPUTS) or model.states:
         raise InputError(
-            "at must be an OperatingPoint for a model that is no film with the inputs x, y, vx, vy, speed, "
-            f"got an Equilibrium for the inputs {given}"
+            "at must be an OperatingPoint for a model that is no film with the inputs "
+            f"{', '.join(JOURNAL_INPUTS)}, got an Equilibrium for the inputs {given}"
         )
     return OperatingPoint(u=np.array([*at.position, 0.0, 0.0, at.speed]))

@@ -41,12 +41,14 @@ def whirl_threshold(
     -------
     WhirlThreshold
         With speed None and a reason where there is no threshold in the range. Speeds too low for the film
-        to carry the load are passed over.
+        to carry the load, below the first with an equilibrium, are passed over.
 
     Raises
     ------
     InputError
         If an argument breaks its rule.
+    EquilibriumError
+        If the equilibrium is lost, or not found, at a higher speed than the first that has one.
     UndefinedDerivativeError
         If the film has no derivative at an equilibrium.
 
@@ -69,6 +71,23 @@ def whirl_threshold(
     return _none(_why_none(stable, low, high))
 
 
+def speed_parameter(*, speed: float, clearance: float, mass: float, load: ArrayLike) -> float:
+    """Return |speed| sqrt(clearance mass / |load|) [1], the speed in units of the rotor's own.
+
+    Parameters
+    ----------
+    speed : float [rad/s]
+        Angular speed, of either sign.
+    clearance : float [m]
+        Radial clearance.
+    mass : float [kg]
+        Rigid mass that the bearing carries.
+    load : array_like, shape (2,) [N]
+        External static force on the journal, not zero.
+    """
+    return abs(speed) * math.sqrt(clearance * mass / float(np.linalg.norm(load)))
+
+
 def _checked_range(speed_range: tuple[float, float] | None, natural: float) -> tuple[float, float]:
     if speed_range is None:
         return natural / _SPEED_FACTOR, natural * _SPEED_FACTOR
@@ -80,12 +99,16 @@ def _checked_range(speed_range: tuple[float, float] | None, natural: float) -> t
 
 def _scan(reaction: Reaction, load: Array, low: float, high: float) -> Iterator[Coefficients]:
     """Yield the coefficients at the equilibria, from the lowest speed at which there is one."""
+    carried = False
     points = max(3, 1 + math.ceil(_POINTS_PER_DECADE * math.log10(high / low)))
     for speed in np.geomspace(low, high, points):
         try:
             at = equilibrium(reaction, load, float(speed))
         except EquilibriumError:
+            if carried:
+                raise
             continue
+        carried = True
         yield coefficients(reaction, at.position, at.speed)
 
 
@@ -111,7 +134,9 @@ def _threshold(onset: Equilibrium, reaction: Reaction, mass: float) -> WhirlThre
         speed=onset.speed,
         whirl_ratio=border.whirl_ratio,
         critical_mass=border.mass,
-        speed_parameter=onset.speed * math.sqrt(reaction.clearance * mass / math.hypot(*onset.load)),
+        speed_parameter=speed_parameter(
+            speed=onset.speed, clearance=reaction.clearance, mass=mass, load=onset.load
+        ),
         equilibrium=onset,
     )
 

@@ -9,16 +9,14 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, require_finite, require_non_negative, require_positive
-from ..model import Array, Linearization, force_outputs
+from ..errors import InputError, require_finite, require_non_negative, require_number, require_positive
+from ..model import MOTION_NAMES, Array, Linearization, force_outputs, journal_inputs
 from ..signals import Signal
+from ..units import STANDARD_GRAVITY
 from .profile import SpeedProfile
 
 NOMINAL_LENGTH = 1e-4
 """Typical journal displacement [m], a radial clearance; the rotor does not know its bearing's."""
-
-NOMINAL_ACCELERATION = 9.80665
-"""Typical acceleration [m/s2]: the nominal force of a journal is its weight."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,7 +57,7 @@ class RigidRotor:
     speed: float | SpeedProfile
     unbalance: float = 0.0
     unbalance_angle: float = 0.0
-    gravity: tuple[float, float] = (0.0, -9.80665)
+    gravity: tuple[float, float] = (0.0, -STANDARD_GRAVITY)
     static_force: tuple[float, float] = (0.0, 0.0)
     position: tuple[float, float] = (0.0, 0.0)
     velocity: tuple[float, float] = (0.0, 0.0)
@@ -68,8 +66,7 @@ class RigidRotor:
         require_positive("mass", self.mass)
         require_non_negative("unbalance", self.unbalance)
         for name in ("unbalance_angle", *(() if isinstance(self.speed, SpeedProfile) else ("speed",))):
-            if require_finite(name, getattr(self, name)).ndim:
-                raise InputError(f"{name} must be one number, got {getattr(self, name)!r}")
+            require_number(name, getattr(self, name))
         for name in ("gravity", "static_force", "position", "velocity"):
             pair = require_finite(name, getattr(self, name))
             if pair.shape != (2,):
@@ -93,27 +90,18 @@ class RigidRotor:
 
     @property
     def inputs(self) -> tuple[Signal, ...]:
-        """Signals force_x, force_y: the film force on the journal."""
-        return force_outputs(self.mass * NOMINAL_ACCELERATION)
+        """Signals force_x, force_y: the film force on the journal, nominally its weight."""
+        return force_outputs(self.mass * STANDARD_GRAVITY)
 
     @property
     def outputs(self) -> tuple[Signal, ...]:
         """Signals x, y, vx, vy, speed: what a film needs."""
-        speed = Signal(
-            name="speed", unit="rad/s", nominal=self._nominal_speed, description="angular speed about +z"
-        )
-        return (*self.states, speed)
+        return journal_inputs(NOMINAL_LENGTH, self._nominal_speed)
 
     @property
     def states(self) -> tuple[Signal, ...]:
         """Signals x, y, vx, vy of the journal center."""
-        length, velocity = NOMINAL_LENGTH, NOMINAL_LENGTH * self._nominal_speed
-        return (
-            Signal(name="x", unit="m", nominal=length, description="journal position along x"),
-            Signal(name="y", unit="m", nominal=length, description="journal position along y"),
-            Signal(name="vx", unit="m/s", nominal=velocity, description="journal velocity along x"),
-            Signal(name="vy", unit="m/s", nominal=velocity, description="journal velocity along y"),
-        )
+        return self.outputs[: len(MOTION_NAMES)]
 
     @property
     def initial_state(self) -> Array:

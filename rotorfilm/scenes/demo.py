@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
@@ -13,6 +12,7 @@ import numpy as np
 from ..cosim import critical_macro_step
 from ..errors import InputError
 from ..films import FilmLaw
+from ..linear import speed_parameter
 from ..results import Trajectory, to_plain
 from .coupling import CoupledRun, CouplingStudy, study_coupling
 from .export import ExportedScene, export_scene, resting_rotor
@@ -110,7 +110,12 @@ def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
     result = DemoResult(
         scene=scene,
         answer=answer,
-        speed_parameter=_speed_parameter(scene),
+        speed_parameter=speed_parameter(
+            speed=scene.operation.speed,
+            clearance=scene.journal.clearance,
+            mass=scene.rotor.mass,
+            load=scene.static_load,
+        ),
         fmus=fmus,
         critical_macro_angle=limit,
         coupling=coupling,
@@ -156,11 +161,6 @@ def _curves(scene: Scene) -> dict[str, FilmCurve]:
         laws = {"film of the scene": scene.bearing.film, **laws}
     ratios = np.array(ECCENTRICITY_RATIOS)
     return {label: film_curve(replace(scene.bearing, film=law), ratios) for label, law in laws.items()}
-
-
-def _speed_parameter(scene: Scene) -> float:
-    load = math.hypot(*scene.static_load)
-    return abs(scene.operation.speed) * math.sqrt(scene.journal.clearance * scene.rotor.mass / load)
 
 
 def _critical_macro_angle(scene: Scene) -> float | None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..bearings.journal import JournalBearing
 from ..films import FilmLaw, RotatingArc, ShortFilm, SpectralArcFilm, SplittingFilm
-from ..linear import coefficients, critical_mass
+from ..linear import coefficients, critical_mass, speed_parameter
 from ..model import Array
 
 SPEED = 100.0
@@ -105,7 +105,7 @@ def _static_point(bearing: JournalBearing, ratio: float) -> tuple[float, float |
     angle = -math.atan2(-force[1], -force[0])
     if border.mass is None:
         return angle, None
-    return angle, SPEED * math.sqrt(bearing.clearance * border.mass / math.hypot(*force))
+    return angle, speed_parameter(speed=SPEED, clearance=bearing.clearance, mass=border.mass, load=force)
 
 
 def film_accuracy(

@@ -13,7 +13,8 @@ from typing import Annotated, Any
 from ..bearings.journal import JournalBearing
 from ..errors import InputError, SceneError
 from ..rotors.rigid import RigidRotor
-from .schema import GRAVITY, SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
+from ..units import STANDARD_GRAVITY
+from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
 from .solve import Answer, solve
 from .tables import Table, read_table, text
 
@@ -91,7 +92,7 @@ class Scene:
         if self.operation.load is not None:
             return self.operation.load
         assert self.rigid_rotor is not None  # checked in __post_init__
-        return 0.0, -GRAVITY * self.rigid_rotor.mass
+        return 0.0, -STANDARD_GRAVITY * self.rigid_rotor.mass
 
     @property
     def bearing(self) -> JournalBearing:

@@ -19,9 +19,6 @@ from .tables import Quantity, Variant, flag
 SCHEMA = 1
 """The version that a scene file states as `schema = 1`."""
 
-GRAVITY = 9.80665
-"""Standard acceleration of gravity [m/s2], along -y."""
-
 
 def read_load(where: str, value: Any) -> tuple[float, float]:
     """Read a load [N]: one positive magnitude, which acts along -y, or the two components [x, y]."""

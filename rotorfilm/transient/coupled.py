@@ -7,20 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import (
-    ConvergenceError,
-    FilmContactError,
-    InputError,
-    UndefinedDerivativeError,
-)
-from ..model import Array, Dynamic, Reaction
+from ..errors import ConvergenceError, InputError, UndefinedDerivativeError, require_inside
+from ..model import FORCE_OUTPUTS, JOURNAL_INPUTS, Array, Dynamic, Reaction, indices
 from ..signals import names
-
-JOURNAL_INPUTS = 5
-"""Inputs of every Reaction: x, y, vx, vy, speed."""
-
-FORCES = 2
-"""First outputs of every Reaction: force_x, force_y."""
 
 NUDGE = 1e-6
 """Velocity, in nominal velocities, at which a derivative is taken where the film has none."""
@@ -42,17 +31,14 @@ def connect(rotor: Dynamic, reaction: Reaction) -> Wiring:
         If the rotor lacks an output that the film needs or an input for its force, has a further input,
         which nobody would drive, or if the film has states.
     """
-    needed = names(reaction.inputs)[:JOURNAL_INPUTS]
-    forces = names(reaction.outputs)[:FORCES]
-    outputs, inputs = names(rotor.outputs), names(rotor.inputs)
-    missing = [name for name in needed if name not in outputs]
-    if missing:
-        raise InputError(f"rotor must have the outputs {needed}, got {outputs} without {missing}")
-    if sorted(inputs) != sorted(forces):
-        raise InputError(f"rotor must have exactly the inputs {forces}, got {inputs}")
+    inputs = names(rotor.inputs)
+    motion = indices("rotor must have the outputs", names(rotor.outputs), JOURNAL_INPUTS)
+    force = indices("rotor must have the inputs", inputs, FORCE_OUTPUTS)
+    if len(inputs) > len(force):
+        raise InputError(f"rotor must have no inputs but {list(FORCE_OUTPUTS)}, got {inputs}")
     if reaction.states:
         raise InputError(f"reaction must have no states, got {names(reaction.states)}")
-    return Wiring([outputs.index(name) for name in needed], [inputs.index(name) for name in forces])
+    return Wiring(motion, force)
 
 
 class Coupled:
@@ -124,7 +110,7 @@ class Coupled:
 
     def _input(self, t: float, journal: Array) -> Array:
         """Return the rotor's input at a journal state: the film force, in the rotor's order."""
-        self._require_inside(t, journal)
+        require_inside(journal[:2], self.reaction.clearance, f" at t = {t:.9g} s")
         self.work["film_evaluations"] += 1
         force = self.reaction.force(journal[:2], journal[2:4], journal[4])
         if not np.all(np.isfinite(force)):
@@ -132,15 +118,6 @@ class Coupled:
         u = np.empty(len(self.wiring.force))
         u[self.wiring.force] = force
         return u
-
-    def _require_inside(self, t: float, journal: Array) -> None:
-        eccentricity = np.hypot(journal[0], journal[1])
-        # Written so that NaN, which an integrator may try, counts as outside.
-        if not eccentricity < self.reaction.clearance:
-            raise FilmContactError(
-                f"position must keep the journal inside the clearance {self.reaction.clearance!r} m, "
-                f"got an eccentricity of {eccentricity:.6g} m at t = {t:.9g} s"
-            )
 
     def _film_jacobian(self, journal: Array) -> Array:
         return self.reaction.jacobian(journal[:2], journal[2:4], journal[4])

@@ -9,10 +9,10 @@ from numpy.typing import ArrayLike
 from scipy.integrate import OdeSolver, Radau
 
 from ..errors import ContactError, ConvergenceError, InputError, require_finite, require_positive
-from ..model import Array, Dynamic, Reaction
+from ..model import FORCE_OUTPUTS, Array, Dynamic, Reaction, stops
 from ..results import Trajectory
 from ..signals import names
-from .coupled import FORCES, Coupled
+from .coupled import Coupled
 from .integrate import CONTACT_GAP, Integration, integrate
 
 
@@ -31,7 +31,7 @@ def simulate(
     """Return the motion of a rotor on a film from t = 0.
 
     Rotor and film are connected by the names of their signals and integrated together, with the exact
-    Jacobian of both, so no coupling error arises. The integration stops at the rotor's `breakpoints`.
+    Jacobian of both, so no coupling error arises. The integration stops at the kinks of a `Kinked` rotor.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ def simulate(
     settings = Integration(method=method, rtol=rtol, max_step=max_step)
     kept: list[tuple[float, Array]] = [(0.0, state)] if grid.size and grid[0] == 0.0 else []
     try:
-        for step in integrate(system, state, _stops(rotor, duration), settings):
+        for step in integrate(system, state, stops(rotor, 0.0, duration), settings):
             for t in grid[len(kept) : int(np.searchsorted(grid, step.end, side="right"))]:
                 kept.append((float(t), step.path(t)))
                 _require_gap(system, *kept[-1])
@@ -111,12 +111,6 @@ def _initial(system: Coupled, initial_state: ArrayLike) -> Array:
     return state
 
 
-def _stops(rotor: Dynamic, duration: float) -> list[float]:
-    """Return the times at which a smooth piece of the motion ends."""
-    kinks = getattr(rotor, "breakpoints", ())
-    return [*(t for t in kinks if 0.0 < t < duration), duration]
-
-
 def _require_gap(system: Coupled, t: float, state: Array) -> None:
     gap = system.gap(t, state)
     if gap <= CONTACT_GAP:
@@ -129,10 +123,10 @@ def _require_gap(system: Coupled, t: float, state: Array) -> None:
 def _trajectory(system: Coupled, kept: list[tuple[float, Array]]) -> Trajectory:
     """Return the signals at the kept samples, without one that lies beyond the wall."""
     inside = [(t, state) for t, state in kept if system.gap(t, state) > 0.0]
-    no_force = np.zeros(FORCES)
+    no_force = np.zeros(len(FORCE_OUTPUTS))
     outputs = np.array([system.rotor.output(t, state, no_force) for t, state in inside])
     outputs = outputs.reshape(len(inside), len(system.rotor.outputs)).T
     forces = system.forces(outputs[system.wiring.motion])
-    labels = [*names(system.rotor.outputs), *names(system.reaction.outputs)[:FORCES]]
+    labels = [*names(system.rotor.outputs), *FORCE_OUTPUTS]
     signals = dict(zip(labels, [*outputs, *forces], strict=True))
     return Trajectory(time=np.array([t for t, _ in inside]), signals=signals, work=dict(system.work))

@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rotorfilm.bearings import JournalBearing
-from rotorfilm.errors import FilmContactError, InputError, UndefinedDerivativeError
-from rotorfilm.films import RotatingArc, ShortFilm, SplittingFilm
+from rotorfilm.errors import FilmContactError, InputError, UndefinedDerivativeError, ValidityWarning
+from rotorfilm.films import RotatingArc, ShortFilm, SpectralArcFilm, SplittingFilm
 from rotorfilm.model import Model, Reaction
 
 DIMENSIONS = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}
@@ -105,9 +105,31 @@ def test_clearance_above_the_radius_is_refused():
         JournalBearing(**{**DIMENSIONS, "clearance": 0.1})
 
 
-def test_film_must_be_a_law():
+@pytest.mark.parametrize("film", ["short", ShortFilm])
+def test_film_must_be_a_law(film):
     with pytest.raises(InputError, match="film must be a film law"):
-        JournalBearing(**DIMENSIONS, film="short")
+        JournalBearing(**DIMENSIONS, film=film)
+
+
+def test_short_film_in_a_long_bearing_is_warned_about():
+    with pytest.warns(
+        ValidityWarning, match=r"length / diameter must not exceed 0.5 for ShortFilm\(\), got 0.6"
+    ):
+        JournalBearing(**{**DIMENSIONS, "length": 0.06})
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize(("slenderness", "median", "high"), [(0.25, 0.06, 0.28), (0.5, 0.23, 0.97)])
+def test_short_film_is_off_by_what_its_docstring_says(slenderness, median, high):
+    rng = np.random.default_rng(5)
+    chi, n = rng.uniform(0.05, 0.95, 300), 300
+    e = np.stack([chi, np.zeros(n)])
+    w = np.stack([rng.uniform(-0.5, 0.5, n), chi * rng.uniform(-1.0, 1.0, n)])
+    exact = SpectralArcFilm(degree=16, rupture=RotatingArc()).force(e, w, slenderness)
+    error = np.linalg.norm(ShortFilm().force(e, w, slenderness) - exact, axis=0) / np.linalg.norm(
+        exact, axis=0
+    )
+    np.testing.assert_allclose(np.quantile(error, [0.5, 0.9]), [median, high], rtol=0.25)
 
 
 @pytest.mark.parametrize("call", [bearing.force, bearing.jacobian])
@@ -145,3 +167,22 @@ def test_no_damping_at_rest_nor_in_exact_half_speed_whirl():
         np.testing.assert_array_equal(bearing.force(q, velocity, speed), 0.0)
         with pytest.raises(UndefinedDerivativeError):
             bearing.jacobian(q, velocity, speed)
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize(
+    "film",
+    [
+        ShortFilm(),
+        SplittingFilm(order=(1, 1)),
+        SplittingFilm(order=(2, None)),
+        SplittingFilm(order=(4, 2), rupture=RotatingArc()),
+        SpectralArcFilm(degree=24),
+    ],
+)
+def test_stiffness_at_the_exact_center_is_the_limit_of_the_force(film):
+    # F is linear in the position near the center: K = -F/q, column by column.
+    bearing, q = JournalBearing(**DIMENSIONS, film=film), 1e-10
+    jacobian = bearing.jacobian([0.0, 0.0], [0.0, 0.0], 100.0)
+    force = bearing.force(q * np.eye(2), np.zeros((2, 2)), 100.0)
+    np.testing.assert_allclose(jacobian[:, :2], force / q, atol=1e-5 * np.abs(force / q).max())

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.cosim import ModelSlave, couple, inspect_coupling
+from rotorfilm.cosim import InProcessSlave, couple, inspect_coupling
 from rotorfilm.errors import CouplingError, InputError
 
 STEPS = np.arange(200.0)
@@ -18,7 +18,9 @@ def inspected(x, y=None):
 
 def run(case, degrees, steps):
     step = np.radians(degrees)
-    return couple(ModelSlave(case.rotor), ModelSlave(case.film), macro_step=step, duration=steps * step)
+    return couple(
+        InProcessSlave(case.rotor), InProcessSlave(case.film), macro_step=step, duration=steps * step
+    )
 
 
 @pytest.mark.closed_form

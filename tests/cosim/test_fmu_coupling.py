@@ -11,8 +11,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotorfilm.bearings.journal import JournalBearing
-from rotorfilm.cosim import ModelSlave, cosimulate, couple, critical_macro_step, open_fmu
-from rotorfilm.errors import ContactError, CouplingError, FmuError, InputError
+from rotorfilm.cosim import InProcessSlave, cosimulate, couple, critical_macro_step, open_fmu
+from rotorfilm.errors import ContactError, CouplingError, FilmContactError, FmuError, InputError
 from rotorfilm.fmu import export_fmu
 from rotorfilm.linear import equilibrium
 from rotorfilm.rotors import RigidRotor, SpeedProfile
@@ -48,7 +48,7 @@ def scratch(tmp_path, monkeypatch):
 def test_coupled_fmus_give_what_the_models_give_in_this_process(fmus):
     arguments = {"macro_step": TURN / 400, "duration": TURN}
     coupled = cosimulate(fmus["rotor"], fmus["film"], **arguments)
-    direct = couple(ModelSlave(ROTOR), ModelSlave(BEARING), **arguments)
+    direct = couple(InProcessSlave(ROTOR), InProcessSlave(BEARING), **arguments)
     assert_allclose(coupled.trajectory.time, direct.trajectory.time, rtol=1e-15)
     assert list(coupled.trajectory.signals) == list(direct.trajectory.signals)
     for name, series in direct.trajectory.signals.items():
@@ -105,6 +105,26 @@ def test_a_journal_at_the_wall_ends_the_run_and_leaves_the_process_sound(fmus):
     assert run.trajectory.time.size == 11
 
 
+def test_a_film_fmu_beyond_the_wall_answers_with_contact(fmus):
+    with open_fmu(fmus["film"]) as film:
+        film.start({"x": 1e-5, "y": 0.0, "vx": 0.0, "vy": 0.0, "speed": 100.0})
+        film.set({"x": 2e-4})
+        with pytest.raises(FilmContactError, match=r"FMU .* failed in the step .* inside the clearance"):
+            film.step(0.0, 1e-4)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "match"),
+    [
+        ({"macro_step": 0.0, "duration": 1.0}, "macro_step must be finite and positive, got 0.0"),
+        ({"macro_step": 1.0, "duration": -1.0}, "duration must be finite and positive, got -1.0"),
+    ],
+)
+def test_times_are_checked_before_a_file_is_opened(arguments, match):
+    with pytest.raises(InputError, match=match):
+        cosimulate("absent.fmu", "absent.fmu", **arguments)
+
+
 def test_signals_lose_their_component_and_start_values_count(fmus):
     with open_fmu(fmus["film"]) as film:
         assert film.inputs == ("x", "y", "vx", "vy", "speed")
@@ -116,7 +136,7 @@ def test_signals_lose_their_component_and_start_values_count(fmus):
 
 
 def test_fmus_that_do_not_fit_are_named(fmus):
-    with pytest.raises(InputError, match=r"rotor must take and film must give \['force_x', 'force_y'\]"):
+    with pytest.raises(InputError, match=r"rotor must have the inputs \['force_x', 'force_y'\], got \['x'"):
         cosimulate(fmus["film"], fmus["rotor"], macro_step=1e-4, duration=1e-3)
 
 

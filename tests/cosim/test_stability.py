@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
 from rotorfilm.bearings.journal import JournalBearing
-from rotorfilm.cosim import ModelSlave, couple, coupling_stability, critical_macro_step
+from rotorfilm.cosim import InProcessSlave, couple, coupling_stability, critical_macro_step
 from rotorfilm.errors import FilmContactError, InputError, PartialResultError
 from rotorfilm.rotors import RigidRotor
 
@@ -64,7 +64,9 @@ def test_critical_macro_step_of_a_journal_bearing_in_si(nondimensional, eccentri
 def growth_per_step(case, macro_step):
     """Return the growth of a small alternation of the force in a run of the master itself."""
     rotor = replace(case.rotor, position=tuple(case.state[:2] + 1e-9))
-    run = couple(ModelSlave(rotor), ModelSlave(case.film), macro_step=macro_step, duration=60.0 * macro_step)
+    run = couple(
+        InProcessSlave(rotor), InProcessSlave(case.film), macro_step=macro_step, duration=60.0 * macro_step
+    )
     force = np.stack([run.trajectory["force_x"], run.trajectory["force_y"]])
     swing = np.hypot(*np.diff(force, n=2, axis=1))
     return (swing[50] / swing[30]) ** (1.0 / 20.0)
@@ -101,7 +103,6 @@ def test_spectral_radius_on_a_spring_and_damper(make_spring_damper):
     )
     scheme = [[1.0 - k * h * h / (2 * m), h - c * h * h / (2 * m)], [-k * h / m, 1.0 - c * h / m]]
     assert_allclose(found.spectral_radius, np.abs(np.linalg.eigvals(scheme)).max(), rtol=1e-12)
-    assert_allclose(found.damping_number, h * c / m, rtol=1e-12)
 
 
 def test_an_unstable_system_has_no_critical_macro_step(nondimensional):
@@ -154,4 +155,6 @@ def test_a_run_past_the_limit_is_never_an_answer(nondimensional):
     for factor in (1.02, 1.2, 1.5, 2.0, 3.0, 5.0):
         step = factor * limit
         with pytest.raises(PartialResultError):
-            couple(ModelSlave(case.rotor), ModelSlave(case.film), macro_step=step, duration=150.0 * step)
+            couple(
+                InProcessSlave(case.rotor), InProcessSlave(case.film), macro_step=step, duration=150.0 * step
+            )

@@ -120,6 +120,13 @@ def test_batch_equals_single_states(film):
 
 
 @films
+def test_empty_batch(film):
+    empty = np.zeros((2, 0))
+    assert film.force(empty, empty, 0.5).shape == (2, 0)
+    assert film.jacobian(empty, empty, 0.5).shape == (2, 4, 0)
+
+
+@films
 @pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
 @pytest.mark.parametrize("chi", [0.0, 1e-8, 1e-4, 0.9999])
 def test_finite_over_the_whole_range_of_eccentricity(film, chi):

@@ -1,7 +1,4 @@
-"""Running FMUs in fmpy, and a user's own model in a module of its own."""
-
-import importlib
-import sys
+"""Running FMUs in fmpy call by call, with each status and the log as they are."""
 
 import fmpy
 import pytest
@@ -14,62 +11,6 @@ from fmpy.fmi2 import (
     fmi2CallbackLoggerTYPE,
     free,
 )
-
-PROPORTIONAL = '''
-"""A user's model."""
-
-from __future__ import annotations
-
-import numpy as np
-from dataclasses import dataclass
-
-from rotorfilm.model import Linearization, static_linearization
-from rotorfilm.signals import Signal
-
-GAIN = 2.0
-
-
-@dataclass(frozen=True)
-class Proportional:
-    """Output = GAIN * input."""
-
-    offset: object = 0.0
-    inputs = (Signal(name="a", unit="m", nominal=1e-3, description="input"),)
-    outputs = (Signal(name="b", unit="N", nominal=2.0, description="output"),)
-    states = ()
-
-    def output(self, t, x, u):
-        return np.array([GAIN * u[0]])
-
-    def linearization(self, t, x, u) -> Linearization:
-        return static_linearization(np.array([[GAIN]]))
-'''
-
-
-@pytest.fixture
-def own_source():
-    """Return the source of a module with the model Proportional."""
-    return PROPORTIONAL
-
-
-@pytest.fixture
-def write_module(tmp_path, monkeypatch):
-    """Return a function that writes a module and imports it."""
-    monkeypatch.syspath_prepend(str(tmp_path))
-    # A module written twice within a second would be read from the bytecode of the first.
-    monkeypatch.setattr(sys, "dont_write_bytecode", True)
-    written = []
-
-    def write(name, text=PROPORTIONAL):
-        (tmp_path / f"{name}.py").write_text(text)
-        written.append(name)
-        sys.modules.pop(name, None)
-        importlib.invalidate_caches()
-        return importlib.import_module(name)
-
-    yield write
-    for name in written:
-        sys.modules.pop(name, None)
 
 
 class Instance:

@@ -9,6 +9,7 @@ import pytest
 from rotorfilm.bearings.journal import JournalBearing
 from rotorfilm.films import FixedArc, RotatingArc, SplittingFilm
 from rotorfilm.fmu import export_fmu
+from rotorfilm.rotors.profile import SpeedProfile
 from rotorfilm.rotors.rigid import RigidRotor
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
@@ -23,6 +24,11 @@ FORCES = ["bearing.force_x", "bearing.force_y"]
 MASS, SPEED, UNBALANCE = 50.0, 157.0, 8e-4
 ROTOR = RigidRotor(mass=MASS, speed=SPEED, unbalance=UNBALANCE, gravity=(0.0, 0.0))
 MOTION = ["rotor.x", "rotor.y", "rotor.vx", "rotor.vy"]
+STATES = ["rotor.state_x", "rotor.state_y", "rotor.state_vx", "rotor.state_vy"]
+ROTORS = {
+    "constant": ROTOR,
+    "run-up": replace(ROTOR, speed=SpeedProfile(times=(0.0, 0.5), speeds=(40.0, 160.0)), unbalance_angle=0.3),
+}
 
 
 def random_states(count):
@@ -89,6 +95,18 @@ def test_the_rotor_moves_as_its_closed_form(steps, load, tmp_path):
     nominal = [signal.nominal for signal in ROTOR.states]
     difference = np.subtract(fmu.get(*MOTION), closed_form(duration, force)) / nominal
     assert np.abs(difference).max() < 1e-7
+
+
+@pytest.mark.parametrize("rotor", ROTORS.values(), ids=ROTORS)
+def test_the_rotor_answers_as_a_direct_call_at_the_start(rotor, load, tmp_path):
+    path = export_fmu(rotor, tmp_path / "a.fmu", component="rotor")
+    generator = np.random.default_rng(3)
+    scale = [signal.nominal for signal in (*rotor.states, *rotor.inputs)]
+    for value in generator.normal(0.0, scale, (10, 6)):
+        fmu = load(path)
+        fmu.initialize(dict(zip([*STATES, "rotor.force_x", "rotor.force_y"], value, strict=True)))
+        expected = rotor.output(0.0, value[:4], value[4:])
+        np.testing.assert_allclose(fmu.get(*MOTION, "rotor.speed"), expected, rtol=1e-12)
 
 
 def test_the_rotor_starts_where_it_is_put(load, tmp_path):

@@ -1,5 +1,6 @@
 """The shipped recipes: build, agree with their reference trajectories, and are described in the README."""
 
+from dataclasses import replace
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
@@ -7,7 +8,8 @@ import numpy as np
 import pytest
 from fmpy.validation import validate_fmu
 
-from rotorfilm.fmu import fmi_variables
+from rotorfilm.fmu import export_fmu, fmi_variables
+from rotorfilm.scenes import bundled_scene
 
 FMUS = Path(__file__).parents[2] / "fmus"
 
@@ -52,19 +54,30 @@ def test_the_rotor_reference_obeys_the_impulse_theorem(shipped):
     recipe = shipped.load_recipe("rotor")
     model, table = recipe.model(), shipped.read_reference("rotor")
     time, force, velocity = table[:, 0], table[:, 1:3], table[:, 5:7]
-    weight = np.array([0.0, -recipe.LOAD])
-    impulse = np.sum((force[:-1] + weight) * np.diff(time)[:, None], axis=0)
-    angle = recipe.SPEED * time[-1]
-    wobble = model.unbalance * recipe.SPEED * np.array([np.sin(angle), 1.0 - np.cos(angle)])
+    impulse = np.sum((force[:-1] + model.static_load) * np.diff(time)[:, None], axis=0)
+    angle = model.speed * time[-1]
+    wobble = model.unbalance * model.speed * np.array([np.sin(angle), 1.0 - np.cos(angle)])
     np.testing.assert_allclose(model.mass * velocity[-1], impulse + wobble, rtol=1e-9, atol=1e-9)
 
 
-def test_a_wrong_fmu_is_noticed(shipped, tmp_path, monkeypatch):
-    path = shipped.build("journal", tmp_path)
-    wrong = 1.0001 * shipped.read_reference("journal")
-    monkeypatch.setattr(shipped, "read_reference", lambda name: wrong)
-    monkeypatch.setattr(shipped, "run", lambda path, time, inputs: wrong[:, -2:] / 1.0001)
-    assert shipped.deviation("journal", path) > shipped.TOLERANCE
+@pytest.mark.parametrize(
+    ("name", "component", "parameter"), [("journal", "bearing", "viscosity"), ("rotor", "rotor", "unbalance")]
+)
+def test_a_wrong_fmu_is_noticed(name, component, parameter, shipped, tmp_path):
+    model = shipped.load_recipe(name).model()
+    wrong = replace(model, **{parameter: 1.0001 * getattr(model, parameter)})
+    path = export_fmu(wrong, tmp_path / "wrong.fmu", component=component)
+    assert shipped.deviation(name, path) > 100.0 * shipped.TOLERANCE
+
+
+def test_the_two_recipes_fit_together(shipped):
+    scene, film, rotor = bundled_scene(), shipped.load_recipe("journal"), shipped.load_recipe("rotor")
+    assert film.model() == scene.bearing
+    assert replace(rotor.model(), position=(0.0, 0.0)) == scene.rotor
+    start = film.start()
+    force = film.model().force(rotor.model().position, (0.0, 0.0), rotor.model().speed)
+    assert (start["x"], start["y"], start["speed"]) == (*rotor.model().position, rotor.model().speed)
+    np.testing.assert_allclose(force + rotor.model().static_load, 0.0, atol=1e-6)
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -14,7 +14,7 @@ from fmpy.validation import validate_fmu
 from rotorfilm.bearings.journal import JournalBearing
 from rotorfilm.errors import FmuError, InputError
 from rotorfilm.films import RotatingArc, SplittingFilm
-from rotorfilm.fmu import export_fmu
+from rotorfilm.fmu import archive, export_fmu
 from rotorfilm.rotors.rigid import RigidRotor
 from rotorfilm.units import UNITS
 
@@ -168,26 +168,27 @@ def test_the_component_is_named_after_the_class_by_default(tmp_path):
         ({"start": {"z": 1.0}}, r"start must have keys from the inputs \['x', .*got 'z'"),
         ({"start": {"x": 2e-4}}, r"start must be values at which the model has an output, got .*0\.0002"),
         ({"path": "a.zip"}, r"path must end in \.fmu, got 'a\.zip'"),
-        ({"model": Wrapped()}, "model must have inputs, outputs, states"),
-    ],
-)
-def test_bad_arguments_are_refused(arguments, message, tmp_path):
-    with pytest.raises(FmuError, match=message):
-        export_fmu(**{"model": BEARING, "path": tmp_path / "a.fmu", **arguments})
-    assert list(tmp_path.iterdir()) == []
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
         ({"start": {"x": np.nan}}, r"start\['x'\] must be finite, got nan"),
         ({"stop_time": 0.0}, "stop_time must be finite and positive, got 0.0"),
         ({"step_size": -1.0}, "step_size must be finite and positive, got -1.0"),
     ],
 )
-def test_bad_numbers_are_refused(arguments, message, tmp_path):
+def test_bad_arguments_are_refused(arguments, message, tmp_path):
     with pytest.raises(InputError, match=message):
-        export_fmu(BEARING, tmp_path / "a.fmu", **arguments)
+        export_fmu(**{"model": BEARING, "path": tmp_path / "a.fmu", **arguments})
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_something_else_than_a_model_is_refused(tmp_path):
+    with pytest.raises(FmuError, match="model must have inputs, outputs, states"):
+        export_fmu(Wrapped(), tmp_path / "a.fmu")
+
+
+def test_another_pythonfmu_is_refused(monkeypatch, tmp_path):
+    monkeypatch.setattr(archive, "version", lambda package: {"pythonfmu": "0.7.1"}[package])
+    with pytest.raises(FmuError, match=r"pythonfmu must be 0\.7\.0 to export an FMU, got 0\.7\.1"):
+        export_fmu(BEARING, tmp_path / "a.fmu")
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_field_that_is_no_data_is_refused_by_name(write_module, tmp_path):

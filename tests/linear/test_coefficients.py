@@ -65,7 +65,7 @@ def test_linear_film_gives_its_own_matrices(linear_film):
 def test_bad_arguments(bearing):
     with pytest.raises(InputError, match="position must have shape"):
         coefficients(bearing, [[0.0, 1e-5], [0.0, 0.0]], SPEED)
-    with pytest.raises(InputError, match="speed must be a single number"):
+    with pytest.raises(InputError, match="speed must be a single finite number"):
         coefficients(bearing, [0.0, 1e-5], [SPEED])
     with pytest.raises(FilmContactError):
         coefficients(bearing, [0.0, 1.1e-4], SPEED)

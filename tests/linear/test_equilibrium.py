@@ -156,8 +156,8 @@ def test_force_that_cannot_point_against_the_load(linear_film):
         ([math.nan, 1.0], SPEED, "load must be finite"),
         ([1.0, 1.0, 1.0], SPEED, "load must have shape"),
         (5.0, SPEED, "load must have shape"),
-        ([1.0, 0.0], math.inf, "speed must be finite"),
-        ([1.0, 0.0], [1.0, 2.0], "speed must be a single number"),
+        ([1.0, 0.0], math.inf, "speed must be a single finite number, got inf"),
+        ([1.0, 0.0], [1.0, 2.0], "speed must be a single finite number"),
     ],
 )
 def test_bad_arguments(bearing, load, speed, message):

@@ -6,9 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq, minimize_scalar
 
-from rotorfilm.errors import InputError
+from rotorfilm.errors import EquilibriumError, InputError
 from rotorfilm.films import SplittingFilm
-from rotorfilm.linear import coefficients, critical_mass, equilibrium, whirl_threshold
+from rotorfilm.linear import coefficients, critical_mass, equilibrium, speed_parameter, whirl_threshold
 
 SPEED = 1500 * math.pi / 30
 LOAD = [0.0, -525.0]
@@ -27,7 +27,7 @@ def eigenvalue_threshold(ocvirk, eps):
     return brentq(lambda w: growth(ocvirk, eps, w), 1.0, 50.0, xtol=1e-12)
 
 
-def speed_parameter(bearing, ocvirk, eps):
+def parameter_at(bearing, ocvirk, eps):
     load = ocvirk.load(eps, SPEED)
     at = equilibrium(bearing, [0.0, -load], SPEED)
     mass = critical_mass(coefficients(bearing, at.position, SPEED)).mass
@@ -51,7 +51,7 @@ def test_thresholds_of_the_short_bearing(bearing, ocvirk, eps, printed):
 @pytest.mark.closed_form
 def test_lowest_threshold_of_the_short_bearing(bearing, ocvirk):
     lowest = minimize_scalar(
-        lambda eps: speed_parameter(bearing, ocvirk, eps), bounds=(0.3, 0.6), method="bounded"
+        lambda eps: parameter_at(bearing, ocvirk, eps), bounds=(0.3, 0.6), method="bounded"
     )
     reference = minimize_scalar(
         lambda eps: eigenvalue_threshold(ocvirk, eps), bounds=(0.3, 0.6), method="bounded"
@@ -63,7 +63,7 @@ def test_lowest_threshold_of_the_short_bearing(bearing, ocvirk):
 @pytest.mark.closed_form
 def test_short_bearing_is_stable_at_any_speed_beyond_eps_756030(bearing, ocvirk):
     for eps, exists in ((0.756029, True), (0.756031, False)):
-        assert math.isfinite(speed_parameter(bearing, ocvirk, eps)) == exists
+        assert math.isfinite(parameter_at(bearing, ocvirk, eps)) == exists
         assert (growth(ocvirk, eps, 1e5) > 0.0) == exists
 
 
@@ -124,6 +124,41 @@ def test_reason_where_there_is_no_threshold(linear_film, stiffness, damping, rea
     assert not found.exists
     assert found.equilibrium is None
     assert found.reason.startswith(reason)
+
+
+class GivesWayFilm:
+    """A film that carries nothing between two speeds."""
+
+    def __init__(self, film, low, high):
+        self.film, self.low, self.high = film, low, high
+        self.clearance, self.jacobian = film.clearance, film.jacobian
+
+    def force(self, position, velocity, speed):
+        carries = not self.low < speed < self.high
+        return carries * self.film.force(position, velocity, speed)
+
+
+def test_an_equilibrium_lost_in_mid_range_is_not_bridged(bearing):
+    onset = whirl_threshold(bearing, LOAD, MASS).speed
+    for low, high in ((0.7 * onset, 1.4 * onset), (0.3 * onset, 0.5 * onset)):
+        film = GivesWayFilm(bearing, low, high)
+        with pytest.raises(EquilibriumError, match="speed must make the film carry load: at speed") as caught:
+            whirl_threshold(film, LOAD, MASS, (10.0, 10.0 * onset))
+        assert low < float(str(caught.value).split("at speed ")[1].split()[0]) < high
+
+
+def test_speeds_too_low_to_carry_the_load_are_passed_over(bearing):
+    onset = whirl_threshold(bearing, LOAD, MASS).speed
+    film = GivesWayFilm(bearing, 0.0, 0.5 * onset)
+    assert whirl_threshold(film, LOAD, MASS).speed == pytest.approx(onset, rel=1e-10)
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_speed_parameter_is_the_speed_in_units_of_the_free_fall_across_the_clearance(sense):
+    # load = weight: w = speed sqrt(c / g)
+    found = speed_parameter(speed=sense * 100.0, clearance=1e-4, mass=7.0, load=[7.0 * 6.0, -7.0 * 8.0])
+    assert found == pytest.approx(100.0 * math.sqrt(1e-4 / 10.0), rel=1e-14)
 
 
 def test_threshold_outside_the_range_asked_for(bearing):

@@ -9,6 +9,7 @@ from rotorfilm.bearings.journal import JournalBearing
 from rotorfilm.errors import InputError, UndefinedDerivativeError
 from rotorfilm.linear import equilibrium
 from rotorfilm.rotors import RigidRotor, SpeedProfile
+from rotorfilm.signals import Signal
 from rotorfilm.transient import simulate
 from rotorfilm.transient.coupled import Coupled
 
@@ -177,6 +178,16 @@ def test_bad_arguments_are_named(arguments, match):
         simulate(FRISWELL, BEARING, **arguments)
 
 
+class TorqueRotor(RigidRotor):
+    """A rotor with an input that no film drives."""
+
+    @property
+    def inputs(self):
+        return (*super().inputs, Signal(name="torque", unit="N", nominal=1.0, description=""))
+
+
 def test_signals_that_do_not_fit_are_named():
     with pytest.raises(InputError, match=r"rotor must have the outputs .* without"):
         simulate(BEARING, BEARING, duration=1.0)
+    with pytest.raises(InputError, match=r"rotor must have no inputs but .*, got .*'torque'"):
+        simulate(TorqueRotor(mass=50.0, speed=1.0), BEARING, duration=1.0)
