@@ -15,6 +15,8 @@ _HOMES = {
         "ComplementarityArc",
         "FilmLaw",
         "FixedArc",
+        "MapFilm",
+        "MapTable",
         "ReynoldsArc",
         "RotatingArc",
         "ShortFilm",

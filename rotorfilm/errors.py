@@ -90,7 +90,7 @@ def require_finite(name: str, value: ArrayLike) -> NDArray[np.float64]:
         array = np.asarray(value, dtype=float)
     except (TypeError, ValueError):
         raise InputError(f"{name} must be numeric, got {value!r}") from None
-    if not np.all(np.isfinite(array)):
+    if not np.isfinite(array).all():
         raise InputError(f"{name} must be finite, got {value!r}")
     return array
 

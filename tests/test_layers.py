@@ -11,6 +11,7 @@ PACKAGE = Path(rotorfilm.__file__).parent
 LEAVES = ["errors", "units", "signals", "model", "results"]
 LAYERS = [
     LEAVES,
+    ["native"],
     ["films"],
     ["bearings", "rotors"],
     ["linear", "transient", "cosim", "fmu"],

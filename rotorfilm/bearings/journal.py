@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,7 +18,7 @@ from ..errors import (
     require_positive,
     require_vector,
 )
-from ..films.law import CENTER, FilmLaw
+from ..films.law import CENTER, BindableFilm, BoundFilm, FilmLaw
 from ..films.short import ShortFilm
 from ..model import Array, Linearization, force_outputs, journal_inputs, static_linearization
 from ..signals import Signal
@@ -158,8 +160,20 @@ class JournalBearing:
         """
         return self.prepared_jacobian(*self._validated(position, velocity, speed))
 
+    def prepare(self) -> Callable[[float, float, float, float, float], tuple[float, float]]:
+        """Return the force as a function of five numbers, for loops that go state by state.
+
+        Returns
+        -------
+        callable
+            (x, y, vx, vy, speed) [m, m/s, rad/s] -> (force_x, force_y) [N]. Raises what `force` raises.
+        """
+        return self._scalar_call if self._bound is None else self._bound.call
+
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape, checked for contact only."""
+        if self._bound is not None:
+            return self._bound.force(position, velocity, speed)
         eccentricity, source = self._kinematics(position, velocity, speed)
         mirror = _mirror(speed)
         return (
@@ -170,6 +184,8 @@ class JournalBearing:
 
     def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `jacobian` for inner loops: float arrays of equal batch shape, checked for contact only."""
+        if self._bound is not None:
+            return self._bound.jacobian(position, velocity, speed)
         eccentricity, source = self._kinematics(self._off_center(position), velocity, speed)
         mirror = _mirror(speed)
         film = self.force_scale * self.film.jacobian(mirror * eccentricity, mirror * source, self.slenderness)
@@ -191,12 +207,26 @@ class JournalBearing:
         values = _input_vector(u)
         return static_linearization(self.jacobian(values[:2], values[2:4], values[4]))
 
+    @cached_property
+    def _bound(self) -> BoundFilm | None:
+        if not isinstance(self.film, BindableFilm):
+            return None
+        return self.film.bind(
+            slenderness=self.slenderness, clearance=self.clearance, force_scale=self.force_scale
+        )
+
+    def _scalar_call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
+        force_x, force_y = self.force((x, y), (vx, vy), speed).tolist()
+        return force_x, force_y
+
     def _validated(
         self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike
     ) -> tuple[Array, Array, Array]:
         q = require_vector("position", position)
         v = require_vector("velocity", velocity)
         omega = require_finite("speed", speed)
+        if q.shape == v.shape and q.shape[1:] == omega.shape:
+            return q, v, omega
         try:
             x, y, vx, vy, omega = np.broadcast_arrays(q[0], q[1], v[0], v[1], omega)
         except ValueError:
@@ -221,10 +251,12 @@ class JournalBearing:
         require_inside(position, self.clearance)
         eccentricity = position / self.clearance
         squeeze = velocity / self.clearance
-        wedge = 0.5 * speed * np.stack([eccentricity[1], -eccentricity[0]])
+        wedge = eccentricity[::-1] * (0.5 * speed)
+        wedge[1] *= -1.0
         source = squeeze + wedge
-        cancelled = np.abs(source).max(axis=0) <= ROUNDOFF * (np.abs(squeeze) + np.abs(wedge)).max(axis=0)
-        return eccentricity, np.where(cancelled, 0.0, source)
+        terms = (abs(squeeze) + abs(wedge)).max(axis=0)
+        source *= abs(source).max(axis=0) > ROUNDOFF * terms
+        return eccentricity, source
 
 
 def _mirror(speed: Array) -> Array:
@@ -232,7 +264,9 @@ def _mirror(speed: Array) -> Array:
 
     Film laws know positive rotation only: the arc of `FixedArc` follows the sense of rotation.
     """
-    return np.stack([np.ones_like(speed), np.where(speed < 0.0, -1.0, 1.0)])
+    mirror = np.ones((2, *speed.shape))
+    mirror[1] -= 2.0 * (speed < 0.0)
+    return mirror
 
 
 def _input_vector(u: ArrayLike) -> Array:

@@ -2,6 +2,9 @@
 
 from .complementarity_arc import ComplementarityArc
 from .law import FilmLaw
+from .map import MapFilm
+from .map_fit import fit_map_table, tabulate_film
+from .map_table import MapTable
 from .reynolds_arc import ReynoldsArc
 from .rupture import FixedArc, RotatingArc, Rupture
 from .short import ShortFilm
@@ -12,10 +15,14 @@ __all__ = [
     "ComplementarityArc",
     "FilmLaw",
     "FixedArc",
+    "MapFilm",
+    "MapTable",
     "ReynoldsArc",
     "RotatingArc",
     "Rupture",
     "ShortFilm",
     "SpectralArcFilm",
     "SplittingFilm",
+    "fit_map_table",
+    "tabulate_film",
 ]

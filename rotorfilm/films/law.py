@@ -48,6 +48,27 @@ class FilmLaw(Protocol):
         """Return d force / d (eccentricity, source), shape (2, 4, ...)."""
 
 
+class BoundFilm(Protocol):
+    """A film in one bearing: dimensions inside, SI units outside, nothing between it and its own loop."""
+
+    def call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
+        """Return (force_x, force_y) [N] for numbers; raises what the bearing's `force` raises."""
+
+    def force(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return the force [N], shape (2, ...), for float arrays of equal batch shape."""
+
+    def jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return d force / d (x, y, vx, vy, speed), shape (2, 5, ...)."""
+
+
+@runtime_checkable
+class BindableFilm(FilmLaw, Protocol):
+    """A film law that does the kinematics and the scaling of a bearing by itself, in compiled code."""
+
+    def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundFilm:
+        """Return the film of one bearing; force_scale is viscosity length radius^3 / clearance^2 [N s]."""
+
+
 class PolarFrame(NamedTuple):
     """The journal's state in polar axes, batch axis first.
 
@@ -86,8 +107,11 @@ def polar_frame(eccentricity: Array, source: Array, floor: float = 0.0) -> Polar
     safe = np.where(off_center, chi, 1.0)
     cos = np.where(off_center, eccentricity[0] / safe, 1.0)
     sin = np.where(off_center, eccentricity[1] / safe, 0.0)
-    axes = np.stack([np.stack([-sin, cos], -1), np.stack([cos, sin], -1)], -1)
-    polar = np.stack([cos * source[1] - sin * source[0], cos * source[0] + sin * source[1]], -1)
+    axes, polar = np.empty((chi.size, 2, 2)), np.empty((chi.size, 2))
+    axes[:, 0, 0], axes[:, 1, 0] = -sin, cos
+    axes[:, 0, 1], axes[:, 1, 1] = cos, sin
+    polar[:, 0] = cos * source[1] - sin * source[0]
+    polar[:, 1] = cos * source[0] + sin * source[1]
     return PolarFrame(np.maximum(chi, floor), axes, polar)
 
 

@@ -38,15 +38,10 @@ def closed_gram(chi: Array, start: Array, end: Array) -> tuple[Array, Array]:
     """
     powers = _trigonometric_integrals(sommerfeld_angle(chi, start), sommerfeld_angle(chi, end))
     s2 = (1.0 - chi) * (1.0 + chi)
-    zero, one = np.zeros_like(chi), np.ones_like(chi)
-    functions = np.stack(
-        [
-            np.stack([one, -chi, zero], -1),
-            np.stack([1.0 - chi, 1.0 - chi, zero], -1),
-            np.stack([zero, zero, np.sqrt(s2)], -1),
-        ],
-        -2,
-    )
+    functions = np.zeros((chi.size, 3, 3))
+    functions[:, 0, 0], functions[:, 0, 1] = 1.0, -chi
+    functions[:, 1, 0] = functions[:, 1, 1] = 1.0 - chi
+    functions[:, 2, 2] = np.sqrt(s2)
     second = _products(powers, (0, 0))
     third = _products(powers, (1, 0)) - chi[:, None, None] * second
     gram = functions @ second @ functions.swapaxes(-1, -2) * (s2**-2.5)[:, None, None]
@@ -57,10 +52,11 @@ def closed_gram(chi: Array, start: Array, end: Array) -> tuple[Array, Array]:
 def _products(powers: dict[tuple[int, int], Array], extra: tuple[int, int]) -> Array:
     """Return int (1, c, s)^T (1, c, s) c^i s^j dzeta for (i, j) = extra, shape (B, 3, 3)."""
     basis = ((0, 0), (1, 0), (0, 1))
-    rows = [
-        np.stack([powers[a[0] + b[0] + extra[0], a[1] + b[1] + extra[1]] for b in basis], -1) for a in basis
-    ]
-    return np.stack(rows, -2)
+    products = np.empty((powers[0, 0].size, 3, 3))
+    for row, a in enumerate(basis):
+        for column, b in enumerate(basis):
+            products[:, row, column] = powers[a[0] + b[0] + extra[0], a[1] + b[1] + extra[1]]
+    return products
 
 
 def _trigonometric_integrals(start: Array, end: Array) -> dict[tuple[int, int], Array]:

@@ -21,6 +21,10 @@ SLAVE = f"{PACKAGE}.fmu.slave"
 API = f"{PACKAGE}.fmu.pythonfmu_api"
 
 
+COMPANIONS = {f"{PACKAGE}.films.map": ("films/data/*", "native/*.so", "native/*.dylib", "native/*.dll")}
+"""Files, below the package, that a module reads at run time."""
+
+
 class Bundle(NamedTuple):
     """Source files for `resources/`, and the new names of the modules in them.
 
@@ -56,6 +60,7 @@ def bundle_source(modules: Iterable[str]) -> Bundle:
     tag = content_hash({**texts, package: b""})
     names.update({name: f"{name.replace('.', '_')}_{tag}" for name in users})
     files = {_path(name).replace(PACKAGE, package, 1): source for name, source in sources.items()}
+    files.update({f"{package}/{name}": content for name, content in _companions(own).items()})
     files.update({f"{names[name]}.py": renamed_source(read[name].tree, names).encode() for name in users})
     return Bundle(files, names)
 
@@ -81,6 +86,12 @@ def _closure(modules: Iterable[str]) -> dict[str, bytes]:
         waiting += [found for found in _imported(name, sources[name]) if _is_module(found)]
         waiting += [name.rpartition(".")[0]] if "." in name else []
     return sources
+
+
+def _companions(modules: Iterable[str]) -> dict[str, bytes]:
+    patterns = [pattern for name in modules for pattern in COMPANIONS.get(name, ())]
+    found = sorted(path for pattern in patterns for path in ROOT.glob(pattern) if path.is_file())
+    return {path.relative_to(ROOT).as_posix(): path.read_bytes() for path in found}
 
 
 def _imported(name: str, source: bytes) -> Iterator[str]:

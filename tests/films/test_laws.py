@@ -9,11 +9,13 @@ from rotorfilm.errors import UndefinedDerivativeError
 from rotorfilm.films import (
     ComplementarityArc,
     FixedArc,
+    MapFilm,
     ReynoldsArc,
     RotatingArc,
     ShortFilm,
     SpectralArcFilm,
     SplittingFilm,
+    tabulate_film,
 )
 
 CUT = FixedArc(start=0.3, extent=5.9)
@@ -36,9 +38,10 @@ FILMS = {
     "spectral Reynolds": SpectralArcFilm(degree=32, rupture=ReynoldsArc()),
     "(4+c,8) complementary": SplittingFilm(order=(4, 8), constant=True, rupture=ComplementarityArc()),
     "spectral complementary": SpectralArcFilm(degree=32, rupture=ComplementarityArc()),
+    "map": MapFilm(tabulate_film(ShortFilm(), slenderness_range=(0.1, 1.0), cells=(16, 32, 5))),
 }
 # Reynolds' condition at one end only is not mirrored by swapping the ends.
-MIRRORED = ("rotating", "short", "complementary")
+MIRRORED = ("rotating", "short", "complementary", "map")
 ROTATING = {name: film for name, film in FILMS.items() if any(word in name for word in MIRRORED)}
 ROTATING.pop("(2,all) short arc")
 # One circumferential function has no isotropic limit at the center.
@@ -134,6 +137,7 @@ def test_empty_batch(film):
 
 
 @films
+@pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
 @pytest.mark.parametrize("chi", [0.0, 1e-8, 1e-4, 0.9999])
 def test_finite_over_the_whole_range_of_eccentricity(film, chi):
     e, w = np.array([chi, 0.0]), np.array([0.3, -0.5])

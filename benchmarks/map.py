@@ -1,0 +1,120 @@
+"""The impedance map against the law that it tabulates, in one run: error, batched and scalar cost, ratios.
+
+The table is made from the short film, whose force is known exactly, so that the error is that of the table
+alone. Baseline of the batch: the short film itself (closed form, NumPy). Baseline of the scalar calls: the
+fastest that Python can do, the short film's closed form for the steady journal written out with `math`.
+
+    python benchmarks/map.py
+"""
+
+from __future__ import annotations
+
+from math import pi, sqrt
+from time import perf_counter
+
+import numpy as np
+
+from rotorfilm.bearings import JournalBearing
+from rotorfilm.films import MapFilm, ShortFilm, tabulate_film
+
+COUNT = 20000
+RANGES = ((0.0, 0.95), (0.95, 0.99), (0.99, 0.999))
+RADIUS, LENGTH, CLEARANCE, VISCOSITY = 0.05, 0.04, 1e-4, 0.1
+STATE = (1e-5, -2e-5, 1e-3, 2e-3, 100.0)
+
+
+def timed(call, repeats: int = 7, loops: int = 1) -> float:
+    """Return the shortest time [s] of one call."""
+    times = []
+    for _ in range(repeats):
+        begin = perf_counter()
+        for _ in range(loops):
+            call()
+        times.append(perf_counter() - begin)
+    return min(times) / loops
+
+
+def steady_force(x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
+    """Return Ocvirk's steady force in plain Python; the velocity is not used."""
+    eps2 = (x * x + y * y) / CLEARANCE**2
+    k = VISCOSITY * speed * LENGTH**3 * RADIUS / CLEARANCE**3
+    across, along = k * pi / (4.0 * (1.0 - eps2) ** 1.5), k * sqrt(eps2) / (1.0 - eps2) ** 2
+    return -along * x + across * y, -along * y - across * x
+
+
+def random_states(lowest: float, highest: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return eccentricities and sources, shape (2, COUNT)."""
+    rng = np.random.default_rng(1)
+    chi, phi = rng.uniform(lowest, highest, COUNT), rng.uniform(-np.pi, np.pi, COUNT)
+    return chi * np.stack([np.cos(phi), np.sin(phi)]), rng.normal(size=(2, COUNT))
+
+
+def print_accuracy() -> None:
+    """Print the 99 % error and the cost of tables of growing size."""
+    print("error of the table against the law it tabulates (99 %, vector), L/D 0.4")
+    print(f"{'cells X, T':>12s}{'bytes':>9s}" + "".join(f"{f'to {high}':>11s}" for _, high in RANGES))
+    for cells in ((12, 24), (16, 32), (24, 48), (32, 64), (48, 96)):
+        table = tabulate_film(
+            ShortFilm(), slenderness_range=(0.4, 0.4), cells=(*cells, 0), largest_eccentricity_ratio=0.999
+        )
+        errors = []
+        for lowest, highest in RANGES:
+            e, w = random_states(lowest, highest)
+            exact = ShortFilm().force(e, w, 0.4)
+            gap = np.linalg.norm(MapFilm(table).force(e, w, 0.4) - exact, axis=0)
+            errors.append(np.quantile(gap / np.linalg.norm(exact, axis=0), 0.99))
+        size = len(table.to_bytes())
+        print(f"{cells[0]:6d}, {cells[1]:4d}{size:9d}" + "".join(f"{error:11.1e}" for error in errors))
+
+
+def print_batch(mapped: JournalBearing, short: JournalBearing) -> None:
+    """Print the cost of a force and of a Jacobian in a batch."""
+    e, w = random_states(0.0, 0.95)
+    arguments = (CLEARANCE * e, CLEARANCE * 100.0 * w, np.full(COUNT, 100.0))
+    rows = [
+        ("map, force", lambda: mapped.force(*arguments)),
+        ("map, force and Jacobian", lambda: mapped.jacobian(*arguments)),
+        ("short film, force", lambda: short.force(*arguments)),
+        ("short film, Jacobian", lambda: short.jacobian(*arguments)),
+    ]
+    times = {name: timed(call) / COUNT for name, call in rows}
+    print(f"\nbatch of {COUNT} validated states in SI units, per state; map force = 1")
+    for name, seconds in times.items():
+        print(f"{name:32s}{1e9 * seconds:9.0f} ns{seconds / times['map, force']:9.2f}")
+
+
+def print_scalar(mapped: JournalBearing, short: JournalBearing) -> None:
+    """Print the cost of one force, state by state."""
+    position, velocity, speed = list(STATE[:2]), list(STATE[2:4]), STATE[4]
+    arrays = np.array(position), np.array(velocity), np.array(speed)
+    prepared = mapped.prepare()
+    rows = [
+        ("plain Python, steady short film", lambda: steady_force(*STATE)),
+        ("map, prepare()", lambda: prepared(*STATE)),
+        ("map, prepared_force", lambda: mapped.prepared_force(*arrays)),
+        ("map, force", lambda: mapped.force(position, velocity, speed)),
+        ("map, jacobian", lambda: mapped.jacobian(position, velocity, speed)),
+        ("short film, force", lambda: short.force(position, velocity, speed)),
+        ("short film, jacobian", lambda: short.jacobian(position, velocity, speed)),
+    ]
+    times = {name: timed(call, loops=1000) for name, call in rows}
+    print("\none state per call; plain Python = 1")
+    for name, seconds in times.items():
+        print(f"{name:32s}{1e6 * seconds:9.2f} us{seconds / times[rows[0][0]]:9.1f}")
+
+
+def main() -> None:
+    """Print the tables."""
+    print_accuracy()
+    table = tabulate_film(
+        ShortFilm(), slenderness_range=(0.1, 1.0), cells=(16, 48, 8), largest_eccentricity_ratio=0.999
+    )
+    dimensions = {"radius": RADIUS, "length": LENGTH, "clearance": CLEARANCE, "viscosity": VISCOSITY}
+    mapped = JournalBearing(**dimensions, film=MapFilm(table))
+    short = JournalBearing(**dimensions, film=ShortFilm())
+    print_batch(mapped, short)
+    print_scalar(mapped, short)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,62 @@
+"""Interpolation by quintic B-splines on a uniform grid: sixth order, four derivatives continuous."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..model import Array
+
+DEGREE = 5
+LEAST_CELLS = 5
+
+_AT_NODE = np.array([1.0, 26.0, 66.0, 26.0, 1.0]) / 120.0
+_SIXTH_DIFFERENCE = np.array([1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0])
+
+
+def quintic_coefficients(values: Array, axis: int = 0) -> Array:
+    """Return the B-spline coefficients that interpolate `values` on a uniform grid along one axis.
+
+    Parameters
+    ----------
+    values : ndarray
+        Values at `cells + 1` nodes along `axis`, at least 6.
+    axis : int
+        The axis of the nodes.
+
+    Returns
+    -------
+    ndarray
+        `cells + 5` coefficients along `axis`; cell i is covered by i, ..., i + 5. The two knots nearest
+        to each end are no knots (the fifth derivative is continuous there), which keeps the sixth order
+        up to the ends.
+    """
+    nodes = np.moveaxis(values, axis, 0)
+    right = np.concatenate([nodes, np.zeros((4, *nodes.shape[1:]))])
+    matrix = _collocation(len(nodes) - 1)
+    solved = np.linalg.solve(matrix, right.reshape(len(right), -1))
+    return np.moveaxis(solved.reshape(right.shape), 0, axis)
+
+
+def quintic_weights(at: float, cells: int) -> tuple[int, Array]:
+    """Return the first coefficient and the six weights at `at` cells from the first node."""
+    cell = min(max(int(at), 0), cells - 1)
+    u = at - cell
+    v = 1.0 - u
+    half = [
+        (
+            v**5,
+            26 - 50 * u + 20 * u**2 + 20 * u**3 - 20 * u**4 + 5 * u**5,
+            66 - 60 * u**2 + 30 * u**4 - 10 * u**5,
+        )
+        for u, v in ((u, v), (v, u))
+    ]
+    return cell, np.array([*half[0], *half[1][::-1]]) / 120.0
+
+
+def _collocation(cells: int) -> Array:
+    matrix = np.zeros((cells + 5, cells + 5))
+    for node in range(cells + 1):
+        matrix[node, node : node + 5] = _AT_NODE
+    for row, knot in enumerate((1, 2, cells - 2, cells - 1)):
+        matrix[cells + 1 + row, knot - 1 : knot + 6] = _SIXTH_DIFFERENCE
+    return matrix

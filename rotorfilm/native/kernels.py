@@ -1,0 +1,152 @@
+"""The kernels of the C library on NumPy arrays; what the statuses mean is for the caller to say."""
+
+from __future__ import annotations
+
+from ctypes import byref, c_double, c_size_t
+from enum import IntEnum
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..model import Array
+from .library import JournalStruct, MapStruct, functions
+
+_Pair = c_double * 2
+
+
+class Status(IntEnum):
+    """rf_status of map_kernel.h, by severity."""
+
+    OK = 0
+    OUTSIDE = 1
+    UNDEFINED = 2
+    CONTACT = 3
+    NOT_FINITE = 4
+
+
+class Batch(NamedTuple):
+    """The answer for a batch.
+
+    Attributes
+    ----------
+    values : ndarray
+        Forces (2, n) or Jacobians (2, columns, n).
+    status : int
+        The most severe status.
+    first : int
+        The index of the first state that has it.
+    """
+
+    values: Array
+    status: int
+    first: int
+
+
+class MapKernel:
+    """The dimensionless film force of one bearing from its impedance map.
+
+    Parameters
+    ----------
+    coefficients : ndarray, shape (cells_x + 5, cells_t + 5)
+        Quintic B-spline coefficients of M(X, T).
+    reach : float
+        X of the last node.
+    center : float
+        L0, the logarithm of -J/|w|^2 at the center.
+    """
+
+    def __init__(self, coefficients: Array, reach: float, center: float) -> None:
+        self._arguments = (coefficients, reach, center)
+        self.coefficients = np.ascontiguousarray(coefficients, dtype=float)
+        cells_x, cells_t = (count - 5 for count in self.coefficients.shape)
+        if min(cells_x, cells_t) < 1 or not np.isfinite(self.coefficients).all():
+            raise ValueError(f"coefficients must be finite, 6 x 6 at least, got shape {coefficients.shape}")
+        self.struct = MapStruct(cells_x, cells_t, reach, center, self.coefficients.ctypes.data)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), self._arguments
+
+    def force(self, eccentricity: Array, source: Array) -> Batch:
+        """Return the forces (2, n) at the eccentricities and sources (2, n)."""
+        return self._batch("rf_map_force_batch", eccentricity, source, ())
+
+    def jacobian(self, eccentricity: Array, source: Array) -> Batch:
+        """Return d force / d (eccentricity, source), shape (2, 4, n)."""
+        return self._batch("rf_map_jacobian_batch", eccentricity, source, (2, 4))
+
+    def _batch(self, name: str, e: Array, w: Array, shape: tuple[int, ...]) -> Batch:
+        e, w = _rows(e), _rows(w)
+        return _run(name, self.struct, e.shape[1], [*_pointer(e), *_pointer(w)], shape)
+
+
+class JournalKernel:
+    """The film force of a journal bearing in SI units.
+
+    Parameters
+    ----------
+    kernel : MapKernel
+        Its map.
+    clearance : float [m]
+        Radial clearance.
+    force_scale : float [N s]
+        viscosity * length * radius^3 / clearance^2.
+    """
+
+    def __init__(self, kernel: MapKernel, clearance: float, force_scale: float) -> None:
+        self._arguments = (kernel, clearance, force_scale)
+        self._struct = JournalStruct(kernel.struct, clearance, force_scale)
+        self._reference = byref(self._struct)
+        self._call = functions()["rf_journal_call"]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), self._arguments
+
+    def call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float, int]:
+        """Return (force_x, force_y, status) for numbers."""
+        pair = _Pair()
+        status = self._call(self._reference, x, y, vx, vy, speed, pair)
+        return pair[0], pair[1], status
+
+    def jacobian_at(self, state: list[float]) -> tuple[Array, int]:
+        """Return d(force_x, force_y)/d(x, y, vx, vy, speed), shape (2, 5), at five numbers; and a status."""
+        pair, ten = _Pair(), (c_double * 10)()
+        status = functions()["rf_journal_jacobian"](self._reference, (c_double * 5)(*state), pair, ten)
+        return np.array(ten[:]).reshape(2, 5), status
+
+    def force(self, position: Array, velocity: Array, speed: Array) -> Batch:
+        """Return the forces (2, n) at positions, velocities (2, n) and speeds (n,) or (1,)."""
+        return self._batch("rf_journal_force_batch", position, velocity, speed, ())
+
+    def jacobian(self, position: Array, velocity: Array, speed: Array) -> Batch:
+        """Return d force / d (x, y, vx, vy, speed), shape (2, 5, n)."""
+        return self._batch("rf_journal_jacobian_batch", position, velocity, speed, (2, 5))
+
+    def _batch(self, name: str, q: Array, v: Array, omega: Array, shape: tuple[int, ...]) -> Batch:
+        q, v, omega = _rows(q), _rows(v), np.ascontiguousarray(omega, dtype=float)
+        n = q.shape[1]
+        step = 0 if omega.shape == (1,) else 1
+        given = [*_pointer(q), *_pointer(v), omega.ctypes.data, step]
+        if v.shape != (2, n) or (step and omega.shape != (n,)):
+            raise ValueError(f"speed must have shape ({n},) or (1,), got {omega.shape}")
+        return _run(name, self._struct, n, given, shape)
+
+
+def _run(name: str, struct: Any, n: int, given: list[Any], shape: tuple[int, ...]) -> Batch:
+    force, first = np.empty((2, n)), c_size_t()
+    jacobian = np.empty((*shape, n)) if shape else None
+    answers = [force] if jacobian is None else [force, jacobian]
+    places = [entry for answer in answers for entry in (answer.ctypes.data, n)]
+    status = functions()[name](byref(struct), n, *given, *places, byref(first))
+    return Batch(force if jacobian is None else jacobian, status, first.value)
+
+
+def _rows(array: Array) -> Array:
+    """Return (2, n) floats whose two rows are contiguous, without a copy where they are already."""
+    row, entry = array.strides
+    if array.dtype == np.float64 and entry == 8 and row >= 0 and row % 8 == 0:
+        return array
+    return np.ascontiguousarray(array, dtype=float)
+
+
+def _pointer(rows: Array) -> tuple[int, int]:
+    return rows.ctypes.data, rows.strides[0] // 8

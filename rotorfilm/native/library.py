@@ -1,0 +1,89 @@
+"""Where the C library lies, and the types of its functions."""
+
+from __future__ import annotations
+
+import ctypes
+import sys
+from collections.abc import Sequence
+from ctypes import POINTER, c_double, c_int, c_int32, c_size_t, c_void_p
+from functools import cache
+from importlib.resources import as_file, files
+from typing import Any, ClassVar
+
+from ..errors import RotorfilmError
+
+NUMBERS = POINTER(c_double)
+SUFFIXES = {"win32": ".dll", "darwin": ".dylib"}
+
+
+class NativeLibraryError(RotorfilmError, ImportError):
+    """The compiled library is not there, or is not of this machine."""
+
+
+class MapStruct(ctypes.Structure):
+    """rf_map of map_kernel.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("cells_x", c_int32),
+        ("cells_t", c_int32),
+        ("x_end", c_double),
+        ("center", c_double),
+        ("coefficients", c_void_p),
+    ]
+
+
+class JournalStruct(ctypes.Structure):
+    """rf_journal of journal_kernel.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("map", MapStruct),
+        ("clearance", c_double),
+        ("force_scale", c_double),
+    ]
+
+
+_ROWS = [c_void_p, c_size_t]
+_BATCH: dict[str, list[Any]] = {
+    "rf_map_force_batch": [c_void_p, c_size_t, *_ROWS * 3, c_void_p],
+    "rf_map_jacobian_batch": [c_void_p, c_size_t, *_ROWS * 4, c_void_p],
+    "rf_journal_force_batch": [c_void_p, c_size_t, *_ROWS * 4, c_void_p],
+    "rf_journal_jacobian_batch": [c_void_p, c_size_t, *_ROWS * 5, c_void_p],
+}
+_SCALAR: dict[str, list[Any]] = {
+    "rf_journal_call": [c_void_p, *[c_double] * 5, c_void_p],
+    "rf_journal_jacobian": [c_void_p, *[c_void_p] * 3],
+}
+
+
+@cache
+def functions() -> dict[str, Any]:
+    """Return the functions of the library by name, loaded on the first call.
+
+    Batches release the interpreter lock; a scalar call is over before that would pay.
+
+    Raises
+    ------
+    NativeLibraryError
+        If the library is missing or cannot be loaded.
+    """
+    return {**_typed(ctypes.CDLL, _BATCH), **_typed(ctypes.PyDLL, _SCALAR)}
+
+
+def _typed(loader: type[ctypes.CDLL], signatures: dict[str, list[Any]]) -> dict[str, Any]:
+    library = _load(loader)
+    found = {name: getattr(library, name) for name in signatures}
+    for name, function in found.items():
+        function.argtypes, function.restype = signatures[name], c_int
+    return found
+
+
+def _load(loader: type[ctypes.CDLL]) -> ctypes.CDLL:
+    name = "rotorfilm" + SUFFIXES.get(sys.platform, ".so")
+    try:
+        with as_file(files(__package__).joinpath(name)) as path:
+            return loader(str(path))
+    except OSError as error:
+        raise NativeLibraryError(
+            f"the compiled library {name} of rotorfilm is missing or unusable ({error}); install rotorfilm "
+            "with a C compiler present, or run 'cmake -S . -B build && cmake --build build' in its source"
+        ) from error

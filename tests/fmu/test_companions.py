@@ -1,0 +1,36 @@
+"""An FMU of a film that reads a table and calls compiled code carries both."""
+
+import subprocess
+import sys
+
+from rotorfilm.fmu.bundle import bundle_source
+
+ASK = """
+from {package}.films import MapFilm, ShortFilm, tabulate_film
+import numpy as np
+film = MapFilm(tabulate_film(ShortFilm(), slenderness_range=(0.5, 0.5), cells=(6, 6, 0)))
+print(film.force(np.array([0.1, 0.0]), np.array([0.0, 1.0]), 0.5)[1] < 0.0)
+"""
+
+
+def test_map_film_travels_with_its_library(tmp_path):
+    bundle = bundle_source({"rotorfilm.films.map"})
+    for name, content in bundle.files.items():
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
+    package = bundle.modules["rotorfilm"]
+    ran = subprocess.run(
+        [sys.executable, "-c", ASK.format(package=package)],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert ran.stdout.strip() == "True", ran.stderr
+
+
+def test_other_films_travel_without_it():
+    assert not [
+        name for name in bundle_source({"rotorfilm.films.short"}).files if name.endswith((".so", ".bin"))
+    ]

@@ -1,0 +1,45 @@
+"""The C sources compile without a warning, show only their interface, and their absence is explained."""
+
+import ctypes
+import shutil
+import subprocess
+from importlib.resources import files
+from pathlib import Path
+
+import pytest
+
+from rotorfilm.native import NativeLibraryError, library
+
+SOURCES = sorted((Path(__file__).parents[2] / "rotorfilm" / "native").glob("*.c"))
+COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
+
+
+@pytest.mark.skipif(not COMPILERS, reason="no C compiler")
+@pytest.mark.parametrize("compiler", COMPILERS)
+@pytest.mark.parametrize("source", SOURCES, ids=lambda path: path.name)
+def test_compiles_without_a_warning(compiler, source, tmp_path):
+    strict = ["-std=c99", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Werror"]
+    command = [compiler, *strict, "-c", str(source), "-o", str(tmp_path / "out.o")]
+    ran = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert ran.returncode == 0, ran.stderr
+
+
+def test_there_is_something_to_compile():
+    assert {path.name for path in SOURCES} >= {"map_kernel.c", "journal_kernel.c"}
+
+
+@pytest.mark.skipif(not shutil.which("nm"), reason="no nm")
+def test_only_the_interface_is_visible():
+    built = next(path for path in files("rotorfilm.native").iterdir() if path.name.startswith("rotorfilm."))
+    listed = subprocess.run(
+        ["nm", "-D", "--defined-only", str(built)], capture_output=True, text=True, check=True
+    )
+    symbols = [line.split()[-1] for line in listed.stdout.splitlines()]
+    assert symbols
+    assert all(name.startswith("rf_") for name in symbols)
+
+
+def test_missing_library_says_what_to_do(monkeypatch):
+    monkeypatch.setattr(library, "SUFFIXES", dict.fromkeys(("linux", "darwin", "win32"), ".absent"))
+    with pytest.raises(NativeLibraryError, match=r"rotorfilm\.absent of rotorfilm is missing.*C compiler"):
+        library._load(ctypes.CDLL)
