@@ -65,7 +65,7 @@ class SplittingFilm:
 
     Notes
     -----
-    With n = 1 the damping matrix has rank one and no whirl threshold exists. From n = 2 on, a fixed arc
+    With n = 1 on a fixed arc the damping matrix has rank one and no whirl threshold exists. From n = 2 on, a fixed arc
     gives symmetric damping exactly.
     """
 
