@@ -39,7 +39,7 @@ _HOMES = {
     "model": ("Dynamic", "Linearization", "Model", "Reaction", "Stepped"),
     "results": ("Coefficients", "Equilibrium", "Trajectory", "WhirlThreshold"),
     "rotors": ("RigidRotor", "SpeedProfile"),
-    "scenes": ("Answer", "Scene"),
+    "scenes": ("Answer", "Scene", "bundled_scene"),
     "signals": ("Signal",),
     "transient": ("simulate",),
     "errors": (

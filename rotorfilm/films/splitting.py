@@ -65,8 +65,8 @@ class SplittingFilm:
 
     Notes
     -----
-    With n = 1 the damping matrix has rank one and no whirl threshold exists. From n = 2 on, a fixed arc
-    gives symmetric damping exactly.
+    On a fixed arc, n = 1 gives a damping matrix of rank one, so that no whirl threshold exists; from n = 2
+    on damping is symmetric exactly.
     """
 
     order: tuple[int, int | None] = (2, None)

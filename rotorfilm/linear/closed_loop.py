@@ -42,10 +42,12 @@ def closed_loop(
     Raises
     ------
     InputError
-        If the rotor lacks one of these signals.
+        If the rotor lacks one of these signals, or `at` is no Equilibrium.
     """
     indices("rotor must have the inputs", names(rotor.inputs), FORCE_OUTPUTS)
     indices("rotor must have the outputs", names(rotor.outputs), MOTION_NAMES)
+    if not isinstance(at, Equilibrium):
+        raise InputError(f"at must be an Equilibrium, as equilibrium() returns it, got {at!r}")
     shaft = OperatingPoint(x=rotor.initial_state, u=-at.load)
     return control.interconnect(
         [linearize(rotor, shaft, name="rotor"), linearize(reaction, at, name="film")],

@@ -90,8 +90,8 @@ def simulate(
 
 def _grid(duration: float, samples: int, times: ArrayLike | None) -> Array:
     if times is None:
-        if samples < 2:
-            raise InputError(f"samples must be at least 2, got {samples!r}")
+        if not isinstance(samples, int) or samples < 2:
+            raise InputError(f"samples must be an integer of at least 2, got {samples!r}")
         return np.linspace(0.0, duration, samples)
     grid = np.atleast_1d(require_finite("times", times))
     if grid.ndim != 1 or np.any(np.diff(grid) <= 0.0):

@@ -127,3 +127,8 @@ def test_speeds_must_be_positive_and_rising(bearing, speeds):
 def test_speed_too_low_for_the_load(bearing):
     with pytest.raises(EquilibriumError, match="capacity"):
         transmissibility(RigidRotor(mass=MASS, speed=1.0), bearing, [0.0, -1e12], [1.0, 2.0])
+
+
+def test_a_bare_position_is_refused(bearing):
+    with pytest.raises(InputError, match=r"at must be an Equilibrium, .* got \(0.0, 0.0\)"):
+        closed_loop(RigidRotor(mass=1.0, speed=1.0), bearing, (0.0, 0.0))

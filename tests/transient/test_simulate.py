@@ -166,7 +166,7 @@ def test_initial_state_replaces_the_rotors_own():
     ("arguments", "match"),
     [
         ({"duration": -1.0}, "duration must be finite and positive, got -1.0"),
-        ({"duration": 1.0, "samples": 1}, "samples must be at least 2, got 1"),
+        ({"duration": 1.0, "samples": 1}, "samples must be an integer of at least 2, got 1"),
         ({"duration": 1.0, "times": [0.0, 0.0]}, "times must increase strictly"),
         ({"duration": 1.0, "times": [0.0, 2.0]}, r"times must lie within \[0, 1.0\] s"),
         ({"duration": 1.0, "initial_state": [0.0]}, r"initial_state must have shape \(4,\), got \(1,\)"),
