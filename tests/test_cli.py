@@ -112,7 +112,7 @@ def test_load_vector_turns_the_answer(run):
         (coefficients(load="1,2,3"), 2, "error: --load must be one magnitude or two components [x, y]"),
         ([*coefficients(), "--film", "splitting"], 2, "error: --order is required and missing"),
         ([*coefficients(), "--film", "splitting", "--order", "2"], 2, "error: --order must be [n, m]"),
-        ([*coefficients(), "--order", "2,1"], 2, "error: --order is no known key"),
+        ([*coefficients(), "--order", "2,1"], 2, "error: --order and --rupture need --film splitting"),
         (coefficients(load="1e20 N"), 1, "error: load must be within the film's capacity"),
         (coefficients(speed="0 rpm"), 1, "error: speed must make the film carry load"),
         (["solve", "absent.toml"], 2, "error: absent.toml: scene file cannot be read"),
