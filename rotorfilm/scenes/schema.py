@@ -12,7 +12,7 @@ from typing import Annotated, Any
 
 from ..bearings.journal import JournalBearing
 from ..errors import SceneError, require_finite, require_positive
-from ..films import ComplementarityArc, FixedArc, ReynoldsArc, RotatingArc, ShortFilm, SplittingFilm
+from ..films import ComplementarityArc, FixedArc, MapFilm, ReynoldsArc, RotatingArc, ShortFilm, SplittingFilm
 from ..rotors.rigid import RigidRotor
 from .tables import Quantity, Variant, flag
 
@@ -151,8 +151,17 @@ class SplittingFilmTable:
         return SplittingFilm(order=self.order, constant=self.constant, rupture=self.rupture.build())
 
 
-FilmTable = ShortFilmTable | SplittingFilmTable
-FILMS = {"short": ShortFilmTable, "splitting": SplittingFilmTable}
+@dataclass(frozen=True, kw_only=True)
+class MapFilmTable:
+    """`film = {name = "map"}`: the film with Reynolds rupture, from its impedance map."""
+
+    def build(self) -> MapFilm:
+        """Return the film law."""
+        return MapFilm()
+
+
+FilmTable = ShortFilmTable | SplittingFilmTable | MapFilmTable
+FILMS = {"map": MapFilmTable, "short": ShortFilmTable, "splitting": SplittingFilmTable}
 
 
 @dataclass(frozen=True, kw_only=True)

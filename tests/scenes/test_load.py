@@ -153,7 +153,7 @@ def test_file_is_read(tmp_path):
         (
             "[operation]",
             "film = { order = [1, 1] }\n[operation]",
-            r"case.toml: journal.film.name is required: one of \['short', 'splitting'\]",
+            r"case.toml: journal.film.name is required: one of \['map', 'short', 'splitting'\]",
         ),
         (
             "[operation]",
