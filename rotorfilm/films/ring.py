@@ -1,7 +1,7 @@
 """The grid of a two-dimensional film: lines around the ring, nodes along half the length.
 
-Lines are uniform in s on every span between two edges, exp(i theta) = (t + a)/(1 + conj(a) t), t = exp(i s): a
-Moebius map of the circle that crowds the lines at the minimum film. With a = e/(1 + sqrt(1 - |e|^2)) the film
+Lines are uniform in s on every span between two edges, exp(i theta) = (t + a)/(1 + conj(a) t), t = exp(i s):
+a Moebius map of the circle that crowds the lines at the minimum film. With a = e/(1 + sqrt(1 - |e|^2)) the film
 thickness varies with s over the same distance for every eccentricity, and the map is smooth in e, center
 included. Edges stay on lines. Nothing here depends on the state but the angles, so a grid is made once.
 """
@@ -51,7 +51,7 @@ class Grid(NamedTuple):
     line, face : ndarray, shape (N,)
         Place of a line, and of the face half-way to the next, as a fraction of its span.
     width : ndarray, shape (M,)
-        Axial width of the cells as a fraction of half the length; the last half cell, at ambient, is left out.
+        Axial width of the cells as a fraction of half the length; the half cell at the end is left out.
     conductance : ndarray, shape (M,)
         1/distance to the next node towards the bearing's end.
     held : ndarray of bool, shape (N,)

@@ -1,7 +1,7 @@
 """Force of a two-dimensional film and its exact derivatives, for batches of states.
 
-With the free nodes I and the weights N = (integral of n over the cells), the pressure obeys A_II P_I = (N w - A P_held)_I
-and F = -12 N^T P. Where the free set stays, A is symmetric, so two solutions V = A_II^-1 N_I are the whole derivative:
+With the free nodes I and N = integral of n over the cells, A_II P_I = (N w - A P_held)_I and F = -12 N^T P.
+A is symmetric, so where the free set stays, two solutions V = A_II^-1 N_I make the whole derivative:
 
     dF/dw = -12 V^T N,    dF/de = -12 (dN^T P + V^T (dN w - dA P)).
 
@@ -11,29 +11,29 @@ The pressure and its slope vanish at the edge of a ruptured zone, so moving the 
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from ..model import Array
+from .compiled import compiled
 from .ring import Grid, Spans
 from .ring_coefficients import Coefficients, ring_coefficients
 from .ring_solver import Factor, film_equations_slope, solve_free, solve_given, solve_ruptured
 
 
-@njit(cache=True)
+@compiled
 def film_source(normal: Array, grid: Grid, w: Array) -> Array:
     """Return w times the integral of n over the cells, shape (N, M)."""
     around = normal[:, 0] * w[0] + normal[:, 1] * w[1]
     return around.reshape(-1, 1) * grid.width
 
 
-@njit(cache=True)
+@compiled
 def film_force(normal: Array, grid: Grid, pressure: Array) -> Array:
     """Return -12 times the integral of P n, shape (2,)."""
     mean = pressure @ grid.width
-    return np.array([-12.0 * np.dot(normal[:, 0], mean), -12.0 * np.dot(normal[:, 1], mean)])
+    return np.array([-12.0 * np.sum(normal[:, 0] * mean), -12.0 * np.sum(normal[:, 1] * mean)])
 
 
-@njit(cache=True)
+@compiled
 def solve_level(
     coefficients: Coefficients, grid: Grid, w: Array, free: np.ndarray, searched: bool
 ) -> tuple[Array, Factor, bool]:
@@ -45,7 +45,7 @@ def solve_level(
     return pressure, factor, True
 
 
-@njit(cache=True)
+@compiled
 def first_guess(coefficients: Coefficients, grid: Grid, w: Array, searched: bool) -> np.ndarray:
     """Return the free nodes to begin with: where the source drives pressure, or the whole film."""
     source = film_source(coefficients.normal, grid, w)
@@ -55,7 +55,7 @@ def first_guess(coefficients: Coefficients, grid: Grid, w: Array, searched: bool
     return free
 
 
-@njit(cache=True)
+@compiled
 def refined(coarse: np.ndarray, grid: Grid, searched: bool) -> np.ndarray:
     """Return the free nodes of a grid from those of the next coarser one: all that see a free node."""
     lines, nodes = len(grid.span), len(grid.width)
@@ -69,9 +69,15 @@ def refined(coarse: np.ndarray, grid: Grid, searched: bool) -> np.ndarray:
     return free
 
 
-@njit(cache=True)
+@compiled
 def force_batch(
-    e: Array, w: Array, slenderness: float, spans: Spans, grids: tuple[Grid, ...], searched: bool, clipped: bool
+    e: Array,
+    w: Array,
+    slenderness: float,
+    spans: Spans,
+    grids: tuple[Grid, ...],
+    searched: bool,
+    clipped: bool,
 ) -> tuple[Array, Array, int]:
     """Return the forces on the finest and the next coarser grid, (2, B), and the index of a failure or -1."""
     fine, coarse = np.zeros(e.shape), np.zeros(e.shape)
@@ -96,7 +102,7 @@ def force_batch(
     return fine, coarse, -1
 
 
-@njit(cache=True)
+@compiled
 def finest(
     e: Array, w: Array, slenderness: float, spans: Spans, grids: tuple[Grid, ...], searched: bool
 ) -> tuple[Coefficients, Array, Factor, np.ndarray, bool]:
@@ -113,9 +119,15 @@ def finest(
     return coefficients, pressure, factor, free, found
 
 
-@njit(cache=True)
+@compiled
 def jacobian_batch(
-    e: Array, w: Array, slenderness: float, spans: Spans, grids: tuple[Grid, ...], searched: bool, clipped: bool
+    e: Array,
+    w: Array,
+    slenderness: float,
+    spans: Spans,
+    grids: tuple[Grid, ...],
+    searched: bool,
+    clipped: bool,
 ) -> tuple[Array, int]:
     """Return d force / d (e, w) on the finest grid, (2, 4, B), and the index of a failure or -1."""
     jacobian = np.zeros((2, 4, e.shape[1]))
@@ -128,7 +140,7 @@ def jacobian_batch(
     return jacobian, -1
 
 
-@njit(cache=True)
+@compiled
 def derivative(
     coefficients: Coefficients,
     grid: Grid,

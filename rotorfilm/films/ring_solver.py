@@ -1,7 +1,7 @@
-"""Direct solution of the finite-volume equations on a ring: banded Cholesky, and the ruptured zone by active sets.
+"""Direct solution of the film's equations on a ring: banded Cholesky, and the ruptured zone by active sets.
 
-Unknowns are numbered line by line, so the matrix is banded with the number of axial nodes M as half-width; the
-ring is cut at one line, whose M unknowns border the matrix. A ruptured film is cut where it is ruptured and
+Unknowns are numbered line by line, so the matrix is banded with the number of axial nodes M as half-width;
+the ring is cut at one line, whose M unknowns border the matrix. A ruptured film is cut where it is ruptured and
 has no border. Nodes that are not free are rows of the identity.
 """
 
@@ -10,9 +10,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from ..model import Array
+from .compiled import compiled, compiled_sums
 from .ring import Grid
 from .ring_coefficients import Coefficients
 
@@ -43,23 +43,21 @@ class Factor(NamedTuple):
     bordered: bool
 
 
-@njit(cache=True)
+@compiled
 def film_equations(coefficients: Coefficients, grid: Grid, pressure: Array) -> Array:
     """Return A P, the flow out of each cell, shape (N, M)."""
     return _flow(coefficients.around, coefficients.along, grid, pressure)
 
 
-@njit(cache=True)
-def film_equations_slope(
-    coefficients: Coefficients, grid: Grid, pressure: Array, component: int
-) -> Array:
+@compiled
+def film_equations_slope(coefficients: Coefficients, grid: Grid, pressure: Array, component: int) -> Array:
     """Return (dA/de_component) P, shape (N, M)."""
     around = coefficients.around_slope[:, component].copy()
     along = coefficients.along_slope[:, component].copy()
     return _flow(around, along, grid, pressure)
 
 
-@njit(cache=True)
+@compiled
 def _flow(around: Array, along: Array, grid: Grid, pressure: Array) -> Array:
     lines, nodes = pressure.shape
     flow = np.zeros((lines, nodes))
@@ -77,7 +75,7 @@ def _flow(around: Array, along: Array, grid: Grid, pressure: Array) -> Array:
     return flow
 
 
-@njit(cache=True)
+@compiled
 def factorize(coefficients: Coefficients, grid: Grid, free: np.ndarray) -> Factor:
     """Return the factor of the equations of the free nodes."""
     lines, nodes = free.shape
@@ -93,7 +91,7 @@ def factorize(coefficients: Coefficients, grid: Grid, free: np.ndarray) -> Facto
     return Factor(band, border, corner, cut, bordered)
 
 
-@njit(cache=True)
+@compiled
 def _emptiest_line(free: np.ndarray) -> int:
     best, fewest = 0, free.shape[1] + 1
     for i in range(free.shape[0]):
@@ -103,7 +101,7 @@ def _emptiest_line(free: np.ndarray) -> int:
     return best
 
 
-@njit(cache=True)
+@compiled
 def _assemble(
     coefficients: Coefficients,
     grid: Grid,
@@ -143,14 +141,14 @@ def _assemble(
             border[j, (lines - 2) * nodes + j] = -coefficients.around[before] * grid.width[j]
 
 
-@njit(cache=True)
+@compiled
 def _diagonal(coefficients: Coefficients, grid: Grid, i: int, j: int) -> float:
     around = coefficients.around[i] + coefficients.around[i - 1]
     inward = grid.conductance[j - 1] if j > 0 else 0.0
     return around * grid.width[j] + coefficients.along[i] * (grid.conductance[j] + inward)
 
 
-@njit(cache=True, fastmath={"reassoc", "contract"})
+@compiled_sums
 def _cholesky_band(band: Array) -> None:
     """Replace the rows of a banded matrix by those of its lower factor, the diagonal inverted."""
     size, half = band.shape[0], band.shape[1] - 1
@@ -172,7 +170,7 @@ def _cholesky_band(band: Array) -> None:
         row[half] = 1.0 / np.sqrt(total)
 
 
-@njit(cache=True)
+@compiled
 def _eliminate_border(band: Array, border: Array, corner: Array, free: np.ndarray) -> None:
     nodes = len(corner)
     for j in range(nodes):
@@ -187,7 +185,7 @@ def _eliminate_border(band: Array, border: Array, corner: Array, free: np.ndarra
         corner[j, j] = 1.0 / np.sqrt(corner[j, j] - np.dot(corner[j, :j], corner[j, :j]))
 
 
-@njit(cache=True, fastmath={"reassoc", "contract"})
+@compiled_sums
 def _forward(band: Array, x: Array) -> None:
     half = band.shape[1] - 1
     for q in range(len(x)):
@@ -197,7 +195,7 @@ def _forward(band: Array, x: Array) -> None:
         x[q] = total * band[q, half]
 
 
-@njit(cache=True)
+@compiled
 def _backward(band: Array, x: Array) -> None:
     half = band.shape[1] - 1
     for q in range(len(x) - 1, -1, -1):
@@ -206,7 +204,7 @@ def _backward(band: Array, x: Array) -> None:
             x[q - half + m] -= band[q, m] * x[q]
 
 
-@njit(cache=True)
+@compiled
 def solve_free(factor: Factor, free: np.ndarray, flow: Array) -> Array:
     """Return the solution for a right-hand side (N, M), 0 at nodes that are not free."""
     lines, nodes = free.shape
@@ -233,7 +231,7 @@ def solve_free(factor: Factor, free: np.ndarray, flow: Array) -> Array:
     return solution
 
 
-@njit(cache=True)
+@compiled
 def held_pressure(grid: Grid) -> Array:
     """Return the pressure of the openings, 0 elsewhere, shape (N, M)."""
     pressure = np.zeros((len(grid.span), len(grid.width)))
@@ -242,7 +240,7 @@ def held_pressure(grid: Grid) -> Array:
     return pressure
 
 
-@njit(cache=True)
+@compiled
 def solve_given(
     coefficients: Coefficients, grid: Grid, source: Array, free: np.ndarray
 ) -> tuple[Array, Factor]:
@@ -253,14 +251,14 @@ def solve_given(
     return held + solve_free(factor, free, flow), factor
 
 
-@njit(cache=True)
+@compiled
 def solve_ruptured(
     coefficients: Coefficients, grid: Grid, source: Array, free: np.ndarray
 ) -> tuple[Array, Factor, bool]:
     """Return pressure and factor of the film with p >= 0, and whether the search ended; `free` is updated.
 
-    A primal-dual active set method: for this M-matrix it is Newton's method for min(A P - b, P) = 0 and climbs
-    monotonically to the solution after its first step (Hintermueller, Ito & Kunisch 2003, theorem 3.3).
+    A primal-dual active set method: for this M-matrix it is Newton's method for min(A P - b, P) = 0 and
+    climbs monotonically to the solution after its first step (Hintermueller, Ito & Kunisch 2003, theorem 3.3).
     """
     threshold = 1e-13 * np.max(np.abs(source))
     for _ in range(MAX_SWEEPS):
