@@ -1,7 +1,8 @@
 """Compilation of the two-dimensional film's kernels, with a cache on disk that knows when it is stale.
 
 numba compiles a kernel anew when the file that holds it changes, but not when a kernel that it calls
-changes in another file. The names under which kernels are cached therefore carry a digest of all kernels' sources.
+changes in another file. The names under which kernels are cached therefore carry a digest of all kernels'
+sources.
 """
 
 from __future__ import annotations

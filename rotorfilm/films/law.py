@@ -18,6 +18,7 @@ import numpy as np
 
 from ..errors import UndefinedDerivativeError
 from ..model import Array
+from .geometry import FilmGeometry
 
 CENTER = 1e-8
 """Eccentricity ratio below which the derivative is taken on this circle around the center."""
@@ -46,6 +47,14 @@ class FilmLaw(Protocol):
 
     def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
         """Return d force / d (eccentricity, source), shape (2, 4, ...)."""
+
+
+@runtime_checkable
+class FittedFilm(FilmLaw, Protocol):
+    """A film law that can represent pads, grooves and supply; then it is no longer isotropic."""
+
+    def fitted(self, geometry: FilmGeometry) -> FilmLaw:
+        """Return the law in a bearing of this geometry."""
 
 
 class PolarFrame(NamedTuple):

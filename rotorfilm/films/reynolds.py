@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
 from ..errors import ConvergenceError, InputError, UndefinedDerivativeError
 from ..model import Array
 from .cavitation import Cavitation, Complementarity
+from .film_field import FilmField
 from .geometry import FilmGeometry
 from .ring import COARSENING, Grid, Spans, ring_grids, ring_spans
-
-if TYPE_CHECKING:
-    from .film_field import FilmField
 
 CENTER = 1e-8
 """Eccentricity ratio below which a plain film counts as isotropic."""
@@ -96,11 +94,11 @@ class ReynoldsFilm:
         return fine.reshape(eccentricity.shape), coarse.reshape(eccentricity.shape)
 
     def extrapolated(self, eccentricity: Array, source: Array, slenderness: float) -> tuple[Array, Array]:
-        """Return the Richardson extrapolation of the force, (2, ...), and the error of `force`, (...).
+        """Return the Richardson extrapolation of the force, (2, ...), and the error estimate, (...).
 
-        The error is estimated as |F_h - F_2h|/3, the extrapolation F_h + (F_h - F_2h)/3; the latter is about ten times
-        closer than `force`, but the edge of the ruptured zone jumps from node to node and keeps it from
-        converging faster than at second order.
+        The estimate for `force` is |F_h - F_2h|/3, the extrapolation F_h + (F_h - F_2h)/3; the latter is
+        about ten times closer than `force`, but the edge of the ruptured zone jumps from node to node and
+        keeps it from converging faster than at second order.
         """
         fine, coarse = self.force_pair(eccentricity, source, slenderness)
         correction = (fine - coarse) / (2.0**self.order - 1.0)
@@ -137,7 +135,7 @@ class ReynoldsFilm:
         slenderness : float [1]
             Length / diameter.
         """
-        from .film_field import film_field
+        from .ring_field import film_field
 
         return film_field(self, eccentricity, source, slenderness)
 

@@ -1,9 +1,9 @@
 """The grid of a two-dimensional film: lines around the ring, nodes along half the length.
 
 Lines are uniform in s on every span between two edges, exp(i theta) = (t + a)/(1 + conj(a) t), t = exp(i s):
-a Moebius map of the circle that crowds the lines at the minimum film. With a = e/(1 + sqrt(1 - |e|^2)) the film
-thickness varies with s over the same distance for every eccentricity, and the map is smooth in e, center
-included. Edges stay on lines. Nothing here depends on the state but the angles, so a grid is made once.
+a Moebius map of the circle that crowds the lines at the minimum film. Here
+a = e/(1 + (1 - |e|^2)^CROWDING), smooth in e, center included. Edges stay on lines. Nothing here depends
+on the state but the angles, so a grid is made once.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Finite-volume coefficients of the Reynolds equation on a ring, and their derivatives in the eccentricity.
 
-The film is (H^3 P_theta)_theta + (L/D)^-2 H^3 P_zz = -w.n with H = 1 - e.n, n = (cos theta, sin theta), z from
-the middle, 0, to the end, 1, of the bearing, and p = 12 viscosity (R/c)^2 P. Integrated over the cells of line i
-it needs one number per line or face of the ring: `around` = H^3/(distance) at a face, `along` =
+The film is (H^3 P_theta)_theta + (L/D)^-2 H^3 P_zz = -w.n with H = 1 - e.n, n = (cos theta, sin theta), z
+from the middle, 0, to the end, 1, of the bearing, and p = 12 viscosity (R/c)^2 P. Integrated over the cells
+of line i it needs one number per line or face of the ring: `around` = H^3/(distance) at a face, `along` =
 (L/D)^-2 H^3 (width) at a line, and `normal` = integral of n over the cell, exactly.
 """
 

@@ -1,8 +1,8 @@
 """Direct solution of the film's equations on a ring: banded Cholesky, and the ruptured zone by active sets.
 
 Unknowns are numbered line by line, so the matrix is banded with the number of axial nodes M as half-width;
-the ring is cut at one line, whose M unknowns border the matrix. A ruptured film is cut where it is ruptured and
-has no border. Nodes that are not free are rows of the identity.
+the ring is cut at one line, whose M unknowns border the matrix. A ruptured film is cut where it is ruptured
+and has no border. Nodes that are not free are rows of the identity.
 """
 
 from __future__ import annotations
@@ -258,7 +258,8 @@ def solve_ruptured(
     """Return pressure and factor of the film with p >= 0, and whether the search ended; `free` is updated.
 
     A primal-dual active set method: for this M-matrix it is Newton's method for min(A P - b, P) = 0 and
-    climbs monotonically to the solution after its first step (Hintermueller, Ito & Kunisch 2003, theorem 3.3).
+    climbs monotonically to the solution after its first step (Hintermueller, Ito & Kunisch 2003, theorem
+    3.3).
     """
     threshold = 1e-13 * np.max(np.abs(source))
     for _ in range(MAX_SWEEPS):
