@@ -117,7 +117,7 @@ def _dimensional(bearing: JournalBearing, field: FilmField, e: Array, v: Array, 
         thickness=c * field.thickness,
         maximum_pressure=float(np.max(pressure)),
         minimum_film=c * (1.0 - float(np.hypot(*e))),
-        side_flow=4.0 * c * R**3 / b * field.side_flow,
+        side_flow=c * R * b * field.side_flow,
         friction_torque=float(torque),
         power_loss=float(torque * speed - force @ v),
     )

@@ -28,7 +28,7 @@ class FilmField:
     pressure : ndarray, shape (N, M + 1) [1/s]
         p clearance^2 / (12 viscosity radius^2).
     side_flow : float [1/s]
-        Flow out of both ends / (4 clearance radius^3 / length).
+        Flow out of both ends / (clearance radius length).
     shear : float [1]
         Integral of 1/thickness over the angles that hold film.
     """
