@@ -9,15 +9,20 @@ from importlib import import_module
 from typing import Any
 
 _HOMES = {
-    "bearings": ("JournalBearing",),
+    "bearings": ("JournalBearing", "film_state"),
     "cosim": ("CoSimulation", "CouplingReport", "cosimulate", "coupling_stability", "critical_macro_step"),
     "films": (
         "ComplementarityArc",
         "FilmLaw",
         "FixedArc",
+        "FullFilm",
+        "Groove",
+        "HalfSommerfeld",
         "MapFilm",
         "MapTable",
         "ReynoldsArc",
+        "Pad",
+        "ReynoldsFilm",
         "RotatingArc",
         "ShortFilm",
         "SpectralArcFilm",

@@ -1,4 +1,4 @@
-"""The plain journal bearing in SI units: geometry, validation, and the film law under it."""
+"""The journal bearing in SI units: geometry, validation, and the film law under it."""
 
 from __future__ import annotations
 
@@ -15,10 +15,12 @@ from ..errors import (
     ValidityWarning,
     require_finite,
     require_inside,
+    require_non_negative,
     require_positive,
     require_vector,
 )
-from ..films.law import CENTER, BindableFilm, BoundFilm, FilmLaw
+from ..films.geometry import FilmGeometry, Groove, Pad
+from ..films.law import CENTER, BindableFilm, BoundFilm, FilmLaw, FittedFilm
 from ..films.short import ShortFilm
 from ..model import Array, Linearization, force_outputs, journal_inputs, static_linearization
 from ..signals import Signal
@@ -32,7 +34,7 @@ ROUNDOFF = 1e-14
 
 @dataclass(frozen=True, kw_only=True)
 class JournalBearing:
-    """A full (360 degree) cylindrical journal bearing: a Reaction and a static Model.
+    """A cylindrical journal bearing, full unless it has pads or grooves: a Reaction and a static Model.
 
     x and y are Cartesian from the bearing center, rotation is about +z, the force acts on the journal.
 
@@ -48,11 +50,18 @@ class JournalBearing:
         Dynamic viscosity of the lubricant.
     film : FilmLaw
         The film law; exchangeable by `dataclasses.replace`.
+    pads : tuple of Pad
+        Where there is a bearing wall, angles in the bearing frame [rad]; empty for the full circumference.
+    grooves : tuple of Groove
+        Axial grooves over the whole length, angles in the bearing frame [rad].
+    supply_pressure : float [Pa]
+        Gauge pressure in the grooves; ambient pressure is 0.
 
     Raises
     ------
     InputError
-        If a dimension or the viscosity is not finite and positive, or the clearance is not below the radius.
+        If a dimension or the viscosity is not finite and positive, the clearance is not below the radius,
+        openings overlap, or the film cannot represent pads and grooves.
 
     Warns
     -----
@@ -71,6 +80,9 @@ class JournalBearing:
     clearance: float
     viscosity: float
     film: FilmLaw = field(default_factory=ShortFilm)
+    pads: tuple[Pad, ...] = ()
+    grooves: tuple[Groove, ...] = ()
+    supply_pressure: float = 0.0
 
     def __post_init__(self) -> None:
         for name in ("radius", "length", "clearance", "viscosity"):
@@ -79,6 +91,14 @@ class JournalBearing:
             raise InputError(f"clearance must be below the radius {self.radius!r}, got {self.clearance!r}")
         if isinstance(self.film, type) or not isinstance(self.film, FilmLaw):
             raise InputError(f"film must be a film law with force and jacobian, got {self.film!r}")
+        require_non_negative("supply_pressure", self.supply_pressure)
+        _require_tuple("pads", self.pads, Pad)
+        _require_tuple("grooves", self.grooves, Groove)
+        if not self.geometry.plain and not isinstance(self.film, FittedFilm):
+            raise InputError(
+                f"film must represent the bearing's geometry, which {type(self.film).__name__} cannot: "
+                f"got {self.geometry!r}"
+            )
         limit = getattr(self.film, "slenderness_limit", None)
         if limit is not None and self.slenderness > limit:
             warnings.warn(
@@ -97,6 +117,24 @@ class JournalBearing:
     def force_scale(self) -> float:
         """Viscosity * length * radius^3 / clearance^2 [N s], the film's unit of force per 1/s."""
         return self.viscosity * self.length * self.radius**3 / self.clearance**2
+
+    @property
+    def pressure_scale(self) -> float:
+        """12 viscosity radius^2 / clearance^2 [Pa s], the film's unit of pressure per 1/s."""
+        return 12.0 * self.viscosity * (self.radius / self.clearance) ** 2
+
+    @cached_property
+    def geometry(self) -> FilmGeometry:
+        """Pads, grooves and supply in the film's units."""
+        supply = self.supply_pressure / self.pressure_scale
+        return FilmGeometry(grooves=self.grooves, pads=self.pads, supply=supply)
+
+    @cached_property
+    def fitted_film(self) -> FilmLaw:
+        """The film law in this bearing's geometry."""
+        if self.geometry.plain or not isinstance(self.film, FittedFilm):
+            return self.film
+        return self.film.fitted(self.geometry)
 
     @property
     def inputs(self) -> tuple[Signal, ...]:
@@ -174,21 +212,23 @@ class JournalBearing:
         """Return `force` for inner loops: float arrays of equal batch shape, checked for contact only."""
         if self._bound is not None:
             return self._bound.force(position, velocity, speed)
-        eccentricity, source = self._kinematics(position, velocity, speed)
-        mirror = _mirror(speed)
+        eccentricity, source = self.kinematics(position, velocity, speed)
+        mirror = self._mirror(speed)
         return (
             self.force_scale
             * mirror
-            * self.film.force(mirror * eccentricity, mirror * source, self.slenderness)
+            * self.fitted_film.force(mirror * eccentricity, mirror * source, self.slenderness)
         )
 
     def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `jacobian` for inner loops: float arrays of equal batch shape, checked for contact only."""
         if self._bound is not None:
             return self._bound.jacobian(position, velocity, speed)
-        eccentricity, source = self._kinematics(self._off_center(position), velocity, speed)
-        mirror = _mirror(speed)
-        film = self.force_scale * self.film.jacobian(mirror * eccentricity, mirror * source, self.slenderness)
+        eccentricity, source = self.kinematics(self._off_center(position), velocity, speed)
+        mirror = self._mirror(speed)
+        film = self.force_scale * self.fitted_film.jacobian(
+            mirror * eccentricity, mirror * source, self.slenderness
+        )
         by_eccentricity = mirror[:, None] * film[:, :2] * mirror
         by_source = mirror[:, None] * film[:, 2:] * mirror
         # w = v/c - (speed/2) (-e_y, e_x), so the columns of F_w (z^ x .) are (F_wy, -F_wx).
@@ -246,7 +286,18 @@ class JournalBearing:
         on_circle = np.stack([np.full_like(distance, CENTER * self.clearance), np.zeros_like(distance)])
         return np.where(distance < CENTER * self.clearance, on_circle, position)
 
-    def _kinematics(self, position: Array, velocity: Array, speed: Array) -> tuple[Array, Array]:
+    def _mirror(self, speed: Array) -> Array:
+        """Return the signs (1, +-1) of the reflection that makes the rotation positive, shape (2, ...).
+
+        The arc of `FixedArc` follows the sense of rotation. Pads and grooves do not: a film fitted to them
+        takes any source, and is left as it is.
+        """
+        mirror = np.ones((2, *speed.shape))
+        if self.geometry.plain:
+            mirror[1] -= 2.0 * (speed < 0.0)
+        return mirror
+
+    def kinematics(self, position: Array, velocity: Array, speed: Array) -> tuple[Array, Array]:
         """Return the eccentricity and the source w = v/c - (speed/2) z^ x e of the film laws."""
         require_inside(position, self.clearance)
         eccentricity = position / self.clearance
@@ -259,14 +310,9 @@ class JournalBearing:
         return eccentricity, source
 
 
-def _mirror(speed: Array) -> Array:
-    """Return the signs (1, +-1) of the reflection that makes the rotation positive, shape (2, ...).
-
-    Film laws know positive rotation only: the arc of `FixedArc` follows the sense of rotation.
-    """
-    mirror = np.ones((2, *speed.shape))
-    mirror[1] -= 2.0 * (speed < 0.0)
-    return mirror
+def _require_tuple(name: str, values: object, kind: type) -> None:
+    if not isinstance(values, tuple) or not all(isinstance(value, kind) for value in values):
+        raise InputError(f"{name} must be a tuple of {kind.__name__}, got {values!r}")
 
 
 def _input_vector(u: ArrayLike) -> Array:

@@ -1,10 +1,13 @@
 """Journal film laws: pure, dimensionless physics; one law per file."""
 
+from .cavitation import Cavitation, Complementarity, FullFilm, HalfSommerfeld
 from .complementarity_arc import ComplementarityArc
+from .geometry import FilmGeometry, Groove, Pad
 from .law import FilmLaw
 from .map import MapFilm
 from .map_fit import fit_map_table, tabulate_film
 from .map_table import MapTable
+from .reynolds import ReynoldsFilm
 from .reynolds_arc import ReynoldsArc
 from .rupture import FixedArc, RotatingArc, Rupture
 from .short import ShortFilm
@@ -12,12 +15,20 @@ from .spectral import SpectralArcFilm
 from .splitting import SplittingFilm
 
 __all__ = [
+    "Cavitation",
+    "Complementarity",
     "ComplementarityArc",
+    "FilmGeometry",
     "FilmLaw",
     "FixedArc",
+    "FullFilm",
+    "Groove",
+    "HalfSommerfeld",
     "MapFilm",
     "MapTable",
+    "Pad",
     "ReynoldsArc",
+    "ReynoldsFilm",
     "RotatingArc",
     "Rupture",
     "ShortFilm",

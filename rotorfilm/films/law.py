@@ -18,6 +18,7 @@ import numpy as np
 
 from ..errors import UndefinedDerivativeError
 from ..model import Array
+from .geometry import FilmGeometry
 
 CENTER = 1e-8
 """Eccentricity ratio below which the derivative is taken on this circle around the center."""
@@ -67,6 +68,14 @@ class BindableFilm(FilmLaw, Protocol):
 
     def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundFilm:
         """Return the film of one bearing; force_scale is viscosity length radius^3 / clearance^2 [N s]."""
+
+
+@runtime_checkable
+class FittedFilm(FilmLaw, Protocol):
+    """A film law that can represent pads, grooves and supply; then it is no longer isotropic."""
+
+    def fitted(self, geometry: FilmGeometry) -> FilmLaw:
+        """Return the law in a bearing of this geometry."""
 
 
 class PolarFrame(NamedTuple):

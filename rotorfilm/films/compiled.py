@@ -1,0 +1,37 @@
+"""Compilation of the two-dimensional film's kernels, with a cache on disk that knows when it is stale.
+
+numba compiles a kernel anew when the file that holds it changes, but not when a kernel that it calls
+changes in another file. The names under which kernels are cached therefore carry a digest of all kernels'
+sources.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar, cast
+
+from numba import njit
+
+Kernel = TypeVar("Kernel", bound=Callable[..., Any])
+
+
+def _digest() -> str:
+    sources = sorted(Path(__file__).parent.glob("ring*.py"))
+    return hashlib.sha256(b"".join(path.read_bytes() for path in sources)).hexdigest()[:12]
+
+
+_STAMP = _digest()
+
+
+def compiled(function: Kernel) -> Kernel:
+    """Return the function compiled by numba, cached on disk."""
+    function.__qualname__ += f"_{_STAMP}"
+    return cast(Kernel, njit(cache=True)(function))
+
+
+def compiled_sums(function: Kernel) -> Kernel:
+    """Return the function compiled with sums in any order, so that they vectorize; cached on disk."""
+    function.__qualname__ += f"_{_STAMP}"
+    return cast(Kernel, njit(cache=True, fastmath={"reassoc", "contract"})(function))

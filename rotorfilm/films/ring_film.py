@@ -1,0 +1,169 @@
+"""Force of a two-dimensional film and its exact derivatives, for batches of states.
+
+With the free nodes I and N = integral of n over the cells, A_II P_I = (N w - A P_held)_I and F = -12 N^T P.
+A is symmetric, so where the free set stays, two solutions V = A_II^-1 N_I make the whole derivative:
+
+    dF/dw = -12 V^T N,    dF/de = -12 (dN^T P + V^T (dN w - dA P)).
+
+The pressure and its slope vanish at the edge of a ruptured zone, so moving the edge adds nothing.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..model import Array
+from .compiled import compiled
+from .ring import Grid, Spans
+from .ring_coefficients import Coefficients, ring_coefficients
+from .ring_solver import Factor, film_equations_slope, solve_free, solve_given, solve_ruptured
+
+
+@compiled
+def film_source(normal: Array, grid: Grid, w: Array) -> Array:
+    """Return w times the integral of n over the cells, shape (N, M)."""
+    around = normal[:, 0] * w[0] + normal[:, 1] * w[1]
+    return around.reshape(-1, 1) * grid.width
+
+
+@compiled
+def film_force(normal: Array, grid: Grid, pressure: Array) -> Array:
+    """Return -12 times the integral of P n, shape (2,)."""
+    mean = pressure @ grid.width
+    return np.array([-12.0 * np.sum(normal[:, 0] * mean), -12.0 * np.sum(normal[:, 1] * mean)])
+
+
+@compiled
+def solve_level(
+    coefficients: Coefficients, grid: Grid, w: Array, free: np.ndarray, searched: bool
+) -> tuple[Array, Factor, bool]:
+    """Return pressure, factor and success on one grid; a searched free set is updated."""
+    source = film_source(coefficients.normal, grid, w)
+    if searched:
+        return solve_ruptured(coefficients, grid, source, free)
+    pressure, factor = solve_given(coefficients, grid, source, free)
+    return pressure, factor, True
+
+
+@compiled
+def first_guess(coefficients: Coefficients, grid: Grid, w: Array, searched: bool) -> np.ndarray:
+    """Return the free nodes to begin with: where the source drives pressure, or the whole film."""
+    source = film_source(coefficients.normal, grid, w)
+    free = np.zeros(source.shape, dtype=np.bool_)
+    for i in range(len(grid.span)):
+        free[i] = not grid.held[i] and (not searched or source[i, 0] > 0.0)
+    return free
+
+
+@compiled
+def refined(coarse: np.ndarray, grid: Grid, searched: bool) -> np.ndarray:
+    """Return the free nodes of a grid from those of the next coarser one: all that see a free node."""
+    lines, nodes = len(grid.span), len(grid.width)
+    free = np.zeros((lines, nodes), dtype=np.bool_)
+    for i in range(lines):
+        left, right = i // 2, (i + 1) // 2 % len(coarse)
+        for j in range(nodes):
+            near, far = j // 2, min((j + 1) // 2, coarse.shape[1] - 1)
+            seen = coarse[left, near] or coarse[right, near] or coarse[left, far] or coarse[right, far]
+            free[i, j] = not grid.held[i] and (seen or not searched)
+    return free
+
+
+@compiled
+def force_batch(
+    e: Array,
+    w: Array,
+    slenderness: float,
+    spans: Spans,
+    grids: tuple[Grid, ...],
+    searched: bool,
+    clipped: bool,
+) -> tuple[Array, Array, int]:
+    """Return the forces on the finest and the next coarser grid, (2, B), and the index of a failure or -1."""
+    fine, coarse = np.zeros(e.shape), np.zeros(e.shape)
+    for b in range(e.shape[1]):
+        eb, wb = e[:, b].copy(), w[:, b].copy()
+        free = np.zeros((0, 0), dtype=np.bool_)
+        for level in range(len(grids) - 1, -1, -1):
+            grid = grids[level]
+            coefficients = ring_coefficients(eb, slenderness, spans, grid)
+            free = (
+                first_guess(coefficients, grid, wb, searched)
+                if level == len(grids) - 1
+                else refined(free, grid, searched)
+            )
+            pressure, _, found = solve_level(coefficients, grid, wb, free, searched)
+            if not found:
+                return fine, coarse, b
+            if clipped:
+                pressure = np.maximum(pressure, 0.0)
+            coarse[:, b] = fine[:, b]
+            fine[:, b] = film_force(coefficients.normal, grid, pressure)
+    return fine, coarse, -1
+
+
+@compiled
+def finest(
+    e: Array, w: Array, slenderness: float, spans: Spans, grids: tuple[Grid, ...], searched: bool
+) -> tuple[Coefficients, Array, Factor, np.ndarray, bool]:
+    """Return coefficients, pressure, factor, free nodes and success on the finest grid for one state (2,)."""
+    top = len(grids) - 1
+    coefficients = ring_coefficients(e, slenderness, spans, grids[top])
+    free = first_guess(coefficients, grids[top], w, searched)
+    pressure, factor, found = solve_level(coefficients, grids[top], w, free, searched)
+    for level in range(top - 1, -1, -1):
+        coefficients = ring_coefficients(e, slenderness, spans, grids[level])
+        free = refined(free, grids[level], searched)
+        if searched or level == 0:
+            pressure, factor, found = solve_level(coefficients, grids[level], w, free, searched)
+    return coefficients, pressure, factor, free, found
+
+
+@compiled
+def jacobian_batch(
+    e: Array,
+    w: Array,
+    slenderness: float,
+    spans: Spans,
+    grids: tuple[Grid, ...],
+    searched: bool,
+    clipped: bool,
+) -> tuple[Array, int]:
+    """Return d force / d (e, w) on the finest grid, (2, 4, B), and the index of a failure or -1."""
+    jacobian = np.zeros((2, 4, e.shape[1]))
+    for b in range(e.shape[1]):
+        eb, wb = e[:, b].copy(), w[:, b].copy()
+        coefficients, pressure, factor, free, found = finest(eb, wb, slenderness, spans, grids, searched)
+        if not found:
+            return jacobian, b
+        jacobian[:, :, b] = derivative(coefficients, grids[0], wb, pressure, factor, free, clipped)
+    return jacobian, -1
+
+
+@compiled
+def derivative(
+    coefficients: Coefficients,
+    grid: Grid,
+    w: Array,
+    pressure: Array,
+    factor: Factor,
+    free: np.ndarray,
+    clipped: bool,
+) -> Array:
+    """Return d force / d (e, w), (2, 4), at a solution with the free nodes frozen."""
+    counted = np.maximum(pressure, 0.0) if clipped else pressure
+    jacobian = np.empty((2, 4))
+    for k in range(2):
+        unit = np.array([1.0 - k, 1.0 * k])
+        weight = film_source(coefficients.normal, grid, unit)
+        if clipped:
+            weight = np.where(pressure > 0.0, weight, 0.0)
+        answer = solve_free(factor, free, weight)
+        for m in range(2):
+            unit = np.array([1.0 - m, 1.0 * m])
+            slope = coefficients.normal_slope[:, :, m].copy()
+            change = film_source(slope, grid, w) - film_equations_slope(coefficients, grid, pressure, m)
+            by_place = film_force(slope, grid, counted)[k]
+            jacobian[k, m] = by_place - 12.0 * np.sum(answer * change)
+            jacobian[k, 2 + m] = -12.0 * np.sum(answer * film_source(coefficients.normal, grid, unit))
+    return jacobian
