@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rotorfilm.bearings import JournalBearing
-from rotorfilm.films import ComplementarityArc, MapFilm, SplittingFilm
+from rotorfilm.films import ComplementarityArc, MapFilm, ReynoldsFilm, SplittingFilm
 from rotorfilm.films.potential import potential
 from rotorfilm.linear import coefficients, critical_mass, equilibrium
 
@@ -58,3 +58,21 @@ def test_damping_is_symmetric_and_positive_semidefinite():
     C = np.moveaxis(-MapFilm().jacobian(e, w, 0.7)[:, 2:], -1, 0)
     np.testing.assert_allclose(C, C.swapaxes(1, 2), rtol=1e-10, atol=1e-10 * np.abs(C).max())
     assert np.all(np.linalg.eigvalsh(C)[:, 0] > -1e-6 * np.linalg.eigvalsh(C)[:, 1])
+
+
+@pytest.mark.convergence
+@pytest.mark.parametrize("slenderness", [0.25, 1.0, 2.0])
+def test_two_dimensional_film_converges_to_the_map_at_second_order(slenderness):
+    rng = np.random.default_rng(1)
+    chi, angle = rng.uniform(0.05, 0.95, 6), rng.uniform(-np.pi, np.pi, 6)
+    e, w = np.stack([chi, np.zeros(6)]), np.stack([np.cos(angle), np.sin(angle)])
+    exact = MapFilm().force(e, w, slenderness)
+    errors = [
+        np.median(
+            np.linalg.norm(ReynoldsFilm(cells=cells).force(e, w, slenderness) - exact, axis=0)
+            / np.linalg.norm(exact, axis=0)
+        )
+        for cells in ((96, 8), (192, 16))
+    ]
+    assert errors[0] < 7e-3
+    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.15)
