@@ -33,6 +33,7 @@ app = typer.Typer(
 class Film(StrEnum):
     """Film laws that the command line offers."""
 
+    MAP = "map"
     SHORT = "short"
     SPLITTING = "splitting"
 
@@ -158,8 +159,8 @@ def _film(film: Film, order: str | None, rupture: Rupture | None) -> FilmTable:
     from .scenes.tables import read_table
 
     options: dict[str, Any] = {}
-    if film is Film.SHORT and (order, rupture) != (None, None):
-        raise InputError("--order and --rupture need --film splitting, got --film short")
+    if film is not Film.SPLITTING and (order, rupture) != (None, None):
+        raise InputError(f"--order and --rupture need --film splitting, got --film {film.value}")
     if order is not None:
         options["order"] = [int(part) if part.strip().isdigit() else part for part in order.split(",")]
     if rupture is not None:

@@ -212,3 +212,13 @@ def test_warning_is_one_line_on_stderr_and_is_shown_once(scene):
     assert done.stderr.startswith("warning: length / diameter must not exceed 0.5 for ShortFilm(), got 0.6")
     assert done.stderr.count("\n") == 1
     json.loads(done.stdout)
+
+
+def test_map_film_from_the_command_line(run):
+    geometry = ("--radius", "50 mm", "--length", "30 mm", "--clearance", "0.1 mm", "--viscosity", "0.1 Pa s")
+    code, out, err = run(
+        "coefficients", *geometry, "--load", "525 N", "--speed", "1500 rpm", "--film", "map", "--json"
+    )
+    assert (code, err) == (0, "")
+    # Between the short film, .2663, and a longer film that carries more.
+    assert 0.2 < json.loads(out)["equilibrium"]["eccentricity_ratio"] < 0.35
