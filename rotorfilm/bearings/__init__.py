@@ -1,6 +1,19 @@
 """Public bearing models: geometry, parameters and validation over a film law."""
 
+from .damper import AxialFeed, DamperGroups, PorousCage, PorousDamper, RadialFeed, damper_groups
 from .film_state import FilmState, film_state
 from .journal import JournalBearing
+from .sprung import Sprung
 
-__all__ = ["FilmState", "JournalBearing", "film_state"]
+__all__ = [
+    "AxialFeed",
+    "DamperGroups",
+    "FilmState",
+    "JournalBearing",
+    "PorousCage",
+    "PorousDamper",
+    "RadialFeed",
+    "Sprung",
+    "damper_groups",
+    "film_state",
+]

@@ -13,20 +13,16 @@ from numpy.typing import ArrayLike
 from ..errors import (
     InputError,
     ValidityWarning,
-    require_finite,
     require_inside,
     require_non_negative,
     require_positive,
-    require_vector,
 )
 from ..films.geometry import FilmGeometry, Groove, Pad
 from ..films.law import CENTER, BindableFilm, BoundFilm, FilmLaw, FittedFilm
 from ..films.short import ShortFilm
 from ..model import Array, Linearization, force_outputs, journal_inputs, static_linearization
 from ..signals import Signal
-
-NOMINAL_SPEED = 100.0
-"""Typical angular speed [rad/s] behind the nominal values of velocities and forces."""
+from .reaction import NOMINAL_SPEED, broadcast_state, input_vector
 
 ROUNDOFF = 1e-14
 """A source below this fraction of its two terms is their cancellation, hence zero."""
@@ -174,7 +170,7 @@ class JournalBearing:
         FilmContactError
             If the journal touches the wall anywhere in the batch.
         """
-        return self.prepared_force(*self._validated(position, velocity, speed))
+        return self.prepared_force(*broadcast_state(position, velocity, speed))
 
     def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the exact derivatives of the force.
@@ -196,7 +192,7 @@ class JournalBearing:
         UndefinedDerivativeError
             Where the film has no derivative: at rest without rotation, and in exact half-speed whirl.
         """
-        return self.prepared_jacobian(*self._validated(position, velocity, speed))
+        return self.prepared_jacobian(*broadcast_state(position, velocity, speed))
 
     def prepare(self) -> Callable[[float, float, float, float, float], tuple[float, float]]:
         """Return the force as a function of five numbers, for loops that go state by state.
@@ -239,12 +235,12 @@ class JournalBearing:
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return (force_x, force_y) [N] for the input u = (x, y, vx, vy, speed); t and x are not used."""
-        values = _input_vector(u)
+        values = input_vector(u)
         return self.force(values[:2], values[2:4], values[4])
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives at u: all of them in the feedthrough matrix D (2, 5)."""
-        values = _input_vector(u)
+        values = input_vector(u)
         return static_linearization(self.jacobian(values[:2], values[2:4], values[4]))
 
     @cached_property
@@ -258,23 +254,6 @@ class JournalBearing:
     def _scalar_call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
         force_x, force_y = self.force((x, y), (vx, vy), speed).tolist()
         return force_x, force_y
-
-    def _validated(
-        self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike
-    ) -> tuple[Array, Array, Array]:
-        q = require_vector("position", position)
-        v = require_vector("velocity", velocity)
-        omega = require_finite("speed", speed)
-        if q.shape == v.shape and q.shape[1:] == omega.shape:
-            return q, v, omega
-        try:
-            x, y, vx, vy, omega = np.broadcast_arrays(q[0], q[1], v[0], v[1], omega)
-        except ValueError:
-            raise InputError(
-                "position (2, ...), velocity (2, ...) and speed (...) must broadcast, "
-                f"got shapes {q.shape}, {v.shape} and {omega.shape}"
-            ) from None
-        return np.stack([x, y]), np.stack([vx, vy]), omega
 
     def _off_center(self, position: Array) -> Array:
         """Return the position, moved onto the circle `CENTER` * clearance where it is inside that.
@@ -313,10 +292,3 @@ class JournalBearing:
 def _require_tuple(name: str, values: object, kind: type) -> None:
     if not isinstance(values, tuple) or not all(isinstance(value, kind) for value in values):
         raise InputError(f"{name} must be a tuple of {kind.__name__}, got {values!r}")
-
-
-def _input_vector(u: ArrayLike) -> Array:
-    values = require_finite("u", u)
-    if values.shape != (5,):
-        raise InputError(f"u must have shape (5,) for x, y, vx, vy, speed, got shape {values.shape}")
-    return values

@@ -13,6 +13,7 @@ from .rupture import FixedArc, RotatingArc, Rupture
 from .short import ShortFilm
 from .spectral import SpectralArcFilm
 from .splitting import SplittingFilm
+from .squeeze_laws import FiniteSqueeze, PublishedSqueeze, ShortSqueeze
 
 __all__ = [
     "Cavitation",
@@ -20,6 +21,7 @@ __all__ = [
     "ComplementarityArc",
     "FilmGeometry",
     "FilmLaw",
+    "FiniteSqueeze",
     "FixedArc",
     "FullFilm",
     "Groove",
@@ -27,11 +29,13 @@ __all__ = [
     "MapFilm",
     "MapTable",
     "Pad",
+    "PublishedSqueeze",
     "ReynoldsArc",
     "ReynoldsFilm",
     "RotatingArc",
     "Rupture",
     "ShortFilm",
+    "ShortSqueeze",
     "SpectralArcFilm",
     "SplittingFilm",
     "fit_map_table",

@@ -1,0 +1,158 @@
+"""What every reaction without states shares: checked states, signals, and the static Model around a force."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import InputError, require_finite, require_inside, require_vector
+from ..model import Array, Linearization, force_outputs, journal_inputs, static_linearization
+from ..signals import Signal
+
+NOMINAL_SPEED = 100.0
+"""Typical angular speed [rad/s] behind the nominal values of velocities and forces."""
+
+
+def broadcast_state(position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> tuple[Array, Array, Array]:
+    """Return position (2, ...), velocity (2, ...) and speed (...) as float arrays of one batch shape.
+
+    Raises
+    ------
+    InputError
+        If a value is not finite or the shapes do not fit.
+    """
+    q = require_vector("position", position)
+    v = require_vector("velocity", velocity)
+    omega = require_finite("speed", speed)
+    if q.shape == v.shape and q.shape[1:] == omega.shape:
+        return q, v, omega
+    try:
+        x, y, vx, vy, omega = np.broadcast_arrays(q[0], q[1], v[0], v[1], omega)
+    except ValueError:
+        raise InputError(
+            "position (2, ...), velocity (2, ...) and speed (...) must broadcast, "
+            f"got shapes {q.shape}, {v.shape} and {omega.shape}"
+        ) from None
+    return np.stack([x, y]), np.stack([vx, vy]), omega
+
+
+def input_vector(u: ArrayLike) -> Array:
+    """Return the input (x, y, vx, vy, speed) of a reaction, shape (5,); raise InputError otherwise."""
+    values = require_finite("u", u)
+    if values.shape != (5,):
+        raise InputError(f"u must have shape (5,) for x, y, vx, vy, speed, got shape {values.shape}")
+    return values
+
+
+class _Prepared(Protocol):
+    @property
+    def clearance(self) -> float: ...
+
+    @property
+    def nominal_force(self) -> float: ...
+
+    def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array: ...
+
+    def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array: ...
+
+    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
+
+    def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
+
+
+class StaticReaction:
+    """A Reaction made from `clearance`, `nominal_force`, `prepared_force` and `prepared_jacobian`."""
+
+    @property
+    def inputs(self: _Prepared) -> tuple[Signal, ...]:
+        """Signals x, y, vx, vy, speed."""
+        return journal_inputs(self.clearance, NOMINAL_SPEED)
+
+    @property
+    def outputs(self: _Prepared) -> tuple[Signal, ...]:
+        """Signals force_x, force_y: the force on the journal."""
+        return force_outputs(self.nominal_force)
+
+    @property
+    def states(self) -> tuple[Signal, ...]:
+        """No states: the reaction is quasi-static."""
+        return ()
+
+    def force(self: _Prepared, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+        """Return the force on the journal.
+
+        Parameters
+        ----------
+        position : array_like, shape (2, ...) [m]
+            Journal center from the bearing center.
+        velocity : array_like, shape (2, ...) [m/s]
+            Velocity of the journal center.
+        speed : array_like, shape (...) [rad/s]
+            Angular speed about +z.
+
+        Returns
+        -------
+        ndarray, shape (2, ...) [N]
+
+        Raises
+        ------
+        InputError
+            If an argument is not finite or of the wrong shape.
+        FilmContactError
+            If the journal touches the wall anywhere in the batch.
+        """
+        q, v, omega = broadcast_state(position, velocity, speed)
+        require_inside(q, self.clearance)
+        return self.prepared_force(q, v, omega)
+
+    def jacobian(self: _Prepared, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+        """Return the exact derivatives of the force.
+
+        Parameters
+        ----------
+        position, velocity, speed
+            As in `force`.
+
+        Returns
+        -------
+        ndarray, shape (2, 5, ...)
+            d(force_x, force_y)/d(x, y, vx, vy, speed) in [N/m], [N s/m] and [N s/rad].
+
+        Raises
+        ------
+        InputError, FilmContactError
+            As in `force`.
+        UndefinedDerivativeError
+            Where the film has no derivative.
+        """
+        q, v, omega = broadcast_state(position, velocity, speed)
+        require_inside(q, self.clearance)
+        return self.prepared_jacobian(q, v, omega)
+
+    def prepare(self: _Prepared) -> Callable[[float, float, float, float, float], tuple[float, float]]:
+        """Return the force as a function of five numbers, for loops that go state by state.
+
+        Returns
+        -------
+        callable
+            (x, y, vx, vy, speed) [m, m/s, rad/s] -> (force_x, force_y) [N]. Raises what `force` raises.
+        """
+
+        def call(x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
+            force_x, force_y = self.force((x, y), (vx, vy), speed).tolist()
+            return force_x, force_y
+
+        return call
+
+    def output(self: _Prepared, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return (force_x, force_y) [N] for the input u = (x, y, vx, vy, speed); t and x are not used."""
+        values = input_vector(u)
+        return self.force(values[:2], values[2:4], values[4])
+
+    def linearization(self: _Prepared, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
+        """Return the exact derivatives at u: all of them in the feedthrough matrix D (2, 5)."""
+        values = input_vector(u)
+        return static_linearization(self.jacobian(values[:2], values[2:4], values[4]))

@@ -1,0 +1,61 @@
+"""A reaction beside springs to the housing, as the retainer springs of a squeeze-film damper."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import InputError, require_positive
+from ..model import Array, Reaction
+from .reaction import StaticReaction
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sprung(StaticReaction):
+    """A reaction in parallel with equal springs along x and y: F = reaction - stiffness * position.
+
+    The springs are preloaded so that they carry the static load where the rotor is centered: give the rotor
+    no gravity. Their force is part of what reaches the housing.
+
+    Parameters
+    ----------
+    reaction : Reaction
+        Such as a `PorousDamper`.
+    stiffness : float [N/m]
+        Of the springs together, along either axis.
+
+    Raises
+    ------
+    InputError
+        If the reaction is none or the stiffness is not positive.
+    """
+
+    reaction: Reaction
+    stiffness: float
+
+    def __post_init__(self) -> None:
+        if isinstance(self.reaction, type) or not isinstance(self.reaction, Reaction):
+            raise InputError(f"reaction must be a Reaction such as a PorousDamper, got {self.reaction!r}")
+        require_positive("stiffness", self.stiffness)
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance of the reaction [m]."""
+        return self.reaction.clearance
+
+    @property
+    def nominal_force(self) -> float:
+        """Nominal force of the reaction [N]."""
+        return self.reaction.outputs[0].nominal
+
+    def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `force` for inner loops: float arrays of equal batch shape, inside the clearance."""
+        return self.reaction.force(position, velocity, speed) - self.stiffness * position
+
+    def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `jacobian` for inner loops: float arrays of equal batch shape, inside the clearance."""
+        jacobian = np.array(self.reaction.jacobian(position, velocity, speed))
+        jacobian[0, 0] -= self.stiffness
+        jacobian[1, 1] -= self.stiffness
+        return jacobian
