@@ -131,6 +131,38 @@ class Trajectory:
         return np.stack([self.signals["vx"], self.signals["vy"]])
 
 
+@dataclass(frozen=True, kw_only=True)
+class CircularOrbit:
+    """A synchronous circular orbit of an unbalanced rotor, about the bearing center.
+
+    Attributes
+    ----------
+    eccentricity_ratio : float [1]
+        Radius of the orbit / clearance.
+    unbalance : float [kg m]
+    speed : float [rad/s]
+        Angular speed of rotor and orbit about +z.
+    phase : float [rad]
+        Angle from the unbalance to the displacement in the sense of rotation; negative when it lags.
+    transmissibility : float [1]
+        Force on the housing / centrifugal force of the unbalance.
+    growth_rate : float [1/s]
+        Largest real part of the four exponents of a small disturbance (Floquet exponents).
+    """
+
+    eccentricity_ratio: float
+    unbalance: float
+    speed: float
+    phase: float
+    transmissibility: float
+    growth_rate: float
+
+    @property
+    def stable(self) -> bool:
+        """Whether small disturbances die out."""
+        return self.growth_rate < 0.0
+
+
 def to_plain(value: Any) -> Any:
     """Return a result as plain dicts, lists and numbers, ready for JSON."""
     if dataclasses.is_dataclass(value) and not isinstance(value, type):

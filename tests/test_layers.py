@@ -14,7 +14,7 @@ LAYERS = [
     ["native"],
     ["films"],
     ["bearings", "rotors"],
-    ["linear", "transient", "cosim", "fmu"],
+    ["linear", "transient", "orbits", "cosim", "fmu"],
     ["scenes", "charts"],
     ["console", "gallery"],
     ["cli"],
