@@ -103,6 +103,7 @@ def test_saddle_by_simulation_from_both_sides(support, rotor, whirl):
     direction = vectors[:, np.argmax(values.real)].real
     direction /= direction[0]
     direction[2:] /= middle.speed
+    slopes = []
     for side, end in ((-1.0, low), (1.0, high)):
         start = whirl(middle, side * 2e-3 * direction)
         run = simulate(shaft, film, duration=0.35, samples=701, initial_state=start, rtol=1e-6)
@@ -111,8 +112,9 @@ def test_saddle_by_simulation_from_both_sides(support, rotor, whirl):
         assert phase[-1] == pytest.approx(end.phase, abs=1e-2)
         assert transmitted_ratio(run, shaft)[-1] == pytest.approx(end.transmissibility, rel=1e-2)
         departed = side * (eps - middle.eccentricity_ratio)
-        slope = np.log(departed[30] / departed[5]) / (run.time[30] - run.time[5])
-        assert slope == pytest.approx(middle.growth_rate, rel=3e-2)
+        slopes.append(np.log(departed[30] / departed[5]) / (run.time[30] - run.time[5]))
+    # What bends the two departures cancels in their mean.
+    assert np.mean(slopes) == pytest.approx(middle.growth_rate, rel=1e-2)
 
 
 def test_stable_orbit_stays(support, rotor, whirl):
