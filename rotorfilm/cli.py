@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from . import console
+from .cli_damper import DAMPER_EXAMPLE, damper
 from .errors import InputError, RotorfilmError, SceneError
 
 if TYPE_CHECKING:
@@ -134,6 +135,9 @@ def demo(
         return
     console.print_demo(result)
     console.print_rows("files", [(path.name, "") for path in sorted(out.iterdir())])
+
+
+app.command(epilog=DAMPER_EXAMPLE)(damper)
 
 
 def main(arguments: list[str] | None = None) -> None:

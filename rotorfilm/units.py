@@ -31,6 +31,7 @@ class Unit:
 UNITS: dict[str, Unit] = {
     "1": Unit(1.0),
     "m": Unit(1.0, {"m": 1}),
+    "m2": Unit(1.0, {"m": 2}),
     "s": Unit(1.0, {"s": 1}),
     "kg": Unit(1.0, {"kg": 1}),
     "rad": Unit(1.0, {"rad": 1}),
@@ -53,6 +54,7 @@ DISPLAY_UNITS: dict[str, Unit] = {
     "kg m": UNITS["kg.m"],
     "mm": Unit(1e-3, {"m": 1}),
     "um": Unit(1e-6, {"m": 1}),
+    "um2": Unit(1e-12, {"m": 2}),
     "ms": Unit(1e-3, {"s": 1}),
     "g": Unit(1e-3, {"kg": 1}),
     "kN": Unit(1e3, {"kg": 1, "m": 1, "s": -2}),

@@ -17,6 +17,7 @@ LAYERS = [
     ["linear", "transient", "orbits", "cosim", "fmu"],
     ["scenes", "charts"],
     ["console", "gallery"],
+    ["cli_damper"],
     ["cli"],
 ]
 RANK = {name: rank for rank, layer in enumerate(LAYERS) for name in layer}

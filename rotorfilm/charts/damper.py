@@ -74,7 +74,7 @@ def plot_transmitted(runs: Mapping[str, tuple[np.ndarray, np.ndarray]], *, axes:
 
 
 def plot_bistable(found: BistableMap, *, axes: Axes | None = None) -> Axes:
-    """Draw the bistable region, between the unbalance at which the rotor jumps up and that at which it falls back.
+    """Draw the bistable region, between the unbalances of the jump up and of the fall back.
 
     Parameters
     ----------

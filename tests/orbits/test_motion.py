@@ -32,8 +32,8 @@ def test_polar_equations_are_the_cartesian_ones(support, rotor, eps, phi, eps_ra
 
 
 def test_transient_of_the_paper_in_both_coordinates(support, rotor):
-    # Figure 4: Bs = 2 B = 0.24 if L/D = 1/2, U = .4, Omega_s = .4, eps(0) = .6, beta(0) = -2.8 rad, at rest in
-    # turning axes.
+    # Figure 4: Bs = 2 B = 0.24 if L/D = 1/2, U = .4, Omega_s = .4, eps(0) = .6, beta(0) = -2.8 rad, at rest
+    # in turning axes.
     shaft, film = rotor(0.4), support(0.24, 0.4)
     start = (0.6, -2.8, 0.0, 400.0)
     run = simulate(shaft, film, duration=0.05, initial_state=cartesian_state(start, film.clearance))
