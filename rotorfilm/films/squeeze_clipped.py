@@ -39,8 +39,8 @@ class ClippedSqueezeFilm:
         p = ends(Z) + sum over the groups of shape(Z) (w.u + feed/weight)/(h^3 + leak),
 
     and F = -(3/2) times the integral of max(p, 0) u over theta and Z. Gauss-Legendre nodes along the axis;
-    around it, cells cut where the pressure vanishes, so the derivative of the force is the integral of the
-    derivative.
+    around it, cells cut where the pressure vanishes (the force is within 1e-3), so the derivative of the
+    force is the integral of the derivative.
 
     Parameters
     ----------

@@ -267,3 +267,18 @@ def test_springs_act_beside_the_film():
     spring[[0, 1], [0, 1]] = -2e5
     assert_allclose(sprung.jacobian(q, v), PI.jacobian(q, v) + spring, rtol=1e-14)
     assert sprung.force(np.zeros((2, 3)), np.ones((2, 3))).shape == (2, 3)
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("share", [0.3, 0.9])
+def test_end_pressures_fill_a_centered_film_as_its_closed_pressure_does(share):
+    # p = p_e + p_0 (v.u/|v|)(1 - Z^2), p_0 = 3 mu L^2 |v|/(2 c^3), dropped where negative; in SI.
+    speed, mu, R, L, c = 0.02, 0.01, 0.05, 0.025, 1e-4
+    p0 = 1.5 * mu * L**2 * speed / c**3
+    fed = PorousDamper(**DIMENSIONS, feed=AxialFeed(start_pressure=share * p0, end_pressure=share * p0))
+    Z, weights = np.polynomial.legendre.leggauss(2000)
+    cut = np.minimum(share / (1.0 - Z**2), 1.0)  # pressure vanishes at cos(psi) = -cut
+    psi = np.arccos(-cut)
+    around = 2.0 * (share * np.sin(psi) + (1.0 - Z**2) * 0.5 * (psi + np.sin(psi) * np.cos(psi)))
+    expected = -0.5 * L * R * p0 * (weights @ around)
+    assert_allclose(fed.force([0.0, 0.0], [speed, 0.0]), [expected, 0.0], rtol=1e-3, atol=1e-9 * p0)

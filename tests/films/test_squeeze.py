@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
-from scipy.integrate import quad
+from scipy.integrate import quad, solve_ivp
 from scipy.sparse import diags_array, kron
 from scipy.sparse.linalg import spsolve
 
@@ -356,3 +356,47 @@ def test_clipped_film_at_rest_has_a_derivative_only_with_feed():
 def test_force_is_finite_up_to_the_wall(film):
     for chi in (0.999, 1.0 - 1e-9):
         assert np.all(np.isfinite(film.force(np.array([chi, 0.0]), np.array([0.3, -0.5]))))
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("grading", [0.7, -1.3])
+def test_exchange_of_a_graded_layer_is_that_of_its_differential_equation(grading):
+    # P'' + grading P' = q^2 P, two solutions from the back by an initial-value solver.
+    q2 = 4.0 * (0.1 * 0.5 * np.pi) ** 2 * 9.0  # second mode
+
+    def from_back(value, slope):
+        run = solve_ivp(
+            lambda y, P: [P[1], q2 * P[0] - grading * P[1]],
+            (-1.0, 0.0),
+            [value, slope],
+            rtol=1e-11,
+            atol=1e-13,
+        )
+        return run.y[:, -1]
+
+    sealed, driven = from_back(1.0, 0.0), from_back(0.0, 1.0)
+    closed = layer_modes(SEALED._replace(grading=grading))
+    unit = 12.0 * SEALED.permeability_number / q2
+    assert closed.leak[1] == pytest.approx(unit * sealed[1] / sealed[0], rel=1e-9)
+    # Slope at the face with P(0) = 0 for slope 1 at the back; fluxes are k times slopes, k(-1) = exp(-grading).
+    reached = driven[1] - driven[0] * sealed[1] / sealed[0]
+    assert closed.passage[1] == pytest.approx(reached * math.exp(grading), rel=1e-9)
+    vented = layer_modes(VENTED._replace(grading=grading))
+    assert vented.leak[1] == pytest.approx(unit * driven[1] / driven[0], rel=1e-9)
+    supplied = sealed[1] - sealed[0] * driven[1] / driven[0]  # P = 1 at the back, 0 at the face
+    assert vented.passage[1] == pytest.approx(-supplied, rel=1e-9)
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("thin", [False, True])
+def test_finite_porous_film_in_small_motion(thin):
+    # At the center each mode (cos a_n Z)(cos theta) stands alone: k^2 = a_n^2 + (L/D)^2, ungraded layer q tanh q.
+    slenderness, ratio, phi = 0.8, 0.1, 0.05
+    layer = SEALED._replace(grading=0.0, permeability_number=phi, thin=thin)
+    a2 = (0.5 * np.pi * (2.0 * np.arange(1, 20001) - 1.0)) ** 2
+    k2 = a2 + slenderness**2
+    q = 2.0 * ratio * np.sqrt(k2)
+    leak = 12.0 * phi * k2 if thin else 3.0 * phi / ratio**2 * q * np.tanh(q)
+    expected = np.pi * np.sum(6.0 / a2 / (k2 + leak))
+    film = FiniteSqueezeFilm(slenderness, layer, *fed(layer, 0.0))
+    assert -film.jacobian(np.zeros(2), np.ones(2))[0, 2] == pytest.approx(expected, rel=1e-6)

@@ -30,6 +30,8 @@ def test_coupled_fmus_follow_the_monolithic_solution(tmp_path):
     for step in (1e-4, 5e-5):
         coupled = cosimulate(str(rotor), str(film), macro_step=step, duration=duration)
         every = round(1e-3 / step)
-        errors.append(np.abs(coupled.trajectory.position[:, ::every] - reference.position).max() / DAMPER.clearance)
+        errors.append(
+            np.abs(coupled.trajectory.position[:, ::every] - reference.position).max() / DAMPER.clearance
+        )
     assert errors[1] < 0.02
     assert errors[0] / errors[1] == pytest.approx(2.0, abs=0.35)
