@@ -378,7 +378,7 @@ def test_exchange_of_a_graded_layer_is_that_of_its_differential_equation(grading
     closed = layer_modes(SEALED._replace(grading=grading))
     unit = 12.0 * SEALED.permeability_number / q2
     assert closed.leak[1] == pytest.approx(unit * sealed[1] / sealed[0], rel=1e-9)
-    # Slope at the face with P(0) = 0 for slope 1 at the back; fluxes are k times slopes, k(-1) = exp(-grading).
+    # Slope at the face with P(0) = 0 for slope 1 at the back; flux = k times slope, k(-1) = exp(-grading).
     reached = driven[1] - driven[0] * sealed[1] / sealed[0]
     assert closed.passage[1] == pytest.approx(reached * math.exp(grading), rel=1e-9)
     vented = layer_modes(VENTED._replace(grading=grading))
@@ -390,7 +390,7 @@ def test_exchange_of_a_graded_layer_is_that_of_its_differential_equation(grading
 @pytest.mark.closed_form
 @pytest.mark.parametrize("thin", [False, True])
 def test_finite_porous_film_in_small_motion(thin):
-    # At the center each mode (cos a_n Z)(cos theta) stands alone: k^2 = a_n^2 + (L/D)^2, ungraded layer q tanh q.
+    # At the center each mode (cos a_n Z)(cos theta) is alone: k^2 = a_n^2 + (L/D)^2, a layer takes q tanh q.
     slenderness, ratio, phi = 0.8, 0.1, 0.05
     layer = SEALED._replace(grading=0.0, permeability_number=phi, thin=thin)
     a2 = (0.5 * np.pi * (2.0 * np.arange(1, 20001) - 1.0)) ** 2

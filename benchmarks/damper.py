@@ -1,0 +1,106 @@
+"""The ladder of squeeze films in one run: error against the rung above, cost, and the cost of orbit branches.
+
+Error: difference of the force vector over random states (uniform eccentricity ratio and directions) relative to
+the norm of the reference force, median and 99 %. References: Darcy's layer of finite length for full films, the
+short film on Darcy's layer for cavitated ones.
+
+    python benchmarks/damper.py [CHART.png]
+"""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import replace
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+
+from rotorfilm import (
+    FiniteSqueeze,
+    PorousCage,
+    PorousDamper,
+    PublishedSqueeze,
+    RigidRotor,
+    Sprung,
+    synchronous_orbits,
+)
+from rotorfilm.charts import plot_accuracy, save
+from rotorfilm.films import FullFilm
+
+COUNT, LARGEST = 200, 0.9
+C, R = 1e-4, 0.05
+
+
+def states() -> tuple[np.ndarray, np.ndarray]:
+    """Return positions [m] and velocities [m/s], shape (2, COUNT)."""
+    rng = np.random.default_rng(2)
+    chi, phi = rng.uniform(0.0, LARGEST, COUNT), rng.uniform(-np.pi, np.pi, COUNT)
+    return C * chi * np.stack([np.cos(phi), np.sin(phi)]), 0.04 * rng.normal(size=(2, COUNT))
+
+
+def timed(call, repeats: int = 5) -> float:
+    """Return the shortest time [s] of one call."""
+    times = []
+    for _ in range(repeats):
+        begin = perf_counter()
+        call()
+        times.append(perf_counter() - begin)
+    return min(times)
+
+
+def damper(slenderness: float, phi: float, **change) -> PorousDamper:
+    """Return a damper of the given L/D and permeability number; H/L = 0.1."""
+    length = 2.0 * R * slenderness
+    cage = PorousCage(thickness=0.1 * length, permeability=phi * C**3 / (0.1 * length), grading=0.1)
+    return PorousDamper(radius=R, length=length, clearance=C, viscosity=0.01, cage=cage, **change)
+
+
+def ladder(slenderness: float, phi: float) -> dict[str, tuple[float, float, float]]:
+    """Print and return time of a force [s], median and 99 % error of every rung."""
+    pi, full = damper(slenderness, phi), damper(slenderness, phi, extent=FullFilm())
+    reference = replace(full, film=FiniteSqueeze())
+    thin = replace(full.cage, thin=True)
+    rungs = {
+        "published (small motion)": (replace(full, film=PublishedSqueeze()), reference),
+        "solid": (replace(full, cage=None), reference),
+        "Morgan-Cameron": (replace(full, cage=thin), reference),
+        "Darcy": (full, reference),
+        "Darcy, finite length": (reference, reference),
+        "cavitated, solid": (replace(pi, cage=None), pi),
+        "cavitated, Morgan-Cameron": (replace(pi, cage=thin), pi),
+        "cavitated, Darcy": (pi, pi),
+    }
+    q, v = states()
+    found = {}
+    print(f"\nL/D = {slenderness}, Phi = {phi}: time of a force in a batch, median and 99 % error")
+    for name, (film, above) in rungs.items():
+        expected = above.force(q, v)
+        errors = np.linalg.norm(film.force(q, v) - expected, axis=0) / np.linalg.norm(expected, axis=0)
+        cost = timed(lambda film=film: film.force(q, v)) / COUNT
+        found[name] = (cost, *np.quantile(errors, (0.5, 0.99)))
+        print(f"{name:28s}{1e6 * cost:10.2f} us{found[name][1]:12.1e}{found[name][2]:12.1e}")
+    return found
+
+
+def orbits() -> None:
+    """Print the cost of all orbits at 200 unbalances."""
+    rotor = RigidRotor(mass=10.0, speed=400.0, unbalance=1e-3, gravity=(0.0, 0.0))
+    unbalances = 1e-3 * np.linspace(0.005, 1.0, 200)
+    for name, phi in (("solid", None), ("porous", 0.001)):
+        film = damper(0.25, phi or 1.0)
+        film = replace(film, viscosity=4.096e-4, cage=film.cage if phi else None)
+        support = Sprung(reaction=film, stiffness=2.56e5)
+        cost = timed(lambda support=support: synchronous_orbits(rotor, support, unbalances))
+        print(f"orbits of a {name} damper at 200 unbalances, with folds and stability: {1e3 * cost:.0f} ms")
+
+
+if __name__ == "__main__":
+    import warnings
+
+    warnings.simplefilter("ignore")  # rungs outside their range are the point
+    results = [ladder(slenderness, phi) for slenderness in (0.25, 0.5) for phi in (0.001, 0.1)]
+    orbits()
+    if len(sys.argv) > 1:
+        rungs = {name: values for name, values in results[0].items() if values[2] > 0.0}
+        save(plot_accuracy(rungs, reference="the rung above, L/D = .25, Phi = .001"), Path(sys.argv[1]))
