@@ -1,8 +1,9 @@
 """The ladder of squeeze films in one run: error against the rung above, cost, and the cost of orbit branches.
 
-Error: difference of the force vector over random states (uniform eccentricity ratio and directions) relative to
-the norm of the reference force, median and 99 %. References: Darcy's layer of finite length for full films, the
-short film on Darcy's layer for cavitated ones.
+Error: difference of the force vector over random states (uniform eccentricity ratio and directions) relative
+to the norm of the reference force, median and 99 %. References: Darcy's layer of finite length for full films,
+the short film on Darcy's layer for cavitated ones. The chart adds the damping of small motion over the
+grading: what was published against the layer.
 
     python benchmarks/damper.py [CHART.png]
 """
@@ -15,6 +16,7 @@ from pathlib import Path
 from time import perf_counter
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from rotorfilm import (
     FiniteSqueeze,
@@ -22,10 +24,11 @@ from rotorfilm import (
     PorousDamper,
     PublishedSqueeze,
     RigidRotor,
+    ShortSqueeze,
     Sprung,
     synchronous_orbits,
 )
-from rotorfilm.charts import plot_accuracy, save
+from rotorfilm.charts import plot_accuracy
 from rotorfilm.films import FullFilm
 
 COUNT, LARGEST = 200, 0.9
@@ -95,6 +98,36 @@ def orbits() -> None:
         print(f"orbits of a {name} damper at 200 unbalances, with folds and stability: {1e3 * cost:.0f} ms")
 
 
+def centered_damping(damper: PorousDamper) -> float:
+    """Return the damping in small motion per that of a solid cage."""
+    solid = replace(damper, cage=None, film=ShortSqueeze())
+    return damper.jacobian([0.0, 0.0], [1.0, 0.0])[0, 2] / solid.jacobian([0.0, 0.0], [1.0, 0.0])[0, 2]
+
+
+def draw(found: dict[str, tuple[float, float, float]], path: Path) -> None:
+    """Draw accuracy over cost, and damping over the grading."""
+    figure = Figure(figsize=(11.0, 4.6), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    rungs = {name: values for name, values in found.items() if values[2] > 0.0}
+    plot_accuracy(rungs, reference="rung above, L/D = .25, Phi = .001", axes=left)
+    gradings = np.linspace(0.0, 4.0, 81)
+    full = damper(0.25, 0.02, extent=FullFilm())
+    variants = {
+        "Darcy": (full, {}),
+        "Morgan-Cameron": (full, {"thin": True}),
+        "Darcy, vented": (full, {"vented": True}),
+        "published (signs corrected)": (replace(full, film=PublishedSqueeze()), {}),
+    }
+    for label, (film, change) in variants.items():
+        cages = [replace(film.cage, grading=value, **change) for value in gradings]
+        right.plot(gradings, [centered_damping(replace(film, cage=cage)) for cage in cages], label=label)
+    right.set(
+        xlabel="grading", ylabel="damping / that of a solid cage", title="small motion, Phi = .02, H/L = .1"
+    )
+    right.legend(fontsize=8)
+    figure.savefig(path, dpi=110)
+
+
 if __name__ == "__main__":
     import warnings
 
@@ -102,5 +135,4 @@ if __name__ == "__main__":
     results = [ladder(slenderness, phi) for slenderness in (0.25, 0.5) for phi in (0.001, 0.1)]
     orbits()
     if len(sys.argv) > 1:
-        rungs = {name: values for name, values in results[0].items() if values[2] > 0.0}
-        save(plot_accuracy(rungs, reference="the rung above, L/D = .25, Phi = .001"), Path(sys.argv[1]))
+        draw(results[0], Path(sys.argv[1]))
