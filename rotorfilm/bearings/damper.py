@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -20,6 +21,7 @@ from ..films.cavitation import FullFilm, HalfSommerfeld
 from ..films.porous_layer import LayerModes, PorousLayer, layer_modes
 from ..films.squeeze import SqueezeFilm
 from ..films.squeeze_laws import ShortSqueeze, SqueezeCase, SqueezeLaw, parabola_mean
+from ..films.squeeze_map import MappedSqueezeFilm
 from ..model import Array
 from .reaction import NOMINAL_SPEED, StaticReaction
 
@@ -190,6 +192,11 @@ class PorousDamper(StaticReaction):
         """Force of a middling motion at NOMINAL_SPEED [N]."""
         return self.force_scale * NOMINAL_SPEED
 
+    @property
+    def largest_eccentricity_ratio(self) -> float:
+        """Eccentricity ratio to which the film is meant: the last node of a map, 0.99 for finite length."""
+        return getattr(self.film, "largest_eccentricity_ratio", 1.0)
+
     @cached_property
     def layer(self) -> PorousLayer | None:
         """The cage in the film's units; None for a solid one."""
@@ -222,6 +229,17 @@ class PorousDamper(StaticReaction):
                 cavitated=isinstance(self.extent, HalfSommerfeld),
             )
         )
+
+    def prepare(self) -> Callable[[float, float, float, float, float], tuple[float, float]]:
+        """Return the force as a function of five numbers; in C for a map. See `StaticReaction.prepare`."""
+        if not isinstance(self.bound_film, MappedSqueezeFilm):
+            return super().prepare()
+        in_c = self.bound_film.bound(clearance=self.clearance, force_scale=self.force_scale).call
+
+        def call(x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
+            return in_c(x, y, vx, vy, 0.0)
+
+        return call
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape, inside the clearance."""

@@ -67,6 +67,11 @@ class StaticReaction:
     """A Reaction made from `clearance`, `nominal_force`, `prepared_force` and `prepared_jacobian`."""
 
     @property
+    def largest_eccentricity_ratio(self) -> float:
+        """Eccentricity ratio to which the force is meant; 1 where it is meant up to the wall."""
+        return 1.0
+
+    @property
     def inputs(self: _Prepared) -> tuple[Signal, ...]:
         """Signals x, y, vx, vy, speed."""
         return journal_inputs(self.clearance, NOMINAL_SPEED)

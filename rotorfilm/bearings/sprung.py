@@ -45,6 +45,11 @@ class Sprung(StaticReaction):
         return self.reaction.clearance
 
     @property
+    def largest_eccentricity_ratio(self) -> float:
+        """Eccentricity ratio to which the reaction is meant."""
+        return getattr(self.reaction, "largest_eccentricity_ratio", 1.0)
+
+    @property
     def nominal_force(self) -> float:
         """Nominal force of the reaction [N]."""
         return self.reaction.outputs[0].nominal

@@ -14,6 +14,7 @@ from .short import ShortFilm
 from .spectral import SpectralArcFilm
 from .splitting import SplittingFilm
 from .squeeze_laws import FiniteSqueeze, PublishedSqueeze, ShortSqueeze
+from .squeeze_map import FiniteMapSqueeze, MapSqueeze
 
 __all__ = [
     "Cavitation",
@@ -21,12 +22,14 @@ __all__ = [
     "ComplementarityArc",
     "FilmGeometry",
     "FilmLaw",
+    "FiniteMapSqueeze",
     "FiniteSqueeze",
     "FixedArc",
     "FullFilm",
     "Groove",
     "HalfSommerfeld",
     "MapFilm",
+    "MapSqueeze",
     "MapTable",
     "Pad",
     "PublishedSqueeze",

@@ -20,8 +20,8 @@ SMALLEST = 1e-200
 """Eccentricity ratio below which the direction of the eccentricity counts for nothing."""
 
 
-class _Arc(NamedTuple):
-    """Unit vectors (2, M, B) at the nodes of the half circle, film thickness and weights (M, B)."""
+class Arc(NamedTuple):
+    """Cosine and sine at the nodes of an arc, film thickness and weights, each (M, B)."""
 
     cos: Array
     sin: Array
@@ -71,7 +71,7 @@ class CavitatedSqueezeFilm:
         turned = [np.einsum("ikb,klb,jlb->ijb", axes, block, axes) for block in (by_position, by_rate)]
         return np.concatenate(turned, axis=1).reshape(2, 4, *eccentricity.shape[1:])
 
-    def _arc(self, e: Array, w: Array) -> tuple[Array, _Arc]:
+    def _arc(self, e: Array, w: Array) -> tuple[Array, Arc]:
         """Return the axes (e_r, e_t) as columns, (2, 2, B), and the nodes around the minimum film."""
         eps = np.hypot(e[0], e[1])
         off_center = eps > SMALLEST  # below, the quotients of denormal numbers are no unit vector
@@ -79,7 +79,7 @@ class CavitatedSqueezeFilm:
         cos, sin = np.where(off_center, e[0] / safe, 1.0), np.where(off_center, e[1] / safe, 0.0)
         axes = np.array([[cos, -sin], [sin, cos]])
         heading = np.arctan2(cos * w[1] - sin * w[0], cos * w[0] + sin * w[1])
-        return axes, half_circle(eps, heading, self._depth, *self._nodes)
+        return axes, arc_nodes(eps, heading - 0.5 * np.pi, heading + 0.5 * np.pi, self._depth, *self._nodes)
 
     @cached_property
     def _depth(self) -> float:
@@ -99,29 +99,30 @@ class CavitatedSqueezeFilm:
         return G, -3.0 * h * h * np.tensordot(self.modes.weight, inverse, axes=1)
 
 
-def half_circle(eps: Array, heading: Array, depth: float, nodes: Array, weights: Array) -> _Arc:
-    """Return the nodes on heading -+ pi/2 around the minimum film at angle 0, each (M, B).
+def arc_nodes(eps: Array, start: Array, end: Array, depth: float, nodes: Array, weights: Array) -> Arc:
+    """Return the nodes of an arc, angles from the minimum film, each (M, B) for (M,) nodes and (B,) arcs.
 
     psi = xi - 2 atan2(b sin xi, 1 + b cos xi), the Sommerfeld angle of a film thicker by `depth`; 1 - eps is
     kept apart from the rest of h, so nothing cancels near contact.
     """
     rho = np.sqrt((1.0 - eps + depth) / (1.0 + eps + depth))
     b = (1.0 - rho) / (1.0 + rho)
-    first, last = (_spread(heading + side * 0.5 * np.pi, b) for side in (-1.0, 1.0))
+    first, last = _spread(start, b), _spread(end, b)
+    nodes, weights = (values.reshape(-1, *(1,) * np.ndim(eps)) for values in (nodes, weights))
     half = 0.5 * (last - first)
-    xi = 0.5 * (first + last) + half * nodes[:, None]
+    xi = 0.5 * (first + last) + half * nodes
     den = 1.0 + b * b + 2.0 * b * np.cos(xi)
     one_minus_cos = 2.0 * ((1.0 - b) * np.sin(0.5 * xi)) ** 2 / den
     sin = (1.0 - b * b) * np.sin(xi) / den
     h = (1.0 - eps) + eps * one_minus_cos
-    return _Arc(1.0 - one_minus_cos, sin, h, half * weights[:, None] * (1.0 - b * b) / den)
+    return Arc(1.0 - one_minus_cos, sin, h, half * weights * (1.0 - b * b) / den)
 
 
 def _spread(psi: Array, b: Array) -> Array:
     return psi + 2.0 * np.arctan2(b * np.sin(psi), 1.0 - b * np.cos(psi))
 
 
-def _moments(density: Array, arc: _Arc) -> Array:
+def _moments(density: Array, arc: Arc) -> Array:
     """Return the sum of density u u^T in polar axes, shape (2, 2, B)."""
     cc, cs, ss = (
         np.sum(density * product, axis=0) for product in (arc.cos**2, arc.cos * arc.sin, arc.sin**2)

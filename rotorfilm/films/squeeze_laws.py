@@ -70,6 +70,8 @@ class ShortSqueeze:
 class FiniteSqueeze:
     """Full film of finite length, some milliseconds for a force: the reference of the short film."""
 
+    largest_eccentricity_ratio: ClassVar[float] = 0.99
+
     def bind(self, case: SqueezeCase) -> SqueezeFilm:
         """Return the film of one damper; raise InputError for a cavitated film."""
         if case.cavitated:

@@ -89,7 +89,7 @@ class _Response:
     def __init__(self, damper: PorousDamper) -> None:
         if damper.feed is not None or (damper.cage is not None and damper.cage.supply_pressure):
             raise InputError(f"damper must have no feed for a map over the squeeze number, got {damper!r}")
-        self.eps = np.linspace(1e-4, _LARGEST, _NODES)
+        self.eps = np.linspace(1e-4, min(_LARGEST, damper.largest_eccentricity_ratio), _NODES)
         none = np.zeros_like(self.eps)
         e, w = np.stack([self.eps, none]), np.stack([none, self.eps])
         self.film = damper.bound_film.force(e, w)

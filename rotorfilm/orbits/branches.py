@@ -79,7 +79,8 @@ class SynchronousOrbits:
     folds : tuple of Fold
         Between the branches.
     contact_unbalance : float or None [kg m]
-        Unbalance whose orbit is as wide as the clearance; None for a film whose force has no bound there.
+        Unbalance whose orbit is as wide as the clearance; None for a film whose force has no bound
+        there, and for one that is not meant up to the wall (a map).
     speed : float [rad/s]
     """
 
@@ -144,7 +145,7 @@ def synchronous_orbits(
             f"unbalances must be positive, got {unbalances if unbalances is not None else wanted!r}"
         )
     system = orbit_rotor(rotor, reaction)
-    nodes = _radii()
+    nodes = _radii(system.reach)
     folds = _folds(system, nodes)
     ends = [nodes[0], *(fold.eccentricity_ratio for fold in folds), nodes[-1]]
     branches = tuple(_branch(system, low, high, wanted) for low, high in pairwise(ends))
@@ -164,11 +165,12 @@ def orbits_over_speed(
     return tuple(synchronous_orbits(replace(rotor, speed=float(speed)), reaction) for speed in values)
 
 
-def _radii() -> Array:
-    """Return eccentricity ratios from nearly 0 to nearly 1, denser towards the wall."""
+def _radii(reach: float) -> Array:
+    """Return eccentricity ratios from nearly 0 to the film's reach or nearly 1, denser towards the wall."""
     depth = np.linspace(math.log1p(-1e-7), math.log(WALL), NODES)
     inner = np.linspace(1e-7, 0.98, NODES)
-    return np.union1d(inner, -np.expm1(depth[depth < math.log(0.02)]))
+    radii = np.union1d(inner, -np.expm1(depth[depth < math.log(0.02)]))
+    return radii if reach >= 1.0 else np.append(radii[radii < reach], reach)
 
 
 def _folds(system: OrbitRotor, nodes: Array) -> tuple[Fold, ...]:
@@ -234,5 +236,7 @@ def _inverted(system: OrbitRotor, low: float, high: float, unbalance: Array, *, 
 
 def _contact(system: OrbitRotor) -> float | None:
     """Return the unbalance of the orbit as wide as the clearance, if the film is bounded there."""
+    if system.reach < 1.0:
+        return None
     near, nearer = _unbalances(system, 1.0 - np.array([1e3 * WALL, WALL]))
     return float(nearer) if abs(nearer - near) <= _BOUNDED * near else None

@@ -29,6 +29,8 @@ class OrbitRotor(NamedTuple):
     speed: float
     clearance: float
     reaction: Reaction
+    reach: float
+    """Largest eccentricity ratio that the film is meant for."""
 
 
 class OrbitPoints(NamedTuple):
@@ -61,7 +63,8 @@ def orbit_rotor(rotor: RigidRotor, reaction: Reaction) -> OrbitRotor:
             "preload the springs and set gravity to (0, 0)"
         )
     # A film that does not depend on direction answers the mirrored motion with the mirrored force.
-    system = OrbitRotor(rotor.mass, abs(speeds.pop()), reaction.clearance, reaction)
+    reach = getattr(reaction, "largest_eccentricity_ratio", 1.0)
+    system = OrbitRotor(rotor.mass, abs(speeds.pop()), reaction.clearance, reaction, reach)
     _require_isotropy(system)
     return system
 
