@@ -2,7 +2,8 @@
 
 Error: difference of the force vector over random states (uniform eccentricity ratio and directions), relative
 to the norm of the reference force, median and 99 %. References: films of finite length on Darcy's layer, full
-and cavitated. The chart adds the damping of small motion over the grading: what was published against the layer.
+and cavitated. The chart adds the damping of small motion over the grading, the published one
+beside that of the layer.
 
     python benchmarks/damper.py [CHART.png]
 """

@@ -82,10 +82,10 @@ class MappedSqueezeFilm:
     Parameters
     ----------
     film : MapFilm
-        With a table for one slenderness, `RATIO`, in units of a squeeze film.
+        With a table for one slenderness, `_RATIO`, in units of a squeeze film.
     """
 
-    RATIO: ClassVar[float] = 1.0
+    _RATIO: ClassVar[float] = 1.0
 
     film: MapFilm
 
@@ -94,11 +94,11 @@ class MappedSqueezeFilm:
 
         Its speed must be 0, since a damper has no wedge.
         """
-        return self.film.bind(slenderness=self.RATIO, clearance=clearance, force_scale=force_scale)
+        return self.film.bind(slenderness=self._RATIO, clearance=clearance, force_scale=force_scale)
 
     def force(self, eccentricity: Array, rate: Array) -> Array:
         """Return the force on the rotor, shape (2, ...); see `SqueezeFilm.force`."""
-        return self.film.force(eccentricity, rate, self.RATIO)
+        return self.film.force(eccentricity, rate, self._RATIO)
 
     def jacobian(self, eccentricity: Array, rate: Array) -> Array:
         """Return d force / d (eccentricity, rate), shape (2, 4, ...); see `SqueezeFilm.jacobian`.
@@ -108,7 +108,7 @@ class MappedSqueezeFilm:
         UndefinedDerivativeError
             Where the rotor is at rest off the center.
         """
-        return self.film.jacobian(eccentricity, rate, self.RATIO)
+        return self.film.jacobian(eccentricity, rate, self._RATIO)
 
 
 def _require_potential(law: MapSqueeze | FiniteMapSqueeze, case: SqueezeCase) -> None:
@@ -126,7 +126,7 @@ def _finite_table(slenderness: float, layer: PorousLayer | None, cells: tuple[in
     nodes = node_eccentricities(LARGEST_FINITE, cells[0])
     logs = [[np.log(-potential(float(eps), float(turn))) for turn in headings] for eps in nodes[1:]]
     center = np.full(headings.size, np.log(-potential(0.0, 0.0)))
-    ratio = MappedSqueezeFilm.RATIO
+    ratio = MappedSqueezeFilm._RATIO
     return fit_map_table(
         np.array([[center, *logs]]),
         slenderness_range=(ratio, ratio),
@@ -137,7 +137,7 @@ def _finite_table(slenderness: float, layer: PorousLayer | None, cells: tuple[in
 @lru_cache(maxsize=32)
 def _table(layer: PorousLayer | None, cells: tuple[int, int]) -> MapTable:
     film = _AsJournalFilm(CavitatedSqueezeFilm(layer_modes(layer)))
-    ratio = MappedSqueezeFilm.RATIO
+    ratio = MappedSqueezeFilm._RATIO
     return tabulate_film(
         film, slenderness_range=(ratio, ratio), cells=(*cells, 0), largest_eccentricity_ratio=LARGEST
     )

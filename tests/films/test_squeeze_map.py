@@ -10,6 +10,7 @@ from numpy.testing import assert_allclose
 
 from rotorfilm import (
     FiniteMapSqueeze,
+    JournalBearing,
     MapFilm,
     MapSqueeze,
     PorousCage,
@@ -163,3 +164,13 @@ def test_ends_that_are_not_found_are_an_error(monkeypatch):
     monkeypatch.setattr(squeeze_potential, "RESIDUAL", 0.0)
     with pytest.raises(ConvergenceError, match="ends of the film must be found"):
         CavitatedPotential(0.5, None)(0.5, 1.0)
+
+
+@pytest.mark.closed_form
+def test_force_of_a_finite_map_is_that_of_the_journals_map():
+    journal = JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.01, film=MapFilm())
+    damper = replace(FINITE, length=0.05, cage=None, film=FiniteMapSqueeze(cells=(12, 24)))
+    q, v = states(200, 0.95)
+    expected = journal.force(q, v, 0.0)
+    errors = np.linalg.norm(damper.force(q, v) - expected, axis=0) / np.linalg.norm(expected, axis=0)
+    assert np.quantile(errors, 0.99) < 2e-4
