@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
+from ..errors import ValidityWarning
 from ..model import Array
 from .law import CENTER, PolarResponse, cartesian_force, cartesian_jacobian, polar_frame
 from .porous_layer import SINGLE_MODES, LayerModes, PorousLayer, axial_numbers, leakage
@@ -19,6 +21,9 @@ TOLERANCE = 1e-13
 """Where the harmonics of the pressure are cut off."""
 
 MOST_HARMONICS = 400
+
+LARGEST = 0.99
+"""Eccentricity ratio to which the harmonics resolve the pressure."""
 
 
 class _Radial(NamedTuple):
@@ -95,6 +100,13 @@ class FiniteSqueezeFilm:
 
     def _response(self, chi: Array) -> tuple[PolarResponse, Array, Array]:
         """Return the polar matrix, the lift per eccentricity and its slope at eccentricity ratios (B,)."""
+        if np.any(chi > LARGEST):
+            warnings.warn(
+                f"eccentricity ratio must not exceed {LARGEST} for a film of finite length, got {chi.max():.6g}: "
+                "its harmonics no longer resolve the pressure",
+                ValidityWarning,
+                stacklevel=6,
+            )
         values = np.array([self._radial(float(eps)) for eps in chi]).reshape(-1, 6)
         A, A_chi = np.zeros((2, chi.size, 2, 2))
         A[:, 1, 1], A[:, 0, 0], A_chi[:, 1, 1], A_chi[:, 0, 0] = values[:, (0, 1, 3, 4)].T

@@ -14,7 +14,7 @@ from .porous_layer import LayerModes, PorousLayer
 from .squeeze import FullSqueezeFilm, SqueezeFilm
 from .squeeze_arc import CavitatedSqueezeFilm
 from .squeeze_clipped import ClippedSqueezeFilm
-from .squeeze_finite import FiniteSqueezeFilm
+from .squeeze_finite import LARGEST, FiniteSqueezeFilm
 
 
 class SqueezeCase(NamedTuple):
@@ -70,7 +70,7 @@ class ShortSqueeze:
 class FiniteSqueeze:
     """Full film of finite length, some milliseconds for a force: the reference of the short film."""
 
-    largest_eccentricity_ratio: ClassVar[float] = 0.99
+    largest_eccentricity_ratio: ClassVar[float] = LARGEST
 
     def bind(self, case: SqueezeCase) -> SqueezeFilm:
         """Return the film of one damper; raise InputError for a cavitated film."""

@@ -12,7 +12,7 @@ from scipy.integrate import quad, solve_ivp
 from scipy.sparse import diags_array, kron
 from scipy.sparse.linalg import spsolve
 
-from rotorfilm.errors import UndefinedDerivativeError
+from rotorfilm.errors import UndefinedDerivativeError, ValidityWarning
 from rotorfilm.films.porous_layer import PorousLayer, axial_shapes, layer_modes
 from rotorfilm.films.squeeze import FullSqueezeFilm, circle_integrals
 from rotorfilm.films.squeeze_arc import CavitatedSqueezeFilm
@@ -353,6 +353,7 @@ def test_clipped_film_at_rest_has_a_derivative_only_with_feed():
 
 
 @pytest.mark.parametrize("film", UNFED.values(), ids=UNFED.keys())
+@pytest.mark.filterwarnings("ignore:eccentricity ratio must not exceed 0.99")
 def test_force_is_finite_up_to_the_wall(film):
     for chi in (0.999, 1.0 - 1e-9):
         assert np.all(np.isfinite(film.force(np.array([chi, 0.0]), np.array([0.3, -0.5]))))
@@ -400,3 +401,8 @@ def test_finite_porous_film_in_small_motion(thin):
     expected = np.pi * np.sum(6.0 / a2 / (k2 + leak))
     film = FiniteSqueezeFilm(slenderness, layer, *fed(layer, 0.0))
     assert -film.jacobian(np.zeros(2), np.ones(2))[0, 2] == pytest.approx(expected, rel=1e-6)
+
+
+def test_finite_film_beyond_its_range_warns():
+    with pytest.warns(ValidityWarning, match="must not exceed 0.99 for a film of finite length, got 0.995"):
+        FILMS["finite solid"].force(np.array([0.995, 0.0]), np.ones(2))
