@@ -21,7 +21,7 @@ from ..errors import (
 )
 from ..films.geometry import FilmGeometry, Groove, Pad
 from ..films.law import CENTER, BindableFilm, BoundFilm, FilmLaw, FittedFilm
-from ..films.short import ShortFilm
+from ..films.map import MapFilm
 from ..model import Array, Linearization, force_outputs, journal_inputs, static_linearization
 from ..signals import Signal
 
@@ -49,7 +49,8 @@ class JournalBearing:
     viscosity : float [Pa s]
         Dynamic viscosity of the lubricant.
     film : FilmLaw
-        The film law; exchangeable by `dataclasses.replace`.
+        The film law, by default `MapFilm()`: Reynolds rupture at any L/D of its table, without pads and
+        grooves. Exchangeable by `dataclasses.replace`.
     pads : tuple of Pad
         Where there is a bearing wall, angles in the bearing frame [rad]; empty for the full circumference.
     grooves : tuple of Groove
@@ -79,7 +80,7 @@ class JournalBearing:
     length: float
     clearance: float
     viscosity: float
-    film: FilmLaw = field(default_factory=ShortFilm)
+    film: FilmLaw = field(default_factory=MapFilm)
     pads: tuple[Pad, ...] = ()
     grooves: tuple[Groove, ...] = ()
     supply_pressure: float = 0.0
