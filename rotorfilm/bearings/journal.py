@@ -62,7 +62,7 @@ class JournalBearing:
     ------
     InputError
         If a dimension or the viscosity is not finite and positive, the clearance is not below the radius,
-        openings overlap, or the film cannot represent pads and grooves.
+        openings overlap, there is a supply without a groove, or the film cannot represent pads and grooves.
 
     Warns
     -----
@@ -95,10 +95,12 @@ class JournalBearing:
         require_non_negative("supply_pressure", self.supply_pressure)
         _require_tuple("pads", self.pads, Pad)
         _require_tuple("grooves", self.grooves, Groove)
+        if self.supply_pressure > 0.0 and not self.grooves:
+            raise InputError(f"supply_pressure must be 0 without grooves, got {self.supply_pressure!r}")
         if not self.geometry.plain and not isinstance(self.film, FittedFilm):
             raise InputError(
                 f"film must represent the bearing's geometry, which {type(self.film).__name__} cannot: "
-                f"got {self.geometry!r}"
+                f"got {self.geometry!r}; ReynoldsFilm can"
             )
         limit = getattr(self.film, "slenderness_limit", None)
         if limit is not None and self.slenderness > limit:

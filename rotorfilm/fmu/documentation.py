@@ -17,8 +17,8 @@ CONVENTIONS = (
 
 REQUIREMENTS = (
     "The model runs in Python (3.11 or later, with numpy and scipy) through PythonFMU's libraries, on the "
-    "64-bit platforms that the folder binaries lists. A host that is not Python itself must make libpython available to the library, on "
-    "Linux for instance by LD_PRELOAD."
+    "64-bit platforms that the folder binaries lists. A host that is not Python itself must make libpython "
+    "available to the library, on Linux for instance by LD_PRELOAD."
 )
 
 STATUSES = (

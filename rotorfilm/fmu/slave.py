@@ -138,7 +138,7 @@ class ModelSlave(Fmi2Slave):
         return f"{self._name}: {type(error).__name__}: {error} (at time = {self._time!r}, {present})"
 
     def _read_files(self) -> None:
-        """Evaluate the model once: what it reads from the FMU's folder, it reads while the folder is there."""
+        """Evaluate the model once: what it reads from the FMU's folder, it reads while that is there."""
         # A failure is told when the initialization ends, with the values that then count.
         with suppress(Exception), warnings.catch_warnings():
             warnings.simplefilter("ignore")

@@ -164,7 +164,7 @@ def test_a_model_with_compiled_code_is_offered_on_the_platform_of_that_code_alon
 
 
 def test_compiled_code_for_a_platform_without_pythonfmu_is_refused():
-    with pytest.raises(FmuError, match=r"on a platform for which PythonFMU has no library, got code in \['.dy"):
+    with pytest.raises(FmuError, match=r"for which PythonFMU has no library, got code in \['.dy"):
         archive.binaries("bearing", ["package/native/rotorfilm.dylib"])
 
 
