@@ -89,8 +89,8 @@ def test_first_order_splitting_gives_a_reason_and_no_number():
 @pytest.mark.literature
 def test_scene_with_two_grooves_has_the_stiffness_of_lund_and_thomsen():
     # Lund & Thomsen (1978): two 20 deg grooves 90 deg from the load line, L/D .5, eccentricity ratio .477.
-    film = '''{ name = "reynolds" }
-    grooves = [{ center = 0, width = "20 deg" }, { center = "180 deg", width = "20 deg" }]'''
+    film = """{ name = "reynolds" }
+    grooves = [{ center = 0, width = "20 deg" }, { center = "180 deg", width = "20 deg" }]"""
     document = SCENE.replace('"30 mm"', '"50 mm"')
     # S = (mu omega/(2 pi)) 2 R L (R/c)^2/W = .58
     load = 0.1 * 25.0 * 0.1 * 0.05 * 500.0**2 / 0.58
