@@ -18,7 +18,7 @@ from .results import Coefficients, Equilibrium, WhirlThreshold, to_plain
 if TYPE_CHECKING:
     from .scenes.coupling import CoupledRun
     from .scenes.demo import DemoResult
-    from .scenes.progress import Report
+    from .progress import Report
     from .scenes.solve import Answer
 
 

@@ -15,7 +15,7 @@ from ..model import Array
 from ..results import Trajectory
 from ..transient import simulate
 from .export import ExportedScene, resting_rotor
-from .progress import Report
+from ..progress import Report
 from .scene import Scene
 
 REFERENCE_TOLERANCE = 1e-9

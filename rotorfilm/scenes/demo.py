@@ -17,7 +17,7 @@ from ..results import Trajectory, to_plain
 from .coupling import CoupledRun, CouplingStudy, study_coupling
 from .export import ExportedScene, export_scene, resting_rotor
 from .ladder import FilmAccuracy, FilmCurve, compared_laws, film_accuracy, film_curve, ladder_laws
-from .progress import Report, silent
+from ..progress import Report, silent
 from .scene import Scene
 from .solve import Answer
 
