@@ -8,15 +8,17 @@ import pytest
 import rotorfilm
 
 PACKAGE = Path(rotorfilm.__file__).parent
-LEAVES = ["errors", "units", "signals", "model", "results"]
+LEAVES = ["errors", "units", "signals", "model", "results", "progress"]
 LAYERS = [
     LEAVES,
     ["native"],
     ["films"],
     ["bearings", "rotors"],
     ["linear", "transient", "cosim", "fmu"],
+    ["ladders"],
     ["scenes", "charts"],
     ["console", "gallery"],
+    ["chart_commands"],
     ["cli"],
 ]
 RANK = {name: rank for rank, layer in enumerate(LAYERS) for name in layer}

@@ -9,16 +9,19 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Bbox
 
-DIRECTIONS = tuple(math.radians(angle) for angle in (0, 180, 30, -30, 150, -150, 60, -60, 120, -120, 90, -90))
-"""Directions tried, in order of preference."""
+_BESIDE = ((1, 1), (-1, 1), (1, 0), (-1, 0), (1, -1), (-1, -1), (0, 1), (0, -1))
 
-DISTANCES = (8.0, 16.0, 26.0, 38.0, 52.0, 68.0)
-"""Distances from the point tried [points], nearest first."""
+DIRECTIONS = (*_BESIDE, (1, 2), (-1, 2), (1, -2), (-1, -2))
+"""Places tried around the point, in order of preference: (1, 1) is up to the right, corner to corner."""
 
-MARKER = 5.0
-"""Half the size of the square around a point that no label may cover [points]."""
+DISTANCES = (0.0, 1.5, 6.0, 14.0, 24.0, 36.0, 50.0)
+"""Gaps between label and that square tried [points], nearest first."""
+
+MARKER = 3.5
+"""Half the size of the square around a point that no label may cover, smaller than its dot [points]."""
 
 
 class Label(NamedTuple):
@@ -56,15 +59,23 @@ def place_labels(
     renderer = FigureCanvasAgg(figure).get_renderer()
     for label, point in zip(labels, points[: len(labels)], strict=True):
         text = axes.annotate(
-            label.text, (label.x, label.y), (0, 0), textcoords="offset points", fontsize=size,
-            color=label.color, ha="center", va="center", zorder=6,
+            label.text,
+            (label.x, label.y),
+            (0, 0),
+            textcoords="offset points",
+            fontsize=size,
+            color=label.color,
+            ha="center",
+            va="center",
+            zorder=6,
+            path_effects=[withStroke(linewidth=2.0, foreground="white")],
         )
         box = text.get_window_extent(renderer)
         half = 0.5 * box.width + 1.5 * pixels, 0.5 * box.height + 0.5 * pixels
         offset = _best_offset(point, half, taken, frame, pixels)
         text.set_position(tuple(offset / pixels))
         taken.append(_around(point + offset, *half))
-        if np.hypot(*offset) > math.hypot(*half) + DISTANCES[1] * pixels:
+        if np.any(np.abs(offset) > np.array(half) + DISTANCES[3] * pixels):
             _lead(axes, point, offset, half, label.color)
 
 
@@ -75,8 +86,7 @@ def _best_offset(
     best, least = np.zeros(2), math.inf
     for distance in DISTANCES:
         for direction in DIRECTIONS:
-            unit = np.array([math.cos(direction), math.sin(direction)])
-            offset = unit * (np.array(half) + distance * pixels - MARKER * pixels * 0.6)
+            offset = np.array(direction) * (np.array(half) + (MARKER + distance) * pixels)
             box = _around(point + offset, *half)
             covered = sum(_overlap(box, other) for other in taken) + 4.0 * _outside(box, frame)
             if covered == 0.0:

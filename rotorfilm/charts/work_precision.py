@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ..ladders import JournalAccuracy, RungAccuracy, pareto_front
+from .canvas import new_figure
 from .labels import Label, place_labels
 from .palette import FAMILY_COLORS, FRONT
 
@@ -25,13 +24,12 @@ def plot_journal_accuracy(result: JournalAccuracy) -> list[Axes]:
     A filled dot is the 99th percentile of the error of a rung, an open one its median. The gray band is
     the estimated error of the reference, 99 %, below which no error can be told.
     """
-    figure = Figure(figsize=(14.0, 7.6), layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = new_figure(size=(14.0, 7.6))
     batch, single = figure.subplots(1, 2, sharey=True)
-    _draw(batch, result, lambda rung: rung.cost.force_time)
-    _draw(single, result, lambda rung: rung.cost.call_time)
-    batch.set(xlabel="time of one force in a batch [s]", ylabel="relative error of the force [1]")
-    single.set(xlabel="time of one force, called state by state from Python through prepare() [s]")
+    _draw(batch, result, _batch_time)
+    _draw(single, result, _call_time)
+    batch.set(xlabel="time of one force in a batch [us]", ylabel="relative error of the force [1]")
+    single.set(xlabel="time of one force, called state by state from Python through prepare() [us]")
     figure.suptitle(_title(result), fontsize=11)
     figure.legend(handles=_legend(result), loc="outside lower center", ncols=6, fontsize=8.5, frameon=False)
     _limit_errors(batch, result)
@@ -40,20 +38,12 @@ def plot_journal_accuracy(result: JournalAccuracy) -> list[Axes]:
     return [batch, single]
 
 
-def save_figure(axes: Sequence[Axes], path: Path, *, dpi: int = 110) -> Path:
-    """Write the figure of the first of the Axes as PNG and return the path."""
-    figure = axes[0].get_figure()
-    assert isinstance(figure, Figure)
-    figure.savefig(path, dpi=dpi, metadata={"Software": "rotorfilm"})
-    return path
-
-
 def _batch_time(rung: RungAccuracy) -> float:
-    return rung.cost.force_time
+    return 1e6 * rung.cost.force_time
 
 
 def _call_time(rung: RungAccuracy) -> float:
-    return rung.cost.call_time
+    return 1e6 * rung.cost.call_time
 
 
 def _draw(axes: Axes, result: JournalAccuracy, cost: Cost) -> None:
@@ -83,7 +73,34 @@ def _draw_front(axes: Axes, rungs: Sequence[RungAccuracy], cost: Cost, style: st
     for (_, high), (x_next, y_next) in pairwise([(0.0, 1e6), *corners]):
         x += [x_next, x_next]
         y += [high, y_next]
-    axes.plot([*x, 1e3], [*y, y[-1]], style, color=FRONT, linewidth=1.3, zorder=0.5)
+    axes.plot([*x, 1e9], [*y, y[-1]], style, color=FRONT, linewidth=1.3, zorder=0.5)
+
+
+def _draw_gain(axes: Axes, result: JournalAccuracy, cost: Cost) -> None:
+    """Draw how much cheaper the map is than the closest of the other rungs."""
+    maps = [rung for rung in result.rungs if rung.family == "map"]
+    others = [rung for rung in result.rungs if rung.family != "map"]
+    if not maps or not others:
+        return
+    best = min(others, key=lambda rung: rung.high_error)
+    ends, level = (cost(maps[0]), cost(best)), best.high_error
+    arrow = {"arrowstyle": "<|-|>", "color": FRONT, "linewidth": 1.0, "shrinkA": 0.0, "shrinkB": 4.0}
+    axes.annotate("", (ends[1], level), (ends[0], level), arrowprops=arrow)
+    axes.text(
+        (ends[0] * ends[1]) ** 0.5,
+        1.15 * level,
+        f"map {_rounded(ends[1] / ends[0])} times cheaper",
+        ha="center",
+        va="bottom",
+        fontsize=8.5,
+        color=FRONT,
+    )
+
+
+def _rounded(ratio: float) -> str:
+    """Return a ratio with two digits, thousands apart."""
+    digits = max(0, math.floor(math.log10(ratio)) - 1)
+    return f"{round(ratio, -digits):,.0f}".replace(",", " ")
 
 
 def _limit_errors(axes: Axes, result: JournalAccuracy) -> None:
@@ -99,9 +116,16 @@ def _label(axes: Axes, result: JournalAccuracy, cost: Cost) -> None:
     ]
     medians = [(cost(rung), rung.median_error) for rung in result.rungs]
     place_labels(axes, labels, obstacles=medians)
+    _draw_gain(axes, result, cost)
     axes.text(
-        0.99, result.reference_high, "error of the reference, 99 % ", transform=axes.get_yaxis_transform(),
-        ha="right", va="top", fontsize=8, color="0.35",
+        0.99,
+        result.reference_high,
+        "error of the reference, 99 % ",
+        transform=axes.get_yaxis_transform(),
+        ha="right",
+        va="top",
+        fontsize=8,
+        color="0.35",
     )
 
 

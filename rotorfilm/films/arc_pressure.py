@@ -1,8 +1,8 @@
 """Pressure of a splitting film in the middle of the bearing, and the tension that it carries.
 
 From the coupling functions of `coupling`, H^3 u_j' = sum b_i (S_i - <S_i>/<1>) with (k_j^2 K + M) b = <X g>;
-in the middle of the bearing p / (12 viscosity (R/c)^2) = sum_j 4/(pi j) sin(j pi/2) u_j. Over all odd modes an
-eigenvalue l of K against M counts 1 - 1/cosh((L/D)/sqrt(l)).
+in the middle of the bearing p / (12 viscosity (R/c)^2) = sum_j 4/(pi j) sin(j pi/2) u_j. Over all odd modes
+an eigenvalue l of K against M counts 1 - 1/cosh((L/D)/sqrt(l)).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The two-dimensional film extrapolated from two grids: one order more for a quarter of the cost of a finer grid."""
+"""The two-dimensional film extrapolated from two grids."""
 
 from __future__ import annotations
 

@@ -2,8 +2,8 @@
 
 from .journal_accuracy import JournalAccuracy, RungAccuracy, journal_accuracy, pareto_front
 from .journal_rungs import Rung, comparison_bearing, journal_rungs
-from .journal_states import LARGE, SMALL, StateRange, random_states
 from .journal_stability import JournalStability, RungStability, journal_stability
+from .journal_states import LARGE, SMALL, StateRange, random_states
 
 __all__ = [
     "LARGE",

@@ -1,4 +1,4 @@
-"""The rungs of the journal film: every law, every place where its film may end, and several orders of each."""
+"""The rungs of the journal film: every law, every place where its film may end, several orders."""
 
 from __future__ import annotations
 
@@ -27,6 +27,9 @@ SLENDERNESS = (0.1, 4.0)
 
 CONVERGED = 24
 """Degree of the converged films: 4e-8 at eccentricity ratios to 0.99."""
+
+ROTATING_ORDERS = ((1, 1), (2, 1), (2, None), (4, 2), (6, None))
+"""Orders on the rotating arc, from the published first approximation to all but converged."""
 
 PUBLISHED = "published"
 FIXED, ROTATING, REYNOLDS, FREE = "fixed arc", "rotating arc", "Reynolds arc", "free arc"
@@ -63,7 +66,7 @@ def journal_rungs() -> tuple[Rung, ...]:
         *(_splitting(PUBLISHED, FixedArc(), n, 1) for n in (1, 2)),
         *(_splitting(FIXED, FixedArc(), n, None) for n in (2, 6)),
         _converged(FIXED, FixedArc()),
-        *(_splitting(ROTATING, RotatingArc(), n, m) for n, m in ((1, 1), (2, 1), (2, None), (4, 2), (6, None))),
+        *(_splitting(ROTATING, RotatingArc(), n, m) for n, m in ROTATING_ORDERS),
         _converged(ROTATING, RotatingArc()),
         *(_splitting(REYNOLDS, ReynoldsArc(), n, None, constant=True) for n in (4, 6)),
         *(_splitting(FREE, ComplementarityArc(), n, m, constant=True) for n, m in ((4, 8), (6, None))),
@@ -106,9 +109,7 @@ def fitted_bearing(bearing: JournalBearing, film: FilmLaw) -> JournalBearing:
 
 def _splitting(family: str, arc: Rupture, n: int, m: int | None, constant: bool = False) -> Rung:
     label = f"({n}{'+c' if constant else ''}, {'all' if m is None else m})"
-    return Rung(
-        family=family, label=label, film=SplittingFilm(order=(n, m), constant=constant, rupture=arc)
-    )
+    return Rung(family=family, label=label, film=SplittingFilm(order=(n, m), constant=constant, rupture=arc))
 
 
 def _converged(family: str, arc: Rupture) -> Rung:

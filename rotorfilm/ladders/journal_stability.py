@@ -16,7 +16,7 @@ from ..progress import Report, silent
 from ..results import Coefficients
 from .journal_accuracy import TENSION
 from .journal_rungs import Rung, comparison_bearing, fitted_bearing, journal_rungs
-from .journal_states import LARGE, SPEED, States, random_states
+from .journal_states import LARGE, REFERENCE_CELLS, SPEED, States, random_states
 
 TOLERANCE = 0.05
 """Relative deviation from which a threshold counts as wrong."""
@@ -30,9 +30,6 @@ eccentricity ratio by 0.001 changes it by several per cent."""
 
 ECCENTRICITY_RATIOS = tuple(np.linspace(0.05, 0.95, 46).tolist())
 """Where thresholds are computed."""
-
-REFERENCE_CELLS = (384, 16)
-"""Cells of the finest of the three grids behind the reference."""
 
 TENSION_STATES = 400
 """Random states of large motion in which tension is looked for."""
@@ -205,17 +202,15 @@ def journal_stability(
 
     Notes
     -----
-    The reference is extrapolated from two grids, and so are its derivatives. A third of what the extrapolation
-    from the next coarser pair gives else estimates its error.
+    The reference is extrapolated from two grids, and so are its derivatives. A third of its distance from the
+    extrapolation of the next coarser pair estimates its error.
     """
     rungs = journal_rungs() if rungs is None else tuple(rungs)
     ratios = np.asarray(eccentricity_ratio, dtype=float)
     bearing = comparison_bearing(slenderness)
     report(0.0, "two-dimensional reference")
     around, along = cells
-    exact, rough = (
-        _curve(_gridded(bearing, pair), ratios) for pair in (cells, (around // 2, along // 2))
-    )
+    exact, rough = (_curve(_gridded(bearing, pair), ratios) for pair in (cells, (around // 2, along // 2)))
     sample = random_states(LARGE, count=TENSION_STATES, clearance=bearing.clearance)
     judged = []
     for number, rung in enumerate(rungs):
@@ -302,11 +297,10 @@ def _asymmetry(damping: Array) -> float:
 
 def _largest_gap(rough: tuple[float | None, ...], exact: tuple[float | None, ...]) -> float:
     pairs = zip(_deviation(rough, exact), exact, strict=True)
-    return max((abs(gap) for gap, x in pairs if gap is not None and x is not None and x <= HIGHEST), default=0.0)
+    gaps = [abs(gap) for gap, x in pairs if gap is not None and x is not None and x <= HIGHEST]
+    return max(gaps, default=0.0)
 
 
-def _deviation(
-    values: tuple[float | None, ...], exact: tuple[float | None, ...]
-) -> tuple[float | None, ...]:
+def _deviation(values: tuple[float | None, ...], exact: tuple[float | None, ...]) -> tuple[float | None, ...]:
     pairs = zip(values, exact, strict=True)
     return tuple(None if v is None or x is None else v / x - 1.0 for v, x in pairs)

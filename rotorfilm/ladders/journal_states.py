@@ -134,7 +134,8 @@ def reference_force(
     for begin in range(0, count, CHUNK):
         part = slice(begin, begin + CHUNK)
         force[:, part], error[part] = _extrapolation(e[:, part], w[:, part], bearing.slenderness, cells)
-        report(min(1.0, (begin + CHUNK) / count), f"two-dimensional reference, {min(begin + CHUNK, count)} states")
+        done = min(begin + CHUNK, count)
+        report(done / count, f"two-dimensional reference, {done} of {count} states")
     return ReferenceForce(bearing.force_scale * force, error)
 
 
