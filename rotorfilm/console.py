@@ -45,7 +45,7 @@ def print_columns(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> Non
     """Print a table with headings; all columns but the first are aligned to the right."""
     table = Table(title_justify="left", box=None, pad_edge=False)
     for number, heading in enumerate(headings):
-        table.add_column(heading, justify="right" if number else "left")
+        table.add_column(heading, justify="right" if number else "left", no_wrap=not number)
     for row in rows:
         table.add_row(*row)
     Console(highlight=False).print(table)

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.transforms import Bbox
 
@@ -50,7 +51,8 @@ def place_labels(
     size : float, optional
         Size of the type [points].
     """
-    figure = axes.figure
+    figure = axes.get_figure()
+    assert isinstance(figure, Figure)
     figure.draw_without_rendering()
     pixels = figure.dpi / 72.0
     points = axes.transData.transform([(label.x, label.y) for label in labels] + list(obstacles))

@@ -80,7 +80,6 @@ def _middle(modes: int | None, ratio: Array, slenderness: float) -> Array:
     return np.sum(factor / (1.0 + (0.5 * math.pi * j / slenderness) ** 2 * ratio[..., None]), axis=-1)
 
 
-@cache
 def _converged(rupture: Rupture) -> SplittingFilm:
     return SplittingFilm(order=(CONVERGED, None), constant=True, rupture=rupture)
 

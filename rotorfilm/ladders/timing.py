@@ -39,16 +39,22 @@ class FilmCost:
 
 
 def film_costs(
-    bearings: Mapping[str, JournalBearing], states: States, *, rounds: int, report: Report = silent
+    bearings: Mapping[str, JournalBearing],
+    states: States,
+    *,
+    rounds: int,
+    smallest: int = BATCH[0],
+    report: Report = silent,
 ) -> dict[str, FilmCost]:
     """Return the cost of each film at the given states, which repeat as often as the batch needs.
 
-    Every round measures every film once, so that a disturbance of the machine hits all of them.
+    Every round measures every film once, so that a disturbance of the machine hits all of them. Batches
+    hold at least `smallest` states, and as many as last long enough to be measured.
     """
     runs = {}
     for name, bearing in bearings.items():
         report(0.0, f"batch for {name}")
-        runs[name] = _batch_run(bearing, states), _call_run(bearing, states)
+        runs[name] = _batch_run(bearing, states, smallest), _call_run(bearing, states)
     shortest = {name: [np.inf, np.inf] for name in runs}
     for number in range(rounds):
         for name, pair in runs.items():
@@ -69,9 +75,9 @@ def _seconds(run: Callable[[], object]) -> float:
     return perf_counter() - begin
 
 
-def _batch_run(bearing: JournalBearing, states: States) -> tuple[Callable[[], object], int]:
+def _batch_run(bearing: JournalBearing, states: States, smallest: int) -> tuple[Callable[[], object], int]:
     """Return a call long enough to be measured, and how many states it evaluates."""
-    size, largest = BATCH
+    size, largest = smallest, BATCH[1]
     while True:
         repeated = [np.resize(part.T, (size, *part.T.shape[1:])).T.copy() for part in states]
 
