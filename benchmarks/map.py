@@ -2,9 +2,10 @@
 
 First the packaged map against its rivals at L/D 0.5, errors of both sides and costs interleaved: short film,
 splitting orders, and the two-dimensional film at 1 % and at the map's own error, each on the cheapest grid
-that gets there, or comes closest. Then tables made from the short film, whose force is known exactly, so that the error is that
-of the table alone. Baseline of the batch: the short film itself (closed form, NumPy). Baseline of the scalar
-calls: the fastest that Python can do, the short film's closed form of the steady journal, by `math`.
+that gets there, or comes closest. Then tables made from the short film, whose force is known exactly, so that
+the error is that of the table alone. Baseline of the batch: the short film itself (closed form, NumPy).
+Baseline of the scalar calls: the fastest that Python can do, the short film's closed form for the steady
+journal written out with `math`.
 
     python benchmarks/map.py
 """
@@ -166,7 +167,7 @@ def print_rivals() -> None:
         f"2-D, closest to the map: {described(closest)}": closest,
     }
     bearings = {name: fitted_bearing(bearing, film) for name, film in films.items()}
-    costs = film_costs(bearings, states, rounds=3, smallest=STATES)
+    costs = film_costs(bearings, states, rounds=5)
     print(f"L/D 0.5, {STATES} random states, {LARGE.describe()}")
     print(f"reference: {REFERENCE_CELLS} cells, extrapolated; its error (99 %) {np.quantile(own, 0.99):.1e}")
     print(f"{'film':46s}{'99 % error':>11s}{'batch':>12s}{'/ map':>10s}{'alone':>12s}{'/ map':>10s}")

@@ -106,7 +106,7 @@ def _rounded(ratio: float) -> str:
 def _limit_errors(axes: Axes, result: JournalAccuracy) -> None:
     lowest = min(min(rung.median_error for rung in result.rungs), result.reference_high)
     highest = max(rung.high_error for rung in result.rungs)
-    axes.set_ylim(10.0 ** np.floor(np.log10(0.5 * lowest)), 3.0 * highest)
+    axes.set_ylim(10.0 ** np.floor(np.log10(0.5 * lowest)), 6.0 * highest)
 
 
 def _label(axes: Axes, result: JournalAccuracy, cost: Cost) -> None:

@@ -29,7 +29,7 @@ from .timing import FilmCost, film_costs
 TENSION = 0.01
 """Tension in a film, in its largest pressure, above which it counts as carrying tension."""
 
-ROUNDS = 5
+ROUNDS = 9
 """Rounds of timing, of which the shortest counts."""
 
 

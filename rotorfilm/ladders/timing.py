@@ -15,8 +15,11 @@ from .journal_states import States
 SHORTEST_RUN = 0.01
 """Length [s] of a measured run, long against the resolution of the clock."""
 
-BATCH = (128, 8192)
+BATCH = (8, 8192)
 """States of a batch at least and at most."""
+
+STILL_FALLING = 0.9
+"""A batch is doubled while that lowers the cost of a state below this part of it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,13 +51,14 @@ def film_costs(
 ) -> dict[str, FilmCost]:
     """Return the cost of each film at the given states, which repeat as often as the batch needs.
 
-    Every round measures every film once, so that a disturbance of the machine hits all of them. Batches
-    hold at least `smallest` states, and as many as last long enough to be measured.
+    Every round measures every film once, so that a disturbance of the machine hits all of them. A
+    batch holds as many states as make a state cheap, and as last long enough to be measured; not more, since
+    on a busy machine short runs are more often left alone.
     """
     runs = {}
     for name, bearing in bearings.items():
         report(0.0, f"batch for {name}")
-        runs[name] = _batch_run(bearing, states, smallest), _call_run(bearing, states)
+        runs[name] = _batch_run(bearing, states), _call_run(bearing, states)
     shortest = {name: [np.inf, np.inf] for name in runs}
     for number in range(rounds):
         for name, pair in runs.items():
@@ -75,9 +79,9 @@ def _seconds(run: Callable[[], object]) -> float:
     return perf_counter() - begin
 
 
-def _batch_run(bearing: JournalBearing, states: States, smallest: int) -> tuple[Callable[[], object], int]:
+def _batch_run(bearing: JournalBearing, states: States) -> tuple[Callable[[], object], int]:
     """Return a call long enough to be measured, and how many states it evaluates."""
-    size, largest = smallest, BATCH[1]
+    (size, largest), each = BATCH, np.inf
     while True:
         repeated = [np.resize(part.T, (size, *part.T.shape[1:])).T.copy() for part in states]
 
@@ -85,7 +89,9 @@ def _batch_run(bearing: JournalBearing, states: States, smallest: int) -> tuple[
             return bearing.force(*arguments)
 
         run()  # The first call compiles and builds tables.
-        if size >= largest or _seconds(run) > SHORTEST_RUN:
+        seconds, before = min(_seconds(run), _seconds(run)), each
+        each = seconds / size
+        if size >= largest or (seconds > SHORTEST_RUN and each > STILL_FALLING * before):
             return run, size
         size *= 2
 

@@ -184,7 +184,7 @@ def test_csv_round_trip(result, tmp_path):
 
 def test_result_is_json(result):
     plain = json.loads(json.dumps(to_plain(result), allow_nan=False))
-    assert plain["rungs"][0]["cost"]["batch"] >= 128
+    assert plain["rungs"][0]["cost"]["batch"] >= 8
 
 
 @pytest.mark.parametrize(
@@ -192,7 +192,7 @@ def test_result_is_json(result):
     [
         (lambda: comparison_bearing(5.0), r"slenderness \(L/D\) must be from 0.1 to 4.0, got 5.0"),
         (lambda: comparison_bearing(-1.0), "slenderness must be finite and positive, got -1.0"),
-        (lambda: journal_accuracy(0.5, states=0), "states and rounds must be at least 1, got 0 and 5"),
+        (lambda: journal_accuracy(0.5, states=0), "states and rounds must be at least 1, got 0 and 9"),
         (lambda: StateRange(eccentricity_ratio=(0.5, 1.0)), "eccentricity_ratio must rise within"),
         (lambda: StateRange(squeeze=0.0), "squeeze and whirl must span a range, got 0.0"),
     ],
