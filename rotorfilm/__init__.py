@@ -13,6 +13,7 @@ _HOMES = {
     "cosim": ("CoSimulation", "CouplingReport", "cosimulate", "coupling_stability", "critical_macro_step"),
     "films": (
         "ComplementarityArc",
+        "ExtrapolatedFilm",
         "FilmLaw",
         "FixedArc",
         "FullFilm",

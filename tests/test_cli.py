@@ -5,13 +5,14 @@ import os
 import subprocess
 import sys
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
 from fmpy import read_model_description
 
-from rotorfilm import cli, scenes
+from rotorfilm import cli, ladders, scenes
 from rotorfilm.scenes.film_tables import FILMS, RUPTURES
 
 SCENE = """
@@ -195,9 +196,11 @@ def test_unknown_key_in_a_scene_is_named(run, scene):
     assert "did you mean 'clearance'?" in err
 
 
-@pytest.mark.parametrize("command", ["solve", "coefficients", "fmu", "demo"])
+@pytest.mark.parametrize(
+    "command", ["solve", "coefficients", "fmu", "demo", "chart journal", "chart stability"]
+)
 def test_help_shows_an_example(run, command):
-    code, out, _ = run(command, "--help")
+    code, out, _ = run(*command.split(), "--help")
     assert code == 0
     assert f"Example: rotorfilm {command}" in out
     assert "--json" in out
@@ -277,3 +280,47 @@ def test_map_film_from_the_command_line(run):
     assert (code, err) == (0, "")
     # Between the short film, .2663, and a longer film that carries more.
     assert 0.2 < json.loads(out)["equilibrium"]["eccentricity_ratio"] < 0.35
+
+
+FEW = [rung for rung in ladders.journal_rungs() if rung.name in ("published (1, 1)", "2-D 48 x 4", "map")]
+
+
+def test_chart_of_accuracy_writes_picture_and_table(run, tmp_path, monkeypatch):
+    quick = partial(ladders.journal_accuracy, rungs=FEW, cells=(128, 16), rounds=1)
+    monkeypatch.setattr(ladders, "journal_accuracy", quick)
+    options = ("--ld", "0.25", "--states", "6", "--seed", "5", "--motion", "small", "--out", tmp_path)
+    code, out, err = run("chart", "journal", *options, "--json")
+    assert code == 0
+    assert "done" in err
+    result = json.loads(out)
+    assert (result["slenderness"], result["states"], result["seed"]) == (0.25, 6, 5)
+    assert result["ranges"]["squeeze"] == 0.05
+    assert (tmp_path / "chart_journal.png").read_bytes().startswith(b"\x89PNG")
+    table = (tmp_path / "chart_journal.csv").read_text(encoding="utf-8").splitlines()
+    assert len(table) == 1 + len(FEW)
+    assert "force in a batch [s]" in table[0]
+    code, out, _ = run("chart", "journal", *options)
+    assert code == 0
+    assert "2-D 48 x 4" in out
+
+
+def test_chart_of_stability_writes_picture_and_table(run, tmp_path, monkeypatch):
+    quick = partial(ladders.journal_stability, rungs=FEW, cells=(128, 16), eccentricity_ratio=(0.3, 0.6, 0.9))
+    monkeypatch.setattr(ladders, "journal_stability", quick)
+    code, out, _ = run("chart", "stability", "--out", tmp_path, "--json")
+    assert code == 0
+    published = json.loads(out)["rungs"][0]
+    assert published["speed_parameter"] == [None, None, None]
+    assert (tmp_path / "chart_stability.png").exists()
+    assert len((tmp_path / "chart_stability.csv").read_text(encoding="utf-8").splitlines()) == 1 + 3 * len(
+        FEW
+    )
+    code, out, _ = run("chart", "stability", "--out", tmp_path)
+    assert code == 0
+    assert "rank-1 damping" in out
+
+
+def test_chart_of_a_bearing_beyond_the_ladder_is_refused(run, tmp_path):
+    code, out, err = run("chart", "journal", "--ld", "9", "--out", tmp_path)
+    assert (code, out) == (2, "")
+    assert "slenderness (L/D) must be from 0.1 to 4.0, got 9.0" in err

@@ -1,7 +1,9 @@
 """Journal film laws: pure, dimensionless physics; one law per file."""
 
+from .arc_pressure import middle_pressure, tension
 from .cavitation import Cavitation, Complementarity, FullFilm, HalfSommerfeld
 from .complementarity_arc import ComplementarityArc
+from .extrapolated import ExtrapolatedFilm
 from .geometry import FilmGeometry, Groove, Pad
 from .law import FilmLaw
 from .map import MapFilm
@@ -18,6 +20,7 @@ __all__ = [
     "Cavitation",
     "Complementarity",
     "ComplementarityArc",
+    "ExtrapolatedFilm",
     "FilmGeometry",
     "FilmLaw",
     "FixedArc",
@@ -35,5 +38,7 @@ __all__ = [
     "SpectralArcFilm",
     "SplittingFilm",
     "fit_map_table",
+    "middle_pressure",
     "tabulate_film",
+    "tension",
 ]
