@@ -22,7 +22,7 @@ from ..errors import (
 from ..films.geometry import FilmGeometry, Groove, Pad
 from ..films.law import CENTER, BindableFilm, BoundFilm, FilmLaw, FittedFilm
 from ..films.short import ShortFilm
-from ..model import Array, Linearization, force_outputs, journal_inputs, static_linearization
+from ..model import Array, Linearization, Tangent, force_outputs, journal_inputs, static_linearization
 from ..signals import Signal
 
 NOMINAL_SPEED = 100.0
@@ -208,6 +208,17 @@ class JournalBearing:
         """
         return self._scalar_call if self._bound is None else self._bound.call
 
+    def prepare_tangent(self) -> Tangent:
+        """Return force and derivatives as one function of five numbers, for searches state by state.
+
+        Returns
+        -------
+        callable
+            (x, y, vx, vy, speed) [m, m/s, rad/s] -> (force_x, force_y, the ten entries of `jacobian` row by
+            row). Raises what `jacobian` raises.
+        """
+        return self._scalar_tangent if self._bound is None else self._bound.tangent
+
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape, checked for contact only."""
         if self._bound is not None:
@@ -258,6 +269,13 @@ class JournalBearing:
     def _scalar_call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
         force_x, force_y = self.force((x, y), (vx, vy), speed).tolist()
         return force_x, force_y
+
+    def _scalar_tangent(
+        self, x: float, y: float, vx: float, vy: float, speed: float
+    ) -> tuple[float, float, list[float]]:
+        state = self._validated((x, y), (vx, vy), speed)
+        force_x, force_y = self.prepared_force(*state).tolist()
+        return force_x, force_y, self.prepared_jacobian(*state).ravel().tolist()
 
     def _validated(
         self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike

@@ -96,6 +96,15 @@ class BoundMap:
             _report_at(status, np.hypot(x, y) / self.clearance, self.clearance)
         return force_x, force_y
 
+    def tangent(
+        self, x: float, y: float, vx: float, vy: float, speed: float
+    ) -> tuple[float, float, list[float]]:
+        """Return (force_x, force_y) [N] and the ten entries of the Jacobian, row by row, for numbers."""
+        force_x, force_y, derivatives, status = self.kernel.tangent(x, y, vx, vy, speed)
+        if status:
+            _report_at(status, np.hypot(x, y) / self.clearance, self.clearance)
+        return force_x, force_y, derivatives
+
     def force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return the force [N], shape (2, ...)."""
         if position.ndim == 1:
@@ -110,11 +119,9 @@ class BoundMap:
     def jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return d force / d (x, y, vx, vy, speed), shape (2, 5, ...)."""
         if position.ndim == 1:
-            state = [*position.tolist(), *velocity.tolist(), float(speed)]
-            jacobian, status = self.kernel.jacobian_at(state)
-            if status:
-                _report_at(status, np.hypot(*state[:2]) / self.clearance, self.clearance)
-            return jacobian
+            x, y = position.tolist()
+            vx, vy = velocity.tolist()
+            return np.array(self.tangent(x, y, vx, vy, float(speed))[2]).reshape(2, 5)
         rows = position.reshape(2, -1)
         batch = self.kernel.jacobian(rows, velocity.reshape(2, -1), speed.ravel())
         self._report(batch, rows)

@@ -96,9 +96,11 @@ def tabulate_film(
     )
     e = np.stack([chi, np.zeros_like(chi)])
     w = np.stack([cos, np.sqrt((1.0 - cos) * (1.0 + cos))])
-    log_potential = [np.log(-0.5 * (film.force(e, w, ratio) * w).sum(axis=0)) for ratio in slenderness]
+    log_potential = np.array([np.log(-0.5 * (film.force(e, w, ratio) * w).sum(axis=0)) for ratio in slenderness])
+    # At the center every direction is the same but for the error of a discrete film.
+    log_potential[:, 0] = log_potential[:, 0].mean(axis=-1, keepdims=True)
     return fit_map_table(
-        np.stack(log_potential),
+        log_potential,
         slenderness_range=slenderness_range,
         largest_eccentricity_ratio=largest_eccentricity_ratio,
     )
