@@ -28,7 +28,7 @@ def test_stretched_eccentricity_is_inverted():
 
 def test_default_axes():
     axes = universal_axes()
-    assert axes.shape == (17, 25, 49)
+    assert axes.shape == (17, 25, 97)
     assert axes.chi[-1] > 0.999
     np.testing.assert_allclose(np.exp(axes.log_slenderness[[0, -1]]), [0.1, 4.0])
 
