@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -61,7 +62,7 @@ class JournalBearing:
     ------
     InputError
         If a dimension or the viscosity is not finite and positive, the clearance is not below the radius,
-        openings overlap, or the film cannot represent pads and grooves.
+        openings overlap, or the film cannot represent the length / diameter, pads and grooves.
 
     Warns
     -----
@@ -98,6 +99,12 @@ class JournalBearing:
             raise InputError(
                 f"film must represent the bearing's geometry, which {type(self.film).__name__} cannot: "
                 f"got {self.geometry!r}"
+            )
+        low, high = getattr(self.film, "slenderness_range", (0.0, math.inf))
+        if not low * (1.0 - 1e-12) <= self.slenderness <= high * (1.0 + 1e-12):
+            raise InputError(
+                f"length / diameter must be {low:g} to {high:g} for {type(self.film).__name__}, "
+                f"got {self.slenderness:.6g}"
             )
         limit = getattr(self.film, "slenderness_limit", None)
         if limit is not None and self.slenderness > limit:

@@ -91,6 +91,11 @@ class MapTable:
         """Eccentricity ratio of the last node."""
         return float(unstretch(self.reach))
 
+    def holds(self, slenderness: float) -> bool:
+        """Return whether the table has a bearing of this length/diameter."""
+        low, high = self.slenderness_range
+        return low * (1.0 - 1e-12) <= slenderness <= high * (1.0 + 1e-12)
+
     def at(self, slenderness: float) -> BearingMap:
         """Return the map of one bearing.
 
@@ -105,10 +110,10 @@ class MapTable:
             If the slenderness is outside the table.
         """
         low, high = self.slenderness_range
-        if not low * (1.0 - 1e-12) <= slenderness <= high * (1.0 + 1e-12):
+        if not self.holds(slenderness):
             raise InputError(
                 f"length/diameter must be within the table of the film, {low:g} to {high:g}, "
-                f"got {slenderness!r}; give MapFilm a table of its own for this bearing"
+                f"got {slenderness!r}; MapFilm() without a table takes more"
             )
         if len(self.center) == 1:
             return BearingMap(self.coefficients[0], self.reach, float(self.center[0]))

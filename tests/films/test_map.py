@@ -161,8 +161,10 @@ def test_beyond_the_table_is_continued_with_a_warning():
 
 
 def test_slenderness_outside_the_table_is_an_input_error():
+    with pytest.raises(InputError, match=r"length / diameter must be 0.1 to 1 for MapFilm, got 2"):
+        JournalBearing(**{**DIMENSIONS, "length": 0.2}, film=FILM)
     with pytest.raises(InputError, match="length/diameter must be within the table"):
-        JournalBearing(**{**DIMENSIONS, "length": 0.2}, film=FILM).force([0.0, 0.0], [0.0, 0.0], 1.0)
+        FILM.force(np.zeros(2), np.ones(2), 2.0)
 
 
 @pytest.mark.parametrize("twin", [copy.deepcopy, lambda b: pickle.loads(pickle.dumps(b))])
