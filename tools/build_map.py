@@ -36,7 +36,7 @@ def build(path: Path, axes: TableAxes, workers: int, fine_from: float) -> dict[s
     Rows with X below `fine_from` get every second node in T: a film turns sharply with T near contact only.
     """
     fields = _start(path, axes)
-    steps = np.where(axes.X < fine_from, 2, 1)
+    steps = 2 - (fine_from <= axes.X)
     rows = itertools.product(range(axes.shape[0]), range(axes.shape[1]))
     missing = [(k, i, steps[i]) for k, i in rows if np.isnan(fields["log"][k, i, :: steps[i]]).any()]
     # One BLAS thread per worker: the matrices are small, and the workers fill the machine.

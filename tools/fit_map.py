@@ -36,7 +36,8 @@ def filled(log: np.ndarray, T: np.ndarray) -> np.ndarray:
 def fitted(nodes: Path) -> MapTable:
     """Return the table of a file of nodes."""
     with np.load(nodes) as data:
-        log, slope, axes = filled(data["log"], data["T"]), data["chi_slope"], (data["X"], data["log_slenderness"])
+        log, slope = filled(data["log"], data["T"]), data["chi_slope"]
+        axes = data["X"], data["log_slenderness"]
     low, high = np.exp(axes[1][[0, -1]])
     return fit_map_table(
         log,

@@ -82,8 +82,8 @@ def tabulate_film(
     Parameters
     ----------
     film : FilmLaw
-        Any film (its `force` is enough) whose force is the gradient of a function of degree 2 in the source, as with Reynolds
-        rupture or without rupture.
+        Any film (its `force` is enough) whose force is the gradient of a function of degree 2 in the
+        source, as with Reynolds rupture or without rupture.
     slenderness_range : (float, float) [1]
         Smallest and largest length/diameter; equal for a single bearing.
     cells : (int, int, int)

@@ -1,8 +1,8 @@
 """Tables of single bearings that the packaged table leaves out: very short ones and long ones.
 
 A short film near contact has ends as wide as it is long, and a long one closes its dry gap and then carries
-pressure all round, where `potential` fails. The two-dimensional film meets both: its J = (F . w)/2, extrapolated
-from two grids, has a smaller error than its force.
+pressure all round, where `potential` fails. The two-dimensional film meets both: its J = (F . w)/2,
+extrapolated from two grids, has a smaller error than its force.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from .map_table import MapTable
 from .reynolds import ReynoldsFilm
 
 OWN_RANGE = (0.001, 20.0)
-"""Length/diameter for which a table can be made: below, only the wall is not short; above, layers get thin."""
+"""Length/diameter for which a table can be made; beyond, the layers at the ends get too thin for the grid."""
 
 TABLE_CELLS = (24, 48, 0)
 REACH = 0.999
@@ -38,7 +38,7 @@ def bearing_table(slenderness: float) -> MapTable:
     Returns
     -------
     MapTable
-        Error of a force, 99 % of random states: 1e-4 at eccentricity ratios to .95, 1e-3 to .99, 2e-2 to .999.
+        Error of a force, 99 % of random states: 1e-4 to eccentricity ratio .95, 5e-4 to .99, 6e-3 to .999.
 
     Raises
     ------

@@ -23,7 +23,7 @@ COARSENING = 2 ** (LEVELS - 1)
 """Numbers of cells are multiples of this."""
 
 GRADING = 1.2
-"""Axial nodes are at sin(g t)/sin(g), denser at the bearing's end where pressure falls off; g in `grading`."""
+"""Axial nodes are at sin(g t)/sin(g), denser at the bearing's end where pressure falls off; g to `LONG`."""
 
 LONG = 4.0
 """Length/diameter above which the cells at the end shrink as the inverse of it, with the layer there."""

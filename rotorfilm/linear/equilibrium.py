@@ -139,7 +139,9 @@ def _newton(target: _Target, s: float, phi: float) -> _Point:
 
 def _damped(target: _Target, point: _Point, step_s: float, step_phi: float) -> _Point | None:
     """Return the first of ever shorter steps that lowers the residual, or None."""
-    share = min(1.0, *(most / max(abs(step), 1e-300) for most, step in zip(_LARGEST_MOVE, (step_s, step_phi))))
+    share = min(
+        1.0, _LARGEST_MOVE[0] / max(abs(step_s), 1e-300), _LARGEST_MOVE[1] / max(abs(step_phi), 1e-300)
+    )
     for halvings in range(10):
         part = 0.5**halvings * share
         s = min(point.s + part * step_s, _LARGEST_S)

@@ -129,7 +129,7 @@ def test_rounded_table_takes_half_the_bytes_and_is_off_by_half_a_quantum():
     assert 0.0 < np.abs(again.coefficients - SMALL.coefficients).max() <= 0.5 * quantum
     np.testing.assert_array_equal(again.center, SMALL.center)
     assert again.to_bytes(quantum) == content
-    with pytest.raises(InputError, match="quantum must be above .* got 1e-20"):
+    with pytest.raises(InputError, match=r"quantum must be above .* got 1e-20"):
         SMALL.to_bytes(1e-20)
 
 
