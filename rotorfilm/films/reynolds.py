@@ -55,6 +55,9 @@ class ReynoldsFilm:
     order: ClassVar[int] = 2
     """Order of convergence of the force in the size of the cells."""
 
+    order_with_supply: ClassVar[float] = 1.7
+    """The same, measured, with a supply pressure: it drops to ambient at a point, the open end of a groove."""
+
     cells: tuple[int, int] = (96, 8)
     cavitation: Cavitation = field(default_factory=Complementarity)
     geometry: FilmGeometry = field(default_factory=FilmGeometry)
