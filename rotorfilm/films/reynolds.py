@@ -56,7 +56,7 @@ class ReynoldsFilm:
     """Order of convergence of the force in the size of the cells."""
 
     order_with_supply: ClassVar[float] = 1.7
-    """The same, measured, with a supply pressure: it drops to ambient at a point, the open end of a groove."""
+    """The same, measured, with a supply pressure: it drops to ambient at a point, a groove's open end."""
 
     cells: tuple[int, int] = (96, 8)
     cavitation: Cavitation = field(default_factory=Complementarity)

@@ -122,6 +122,17 @@ def test_long_full_film_is_sommerfeld(chi):
 
 
 @pytest.mark.closed_form
+@pytest.mark.parametrize("chi", [0.2, 0.6, 0.9])
+def test_long_half_film_is_half_of_sommerfeld(chi):
+    # p = chi sin g (2 + chi cos g)/(2 (2 + chi^2) (1 + chi cos g)^2) where positive, for omega = 1.
+    film = ReynoldsFilm(cells=(96, 32), cavitation=HalfSommerfeld())
+    force = long_limit(film, np.array([chi, 0.0]), np.array([0.0, -0.5 * chi]))
+    root = 1.0 - chi**2
+    exact = np.array([-12.0 * chi**2 / root, 6.0 * np.pi * chi / np.sqrt(root)]) / (2.0 + chi**2)
+    np.testing.assert_allclose(force, exact, atol=2e-3 * np.hypot(*exact))
+
+
+@pytest.mark.closed_form
 @pytest.mark.parametrize("chi", [0.3, 0.7])
 def test_long_ruptured_film_with_a_line_groove_at_the_maximum_film(chi):
     # 1-D Reynolds condition: H^3 p' = (cos g - cos g2) chi/2 for omega = 1, p(0) = p(g2) = 0.
