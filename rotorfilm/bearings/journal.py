@@ -22,7 +22,7 @@ from ..errors import (
 )
 from ..films.geometry import FilmGeometry, Groove, Pad
 from ..films.law import CENTER, BindableFilm, BoundFilm, FilmLaw, FittedFilm
-from ..films.short import ShortFilm
+from ..films.map import MapFilm
 from ..model import Array, Linearization, Tangent, force_outputs, journal_inputs, static_linearization
 from ..signals import Signal
 
@@ -50,7 +50,8 @@ class JournalBearing:
     viscosity : float [Pa s]
         Dynamic viscosity of the lubricant.
     film : FilmLaw
-        The film law; exchangeable by `dataclasses.replace`.
+        The film law, by default `MapFilm()`: Reynolds rupture at any L/D of its table, without pads and
+        grooves. Exchangeable by `dataclasses.replace`.
     pads : tuple of Pad
         Where there is a bearing wall, angles in the bearing frame [rad]; empty for the full circumference.
     grooves : tuple of Groove
@@ -62,7 +63,8 @@ class JournalBearing:
     ------
     InputError
         If a dimension or the viscosity is not finite and positive, the clearance is not below the radius,
-        openings overlap, or the film cannot represent the length / diameter, pads and grooves.
+        openings overlap, there is a supply without a groove, or the film cannot represent the length/diameter,
+        pads or grooves.
 
     Warns
     -----
@@ -80,7 +82,7 @@ class JournalBearing:
     length: float
     clearance: float
     viscosity: float
-    film: FilmLaw = field(default_factory=ShortFilm)
+    film: FilmLaw = field(default_factory=MapFilm)
     pads: tuple[Pad, ...] = ()
     grooves: tuple[Groove, ...] = ()
     supply_pressure: float = 0.0
@@ -95,10 +97,12 @@ class JournalBearing:
         require_non_negative("supply_pressure", self.supply_pressure)
         _require_tuple("pads", self.pads, Pad)
         _require_tuple("grooves", self.grooves, Groove)
+        if self.supply_pressure > 0.0 and not self.grooves:
+            raise InputError(f"supply_pressure must be 0 without grooves, got {self.supply_pressure!r}")
         if not self.geometry.plain and not isinstance(self.film, FittedFilm):
             raise InputError(
                 f"film must represent the bearing's geometry, which {type(self.film).__name__} cannot: "
-                f"got {self.geometry!r}"
+                f"got {self.geometry!r}; ReynoldsFilm can"
             )
         low, high = getattr(self.film, "slenderness_range", (0.0, math.inf))
         if not low * (1.0 - 1e-12) <= self.slenderness <= high * (1.0 + 1e-12):

@@ -3,12 +3,20 @@
 from __future__ import annotations
 
 import math
+import warnings
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import EquilibriumError, InputError, UndefinedDerivativeError, require_finite, require_number
+from ..errors import (
+    EquilibriumError,
+    InputError,
+    UndefinedDerivativeError,
+    ValidityWarning,
+    require_finite,
+    require_number,
+)
 from ..model import Array, Reaction, Tangent, prepared_tangent
 from ..results import Equilibrium
 
@@ -38,13 +46,12 @@ class _Target(NamedTuple):
 
 
 class _Point(NamedTuple):
-    """A trial solution (s, phi): position, force, residual (ratio, angle) and its derivatives, row by row."""
+    """A trial solution (s, phi): position, residual (ratio, angle) and its derivatives, row by row."""
 
     s: float
     phi: float
     steps: int
     position: tuple[float, float] = (math.nan, math.nan)
-    force: tuple[float, float] = (0.0, 0.0)
     ratio: float = math.inf
     angle: float = 0.0
     matrix: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
@@ -91,13 +98,13 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     speed = require_number("speed", speed)
     wanted_x, wanted_y = (-load).tolist()
     target = _Target(prepared_tangent(reaction), reaction.clearance, speed, wanted_x, wanted_y)
-    best: _Point | None = None
-    for s, phi in _starts(math.atan2(-wanted_y, -wanted_x), speed):
-        point = _newton(target, s, phi)
-        if point.norm <= _tolerance(point.s):
-            return _result(target, load, point)
-        best = point if best is None or point.norm < best.norm else best
-    raise EquilibriumError(_why_not(load, speed, best))
+    with warnings.catch_warnings():
+        # A state that the search only passes through is nobody's answer; that of the result is warned of.
+        warnings.simplefilter("ignore", ValidityWarning)
+        best = _search(target)
+    if best.norm > _tolerance(best.s):
+        raise EquilibriumError(_why_not(load, speed, best))
+    return _result(reaction, load, target, best)
 
 
 def checked_load(load: ArrayLike) -> Array:
@@ -111,6 +118,16 @@ def checked_load(load: ArrayLike) -> Array:
             "(for the centered journal use coefficients at position (0, 0))"
         )
     return array
+
+
+def _search(target: _Target) -> _Point:
+    """Return the first converged point, or the best of all starts."""
+    points = []
+    for s, phi in _starts(math.atan2(-target.y, -target.x), target.speed):
+        points.append(_newton(target, s, phi))
+        if points[-1].norm <= _tolerance(points[-1].s):
+            return points[-1]
+    return min(points, key=lambda point: point.norm)
 
 
 def _starts(along_load: float, speed: float) -> list[tuple[float, float]]:
@@ -172,7 +189,6 @@ def _point(target: _Target, s: float, phi: float, steps: int) -> _Point:
         phi,
         steps,
         (x, y),
-        (fx, fy),
         math.log(size / target.size),
         math.atan2(target.x * uy - target.y * ux, target.x * ux + target.y * uy),
         (
@@ -189,25 +205,26 @@ def _tolerance(s: float) -> float:
     return max(_TOLERANCE, 1e-15 * (1.0 + math.exp(s)))
 
 
-def _result(target: _Target, load: Array, point: _Point) -> Equilibrium:
-    fx, fy = point.force
+def _result(reaction: Reaction, load: Array, target: _Target, point: _Point) -> Equilibrium:
+    position = np.array(point.position)
+    force = reaction.force(position, np.zeros(2), target.speed)
     angle = math.copysign(1.0, target.speed) * (point.phi - math.atan2(-target.y, -target.x))
     return Equilibrium(
-        position=np.array(point.position),
+        position=position,
         speed=target.speed,
         load=load,
         eccentricity_ratio=1.0 / (1.0 + math.exp(-point.s)),
         attitude_angle=math.remainder(angle, 2.0 * math.pi),
         minimum_film=target.clearance / (1.0 + math.exp(point.s)),
-        residual=math.hypot(fx - target.x, fy - target.y) / target.size,
+        residual=math.hypot(*(force + load)) / target.size,
         iterations=point.steps,
     )
 
 
-def _why_not(load: Array, speed: float, best: _Point | None) -> str:
+def _why_not(load: Array, speed: float, best: _Point) -> str:
     """Return the message that names the load, the rule it breaks, and the film force at the limit."""
     given = f"got load {load.tolist()} N with |load| = {math.hypot(*load):.6g} N"
-    if best is None or not math.isfinite(best.norm):
+    if not math.isfinite(best.norm):
         return f"speed must make the film carry load: at speed {speed!r} rad/s it carries none, {given}"
     if best.s == _LARGEST_S and best.ratio < 0.0:
         limit = math.exp(best.ratio) * math.hypot(*load)
