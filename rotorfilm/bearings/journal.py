@@ -63,7 +63,7 @@ class JournalBearing:
     ------
     InputError
         If a dimension or the viscosity is not finite and positive, the clearance is not below the radius,
-        openings overlap, there is a supply without a groove, or the film cannot represent the length/diameter,
+        openings overlap, there is a supply without a groove, or the film cannot represent length/diameter,
         pads or grooves.
 
     Warns
