@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -22,7 +23,7 @@ from ..errors import (
 from ..films.geometry import FilmGeometry, Groove, Pad
 from ..films.law import CENTER, BindableFilm, BoundFilm, FilmLaw, FittedFilm
 from ..films.map import MapFilm
-from ..model import Array, Linearization, force_outputs, journal_inputs, static_linearization
+from ..model import Array, Linearization, Tangent, force_outputs, journal_inputs, static_linearization
 from ..signals import Signal
 
 NOMINAL_SPEED = 100.0
@@ -62,7 +63,8 @@ class JournalBearing:
     ------
     InputError
         If a dimension or the viscosity is not finite and positive, the clearance is not below the radius,
-        openings overlap, there is a supply without a groove, or the film cannot represent pads and grooves.
+        openings overlap, there is a supply without a groove, or the film cannot represent length/diameter,
+        pads or grooves.
 
     Warns
     -----
@@ -101,6 +103,12 @@ class JournalBearing:
             raise InputError(
                 f"film must represent the bearing's geometry, which {type(self.film).__name__} cannot: "
                 f"got {self.geometry!r}; ReynoldsFilm can"
+            )
+        low, high = getattr(self.film, "slenderness_range", (0.0, math.inf))
+        if not low * (1.0 - 1e-12) <= self.slenderness <= high * (1.0 + 1e-12):
+            raise InputError(
+                f"length / diameter must be {low:g} to {high:g} for {type(self.film).__name__}, "
+                f"got {self.slenderness:.6g}"
             )
         limit = getattr(self.film, "slenderness_limit", None)
         if limit is not None and self.slenderness > limit:
@@ -211,6 +219,17 @@ class JournalBearing:
         """
         return self._scalar_call if self._bound is None else self._bound.call
 
+    def prepare_tangent(self) -> Tangent:
+        """Return force and derivatives as one function of five numbers, for searches state by state.
+
+        Returns
+        -------
+        callable
+            (x, y, vx, vy, speed) [m, m/s, rad/s] -> (force_x, force_y, the ten entries of `jacobian` row by
+            row). Raises what `jacobian` raises.
+        """
+        return self._scalar_tangent if self._bound is None else self._bound.tangent
+
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape, checked for contact only."""
         if self._bound is not None:
@@ -261,6 +280,13 @@ class JournalBearing:
     def _scalar_call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
         force_x, force_y = self.force((x, y), (vx, vy), speed).tolist()
         return force_x, force_y
+
+    def _scalar_tangent(
+        self, x: float, y: float, vx: float, vy: float, speed: float
+    ) -> tuple[float, float, list[float]]:
+        state = self._validated((x, y), (vx, vy), speed)
+        force_x, force_y = self.prepared_force(*state).tolist()
+        return force_x, force_y, self.prepared_jacobian(*state).ravel().tolist()
 
     def _validated(
         self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike

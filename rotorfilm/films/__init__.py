@@ -8,6 +8,7 @@ from .geometry import FilmGeometry, Groove, Pad
 from .law import FilmLaw
 from .map import MapFilm
 from .map_fit import fit_map_table, tabulate_film
+from .map_own import bearing_table
 from .map_table import MapTable
 from .reynolds import ReynoldsFilm
 from .reynolds_arc import ReynoldsArc
@@ -37,6 +38,7 @@ __all__ = [
     "ShortFilm",
     "SpectralArcFilm",
     "SplittingFilm",
+    "bearing_table",
     "fit_map_table",
     "middle_pressure",
     "tabulate_film",

@@ -59,6 +59,11 @@ class BoundFilm(Protocol):
     def call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
         """Return (force_x, force_y) [N] for numbers; raises what the bearing's `force` raises."""
 
+    def tangent(
+        self, x: float, y: float, vx: float, vy: float, speed: float
+    ) -> tuple[float, float, list[float]]:
+        """Return (force_x, force_y) and the ten entries of `jacobian` row by row, for numbers."""
+
     def force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return the force [N], shape (2, ...), for float arrays of equal batch shape."""
 

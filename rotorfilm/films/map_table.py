@@ -23,9 +23,9 @@ from ..model import Array
 from .quintic import quintic_weights
 
 MAGIC = b"RFILMMAP"
-VERSION = 1
+VERSION = 2
 _HEADER = struct.Struct("<8sIIiiii")
-_NUMBER = "<f8"
+_NUMBER, _MULTIPLE = "<f8", "<i4"
 
 
 class BearingMap(NamedTuple):
@@ -91,6 +91,11 @@ class MapTable:
         """Eccentricity ratio of the last node."""
         return float(unstretch(self.reach))
 
+    def holds(self, slenderness: float) -> bool:
+        """Return whether the table has a bearing of this length/diameter."""
+        low, high = self.slenderness_range
+        return low * (1.0 - 1e-12) <= slenderness <= high * (1.0 + 1e-12)
+
     def at(self, slenderness: float) -> BearingMap:
         """Return the map of one bearing.
 
@@ -105,10 +110,10 @@ class MapTable:
             If the slenderness is outside the table.
         """
         low, high = self.slenderness_range
-        if not low * (1.0 - 1e-12) <= slenderness <= high * (1.0 + 1e-12):
+        if not self.holds(slenderness):
             raise InputError(
                 f"length/diameter must be within the table of the film, {low:g} to {high:g}, "
-                f"got {slenderness!r}; give MapFilm a table of its own for this bearing"
+                f"got {slenderness!r}; MapFilm() without a table takes more"
             )
         if len(self.center) == 1:
             return BearingMap(self.coefficients[0], self.reach, float(self.center[0]))
@@ -118,11 +123,32 @@ class MapTable:
         collapsed = np.tensordot(weights, self.coefficients[chosen], 1)
         return BearingMap(collapsed, self.reach, float(weights @ self.center[chosen]))
 
-    def to_bytes(self) -> bytes:
-        """Return the table as little-endian bytes: header with sizes and checksum, then the numbers."""
-        numbers = [self.reach, *self.slenderness_range, *np.ravel(self.center), *np.ravel(self.coefficients)]
-        body = np.asarray(numbers, dtype=_NUMBER).tobytes()
-        return _HEADER.pack(MAGIC, VERSION, zlib.crc32(body), *self.coefficients.shape, 0) + body
+    def to_bytes(self, quantum: float = 0.0) -> bytes:
+        """Return the table as little-endian bytes: header with sizes and checksum, then the numbers.
+
+        Parameters
+        ----------
+        quantum : float
+            Where positive, M's coefficients are rounded to multiples of it, of 4 bytes each instead of 8.
+
+        Raises
+        ------
+        InputError
+            If a coefficient is beyond 2^31 quanta.
+        """
+        numbers = [self.reach, *self.slenderness_range, quantum, *np.ravel(self.center)]
+        body = np.asarray(numbers, dtype=_NUMBER).tobytes() + self._packed(quantum)
+        width = 4 if quantum else 8
+        return _HEADER.pack(MAGIC, VERSION, zlib.crc32(body), *self.coefficients.shape, width) + body
+
+    def _packed(self, quantum: float) -> bytes:
+        if not quantum:
+            return self.coefficients.astype(_NUMBER).tobytes()
+        multiples = np.rint(self.coefficients / quantum)
+        if not np.abs(multiples).max() < 2.0**31:
+            least = np.abs(self.coefficients).max() / 2.0**31
+            raise InputError(f"quantum must be above {least:.3g} for these coefficients, got {quantum!r}")
+        return multiples.astype(_MULTIPLE).tobytes()
 
     @classmethod
     def from_bytes(cls, content: bytes) -> MapTable:
@@ -133,19 +159,21 @@ class MapTable:
         RotorfilmError
             If the content is not such a table, of another version, truncated or damaged.
         """
-        shape = _checked_shape(content)
-        numbers = np.frombuffer(content, dtype=_NUMBER, offset=_HEADER.size).astype(float)
-        center, coefficients = np.split(numbers[3:], [shape[0]])
+        shape, width = _checked_shape(content)
+        count = 4 + shape[0]
+        numbers = np.frombuffer(content, dtype=_NUMBER, offset=_HEADER.size, count=count).astype(float)
+        packed, start = _NUMBER if width == 8 else _MULTIPLE, _HEADER.size + 8 * count
+        coefficients = np.frombuffer(content, dtype=packed, offset=start).astype(float).reshape(shape)
         return cls(
             slenderness_range=(float(numbers[1]), float(numbers[2])),
             reach=float(numbers[0]),
-            center=center,
-            coefficients=coefficients.reshape(shape),
+            center=numbers[4:],
+            coefficients=coefficients * (numbers[3] or 1.0),
         )
 
-    def save(self, path: str | Path) -> None:
-        """Write the table to a file."""
-        Path(path).write_bytes(self.to_bytes())
+    def save(self, path: str | Path, quantum: float = 0.0) -> None:
+        """Write the table to a file; see `to_bytes`."""
+        Path(path).write_bytes(self.to_bytes(quantum))
 
     @classmethod
     def load(cls, path: str | Path) -> MapTable:
@@ -175,15 +203,16 @@ def unstretch(X: Array | float) -> Array:
     return np.sqrt(2.0 * squared / (squared + np.sqrt(squared**2 + 4.0)))
 
 
-def _checked_shape(content: bytes) -> tuple[int, int, int]:
+def _checked_shape(content: bytes) -> tuple[tuple[int, int, int], int]:
+    """Return the shape of the coefficients and the bytes of each."""
     if len(content) < _HEADER.size or not content.startswith(MAGIC):
         raise RotorfilmError("map table: the content does not begin with the mark of a map table")
-    _, version, checksum, *shape, _ = _HEADER.unpack_from(content)
+    _, version, checksum, *shape, width = _HEADER.unpack_from(content)
     if version != VERSION:
         raise RotorfilmError(f"map table: version must be {VERSION}, got {version}")
-    expected = _HEADER.size + 8 * (3 + shape[0] + shape[0] * shape[1] * shape[2])
-    if min(shape) < 1 or len(content) != expected:
+    expected = _HEADER.size + 8 * (4 + shape[0]) + width * shape[0] * shape[1] * shape[2]
+    if min(shape) < 1 or width not in (4, 8) or len(content) != expected:
         raise RotorfilmError(f"map table: size must be {expected} bytes for {shape}, got {len(content)}")
     if zlib.crc32(content[_HEADER.size :]) != checksum:
         raise RotorfilmError("map table: the checksum does not fit, the content is damaged")
-    return shape[0], shape[1], shape[2]
+    return (shape[0], shape[1], shape[2]), width

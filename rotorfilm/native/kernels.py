@@ -11,7 +11,7 @@ import numpy as np
 from ..model import Array
 from .library import JournalStruct, MapStruct, functions
 
-_Pair = c_double * 2
+_Pair, _Five, _Ten = c_double * 2, c_double * 5, c_double * 10
 
 
 class Status(IntEnum):
@@ -97,6 +97,7 @@ class JournalKernel:
         self._struct = JournalStruct(kernel.struct, clearance, force_scale)
         self._reference = byref(self._struct)
         self._call = functions()["rf_journal_call"]
+        self._tangent = functions()["rf_journal_jacobian"]
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._arguments
@@ -107,11 +108,13 @@ class JournalKernel:
         status = self._call(self._reference, x, y, vx, vy, speed, pair)
         return pair[0], pair[1], status
 
-    def jacobian_at(self, state: list[float]) -> tuple[Array, int]:
-        """Return d(force_x, force_y)/d(x, y, vx, vy, speed), shape (2, 5), at five numbers; and a status."""
-        pair, ten = _Pair(), (c_double * 10)()
-        status = functions()["rf_journal_jacobian"](self._reference, (c_double * 5)(*state), pair, ten)
-        return np.array(ten[:]).reshape(2, 5), status
+    def tangent(
+        self, x: float, y: float, vx: float, vy: float, speed: float
+    ) -> tuple[float, float, list[float], int]:
+        """Return force_x, force_y, the ten entries of the Jacobian row by row, and a status."""
+        pair, ten = _Pair(), _Ten()
+        status = self._tangent(self._reference, _Five(x, y, vx, vy, speed), pair, ten)
+        return pair[0], pair[1], ten[:], status
 
     def force(self, position: Array, velocity: Array, speed: Array) -> Batch:
         """Return the forces (2, n) at positions, velocities (2, n) and speeds (n,) or (1,)."""

@@ -82,6 +82,23 @@ def test_film_that_depends_on_direction(skewed_film, bearing, eps):
         )
 
 
+def test_any_reaction_takes_the_same_way_as_one_that_speaks_numbers(bearing, skewed_film):
+    # The skewed film has force and jacobian only.
+    plain = replace(skewed_film, skew=np.eye(2))
+    one, other = (equilibrium(film, [100.0, -525.0], SPEED) for film in (bearing, plain))
+    np.testing.assert_allclose(one.position, other.position, rtol=1e-12)
+    assert one.iterations == other.iterations
+
+
+def test_newton_stays_quadratic_where_the_film_depends_on_direction(skewed_film):
+    rng = np.random.default_rng(0)
+    for _ in range(30):
+        film = replace(skewed_film, skew=np.eye(2) + 0.3 * rng.normal(size=(2, 2)))
+        position = rng.uniform(0.05, 0.95) * film.clearance * along(rng.uniform(-3.0, 3.0))
+        at = equilibrium(film, -film.force(position, [0, 0], SPEED), SPEED)
+        assert at.iterations <= 8
+
+
 def test_film_so_skewed_that_the_first_start_fails(skewed_film):
     film = replace(skewed_film, skew=np.array([[-2.86, -2.55], [0.77, 0.70]]))
     position = 0.045 * film.clearance * along(6.1)
