@@ -99,7 +99,8 @@ class JournalBearing:
                 f"film must represent the bearing's geometry, which {type(self.film).__name__} cannot: "
                 f"got {self.geometry!r}"
             )
-        limit = getattr(self.film, "slenderness_limit", None)
+        # Fitted here so that a geometry that is beyond the film is refused at once.
+        limit = getattr(self.fitted_film, "slenderness_limit", None)
         if limit is not None and self.slenderness > limit:
             warnings.warn(
                 f"length / diameter must not exceed {limit} for {self.film!r}, got {self.slenderness:.6g}: "
@@ -249,9 +250,10 @@ class JournalBearing:
 
     @cached_property
     def _bound(self) -> BoundFilm | None:
-        if not isinstance(self.film, BindableFilm):
+        film = self.fitted_film
+        if not isinstance(film, BindableFilm):
             return None
-        return self.film.bind(
+        return film.bind(
             slenderness=self.slenderness, clearance=self.clearance, force_scale=self.force_scale
         )
 

@@ -3,6 +3,8 @@
 from .cavitation import Cavitation, Complementarity, FullFilm, HalfSommerfeld
 from .complementarity_arc import ComplementarityArc
 from .geometry import FilmGeometry, Groove, Pad
+from .groove_map import GroovedMapFilm
+from .groove_table import GrooveTable
 from .law import FilmLaw
 from .map import MapFilm
 from .map_fit import fit_map_table, tabulate_film
@@ -23,6 +25,8 @@ __all__ = [
     "FixedArc",
     "FullFilm",
     "Groove",
+    "GrooveTable",
+    "GroovedMapFilm",
     "HalfSommerfeld",
     "MapFilm",
     "MapTable",

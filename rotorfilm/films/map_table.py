@@ -9,8 +9,6 @@ on a uniform grid of X in [0, reach], T in [0, 1] and S, by quintic B-splines in
 
 from __future__ import annotations
 
-import struct
-import zlib
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -18,14 +16,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import InputError, RotorfilmError
+from ..errors import InputError
 from ..model import Array
 from .quintic import quintic_weights
+from .table_bytes import Sizes, seal, unseal
 
 MAGIC = b"RFILMMAP"
 VERSION = 1
-_HEADER = struct.Struct("<8sIIiiii")
-_NUMBER = "<f8"
 
 
 class BearingMap(NamedTuple):
@@ -121,8 +118,8 @@ class MapTable:
     def to_bytes(self) -> bytes:
         """Return the table as little-endian bytes: header with sizes and checksum, then the numbers."""
         numbers = [self.reach, *self.slenderness_range, *np.ravel(self.center), *np.ravel(self.coefficients)]
-        body = np.asarray(numbers, dtype=_NUMBER).tobytes()
-        return _HEADER.pack(MAGIC, VERSION, zlib.crc32(body), *self.coefficients.shape, 0) + body
+        slenderness, cells_x, cells_t = self.coefficients.shape
+        return seal(MAGIC, VERSION, (slenderness, cells_x, cells_t, 0), numbers)
 
     @classmethod
     def from_bytes(cls, content: bytes) -> MapTable:
@@ -133,14 +130,13 @@ class MapTable:
         RotorfilmError
             If the content is not such a table, of another version, truncated or damaged.
         """
-        shape = _checked_shape(content)
-        numbers = np.frombuffer(content, dtype=_NUMBER, offset=_HEADER.size).astype(float)
-        center, coefficients = np.split(numbers[3:], [shape[0]])
+        sizes, numbers = unseal("map table", MAGIC, VERSION, _count, content)
+        center, coefficients = np.split(numbers[3:], [sizes[0]])
         return cls(
             slenderness_range=(float(numbers[1]), float(numbers[2])),
             reach=float(numbers[0]),
             center=center,
-            coefficients=coefficients.reshape(shape),
+            coefficients=coefficients.reshape(sizes[:3]),
         )
 
     def save(self, path: str | Path) -> None:
@@ -175,15 +171,7 @@ def unstretch(X: Array | float) -> Array:
     return np.sqrt(2.0 * squared / (squared + np.sqrt(squared**2 + 4.0)))
 
 
-def _checked_shape(content: bytes) -> tuple[int, int, int]:
-    if len(content) < _HEADER.size or not content.startswith(MAGIC):
-        raise RotorfilmError("map table: the content does not begin with the mark of a map table")
-    _, version, checksum, *shape, _ = _HEADER.unpack_from(content)
-    if version != VERSION:
-        raise RotorfilmError(f"map table: version must be {VERSION}, got {version}")
-    expected = _HEADER.size + 8 * (3 + shape[0] + shape[0] * shape[1] * shape[2])
-    if min(shape) < 1 or len(content) != expected:
-        raise RotorfilmError(f"map table: size must be {expected} bytes for {shape}, got {len(content)}")
-    if zlib.crc32(content[_HEADER.size :]) != checksum:
-        raise RotorfilmError("map table: the checksum does not fit, the content is damaged")
-    return shape[0], shape[1], shape[2]
+def _count(sizes: Sizes) -> int:
+    """Return the count of numbers in a table of these sizes."""
+    entries, cells_x, cells_t, _ = sizes
+    return 3 + entries * (1 + cells_x * cells_t) if min(entries, cells_x, cells_t) > 0 else -1
