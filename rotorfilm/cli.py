@@ -16,6 +16,7 @@ from . import console
 from .errors import InputError, RotorfilmError, SceneError
 
 if TYPE_CHECKING:
+    from .films import Groove
     from .scenes.schema import FilmTable, JournalTable
 
 BAD_INPUT = 2
@@ -113,6 +114,44 @@ def fmu(
     console.print_rows("FMUs", list(files.items()))
 
 
+@app.command(
+    epilog='Example: rotorfilm groove-map --slenderness 0.5 --groove "90 deg, 20 deg" '
+    '--groove "270 deg, 20 deg"'
+)
+def groove_map(
+    slenderness: Annotated[float, typer.Option(help="Length / diameter.", metavar="0.5")],
+    groove: Annotated[
+        list[str],
+        typer.Option(help="Center and width of a groove; once for each.", metavar='"90 deg, 20 deg"'),
+    ],
+    out: Annotated[Path | None, typer.Option(help="File for a copy of the map.")] = None,
+    json: Json = False,
+) -> None:
+    """Make the map of a bearing with axial grooves, or find it on disk, for all films of such bearings."""
+    from .films import FilmGeometry, GroovedMapFilm
+    from .films.groove_cache import cache_folder
+
+    film = GroovedMapFilm().fitted(FilmGeometry(grooves=tuple(_groove(text) for text in groove)))
+    with console.progress_display() as report:
+        report(0.0, "packages")
+        table = film.built_table(slenderness, report)
+        report(1.0, "done")
+    if out is not None:
+        table.save(out)
+    cells, reach = "x".join(map(str, table.coefficients.shape)), table.largest_eccentricity_ratio
+    if json:
+        console.print_json(
+            {"folder": str(cache_folder()), "cells": cells, "largest_eccentricity_ratio": reach}
+        )
+        return
+    rows = [
+        ("folder", str(cache_folder())),
+        ("coefficients", cells),
+        ("up to", f"eccentricity ratio {reach:.3g}"),
+    ]
+    console.print_rows("map of the film", rows)
+
+
 @app.command(epilog="Example: rotorfilm demo --out rotorfilm-demo")
 def demo(
     out: Annotated[Path, typer.Option(help="Folder for results, FMUs and charts.")] = Path("rotorfilm-demo"),
@@ -166,6 +205,17 @@ def _film(film: Film, order: str | None, rupture: Rupture | None) -> FilmTable:
     if rupture is not None:
         options["rupture"] = {"kind": rupture.value}
     return read_table(FILMS[film.value], "--", options)
+
+
+def _groove(text: str) -> Groove:
+    """Return the groove of "CENTER, WIDTH"."""
+    from .films import Groove
+    from .units import parse_quantity
+
+    parts = [part.strip() for part in text.split(",")]
+    if len(parts) != 2:
+        raise InputError(f'--groove must be a center and a width, as "90 deg, 20 deg", got {text!r}')
+    return Groove(center=parse_quantity(parts[0], "rad"), width=parse_quantity(parts[1], "rad"))
 
 
 def _journal(geometry: dict[str, str], film: FilmTable) -> JournalTable:

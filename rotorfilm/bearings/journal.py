@@ -253,9 +253,7 @@ class JournalBearing:
         film = self.fitted_film
         if not isinstance(film, BindableFilm):
             return None
-        return film.bind(
-            slenderness=self.slenderness, clearance=self.clearance, force_scale=self.force_scale
-        )
+        return film.bind(slenderness=self.slenderness, clearance=self.clearance, force_scale=self.force_scale)
 
     def _scalar_call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
         force_x, force_y = self.force((x, y), (vx, vy), speed).tolist()

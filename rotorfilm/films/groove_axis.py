@@ -10,8 +10,8 @@ from .geometry import TURN, FilmGeometry, Groove
 STEPS = 7_200_000_000
 """Angles are compared as whole numbers of TURN/STEPS, 1e-9 rad."""
 
-WIDEST = 0.25 * TURN
-"""Widest opening of a map: past half a turn a source finds no film that carries, and J vanishes."""
+WIDEST = TURN / 6.0
+"""Widest opening of a map: the wider, the less a source finds that carries; past half a turn J vanishes."""
 
 _View = tuple[tuple[int, int], ...]
 
@@ -64,15 +64,17 @@ def require_mappable(geometry: FilmGeometry) -> None:
     if geometry.plain:
         raise InputError("a map with openings needs grooves or pads, got a plain bearing; take MapFilm")
     widest = max(opening.extent for opening in geometry.openings())
-    if widest > WIDEST:
+    if widest > WIDEST * (1.0 + 1e-9):
         raise InputError(
-            f"openings must not be wider than a quarter turn for a map of the film, got {widest:.6g} rad: "
-            "some motions find no film that carries; take ReynoldsFilm"
+            f"openings must not be wider than 60 deg for a map of the film, got {widest:.6g} rad: "
+            "some motions find hardly a film that carries; take ReynoldsFilm"
         )
 
 
 def _view(geometry: FilmGeometry, axis: float) -> _View:
-    openings = ((opening.start + 0.5 * opening.extent - axis, opening.extent) for opening in geometry.openings())
+    openings = (
+        (opening.start + 0.5 * opening.extent - axis, opening.extent) for opening in geometry.openings()
+    )
     return tuple(sorted((round(c / TURN * STEPS) % STEPS, round(w / TURN * STEPS)) for c, w in openings))
 
 

@@ -1,4 +1,4 @@
-"""How the map of a bearing with openings is made: potentials from the two-dimensional solver, and their fit."""
+"""How the map of a bearing with openings is made: potentials of the two-dimensional film, and their fit."""
 
 from __future__ import annotations
 
@@ -144,7 +144,7 @@ def _exponents(
     source, mirrored = symmetric_nodes(openings, count_e)
     M = np.empty((cells_x + 1, count_e, count_s))
     solved = np.flatnonzero(source == np.arange(count_e))
-    for done, j in enumerate(solved):
+    for done, j in enumerate(solved.tolist()):
         if report is not None:
             report(done / len(solved), "map of the grooved bearing")
         M[:, j] = _column(potential, center, chi, theta[j], theta[j] + beta)

@@ -57,12 +57,12 @@ class GroovedMapFilm:
     Raises
     ------
     InputError
-        If an argument breaks its rule, an opening is wider than a quarter turn, there is a supply pressure,
+        If an argument breaks its rule, an opening is wider than 60 deg, there is a supply pressure,
         or the table is that of other openings.
     """
 
-    cells: tuple[int, int] = (128, 8)
-    nodes: tuple[int, int, int] = (12, 64, 48)
+    cells: tuple[int, int] = (192, 12)
+    nodes: tuple[int, int, int] = (12, 72, 48)
     largest_eccentricity_ratio: float = 0.97
     table: GrooveTable | None = None
     geometry: FilmGeometry = field(default_factory=FilmGeometry)
@@ -73,9 +73,7 @@ class GroovedMapFilm:
                 f"cells must be two multiples of {COARSENING}, at least (16, 4), got {self.cells!r}"
             )
         if not _are_counts(self.nodes, (6, 12, 12), (1, 2, 2)):
-            raise InputError(
-                f"nodes must be at least (6, 12, 12), the last two even, got {self.nodes!r}"
-            )
+            raise InputError(f"nodes must be at least (6, 12, 12), the last two even, got {self.nodes!r}")
         if not 0.0 < self.largest_eccentricity_ratio < 1.0:
             raise InputError(
                 f"largest_eccentricity_ratio must be in (0, 1), got {self.largest_eccentricity_ratio!r}"

@@ -2,7 +2,8 @@
 
 With J(e, w) = min over films of the dissipation potential (`native/groove_kernel.h`),
 
-    ln(-J/|w|^2) = L0(phi) + chi M(X, theta, s),   X = chi/(1 - chi^2)^(1/4),   tan s = squeeze tan(phi - theta),
+    ln(-J/|w|^2) = L0(phi) + chi M(X, theta, s),
+    X = chi/(1 - chi^2)^(1/4),   tan s = squeeze tan(phi - theta),
 
 e at the angle theta and w at phi from the axis of the openings, on uniform grids by quintic B-splines.
 """

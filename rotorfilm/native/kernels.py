@@ -58,12 +58,12 @@ class MapKernel:
     _prefix: ClassVar[str] = "rf_map"
 
     def __init__(self, coefficients: Array, reach: float, center: float) -> None:
-        self._arguments = (coefficients, reach, center)
+        self._arguments: tuple[Any, ...] = (coefficients, reach, center)
         self.coefficients = np.ascontiguousarray(coefficients, dtype=float)
         cells_x, cells_t = (count - 5 for count in self.coefficients.shape)
         if min(cells_x, cells_t) < 1 or not np.isfinite(self.coefficients).all():
             raise ValueError(f"coefficients must be finite, 6 x 6 at least, got shape {coefficients.shape}")
-        self.struct = MapStruct(cells_x, cells_t, reach, center, self.coefficients.ctypes.data)
+        self.struct: Any = MapStruct(cells_x, cells_t, reach, center, self.coefficients.ctypes.data)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._arguments
@@ -101,18 +101,14 @@ class GrooveMapKernel(MapKernel):
 
     _prefix: ClassVar[str] = "rf_groove"
 
-    def __init__(
-        self, coefficients: Array, reach: float, center: Array, squeeze: float, axis: float
-    ) -> None:
+    def __init__(self, coefficients: Array, reach: float, center: Array, squeeze: float, axis: float) -> None:
         self._arguments = (coefficients, reach, center, squeeze, axis)
         wide = _wrapped(_wrapped(coefficients, 1), 2)
         self.coefficients = np.ascontiguousarray(wide, dtype=float)
         self.center = np.ascontiguousarray(_wrapped(center, 0), dtype=float)
         cells_x, cells_e, cells_s = (count - 5 for count in self.coefficients.shape)
         places = self.center.ctypes.data, self.coefficients.ctypes.data
-        self.struct = GrooveMapStruct(
-            cells_x, cells_e, cells_s, len(center), reach, squeeze, axis, *places
-        )
+        self.struct = GrooveMapStruct(cells_x, cells_e, cells_s, len(center), reach, squeeze, axis, *places)
 
 
 class JournalKernel:
