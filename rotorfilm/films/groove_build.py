@@ -23,6 +23,9 @@ SQUEEZE = 0.6
 ORDER = 4
 """Order of convergence, in the size of the cells, of the potential extrapolated from two grids."""
 
+HARMONICS = 20
+"""Of L0 and of dL/de at the center, over the direction of the source: beyond is the noise of the grid."""
+
 Report = Callable[[float, str], None]
 """Called with the fraction done, 0 to 1, and what is done."""
 
@@ -126,8 +129,19 @@ def node_angles(count_e: int, count_s: int) -> tuple[Array, Array]:
 
 def _center(potential: _Solver) -> _Center:
     J, slope = potential(np.zeros(2), TURN * np.arange(DIRECTIONS) / DIRECTIONS)
-    level = periodic_quintic_coefficients(np.log(-J))
-    return _Center(level, periodic_quintic_coefficients((slope / J).T))
+    level, slope = _smooth(np.log(-J)), _smooth((slope / J).T)
+    return _Center(periodic_quintic_coefficients(level), periodic_quintic_coefficients(slope))
+
+
+def _smooth(values: Array) -> Array:
+    """Return periodic values (n, ...) without their high harmonics.
+
+    The edge of the ruptured zone jumps from node to node as the source turns, which the second derivatives
+    would show: a quarter of the error of the damping matrix is left.
+    """
+    spectrum = np.fft.rfft(values, axis=0)
+    spectrum[HARMONICS + 1 :] = 0.0
+    return np.fft.irfft(spectrum, len(values), axis=0)
 
 
 def _exponents(
