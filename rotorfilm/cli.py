@@ -124,6 +124,8 @@ def groove_map(
         list[str],
         typer.Option(help="Center and width of a groove; once for each.", metavar='"90 deg, 20 deg"'),
     ],
+    cells: Annotated[str, typer.Option(help="Cells around the film and along half of it.")] = "192,12",
+    nodes: Annotated[str, typer.Option(help="Nodes over eccentricity, its direction, motion.")] = "12,72,48",
     out: Annotated[Path | None, typer.Option(help="File for a copy of the map.")] = None,
     json: Json = False,
 ) -> None:
@@ -131,25 +133,23 @@ def groove_map(
     from .films import FilmGeometry, GroovedMapFilm
     from .films.groove_cache import cache_folder
 
-    film = GroovedMapFilm().fitted(FilmGeometry(grooves=tuple(_groove(text) for text in groove)))
+    around, along = _counts("--cells", cells, 2)
+    over, turning, moving = _counts("--nodes", nodes, 3)
+    geometry = FilmGeometry(grooves=tuple(_groove(text) for text in groove))
+    film = GroovedMapFilm(cells=(around, along), nodes=(over, turning, moving), geometry=geometry)
     with console.progress_display() as report:
         report(0.0, "packages")
         table = film.built_table(slenderness, report)
         report(1.0, "done")
     if out is not None:
         table.save(out)
-    cells, reach = "x".join(map(str, table.coefficients.shape)), table.largest_eccentricity_ratio
+    folder, reach = str(cache_folder()), table.largest_eccentricity_ratio
     if json:
-        console.print_json(
-            {"folder": str(cache_folder()), "cells": cells, "largest_eccentricity_ratio": reach}
-        )
+        console.print_json({"folder": folder, "largest_eccentricity_ratio": reach})
         return
-    rows = [
-        ("folder", str(cache_folder())),
-        ("coefficients", cells),
-        ("up to", f"eccentricity ratio {reach:.3g}"),
-    ]
-    console.print_rows("map of the film", rows)
+    console.print_rows(
+        "map of the film", [("kept in", folder), ("eccentricity ratios", f"up to {reach:.3g}")]
+    )
 
 
 @app.command(epilog="Example: rotorfilm demo --out rotorfilm-demo")
@@ -205,6 +205,13 @@ def _film(film: Film, order: str | None, rupture: Rupture | None) -> FilmTable:
     if rupture is not None:
         options["rupture"] = {"kind": rupture.value}
     return read_table(FILMS[film.value], "--", options)
+
+
+def _counts(option: str, text: str, count: int) -> list[int]:
+    parts = [part.strip() for part in text.split(",")]
+    if len(parts) != count or not all(part.isdigit() for part in parts):
+        raise InputError(f"{option} must be {count} whole numbers, as 24,12, got {text!r}")
+    return [int(part) for part in parts]
 
 
 def _groove(text: str) -> Groove:

@@ -10,8 +10,6 @@ import warnings
 from collections.abc import Callable
 from pathlib import Path
 
-from platformdirs import user_cache_path
-
 from ..errors import RotorfilmError
 from .geometry import TURN
 from .groove_axis import STEPS, AlignedOpenings
@@ -26,7 +24,12 @@ FOLDER_VARIABLE = "ROTORFILM_CACHE"
 def cache_folder() -> Path:
     """Return the folder of the cache: $ROTORFILM_CACHE, or the platform's ($XDG_CACHE_HOME/rotorfilm)."""
     chosen = os.environ.get(FOLDER_VARIABLE)
-    return Path(chosen) if chosen else user_cache_path("rotorfilm", appauthor=False)
+    if chosen:
+        return Path(chosen)
+    # Imported here so that an FMU with another film needs no more than numpy and scipy.
+    from platformdirs import user_cache_path
+
+    return user_cache_path("rotorfilm", appauthor=False)
 
 
 def cache_path(openings: AlignedOpenings, slenderness: float, resolution: Resolution) -> Path:
