@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import Any
 
 _HOMES = {
-    "bearings": ("JournalBearing", "film_state"),
+    "bearings": ("JournalBearing", "build_groove_map", "film_state"),
     "cosim": ("CoSimulation", "CouplingReport", "cosimulate", "coupling_stability", "critical_macro_step"),
     "films": (
         "ComplementarityArc",
@@ -18,6 +18,8 @@ _HOMES = {
         "FixedArc",
         "FullFilm",
         "Groove",
+        "GrooveTable",
+        "GroovedMapFilm",
         "HalfSommerfeld",
         "MapFilm",
         "MapTable",

@@ -16,6 +16,7 @@ from .chart_commands import chart_app
 from .errors import InputError, RotorfilmError, SceneError
 
 if TYPE_CHECKING:
+    from .films import Groove
     from .scenes.film_tables import FilmTable
     from .scenes.schema import JournalTable
 
@@ -61,7 +62,7 @@ def coefficients(
     load: Annotated[str, typer.Option(help='Static load: downward, or "X,Y" components.', metavar='"525 N"')],
     speed: Annotated[str, typer.Option(help="Angular speed about +z.", metavar='"1500 rpm"')],
     film: Annotated[
-        str, typer.Option(help="Film law: map, reynolds, short or splitting.", metavar="NAME")
+        str, typer.Option(help="Film law: map, grooved_map, reynolds, short or splitting.", metavar="NAME")
     ] = "map",
     order: Annotated[
         str | None, typer.Option(help='Splitting order, "N,M" or "N,inf".', metavar="2,inf")
@@ -110,6 +111,44 @@ def fmu(
         console.print_json(files)
         return
     console.print_rows("FMUs", list(files.items()))
+
+
+@app.command(
+    epilog='Example: rotorfilm groove-map --slenderness 0.5 --groove "90 deg, 20 deg" '
+    '--groove "270 deg, 20 deg"'
+)
+def groove_map(
+    slenderness: Annotated[float, typer.Option(help="Length / diameter.", metavar="0.5")],
+    groove: Annotated[
+        list[str],
+        typer.Option(help="Center and width of a groove; once for each.", metavar='"90 deg, 20 deg"'),
+    ],
+    cells: Annotated[str, typer.Option(help="Cells around the film and along half of it.")] = "192,12",
+    nodes: Annotated[str, typer.Option(help="Nodes over eccentricity, its direction, motion.")] = "12,72,48",
+    out: Annotated[Path | None, typer.Option(help="File for a copy of the map.")] = None,
+    json: Json = False,
+) -> None:
+    """Make the map of a bearing with axial grooves, or find it on disk, for all films of such bearings."""
+    from .films import FilmGeometry, GroovedMapFilm
+    from .films.groove_cache import cache_folder
+
+    around, along = _counts("--cells", cells, 2)
+    over, turning, moving = _counts("--nodes", nodes, 3)
+    geometry = FilmGeometry(grooves=tuple(_groove(text) for text in groove))
+    film = GroovedMapFilm(cells=(around, along), nodes=(over, turning, moving), geometry=geometry)
+    with console.progress_display() as report:
+        report(0.0, "packages")
+        table = film.built_table(slenderness, report)
+        report(1.0, "done")
+    if out is not None:
+        table.save(out)
+    folder, reach = str(cache_folder()), table.largest_eccentricity_ratio
+    if json:
+        console.print_json({"folder": folder, "largest_eccentricity_ratio": reach})
+        return
+    console.print_rows(
+        "map of the film", [("kept in", folder), ("eccentricity ratios", f"up to {reach:.3g}")]
+    )
 
 
 @app.command(epilog="Example: rotorfilm demo --out rotorfilm-demo")
@@ -176,6 +215,24 @@ def _film(film: str, order: str | None, constant: bool, rupture: str | None, cel
 def _numbers(text: str) -> list[int | str]:
     """Return the integers between commas, and what is none as it is."""
     return [int(part) if part.strip().isdigit() else part for part in text.split(",")]
+
+
+def _counts(option: str, text: str, count: int) -> list[int]:
+    parts = [part.strip() for part in text.split(",")]
+    if len(parts) != count or not all(part.isdigit() for part in parts):
+        raise InputError(f"{option} must be {count} whole numbers, as 24,12, got {text!r}")
+    return [int(part) for part in parts]
+
+
+def _groove(text: str) -> Groove:
+    """Return the groove of "CENTER, WIDTH"."""
+    from .films import Groove
+    from .units import parse_quantity
+
+    parts = [part.strip() for part in text.split(",")]
+    if len(parts) != 2:
+        raise InputError(f'--groove must be a center and a width, as "90 deg, 20 deg", got {text!r}')
+    return Groove(center=parse_quantity(parts[0], "rad"), width=parse_quantity(parts[1], "rad"))
 
 
 def _journal(geometry: dict[str, str], film: FilmTable) -> JournalTable:

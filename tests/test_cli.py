@@ -197,7 +197,7 @@ def test_unknown_key_in_a_scene_is_named(run, scene):
 
 
 @pytest.mark.parametrize(
-    "command", ["solve", "coefficients", "fmu", "demo", "chart journal", "chart stability"]
+    "command", ["solve", "coefficients", "fmu", "groove-map", "demo", "chart journal", "chart stability"]
 )
 def test_help_shows_an_example(run, command):
     code, out, _ = run(*command.split(), "--help")
@@ -324,3 +324,31 @@ def test_chart_of_a_bearing_beyond_the_ladder_is_refused(run, tmp_path):
     code, out, err = run("chart", "journal", "--ld", "9", "--out", tmp_path)
     assert (code, out) == (2, "")
     assert "slenderness (L/D) must be from 0.1 to 4.0, got 9.0" in err
+
+
+def test_groove_map_is_made_and_kept(run, tmp_path, monkeypatch):
+    monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path / "cache"))
+    grooves = ("--groove", "90 deg, 20 deg", "--groove", "270 deg, 20 deg")
+    coarse = ("--cells", "32,4", "--nodes", "6,12,12", "--out", tmp_path / "map.bin")
+    code, out, _ = run("groove-map", "--slenderness", "0.5", *grooves, *coarse, "--json")
+    assert code == 0
+    assert json.loads(out)["largest_eccentricity_ratio"] == pytest.approx(0.97)
+    (kept,) = (tmp_path / "cache").iterdir()
+    assert kept.read_bytes() == (tmp_path / "map.bin").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("option", "message"),
+    [
+        (("--groove", "90 deg"), "--groove must be a center and a width"),
+        (("--groove", "90 deg, 70 deg"), "openings must not be wider than 60 deg"),
+        (
+            ("--groove", "0, 0.1", "--nodes", "6,x,12"),
+            "--nodes must be 3 whole numbers, as 24,12, got '6,x,12'",
+        ),
+    ],
+)
+def test_impossible_groove_map_is_refused(run, option, message):
+    code, out, err = run("groove-map", "--slenderness", "0.5", *option)
+    assert (code, out) == (2, "")
+    assert message in err

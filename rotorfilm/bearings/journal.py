@@ -102,7 +102,7 @@ class JournalBearing:
         if not self.geometry.plain and not isinstance(self.film, FittedFilm):
             raise InputError(
                 f"film must represent the bearing's geometry, which {type(self.film).__name__} cannot: "
-                f"got {self.geometry!r}; ReynoldsFilm can"
+                f"got {self.geometry!r}; ReynoldsFilm and, without supply, GroovedMapFilm can"
             )
         low, high = getattr(self.film, "slenderness_range", (0.0, math.inf))
         if not low * (1.0 - 1e-12) <= self.slenderness <= high * (1.0 + 1e-12):
@@ -110,7 +110,8 @@ class JournalBearing:
                 f"length / diameter must be {low:g} to {high:g} for {type(self.film).__name__}, "
                 f"got {self.slenderness:.6g}"
             )
-        limit = getattr(self.film, "slenderness_limit", None)
+        # Fitted here so that a geometry that is beyond the film is refused at once.
+        limit = getattr(self.fitted_film, "slenderness_limit", None)
         if limit is not None and self.slenderness > limit:
             warnings.warn(
                 f"length / diameter must not exceed {limit} for {self.film!r}, got {self.slenderness:.6g}: "
@@ -271,11 +272,10 @@ class JournalBearing:
 
     @cached_property
     def _bound(self) -> BoundFilm | None:
-        if not isinstance(self.film, BindableFilm):
+        film = self.fitted_film
+        if not isinstance(film, BindableFilm):
             return None
-        return self.film.bind(
-            slenderness=self.slenderness, clearance=self.clearance, force_scale=self.force_scale
-        )
+        return film.bind(slenderness=self.slenderness, clearance=self.clearance, force_scale=self.force_scale)
 
     def _scalar_call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
         force_x, force_y = self.force((x, y), (vx, vy), speed).tolist()

@@ -5,6 +5,8 @@ from .cavitation import Cavitation, Complementarity, FullFilm, HalfSommerfeld
 from .complementarity_arc import ComplementarityArc
 from .extrapolated import ExtrapolatedFilm
 from .geometry import FilmGeometry, Groove, Pad
+from .groove_map import GroovedMapFilm
+from .groove_table import GrooveTable
 from .law import FilmLaw
 from .map import MapFilm
 from .map_fit import fit_map_table, tabulate_film
@@ -27,6 +29,8 @@ __all__ = [
     "FixedArc",
     "FullFilm",
     "Groove",
+    "GrooveTable",
+    "GroovedMapFilm",
     "HalfSommerfeld",
     "MapFilm",
     "MapTable",

@@ -57,7 +57,7 @@ class MapFilm:
             If an eccentricity ratio is not below 1.
         """
         batch = self._kernel(slenderness).force(eccentricity.reshape(2, -1), source.reshape(2, -1))
-        _report(batch, np.hypot(*eccentricity.reshape(2, -1)))
+        report_batch(batch, np.hypot(*eccentricity.reshape(2, -1)))
         return batch.values.reshape(eccentricity.shape)
 
     def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
@@ -71,7 +71,7 @@ class MapFilm:
             Where the source vanishes off the center.
         """
         batch = self._kernel(slenderness).jacobian(eccentricity.reshape(2, -1), source.reshape(2, -1))
-        _report(batch, np.hypot(*eccentricity.reshape(2, -1)))
+        report_batch(batch, np.hypot(*eccentricity.reshape(2, -1)))
         return batch.values.reshape(2, 4, *eccentricity.shape[1:])
 
     def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundMap:
@@ -169,7 +169,8 @@ def _collapsed(table: MapTable, slenderness: float) -> MapKernel:
     return MapKernel(*table.at(slenderness))
 
 
-def _report(batch: Batch, chi: Array) -> None:
+def report_batch(batch: Batch, chi: Array) -> None:
+    """Raise, or warn, about the most severe status of a batch with eccentricity ratios chi (n,)."""
     if batch.status:
         _report_at(batch.status, chi[batch.first])
 

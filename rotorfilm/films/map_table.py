@@ -9,23 +9,21 @@ on a uniform grid of X in [0, reach], T in [0, 1] and S, by quintic B-splines in
 
 from __future__ import annotations
 
-import struct
-import zlib
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ..errors import InputError, RotorfilmError
+from ..errors import InputError
 from ..model import Array
 from .quintic import quintic_weights
+from .table_bytes import Layout, Sizes, seal, unseal
 
 MAGIC = b"RFILMMAP"
 VERSION = 2
-_HEADER = struct.Struct("<8sIIiiii")
-_NUMBER, _MULTIPLE = "<f8", "<i4"
 
 
 class BearingMap(NamedTuple):
@@ -136,19 +134,18 @@ class MapTable:
         InputError
             If a coefficient is beyond 2^31 quanta.
         """
-        numbers = [self.reach, *self.slenderness_range, quantum, *np.ravel(self.center)]
-        body = np.asarray(numbers, dtype=_NUMBER).tobytes() + self._packed(quantum)
-        width = 4 if quantum else 8
-        return _HEADER.pack(MAGIC, VERSION, zlib.crc32(body), *self.coefficients.shape, width) + body
+        numbers = np.array([self.reach, *self.slenderness_range, quantum, *np.ravel(self.center)])
+        s, x, t = self.coefficients.shape
+        return seal(MAGIC, VERSION, (s, x, t, 4 if quantum else 8), numbers, self._packed(quantum))
 
-    def _packed(self, quantum: float) -> bytes:
+    def _packed(self, quantum: float) -> Array | NDArray[np.int32]:
         if not quantum:
-            return self.coefficients.astype(_NUMBER).tobytes()
+            return self.coefficients
         multiples = np.rint(self.coefficients / quantum)
         if not np.abs(multiples).max() < 2.0**31:
             least = np.abs(self.coefficients).max() / 2.0**31
             raise InputError(f"quantum must be above {least:.3g} for these coefficients, got {quantum!r}")
-        return multiples.astype(_MULTIPLE).tobytes()
+        return multiples.astype(np.int32)
 
     @classmethod
     def from_bytes(cls, content: bytes) -> MapTable:
@@ -159,16 +156,12 @@ class MapTable:
         RotorfilmError
             If the content is not such a table, of another version, truncated or damaged.
         """
-        shape, width = _checked_shape(content)
-        count = 4 + shape[0]
-        numbers = np.frombuffer(content, dtype=_NUMBER, offset=_HEADER.size, count=count).astype(float)
-        packed, start = _NUMBER if width == 8 else _MULTIPLE, _HEADER.size + 8 * count
-        coefficients = np.frombuffer(content, dtype=packed, offset=start).astype(float).reshape(shape)
+        sizes, numbers, packed = unseal("map table", MAGIC, VERSION, _layout, content)
         return cls(
             slenderness_range=(float(numbers[1]), float(numbers[2])),
             reach=float(numbers[0]),
             center=numbers[4:],
-            coefficients=coefficients * (numbers[3] or 1.0),
+            coefficients=packed.reshape(sizes[:3]) * (numbers[3] or 1.0),
         )
 
     def save(self, path: str | Path, quantum: float = 0.0) -> None:
@@ -203,16 +196,12 @@ def unstretch(X: Array | float) -> Array:
     return np.sqrt(2.0 * squared / (squared + np.sqrt(squared**2 + 4.0)))
 
 
-def _checked_shape(content: bytes) -> tuple[tuple[int, int, int], int]:
-    """Return the shape of the coefficients and the bytes of each."""
-    if len(content) < _HEADER.size or not content.startswith(MAGIC):
-        raise RotorfilmError("map table: the content does not begin with the mark of a map table")
-    _, version, checksum, *shape, width = _HEADER.unpack_from(content)
-    if version != VERSION:
-        raise RotorfilmError(f"map table: version must be {VERSION}, got {version}")
-    expected = _HEADER.size + 8 * (4 + shape[0]) + width * shape[0] * shape[1] * shape[2]
-    if min(shape) < 1 or width not in (4, 8) or len(content) != expected:
-        raise RotorfilmError(f"map table: size must be {expected} bytes for {shape}, got {len(content)}")
-    if zlib.crc32(content[_HEADER.size :]) != checksum:
-        raise RotorfilmError("map table: the checksum does not fit, the content is damaged")
-    return (shape[0], shape[1], shape[2]), width
+def _layout(sizes: Sizes) -> Layout:
+    """Return what a table of these sizes holds: its numbers, then the coefficients of M."""
+    entries, cells_x, cells_t, width = sizes
+    possible = min(entries, cells_x, cells_t) > 0 and width in (4, 8)
+    return (
+        (("<f8", 4 + entries), (f"<{'f' if width == 8 else 'i'}{width}", entries * cells_x * cells_t))
+        if possible
+        else ()
+    )

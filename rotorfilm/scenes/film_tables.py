@@ -14,6 +14,7 @@ from ..films import (
     FixedArc,
     FullFilm,
     Groove,
+    GroovedMapFilm,
     HalfSommerfeld,
     MapFilm,
     Pad,
@@ -166,6 +167,15 @@ class MapFilmTable:
 
 
 @dataclass(frozen=True, kw_only=True)
+class GroovedMapFilmTable:
+    """`film = {name = "grooved_map"}`: the impedance map of a bearing with grooves, made on first use."""
+
+    def build(self) -> GroovedMapFilm:
+        """Return the film law."""
+        return GroovedMapFilm()
+
+
+@dataclass(frozen=True, kw_only=True)
 class ReynoldsFilmTable:
     """`film = {name = "reynolds"}`: the film in two dimensions, which may have pads and grooves.
 
@@ -188,9 +198,10 @@ class ReynoldsFilmTable:
         return ReynoldsFilm(cells=self.cells, cavitation=self.cavitation)
 
 
-FilmTable = MapFilmTable | ReynoldsFilmTable | ShortFilmTable | SplittingFilmTable
+FilmTable = MapFilmTable | GroovedMapFilmTable | ReynoldsFilmTable | ShortFilmTable | SplittingFilmTable
 FILMS = {
     "map": MapFilmTable,
+    "grooved_map": GroovedMapFilmTable,
     "reynolds": ReynoldsFilmTable,
     "short": ShortFilmTable,
     "splitting": SplittingFilmTable,

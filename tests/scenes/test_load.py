@@ -10,6 +10,7 @@ from rotorfilm.films import (
     FixedArc,
     FullFilm,
     Groove,
+    GroovedMapFilm,
     HalfSommerfeld,
     MapFilm,
     Pad,
@@ -132,6 +133,15 @@ def test_grooves_and_their_supply_arrive_in_si():
     )
 
 
+def test_grooves_at_ambient_pressure_take_the_map():
+    opened = OPENINGS.replace("reynolds", "grooved_map")
+    bearing = parse(GOOD.replace("[operation]", opened.replace('supply_pressure = "2 bar"', ""))).bearing
+    assert isinstance(bearing.film, GroovedMapFilm)
+    assert len(bearing.fitted_film.geometry.grooves) == 2
+    with pytest.raises(SceneError, match="supply"):
+        parse(GOOD.replace("[operation]", opened))
+
+
 def test_pads_arrive_in_si():
     pads = 'pads = [{ start = "15 deg", extent = 2.5 }, { start = "195 deg", extent = "150 deg" }]'
     bearing = parse(
@@ -148,7 +158,7 @@ def test_pads_arrive_in_si():
     [
         (
             "grooves = [{ center = 1.0 }]",
-            r"film must represent .*, which MapFilm cannot: .*; ReynoldsFilm can",
+            r"film must represent .*, which MapFilm cannot: .*; ReynoldsFilm and, .*, GroovedMapFilm can",
         ),
         (
             'film = { name = "short" }\npads = [{ start = 0, extent = 3 }]',
@@ -245,7 +255,7 @@ def test_file_is_read(tmp_path):
         (
             "[operation]",
             "film = { order = [1, 1] }\n[operation]",
-            r"case.toml: journal.film.name is required: one of \['map', 'reynolds', 'short', 'splitting'\]",
+            r"case.toml: journal.film.name is required: one of \['grooved_map', 'map', 'reynolds', 'short'",
         ),
         (
             "[operation]",
