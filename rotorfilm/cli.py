@@ -6,18 +6,20 @@ from __future__ import annotations
 
 import sys
 import warnings
-from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from . import console
+from .chart_commands import chart_app
 from .cli_damper import DAMPER_EXAMPLE, damper
 from .errors import InputError, RotorfilmError, SceneError
 
 if TYPE_CHECKING:
-    from .scenes.schema import FilmTable, JournalTable
+    from .films import Groove
+    from .scenes.film_tables import FilmTable
+    from .scenes.schema import JournalTable
 
 BAD_INPUT = 2
 FAILED = 1
@@ -29,21 +31,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-
-
-class Film(StrEnum):
-    """Film laws that the command line offers."""
-
-    MAP = "map"
-    SHORT = "short"
-    SPLITTING = "splitting"
-
-
-class Rupture(StrEnum):
-    """Rupture rules of the splitting film."""
-
-    FIXED = "fixed"
-    ROTATING = "rotating"
+app.add_typer(chart_app, name="chart")
 
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file of schema 1.")]
@@ -74,11 +62,23 @@ def coefficients(
     viscosity: Annotated[str, typer.Option(help="Dynamic viscosity.", metavar='"0.1 Pa s"')],
     load: Annotated[str, typer.Option(help='Static load: downward, or "X,Y" components.', metavar='"525 N"')],
     speed: Annotated[str, typer.Option(help="Angular speed about +z.", metavar='"1500 rpm"')],
-    film: Annotated[Film, typer.Option(help="Film law.")] = Film.SHORT,
+    film: Annotated[
+        str, typer.Option(help="Film law: map, grooved_map, reynolds, short or splitting.", metavar="NAME")
+    ] = "map",
     order: Annotated[
         str | None, typer.Option(help='Splitting order, "N,M" or "N,inf".', metavar="2,inf")
     ] = None,
-    rupture: Annotated[Rupture | None, typer.Option(help="Where the splitting film ends.")] = None,
+    constant: Annotated[bool, typer.Option("--constant", help="Splitting film with the function 1.")] = False,
+    rupture: Annotated[
+        str | None,
+        typer.Option(
+            help="Where the splitting film ends: fixed, rotating, reynolds or complementarity.",
+            metavar="KIND",
+        ),
+    ] = None,
+    cells: Annotated[
+        str | None, typer.Option(help='Cells of the reynolds film, "AROUND,ALONG".', metavar="96,8")
+    ] = None,
     json: Json = False,
 ) -> None:
     """Find equilibrium, stiffness and damping of a journal bearing; numbers without a unit are SI."""
@@ -86,7 +86,7 @@ def coefficients(
     from .linear import equilibrium
 
     geometry = {"radius": radius, "length": length, "clearance": clearance, "viscosity": viscosity}
-    bearing = _journal(geometry, _film(film, order, rupture)).build()
+    bearing = _journal(geometry, _film(film, order, constant, rupture, cells)).build()
     force, rate = _operation(load, speed)
     at = equilibrium(bearing, force, rate)
     derivatives = film_coefficients(bearing, at.position, rate)
@@ -112,6 +112,44 @@ def fmu(
         console.print_json(files)
         return
     console.print_rows("FMUs", list(files.items()))
+
+
+@app.command(
+    epilog='Example: rotorfilm groove-map --slenderness 0.5 --groove "90 deg, 20 deg" '
+    '--groove "270 deg, 20 deg"'
+)
+def groove_map(
+    slenderness: Annotated[float, typer.Option(help="Length / diameter.", metavar="0.5")],
+    groove: Annotated[
+        list[str],
+        typer.Option(help="Center and width of a groove; once for each.", metavar='"90 deg, 20 deg"'),
+    ],
+    cells: Annotated[str, typer.Option(help="Cells around the film and along half of it.")] = "192,12",
+    nodes: Annotated[str, typer.Option(help="Nodes over eccentricity, its direction, motion.")] = "12,72,48",
+    out: Annotated[Path | None, typer.Option(help="File for a copy of the map.")] = None,
+    json: Json = False,
+) -> None:
+    """Make the map of a bearing with axial grooves, or find it on disk, for all films of such bearings."""
+    from .films import FilmGeometry, GroovedMapFilm
+    from .films.groove_cache import cache_folder
+
+    around, along = _counts("--cells", cells, 2)
+    over, turning, moving = _counts("--nodes", nodes, 3)
+    geometry = FilmGeometry(grooves=tuple(_groove(text) for text in groove))
+    film = GroovedMapFilm(cells=(around, along), nodes=(over, turning, moving), geometry=geometry)
+    with console.progress_display() as report:
+        report(0.0, "packages")
+        table = film.built_table(slenderness, report)
+        report(1.0, "done")
+    if out is not None:
+        table.save(out)
+    folder, reach = str(cache_folder()), table.largest_eccentricity_ratio
+    if json:
+        console.print_json({"folder": folder, "largest_eccentricity_ratio": reach})
+        return
+    console.print_rows(
+        "map of the film", [("kept in", folder), ("eccentricity ratios", f"up to {reach:.3g}")]
+    )
 
 
 @app.command(epilog="Example: rotorfilm demo --out rotorfilm-demo")
@@ -158,18 +196,47 @@ def _show_warning(message: Warning | str, *_: Any) -> None:
     console.complain("warning", message)
 
 
-def _film(film: Film, order: str | None, rupture: Rupture | None) -> FilmTable:
-    from .scenes.schema import FILMS
-    from .scenes.tables import read_table
+def _film(film: str, order: str | None, constant: bool, rupture: str | None, cells: str | None) -> FilmTable:
+    from dataclasses import fields
 
-    options: dict[str, Any] = {}
-    if film is not Film.SPLITTING and (order, rupture) != (None, None):
-        raise InputError(f"--order and --rupture need --film splitting, got --film {film.value}")
-    if order is not None:
-        options["order"] = [int(part) if part.strip().isdigit() else part for part in order.split(",")]
-    if rupture is not None:
-        options["rupture"] = {"kind": rupture.value}
-    return read_table(FILMS[film.value], "--", options)
+    from .scenes.film_tables import FILMS
+    from .scenes.tables import choose, read_table
+
+    given: dict[str, Any] = {
+        "order": order and _numbers(order),
+        "constant": constant,
+        "rupture": rupture and {"kind": rupture},
+        "cells": cells and _numbers(cells),
+    }
+    options = {name: value for name, value in given.items() if value}
+    table = choose("--film", film, FILMS)
+    for name in options:
+        if name not in {field.name for field in fields(table)}:
+            raise InputError(f"--{name} must not be given with --film {film}, got {options[name]!r}")
+    return read_table(table, "--", options)
+
+
+def _numbers(text: str) -> list[int | str]:
+    """Return the integers between commas, and what is none as it is."""
+    return [int(part) if part.strip().isdigit() else part for part in text.split(",")]
+
+
+def _counts(option: str, text: str, count: int) -> list[int]:
+    parts = [part.strip() for part in text.split(",")]
+    if len(parts) != count or not all(part.isdigit() for part in parts):
+        raise InputError(f"{option} must be {count} whole numbers, as 24,12, got {text!r}")
+    return [int(part) for part in parts]
+
+
+def _groove(text: str) -> Groove:
+    """Return the groove of "CENTER, WIDTH"."""
+    from .films import Groove
+    from .units import parse_quantity
+
+    parts = [part.strip() for part in text.split(",")]
+    if len(parts) != 2:
+        raise InputError(f'--groove must be a center and a width, as "90 deg, 20 deg", got {text!r}')
+    return Groove(center=parse_quantity(parts[0], "rad"), width=parse_quantity(parts[1], "rad"))
 
 
 def _journal(geometry: dict[str, str], film: FilmTable) -> JournalTable:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -16,9 +16,9 @@ from rich.table import Table
 from .results import Coefficients, Equilibrium, WhirlThreshold, to_plain
 
 if TYPE_CHECKING:
+    from .progress import Report
     from .scenes.coupling import CoupledRun
     from .scenes.demo import DemoResult
-    from .scenes.progress import Report
     from .scenes.solve import Answer
 
 
@@ -36,6 +36,16 @@ def print_json(value: Any) -> None:
 def print_rows(title: str, rows: list[tuple[str, str]]) -> None:
     """Print names and values in two columns."""
     table = Table(title=title, title_justify="left", show_header=False, box=None, pad_edge=False)
+    for row in rows:
+        table.add_row(*row)
+    Console(highlight=False).print(table)
+
+
+def print_columns(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
+    """Print a table with headings; all columns but the first are aligned to the right."""
+    table = Table(title_justify="left", box=None, pad_edge=False)
+    for number, heading in enumerate(headings):
+        table.add_column(heading, justify="right" if number else "left", no_wrap=not number)
     for row in rows:
         table.add_row(*row)
     Console(highlight=False).print(table)

@@ -132,6 +132,38 @@ class Reaction(Model, Protocol):
         """Return d(force_x, force_y)/d(x, y, vx, vy, speed), shape (2, 5, ...)."""
 
 
+class Tangent(Protocol):
+    """Force and derivatives for plain numbers."""
+
+    def __call__(
+        self, x: float, y: float, vx: float, vy: float, speed: float
+    ) -> tuple[float, float, Sequence[float]]:
+        """Return force_x, force_y [N] and the ten derivatives of `Reaction.jacobian`, row by row."""
+
+
+@runtime_checkable
+class TangentReaction(Protocol):
+    """What a Reaction may add: force and derivatives from one call, for searches that go state by state."""
+
+    def prepare_tangent(self) -> Tangent:
+        """Return the function of (x, y, vx, vy, speed) [m, m/s, rad/s]; it raises what `jacobian` raises."""
+
+
+def prepared_tangent(reaction: Reaction) -> Tangent:
+    """Return force and derivatives of any reaction as a function of five numbers."""
+    if isinstance(reaction, TangentReaction):
+        return reaction.prepare_tangent()
+
+    def tangent(
+        x: float, y: float, vx: float, vy: float, speed: float
+    ) -> tuple[float, float, Sequence[float]]:
+        position, velocity = np.array((x, y)), np.array((vx, vy))
+        force_x, force_y = np.asarray(reaction.force(position, velocity, speed)).tolist()
+        return force_x, force_y, reaction.jacobian(position, velocity, speed).ravel().tolist()
+
+    return tangent
+
+
 def stops(model: Model, start: float, end: float) -> list[float]:
     """Return the times [s] at which an integration stops: the model's kinks after start, then the end."""
     kinks = model.breakpoints if isinstance(model, Kinked) else ()

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import csv
 import dataclasses
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -176,3 +179,20 @@ def to_plain(value: Any) -> Any:
     if isinstance(value, np.generic):
         return value.item()
     return value
+
+
+def write_csv(path: Path, columns: Mapping[str, Iterable[object]]) -> Path:
+    """Write columns of equal length as CSV, floats with nine digits, None as nothing; return the path.
+
+    Parameters
+    ----------
+    path : Path
+    columns : mapping of str to iterable
+        Heading, with the unit where there is one, and entries.
+    """
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(columns)
+        for row in zip(*columns.values(), strict=True):
+            writer.writerow([f"{entry:.9g}" if isinstance(entry, float) else entry for entry in row])
+    return path

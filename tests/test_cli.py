@@ -5,13 +5,15 @@ import os
 import subprocess
 import sys
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
 from fmpy import read_model_description
 
-from rotorfilm import cli, scenes
+from rotorfilm import cli, ladders, scenes
+from rotorfilm.scenes.film_tables import FILMS, RUPTURES
 
 SCENE = """
 schema = 1
@@ -34,6 +36,9 @@ GEOMETRY = {
     "--load": "525 N",
     "--speed": "1500 rpm",
 }
+
+
+SHORT = ("--film", "short")
 
 
 def coefficients(**changes):
@@ -62,7 +67,7 @@ def run(capsys):
 @pytest.mark.literature
 def test_coefficients_are_those_of_the_book(run):
     # Friswell et al. (2010), example 5.9.6
-    code, out, err = run(*coefficients(), "--json")
+    code, out, err = run(*coefficients(), *SHORT, "--json")
     assert (code, err) == (0, "")
     stiffness = json.loads(out)["coefficients"]["stiffness"]
     assert [int(k) for row in stiffness for k in row] == [12807959, 16393593, -25060393, 8815302]
@@ -77,6 +82,7 @@ def test_solve_gives_the_same_numbers_as_coefficients(run, scene):
 
 
 def test_solve_prints_what_people_read(run, scene):
+    scene.write_text(SCENE.replace("[operation]", 'film = { name = "short" }\n[operation]'), encoding="utf-8")
     code, out, _ = run("solve", scene)
     assert code == 0
     assert "0.266298" in out  # eccentricity ratio
@@ -90,6 +96,40 @@ def test_splitting_film_takes_its_options(run):
     assert code == 0
     assert json.loads(out)["model"].startswith("SplittingFilm(order=(2, None)")
     assert "RotatingArc()" in json.loads(out)["model"]
+
+
+def test_reynolds_film_takes_its_cells(run):
+    code, out, _ = run(*coefficients(), "--film", "reynolds", "--cells", "48,4", "--json")
+    coarse, mapped = json.loads(out), json.loads(run(*coefficients(), "--json")[1])
+    assert code == 0
+    assert coarse["model"].startswith("ReynoldsFilm(cells=(48, 4), cavitation=Complementarity()")
+    assert mapped["model"] == "MapFilm(table=None)"
+    np.testing.assert_allclose(
+        coarse["equilibrium"]["position"], mapped["equilibrium"]["position"], atol=0.01 * 1e-4
+    )
+
+
+def test_complementary_arc_takes_the_constant_function(run):
+    options = (
+        "--film",
+        "splitting",
+        "--order",
+        "4,8",
+        "--constant",
+        "--rupture",
+        "complementarity",
+        "--json",
+    )
+    code, out, err = run(*coefficients(), *options)
+    assert (code, err) == (0, "")
+    at = json.loads(out)["equilibrium"]
+    mapped = json.loads(run(*coefficients(), "--json")[1])["equilibrium"]
+    np.testing.assert_allclose(at["position"], mapped["position"], atol=2e-3 * 1e-4)
+
+
+def test_help_names_every_film_and_rupture(run):
+    words = run("coefficients", "--help")[1].replace(",", " ").replace(".", " ").split()
+    assert {*FILMS, *RUPTURES} <= set(words)
 
 
 def test_load_vector_turns_the_answer(run):
@@ -112,7 +152,22 @@ def test_load_vector_turns_the_answer(run):
         (coefficients(load="1,2,3"), 2, "error: --load must be one magnitude or two components [x, y]"),
         ([*coefficients(), "--film", "splitting"], 2, "error: --order is required and missing"),
         ([*coefficients(), "--film", "splitting", "--order", "2"], 2, "error: --order must be [n, m]"),
-        ([*coefficients(), "--order", "2,1"], 2, "error: --order and --rupture need --film splitting"),
+        (
+            [*coefficients(), "--order", "2,1"],
+            2,
+            "error: --order must not be given with --film map, got [2, 1]",
+        ),
+        (
+            [*coefficients(), *SHORT, "--cells", "96,8"],
+            2,
+            "error: --cells must not be given with --film short",
+        ),
+        (
+            [*coefficients(), "--film", "reynolds", "--cells", "96"],
+            2,
+            "error: --cells must be [around, along]",
+        ),
+        ([*coefficients(), "--film", "shirt"], 2, "got 'shirt'; did you mean 'short'?"),
         (coefficients(load="1e20 N"), 1, "error: load must be within the film's capacity"),
         (coefficients(speed="0 rpm"), 1, "error: speed must make the film carry load"),
         (["solve", "absent.toml"], 2, "error: absent.toml: scene file cannot be read"),
@@ -126,9 +181,7 @@ def test_mistake_gives_one_line_and_its_exit_code(run, arguments, code, message)
     assert err.count("\n") == 1
 
 
-@pytest.mark.parametrize(
-    "arguments", [["coefficients"], ["solve"], ["frobnicate"], [*coefficients(), "--film", "thick"]]
-)
+@pytest.mark.parametrize("arguments", [["coefficients"], ["solve"], ["frobnicate"]])
 def test_wrong_usage_exits_with_2(run, arguments):
     code, out, err = run(*arguments)
     assert (code, out) == (2, "")
@@ -143,9 +196,11 @@ def test_unknown_key_in_a_scene_is_named(run, scene):
     assert "did you mean 'clearance'?" in err
 
 
-@pytest.mark.parametrize("command", ["solve", "coefficients", "fmu", "demo"])
+@pytest.mark.parametrize(
+    "command", ["solve", "coefficients", "fmu", "groove-map", "demo", "chart journal", "chart stability"]
+)
 def test_help_shows_an_example(run, command):
-    code, out, _ = run(command, "--help")
+    code, out, _ = run(*command.split(), "--help")
     assert code == 0
     assert f"Example: rotorfilm {command}" in out
     assert "--json" in out
@@ -206,7 +261,10 @@ def test_demo_prints_json_alone_on_stdout(run, tmp_path, monkeypatch):
 
 def test_warning_is_one_line_on_stderr_and_is_shown_once(scene):
     # In a process of its own, under the warning filters of a user.
-    scene.write_text(SCENE.replace('"30 mm"', '"60 mm"'), encoding="utf-8")
+    long = SCENE.replace('"30 mm"', '"60 mm"').replace(
+        "[operation]", 'film = { name = "short" }\n[operation]'
+    )
+    scene.write_text(long, encoding="utf-8")
     command = [Path(sys.executable).with_name("rotorfilm"), "solve", scene, "--json"]
     done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=scene.parent)
     assert done.stderr.startswith("warning: length / diameter must not exceed 0.5 for ShortFilm(), got 0.6")
@@ -222,3 +280,75 @@ def test_map_film_from_the_command_line(run):
     assert (code, err) == (0, "")
     # Between the short film, .2663, and a longer film that carries more.
     assert 0.2 < json.loads(out)["equilibrium"]["eccentricity_ratio"] < 0.35
+
+
+FEW = [rung for rung in ladders.journal_rungs() if rung.name in ("published (1, 1)", "2-D 48 x 4", "map")]
+
+
+def test_chart_of_accuracy_writes_picture_and_table(run, tmp_path, monkeypatch):
+    quick = partial(ladders.journal_accuracy, rungs=FEW, cells=(128, 16), rounds=1)
+    monkeypatch.setattr(ladders, "journal_accuracy", quick)
+    options = ("--ld", "0.25", "--states", "6", "--seed", "5", "--motion", "small", "--out", tmp_path)
+    code, out, err = run("chart", "journal", *options, "--json")
+    assert code == 0
+    assert "done" in err
+    result = json.loads(out)
+    assert (result["slenderness"], result["states"], result["seed"]) == (0.25, 6, 5)
+    assert result["ranges"]["squeeze"] == 0.05
+    assert (tmp_path / "chart_journal.png").read_bytes().startswith(b"\x89PNG")
+    table = (tmp_path / "chart_journal.csv").read_text(encoding="utf-8").splitlines()
+    assert len(table) == 1 + len(FEW)
+    assert "force in a batch [s]" in table[0]
+    code, out, _ = run("chart", "journal", *options)
+    assert code == 0
+    assert "2-D 48 x 4" in out
+
+
+def test_chart_of_stability_writes_picture_and_table(run, tmp_path, monkeypatch):
+    quick = partial(ladders.journal_stability, rungs=FEW, cells=(128, 16), eccentricity_ratio=(0.3, 0.6, 0.9))
+    monkeypatch.setattr(ladders, "journal_stability", quick)
+    code, out, _ = run("chart", "stability", "--out", tmp_path, "--json")
+    assert code == 0
+    published = json.loads(out)["rungs"][0]
+    assert published["speed_parameter"] == [None, None, None]
+    assert (tmp_path / "chart_stability.png").exists()
+    assert len((tmp_path / "chart_stability.csv").read_text(encoding="utf-8").splitlines()) == 1 + 3 * len(
+        FEW
+    )
+    code, out, _ = run("chart", "stability", "--out", tmp_path)
+    assert code == 0
+    assert "rank-1 damping" in out
+
+
+def test_chart_of_a_bearing_beyond_the_ladder_is_refused(run, tmp_path):
+    code, out, err = run("chart", "journal", "--ld", "9", "--out", tmp_path)
+    assert (code, out) == (2, "")
+    assert "slenderness (L/D) must be from 0.1 to 4.0, got 9.0" in err
+
+
+def test_groove_map_is_made_and_kept(run, tmp_path, monkeypatch):
+    monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path / "cache"))
+    grooves = ("--groove", "90 deg, 20 deg", "--groove", "270 deg, 20 deg")
+    coarse = ("--cells", "32,4", "--nodes", "6,12,12", "--out", tmp_path / "map.bin")
+    code, out, _ = run("groove-map", "--slenderness", "0.5", *grooves, *coarse, "--json")
+    assert code == 0
+    assert json.loads(out)["largest_eccentricity_ratio"] == pytest.approx(0.97)
+    (kept,) = (tmp_path / "cache").iterdir()
+    assert kept.read_bytes() == (tmp_path / "map.bin").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("option", "message"),
+    [
+        (("--groove", "90 deg"), "--groove must be a center and a width"),
+        (("--groove", "90 deg, 70 deg"), "openings must not be wider than 60 deg"),
+        (
+            ("--groove", "0, 0.1", "--nodes", "6,x,12"),
+            "--nodes must be 3 whole numbers, as 24,12, got '6,x,12'",
+        ),
+    ],
+)
+def test_impossible_groove_map_is_refused(run, option, message):
+    code, out, err = run("groove-map", "--slenderness", "0.5", *option)
+    assert (code, out) == (2, "")
+    assert message in err

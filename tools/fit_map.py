@@ -11,6 +11,7 @@ import argparse
 from pathlib import Path
 
 import numpy as np
+from scipy.interpolate import make_interp_spline
 
 from rotorfilm.films.map_fit import fit_map_table
 from rotorfilm.films.map_table import MapTable
@@ -18,11 +19,25 @@ from rotorfilm.films.potential_table import eccentricity_ratio
 
 ROOT = Path(__file__).parents[1]
 
+QUANTUM = 1e-8
+"""Unit of the stored coefficients, below the error of the nodes, in half the bytes."""
+
+
+def filled(log: np.ndarray, T: np.ndarray) -> np.ndarray:
+    """Return nodes (s, x, t) with those left out, not-a-number, from a quintic spline through their row."""
+    rows = log.reshape(-1, len(T))
+    known = [~np.isnan(row) for row in rows]
+    full = [make_interp_spline(T[k], row[k], k=5)(T) for row, k in zip(rows, known, strict=True)]
+    answer = np.where(np.isnan(rows), full, rows).reshape(log.shape)
+    answer[:, 0] = answer[:, 0, :1]
+    return answer
+
 
 def fitted(nodes: Path) -> MapTable:
     """Return the table of a file of nodes."""
     with np.load(nodes) as data:
-        log, slope, axes = data["log"], data["chi_slope"], (data["X"], data["log_slenderness"])
+        log, slope = filled(data["log"], data["T"]), data["chi_slope"]
+        axes = data["X"], data["log_slenderness"]
     low, high = np.exp(axes[1][[0, -1]])
     return fit_map_table(
         log,
@@ -39,7 +54,7 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=ROOT / "rotorfilm" / "films" / "data" / "journal_map.bin")
     arguments = parser.parse_args()
     table = fitted(arguments.nodes)
-    table.save(arguments.out)
+    table.save(arguments.out, QUANTUM)
     print(f"{arguments.out}: {arguments.out.stat().st_size} bytes, coefficients {table.coefficients.shape}")
 
 

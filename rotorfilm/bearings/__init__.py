@@ -2,6 +2,7 @@
 
 from .damper import AxialFeed, DamperGroups, PorousCage, PorousDamper, RadialFeed, damper_groups
 from .film_state import FilmState, film_state
+from .groove_map import build_groove_map
 from .journal import JournalBearing
 from .sprung import Sprung
 
@@ -14,6 +15,7 @@ __all__ = [
     "PorousDamper",
     "RadialFeed",
     "Sprung",
+    "build_groove_map",
     "damper_groups",
     "film_state",
 ]

@@ -39,7 +39,8 @@ class FilmState:
     minimum_film : float [m]
         clearance - eccentricity.
     side_flow : float [m^3/s]
-        Flow out of both ends of the film, without that straight out of the grooves.
+        Flow out of both ends of the film, without that straight out of the grooves. With a supply pressure
+        it has no limit as the cells shrink: a groove open at the bearing's end feeds the corner beside it.
     friction_torque : float [N m]
         Torque about +z that keeps the journal turning; of the sign of the speed.
     power_loss : float [W]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -19,8 +20,8 @@ from ..errors import (
 )
 from ..films.geometry import FilmGeometry, Groove, Pad
 from ..films.law import CENTER, BindableFilm, BoundFilm, FilmLaw, FittedFilm
-from ..films.short import ShortFilm
-from ..model import Array, Linearization, force_outputs, journal_inputs, static_linearization
+from ..films.map import MapFilm
+from ..model import Array, Linearization, Tangent, force_outputs, journal_inputs, static_linearization
 from ..signals import Signal
 from .reaction import NOMINAL_SPEED, broadcast_state, input_vector
 
@@ -45,7 +46,8 @@ class JournalBearing:
     viscosity : float [Pa s]
         Dynamic viscosity of the lubricant.
     film : FilmLaw
-        The film law; exchangeable by `dataclasses.replace`.
+        The film law, by default `MapFilm()`: Reynolds rupture at any L/D of its table, without pads and
+        grooves. Exchangeable by `dataclasses.replace`.
     pads : tuple of Pad
         Where there is a bearing wall, angles in the bearing frame [rad]; empty for the full circumference.
     grooves : tuple of Groove
@@ -57,7 +59,8 @@ class JournalBearing:
     ------
     InputError
         If a dimension or the viscosity is not finite and positive, the clearance is not below the radius,
-        openings overlap, or the film cannot represent pads and grooves.
+        openings overlap, there is a supply without a groove, or the film cannot represent length/diameter,
+        pads or grooves.
 
     Warns
     -----
@@ -75,7 +78,7 @@ class JournalBearing:
     length: float
     clearance: float
     viscosity: float
-    film: FilmLaw = field(default_factory=ShortFilm)
+    film: FilmLaw = field(default_factory=MapFilm)
     pads: tuple[Pad, ...] = ()
     grooves: tuple[Groove, ...] = ()
     supply_pressure: float = 0.0
@@ -90,12 +93,21 @@ class JournalBearing:
         require_non_negative("supply_pressure", self.supply_pressure)
         _require_tuple("pads", self.pads, Pad)
         _require_tuple("grooves", self.grooves, Groove)
+        if self.supply_pressure > 0.0 and not self.grooves:
+            raise InputError(f"supply_pressure must be 0 without grooves, got {self.supply_pressure!r}")
         if not self.geometry.plain and not isinstance(self.film, FittedFilm):
             raise InputError(
                 f"film must represent the bearing's geometry, which {type(self.film).__name__} cannot: "
-                f"got {self.geometry!r}"
+                f"got {self.geometry!r}; ReynoldsFilm and, without supply, GroovedMapFilm can"
             )
-        limit = getattr(self.film, "slenderness_limit", None)
+        low, high = getattr(self.film, "slenderness_range", (0.0, math.inf))
+        if not low * (1.0 - 1e-12) <= self.slenderness <= high * (1.0 + 1e-12):
+            raise InputError(
+                f"length / diameter must be {low:g} to {high:g} for {type(self.film).__name__}, "
+                f"got {self.slenderness:.6g}"
+            )
+        # Fitted here so that a geometry that is beyond the film is refused at once.
+        limit = getattr(self.fitted_film, "slenderness_limit", None)
         if limit is not None and self.slenderness > limit:
             warnings.warn(
                 f"length / diameter must not exceed {limit} for {self.film!r}, got {self.slenderness:.6g}: "
@@ -204,6 +216,17 @@ class JournalBearing:
         """
         return self._scalar_call if self._bound is None else self._bound.call
 
+    def prepare_tangent(self) -> Tangent:
+        """Return force and derivatives as one function of five numbers, for searches state by state.
+
+        Returns
+        -------
+        callable
+            (x, y, vx, vy, speed) [m, m/s, rad/s] -> (force_x, force_y, the ten entries of `jacobian` row by
+            row). Raises what `jacobian` raises.
+        """
+        return self._scalar_tangent if self._bound is None else self._bound.tangent
+
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape, checked for contact only."""
         if self._bound is not None:
@@ -245,15 +268,21 @@ class JournalBearing:
 
     @cached_property
     def _bound(self) -> BoundFilm | None:
-        if not isinstance(self.film, BindableFilm):
+        film = self.fitted_film
+        if not isinstance(film, BindableFilm):
             return None
-        return self.film.bind(
-            slenderness=self.slenderness, clearance=self.clearance, force_scale=self.force_scale
-        )
+        return film.bind(slenderness=self.slenderness, clearance=self.clearance, force_scale=self.force_scale)
 
     def _scalar_call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
         force_x, force_y = self.force((x, y), (vx, vy), speed).tolist()
         return force_x, force_y
+
+    def _scalar_tangent(
+        self, x: float, y: float, vx: float, vy: float, speed: float
+    ) -> tuple[float, float, list[float]]:
+        state = broadcast_state((x, y), (vx, vy), speed)
+        force_x, force_y = self.prepared_force(*state).tolist()
+        return force_x, force_y, self.prepared_jacobian(*state).ravel().tolist()
 
     def _off_center(self, position: Array) -> Array:
         """Return the position, moved onto the circle `CENTER` * clearance where it is inside that.

@@ -5,6 +5,8 @@ from .canvas import new_axes, save
 from .damper import plot_bistable, plot_eccentricity, plot_phase, plot_transmissibility, plot_transmitted
 from .motion import plot_locus, plot_orbits
 from .stability import plot_stability
+from .whirl_verdicts import plot_journal_stability
+from .work_precision import plot_journal_accuracy
 
 __all__ = [
     "new_axes",
@@ -12,6 +14,8 @@ __all__ = [
     "plot_bistable",
     "plot_coupling_error",
     "plot_eccentricity",
+    "plot_journal_accuracy",
+    "plot_journal_stability",
     "plot_locus",
     "plot_orbits",
     "plot_phase",

@@ -11,17 +11,22 @@ from matplotlib.figure import Figure
 
 def new_axes(title: str, *, size: tuple[float, float] = (6.4, 4.8)) -> Axes:
     """Return the Axes of a new figure of the given size [inch]."""
-    figure = Figure(figsize=size, layout="constrained")
-    FigureCanvasAgg(figure)
-    axes = figure.add_subplot()
+    axes = new_figure(size=size).add_subplot()
     axes.set_title(title)
     axes.grid(visible=True, alpha=0.3)
     return axes
 
 
-def save(axes: Axes, path: Path) -> Path:
-    """Write the figure of `axes` as PNG and return the path."""
+def new_figure(*, size: tuple[float, float]) -> Figure:
+    """Return a new figure of the given size [inch], for several Axes."""
+    figure = Figure(figsize=size, layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def save(axes: Axes, path: Path, *, dpi: int = 130) -> Path:
+    """Write the figure of `axes`, all of its Axes, as PNG and return the path."""
     figure = axes.get_figure()
     assert isinstance(figure, Figure)
-    figure.savefig(path, dpi=130, metadata={"Software": "rotorfilm"})
+    figure.savefig(path, dpi=dpi, metadata={"Software": "rotorfilm"})
     return path

@@ -1,11 +1,16 @@
 """Journal film laws: pure, dimensionless physics; one law per file."""
 
+from .arc_pressure import middle_pressure, tension
 from .cavitation import Cavitation, Complementarity, FullFilm, HalfSommerfeld
 from .complementarity_arc import ComplementarityArc
+from .extrapolated import ExtrapolatedFilm
 from .geometry import FilmGeometry, Groove, Pad
+from .groove_map import GroovedMapFilm
+from .groove_table import GrooveTable
 from .law import FilmLaw
 from .map import MapFilm
 from .map_fit import fit_map_table, tabulate_film
+from .map_own import bearing_table
 from .map_table import MapTable
 from .reynolds import ReynoldsFilm
 from .reynolds_arc import ReynoldsArc
@@ -20,6 +25,7 @@ __all__ = [
     "Cavitation",
     "Complementarity",
     "ComplementarityArc",
+    "ExtrapolatedFilm",
     "FilmGeometry",
     "FilmLaw",
     "FiniteMapSqueeze",
@@ -27,6 +33,8 @@ __all__ = [
     "FixedArc",
     "FullFilm",
     "Groove",
+    "GrooveTable",
+    "GroovedMapFilm",
     "HalfSommerfeld",
     "MapFilm",
     "MapSqueeze",
@@ -41,6 +49,9 @@ __all__ = [
     "ShortSqueeze",
     "SpectralArcFilm",
     "SplittingFilm",
+    "bearing_table",
     "fit_map_table",
+    "middle_pressure",
     "tabulate_film",
+    "tension",
 ]

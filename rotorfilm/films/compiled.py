@@ -7,22 +7,17 @@ sources.
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from numba import njit
 
+from .solver_digest import solver_digest
+
 Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 
 
-def _digest() -> str:
-    sources = sorted(Path(__file__).parent.glob("ring*.py"))
-    return hashlib.sha256(b"".join(path.read_bytes() for path in sources)).hexdigest()[:12]
-
-
-_STAMP = _digest()
+_STAMP = solver_digest()
 
 
 def compiled(function: Kernel) -> Kernel:

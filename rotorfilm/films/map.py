@@ -13,6 +13,7 @@ from ..errors import FilmContactError, InputError, RotorfilmError, UndefinedDeri
 from ..model import Array
 from ..native import JournalKernel, MapKernel, Status
 from ..native.kernels import Batch
+from .map_own import OWN_RANGE, bearing_table
 from .map_table import MapTable
 
 TABLE = "journal_map.bin"
@@ -33,10 +34,17 @@ class MapFilm:
     Parameters
     ----------
     table : MapTable, optional
-        The potential; by default the table of the package, for the full film without grooves.
+        The potential; by default the table of the package, for the full film without grooves. It holds
+        length/diameter .1 to 4; a bearing outside gets a table of its own at its first force, in about ten
+        seconds, kept in memory (`bearing_table`, which is also the way to save one).
     """
 
     table: MapTable | None = None
+
+    @property
+    def slenderness_range(self) -> tuple[float, float]:
+        """Smallest and largest length/diameter that this film takes."""
+        return OWN_RANGE if self.table is None else self.table.slenderness_range
 
     def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
         """Return the force on the journal, shape (2, ...); see `FilmLaw.force`.
@@ -49,7 +57,7 @@ class MapFilm:
             If an eccentricity ratio is not below 1.
         """
         batch = self._kernel(slenderness).force(eccentricity.reshape(2, -1), source.reshape(2, -1))
-        _report(batch, np.hypot(*eccentricity.reshape(2, -1)))
+        report_batch(batch, np.hypot(*eccentricity.reshape(2, -1)))
         return batch.values.reshape(eccentricity.shape)
 
     def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
@@ -63,7 +71,7 @@ class MapFilm:
             Where the source vanishes off the center.
         """
         batch = self._kernel(slenderness).jacobian(eccentricity.reshape(2, -1), source.reshape(2, -1))
-        _report(batch, np.hypot(*eccentricity.reshape(2, -1)))
+        report_batch(batch, np.hypot(*eccentricity.reshape(2, -1)))
         return batch.values.reshape(2, 4, *eccentricity.shape[1:])
 
     def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundMap:
@@ -71,7 +79,7 @@ class MapFilm:
         return BoundMap(JournalKernel(self._kernel(slenderness), clearance, force_scale), clearance)
 
     def _kernel(self, slenderness: float) -> MapKernel:
-        return _collapsed(packaged_table() if self.table is None else self.table, float(slenderness))
+        return _collapsed(_table_for(slenderness) if self.table is None else self.table, float(slenderness))
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,6 +104,15 @@ class BoundMap:
             _report_at(status, np.hypot(x, y) / self.clearance, self.clearance)
         return force_x, force_y
 
+    def tangent(
+        self, x: float, y: float, vx: float, vy: float, speed: float
+    ) -> tuple[float, float, list[float]]:
+        """Return (force_x, force_y) [N] and the ten entries of the Jacobian, row by row, for numbers."""
+        force_x, force_y, derivatives, status = self.kernel.tangent(x, y, vx, vy, speed)
+        if status:
+            _report_at(status, np.hypot(x, y) / self.clearance, self.clearance)
+        return force_x, force_y, derivatives
+
     def force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return the force [N], shape (2, ...)."""
         if position.ndim == 1:
@@ -110,11 +127,9 @@ class BoundMap:
     def jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return d force / d (x, y, vx, vy, speed), shape (2, 5, ...)."""
         if position.ndim == 1:
-            state = [*position.tolist(), *velocity.tolist(), float(speed)]
-            jacobian, status = self.kernel.jacobian_at(state)
-            if status:
-                _report_at(status, np.hypot(*state[:2]) / self.clearance, self.clearance)
-            return jacobian
+            x, y = position.tolist()
+            vx, vy = velocity.tolist()
+            return np.array(self.tangent(x, y, vx, vy, float(speed))[2]).reshape(2, 5)
         rows = position.reshape(2, -1)
         batch = self.kernel.jacobian(rows, velocity.reshape(2, -1), speed.ravel())
         self._report(batch, rows)
@@ -144,12 +159,18 @@ def packaged_table() -> MapTable:
     return MapTable.from_bytes(content)
 
 
+def _table_for(slenderness: float) -> MapTable:
+    table = packaged_table()
+    return table if table.holds(slenderness) else bearing_table(float(slenderness))
+
+
 @lru_cache(maxsize=64)
 def _collapsed(table: MapTable, slenderness: float) -> MapKernel:
     return MapKernel(*table.at(slenderness))
 
 
-def _report(batch: Batch, chi: Array) -> None:
+def report_batch(batch: Batch, chi: Array) -> None:
+    """Raise, or warn, about the most severe status of a batch with eccentricity ratios chi (n,)."""
     if batch.status:
         _report_at(batch.status, chi[batch.first])
 

@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
+from typing import Protocol
+
 import numpy as np
 
 from ..errors import InputError
 from ..model import Array
-from .law import FilmLaw
 from .map_table import MapTable, stretch, unstretch
 from .quintic import quintic_coefficients
 
 _SLOPE_WEIGHTS = np.array([8 / 5, -4 / 5, 8 / 35, -1 / 35])
 """Weights of an even function at 1, 2, 3, 4 that give its value at 0, to eighth order."""
+
+
+class HasForce(Protocol):
+    """The half of a `FilmLaw` that a table needs."""
+
+    def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
+        """Return the force as `FilmLaw.force` does."""
 
 
 def fit_map_table(
@@ -63,7 +71,7 @@ def fit_map_table(
 
 
 def tabulate_film(
-    film: FilmLaw,
+    film: HasForce,
     *,
     slenderness_range: tuple[float, float],
     cells: tuple[int, int, int] = (24, 48, 10),
@@ -74,8 +82,8 @@ def tabulate_film(
     Parameters
     ----------
     film : FilmLaw
-        Any film whose force is the gradient of a function of degree 2 in the source, as with Reynolds
-        rupture or without rupture.
+        Any film (its `force` is enough) whose force is the gradient of a function of degree 2 in the
+        source, as with Reynolds rupture or without rupture.
     slenderness_range : (float, float) [1]
         Smallest and largest length/diameter; equal for a single bearing.
     cells : (int, int, int)
@@ -96,9 +104,12 @@ def tabulate_film(
     )
     e = np.stack([chi, np.zeros_like(chi)])
     w = np.stack([cos, np.sqrt((1.0 - cos) * (1.0 + cos))])
-    log_potential = [np.log(-0.5 * (film.force(e, w, ratio) * w).sum(axis=0)) for ratio in slenderness]
+    potential = np.array([-0.5 * (film.force(e, w, ratio) * w).sum(axis=0) for ratio in slenderness])
+    log_potential = np.log(potential)
+    # At the center every direction is the same but for the error of a discrete film.
+    log_potential[:, 0] = log_potential[:, 0].mean(axis=-1, keepdims=True)
     return fit_map_table(
-        np.stack(log_potential),
+        log_potential,
         slenderness_range=slenderness_range,
         largest_eccentricity_ratio=largest_eccentricity_ratio,
     )

@@ -9,23 +9,21 @@ on a uniform grid of X in [0, reach], T in [0, 1] and S, by quintic B-splines in
 
 from __future__ import annotations
 
-import struct
-import zlib
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ..errors import InputError, RotorfilmError
+from ..errors import InputError
 from ..model import Array
 from .quintic import quintic_weights
+from .table_bytes import Layout, Sizes, seal, unseal
 
 MAGIC = b"RFILMMAP"
-VERSION = 1
-_HEADER = struct.Struct("<8sIIiiii")
-_NUMBER = "<f8"
+VERSION = 2
 
 
 class BearingMap(NamedTuple):
@@ -91,6 +89,11 @@ class MapTable:
         """Eccentricity ratio of the last node."""
         return float(unstretch(self.reach))
 
+    def holds(self, slenderness: float) -> bool:
+        """Return whether the table has a bearing of this length/diameter."""
+        low, high = self.slenderness_range
+        return low * (1.0 - 1e-12) <= slenderness <= high * (1.0 + 1e-12)
+
     def at(self, slenderness: float) -> BearingMap:
         """Return the map of one bearing.
 
@@ -105,10 +108,10 @@ class MapTable:
             If the slenderness is outside the table.
         """
         low, high = self.slenderness_range
-        if not low * (1.0 - 1e-12) <= slenderness <= high * (1.0 + 1e-12):
+        if not self.holds(slenderness):
             raise InputError(
                 f"length/diameter must be within the table of the film, {low:g} to {high:g}, "
-                f"got {slenderness!r}; give MapFilm a table of its own for this bearing"
+                f"got {slenderness!r}; MapFilm() without a table takes more"
             )
         if len(self.center) == 1:
             return BearingMap(self.coefficients[0], self.reach, float(self.center[0]))
@@ -118,11 +121,31 @@ class MapTable:
         collapsed = np.tensordot(weights, self.coefficients[chosen], 1)
         return BearingMap(collapsed, self.reach, float(weights @ self.center[chosen]))
 
-    def to_bytes(self) -> bytes:
-        """Return the table as little-endian bytes: header with sizes and checksum, then the numbers."""
-        numbers = [self.reach, *self.slenderness_range, *np.ravel(self.center), *np.ravel(self.coefficients)]
-        body = np.asarray(numbers, dtype=_NUMBER).tobytes()
-        return _HEADER.pack(MAGIC, VERSION, zlib.crc32(body), *self.coefficients.shape, 0) + body
+    def to_bytes(self, quantum: float = 0.0) -> bytes:
+        """Return the table as little-endian bytes: header with sizes and checksum, then the numbers.
+
+        Parameters
+        ----------
+        quantum : float
+            Where positive, M's coefficients are rounded to multiples of it, of 4 bytes each instead of 8.
+
+        Raises
+        ------
+        InputError
+            If a coefficient is beyond 2^31 quanta.
+        """
+        numbers = np.array([self.reach, *self.slenderness_range, quantum, *np.ravel(self.center)])
+        s, x, t = self.coefficients.shape
+        return seal(MAGIC, VERSION, (s, x, t, 4 if quantum else 8), numbers, self._packed(quantum))
+
+    def _packed(self, quantum: float) -> Array | NDArray[np.int32]:
+        if not quantum:
+            return self.coefficients
+        multiples = np.rint(self.coefficients / quantum)
+        if not np.abs(multiples).max() < 2.0**31:
+            least = np.abs(self.coefficients).max() / 2.0**31
+            raise InputError(f"quantum must be above {least:.3g} for these coefficients, got {quantum!r}")
+        return multiples.astype(np.int32)
 
     @classmethod
     def from_bytes(cls, content: bytes) -> MapTable:
@@ -133,19 +156,17 @@ class MapTable:
         RotorfilmError
             If the content is not such a table, of another version, truncated or damaged.
         """
-        shape = _checked_shape(content)
-        numbers = np.frombuffer(content, dtype=_NUMBER, offset=_HEADER.size).astype(float)
-        center, coefficients = np.split(numbers[3:], [shape[0]])
+        sizes, numbers, packed = unseal("map table", MAGIC, VERSION, _layout, content)
         return cls(
             slenderness_range=(float(numbers[1]), float(numbers[2])),
             reach=float(numbers[0]),
-            center=center,
-            coefficients=coefficients.reshape(shape),
+            center=numbers[4:],
+            coefficients=packed.reshape(sizes[:3]) * (numbers[3] or 1.0),
         )
 
-    def save(self, path: str | Path) -> None:
-        """Write the table to a file."""
-        Path(path).write_bytes(self.to_bytes())
+    def save(self, path: str | Path, quantum: float = 0.0) -> None:
+        """Write the table to a file; see `to_bytes`."""
+        Path(path).write_bytes(self.to_bytes(quantum))
 
     @classmethod
     def load(cls, path: str | Path) -> MapTable:
@@ -175,15 +196,12 @@ def unstretch(X: Array | float) -> Array:
     return np.sqrt(2.0 * squared / (squared + np.sqrt(squared**2 + 4.0)))
 
 
-def _checked_shape(content: bytes) -> tuple[int, int, int]:
-    if len(content) < _HEADER.size or not content.startswith(MAGIC):
-        raise RotorfilmError("map table: the content does not begin with the mark of a map table")
-    _, version, checksum, *shape, _ = _HEADER.unpack_from(content)
-    if version != VERSION:
-        raise RotorfilmError(f"map table: version must be {VERSION}, got {version}")
-    expected = _HEADER.size + 8 * (3 + shape[0] + shape[0] * shape[1] * shape[2])
-    if min(shape) < 1 or len(content) != expected:
-        raise RotorfilmError(f"map table: size must be {expected} bytes for {shape}, got {len(content)}")
-    if zlib.crc32(content[_HEADER.size :]) != checksum:
-        raise RotorfilmError("map table: the checksum does not fit, the content is damaged")
-    return shape[0], shape[1], shape[2]
+def _layout(sizes: Sizes) -> Layout:
+    """Return what a table of these sizes holds: its numbers, then the coefficients of M."""
+    entries, cells_x, cells_t, width = sizes
+    possible = min(entries, cells_x, cells_t) > 0 and width in (4, 8)
+    return (
+        (("<f8", 4 + entries), (f"<{'f' if width == 8 else 'i'}{width}", entries * cells_x * cells_t))
+        if possible
+        else ()
+    )

@@ -56,7 +56,7 @@ def eccentricity_ratio(X: Array) -> Array:
 
 
 def universal_axes(
-    cells: tuple[int, int, int] = (24, 48, 16),
+    cells: tuple[int, int, int] = (24, 96, 16),
     top: float = 4.8,
     slenderness: tuple[float, float] = (0.1, 4.0),
 ) -> TableAxes:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.interpolate import BSpline
 
 from ..model import Array
 
@@ -35,6 +36,22 @@ def quintic_coefficients(values: Array, axis: int = 0) -> Array:
     matrix = _collocation(len(nodes) - 1)
     solved = np.linalg.solve(matrix, right.reshape(len(right), -1))
     return np.moveaxis(solved.reshape(right.shape), 0, axis)
+
+
+def periodic_quintic_coefficients(values: Array, axis: int = 0) -> Array:
+    """Return the coefficients that interpolate `values` on a uniform turn, each centered on its node."""
+    count = values.shape[axis]
+    turn = 2.0 * np.pi * np.arange(count // 2 + 1) / count
+    at_node = (66.0 + 52.0 * np.cos(turn) + 2.0 * np.cos(2.0 * turn)) / 120.0
+    spectrum = np.moveaxis(np.fft.rfft(values, axis=axis), axis, -1) / at_node
+    return np.fft.irfft(np.moveaxis(spectrum, -1, axis), count, axis)
+
+
+def periodic_quintic(coefficients: Array, turns: Array) -> Array:
+    """Return the periodic spline of `periodic_quintic_coefficients` (axis 0) at fractions of a turn."""
+    count = len(coefficients)
+    wrapped = np.take(coefficients, np.arange(-2, count + 3) % count, axis=0)
+    return BSpline(np.arange(-5.0, count + 6.0), wrapped, DEGREE)(turns % 1.0 * count)
 
 
 def quintic_weights(at: float, cells: int) -> tuple[int, Array]:

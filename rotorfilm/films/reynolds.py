@@ -13,7 +13,7 @@ from ..model import Array
 from .cavitation import Cavitation, Complementarity
 from .film_field import FilmField
 from .geometry import FilmGeometry
-from .ring import COARSENING, Grid, Spans, ring_grids, ring_spans
+from .ring import COARSENING, LONG, Grid, Spans, ring_grids, ring_spans
 
 CENTER = 1e-8
 """Eccentricity ratio below which a plain film counts as isotropic."""
@@ -55,6 +55,9 @@ class ReynoldsFilm:
     order: ClassVar[int] = 2
     """Order of convergence of the force in the size of the cells."""
 
+    order_with_supply: ClassVar[float] = 1.7
+    """The same, measured, with a supply pressure: it drops to ambient at a point, a groove's open end."""
+
     cells: tuple[int, int] = (96, 8)
     cavitation: Cavitation = field(default_factory=Complementarity)
     geometry: FilmGeometry = field(default_factory=FilmGeometry)
@@ -89,7 +92,7 @@ class ReynoldsFilm:
         from .ring_film import force_batch
 
         e, w = _batch(eccentricity), _batch(source)
-        fine, coarse, failed = force_batch(e, w, slenderness, *self._grids, *self._switches)
+        fine, coarse, failed = force_batch(e, w, slenderness, *self.grids(slenderness), *self._switches)
         self._require_convergence(e, w, failed)
         return fine.reshape(eccentricity.shape), coarse.reshape(eccentricity.shape)
 
@@ -120,7 +123,7 @@ class ReynoldsFilm:
         still = self._undriven(e, w)
         # A plain centered film is linear in w, so any direction gives its damping.
         driven = np.where(still, np.array([[1.0], [0.0]]), w)
-        jacobian, failed = jacobian_batch(e, driven, slenderness, *self._grids, *self._switches)
+        jacobian, failed = jacobian_batch(e, driven, slenderness, *self.grids(slenderness), *self._switches)
         self._require_convergence(e, w, failed)
         jacobian[:, :2, still] = 0.0
         return jacobian.reshape(2, 4, *eccentricity.shape[1:])
@@ -139,9 +142,9 @@ class ReynoldsFilm:
 
         return film_field(self, eccentricity, source, slenderness)
 
-    @property
-    def _grids(self) -> tuple[Spans, tuple[Grid, ...]]:
-        return ring_spans(self.geometry), ring_grids(self.geometry, *self.cells)
+    def grids(self, slenderness: float) -> tuple[Spans, tuple[Grid, ...]]:
+        """Return the edges and the grids, finest first, for a length/diameter."""
+        return ring_spans(self.geometry), ring_grids(self.geometry, *self.cells, max(slenderness, LONG))
 
     @property
     def _switches(self) -> tuple[bool, bool]:

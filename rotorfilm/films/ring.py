@@ -23,7 +23,10 @@ COARSENING = 2 ** (LEVELS - 1)
 """Numbers of cells are multiples of this."""
 
 GRADING = 1.2
-"""Axial nodes are at sin(GRADING t)/sin(GRADING), denser at the bearing's end where pressure falls off."""
+"""Axial nodes are at sin(g t)/sin(g), denser at the bearing's end where pressure falls off; g to `LONG`."""
+
+LONG = 4.0
+"""Length/diameter above which the cells at the end shrink as the inverse of it, with the layer there."""
 
 
 class Spans(NamedTuple):
@@ -84,7 +87,7 @@ def ring_spans(geometry: FilmGeometry) -> Spans:
 
 
 @lru_cache(maxsize=64)
-def ring_grids(geometry: FilmGeometry, around: int, along: int) -> tuple[Grid, ...]:
+def ring_grids(geometry: FilmGeometry, around: int, along: int, slenderness: float) -> tuple[Grid, ...]:
     """Return the grids of a geometry, finest first.
 
     Parameters
@@ -94,15 +97,19 @@ def ring_grids(geometry: FilmGeometry, around: int, along: int) -> tuple[Grid, .
         Cells of the finest grid around the film, about; at least 8 a span.
     along : int
         Cells of the finest grid along half the length, a multiple of 4.
+    slenderness : float [1]
+        Length / diameter, or `LONG` for any below it.
     """
     spans = _with_cells(geometry)
     counts = _counts(spans, around)
-    return tuple(_grid(geometry, spans, counts // 2**k, along // 2**k) for k in range(LEVELS))
+    axial = [axial_nodes(along // 2**k, slenderness) for k in range(LEVELS)]
+    return tuple(_grid(geometry, spans, counts // 2**k, axial[k]) for k in range(LEVELS))
 
 
-def axial_nodes(along: int) -> Array:
+def axial_nodes(along: int, slenderness: float) -> Array:
     """Return the axial nodes from the middle, 0, to the end, 1, shape (along + 1,)."""
-    return np.sin(GRADING * np.linspace(0.0, 1.0, along + 1)) / np.sin(GRADING)
+    grading = 0.5 * np.pi - (0.5 * np.pi - GRADING) * min(1.0, LONG / slenderness)
+    return np.asarray(np.sin(grading * np.linspace(0.0, 1.0, along + 1)) / np.sin(grading))
 
 
 def _with_cells(geometry: FilmGeometry) -> list[Span]:
@@ -124,8 +131,7 @@ def _quarter_cells(cells: float) -> int:
     return max(2, round(cells / COARSENING))
 
 
-def _grid(geometry: FilmGeometry, spans: list[Span], counts: np.ndarray, along: int) -> Grid:
-    nodes = axial_nodes(along)
+def _grid(geometry: FilmGeometry, spans: list[Span], counts: np.ndarray, nodes: Array) -> Grid:
     faces = 0.5 * (nodes[1:] + nodes[:-1])
     held, value = _held(geometry, spans, counts)
     return Grid(

@@ -9,7 +9,7 @@ import numpy as np
 from ..errors import ConvergenceError
 from ..model import Array
 from .film_field import FilmField
-from .ring import Grid, axial_nodes, ring_grids, ring_spans
+from .ring import Grid, axial_nodes
 from .ring_coefficients import Coefficients, ring_angles
 from .ring_film import film_force, film_source, finest
 
@@ -20,20 +20,21 @@ if TYPE_CHECKING:
 def film_field(film: ReynoldsFilm, eccentricity: Array, source: Array, slenderness: float) -> FilmField:
     """Return the solution of one state; see `ReynoldsFilm.solve`."""
     e, w = np.asarray(eccentricity, dtype=float), np.asarray(source, dtype=float)
-    spans, grids = ring_spans(film.geometry), ring_grids(film.geometry, *film.cells)
+    spans, grids = film.grids(slenderness)
     coefficients, pressure, _, _, found = finest(e, w, slenderness, spans, grids, film.cavitation.searched)
     if not found:
         raise ConvergenceError(f"the search for the ruptured zone must end, and did not at eccentricity {e}")
     if film.cavitation.clipped:
         pressure = np.maximum(pressure, 0.0)
     extrapolated, error = film.extrapolated(e, w, slenderness)
+    axial = axial_nodes(film.cells[1], slenderness)
     face = ring_angles(e, spans, grids[0].span, grids[0].face)[0]
     return FilmField(
         force=film_force(coefficients.normal, grids[0], pressure),
         force_extrapolated=extrapolated,
         force_error=float(error),
         angle=coefficients.theta,
-        axial=axial_nodes(film.cells[1]),
+        axial=axial,
         thickness=_thickness(e, coefficients.theta),
         pressure=np.pad(pressure, ((0, 0), (0, 1))),
         side_flow=_side_flow(coefficients, grids[0], w, pressure),
@@ -55,7 +56,7 @@ def _side_flow(coefficients: Coefficients, grid: Grid, w: Array, pressure: Array
 
     Openings are left out, and so is what a film in tension draws in.
     """
-    last_cell = axial_nodes(len(grid.width))[-1] - np.sum(grid.width)
+    last_cell = 1.0 - np.sum(grid.width)
     inward = coefficients.along * grid.conductance[-1] * pressure[:, -1]
     made = film_source(coefficients.normal, grid, w)[:, -1] / grid.width[-1] * last_cell
     outward = np.where((pressure[:, -1] > 0.0) & ~grid.held, inward + made, 0.0)

@@ -102,8 +102,8 @@ class FiniteSqueezeFilm:
         """Return the polar matrix, the lift per eccentricity and its slope at eccentricity ratios (B,)."""
         if np.any(chi > LARGEST):
             warnings.warn(
-                f"eccentricity ratio must not exceed {LARGEST} for a film of finite length, got {chi.max():.6g}: "
-                "its harmonics no longer resolve the pressure",
+                f"eccentricity ratio must not exceed {LARGEST} for a film of finite length, got "
+                f"{chi.max():.6g}: its harmonics no longer resolve the pressure",
                 ValidityWarning,
                 stacklevel=6,
             )

@@ -117,7 +117,7 @@ def _contents(model: Model, component: str, start: Mapping[str, float]) -> dict[
     _require_rebuilt(data)
     return {
         **_resources(data, component, start, bundle),
-        **binaries(component),
+        **binaries(component, bundle.files),
         **licenses((PACKAGE, "pythonfmu")),
         "documentation/index.html": to_html(_title(model), fmi_variables(model, component, start), data),
     }

@@ -2,7 +2,7 @@
 
 from .closed_loop import closed_loop, transmissibility
 from .coefficients import coefficients
-from .critical_mass import CriticalMass, critical_mass
+from .critical_mass import CriticalMass, critical_mass, damping_has_rank_one
 from .equilibrium import equilibrium
 from .linearize import OperatingPoint, linearize
 from .nonlinear_system import ModelSystem, to_nlsys
@@ -17,6 +17,7 @@ __all__ = [
     "closed_loop",
     "coefficients",
     "critical_mass",
+    "damping_has_rank_one",
     "equilibrium",
     "linearize",
     "orbit_coefficients",

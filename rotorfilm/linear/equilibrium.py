@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+import warnings
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import EquilibriumError, InputError, require_finite, require_number
-from ..model import Array, Reaction
+from ..errors import (
+    EquilibriumError,
+    InputError,
+    UndefinedDerivativeError,
+    ValidityWarning,
+    require_finite,
+    require_number,
+)
+from ..model import Array, Reaction, Tangent, prepared_tangent
 from ..results import Equilibrium
 
 MAXIMUM_ECCENTRICITY = 0.9999
@@ -20,20 +27,38 @@ _TOLERANCE = 1e-12
 _ROUNDOFF_STOP = 1e-13
 _NEWTON_STEPS = 60
 _LARGEST_S = math.log(MAXIMUM_ECCENTRICITY / (1.0 - MAXIMUM_ECCENTRICITY))
-_LARGEST_STEP = np.array([6.0, 1.0])
+_LARGEST_MOVE = (6.0, 1.0)
 _FIRST_ANGLE = math.pi / 3.0
 
 
-class _Point(NamedTuple):
-    """A trial solution z = (s, phi), its residual, and how many Newton steps led there."""
+class _Target(NamedTuple):
+    """What the search looks for: the film in plain numbers, and the force that it must have."""
 
-    z: Array
-    residual: Array
+    tangent: Tangent
+    clearance: float
+    speed: float
+    x: float
+    y: float
+
+    @property
+    def size(self) -> float:
+        return math.hypot(self.x, self.y)
+
+
+class _Point(NamedTuple):
+    """A trial solution (s, phi): position, residual (ratio, angle) and its derivatives, row by row."""
+
+    s: float
+    phi: float
     steps: int
+    position: tuple[float, float] = (math.nan, math.nan)
+    ratio: float = math.inf
+    angle: float = 0.0
+    matrix: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
 
     @property
     def norm(self) -> float:
-        return float(np.hypot(*self.residual))
+        return math.hypot(self.ratio, self.angle)
 
 
 def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibrium:
@@ -71,13 +96,15 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     """
     load = checked_load(load)
     speed = require_number("speed", speed)
-    best: _Point | None = None
-    for start in _starts(load, speed):
-        point = _newton(reaction, load, speed, start)
-        if point.norm <= _tolerance(point.z[0]):
-            return _result(reaction, load, speed, point)
-        best = point if best is None or point.norm < best.norm else best
-    raise EquilibriumError(_why_not(reaction, load, speed, best))
+    wanted_x, wanted_y = (-load).tolist()
+    target = _Target(prepared_tangent(reaction), reaction.clearance, speed, wanted_x, wanted_y)
+    with warnings.catch_warnings():
+        # A state that the search only passes through is nobody's answer; that of the result is warned of.
+        warnings.simplefilter("ignore", ValidityWarning)
+        best = _search(target)
+    if best.norm > _tolerance(best.s):
+        raise EquilibriumError(_why_not(load, speed, best))
+    return _result(reaction, load, target, best)
 
 
 def checked_load(load: ArrayLike) -> Array:
@@ -93,66 +120,84 @@ def checked_load(load: ArrayLike) -> Array:
     return array
 
 
-def _starts(load: Array, speed: float) -> list[Array]:
-    """Return starting points; an isotropic film needs the first only."""
-    along_load = math.atan2(load[1], load[0])
+def _search(target: _Target) -> _Point:
+    """Return the first converged point, or the best of all starts."""
+    points = []
+    for s, phi in _starts(math.atan2(-target.y, -target.x), target.speed):
+        points.append(_newton(target, s, phi))
+        if points[-1].norm <= _tolerance(points[-1].s):
+            return points[-1]
+    return min(points, key=lambda point: point.norm)
+
+
+def _starts(along_load: float, speed: float) -> list[tuple[float, float]]:
+    """Return starting points (s, phi); an isotropic film needs the first only."""
     sense = math.copysign(1.0, speed)
-    first = np.array([0.0, along_load + sense * _FIRST_ANGLE])
-    turns = np.arange(6) * math.pi / 3.0
-    return [first, *(np.array([s, along_load + turn]) for s in (-2.0, 2.0) for turn in turns)]
+    turns = [k * math.pi / 3.0 for k in range(6)]
+    first = (0.0, along_load + sense * _FIRST_ANGLE)
+    return [first, *((s, along_load + turn) for s in (-2.0, 2.0) for turn in turns)]
 
 
-def _newton(reaction: Reaction, load: Array, speed: float, start: Array) -> _Point:
-    point = _Point(start, _residual(reaction, load, speed, start), 0)
+def _newton(target: _Target, s: float, phi: float) -> _Point:
+    point = _point(target, s, phi, 0)
     while point.steps < _NEWTON_STEPS and _ROUNDOFF_STOP < point.norm < math.inf:
-        matrix = _residual_jacobian(reaction, speed, point.z)
-        if abs(np.linalg.det(matrix)) < 1e-14:
+        a, b, c, d = point.matrix
+        det = a * d - b * c
+        if abs(det) < 1e-14:
             break
-        step = np.asarray(np.linalg.solve(matrix, -point.residual), dtype=np.float64)
-        improved = _damped(lambda z: _residual(reaction, load, speed, z), point, step)
+        step_s = (b * point.angle - d * point.ratio) / det
+        step_phi = (c * point.ratio - a * point.angle) / det
+        improved = _damped(target, point, step_s, step_phi)
         if improved is None:
             break
         point = improved
     return point
 
 
-def _damped(residual: Callable[[Array], Array], point: _Point, step: Array) -> _Point | None:
+def _damped(target: _Target, point: _Point, step_s: float, step_phi: float) -> _Point | None:
     """Return the first of ever shorter steps that lowers the residual, or None."""
-    step = step * min(1.0, *(_LARGEST_STEP / np.maximum(np.abs(step), 1e-300)))
+    share = min(
+        1.0, _LARGEST_MOVE[0] / max(abs(step_s), 1e-300), _LARGEST_MOVE[1] / max(abs(step_phi), 1e-300)
+    )
     for halvings in range(10):
-        z = point.z + 0.5**halvings * step
-        z[0] = min(z[0], _LARGEST_S)
-        trial = _Point(z, residual(z), point.steps + 1)
+        part = 0.5**halvings * share
+        s = min(point.s + part * step_s, _LARGEST_S)
+        trial = _point(target, s, point.phi + part * step_phi, point.steps + 1)
         if trial.norm < point.norm:
             return trial
     return None
 
 
-def _residual(reaction: Reaction, load: Array, speed: float, z: Array) -> Array:
-    force = reaction.force(_position(reaction.clearance, z), np.zeros(2), speed)
-    size = math.hypot(*force)
+def _point(target: _Target, s: float, phi: float, steps: int) -> _Point:
+    """Return the residual at (s, phi), and d(residual)/d(s, phi) by the chain rule from dF/d(position)."""
+    distance = target.clearance / (1.0 + math.exp(-s))
+    x, y = distance * math.cos(phi), distance * math.sin(phi)
+    try:
+        fx, fy, D = target.tangent(x, y, 0.0, 0.0, target.speed)
+    except UndefinedDerivativeError:
+        return _Point(s, phi, steps)
+    size = math.hypot(fx, fy)
     if not 0.0 < size < math.inf:
-        return np.array([math.inf, 0.0])
-    unit, target = force / size, -load / math.hypot(*load)
-    angle = math.atan2(target[0] * unit[1] - target[1] * unit[0], float(target @ unit))
-    return np.array([math.log(size / math.hypot(*load)), angle])
-
-
-def _residual_jacobian(reaction: Reaction, speed: float, z: Array) -> Array:
-    """Return d(residual)/d(s, phi) by the chain rule from dF/d(position)."""
-    position = _position(reaction.clearance, z)
-    force = reaction.force(position, np.zeros(2), speed)
-    by_position = reaction.jacobian(position, np.zeros(2), speed)[:, :2]
+        return _Point(s, phi, steps)
     # d(position)/ds = (1 - chi) position, d(position)/dphi = position turned by 90 degrees
-    gap = 1.0 / (1.0 + math.exp(z[0]))
-    moves = np.column_stack([gap * position, [-position[1], position[0]]])
-    along_and_across = np.array([force, [-force[1], force[0]]]) / (force @ force)
-    return np.asarray(along_and_across @ by_position @ moves)
-
-
-def _position(clearance: float, z: Array) -> Array:
-    chi = 1.0 / (1.0 + math.exp(-z[0]))
-    return clearance * chi * np.array([math.cos(z[1]), math.sin(z[1])])
+    gap = 1.0 / (1.0 + math.exp(s))
+    x_s, y_s = gap * (D[0] * x + D[1] * y), gap * (D[5] * x + D[6] * y)
+    x_phi, y_phi = D[1] * x - D[0] * y, D[6] * x - D[5] * y
+    ux, uy = fx / size, fy / size
+    return _Point(
+        s,
+        phi,
+        steps,
+        (x, y),
+        math.log(size / target.size),
+        math.atan2(target.x * uy - target.y * ux, target.x * ux + target.y * uy),
+        (
+            (ux * x_s + uy * y_s) / size,
+            (ux * x_phi + uy * y_phi) / size,
+            (ux * y_s - uy * x_s) / size,
+            (ux * y_phi - uy * x_phi) / size,
+        ),
+    )
 
 
 def _tolerance(s: float) -> float:
@@ -160,29 +205,29 @@ def _tolerance(s: float) -> float:
     return max(_TOLERANCE, 1e-15 * (1.0 + math.exp(s)))
 
 
-def _result(reaction: Reaction, load: Array, speed: float, point: _Point) -> Equilibrium:
-    position = _position(reaction.clearance, point.z)
-    force = reaction.force(position, np.zeros(2), speed)
-    angle = math.copysign(1.0, speed) * (point.z[1] - math.atan2(load[1], load[0]))
+def _result(reaction: Reaction, load: Array, target: _Target, point: _Point) -> Equilibrium:
+    position = np.array(point.position)
+    force = reaction.force(position, np.zeros(2), target.speed)
+    angle = math.copysign(1.0, target.speed) * (point.phi - math.atan2(-target.y, -target.x))
     return Equilibrium(
         position=position,
-        speed=speed,
+        speed=target.speed,
         load=load,
-        eccentricity_ratio=1.0 / (1.0 + math.exp(-point.z[0])),
+        eccentricity_ratio=1.0 / (1.0 + math.exp(-point.s)),
         attitude_angle=math.remainder(angle, 2.0 * math.pi),
-        minimum_film=reaction.clearance / (1.0 + math.exp(point.z[0])),
-        residual=math.hypot(*(force + load)) / math.hypot(*load),
+        minimum_film=target.clearance / (1.0 + math.exp(point.s)),
+        residual=math.hypot(*(force + load)) / target.size,
         iterations=point.steps,
     )
 
 
-def _why_not(reaction: Reaction, load: Array, speed: float, best: _Point | None) -> str:
+def _why_not(load: Array, speed: float, best: _Point) -> str:
     """Return the message that names the load, the rule it breaks, and the film force at the limit."""
     given = f"got load {load.tolist()} N with |load| = {math.hypot(*load):.6g} N"
-    if best is None or not math.isfinite(best.norm):
+    if not math.isfinite(best.norm):
         return f"speed must make the film carry load: at speed {speed!r} rad/s it carries none, {given}"
-    if best.z[0] == _LARGEST_S and best.residual[0] < 0.0:
-        limit = math.exp(best.residual[0]) * math.hypot(*load)
+    if best.s == _LARGEST_S and best.ratio < 0.0:
+        limit = math.exp(best.ratio) * math.hypot(*load)
         return (
             f"load must be within the film's capacity at speed {speed!r} rad/s: the film force at "
             f"eccentricity ratio {MAXIMUM_ECCENTRICITY} is {limit:.6g} N, {given}"

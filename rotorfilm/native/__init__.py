@@ -1,6 +1,13 @@
 """Thin view of the C library: the kernels that Python and the native FMUs share."""
 
-from .kernels import JournalKernel, MapKernel, Status
+from .kernels import GroovedJournalKernel, GrooveMapKernel, JournalKernel, MapKernel, Status
 from .library import NativeLibraryError
 
-__all__ = ["JournalKernel", "MapKernel", "NativeLibraryError", "Status"]
+__all__ = [
+    "GrooveMapKernel",
+    "GroovedJournalKernel",
+    "JournalKernel",
+    "MapKernel",
+    "NativeLibraryError",
+    "Status",
+]

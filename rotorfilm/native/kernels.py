@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from ctypes import byref, c_double, c_size_t
 from enum import IntEnum
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from ..model import Array
-from .library import JournalStruct, MapStruct, functions
+from .library import GroovedJournalStruct, GrooveMapStruct, JournalStruct, MapStruct, functions
 
-_Pair = c_double * 2
+_Pair, _Five, _Ten = c_double * 2, c_double * 5, c_double * 10
 
 
 class Status(IntEnum):
@@ -55,28 +55,60 @@ class MapKernel:
         L0, the logarithm of -J/|w|^2 at the center.
     """
 
+    _prefix: ClassVar[str] = "rf_map"
+
     def __init__(self, coefficients: Array, reach: float, center: float) -> None:
-        self._arguments = (coefficients, reach, center)
+        self._arguments: tuple[Any, ...] = (coefficients, reach, center)
         self.coefficients = np.ascontiguousarray(coefficients, dtype=float)
         cells_x, cells_t = (count - 5 for count in self.coefficients.shape)
         if min(cells_x, cells_t) < 1 or not np.isfinite(self.coefficients).all():
             raise ValueError(f"coefficients must be finite, 6 x 6 at least, got shape {coefficients.shape}")
-        self.struct = MapStruct(cells_x, cells_t, reach, center, self.coefficients.ctypes.data)
+        self.struct: Any = MapStruct(cells_x, cells_t, reach, center, self.coefficients.ctypes.data)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._arguments
 
     def force(self, eccentricity: Array, source: Array) -> Batch:
         """Return the forces (2, n) at the eccentricities and sources (2, n)."""
-        return self._batch("rf_map_force_batch", eccentricity, source, ())
+        return self._batch("force", eccentricity, source, ())
 
     def jacobian(self, eccentricity: Array, source: Array) -> Batch:
         """Return d force / d (eccentricity, source), shape (2, 4, n)."""
-        return self._batch("rf_map_jacobian_batch", eccentricity, source, (2, 4))
+        return self._batch("jacobian", eccentricity, source, (2, 4))
 
     def _batch(self, name: str, e: Array, w: Array, shape: tuple[int, ...]) -> Batch:
         e, w = _rows(e), _rows(w)
-        return _run(name, self.struct, e.shape[1], [*_pointer(e), *_pointer(w)], shape)
+        given = [*_pointer(e), *_pointer(w)]
+        return _run(f"{self._prefix}_{name}_batch", self.struct, e.shape[1], given, shape)
+
+
+class GrooveMapKernel(MapKernel):
+    """The dimensionless film force of one bearing with axial openings from its impedance map.
+
+    Parameters
+    ----------
+    coefficients : ndarray, shape (cells_x + 5, cells_e, cells_s)
+        Quintic B-spline coefficients of M(X, theta, s), in the angles those centered on the nodes.
+    reach : float
+        X of the last node.
+    center : ndarray, shape (cells_w,)
+        Those of L0 over the direction of the source.
+    squeeze : float
+        Ratio of tan s and the tangent of the angle from the eccentricity to the source.
+    axis : float [rad]
+        Angle of the axis of the openings in the bearing frame.
+    """
+
+    _prefix: ClassVar[str] = "rf_groove"
+
+    def __init__(self, coefficients: Array, reach: float, center: Array, squeeze: float, axis: float) -> None:
+        self._arguments = (coefficients, reach, center, squeeze, axis)
+        wide = _wrapped(_wrapped(coefficients, 1), 2)
+        self.coefficients = np.ascontiguousarray(wide, dtype=float)
+        self.center = np.ascontiguousarray(_wrapped(center, 0), dtype=float)
+        cells_x, cells_e, cells_s = (count - 5 for count in self.coefficients.shape)
+        places = self.center.ctypes.data, self.coefficients.ctypes.data
+        self.struct = GrooveMapStruct(cells_x, cells_e, cells_s, len(center), reach, squeeze, axis, *places)
 
 
 class JournalKernel:
@@ -92,11 +124,15 @@ class JournalKernel:
         viscosity * length * radius^3 / clearance^2.
     """
 
+    _prefix: ClassVar[str] = "rf_journal"
+    _layout: ClassVar[Any] = JournalStruct
+
     def __init__(self, kernel: MapKernel, clearance: float, force_scale: float) -> None:
         self._arguments = (kernel, clearance, force_scale)
-        self._struct = JournalStruct(kernel.struct, clearance, force_scale)
+        self._struct = self._layout(kernel.struct, clearance, force_scale)
         self._reference = byref(self._struct)
-        self._call = functions()["rf_journal_call"]
+        self._call = functions()[f"{self._prefix}_call"]
+        self._tangent = functions()[f"{self._prefix}_jacobian"]
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._arguments
@@ -107,19 +143,21 @@ class JournalKernel:
         status = self._call(self._reference, x, y, vx, vy, speed, pair)
         return pair[0], pair[1], status
 
-    def jacobian_at(self, state: list[float]) -> tuple[Array, int]:
-        """Return d(force_x, force_y)/d(x, y, vx, vy, speed), shape (2, 5), at five numbers; and a status."""
-        pair, ten = _Pair(), (c_double * 10)()
-        status = functions()["rf_journal_jacobian"](self._reference, (c_double * 5)(*state), pair, ten)
-        return np.array(ten[:]).reshape(2, 5), status
+    def tangent(
+        self, x: float, y: float, vx: float, vy: float, speed: float
+    ) -> tuple[float, float, list[float], int]:
+        """Return force_x, force_y, the ten entries of the Jacobian row by row, and a status."""
+        pair, ten = _Pair(), _Ten()
+        status = self._tangent(self._reference, _Five(x, y, vx, vy, speed), pair, ten)
+        return pair[0], pair[1], ten[:], status
 
     def force(self, position: Array, velocity: Array, speed: Array) -> Batch:
         """Return the forces (2, n) at positions, velocities (2, n) and speeds (n,) or (1,)."""
-        return self._batch("rf_journal_force_batch", position, velocity, speed, ())
+        return self._batch("force", position, velocity, speed, ())
 
     def jacobian(self, position: Array, velocity: Array, speed: Array) -> Batch:
         """Return d force / d (x, y, vx, vy, speed), shape (2, 5, n)."""
-        return self._batch("rf_journal_jacobian_batch", position, velocity, speed, (2, 5))
+        return self._batch("jacobian", position, velocity, speed, (2, 5))
 
     def _batch(self, name: str, q: Array, v: Array, omega: Array, shape: tuple[int, ...]) -> Batch:
         q, v, omega = _rows(q), _rows(v), np.ascontiguousarray(omega, dtype=float)
@@ -128,7 +166,20 @@ class JournalKernel:
         given = [*_pointer(q), *_pointer(v), omega.ctypes.data, step]
         if v.shape != (2, n) or (step and omega.shape != (n,)):
             raise ValueError(f"speed must have shape ({n},) or (1,), got {omega.shape}")
-        return _run(name, self._struct, n, given, shape)
+        return _run(f"{self._prefix}_{name}_batch", self._struct, n, given, shape)
+
+
+class GroovedJournalKernel(JournalKernel):
+    """The film force of a journal bearing with axial openings in SI units, over a GrooveMapKernel."""
+
+    _prefix: ClassVar[str] = "rf_grooved_journal"
+    _layout: ClassVar[Any] = GroovedJournalStruct
+
+
+def _wrapped(coefficients: Array, axis: int) -> Array:
+    """Return periodic coefficients as the kernel reads them: from the one two nodes back, five repeated."""
+    count = coefficients.shape[axis]
+    return np.take(coefficients, np.arange(-2, count + 3) % count, axis)
 
 
 def _run(name: str, struct: Any, n: int, given: list[Any], shape: tuple[int, ...]) -> Batch:

@@ -42,16 +42,48 @@ class JournalStruct(ctypes.Structure):
     ]
 
 
+class GrooveMapStruct(ctypes.Structure):
+    """rf_groove_map of groove_kernel.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("cells_x", c_int32),
+        ("cells_e", c_int32),
+        ("cells_s", c_int32),
+        ("cells_w", c_int32),
+        ("x_end", c_double),
+        ("squeeze", c_double),
+        ("axis", c_double),
+        ("center", c_void_p),
+        ("coefficients", c_void_p),
+    ]
+
+
+class GroovedJournalStruct(ctypes.Structure):
+    """rf_grooved_journal of grooved_journal_kernel.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("map", GrooveMapStruct),
+        ("clearance", c_double),
+        ("force_scale", c_double),
+    ]
+
+
 _ROWS = [c_void_p, c_size_t]
 _BATCH: dict[str, list[Any]] = {
     "rf_map_force_batch": [c_void_p, c_size_t, *_ROWS * 3, c_void_p],
     "rf_map_jacobian_batch": [c_void_p, c_size_t, *_ROWS * 4, c_void_p],
     "rf_journal_force_batch": [c_void_p, c_size_t, *_ROWS * 4, c_void_p],
     "rf_journal_jacobian_batch": [c_void_p, c_size_t, *_ROWS * 5, c_void_p],
+    "rf_groove_force_batch": [c_void_p, c_size_t, *_ROWS * 3, c_void_p],
+    "rf_groove_jacobian_batch": [c_void_p, c_size_t, *_ROWS * 4, c_void_p],
+    "rf_grooved_journal_force_batch": [c_void_p, c_size_t, *_ROWS * 4, c_void_p],
+    "rf_grooved_journal_jacobian_batch": [c_void_p, c_size_t, *_ROWS * 5, c_void_p],
 }
 _SCALAR: dict[str, list[Any]] = {
     "rf_journal_call": [c_void_p, *[c_double] * 5, c_void_p],
     "rf_journal_jacobian": [c_void_p, *[c_void_p] * 3],
+    "rf_grooved_journal_call": [c_void_p, *[c_double] * 5, c_void_p],
+    "rf_grooved_journal_jacobian": [c_void_p, *[c_void_p] * 3],
 }
 
 

@@ -2,10 +2,9 @@
 
 #include <math.h>
 
-#define ORDER 6           /* coefficients under one point, per axis */
+#include "quintic.h"
+
 #define CENTER 1e-8       /* eccentricity ratio below which w = 0 has a derivative, by isotropy */
-#define SMALLEST 1e-200   /* squares outside these bounds lose digits or overflow */
-#define LARGEST 1e200
 
 /* M and the derivatives of it that the force and its Jacobian need; s = cos = 2 T - 1. */
 typedef struct field {
@@ -17,142 +16,75 @@ typedef struct frame {
     double size, nx, ny, chi, cos, sin;
 } frame;
 
-/* Values and up to two derivatives of the six quintic B-splines on one cell, at u in [0, 1]. */
-static void values(double u, double b[ORDER])
-{
-    const double v = 1.0 - u, u2 = u * u, v2 = v * v, k = 1.0 / 120.0;
-    b[0] = k * v2 * v2 * v;
-    b[1] = k * (26.0 + u * (-50.0 + u * (20.0 + u * (20.0 + u * (-20.0 + u * 5.0)))));
-    b[2] = k * (66.0 + u2 * (-60.0 + u2 * (30.0 - 10.0 * u)));
-    b[3] = k * (66.0 + v2 * (-60.0 + v2 * (30.0 - 10.0 * v)));
-    b[4] = k * (26.0 + v * (-50.0 + v * (20.0 + v * (20.0 + v * (-20.0 + v * 5.0)))));
-    b[5] = k * u2 * u2 * u;
-}
-
-static void slopes(double u, double b[ORDER])
-{
-    const double v = 1.0 - u, u2 = u * u, v2 = v * v, k = 1.0 / 24.0;
-    b[0] = -k * v2 * v2;
-    b[1] = k * (-10.0 + u * (8.0 + u * (12.0 + u * (-16.0 + u * 5.0))));
-    b[2] = k * u * (-24.0 + u2 * (24.0 - 10.0 * u));
-    b[3] = -k * v * (-24.0 + v2 * (24.0 - 10.0 * v));
-    b[4] = -k * (-10.0 + v * (8.0 + v * (12.0 + v * (-16.0 + v * 5.0))));
-    b[5] = k * u2 * u2;
-}
-
-static void curvatures(double u, double b[ORDER])
-{
-    const double v = 1.0 - u, k = 1.0 / 6.0;
-    b[0] = k * v * v * v;
-    b[1] = k * (2.0 + u * (6.0 + u * (-12.0 + u * 5.0)));
-    b[2] = k * (-6.0 + u * u * (18.0 - 10.0 * u));
-    b[3] = k * (-6.0 + v * v * (18.0 - 10.0 * v));
-    b[4] = k * (2.0 + v * (6.0 + v * (-12.0 + v * 5.0)));
-    b[5] = k * u * u * u;
-}
-
-static double dot(const double a[ORDER], const double b[ORDER])
-{
-    double sum = a[0] * b[0];
-    for (int j = 1; j < ORDER; ++j)
-        sum += a[j] * b[j];
-    return sum;
-}
-
-/* Sum of the six rows of coefficients from `c`, weighted by b. */
-static void rows(const double *c, size_t stride, const double b[ORDER], double sum[ORDER])
-{
-    for (int j = 0; j < ORDER; ++j)
-        sum[j] = b[0] * c[j];
-    for (int i = 1; i < ORDER; ++i)
-        for (int j = 0; j < ORDER; ++j)
-            sum[j] += b[i] * c[(size_t)i * stride + (size_t)j];
-}
-
-/* Cell of a point at `at` cells from the first node; the rest is its place in the cell. */
-static int32_t cell(double at, int32_t cells, double *rest)
-{
-    int32_t i = (int32_t)at;
-    i = i < 0 ? 0 : (i < cells ? i : cells - 1);
-    *rest = at - (double)i;
-    return i;
-}
-
 static const double *place(const rf_map *map, double x, double s, double *u, double *v)
 {
-    const int32_t i = cell(x / map->x_end * map->cells_x, map->cells_x, u);
-    const int32_t j = cell(0.5 * (1.0 + s) * map->cells_t, map->cells_t, v);
-    return map->coefficients + (size_t)i * (size_t)(map->cells_t + ORDER - 1) + (size_t)j;
+    const int32_t i = rf_cell(x / map->x_end * map->cells_x, map->cells_x, u);
+    const int32_t j = rf_cell(0.5 * (1.0 + s) * map->cells_t, map->cells_t, v);
+    return map->coefficients + (size_t)i * (size_t)(map->cells_t + RF_ORDER - 1) + (size_t)j;
 }
 
 static field value_field(const rf_map *map, double x, double s)
 {
-    double u, v, b[ORDER], row[ORDER];
+    double u, v, b[RF_ORDER], row[RF_ORDER];
     const double *c = place(map, x, s, &u, &v);
     field at = {0.0, 0.0, 0.0, 0.0, 0.0};
-    values(u, b);
-    rows(c, (size_t)(map->cells_t + ORDER - 1), b, row);
-    values(v, b);
-    at.m = dot(row, b);
-    slopes(v, b);
-    at.m_s = 0.5 * map->cells_t * dot(row, b);
+    rf_values(u, b);
+    rf_rows(c, (size_t)(map->cells_t + RF_ORDER - 1), b, row);
+    rf_values(v, b);
+    at.m = rf_dot(row, b);
+    rf_slopes(v, b);
+    at.m_s = 0.5 * map->cells_t * rf_dot(row, b);
     return at;
 }
 
 static field full_field(const rf_map *map, double x, double s)
 {
-    double u, v, b[ORDER], b_s[ORDER], b_ss[ORDER], row[ORDER], row_x[ORDER];
+    double u, v, b[RF_ORDER], b_s[RF_ORDER], b_ss[RF_ORDER], row[RF_ORDER], row_x[RF_ORDER];
     const double *c = place(map, x, s, &u, &v);
-    const size_t stride = (size_t)(map->cells_t + ORDER - 1);
+    const size_t stride = (size_t)(map->cells_t + RF_ORDER - 1);
     const double per_x = map->cells_x / map->x_end, per_s = 0.5 * map->cells_t;
     field at;
-    values(u, b);
-    rows(c, stride, b, row);
-    slopes(u, b);
-    rows(c, stride, b, row_x);
-    values(v, b);
-    slopes(v, b_s);
-    curvatures(v, b_ss);
-    at.m = dot(row, b);
-    at.m_s = per_s * dot(row, b_s);
-    at.m_ss = per_s * per_s * dot(row, b_ss);
-    at.m_x = per_x * dot(row_x, b);
-    at.m_xs = per_x * per_s * dot(row_x, b_s);
+    rf_values(u, b);
+    rf_rows(c, stride, b, row);
+    rf_slopes(u, b);
+    rf_rows(c, stride, b, row_x);
+    rf_values(v, b);
+    rf_slopes(v, b_s);
+    rf_curvatures(v, b_ss);
+    at.m = rf_dot(row, b);
+    at.m_s = per_s * rf_dot(row, b_s);
+    at.m_ss = per_s * per_s * rf_dot(row, b_ss);
+    at.m_x = per_x * rf_dot(row_x, b);
+    at.m_xs = per_x * per_s * rf_dot(row_x, b_s);
     return at;
 }
 
 /* Beyond the last node M goes on linearly in ln X: J is a power of X, as in thin films. */
 static field continued_field(const rf_map *map, double x, double s)
 {
-    double u, v, b[ORDER], row[ORDER];
+    double u, v, b[RF_ORDER], row[RF_ORDER];
     const double *c = place(map, map->x_end, s, &u, &v);
     const double per_s = 0.5 * map->cells_t, far = map->x_end * log(x / map->x_end);
     field at = full_field(map, map->x_end, s);
-    slopes(u, b);
-    rows(c, (size_t)(map->cells_t + ORDER - 1), b, row);
-    curvatures(v, b);
+    rf_slopes(u, b);
+    rf_rows(c, (size_t)(map->cells_t + RF_ORDER - 1), b, row);
+    rf_curvatures(v, b);
     at.m += far * at.m_x;
     at.m_s += far * at.m_xs;
-    at.m_ss += far * map->cells_x / map->x_end * per_s * per_s * dot(row, b);
+    at.m_ss += far * map->cells_x / map->x_end * per_s * per_s * rf_dot(row, b);
     at.m_x *= map->x_end / x;
     at.m_xs *= map->x_end / x;
     return at;
-}
-
-static double length(double x, double y)
-{
-    const double squared = x * x + y * y;
-    return squared > SMALLEST && squared < LARGEST ? sqrt(squared) : hypot(x, y);
 }
 
 static int orient(const double *e, const double *w, frame *at)
 {
     if (!isfinite(e[0]) || !isfinite(e[1]) || !isfinite(w[0]) || !isfinite(w[1]))
         return RF_NOT_FINITE;
-    at->chi = length(e[0], e[1]);
+    at->chi = rf_length(e[0], e[1]);
     if (at->chi >= 1.0)
         return RF_CONTACT;
-    at->size = length(w[0], w[1]);
+    at->size = rf_length(w[0], w[1]);
     if (at->size == 0.0)
         return RF_UNDEFINED;
     at->nx = w[0] / at->size;
@@ -161,15 +93,6 @@ static int orient(const double *e, const double *w, frame *at)
     at->cos = at->chi > 0.0 ? (e[0] * at->nx + e[1] * at->ny) / at->chi : 1.0;
     at->sin = at->chi > 0.0 ? (e[1] * at->nx - e[0] * at->ny) / at->chi : 0.0;
     return RF_OK;
-}
-
-/* X and, where asked for, dX/dchi. */
-static double stretch(double chi, double *slope)
-{
-    const double gap = (1.0 - chi) * (1.0 + chi), root = sqrt(sqrt(gap));
-    if (slope)
-        *slope = (1.0 - 0.5 * chi * chi) / (root * gap);
-    return chi / root;
 }
 
 static int fail(int status, double *values_out, int count)
@@ -197,7 +120,7 @@ static int force(const rf_map *map, const double *e, const double *w, double *f)
     }
     if (status != RF_OK)
         return fail(status, f, 2);
-    const double x = stretch(at.chi, NULL);
+    const double x = rf_stretch(at.chi, NULL);
     const int outside = x > map->x_end * (1.0 + 1e-12);
     const field m = outside ? continued_field(map, x, at.cos) : value_field(map, x, at.cos);
     set_force(&at, -exp(map->center + at.chi * m.m), m.m_s * at.chi * at.sin, f);
@@ -269,7 +192,7 @@ static int derive(const rf_map *map, const double *e, const double *w, double *f
         fail(status, f, 2);
         return fail(status, jacobian, 8);
     }
-    const double x = stretch(at.chi, &slope);
+    const double x = rf_stretch(at.chi, &slope);
     const int outside = x > map->x_end * (1.0 + 1e-12);
     const field m = outside ? continued_field(map, x, at.cos) : full_field(map, x, at.cos);
     const double potential = -exp(map->center + at.chi * m.m);

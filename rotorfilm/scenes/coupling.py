@@ -12,10 +12,10 @@ import numpy as np
 from ..cosim import CoSimulation, cosimulate, coupling_stability
 from ..errors import PartialResultError
 from ..model import Array
+from ..progress import Report
 from ..results import Trajectory
 from ..transient import simulate
 from .export import ExportedScene, resting_rotor
-from .progress import Report
 from .scene import Scene
 
 REFERENCE_TOLERANCE = 1e-9

@@ -13,11 +13,11 @@ from ..cosim import critical_macro_step
 from ..errors import InputError
 from ..films import FilmLaw
 from ..linear import speed_parameter
-from ..results import Trajectory, to_plain
+from ..progress import Report, silent
+from ..results import Trajectory, to_plain, write_csv
 from .coupling import CoupledRun, CouplingStudy, study_coupling
 from .export import ExportedScene, export_scene, resting_rotor
 from .ladder import FilmAccuracy, FilmCurve, compared_laws, film_accuracy, film_curve, ladder_laws
-from .progress import Report, silent
 from .scene import Scene
 from .solve import Answer
 
@@ -150,9 +150,7 @@ def _without_trajectory(run: CoupledRun) -> dict[str, Any]:
 
 
 def _write_csv(path: Path, trajectory: Trajectory) -> None:
-    header = ",".join(["time", *trajectory.signals])
-    columns = np.column_stack([trajectory.time, *trajectory.signals.values()])
-    np.savetxt(path, columns, delimiter=",", header=header, comments="", fmt="%.9g")
+    write_csv(path, {"time": trajectory.time, **trajectory.signals})
 
 
 def _curves(scene: Scene) -> dict[str, FilmCurve]:

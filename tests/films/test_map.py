@@ -20,7 +20,7 @@ FILM = MapFilm(
     )
 )
 bearing = JournalBearing(**DIMENSIONS, film=FILM)
-short = JournalBearing(**DIMENSIONS)
+short = JournalBearing(**DIMENSIONS, film=ShortFilm())
 
 
 def random_states(count, lowest=0.0, highest=0.95):
@@ -126,6 +126,20 @@ def test_prepared_call_equals_the_validated_one(model):
         call(np.nan, 0.0, 0.0, 0.0, 1.0)
 
 
+@pytest.mark.parametrize("model", [bearing, short], ids=["map", "short"])
+def test_prepared_tangent_is_force_and_jacobian(model):
+    tangent = model.prepare_tangent()
+    q, v, omega = si_states(5)
+    for i in range(5):
+        *force, derivatives = tangent(*q[:, i].tolist(), *v[:, i].tolist(), float(omega[i]))
+        np.testing.assert_array_equal(force, model.force(q[:, i], v[:, i], omega[i]))
+        np.testing.assert_array_equal(derivatives, model.jacobian(q[:, i], v[:, i], omega[i]).ravel())
+    with pytest.raises(FilmContactError, match=r"inside the clearance 0.0001 m"):
+        tangent(1.1e-4, 0.0, 0.0, 0.0, 1.0)
+    with pytest.raises(UndefinedDerivativeError, match=r"w = 0"):
+        tangent(5e-5, 0.0, 0.0, 0.0, 0.0)
+
+
 def test_scalar_jacobian_equals_that_of_the_batch():
     q, v, omega = si_states(5)
     batch = bearing.jacobian(q, v, omega)
@@ -161,8 +175,10 @@ def test_beyond_the_table_is_continued_with_a_warning():
 
 
 def test_slenderness_outside_the_table_is_an_input_error():
+    with pytest.raises(InputError, match=r"length / diameter must be 0.1 to 1 for MapFilm, got 2"):
+        JournalBearing(**{**DIMENSIONS, "length": 0.2}, film=FILM)
     with pytest.raises(InputError, match="length/diameter must be within the table"):
-        JournalBearing(**{**DIMENSIONS, "length": 0.2}, film=FILM).force([0.0, 0.0], [0.0, 0.0], 1.0)
+        FILM.force(np.zeros(2), np.ones(2), 2.0)
 
 
 @pytest.mark.parametrize("twin", [copy.deepcopy, lambda b: pickle.loads(pickle.dumps(b))])

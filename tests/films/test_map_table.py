@@ -122,6 +122,17 @@ def test_round_trip(tmp_path):
     assert again.largest_eccentricity_ratio == pytest.approx(0.99, rel=1e-14)
 
 
+def test_rounded_table_takes_half_the_bytes_and_is_off_by_half_a_quantum():
+    content, quantum = SMALL.to_bytes(2.0**-20), 2.0**-20
+    again = MapTable.from_bytes(content)
+    assert len(content) < 0.55 * len(SMALL.to_bytes())
+    assert 0.0 < np.abs(again.coefficients - SMALL.coefficients).max() <= 0.5 * quantum
+    np.testing.assert_array_equal(again.center, SMALL.center)
+    assert again.to_bytes(quantum) == content
+    with pytest.raises(InputError, match=r"quantum must be above .* got 1e-20"):
+        SMALL.to_bytes(1e-20)
+
+
 @pytest.mark.parametrize(
     ("damage", "message"),
     [
@@ -129,7 +140,7 @@ def test_round_trip(tmp_path):
         (lambda b: b[:20], "mark of a map table"),
         (lambda b: b[:-8], "size must be"),
         (lambda b: b[:-1] + bytes([b[-1] ^ 1]), "checksum"),
-        (lambda b: b[:8] + b"\2" + b[9:], "version must be 1, got 2"),
+        (lambda b: b[:8] + b"\3" + b[9:], "version must be 2, got 3"),
     ],
 )
 def test_damaged_content_is_refused(damage, message):

@@ -28,7 +28,7 @@ def test_stretched_eccentricity_is_inverted():
 
 def test_default_axes():
     axes = universal_axes()
-    assert axes.shape == (17, 25, 49)
+    assert axes.shape == (17, 25, 97)
     assert axes.chi[-1] > 0.999
     np.testing.assert_allclose(np.exp(axes.log_slenderness[[0, -1]]), [0.1, 4.0])
 
@@ -67,11 +67,11 @@ def test_nodes_hold_the_parity_at_the_center(nodes):
     _, fields = nodes
     slope = fields["chi_slope"][:, 0]
     np.testing.assert_allclose(slope, -slope[:, ::-1], atol=2e-5)
-    assert np.ptp(fields["log"][:, 0], axis=1).max() < 1e-7
+    assert np.max(np.ptp(fields["log"][:, 0, ::2], axis=1)) < 1e-7
 
 
 @pytest.mark.regression
-@pytest.mark.parametrize("index", [(0, 3, 48), (7, 12, 24), (10, 20, 30), (16, 24, 0)])
+@pytest.mark.parametrize("index", [(0, 3, 96), (7, 12, 48), (10, 20, 61), (16, 24, 0)])
 def test_nodes_are_what_the_solver_gives(nodes, index):
     axes, fields = nodes
     k, i, j = index
@@ -80,6 +80,9 @@ def test_nodes_are_what_the_solver_gives(nodes, index):
 
 
 def test_nodes_are_complete(nodes):
-    _, fields = nodes
-    assert all(np.all(np.isfinite(fields[name])) for name in FIELDS)
-    assert fields["error"].max() < 2e-6
+    # Below X = 2.4 every second direction: `tools/fit_map.py` fills the others.
+    axes, fields = nodes
+    left_out = np.zeros(axes.shape, dtype=bool)
+    left_out[:, axes.X < 2.4 - 1e-9, 1::2] = True
+    assert all(np.array_equal(np.isnan(fields[name]), left_out) for name in FIELDS)
+    assert np.nanmax(fields["error"]) < 2e-6

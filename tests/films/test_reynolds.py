@@ -81,6 +81,20 @@ def test_order_with_pads_and_grooves(geometry, slenderness):
 
 
 @pytest.mark.convergence
+@pytest.mark.parametrize("cavitation", [Complementarity(), FullFilm()])
+@pytest.mark.parametrize("slenderness", [0.3, 1.0])
+def test_order_with_supply_is_lower(cavitation, slenderness):
+    # At the open end of a groove the pressure jumps from supply to ambient. The force feels it weakly; the
+    # flow out of the film beside it grows without bound, with the logarithm of the cell.
+    film = ReynoldsFilm(cavitation=cavitation, geometry=GROOVES)
+    e = np.array([0.5, 0.2])
+    assert observed_order(film, e, MIXED, slenderness) == pytest.approx(film.order_with_supply, abs=0.25)
+    flows = [with_cells(film, k * 64, k * 8).solve(e, MIXED, slenderness).side_flow for k in (1, 2, 4)]
+    assert flows[2] - flows[1] == pytest.approx(flows[1] - flows[0], rel=0.05)
+    assert flows[2] - flows[1] > 0.1 * flows[0]
+
+
+@pytest.mark.convergence
 @settings(deadline=None, max_examples=30)
 @given(state=states, slenderness=st.sampled_from([0.25, 1.0, 3.0]))
 def test_error_estimate_tells_the_size_of_the_error(state, slenderness):
@@ -105,6 +119,17 @@ def test_long_full_film_is_sommerfeld(chi):
     force = long_limit(film, np.array([chi, 0.0]), np.array([0.0, -0.5 * chi]))
     exact = 12.0 * np.pi * chi / ((2.0 + chi**2) * np.sqrt(1.0 - chi**2))
     np.testing.assert_allclose(force, [0.0, exact], atol=1e-3 * exact)
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("chi", [0.2, 0.6, 0.9])
+def test_long_half_film_is_half_of_sommerfeld(chi):
+    # p = chi sin g (2 + chi cos g)/(2 (2 + chi^2) (1 + chi cos g)^2) where positive, for omega = 1.
+    film = ReynoldsFilm(cells=(96, 32), cavitation=HalfSommerfeld())
+    force = long_limit(film, np.array([chi, 0.0]), np.array([0.0, -0.5 * chi]))
+    root = 1.0 - chi**2
+    exact = np.array([-12.0 * chi**2 / root, 6.0 * np.pi * chi / np.sqrt(root)]) / (2.0 + chi**2)
+    np.testing.assert_allclose(force, exact, atol=2e-3 * np.hypot(*exact))
 
 
 @pytest.mark.closed_form

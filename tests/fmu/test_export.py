@@ -13,12 +13,13 @@ from fmpy.validation import validate_fmu
 
 from rotorfilm.bearings.journal import JournalBearing
 from rotorfilm.errors import FmuError, InputError
-from rotorfilm.films import RotatingArc, SplittingFilm
+from rotorfilm.films import RotatingArc, ShortFilm, SplittingFilm
 from rotorfilm.fmu import archive, export_fmu
 from rotorfilm.rotors.rigid import RigidRotor
 from rotorfilm.units import UNITS
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
+SHORT = replace(BEARING, film=ShortFilm())
 SPLIT = replace(BEARING, film=SplittingFilm(order=(2, 1), rupture=RotatingArc()))
 ROTOR = RigidRotor(mass=50.0, speed=157.0, unbalance=8e-4)
 
@@ -56,7 +57,7 @@ class Wrapped:
     a: float = 1.0
 
 
-@pytest.mark.parametrize("model", [BEARING, SPLIT, ROTOR], ids=["short", "split", "rotor"])
+@pytest.mark.parametrize("model", [BEARING, SHORT, SPLIT, ROTOR], ids=["map", "short", "split", "rotor"])
 def test_fmpy_finds_nothing_wrong(model, tmp_path):
     assert validate_fmu(str(export_fmu(model, tmp_path / "a.fmu"))) == []
 
@@ -91,12 +92,13 @@ def test_the_guid_changes_with_the_content(change, tmp_path):
     assert fmpy.read_model_description(str(first)).guid != fmpy.read_model_description(str(second)).guid
 
 
-def test_the_fmu_needs_neither_this_package_nor_its_own_folder(tmp_path):
-    path = export_fmu(BEARING, tmp_path / "a.fmu", component="bearing")
+@pytest.mark.parametrize("model", [BEARING, SHORT], ids=["map", "short"])
+def test_the_fmu_needs_neither_this_package_nor_its_own_folder(model, tmp_path):
+    path = export_fmu(model, tmp_path / "a.fmu", component="bearing")
     command = [sys.executable, "-c", RUN_ALONE, str(path)]
     answer = subprocess.run(command, check=False, capture_output=True, text=True, cwd=tmp_path)
     # The model's data is read and its source imported at the start; after that the files may go.
-    expected = BEARING.force([3e-5, -4e-5], [1e-3, 2e-3], 157.0)
+    expected = model.force([3e-5, -4e-5], [1e-3, 2e-3], 157.0)
     assert answer.stdout.strip() == str([repr(float(value)) for value in expected]), answer.stderr
 
 
@@ -139,7 +141,7 @@ def test_the_structure_names_the_dependencies(tmp_path):
 
 
 def test_documentation_and_licenses_are_inside(tmp_path):
-    path = export_fmu(BEARING, tmp_path / "a.fmu", component="bearing")
+    path = export_fmu(SHORT, tmp_path / "a.fmu", component="bearing")
     with zipfile.ZipFile(path) as archive:
         entries = archive.namelist()
         page = archive.read("documentation/index.html").decode()
@@ -150,6 +152,20 @@ def test_documentation_and_licenses_are_inside(tmp_path):
     assert "&quot;viscosity&quot;: 0.1" in page
     assert entries == sorted(entries)
     assert {"binaries/linux64/bearing.so", "binaries/win64/bearing.dll"} <= set(entries)
+
+
+def test_a_model_with_compiled_code_is_offered_on_the_platform_of_that_code_alone(tmp_path):
+    with zipfile.ZipFile(export_fmu(BEARING, tmp_path / "a.fmu", component="bearing")) as archive:
+        entries = archive.namelist()
+    compiled = {name.rpartition(".")[2] for name in entries if name.startswith("resources/")} & {"so", "dll"}
+    offered = {name.rpartition(".")[2] for name in entries if name.startswith("binaries/")}
+    assert len(compiled) == 1
+    assert offered == compiled
+
+
+def test_compiled_code_for_a_platform_without_pythonfmu_is_refused():
+    with pytest.raises(FmuError, match=r"for which PythonFMU has no library, got code in \['.dy"):
+        archive.binaries("bearing", ["package/native/rotorfilm.dylib"])
 
 
 def test_the_component_is_named_after_the_class_by_default(tmp_path):

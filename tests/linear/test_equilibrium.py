@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rotorfilm.errors import EquilibriumError, InputError
-from rotorfilm.films import RotatingArc, ShortFilm, SplittingFilm
+from rotorfilm.errors import EquilibriumError, InputError, ValidityWarning
+from rotorfilm.films import MapFilm, RotatingArc, ShortFilm, SplittingFilm
 from rotorfilm.linear import equilibrium
 
 SPEED = 1500 * math.pi / 30
@@ -80,6 +80,23 @@ def test_film_that_depends_on_direction(skewed_film, bearing, eps):
         np.testing.assert_allclose(
             at.position, eps * bearing.clearance * along(direction), atol=1e-10 * eps * bearing.clearance
         )
+
+
+def test_any_reaction_takes_the_same_way_as_one_that_speaks_numbers(bearing, skewed_film):
+    # The skewed film has force and jacobian only.
+    plain = replace(skewed_film, skew=np.eye(2))
+    one, other = (equilibrium(film, [100.0, -525.0], SPEED) for film in (bearing, plain))
+    np.testing.assert_allclose(one.position, other.position, rtol=1e-12)
+    assert one.iterations == other.iterations
+
+
+def test_newton_stays_quadratic_where_the_film_depends_on_direction(skewed_film):
+    rng = np.random.default_rng(0)
+    for _ in range(30):
+        film = replace(skewed_film, skew=np.eye(2) + 0.3 * rng.normal(size=(2, 2)))
+        position = rng.uniform(0.05, 0.95) * film.clearance * along(rng.uniform(-3.0, 3.0))
+        at = equilibrium(film, -film.force(position, [0, 0], SPEED), SPEED)
+        assert at.iterations <= 8
 
 
 def test_film_so_skewed_that_the_first_start_fails(skewed_film):
@@ -163,3 +180,13 @@ def test_force_that_cannot_point_against_the_load(linear_film):
 def test_bad_arguments(bearing, load, speed, message):
     with pytest.raises(InputError, match=message):
         equilibrium(bearing, load, speed)
+
+
+def test_search_beyond_the_map_warns_of_the_answer_alone(bearing):
+    mapped = replace(bearing, film=MapFilm())
+    with pytest.raises(EquilibriumError, match="load must be within the film's capacity"):
+        equilibrium(mapped, [0.0, -1e20], SPEED)
+    load = -mapped.force([0.99e-4, 0.0], [0.0, 0.0], SPEED)
+    assert equilibrium(mapped, load, SPEED).eccentricity_ratio == pytest.approx(0.99, rel=1e-9)
+    with pytest.warns(ValidityWarning, match=r"eccentricity ratio 0\.999.* is beyond the map"):
+        equilibrium(mapped, 100.0 * load, SPEED)

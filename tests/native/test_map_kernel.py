@@ -189,9 +189,9 @@ def test_journal_kernel_is_the_map_in_si_units():
     np.testing.assert_array_equal(one_speed, journal.force(c * e, v, np.full(30, omega[0])).values)
     numbers = [*(c * e[:, 4]), *v[:, 4], omega[4]]
     assert journal.call(*numbers) == (*journal.force(c * e, v, omega).values[:, 4], Status.OK)
-    jacobian, status = journal.jacobian_at(numbers)
-    assert status == Status.OK
-    np.testing.assert_array_equal(jacobian, journal.jacobian(c * e, v, omega).values[:, :, 4])
+    *force, derivatives, status = journal.tangent(*numbers)
+    assert (*force, status) == journal.call(*numbers)
+    np.testing.assert_array_equal(derivatives, journal.jacobian(c * e, v, omega).values[:, :, 4].ravel())
 
 
 def test_coefficients_must_fit():

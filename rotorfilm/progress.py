@@ -10,3 +10,8 @@ Report = Callable[[float, str], None]
 
 def silent(fraction: float, text: str) -> None:
     """Report nothing."""
+
+
+def part_of(report: Report, begin: float, end: float) -> Report:
+    """Return the report of a part of a job, which goes from `begin` to `end` of the whole."""
+    return lambda fraction, text: report(begin + (end - begin) * fraction, text)

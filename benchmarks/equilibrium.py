@@ -1,0 +1,76 @@
+"""Cost of a static equilibrium with its eight coefficients, in one run; one validated force = 1.
+
+"Numbers" is a reaction with `prepare_tangent`; "arrays" is the same bearing stripped to force and jacobian.
+
+    python benchmarks/equilibrium.py
+"""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass
+from time import perf_counter
+
+import numpy as np
+
+from rotorfilm.bearings import JournalBearing
+from rotorfilm.films import MapFilm, ShortFilm
+from rotorfilm.linear import coefficients, equilibrium
+
+DIMENSIONS = {"radius": 0.05, "length": 0.05, "clearance": 1e-4, "viscosity": 0.1}
+LOADS = np.geomspace(100.0, 1e5, 12)
+SPEED = 157.0
+
+
+@dataclass(frozen=True)
+class Plain:
+    """A bearing that shows force and jacobian only."""
+
+    bearing: JournalBearing
+    clearance: float = DIMENSIONS["clearance"]
+
+    def force(self, position, velocity, speed):
+        """Return the force of the bearing."""
+        return self.bearing.force(position, velocity, speed)
+
+    def jacobian(self, position, velocity, speed):
+        """Return the Jacobian of the bearing."""
+        return self.bearing.jacobian(position, velocity, speed)
+
+
+def solve(reaction) -> list:
+    """Return the equilibria for all loads, each with its coefficients computed."""
+    points = [equilibrium(reaction, [0.0, -load], SPEED) for load in LOADS]
+    for point in points:
+        coefficients(reaction, point.position, SPEED)
+    return points
+
+
+def timed(call, repeats: int = 7) -> float:
+    """Return the shortest time [s] of one call."""
+    times = []
+    for _ in range(repeats):
+        begin = perf_counter()
+        call()
+        times.append(perf_counter() - begin)
+    return min(times)
+
+
+def main() -> None:
+    """Print the table."""
+    sys.stdout.write("| bearing | equilibrium and coefficients [us] | forces | Newton steps | residual |\n")
+    sys.stdout.write("|---|---|---|---|---|\n")
+    for name, film in (("map", MapFilm()), ("short film", ShortFilm())):
+        bearing = JournalBearing(**DIMENSIONS, film=film)
+        one = timed(lambda b=bearing: [b.force([1e-5, -2e-5], [0.0, 0.0], SPEED) for _ in range(200)]) / 200
+        for kind, reaction in (("numbers", bearing), ("arrays", Plain(bearing))):
+            points = solve(reaction)
+            each = timed(lambda r=reaction: solve(r)) / len(LOADS)
+            steps = np.mean([point.iterations for point in points])
+            worst = max(point.residual for point in points)
+            row = f"| {name}, {kind} | {1e6 * each:.0f} | {each / one:.1f} | {steps:.1f} | {worst:.0e} |"
+            sys.stdout.write(row + "\n")
+
+
+if __name__ == "__main__":
+    main()

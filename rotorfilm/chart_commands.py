@@ -1,0 +1,113 @@
+"""The commands `rotorfilm chart ...`: ladders of models measured, drawn and written as tables."""
+
+# Packages that take long to import are imported inside the commands, so that --help answers at once.
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Protocol
+
+import typer
+
+from . import console
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from .ladders.timing import FilmCost
+
+DPI = 110
+
+chart_app = typer.Typer(
+    help="Charts of a ladder of models, from the cheapest to the reference: PNG and CSV.",
+    no_args_is_help=True,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+Slenderness = Annotated[float, typer.Option("--ld", help="Bearing length / diameter, 0.1 to 4.")]
+Folder = Annotated[Path, typer.Option("--out", help="Folder for PNG and CSV; made if absent.")]
+Json = Annotated[bool, typer.Option("--json", help="Print JSON on stdout instead of a table.")]
+OUT = Path("rotorfilm-charts")
+
+
+class Motion(StrEnum):
+    """Ranges of random states."""
+
+    LARGE = "large"
+    SMALL = "small"
+
+
+class Tabular(Protocol):
+    """A result that is a table."""
+
+    def columns(self) -> dict[str, list[object]]:
+        """Return the columns by their headings, units included."""
+
+
+@chart_app.command(epilog="Example: rotorfilm chart journal --ld 0.5 --json")
+def journal(
+    ld: Slenderness = 0.5,
+    states: Annotated[int, typer.Option(help="Random states.", min=1)] = 300,
+    seed: Annotated[int, typer.Option(help="Seed of the random states.", min=0)] = 1978,
+    motion: Annotated[Motion, typer.Option(help="Range of the states' velocities.")] = Motion.LARGE,
+    out: Folder = OUT,
+    json: Json = False,
+) -> None:
+    """Error of the force against its cost, for every journal film: chart_journal.png and .csv."""
+    with console.progress_display() as report:
+        report(0.0, "packages")
+        from .charts import plot_journal_accuracy
+        from .ladders import LARGE, SMALL, journal_accuracy
+
+        ranges = LARGE if motion is Motion.LARGE else SMALL
+        result = journal_accuracy(ld, states=states, ranges=ranges, seed=seed, report=report)
+        files = _write(out, "chart_journal", result, plot_journal_accuracy(result))
+        report(1.0, "done")
+    if json:
+        console.print_json(result)
+        return
+    rows = [
+        (rung.name, f"{rung.median_error:.2e}", f"{rung.high_error:.2e}", *_costs(rung.cost))
+        for rung in result.rungs
+    ]
+    console.print_columns(("film", "median error", "99 % error", "batch", "alone"), rows)
+    floor = ("its error, 99 %", f"{result.reference_high:.1e}")
+    console.print_rows("", [("reference", result.reference), floor, *files])
+
+
+@chart_app.command(epilog="Example: rotorfilm chart stability --ld 0.5 --json")
+def stability(ld: Slenderness = 0.5, out: Folder = OUT, json: Json = False) -> None:
+    """Whirl threshold by every journal film, and where each fails: chart_stability.png and .csv."""
+    with console.progress_display() as report:
+        report(0.0, "packages")
+        from .charts import plot_journal_stability
+        from .charts.whirl_verdicts import verdicts
+        from .ladders import journal_stability
+
+        result = journal_stability(ld, report=report)
+        files = _write(out, "chart_stability", result, plot_journal_stability(result))
+        report(1.0, "done")
+    if json:
+        console.print_json(result)
+        return
+    rows = [(rung.name, *(cell.text for cell in verdicts(result, rung))) for rung in result.rungs]
+    headings = ("film", "off by at most", "wrong at eps", "tension, large motion", "|Cxy - Cyx| / max |C|")
+    console.print_columns(headings, rows)
+    console.print_rows("", [("reference", result.reference), *files])
+
+
+def _write(out: Path, name: str, result: Tabular, axes: Sequence[Axes]) -> list[tuple[str, str]]:
+    """Write chart and table; return the rows that name them."""
+    from .charts import save
+    from .results import write_csv
+
+    out.mkdir(parents=True, exist_ok=True)
+    chart = save(axes[0], out / f"{name}.png", dpi=DPI)
+    table = write_csv(out / f"{name}.csv", result.columns())
+    return [("chart", str(chart)), ("table", str(table))]
+
+
+def _costs(cost: FilmCost) -> tuple[str, str]:
+    return f"{1e6 * cost.force_time:.3g} us", f"{1e6 * cost.call_time:.3g} us"

@@ -1,0 +1,22 @@
+"""Colors of the charts: one for each family of films, the same in every chart."""
+
+from __future__ import annotations
+
+FAMILY_COLORS = {
+    "short film": "#8c564b",
+    "published": "#e377c2",
+    "fixed arc": "#d62728",
+    "rotating arc": "#ff7f0e",
+    "Reynolds arc": "#a08000",
+    "free arc": "#2ca02c",
+    "2-D": "#17a0b8",
+    "2-D extrapolated": "#1f4fb4",
+    "map": "#000000",
+}
+"""Colors by the family of a rung."""
+
+FRONT = "#7030a0"
+"""Color of a Pareto front."""
+
+BAD, DOUBTFUL, GOOD = "#f4b6b0", "#fbe3a8", "#cfe8cf"
+"""Backgrounds of verdicts."""

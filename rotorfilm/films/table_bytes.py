@@ -1,0 +1,69 @@
+"""How tables lie in files: a mark, a version, a checksum and sizes, then little-endian numbers."""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import RotorfilmError
+from ..model import Array
+
+_HEADER = struct.Struct("<8sIIiiii")
+
+Sizes = tuple[int, int, int, int]
+
+Layout = tuple[tuple[str, int], ...]
+"""Little-endian dtype and count of each array of a table."""
+
+
+def seal(mark: bytes, version: int, sizes: Sizes, *arrays: Array | NDArray[np.int32]) -> bytes:
+    """Return the bytes of a table; the mark has eight of them."""
+    body = b"".join(array.astype(array.dtype.newbyteorder("<")).tobytes() for array in arrays)
+    return _HEADER.pack(mark, version, zlib.crc32(body), *sizes) + body
+
+
+def unseal(
+    kind: str, mark: bytes, version: int, layout: Callable[[Sizes], Layout], content: bytes
+) -> tuple[Any, ...]:
+    """Return the sizes, and then as floats the arrays that `seal` wrote.
+
+    Parameters
+    ----------
+    kind : str
+        What messages call the table.
+    mark, version
+        As given to `seal`.
+    layout : callable
+        The arrays of a table of given sizes; empty where sizes cannot be.
+    content : bytes
+
+    Raises
+    ------
+    RotorfilmError
+        If the content is not such a table, of another version, truncated or damaged.
+    """
+    if len(content) < _HEADER.size or not content.startswith(mark):
+        raise RotorfilmError(f"{kind}: the content does not begin with the mark of a {kind}")
+    _, found, checksum, *entries = _HEADER.unpack_from(content)
+    sizes: Sizes = (entries[0], entries[1], entries[2], entries[3])
+    if found != version:
+        raise RotorfilmError(f"{kind}: version must be {version}, got {found}")
+    arrays = layout(sizes)
+    expected = _HEADER.size + sum(np.dtype(dtype).itemsize * count for dtype, count in arrays)
+    if not arrays or len(content) != expected:
+        raise RotorfilmError(f"{kind}: size must be {expected} bytes for {sizes}, got {len(content)}")
+    if zlib.crc32(content[_HEADER.size :]) != checksum:
+        raise RotorfilmError(f"{kind}: the checksum does not fit, the content is damaged")
+    return (sizes, *_arrays(arrays, content))
+
+
+def _arrays(layout: Layout, content: bytes) -> Iterator[Array]:
+    start = _HEADER.size
+    for kind, count in layout:
+        yield np.frombuffer(content, dtype=kind, offset=start, count=count).astype(float)
+        start += np.dtype(kind).itemsize * count

@@ -1,0 +1,110 @@
+"""Charts of a ladder: verdicts, marks and labels."""
+
+import numpy as np
+import pytest
+
+from rotorfilm.charts import new_axes, plot_journal_accuracy, plot_journal_stability
+from rotorfilm.charts.labels import Label, place_labels
+from rotorfilm.charts.palette import BAD, DOUBTFUL, FAMILY_COLORS, GOOD
+from rotorfilm.charts.whirl_verdicts import verdicts
+from rotorfilm.ladders import (
+    LARGE,
+    JournalAccuracy,
+    JournalStability,
+    RungAccuracy,
+    RungStability,
+    journal_rungs,
+)
+from rotorfilm.ladders.timing import FilmCost
+
+
+def accuracy(family, time, error):
+    cost = FilmCost(force_time=time, call_time=10.0 * time, batch=128)
+    return RungAccuracy(
+        family=family, label="x", median_error=0.1 * error, high_error=error, worst_error=error,
+        tension_share=0.0, cost=cost,
+    )  # fmt: skip
+
+
+def stability(family, parameters, exact, *, rank_one=False, asymmetry=0.0, share=0.0):
+    pairs = zip(parameters, exact, strict=True)
+    return RungStability(
+        family=family,
+        label="x",
+        speed_parameter=parameters,
+        deviation=tuple(None if None in pair else pair[0] / pair[1] - 1.0 for pair in pairs),
+        reasons=tuple("none" if value is None else "" for value in parameters),
+        rank_one=(rank_one,) * len(parameters),
+        asymmetry=(asymmetry,) * len(parameters),
+        static_tension=(0.0,) * len(parameters),
+        tension_share=share,
+    )
+
+
+@pytest.fixture
+def thresholds():
+    exact = (2.6, 2.5, None)
+    return JournalStability(
+        slenderness=0.5,
+        eccentricity_ratio=(0.2, 0.5, 0.9),
+        speed_parameter=exact,
+        reference="2-D",
+        reference_error=1e-3,
+        rungs=(
+            stability("map", exact, exact),
+            stability("fixed arc", (2.6, 2.0, 4.0), exact, share=0.8),
+            stability("published", (None, None, None), exact, rank_one=True, asymmetry=0.5),
+        ),
+    )
+
+
+def test_every_family_has_a_color():
+    assert {rung.family for rung in journal_rungs()} == set(FAMILY_COLORS)
+    assert len(set(FAMILY_COLORS.values())) == len(FAMILY_COLORS)
+
+
+def test_verdicts_tell_the_four_faults(thresholds):
+    good, fixed, first = (verdicts(thresholds, rung) for rung in thresholds.rungs)
+    assert [cell.text for cell in good] == ["0 %", "nowhere", "none", "0"]
+    assert {cell.color for cell in good} == {GOOD}
+    assert [cell.text for cell in fixed] == ["20 %", "0.5 to 0.9", "80 % of states", "0"]
+    assert [cell.color for cell in fixed] == [BAD, BAD, BAD, GOOD]
+    assert [cell.text for cell in first] == ["rank-1 damping", "0.2 to 0.5", "none", "50 %"]
+    assert first[3].color == DOUBTFUL
+
+
+def test_stability_marks_missing_thresholds_and_dots_wrong_ones(thresholds):
+    top, _, table = plot_journal_stability(thresholds)
+    crosses = [line for line in top.get_lines() if line.get_marker() == "x"]
+    np.testing.assert_array_equal(crosses[0].get_xdata(), [0.2, 0.5])
+    solid = [line for line in top.get_lines() if line.get_linestyle() == "-" and len(line.get_xdata()) == 3]
+    np.testing.assert_array_equal(solid[1].get_ydata(), [2.6, np.nan, np.nan])
+    assert "published x" in [text.get_text() for text in table.texts]
+
+
+def test_accuracy_draws_both_costs_and_the_gain_of_the_map():
+    rungs = (accuracy("short film", 1e-6, 1.0), accuracy("2-D", 3.5e-3, 1e-4), accuracy("map", 1e-7, 1e-5))
+    result = JournalAccuracy(
+        slenderness=0.5, ranges=LARGE, states=9, seed=1, squeeze_share=0.5, reference="2-D",
+        reference_median=1e-6, reference_high=1e-5, rungs=rungs,
+    )  # fmt: skip
+    batch, single = plot_journal_accuracy(result)
+    filled = [line for line in batch.get_lines() if line.get_marker() == "o" and line.get_markersize() == 7]
+    np.testing.assert_allclose([line.get_xdata()[0] for line in filled], [1.0, 3500.0, 0.1])
+    np.testing.assert_allclose([line.get_ydata()[0] for line in filled], [1.0, 1e-4, 1e-5])
+    assert "map 35 000 times cheaper" in [text.get_text() for text in batch.texts]
+    assert batch.get_ylim() == single.get_ylim()
+    assert "9 random states (seed 1)" in batch.get_figure().get_suptitle()
+
+
+def test_labels_of_close_points_do_not_overlap():
+    axes = new_axes("crowded")
+    x, y = np.random.default_rng(1).uniform(0.3, 0.7, (2, 12))
+    axes.set(xlim=(0.0, 1.0), ylim=(0.0, 1.0))
+    place_labels(axes, [Label(*point, "a label", "k") for point in zip(x, y, strict=True)])
+    figure = axes.get_figure()
+    figure.draw_without_rendering()
+    boxes = [text.get_window_extent() for text in axes.texts]
+    assert len(boxes) == 12
+    overlaps = [(a, b) for i, a in enumerate(boxes) for b in boxes[:i] if a.overlaps(b)]
+    assert not overlaps
