@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
@@ -70,8 +71,22 @@ class MapFilm:
         """Return this film in one bearing, in SI units; see `law.BindableFilm`."""
         return BoundMap(JournalKernel(self._kernel(slenderness), clearance, force_scale), clearance)
 
+    def native(self) -> tuple[str, Mapping[str, Array]]:
+        """Return the kernel and its tables; see `law.NativeFilm`."""
+        table = self._table
+        return "journal", {
+            "coefficients": table.coefficients,
+            "center": table.center,
+            "range": np.array(table.slenderness_range),
+            "reach": np.array([table.reach]),
+        }
+
+    @property
+    def _table(self) -> MapTable:
+        return packaged_table() if self.table is None else self.table
+
     def _kernel(self, slenderness: float) -> MapKernel:
-        return _collapsed(packaged_table() if self.table is None else self.table, float(slenderness))
+        return _collapsed(self._table, float(slenderness))
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,6 +1,16 @@
-"""Thin view of the C library: the kernels that Python and the native FMUs share."""
+"""Thin view of the C library, whose kernels Python and the native FMUs share."""
 
-from .kernels import JournalKernel, MapKernel, Status
+from .kernels import JournalKernel, MapKernel, Status, slice_table
 from .library import NativeLibraryError
+from .spec import HasKernel, NativeParameter, NativeSpec
 
-__all__ = ["JournalKernel", "MapKernel", "NativeLibraryError", "Status"]
+__all__ = [
+    "HasKernel",
+    "JournalKernel",
+    "MapKernel",
+    "NativeLibraryError",
+    "NativeParameter",
+    "NativeSpec",
+    "Status",
+    "slice_table",
+]

@@ -42,6 +42,20 @@ class JournalStruct(ctypes.Structure):
     ]
 
 
+class MapTableStruct(ctypes.Structure):
+    """rf_map_table of map_table.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("cells_s", c_int32),
+        ("cells_x", c_int32),
+        ("cells_t", c_int32),
+        ("low", c_double),
+        ("high", c_double),
+        ("center", c_void_p),
+        ("coefficients", c_void_p),
+    ]
+
+
 _ROWS = [c_void_p, c_size_t]
 _BATCH: dict[str, list[Any]] = {
     "rf_map_force_batch": [c_void_p, c_size_t, *_ROWS * 3, c_void_p],
@@ -52,6 +66,7 @@ _BATCH: dict[str, list[Any]] = {
 _SCALAR: dict[str, list[Any]] = {
     "rf_journal_call": [c_void_p, *[c_double] * 5, c_void_p],
     "rf_journal_jacobian": [c_void_p, *[c_void_p] * 3],
+    "rf_map_slice": [c_void_p, c_double, c_void_p, c_void_p],
 }
 
 

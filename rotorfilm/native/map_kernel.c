@@ -78,6 +78,14 @@ static int32_t cell(double at, int32_t cells, double *rest)
     return i;
 }
 
+size_t rf_spline_weights(double at, int32_t cells, double weights[ORDER])
+{
+    double rest;
+    const int32_t first = cell(at, cells, &rest);
+    values(rest, weights);
+    return (size_t)first;
+}
+
 static const double *place(const rf_map *map, double x, double s, double *u, double *v)
 {
     const int32_t i = cell(x / map->x_end * map->cells_x, map->cells_x, u);
@@ -139,10 +147,13 @@ static field continued_field(const rf_map *map, double x, double s)
     return at;
 }
 
+/* hypot() of some C libraries is too new for the machines that an FMU may meet. */
 static double length(double x, double y)
 {
-    const double squared = x * x + y * y;
-    return squared > SMALLEST && squared < LARGEST ? sqrt(squared) : hypot(x, y);
+    const double squared = x * x + y * y, size = fmax(fabs(x), fabs(y));
+    if ((squared > SMALLEST && squared < LARGEST) || size == 0.0)
+        return sqrt(squared);
+    return size * sqrt((x / size) * (x / size) + (y / size) * (y / size));
 }
 
 static int orient(const double *e, const double *w, frame *at)

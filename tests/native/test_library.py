@@ -36,7 +36,7 @@ def test_only_the_interface_is_visible():
     )
     symbols = [line.split()[-1] for line in listed.stdout.splitlines()]
     assert symbols
-    assert all(name.startswith("rf_") for name in symbols)
+    assert all(name.startswith(("rf_", "fmi2", "fmi3")) for name in symbols)
 
 
 def test_missing_library_says_what_to_do(monkeypatch):
