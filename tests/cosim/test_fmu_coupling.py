@@ -165,10 +165,10 @@ def rewritten(source: Path, target: Path, old: str, new: str) -> Path:
 def test_an_fmu_that_cannot_run_here_is_named(fmus, tmp_path_factory):
     folder = tmp_path_factory.mktemp("strange")
     exchange = rewritten(fmus["film"], folder / "me.fmu", "CoSimulation", "ModelExchange")
-    with pytest.raises(FmuError, match=r"fmu must be an FMI 2.0 Co-Simulation FMU, got FMI 2.0 in .*me.fmu"):
+    with pytest.raises(FmuError, match=r"fmu must have the interface Co-Simulation, got 'film' without"):
         cosimulate(fmus["rotor"], exchange, macro_step=1e-4, duration=1e-3)
     bare = rewritten(fmus["film"], folder / "bare.fmu", "", "")
-    with pytest.raises(FmuError, match=r"FMU .*bare.fmu' cannot be instantiated"):
+    with pytest.raises(FmuError, match="FMU .film. cannot be instantiated: Cannot find shared library"):
         cosimulate(fmus["rotor"], bare, macro_step=1e-4, duration=1e-3)
     twice = rewritten(fmus["film"], folder / "twice.fmu", '"film.vx"', '"other.x"')
     with pytest.raises(InputError, match="input names must differ without their component, got 'x' twice"):

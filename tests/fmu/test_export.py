@@ -13,12 +13,12 @@ from fmpy.validation import validate_fmu
 
 from rotorfilm.bearings.journal import JournalBearing
 from rotorfilm.errors import FmuError, InputError
-from rotorfilm.films import RotatingArc, SplittingFilm
+from rotorfilm.films import RotatingArc, ShortFilm, SplittingFilm
 from rotorfilm.fmu import archive, export_fmu
 from rotorfilm.rotors.rigid import RigidRotor
 from rotorfilm.units import UNITS
 
-BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
+BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())
 SPLIT = replace(BEARING, film=SplittingFilm(order=(2, 1), rupture=RotatingArc()))
 ROTOR = RigidRotor(mass=50.0, speed=157.0, unbalance=8e-4)
 
@@ -161,12 +161,12 @@ def test_the_component_is_named_after_the_class_by_default(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"version": "3.0"}, r"version must be '2\.0' for the python backend.*got '3\.0'"),
-        ({"version": "1.0"}, r"version must be '2\.0', got '1\.0'"),
-        ({"backend": "native"}, "backend must be 'python', got 'native'"),
+        ({"version": "1.0"}, r"version must be one of \['2\.0', '3\.0'\], got '1\.0'"),
+        ({"backend": "java"}, r"backend must be one of \['native', 'python'\] or None, got 'java'"),
+        ({"platforms": "mine"}, r"platforms must be one of \['host', 'all'\], got 'mine'"),
         ({"component": "a.b"}, r"component must be an ASCII identifier without dots, got 'a\.b'"),
         ({"start": {"z": 1.0}}, r"start must have keys from the inputs \['x', .*got 'z'"),
-        ({"start": {"x": 2e-4}}, r"start must be values at which the model has an output, got .*0\.0002"),
+        ({"start": {"x": 2e-4}}, r"start must be values at which the model has an output, got \[0\.0002, .*inside the clearance"),
         ({"path": "a.zip"}, r"path must end in \.fmu, got 'a\.zip'"),
         ({"start": {"x": np.nan}}, r"start\['x'\] must be finite, got nan"),
         ({"stop_time": 0.0}, "stop_time must be finite and positive, got 0.0"),
@@ -176,6 +176,20 @@ def test_the_component_is_named_after_the_class_by_default(tmp_path):
 def test_bad_arguments_are_refused(arguments, message, tmp_path):
     with pytest.raises(InputError, match=message):
         export_fmu(**{"model": BEARING, "path": tmp_path / "a.fmu", **arguments})
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"version": "3.0"}, r"version must be '2\.0' for the python backend.*got '3\.0'"),
+        ({"platforms": "all"}, "platforms must be 'host' for the python backend.*got 'all'"),
+        ({"backend": "native"}, r"model must have a kernel .*got JournalBearing\(.*use backend='python'"),
+    ],
+)
+def test_what_a_model_without_kernel_cannot_is_refused(arguments, message, tmp_path):
+    with pytest.raises(FmuError, match=message):
+        export_fmu(BEARING, tmp_path / "a.fmu", **arguments)
     assert list(tmp_path.iterdir()) == []
 
 
