@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from importlib.metadata import distribution, version
 from importlib.resources import files
+from pathlib import PurePosixPath
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from ..errors import FmuError
@@ -16,6 +17,8 @@ EPOCH = (1980, 1, 1, 0, 0, 0)
 BINARIES = ("linux64/libpythonfmu-export.so", "win64/pythonfmu-export.dll")
 """PythonFMU's libraries for the FMI 2.0 platforms that it supports."""
 
+COMPILED = {".so", ".dll", ".dylib"}
+"""Files that run on one platform."""
 
 VERIFIED = "0.7.0"
 """The version of pythonfmu for which `pythonfmu_api` counts references."""
@@ -44,16 +47,30 @@ def to_zip(contents: Mapping[str, bytes]) -> bytes:
     return buffer.getvalue()
 
 
-def binaries(identifier: str) -> dict[str, bytes]:
+def binaries(identifier: str, resources: Iterable[str] = ()) -> dict[str, bytes]:
     """Return PythonFMU's libraries by their path in the FMU.
+
+    Parameters
+    ----------
+    identifier : str
+        Name of the libraries.
+    resources : iterable of str
+        Files in the FMU. Where compiled ones are among them, the FMU is for their platforms alone.
 
     Raises
     ------
     FmuError
-        If the installed pythonfmu lacks one.
+        If the installed pythonfmu lacks a library, or has none for the platform of the compiled files.
     """
+    compiled = {PurePosixPath(name).suffix for name in resources} & COMPILED
+    wanted = [name for name in BINARIES if not compiled or PurePosixPath(name).suffix in compiled]
+    if not wanted:
+        raise FmuError(
+            "model must not need compiled code on a platform for which PythonFMU has no library, "
+            f"got code in {sorted(compiled)}"
+        )
     found = {}
-    for name in BINARIES:
+    for name in wanted:
         source = files("pythonfmu").joinpath("resources", "binaries", name)
         if not source.is_file():
             raise FmuError(f"pythonfmu must contain resources/binaries/{name}, install pythonfmu {VERIFIED}")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Callable, Sequence
-from dataclasses import fields
 from os import PathLike
 from pathlib import Path
 from typing import Any, NamedTuple
+from xml.etree.ElementTree import parse
 
 import numpy as np
 from fmpy.validation import validate_fmu
@@ -100,28 +100,30 @@ def describe_fmu(path: str | PathLike[str]) -> dict[str, Any]:
     """
     with extracted(path) as (description, folder):
         binaries = Path(folder, "binaries")
-        interfaces = {"ModelExchange": description.modelExchange, "CoSimulation": description.coSimulation}
+        interfaces = _interfaces(folder)
         return {
             "fmi_version": description.fmiVersion,
             "model_name": description.modelName,
             "token": description.guid,
             "description": description.description,
             "generation_tool": description.generationTool,
-            "interfaces": [name for name, interface in interfaces.items() if interface is not None],
-            "capabilities": _capabilities(interfaces),
+            "interfaces": sorted(interfaces),
+            "capabilities": sorted(set.intersection(*map(_true, interfaces.values()))) if interfaces else [],
             "platforms": sorted(p.name for p in binaries.iterdir()) if binaries.is_dir() else [],
             "variables": [_row(variable) for variable in description.modelVariables],
         }
 
 
-def _capabilities(interfaces: dict[str, Any]) -> list[str]:
-    """Return the capabilities that every interface has."""
-    found = [
-        {field.name for field in fields(interface) if getattr(interface, field.name) is True}
-        for interface in interfaces.values()
-        if interface is not None
-    ]
-    return sorted(set.intersection(*found)) if found else []
+def _interfaces(folder: str) -> dict[str, dict[str, str]]:
+    """Return the attributes of each interface; fmpy 0.3 does not read all of them."""
+    root = parse(Path(folder, "modelDescription.xml")).getroot()
+    names = ("ModelExchange", "CoSimulation", "ScheduledExecution")
+    found = {name: root.find(name) for name in names}
+    return {name: dict(element.attrib) for name, element in found.items() if element is not None}
+
+
+def _true(attributes: dict[str, str]) -> set[str]:
+    return {name for name, value in attributes.items() if value in ("true", "1")}
 
 
 def _row(variable: Any) -> dict[str, Any]:
@@ -209,7 +211,7 @@ def _visit(subject: _Subject, measure: Callable[[Any, Instance, Array], float]) 
 def _derivative_error(description: Any, instance: Instance, inputs: Array) -> float:
     unknowns, knowns, nominal = _unknowns(description), _knowns(description), _known_nominals(description)
     instance.set(_references(description, "input"), inputs.tolist())
-    exact = _columns(instance, unknowns, knowns)
+    exact, values = _columns(instance, unknowns, knowns), np.abs(instance.get(unknowns))
     moved = np.stack(
         [
             _difference(description, instance, k, DIFFERENCE_STEP * nominal[k], inputs)
@@ -218,8 +220,8 @@ def _derivative_error(description: Any, instance: Instance, inputs: Array) -> fl
         axis=1,
     )
     instance.set(_references(description, "input"), inputs.tolist())
-    scaled = np.abs((exact - moved) * nominal)
-    return float(np.max(scaled / np.maximum(np.abs(exact * nominal).max(axis=1, keepdims=True), 1e-300)))
+    # What does not depend on anything has differences of roundoff, to be seen beside its value.
+    return _deviation(exact * nominal, moved * nominal, DIFFERENCE_STEP * values)
 
 
 def _adjoint_error(description: Any, instance: Instance, inputs: Array) -> float:
@@ -228,8 +230,14 @@ def _adjoint_error(description: Any, instance: Instance, inputs: Array) -> float
     instance.set(_references(description, "input"), inputs.tolist())
     exact = _columns(instance, unknowns, knowns)
     rows = np.array([instance.adjoint([unknown], knowns, [1.0]) for unknown in unknowns])
-    scaled = np.abs((rows - exact) * nominal)
-    return float(np.max(scaled / np.maximum(np.abs(exact * nominal).max(axis=1, keepdims=True), 1e-300)))
+    return _deviation(exact * nominal, rows * nominal, np.zeros(len(unknowns)))
+
+
+def _deviation(exact: Array, other: Array, floor: Array) -> float:
+    """Return the largest deviation relative to the largest entry of its row, or its floor."""
+    scale = np.maximum(np.abs(exact).max(axis=1, initial=0.0), floor)
+    largest = np.abs(other - exact).max(axis=1, initial=0.0)
+    return float(np.max(largest / np.where(scale > 0.0, scale, 1.0), initial=0.0))
 
 
 def _columns(instance: Instance, unknowns: Sequence[int], knowns: Sequence[int]) -> Array:
@@ -286,8 +294,9 @@ def _absent(remark: str) -> CheckItem:
 
 
 def _provides(subject: _Subject, *names: str) -> bool:
-    interface = subject.description.modelExchange or subject.description.coSimulation
-    return any(getattr(interface, name, False) for name in names)
+    """Return whether every interface has a capability, spelled one way or the other."""
+    interfaces = _interfaces(subject.folder)
+    return bool(interfaces) and all(_true(attributes) & set(names) for attributes in interfaces.values())
 
 
 def _variables(description: Any, causality: str) -> list[Any]:

@@ -15,9 +15,9 @@ PYTHON = {
         "before the simulation starts."
     ),
     "Requirements": (
-        "The model runs in Python (3.11 or later, with numpy and scipy) through PythonFMU's binaries for "
-        "64-bit Linux and Windows. A host that is not Python itself must make libpython available to the "
-        "library, on Linux for instance by LD_PRELOAD."
+        "The model runs in Python (3.11 or later, with numpy and scipy) through PythonFMU's libraries, on "
+        "the 64-bit platforms that the folder binaries lists. A host that is not Python itself must make "
+        "libpython available to the library, on Linux for instance by LD_PRELOAD."
     ),
     "Statuses": (
         "A value that is not finite, an attempt to set an output, or a state at which the model has no "

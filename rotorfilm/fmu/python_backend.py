@@ -79,7 +79,7 @@ def python_files(
     page = to_html(title, variables, PYTHON, json.dumps(data, indent=2))
     return {
         **_resources(data, component, start, bundle),
-        **binaries(component),
+        **binaries(component, bundle.files),
         **licenses((PACKAGE, "pythonfmu")),
         "documentation/index.html": page,
     }

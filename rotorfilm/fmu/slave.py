@@ -7,6 +7,7 @@ import math
 import sys
 import warnings
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
@@ -56,6 +57,7 @@ class ModelSlave(Fmi2Slave):
         self._inputs = _start_values(self._variables, "input")
         self._state = _start_values(self._variables, "local")
         self._output: list[float] | None = None
+        self._read_files()
 
     def setup_experiment(self, start_time: float, stop_time: float | None, tolerance: float | None) -> None:
         """Take over the start time [s]; the tolerance is fixed."""
@@ -134,6 +136,13 @@ class ModelSlave(Fmi2Slave):
         names = [variable.name for variable in self._variables if variable.causality != "output"]
         present = ", ".join(f"{name} = {value!r}" for name, value in zip(names, values, strict=True))
         return f"{self._name}: {type(error).__name__}: {error} (at time = {self._time!r}, {present})"
+
+    def _read_files(self) -> None:
+        """Evaluate the model once: what it reads from the FMU's folder, it reads while that is there."""
+        # A failure is told when the initialization ends, with the values that then count.
+        with suppress(Exception), warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            self._evaluate(self._time, self._state)
 
     def _start(self) -> None:
         self._outputs()
