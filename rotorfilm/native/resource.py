@@ -5,16 +5,15 @@ from __future__ import annotations
 import math
 import struct
 import zlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
 
 from ..errors import InputError
-from ..model import Array, Dynamic, Model
-from ..signals import Signal, to_fmi_name
-from .spec import NativeParameter, NativeSpec
+from ..model import Array
+from .spec import NativeSpec
 
 FILE_NAME = "rotorfilm.bin"
 MAGIC = b"RFILMRES"
@@ -63,34 +62,6 @@ class NativeVariable(NamedTuple):
     minimum: float = -math.inf
     maximum: float = math.inf
     tunable: bool = False
-
-
-def native_variables(
-    model: Model, spec: NativeSpec, component: str, start: Mapping[str, float]
-) -> tuple[NativeVariable, ...]:
-    """Return time, parameters, inputs, outputs, states and derivatives of `model`, in this order.
-
-    Parameters
-    ----------
-    model : Model
-    spec : NativeSpec
-        Its kernel.
-    component : str
-        Identifier in front of the dot of every name.
-    start : mapping of str to float
-        Start values of inputs by signal name; 0 where none is given.
-    """
-    initial = model.initial_state if isinstance(model, Dynamic) else np.zeros(0)
-    named = [to_fmi_name(component, f"state_{signal.name}") for signal in model.states]
-    states = [
-        NativeVariable(Role.STATE, name, float(value), signal.nominal)
-        for name, signal, value in zip(named, model.states, initial, strict=True)
-    ]
-    inputs = [_signal(Role.INPUT, component, signal, start) for signal in model.inputs]
-    outputs = [_signal(Role.OUTPUT, component, signal, {}) for signal in model.outputs]
-    derivatives = [NativeVariable(Role.DERIVATIVE, f"der({name})") for name in named]
-    parameters = [_parameter(component, parameter) for parameter in spec.parameters]
-    return (NativeVariable(Role.TIME, "time"), *parameters, *inputs, *outputs, *states, *derivatives)
 
 
 def pack(spec: NativeSpec, token: str, variables: Sequence[NativeVariable]) -> bytes:
@@ -157,20 +128,3 @@ def _text(what: str, text: str, size: int) -> bytes:
     if len(data) >= size or b"\0" in data:
         raise InputError(f"{what} must have less than {size} bytes, got {text!r}")
     return data
-
-
-def _signal(role: Role, component: str, signal: Signal, start: Mapping[str, float]) -> NativeVariable:
-    name = to_fmi_name(component, signal.name)
-    return NativeVariable(role, name, float(start.get(signal.name, 0.0)), signal.nominal)
-
-
-def _parameter(component: str, parameter: NativeParameter) -> NativeVariable:
-    return NativeVariable(
-        Role.PARAMETER,
-        to_fmi_name(component, parameter.name),
-        parameter.value,
-        parameter.nominal,
-        parameter.minimum,
-        parameter.maximum,
-        parameter.tunable,
-    )

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from fmpy.fmi3 import FMU3Model, FMU3Slave
 
-from rotorfilm.native.resource import FILE_NAME, native_variables, pack
+from rotorfilm.native.resource import FILE_NAME, NativeVariable, Role, pack
 
 TOKEN = "{8c4e810f-3df3-4a00-8276-176fa3c9f000}"
 NATIVE = Path(__file__).parents[2] / "rotorfilm" / "native"
@@ -91,6 +91,26 @@ def library_path():
     return next(path for path in files("rotorfilm.native").iterdir() if path.name.startswith("rotorfilm."))
 
 
+def native_variables(model, spec, start):
+    """Return time, parameters, inputs, outputs, states and derivatives of a model that is called m."""
+    initial = getattr(model, "initial_state", np.zeros(0))
+    states = [
+        NativeVariable(Role.STATE, f"m.state_{s.name}", float(value), s.nominal)
+        for s, value in zip(model.states, initial, strict=True)
+    ]
+    return (
+        NativeVariable(Role.TIME, "time"),
+        *(
+            NativeVariable(Role.PARAMETER, f"m.{p.name}", p.value, p.nominal, p.minimum, p.maximum, p.tunable)
+            for p in spec.parameters
+        ),
+        *(NativeVariable(Role.INPUT, f"m.{s.name}", float(start.get(s.name, 0.0))) for s in model.inputs),
+        *(NativeVariable(Role.OUTPUT, f"m.{s.name}") for s in model.outputs),
+        *states,
+        *(NativeVariable(Role.DERIVATIVE, f"der({state.name})") for state in states),
+    )
+
+
 @pytest.fixture
 def unzipped(tmp_path):
     """Return a function that writes the folder of a model with a kernel."""
@@ -99,7 +119,7 @@ def unzipped(tmp_path):
     def write(model, start=None, folder="an fmu", token=TOKEN):
         root = tmp_path / folder
         spec = model.native()
-        variables = native_variables(model, spec, "m", start or {})
+        variables = native_variables(model, spec, start or {})
         for name in FOLDERS:
             (root / name).mkdir(parents=True, exist_ok=True)
         for name in FOLDERS[:2]:
@@ -130,4 +150,5 @@ def compiled(tmp_path):
         assert ran.returncode == 0, ran.stderr
         return program
 
+    build.native, build.here = NATIVE, Path(__file__).parent
     return build
