@@ -421,6 +421,22 @@ static const double *entry(const rf_instance *c, const rf_variable *unknown, con
     return matrix + unknown->index * (by_input ? m : n) + known->index;
 }
 
+/* Whether all these variables can be derived by each other. */
+static rf_answer require_entries(rf_instance *c, const unsigned *unknowns, size_t unknown_count,
+                                 const unsigned *knowns, size_t known_count)
+{
+    for (size_t i = 0; i < unknown_count * known_count; ++i) {
+        const rf_variable *unknown = find(c, unknowns[i / known_count], "partial derivatives");
+        const rf_variable *known = find(c, knowns[i % known_count], "partial derivatives");
+        if (!unknown || !known)
+            return RF_ERROR;
+        if (!entry(c, unknown, known))
+            return rf_log(c, RF_ERROR, RF_LOG_ERROR, "no derivative of %s by %s is provided", unknown->name,
+                          known->name);
+    }
+    return RF_FINE;
+}
+
 rf_answer rf_differentiate(rf_instance *c, const unsigned *unknowns, size_t unknown_count, const unsigned *knowns,
                            size_t known_count, const double *seed, double *sensitivity, int transposed)
 {
@@ -430,22 +446,19 @@ rf_answer rf_differentiate(rf_instance *c, const unsigned *unknowns, size_t unkn
     if (status == RF_OK)
         status = c->type->jacobian(c->kernel, &at, &c->jacobian, &why);
     const rf_answer answer = judged(c, status, "partial derivatives", &why);
-    if (answer > RF_WARNING)
-        return answer;
-    for (size_t i = 0; i < unknown_count * known_count; ++i) {
-        const rf_variable *unknown = find(c, unknowns[i / known_count], "partial derivatives");
-        const rf_variable *known = find(c, knowns[i % known_count], "partial derivatives");
-        if (!unknown || !known || !entry(c, unknown, known))
-            return unknown && known ? rf_log(c, RF_ERROR, RF_LOG_ERROR, "no derivative of %s by %s is provided",
-                                             unknown->name, known->name) : RF_ERROR;
-    }
-    for (size_t i = 0; i < (transposed ? known_count : unknown_count); ++i)
-        sensitivity[i] = 0.0;
-    for (size_t i = 0; i < unknown_count; ++i)
-        for (size_t j = 0; j < known_count; ++j) {
-            const double slope = *entry(c, c->resource->variables + unknowns[i], c->resource->variables + knowns[j]);
-            sensitivity[transposed ? j : i] += slope * seed[transposed ? i : j];
+    if (answer > RF_WARNING || require_entries(c, unknowns, unknown_count, knowns, known_count) != RF_FINE)
+        return answer > RF_WARNING ? answer : RF_ERROR;
+    const size_t rows = transposed ? known_count : unknown_count, columns = transposed ? unknown_count : known_count;
+    for (size_t i = 0; i < rows; ++i) {
+        double sum = 0.0;
+        for (size_t j = 0; j < columns; ++j) {
+            const size_t unknown = unknowns[transposed ? j : i], known = knowns[transposed ? i : j];
+            sum += seed[j] * *entry(c, c->resource->variables + unknown, c->resource->variables + known);
         }
+        if (!isfinite(sum))
+            return rf_log(c, RF_ERROR, RF_LOG_ERROR, "partial derivative %zu is not finite", i);
+        sensitivity[i] = sum;
+    }
     return answer;
 }
 

@@ -17,37 +17,40 @@ static void kinematics(const rf_journal *journal, const double *state, double *e
         w[0] = w[1] = 0.0;
 }
 
-/* Positive for anything that is not a finite state: fmax above would hide a not-a-number. */
-static int is_broken(const double *state)
+/* Whether one is not finite: fmax above would hide a not-a-number, and a product of finite numbers overflows. */
+static int is_broken(const double *values, int count)
 {
     double sum = 0.0;
-    for (int i = 0; i < 5; ++i)
-        sum += 0.0 * state[i];
+    for (int i = 0; i < count; ++i)
+        sum += 0.0 * values[i];
     return !(sum == 0.0);
+}
+
+static int break_all(double *values, int count)
+{
+    for (int i = 0; i < count; ++i)
+        values[i] = NAN;
+    return RF_NOT_FINITE;
 }
 
 int rf_journal_force(const rf_journal *journal, const double *state, double *f)
 {
     double e[2], w[2];
-    if (is_broken(state)) {
-        f[0] = f[1] = NAN;
-        return RF_NOT_FINITE;
-    }
+    if (is_broken(state, 5))
+        return break_all(f, 2);
     kinematics(journal, state, e, w);
     const int status = rf_map_force(&journal->map, e, w, f);
     f[0] *= journal->force_scale;
     f[1] *= journal->force_scale;
-    return status;
+    return status <= RF_UNDEFINED && is_broken(f, 2) ? break_all(f, 2) : status;
 }
 
 int rf_journal_jacobian(const rf_journal *journal, const double *state, double *f, double *jacobian)
 {
     double e[2], w[2], film[8];
-    if (is_broken(state)) {
-        f[0] = f[1] = NAN;
-        for (int i = 0; i < 10; ++i)
-            jacobian[i] = NAN;
-        return RF_NOT_FINITE;
+    if (is_broken(state, 5)) {
+        break_all(f, 2);
+        return break_all(jacobian, 10);
     }
     kinematics(journal, state, e, w);
     const int status = rf_map_jacobian(&journal->map, e, w, f, film);
@@ -62,6 +65,10 @@ int rf_journal_jacobian(const rf_journal *journal, const double *state, double *
         row[2] = per_c * by[2];
         row[3] = per_c * by[3];
         row[4] = 0.5 * k * (by[2] * e[1] - by[3] * e[0]);
+    }
+    if (status <= RF_OUTSIDE && (is_broken(f, 2) || is_broken(jacobian, 10))) {
+        break_all(f, 2);
+        return break_all(jacobian, 10);
     }
     return status;
 }

@@ -199,3 +199,11 @@ def test_coefficients_must_fit():
         MapKernel(np.zeros((5, 6)), 1.0, 0.0)
     with pytest.raises(ValueError, match="speed must have shape"):
         JournalKernel(MAP, 1e-4, 1.0).force(np.zeros((2, 3)), np.zeros((2, 3)), np.zeros(2))
+
+
+def test_a_force_that_overflows_in_si_units_is_no_number():
+    journal = JournalKernel(MAP, 1e-4, 1e300)
+    assert journal.call(3e-5, 4e-5, 1e5, 0.0, 1e5)[2] == Status.NOT_FINITE
+    jacobian, status = journal.jacobian_at([3e-5, 4e-5, 1e5, 0.0, 1e5])
+    assert status == Status.NOT_FINITE
+    assert np.isnan(jacobian).all()

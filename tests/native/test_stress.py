@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from rotorfilm import JournalBearing, MapFilm, MapTable, RigidRotor, SpeedProfile
+from rotorfilm.fmu.linear_system import LinearSystem
 from rotorfilm.native.resource import FILE_NAME
 
 SANITIZERS = ["-g", "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
@@ -29,6 +30,16 @@ def small_bearing():
 
 def run_up():
     return RigidRotor(mass=5.0, speed=SpeedProfile((0.0, 0.002, 0.01), (1.0, 200.0, 100.0)), unbalance=1e-3)
+
+
+def state_space():
+    """Return a system that grows, with inputs and outputs at the references that the program counts on."""
+    A, B, C, D = (np.random.default_rng(6).normal(size=s) for s in ((4, 4), (4, 9), (2, 4), (2, 9)))
+    labels = (tuple(f"{kind}{k}" for k in range(count)) for kind, count in (("u", 9), ("y", 2), ("x", 4)))
+    inputs, outputs, states = labels
+    return LinearSystem(
+        A=100.0 * A, B=B, C=C, D=D, input_labels=inputs, output_labels=outputs, state_labels=states
+    )
 
 
 def sealed(content):
@@ -84,7 +95,8 @@ def run(program, *arguments):
 
 def test_no_misuse_and_no_damaged_file_breaks_an_instance(unzipped, stress, tmp_path):
     token = "a token"
-    good = [unzipped(m, folder=str(k), token=token) for k, m in enumerate((small_bearing(), run_up()))]
+    models = (small_bearing(), run_up(), state_space())
+    good = [unzipped(m, folder=str(k), token=token) for k, m in enumerate(models)]
     content = good[0].resource.read_bytes()
     bad = list(resources(tmp_path, damaged(content)))
     missing = tmp_path / "missing"
