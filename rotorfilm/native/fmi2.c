@@ -83,10 +83,10 @@ fmi2Status fmi2EnterInitializationMode(fmi2Component component)
 fmi2Status fmi2ExitInitializationMode(fmi2Component component)
 {
     CALL(fmi2ExitInitializationMode, RF_INITIALIZING);
-    if (rf_exit_initialization(c) != RF_FINE)
-        return fmi2Error;
-    rf_enter(c, c->co_simulation ? RF_STEPPING : RF_EVENT);
-    return fmi2OK;
+    const rf_answer answer = rf_exit_initialization(c);
+    if (answer <= RF_WARNING)
+        rf_enter(c, c->co_simulation ? RF_STEPPING : RF_EVENT);
+    return (fmi2Status)answer;
 }
 
 fmi2Status fmi2Terminate(fmi2Component component)

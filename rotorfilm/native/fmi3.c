@@ -93,10 +93,10 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean tolera
 fmi3Status fmi3ExitInitializationMode(fmi3Instance instance)
 {
     CALL(fmi3ExitInitializationMode, RF_INITIALIZING);
-    if (rf_exit_initialization(c) != RF_FINE)
-        return fmi3Error;
-    rf_enter(c, c->co_simulation && !c->event_mode ? RF_STEPPING : RF_EVENT);
-    return fmi3OK;
+    const rf_answer answer = rf_exit_initialization(c);
+    if (answer <= RF_WARNING)
+        rf_enter(c, c->co_simulation && !c->event_mode ? RF_STEPPING : RF_EVENT);
+    return (fmi3Status)answer;
 }
 
 fmi3Status fmi3EnterEventMode(fmi3Instance instance)

@@ -278,8 +278,10 @@ rf_answer rf_exit_initialization(rf_instance *c)
     rf_message why;
     if (apply_parameters(c, &why) != RF_OK)
         return failed(c, "parameters", &why);
-    rf_pass_event(c);
-    return RF_FINE;
+    const rf_answer answer = judged(c, evaluate_outputs(c, &why), "outputs", &why);
+    if (answer <= RF_WARNING)
+        rf_pass_event(c);
+    return answer;
 }
 
 rf_answer rf_reset(rf_instance *c)

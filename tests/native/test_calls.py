@@ -107,6 +107,16 @@ def test_parameters_that_do_not_fit_stop_the_initialization(unzipped, kind, refu
 
 
 @ALL
+def test_initialization_does_not_end_at_the_wall(unzipped, kind, refused):
+    film = unzipped(BEARING, {**START, "x": 2e-4}).open(kind)
+    with refused(ERROR, "inside the clearance"):
+        film.start()
+    film.set(x=START["x"])
+    film.fmu.exitInitializationMode()
+    np.testing.assert_allclose(film.get("force_x", "force_y"), direct(), rtol=1e-14)
+
+
+@ALL
 def test_what_cannot_be_set_stays(unzipped, kind, refused):
     rotor = unzipped(ROTOR).open(kind)
     rotor.set(state_x=3e-5, constant_speed=50.0)
