@@ -1,4 +1,7 @@
 /* FMI 3.0: names and rules of call order over instance.h. All variables are scalars of type Float64. */
+#if defined(__clang__)
+#pragma clang diagnostic ignored "-Wstrict-prototypes" /* in the header of the standard */
+#endif
 #include "fmi/fmi3Functions.h"
 
 #include "instance.h"
