@@ -158,7 +158,7 @@ def build(
 
 @fmu.command(epilog="Example: rotorfilm fmu check film.fmu")
 def check(file: FmuFile, json: Json = False) -> None:
-    """Check an FMU: description, derivatives, FMU states, its reference trajectory; exit with 1 if one fails."""
+    """Check description, derivatives, FMU states and reference trajectory; exit with 1 if one fails."""
     from .fmu import check_fmu
 
     items = check_fmu(file)

@@ -1,6 +1,8 @@
 """Draw the pictures that native FMUs carry, one for each kernel, into rotorfilm/fmu/data/.
 
     python tools/draw_icons.py
+
+They are 96 pixels wide, on no background.
 """
 
 from pathlib import Path

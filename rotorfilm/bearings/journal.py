@@ -259,8 +259,8 @@ class JournalBearing:
     def native(self) -> NativeSpec | None:
         """Return the kernel of the C library that is this bearing; None if its film or geometry has none.
 
-        Nor has a subclass, which may differ from it. Its parameters are the dimensions and the viscosity; radius and length may change as long as
-        length / diameter stays within the table of the film.
+        Nor has a subclass, which may differ from it. Its parameters are the dimensions and the viscosity;
+        radius and length may change as long as length / diameter stays within the table of the film.
         """
         plain = type(self) is JournalBearing and self.geometry.plain
         if not (plain and isinstance(self.film, NativeFilm)):

@@ -71,7 +71,7 @@ class FmuSlave:
             return dict(zip(references, self._instance.get(list(references.values())), strict=True))
 
     def jacobian(self, outputs: Sequence[str], inputs: Sequence[str]) -> Array:
-        """Return d(outputs)/d(inputs), shape (n_outputs, n_inputs), at the present state; native FMUs know it."""
+        """Return d(outputs)/d(inputs), shape (n_outputs, n_inputs), now; native FMUs know it."""
         unknowns = [self._references["output"][name] for name in outputs]
         knowns = [self._references["input"][name] for name in inputs]
         with self._reported("reading derivatives"):

@@ -23,8 +23,8 @@ REFERENCE_TOLERANCE = 1e-8
 DERIVATIVE_TOLERANCE = 1e-7
 """Largest accepted deviation of a derivative from differences, relative to the largest of its row."""
 
-DIFFERENCE_STEP = 1e-3
-"""Step of the differences in nominal values: their error of fourth order is then near 1e-10."""
+DIFFERENCE_STEP = 1e-4
+"""Step of the differences in nominal values, where their errors of fourth order and of roundoff balance."""
 
 
 class CheckItem(NamedTuple):
@@ -160,7 +160,10 @@ def _check_adjoint(subject: _Subject) -> CheckItem:
 
 
 def _check_state(subject: _Subject) -> CheckItem:
-    wanted = [("canGetAndSetFMUstate", "canGetAndSetFMUState"), ("canSerializeFMUstate", "canSerializeFMUState")]
+    wanted = [
+        ("canGetAndSetFMUstate", "canGetAndSetFMUState"),
+        ("canSerializeFMUstate", "canSerializeFMUState"),
+    ]
     if subject.description.coSimulation is None or not all(_provides(subject, *names) for names in wanted):
         return _absent("no FMU states in Co-Simulation")
     first = instantiated(subject.description, subject.folder, False)
@@ -345,4 +348,3 @@ def _reference(description: Any, folder: str) -> Array | None:
     if header != ["time", *(variable.name for variable in signals)]:
         raise FmuError(f"reference.csv must have the columns time, inputs, outputs, got {header}")
     return table
-

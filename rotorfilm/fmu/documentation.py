@@ -64,8 +64,8 @@ KERNELS = {
             "Film force of a full cylindrical journal bearing of finite length, Reynolds equation with "
             "Reynolds rupture. x and y are Cartesian from the bearing center, rotation is positive about +z "
             "(from x to y), the force acts on the journal. With the eccentricity e = (x, y)/clearance and "
-            "the source w = (vx, vy)/clearance - (speed/2) z^ x e, the film minimizes a quadratic functional, so "
-            "that its force is a gradient:"
+            "the source w = (vx, vy)/clearance - (speed/2) z^ x e, the film minimizes a quadratic "
+            "functional, so that its force is a gradient:"
         ),
         "Equations": (
             "F = viscosity length radius^3 / clearance^2  dJ/dw\n"
@@ -81,9 +81,9 @@ KERNELS = {
     },
     "rigid_rotor": {
         "Model": (
-            "One journal's share of a rigid rotor that moves without tilting. x and y are Cartesian, rotation is "
-            "positive about +z (from x to y); the inputs are the film force on the journal. With the angle p(t) of "
-            "the unbalance, w = dp/dt and alpha = dw/dt:"
+            "One journal's share of a rigid rotor that moves without tilting. x and y are Cartesian, "
+            "rotation is positive about +z (from x to y); the inputs are the film force on the journal. With "
+            "the angle p(t) of the unbalance, w = dp/dt and alpha = dw/dt:"
         ),
         "Equations": (
             "mass d2x/dt2 = force_x + mass gravity_x + static_force_x + unbalance (w^2 cos p + alpha sin p)\n"
@@ -113,9 +113,7 @@ PAGE = """<!DOCTYPE html>
 """
 
 
-def to_html(
-    title: str, variables: tuple[Variable, ...], texts: Mapping[str, str], parameters: str
-) -> bytes:
+def to_html(title: str, variables: tuple[Variable, ...], texts: Mapping[str, str], parameters: str) -> bytes:
     """Return the page.
 
     Parameters

@@ -32,7 +32,7 @@ from .python_backend import CATEGORIES as PYTHON_CATEGORIES
 from .python_backend import INTERFACES as PYTHON_INTERFACES
 from .python_backend import python_files, python_tool
 from .structure import dependencies
-from .variables import Variable, fmi_variables
+from .variables import fmi_variables
 from .xml2 import to_xml2
 from .xml3 import to_xml3
 

@@ -116,6 +116,10 @@ class Instance:
         found: list[float] = self._fmu.getDirectionalDerivative(unknowns, knowns, seed)
         return found
 
+    def reset(self) -> None:
+        """Return to what it was before the initialization."""
+        self._fmu.reset()
+
     def save(self) -> Any:
         """Return the FMU state."""
         return self._fmu.getFMUState()
@@ -174,10 +178,12 @@ class Instance2(Instance):
         self._callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
 
     def instantiate(self) -> None:
+        """Make the instance; see `Instance`."""
         # With logging on, or PythonFMU would keep the reason of a failure to itself.
         self._fmu.instantiate(callbacks=self._callbacks, loggingOn=True)
 
     def initialize(self, references: Sequence[int], values: Sequence[float], time: float = 0.0) -> EventInfo:
+        """Initialize; see `Instance`."""
         self._fmu.setupExperiment(startTime=time)
         self._fmu.enterInitializationMode()
         self.set(references, values)
@@ -185,13 +191,16 @@ class Instance2(Instance):
         return self._settle()
 
     def set(self, references: Sequence[int], values: Sequence[float]) -> None:
+        """Set variables."""
         if len(references):
             self._fmu.setReal(list(references), list(values))
 
     def get(self, references: Sequence[int]) -> list[float]:
+        """Return variables."""
         return list(self._fmu.getReal(list(references))) if len(references) else []
 
     def deserialize(self, content: bytes) -> Any:
+        """Return the FMU state in bytes."""
         return self._fmu.deSerializeFMUstate(content)
 
     def _derivatives(self, values: Any, count: int) -> None:
@@ -209,19 +218,23 @@ class Instance3(Instance):
     """An instance of an FMI 3.0 FMU; see `Instance`."""
 
     def instantiate(self) -> None:
+        """Make the instance; see `Instance`."""
         self._fmu.instantiate(loggingOn=True, logMessage=self._logger)
 
     def initialize(self, references: Sequence[int], values: Sequence[float], time: float = 0.0) -> EventInfo:
+        """Initialize; see `Instance`."""
         self._fmu.enterInitializationMode(startTime=time)
         self.set(references, values)
         self._fmu.exitInitializationMode()
         return self._settle()
 
     def set(self, references: Sequence[int], values: Sequence[float]) -> None:
+        """Set variables."""
         if len(references):
             self._fmu.setFloat64(list(references), list(values))
 
     def get(self, references: Sequence[int]) -> list[float]:
+        """Return variables."""
         return list(self._fmu.getFloat64(list(references))) if len(references) else []
 
     def adjoint(self, unknowns: Sequence[int], knowns: Sequence[int], seed: Sequence[float]) -> list[float]:
@@ -230,6 +243,7 @@ class Instance3(Instance):
         return found
 
     def deserialize(self, content: bytes) -> Any:
+        """Return the FMU state in bytes."""
         return self._fmu.deserializeFMUState(content)
 
     def _derivatives(self, values: Any, count: int) -> None:

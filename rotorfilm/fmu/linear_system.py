@@ -97,19 +97,19 @@ def from_state_space(system: control.StateSpace) -> LinearSystem:
     Raises
     ------
     FmuError
-        If it is discrete in time, or a matrix is complex or not finite.
+        If it is discrete in time, or a matrix is not finite.
     """
     if not system.isctime():
         raise FmuError(
             f"system must be continuous in time to go into an FMU, got dt = {system.dt!r}; "
             "export the system that it was sampled from"
         )
-    matrices = {name: np.asarray(getattr(system, name)) for name in "ABCD"}
+    matrices = {name: np.array(getattr(system, name), dtype=float) for name in "ABCD"}
     for name, matrix in matrices.items():
-        if np.iscomplexobj(matrix) or not np.isfinite(matrix).all():
-            raise FmuError(f"{name} must be real and finite, got {matrix!r}")
+        if not np.isfinite(matrix).all():
+            raise FmuError(f"{name} must be finite, got {matrix!r}")
     return LinearSystem(
-        **{name: np.array(matrix, dtype=float) for name, matrix in matrices.items()},
+        **matrices,
         input_labels=tuple(system.input_labels),
         output_labels=tuple(system.output_labels),
         state_labels=tuple(system.state_labels),

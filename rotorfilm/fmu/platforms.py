@@ -68,10 +68,7 @@ def native_sources() -> dict[str, bytes]:
         If the installation lacks them.
     """
     root = Path(str(files(NATIVE)))
-    found = {
-        path.relative_to(root).as_posix(): path.read_bytes()
-        for path in sorted(root.rglob("*.[ch]"))
-    }
+    found = {path.relative_to(root).as_posix(): path.read_bytes() for path in sorted(root.rglob("*.[ch]"))}
     if not any(name.endswith(".c") for name in found):
         raise FmuError(f"the C sources of the library must lie in {root}, got none; install rotorfilm again")
     return found
@@ -99,7 +96,9 @@ def host_binary(identifier: str, fmi_version: str) -> dict[str, bytes]:
     if target is None:
         raise FmuError(f"machine must be one of {[t.folder for t in TARGETS]}, got {folder}")
     if not library.is_file():
-        raise FmuError(f"the compiled library must lie at {library}, got no such file; install rotorfilm again")
+        raise FmuError(
+            f"the compiled library must lie at {library}, got no such file; install rotorfilm again"
+        )
     return {_path(target, identifier, fmi_version): library.read_bytes()}
 
 

@@ -51,13 +51,17 @@ def reference_table(model: Model, start: Array, duration: float) -> Array:
     cycles = np.arange(1, len(nominal) + 1)
     waves = np.sin(2.0 * np.pi * np.outer(time / duration, cycles) + cycles)
     best: list[Array] = []
-    for swing in [*SWINGS, 0.0]:
+    for swing in SWINGS:
         rows = _rows(model, time, start + swing * nominal * waves)
         best = max(best, rows, key=len)
         if len(best) == ROWS:
             break
     if len(best) < 2:
-        raise FmuError(f"model must have outputs over a step from its start values, got none within {time[1]!r} s")
+        best = _rows(model, time, np.tile(start, (ROWS, 1)))
+    if len(best) < 2:
+        raise FmuError(
+            f"model must have outputs over a step from its start values, got none within {time[1]!r} s"
+        )
     return np.array(best)
 
 

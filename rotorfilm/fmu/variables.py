@@ -129,7 +129,9 @@ def structured_name(component: str, label: str) -> str:
     if ELEMENT.fullmatch(label):
         return f"{component}.{label}"
     if not QUOTABLE.fullmatch(label):
-        raise FmuError(f"signal names must be of ASCII letters, digits and !#$%&()*+,-./:;<>=?@[]^{{}}|~, got {label!r}")
+        raise FmuError(
+            f"signal names must be of ASCII letters, digits and !#$%&()*+,-./:;<>=?@[]^{{}}|~, got {label!r}"
+        )
     return f"{component}.'{label}'"
 
 

@@ -83,9 +83,7 @@ def _add_structure(root: Element, description: Description) -> None:
     slopes = set(derivative_references(variables))
     structure = SubElement(root, "ModelStructure")
     for unknown in running_unknowns(variables, description.dependencies, description.tunable):
-        _add(
-            structure, "ContinuousStateDerivative" if unknown.reference in slopes else "Output", unknown
-        )
+        _add(structure, "ContinuousStateDerivative" if unknown.reference in slopes else "Output", unknown)
     for unknown in initial_unknowns(variables, description.dependencies):
         _add(structure, "InitialUnknown", unknown)
 

@@ -146,7 +146,7 @@ class RigidRotor:
         return Linearization(A, B, np.eye(5, 4), np.zeros((5, 2)))
 
     def native(self) -> NativeSpec | None:
-        """Return the kernel of the C library that is this rotor; None for a subclass, which may differ from it.
+        """Return the kernel of the C library that is this rotor; None for a subclass, which may differ.
 
         Its parameters are those of the rotor by component; the speed is one, fixed, where it is constant.
         """

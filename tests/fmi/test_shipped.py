@@ -87,7 +87,6 @@ def test_the_two_recipes_fit_together(shipped):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_the_readme_lists_every_variable(shipped, name, tmp_path):
-    recipe = shipped.load_recipe(name)
     rows = {
         tuple(cell.strip().strip("`") for cell in line.strip("|").split("|"))[:3]
         for line in (FMUS / "README.md").read_text().splitlines()
