@@ -302,6 +302,17 @@ def test_a_saved_state_repeats_the_future_exactly_in_another_instance(unzipped, 
     np.testing.assert_array_equal(future[0], future[1])
 
 
+@SLAVES
+def test_restoring_takes_parameters_back(unzipped, kind):
+    film = unzipped(BEARING, START).open(kind).start()
+    save, restore = roundtrip(film)
+    content = save()
+    film.set(viscosity=0.2, length=0.05, x=0.0)
+    assert not np.allclose(film.get("force_x", "force_y"), direct(), rtol=0.1)
+    restore(content)
+    np.testing.assert_allclose(film.get("force_x", "force_y"), direct(), rtol=1e-14)
+
+
 def test_a_state_of_another_fmu_or_damaged_bytes_are_refused(unzipped, refused):
     one = unzipped(ROTOR, folder="one").open(FMU2Slave).start()
     other = unzipped(RigidRotor(mass=51.0, speed=100.0), folder="other").open(FMU2Slave).start()

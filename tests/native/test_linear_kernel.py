@@ -148,3 +148,12 @@ def test_growth_beyond_all_numbers_discards_the_step(unzipped, capsys):
         system.step(0.5, 0.5)
     assert "last good time t = 0.5 s" in capsys.readouterr().out
     np.testing.assert_array_equal(system.get("y0", "time"), [*good, 0.5])
+
+
+@pytest.mark.parametrize("kind", [FMU2Slave, FMU3Slave])
+def test_derivatives_that_overflow_are_an_error(unzipped, kind, capsys):
+    model = StateSpace(np.eye(1), np.ones((1, 1)), np.eye(1), np.full((1, 1), 1e308), np.ones(1))
+    system = unzipped(model).open(kind).start()
+    with pytest.raises(Exception, match="failed with status 3"):
+        system.differentiate(["y0"], ["u0"], [100.0])
+    assert "partial derivative 0 is not finite" in capsys.readouterr().out
