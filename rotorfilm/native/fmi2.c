@@ -8,15 +8,17 @@
 #define CALL(name, phases) \
     rf_instance *const c = component; \
     if (!c || rf_allow(c, #name, (phases)) != RF_FINE) \
-        return fmi2Error
+    return fmi2Error
 
 enum {
-    ANY = RF_INSTANTIATED | RF_INITIALIZING | RF_EVENT | RF_CONTINUOUS | RF_STEPPING | RF_STEP_FAILED | RF_TERMINATED,
+    ANY = RF_INSTANTIATED | RF_INITIALIZING | RF_EVENT | RF_CONTINUOUS | RF_STEPPING | RF_STEP_FAILED
+        | RF_TERMINATED,
     AFTER_START = ANY & ~RF_INSTANTIATED,
     RUNNING = RF_EVENT | RF_CONTINUOUS | RF_STEPPING
 };
 
-static void send(const rf_host *host, const char *name, rf_answer answer, const char *category, const char *text)
+static void send(const rf_host *host, const char *name, rf_answer answer, const char *category,
+                 const char *text)
 {
     char format[1300];
     size_t used = 0;
@@ -43,14 +45,16 @@ const char *fmi2GetVersion(void)
     return fmi2Version;
 }
 
-fmi2Status fmi2SetDebugLogging(fmi2Component component, fmi2Boolean on, size_t count, const fmi2String categories[])
+fmi2Status fmi2SetDebugLogging(fmi2Component component, fmi2Boolean on, size_t count,
+                               const fmi2String categories[])
 {
     CALL(fmi2SetDebugLogging, ANY);
     return (fmi2Status)rf_set_logging(c, on, count, categories);
 }
 
 fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
-                              const fmi2CallbackFunctions *functions, fmi2Boolean visible, fmi2Boolean logging)
+                              const fmi2CallbackFunctions *functions, fmi2Boolean visible,
+                              fmi2Boolean logging)
 {
     rf_host host = {send, NULL, NULL};
     (void)visible;
@@ -102,13 +106,15 @@ fmi2Status fmi2Reset(fmi2Component component)
     return (fmi2Status)rf_reset(c);
 }
 
-fmi2Status fmi2GetReal(fmi2Component component, const fmi2ValueReference vr[], size_t count, fmi2Real values[])
+fmi2Status fmi2GetReal(fmi2Component component, const fmi2ValueReference vr[], size_t count,
+                       fmi2Real values[])
 {
     CALL(fmi2GetReal, AFTER_START);
     return (fmi2Status)rf_get(c, vr, count, values);
 }
 
-fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference vr[], size_t count, const fmi2Real values[])
+fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference vr[], size_t count,
+                       const fmi2Real values[])
 {
     CALL(fmi2SetReal, RF_INSTANTIATED | RF_INITIALIZING | RUNNING);
     return (fmi2Status)rf_set(c, vr, count, values);
@@ -178,18 +184,20 @@ fmi2Status fmi2SerializeFMUstate(fmi2Component component, fmi2FMUstate state, fm
     return (fmi2Status)rf_serialize(c, state, bytes, size);
 }
 
-fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state)
+fmi2Status fmi2DeSerializeFMUstate(fmi2Component component, const fmi2Byte bytes[], size_t size,
+                                   fmi2FMUstate *state)
 {
     CALL(fmi2DeSerializeFMUstate, ANY);
     return (fmi2Status)rf_deserialize(c, bytes, size, state);
 }
 
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component component, const fmi2ValueReference unknowns[],
-                                        size_t unknown_count, const fmi2ValueReference knowns[], size_t known_count,
-                                        const fmi2Real seed[], fmi2Real sensitivity[])
+                                        size_t unknown_count, const fmi2ValueReference knowns[],
+                                        size_t known_count, const fmi2Real seed[], fmi2Real sensitivity[])
 {
     CALL(fmi2GetDirectionalDerivative, AFTER_START);
-    return (fmi2Status)rf_differentiate(c, unknowns, unknown_count, knowns, known_count, seed, sensitivity, 0);
+    return (fmi2Status)rf_differentiate(c, unknowns, unknown_count, knowns, known_count, seed, sensitivity,
+                                        0);
 }
 
 /* Model Exchange */
@@ -221,11 +229,11 @@ fmi2Status fmi2EnterContinuousTimeMode(fmi2Component component)
     return fmi2OK;
 }
 
-fmi2Status fmi2CompletedIntegratorStep(fmi2Component component, fmi2Boolean final, fmi2Boolean *enter_event_mode,
-                                       fmi2Boolean *terminate)
+fmi2Status fmi2CompletedIntegratorStep(fmi2Component component, fmi2Boolean final,
+                                       fmi2Boolean *enter_event_mode, fmi2Boolean *terminate)
 {
     CALL(fmi2CompletedIntegratorStep, RF_CONTINUOUS);
-    (void)final;
+    (void) final;
     *enter_event_mode = *terminate = fmi2False;
     return fmi2OK;
 }
@@ -252,7 +260,8 @@ fmi2Status fmi2GetEventIndicators(fmi2Component component, fmi2Real indicators[]
 {
     CALL(fmi2GetEventIndicators, AFTER_START);
     (void)indicators;
-    return count == 0 ? fmi2OK : (fmi2Status)rf_log(c, RF_ERROR, RF_LOG_ERROR, "there are no event indicators");
+    return count == 0 ? fmi2OK
+                      : (fmi2Status)rf_log(c, RF_ERROR, RF_LOG_ERROR, "there are no event indicators");
 }
 
 fmi2Status fmi2GetContinuousStates(fmi2Component component, fmi2Real x[], size_t count)
@@ -282,13 +291,14 @@ fmi2Status fmi2GetRealOutputDerivatives(fmi2Component component, const fmi2Value
 {
     CALL(fmi2GetRealOutputDerivatives, RF_STEPPING | RF_STEP_FAILED | RF_TERMINATED);
     (void)vr, (void)order, (void)values;
-    return count == 0 ? fmi2OK : (fmi2Status)rf_log(c, RF_ERROR, RF_LOG_ERROR, "outputs have no time derivatives");
+    return count == 0 ? fmi2OK
+                      : (fmi2Status)rf_log(c, RF_ERROR, RF_LOG_ERROR, "outputs have no time derivatives");
 }
 
 fmi2Status fmi2DoStep(fmi2Component component, fmi2Real from, fmi2Real step, fmi2Boolean final)
 {
     CALL(fmi2DoStep, RF_STEPPING);
-    (void)final;
+    (void) final;
     return (fmi2Status)rf_step(c, from, step);
 }
 

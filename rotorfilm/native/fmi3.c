@@ -9,7 +9,7 @@
 #define CALL(name, phases) \
     rf_instance *const c = instance; \
     if (!c || rf_allow(c, #name, (phases)) != RF_FINE) \
-        return fmi3Error
+    return fmi3Error
 
 enum {
     RUNNING = RF_EVENT | RF_CONTINUOUS | RF_STEPPING,
@@ -17,7 +17,8 @@ enum {
     ANY = RF_INSTANTIATED | RF_CONFIGURING | RF_RECONFIGURING | AFTER_START
 };
 
-static void send(const rf_host *host, const char *name, rf_answer answer, const char *category, const char *text)
+static void send(const rf_host *host, const char *name, rf_answer answer, const char *category,
+                 const char *text)
 {
     fmi3LogMessageCallback callback = (fmi3LogMessageCallback)host->callback;
     (void)name;
@@ -30,31 +31,35 @@ const char *fmi3GetVersion(void)
     return fmi3Version;
 }
 
-fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean on, size_t count, const fmi3String categories[])
+fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean on, size_t count,
+                               const fmi3String categories[])
 {
     CALL(fmi3SetDebugLogging, ANY);
     return (fmi3Status)rf_set_logging(c, on, count, categories);
 }
 
-static rf_instance *make(fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean logging, int co_simulation,
-                         fmi3InstanceEnvironment environment, fmi3LogMessageCallback callback)
+static rf_instance *make(fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean logging,
+                         int co_simulation, fmi3InstanceEnvironment environment,
+                         fmi3LogMessageCallback callback)
 {
     const rf_host host = {send, (void (*)(void))callback, environment};
     return rf_make_instance(name, token, resources, logging, co_simulation, &host);
 }
 
-fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible,
-                                          fmi3Boolean logging, fmi3InstanceEnvironment environment,
+fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources,
+                                          fmi3Boolean visible, fmi3Boolean logging,
+                                          fmi3InstanceEnvironment environment,
                                           fmi3LogMessageCallback callback)
 {
     (void)visible;
     return make(name, token, resources, logging, 0, environment, callback);
 }
 
-fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible,
-                                         fmi3Boolean logging, fmi3Boolean event_mode, fmi3Boolean early_return,
-                                         const fmi3ValueReference intermediate[], size_t intermediate_count,
-                                         fmi3InstanceEnvironment environment, fmi3LogMessageCallback callback,
+fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources,
+                                         fmi3Boolean visible, fmi3Boolean logging, fmi3Boolean event_mode,
+                                         fmi3Boolean early_return, const fmi3ValueReference intermediate[],
+                                         size_t intermediate_count, fmi3InstanceEnvironment environment,
+                                         fmi3LogMessageCallback callback,
                                          fmi3IntermediateUpdateCallback update)
 {
     (void)visible, (void)intermediate, (void)intermediate_count, (void)update;
@@ -66,13 +71,13 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
     return c;
 }
 
-fmi3Instance fmi3InstantiateScheduledExecution(fmi3String name, fmi3String token, fmi3String resources,
-                                               fmi3Boolean visible, fmi3Boolean logging,
-                                               fmi3InstanceEnvironment environment, fmi3LogMessageCallback callback,
-                                               fmi3ClockUpdateCallback update, fmi3LockPreemptionCallback lock,
-                                               fmi3UnlockPreemptionCallback unlock)
+fmi3Instance fmi3InstantiateScheduledExecution(
+    fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible, fmi3Boolean logging,
+    fmi3InstanceEnvironment environment, fmi3LogMessageCallback callback, fmi3ClockUpdateCallback update,
+    fmi3LockPreemptionCallback lock, fmi3UnlockPreemptionCallback unlock)
 {
-    (void)name, (void)token, (void)resources, (void)visible, (void)logging, (void)update, (void)lock, (void)unlock;
+    (void)name, (void)token, (void)resources, (void)visible, (void)logging, (void)update, (void)lock,
+        (void)unlock;
     if (callback)
         callback(environment, fmi3Error, "logStatusError", "scheduled execution is not provided");
     return NULL;
@@ -83,8 +88,9 @@ void fmi3FreeInstance(fmi3Instance instance)
     rf_free_instance(instance);
 }
 
-fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean tolerance_defined, fmi3Float64 tolerance,
-                                       fmi3Float64 start, fmi3Boolean stop_defined, fmi3Float64 stop)
+fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean tolerance_defined,
+                                       fmi3Float64 tolerance, fmi3Float64 start, fmi3Boolean stop_defined,
+                                       fmi3Float64 stop)
 {
     CALL(fmi3EnterInitializationMode, RF_INSTANTIATED);
     if (rf_set_experiment(c, tolerance_defined, tolerance, start, stop_defined, stop) != RF_FINE)
@@ -128,12 +134,13 @@ static fmi3Status require_scalars(rf_instance *c, size_t references, size_t valu
 {
     if (references == values)
         return fmi3OK;
-    return (fmi3Status)rf_log(c, RF_ERROR, RF_LOG_ERROR, "all variables are scalars, got %zu values for %zu of them",
-                              values, references);
+    return (fmi3Status)rf_log(c, RF_ERROR, RF_LOG_ERROR,
+                              "all variables are scalars, got %zu values for %zu of them", values,
+                              references);
 }
 
-fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference vr[], size_t count, fmi3Float64 values[],
-                          size_t value_count)
+fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference vr[], size_t count,
+                          fmi3Float64 values[], size_t value_count)
 {
     CALL(fmi3GetFloat64, AFTER_START);
     const fmi3Status fits = require_scalars(c, count, value_count);
@@ -198,20 +205,22 @@ fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference vr[], s
     return refuse(instance, "fmi3GetBinary", count, NO_TYPE);
 }
 
-fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference vr[], size_t count, const size_t sizes[],
-                         const fmi3Binary values[], size_t value_count)
+fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference vr[], size_t count,
+                         const size_t sizes[], const fmi3Binary values[], size_t value_count)
 {
     (void)vr, (void)sizes, (void)values, (void)value_count;
     return refuse(instance, "fmi3SetBinary", count, NO_TYPE);
 }
 
-fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference vr[], size_t count, fmi3Clock values[])
+fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference vr[], size_t count,
+                        fmi3Clock values[])
 {
     (void)vr, (void)values;
     return refuse(instance, "fmi3GetClock", count, NO_CLOCK);
 }
 
-fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference vr[], size_t count, const fmi3Clock values[])
+fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference vr[], size_t count,
+                        const fmi3Clock values[])
 {
     (void)vr, (void)values;
     return refuse(instance, "fmi3SetClock", count, NO_CLOCK);
@@ -220,15 +229,17 @@ fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference vr[], si
 fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance instance, fmi3ValueReference vr, size_t *count)
 {
     (void)vr, (void)count;
-    return refuse(instance, "fmi3GetNumberOfVariableDependencies", 1, "dependencies are those of the description");
+    return refuse(instance, "fmi3GetNumberOfVariableDependencies", 1,
+                  "dependencies are those of the description");
 }
 
 fmi3Status fmi3GetVariableDependencies(fmi3Instance instance, fmi3ValueReference dependent, size_t of[],
-                                       fmi3ValueReference independents[], size_t on[], fmi3DependencyKind kinds[],
-                                       size_t count)
+                                       fmi3ValueReference independents[], size_t on[],
+                                       fmi3DependencyKind kinds[], size_t count)
 {
     (void)dependent, (void)of, (void)independents, (void)on, (void)kinds;
-    return refuse(instance, "fmi3GetVariableDependencies", count, "dependencies are those of the description");
+    return refuse(instance, "fmi3GetVariableDependencies", count,
+                  "dependencies are those of the description");
 }
 
 fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *state)
@@ -269,37 +280,44 @@ fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState state, fmi3
     return (fmi3Status)rf_serialize(c, state, bytes, size);
 }
 
-fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte bytes[], size_t size, fmi3FMUState *state)
+fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte bytes[], size_t size,
+                                   fmi3FMUState *state)
 {
     CALL(fmi3DeserializeFMUState, ANY);
     return (fmi3Status)rf_deserialize(c, bytes, size, state);
 }
 
 static fmi3Status differentiate(rf_instance *c, const fmi3ValueReference unknowns[], size_t unknown_count,
-                                const fmi3ValueReference knowns[], size_t known_count, const fmi3Float64 seed[],
-                                size_t seeds, fmi3Float64 sensitivity[], size_t sensitivities, int transposed)
+                                const fmi3ValueReference knowns[], size_t known_count,
+                                const fmi3Float64 seed[], size_t seeds, fmi3Float64 sensitivity[],
+                                size_t sensitivities, int transposed)
 {
-    const size_t from = transposed ? unknown_count : known_count, to = transposed ? known_count : unknown_count;
+    const size_t from = transposed ? unknown_count : known_count,
+                 to = transposed ? known_count : unknown_count;
     if (require_scalars(c, from, seeds) != fmi3OK || require_scalars(c, to, sensitivities) != fmi3OK)
         return fmi3Error;
-    return (fmi3Status)rf_differentiate(c, unknowns, unknown_count, knowns, known_count, seed, sensitivity, transposed);
+    return (fmi3Status)rf_differentiate(c, unknowns, unknown_count, knowns, known_count, seed, sensitivity,
+                                        transposed);
 }
 
 fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
-                                        size_t unknown_count, const fmi3ValueReference knowns[], size_t known_count,
-                                        const fmi3Float64 seed[], size_t seeds, fmi3Float64 sensitivity[],
-                                        size_t sensitivities)
+                                        size_t unknown_count, const fmi3ValueReference knowns[],
+                                        size_t known_count, const fmi3Float64 seed[], size_t seeds,
+                                        fmi3Float64 sensitivity[], size_t sensitivities)
 {
     CALL(fmi3GetDirectionalDerivative, AFTER_START);
-    return differentiate(c, unknowns, unknown_count, knowns, known_count, seed, seeds, sensitivity, sensitivities, 0);
+    return differentiate(c, unknowns, unknown_count, knowns, known_count, seed, seeds, sensitivity,
+                         sensitivities, 0);
 }
 
-fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[], size_t unknown_count,
-                                    const fmi3ValueReference knowns[], size_t known_count, const fmi3Float64 seed[],
-                                    size_t seeds, fmi3Float64 sensitivity[], size_t sensitivities)
+fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
+                                    size_t unknown_count, const fmi3ValueReference knowns[],
+                                    size_t known_count, const fmi3Float64 seed[], size_t seeds,
+                                    fmi3Float64 sensitivity[], size_t sensitivities)
 {
     CALL(fmi3GetAdjointDerivative, AFTER_START);
-    return differentiate(c, unknowns, unknown_count, knowns, known_count, seed, seeds, sensitivity, sensitivities, 1);
+    return differentiate(c, unknowns, unknown_count, knowns, known_count, seed, seeds, sensitivity,
+                         sensitivities, 1);
 }
 
 /* There are no structural parameters: both modes only pass. */
@@ -326,13 +344,15 @@ fmi3Status fmi3GetIntervalDecimal(fmi3Instance instance, const fmi3ValueReferenc
 }
 
 fmi3Status fmi3GetIntervalFraction(fmi3Instance instance, const fmi3ValueReference vr[], size_t count,
-                                   fmi3UInt64 counters[], fmi3UInt64 resolutions[], fmi3IntervalQualifier qualifiers[])
+                                   fmi3UInt64 counters[], fmi3UInt64 resolutions[],
+                                   fmi3IntervalQualifier qualifiers[])
 {
     (void)vr, (void)counters, (void)resolutions, (void)qualifiers;
     return refuse(instance, "fmi3GetIntervalFraction", count, NO_CLOCK);
 }
 
-fmi3Status fmi3GetShiftDecimal(fmi3Instance instance, const fmi3ValueReference vr[], size_t count, fmi3Float64 shifts[])
+fmi3Status fmi3GetShiftDecimal(fmi3Instance instance, const fmi3ValueReference vr[], size_t count,
+                               fmi3Float64 shifts[])
 {
     (void)vr, (void)shifts;
     return refuse(instance, "fmi3GetShiftDecimal", count, NO_CLOCK);
@@ -397,16 +417,17 @@ fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance)
 {
     CALL(fmi3EnterContinuousTimeMode, RF_EVENT);
     if (c->co_simulation)
-        return (fmi3Status)rf_log(c, RF_ERROR, RF_LOG_ERROR, "fmi3EnterContinuousTimeMode is for Model Exchange");
+        return (fmi3Status)rf_log(c, RF_ERROR, RF_LOG_ERROR,
+                                  "fmi3EnterContinuousTimeMode is for Model Exchange");
     rf_enter(c, RF_CONTINUOUS);
     return fmi3OK;
 }
 
-fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean final, fmi3Boolean *enter_event_mode,
-                                       fmi3Boolean *terminate)
+fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean final,
+                                       fmi3Boolean *enter_event_mode, fmi3Boolean *terminate)
 {
     CALL(fmi3CompletedIntegratorStep, RF_CONTINUOUS);
-    (void)final;
+    (void) final;
     *enter_event_mode = *terminate = fmi3False;
     return fmi3OK;
 }
@@ -481,10 +502,11 @@ fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance, const fmi3ValueRefere
 }
 
 fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 from, fmi3Float64 step, fmi3Boolean final,
-                      fmi3Boolean *event_needed, fmi3Boolean *terminate, fmi3Boolean *early, fmi3Float64 *last_time)
+                      fmi3Boolean *event_needed, fmi3Boolean *terminate, fmi3Boolean *early,
+                      fmi3Float64 *last_time)
 {
     CALL(fmi3DoStep, RF_STEPPING);
-    (void)final;
+    (void) final;
     const double kink = c->now.kink;
     const rf_answer answer = rf_step(c, from, step);
     const int done = answer <= RF_WARNING;

@@ -10,8 +10,8 @@
 #define FINEST 1e-13
 #define COARSEST 1e-3
 
-static const char *const CATEGORIES[RF_CATEGORIES] = {"logStatusWarning", "logStatusDiscard", "logStatusError",
-                                                      "logEvents", "logAll"};
+static const char *const CATEGORIES[RF_CATEGORIES] = {"logStatusWarning", "logStatusDiscard",
+                                                      "logStatusError", "logEvents", "logAll"};
 enum {
     ALL_CATEGORIES = (1 << RF_CATEGORIES) - 1,
     FAILURES = 1 << RF_LOG_WARNING | 1 << RF_LOG_DISCARD | 1 << RF_LOG_ERROR
@@ -50,7 +50,8 @@ rf_answer rf_set_logging(rf_instance *c, int on, size_t count, const char *const
     unsigned chosen = count ? 0 : ALL_CATEGORIES;
     for (size_t i = 0; i < count; ++i) {
         unsigned k = 0;
-        while (k < RF_CATEGORIES && !(categories && categories[i] && strcmp(categories[i], CATEGORIES[k]) == 0))
+        while (k < RF_CATEGORIES
+               && !(categories && categories[i] && strcmp(categories[i], CATEGORIES[k]) == 0))
             ++k;
         if (k == RF_CATEGORIES)
             return rf_log(c, RF_ERROR, RF_LOG_ERROR, "log category %zu is unknown", i);
@@ -122,13 +123,15 @@ static int allocate(rf_instance *c)
 static int fits(const rf_instance *c, rf_message *why)
 {
     const size_t *count = c->resource->count;
-    if (count[RF_TIME] == 1 && count[RF_PARAMETER] == c->sizes.parameters && count[RF_INPUT] == c->sizes.inputs
-        && count[RF_OUTPUT] == c->sizes.outputs && count[RF_STATE] == c->sizes.states
-        && count[RF_DERIVATIVE] == c->sizes.states)
+    if (count[RF_TIME] == 1 && count[RF_PARAMETER] == c->sizes.parameters
+        && count[RF_INPUT] == c->sizes.inputs && count[RF_OUTPUT] == c->sizes.outputs
+        && count[RF_STATE] == c->sizes.states && count[RF_DERIVATIVE] == c->sizes.states)
         return 1;
-    rf_say(why, RF_INVALID, "the variables must be those of the kernel %s: %zu parameters, %zu inputs, %zu outputs, "
-           "%zu states, got %zu, %zu, %zu, %zu", c->type->name, c->sizes.parameters, c->sizes.inputs,
-           c->sizes.outputs, c->sizes.states, count[RF_PARAMETER], count[RF_INPUT], count[RF_OUTPUT], count[RF_STATE]);
+    rf_say(why, RF_INVALID,
+           "the variables must be those of the kernel %s: %zu parameters, %zu inputs, %zu outputs, "
+           "%zu states, got %zu, %zu, %zu, %zu",
+           c->type->name, c->sizes.parameters, c->sizes.inputs, c->sizes.outputs, c->sizes.states,
+           count[RF_PARAMETER], count[RF_INPUT], count[RF_OUTPUT], count[RF_STATE]);
     return 0;
 }
 
@@ -175,7 +178,8 @@ rf_instance *rf_make_instance(const char *name, const char *token, const char *f
     c->categories = logging ? ALL_CATEGORIES & ~(1u << RF_LOG_ALL) : FAILURES;
     c->co_simulation = co_simulation;
     if (!*shown || !load(c, token, folder, &why)) {
-        rf_log(c, RF_ERROR, RF_LOG_ERROR, "%s", *shown ? why.text : "the name of an instance must not be empty");
+        rf_log(c, RF_ERROR, RF_LOG_ERROR, "%s",
+               *shown ? why.text : "the name of an instance must not be empty");
         rf_free_instance(c);
         return NULL;
     }
@@ -195,24 +199,25 @@ void rf_free_instance(rf_instance *c)
     free(c);
 }
 
-/* What the simulator gets for a status. In continuous-time mode a smaller step may help: the standards then
-   want Discard ("a function is outside of its domain"). */
-static rf_answer failed(rf_instance *c, const char *what, const rf_message *why)
+/* What the simulator gets for a status. In continuous-time mode a smaller step may help, and the standards
+   then want Discard ("a function is outside of its domain"); it does not mend parameters. */
+static rf_answer failed(rf_instance *c, int status, const char *what, const rf_message *why)
 {
-    const int retry = c->now.phase == RF_CONTINUOUS;
-    return rf_log(c, retry ? RF_DISCARD : RF_ERROR, retry ? RF_LOG_DISCARD : RF_LOG_ERROR, "%s at t = %.9g s: %s", what,
-                  c->now.time, why->text);
+    const int retry = c->now.phase == RF_CONTINUOUS && status != RF_INVALID;
+    return rf_log(c, retry ? RF_DISCARD : RF_ERROR, retry ? RF_LOG_DISCARD : RF_LOG_ERROR,
+                  "%s at t = %.9g s: %s", what, c->now.time, why->text);
 }
 
 /* An answer beyond the verified range is worth one warning. */
 static rf_answer judged(rf_instance *c, int status, const char *what, const rf_message *why)
 {
     if (status > RF_OUTSIDE)
-        return failed(c, what, why);
+        return failed(c, status, what, why);
     if (status == RF_OK || c->now.warned)
         return RF_FINE;
     c->now.warned = 1;
-    return rf_log(c, RF_WARNING, RF_LOG_WARNING, "%s at t = %.9g s: %s (told once)", what, c->now.time, why->text);
+    return rf_log(c, RF_WARNING, RF_LOG_WARNING, "%s at t = %.9g s: %s (told once)", what, c->now.time,
+                  why->text);
 }
 
 static int apply_parameters(rf_instance *c, rf_message *why)
@@ -257,14 +262,15 @@ static int evaluate_derivatives(rf_instance *c, rf_message *why)
     return status;
 }
 
-rf_answer rf_set_experiment(rf_instance *c, int tolerance_defined, double tolerance, double begin, int stop_defined,
-                            double stop)
+rf_answer rf_set_experiment(rf_instance *c, int tolerance_defined, double tolerance, double begin,
+                            int stop_defined, double stop)
 {
     if (!isfinite(begin) || (stop_defined && !(stop >= begin && stop < HUGE_VAL)))
-        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "start and stop time must be finite and ascending, got %.9g and %.9g s",
-                      begin, stop);
+        return rf_log(c, RF_ERROR, RF_LOG_ERROR,
+                      "start and stop time must be finite and ascending, got %.9g and %.9g s", begin, stop);
     if (tolerance_defined && !(tolerance > 0.0 && tolerance < HUGE_VAL))
-        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "tolerance must be finite and positive, got %.9g", tolerance);
+        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "tolerance must be finite and positive, got %.9g",
+                      tolerance);
     c->tolerance = tolerance_defined ? fmin(fmax(tolerance, FINEST), COARSEST) : TOLERANCE;
     c->now.time = c->last_good_time = begin;
     c->stop_defined = stop_defined;
@@ -277,7 +283,7 @@ rf_answer rf_exit_initialization(rf_instance *c)
 {
     rf_message why;
     if (apply_parameters(c, &why) != RF_OK)
-        return failed(c, "parameters", &why);
+        return failed(c, RF_INVALID, "parameters", &why);
     const rf_answer answer = judged(c, evaluate_outputs(c, &why), "outputs", &why);
     if (answer <= RF_WARNING)
         rf_pass_event(c);
@@ -332,12 +338,13 @@ static rf_answer may_set(rf_instance *c, const rf_variable *v, double value)
                         || (v->role == RF_PARAMETER && (before || (between && v->flags & RF_TUNABLE)))
                         || (v->role == RF_STATE && before);
     if (!allowed)
-        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "%s cannot be set in the state '%s'", v->name, phase_name(c->now.phase));
+        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "%s cannot be set in the state '%s'", v->name,
+                      phase_name(c->now.phase));
     if (!isfinite(value))
         return rf_log(c, RF_ERROR, RF_LOG_ERROR, "%s must be finite, got %.9g", v->name, value);
     if (v->role == RF_PARAMETER && !(value >= v->minimum && value <= v->maximum))
-        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "%s must be within %.9g and %.9g, got %.9g", v->name, v->minimum,
-                      v->maximum, value);
+        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "%s must be within %.9g and %.9g, got %.9g", v->name,
+                      v->minimum, v->maximum, value);
     return RF_FINE;
 }
 
@@ -370,7 +377,8 @@ static rf_answer require_states(rf_instance *c, size_t count)
 {
     if (count == c->sizes.states)
         return RF_FINE;
-    return rf_log(c, RF_ERROR, RF_LOG_ERROR, "the number of continuous states must be %zu, got %zu", c->sizes.states, count);
+    return rf_log(c, RF_ERROR, RF_LOG_ERROR, "the number of continuous states must be %zu, got %zu",
+                  c->sizes.states, count);
 }
 
 rf_answer rf_set_states(rf_instance *c, const double *x, size_t count)
@@ -379,7 +387,8 @@ rf_answer rf_set_states(rf_instance *c, const double *x, size_t count)
         return RF_ERROR;
     for (size_t i = 0; i < count; ++i)
         if (!isfinite(x[i]))
-            return rf_log(c, RF_ERROR, RF_LOG_ERROR, "continuous state %zu must be finite, got %.9g", i, x[i]);
+            return rf_log(c, RF_ERROR, RF_LOG_ERROR, "continuous state %zu must be finite, got %.9g", i,
+                          x[i]);
     if (count)
         memcpy(c->values[RF_STATE], x, count * sizeof *x);
     forget(c);
@@ -408,7 +417,9 @@ rf_answer rf_get_nominals(rf_instance *c, double *nominal, size_t count)
 rf_answer rf_get_derivatives(rf_instance *c, double *dx, size_t count)
 {
     const rf_answer answer = refresh(c, RF_DERIVATIVE);
-    return answer > RF_WARNING ? answer : copy_states(c, c->values[RF_DERIVATIVE], dx, count) == RF_FINE ? answer : RF_ERROR;
+    if (answer > RF_WARNING)
+        return answer;
+    return copy_states(c, c->values[RF_DERIVATIVE], dx, count) == RF_FINE ? answer : RF_ERROR;
 }
 
 /* The entry of the Jacobian; NULL if these are no unknown and known. */
@@ -418,8 +429,8 @@ static const double *entry(const rf_instance *c, const rf_variable *unknown, con
     const int of_output = unknown->role == RF_OUTPUT, by_input = known->role == RF_INPUT;
     if (!(of_output || unknown->role == RF_DERIVATIVE) || !(by_input || known->role == RF_STATE))
         return NULL;
-    const double *matrix = of_output ? (by_input ? c->jacobian.D : c->jacobian.C)
-                                     : (by_input ? c->jacobian.B : c->jacobian.A);
+    const double *matrix =
+        of_output ? (by_input ? c->jacobian.D : c->jacobian.C) : (by_input ? c->jacobian.B : c->jacobian.A);
     return matrix + unknown->index * (by_input ? m : n) + known->index;
 }
 
@@ -439,8 +450,9 @@ static rf_answer require_entries(rf_instance *c, const unsigned *unknowns, size_
     return RF_FINE;
 }
 
-rf_answer rf_differentiate(rf_instance *c, const unsigned *unknowns, size_t unknown_count, const unsigned *knowns,
-                           size_t known_count, const double *seed, double *sensitivity, int transposed)
+rf_answer rf_differentiate(rf_instance *c, const unsigned *unknowns, size_t unknown_count,
+                           const unsigned *knowns, size_t known_count, const double *seed,
+                           double *sensitivity, int transposed)
 {
     rf_message why;
     int status = apply_parameters(c, &why);
@@ -450,7 +462,8 @@ rf_answer rf_differentiate(rf_instance *c, const unsigned *unknowns, size_t unkn
     const rf_answer answer = judged(c, status, "partial derivatives", &why);
     if (answer > RF_WARNING || require_entries(c, unknowns, unknown_count, knowns, known_count) != RF_FINE)
         return answer > RF_WARNING ? answer : RF_ERROR;
-    const size_t rows = transposed ? known_count : unknown_count, columns = transposed ? unknown_count : known_count;
+    const size_t rows = transposed ? known_count : unknown_count,
+                 columns = transposed ? unknown_count : known_count;
     for (size_t i = 0; i < rows; ++i) {
         double sum = 0.0;
         for (size_t j = 0; j < columns; ++j) {
@@ -509,20 +522,23 @@ static rf_answer give_up(rf_instance *c, double reached, const rf_message *why)
         return rf_log(c, RF_ERROR, RF_LOG_ERROR, "step from t = %.9g s: %s", reached, why->text);
     c->terminated = 1;
     c->now.phase = RF_STEP_FAILED;
-    return rf_log(c, RF_DISCARD, RF_LOG_DISCARD, "step failed, last good time t = %.9g s: %s", reached, why->text);
+    return rf_log(c, RF_DISCARD, RF_LOG_DISCARD, "step failed, last good time t = %.9g s: %s", reached,
+                  why->text);
 }
 
 static rf_answer require_step(rf_instance *c, double from, double step)
 {
     const double slack = 1e-6 * step + 1e-9 * fabs(c->now.time);
     if (!(step > 0.0 && step < HUGE_VAL))
-        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "communicationStepSize must be finite and positive, got %.9g s", step);
+        return rf_log(c, RF_ERROR, RF_LOG_ERROR,
+                      "communicationStepSize must be finite and positive, got %.9g s", step);
     if (!(fabs(from - c->now.time) <= slack))
-        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "currentCommunicationPoint must be %.17g s, got %.17g s", c->now.time,
-                      from);
+        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "currentCommunicationPoint must be %.17g s, got %.17g s",
+                      c->now.time, from);
     if (c->stop_defined && from + step > c->stop_time + slack)
-        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "the step must not end after the stop time %.17g s, got %.17g s",
-                      c->stop_time, from + step);
+        return rf_log(c, RF_ERROR, RF_LOG_ERROR,
+                      "the step must not end after the stop time %.17g s, got %.17g s", c->stop_time,
+                      from + step);
     return RF_FINE;
 }
 
@@ -532,7 +548,7 @@ rf_answer rf_step(rf_instance *c, double from, double step)
     if (require_step(c, from, step) != RF_FINE)
         return RF_ERROR;
     if (apply_parameters(c, &why) != RF_OK)
-        return failed(c, "parameters", &why);
+        return failed(c, RF_INVALID, "parameters", &why);
     const double kink = c->event_mode && c->early_return ? c->now.kink : HUGE_VAL;
     const double end = kink > from && kink < from + step ? kink : from + step;
     double t = from, *before = c->work + rf_integration_work(c->sizes.states);

@@ -23,7 +23,14 @@ typedef enum rf_phase {
     RF_TERMINATED = 256
 } rf_phase;
 
-typedef enum rf_category { RF_LOG_WARNING, RF_LOG_DISCARD, RF_LOG_ERROR, RF_LOG_EVENTS, RF_LOG_ALL, RF_CATEGORIES } rf_category;
+typedef enum rf_category {
+    RF_LOG_WARNING,
+    RF_LOG_DISCARD,
+    RF_LOG_ERROR,
+    RF_LOG_EVENTS,
+    RF_LOG_ALL,
+    RF_CATEGORIES
+} rf_category;
 
 typedef struct rf_instance rf_instance;
 
@@ -91,7 +98,8 @@ rf_answer rf_get_states(rf_instance *c, double *x, size_t count);
 rf_answer rf_get_derivatives(rf_instance *c, double *dx, size_t count);
 rf_answer rf_get_nominals(rf_instance *c, double *nominal, size_t count);
 
-/* Derivatives of the unknowns along a seed of the knowns; transposed: of the knowns, from a seed of the unknowns. */
+/* Derivatives of the unknowns along a seed of the knowns; transposed, of the seeded sum of the unknowns by
+   the knowns. */
 rf_answer rf_differentiate(rf_instance *c, const unsigned *unknowns, size_t unknown_count,
                            const unsigned *knowns, size_t known_count, const double *seed,
                            double *sensitivity, int transposed);

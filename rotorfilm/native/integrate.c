@@ -20,8 +20,8 @@ static const double A[STAGES][STAGES - 1] = {
     {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
     {35.0 / 384, 0.0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84},
 };
-static const double E[STAGES] = {-71.0 / 57600, 0.0, 71.0 / 16695, -71.0 / 1920, 17253.0 / 339200, -22.0 / 525,
-                                 1.0 / 40};
+static const double E[STAGES] = {-71.0 / 57600,    0.0,         71.0 / 16695, -71.0 / 1920,
+                                 17253.0 / 339200, -22.0 / 525, 1.0 / 40};
 
 /* One piece between two kinks; its end belongs to it with the derivative from before. */
 typedef struct piece {
@@ -88,8 +88,9 @@ static double adapt(double error, int rejected)
 
 static int stuck(double t, double end, double h, const rf_message *cause, rf_message *why)
 {
-    return rf_say(why, RF_STUCK, "the integration cannot reach %.9g s from %.9g s, its step fell to %.3g s: %.200s",
-                  end, t, h, cause->text[0] ? cause->text : "the tolerance cannot be met");
+    return rf_say(why, RF_STUCK,
+                  "the integration cannot reach %.9g s from %.9g s, its step fell to %.3g s: %.200s", end, t,
+                  h, cause->text[0] ? cause->text : "the tolerance cannot be met");
 }
 
 static int run_piece(const piece *p, double *t, double *x, rf_message *why)
@@ -120,7 +121,8 @@ static int run_piece(const piece *p, double *t, double *x, rf_message *why)
     return stuck(*t, p->end, h, &cause, why);
 }
 
-int rf_integrate(const rf_integration *job, double *t, double *x, const double *u, double end, rf_message *why)
+int rf_integrate(const rf_integration *job, double *t, double *x, const double *u, double end,
+                 rf_message *why)
 {
     piece p = {job, u, end, {NULL}, job->work + STAGES * job->states};
     for (int s = 0; s < STAGES; ++s)

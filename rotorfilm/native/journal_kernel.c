@@ -17,7 +17,7 @@ static void kinematics(const rf_journal *journal, const double *state, double *e
         w[0] = w[1] = 0.0;
 }
 
-/* Whether one is not finite: fmax above would hide a not-a-number, and a product of finite numbers overflows. */
+/* Whether one is not finite: fmax above would hide a not-a-number, and finite factors may overflow. */
 static int is_broken(const double *values, int count)
 {
     double sum = 0.0;

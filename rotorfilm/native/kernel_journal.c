@@ -43,8 +43,13 @@ static int take_tables(model *self, const rf_tables *tables, rf_message *why)
     const double low = range->numbers[0], high = range->numbers[1];
     if (!(low > 0.0 && (layers == 1 ? high >= low : high > low) && reach->numbers[0] > 0.0))
         return rf_say(why, RF_INVALID, "range must be positive and ascending, got %.9g and %.9g", low, high);
-    const rf_map_table table = {layers == 1 ? 0 : (int32_t)layers - 5, (int32_t)x - 5, (int32_t)t - 5,
-                                low, high, center->numbers, c->numbers};
+    const rf_map_table table = {layers == 1 ? 0 : (int32_t)layers - 5,
+                                (int32_t)x - 5,
+                                (int32_t)t - 5,
+                                low,
+                                high,
+                                center->numbers,
+                                c->numbers};
     self->table = table;
     self->journal.map.cells_x = table.cells_x;
     self->journal.map.cells_t = table.cells_t;
@@ -94,9 +99,11 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     if (check(p, why) != RF_OK)
         return RF_INVALID;
     const double slenderness = p[LENGTH] / (2.0 * p[RADIUS]);
-    const double c = p[CLEARANCE], scale = p[VISCOSITY] * p[LENGTH] * (p[RADIUS] * p[RADIUS] * p[RADIUS]) / (c * c);
+    const double c = p[CLEARANCE],
+                 scale = p[VISCOSITY] * p[LENGTH] * (p[RADIUS] * p[RADIUS] * p[RADIUS]) / (c * c);
     if (!(scale > 0.0 && scale < HUGE_VAL))
-        return rf_say(why, RF_INVALID, "viscosity length radius^3 / clearance^2 must be finite, got %.9g", scale);
+        return rf_say(why, RF_INVALID, "viscosity length radius^3 / clearance^2 must be finite, got %.9g",
+                      scale);
     if (slenderness != self->slenderness) {
         double center;
         if (rf_map_slice(&self->table, slenderness, self->spare, &center) != RF_OK)
@@ -119,24 +126,27 @@ static int explain(const model *self, int status, const double *u, rf_message *w
 {
     const double c = self->journal.clearance, e = sqrt(u[0] * u[0] + u[1] * u[1]);
     switch (status) {
-    case RF_OK:
-        return RF_OK;
+    case RF_OK: return RF_OK;
     case RF_OUTSIDE:
-        return rf_say(why, status, "eccentricity ratio %.6g is beyond the map of the film; its force is extrapolated",
+        return rf_say(why, status,
+                      "eccentricity ratio %.6g is beyond the map of the film; its force is extrapolated",
                       e / c);
     case RF_UNDEFINED:
-        return rf_say(why, status,
-                      "the film has no derivative where its source velocity/clearance - (speed/2) z x eccentricity "
-                      "vanishes: x = %.9g, y = %.9g m, vx = %.9g, vy = %.9g m/s, speed = %.9g rad/s",
-                      u[0], u[1], u[2], u[3], u[4]);
+        return rf_say(
+            why, status,
+            "the film has no derivative where its source velocity/clearance - (speed/2) z x eccentricity "
+            "vanishes: x = %.9g, y = %.9g m, vx = %.9g, vy = %.9g m/s, speed = %.9g rad/s",
+            u[0], u[1], u[2], u[3], u[4]);
     case RF_CONTACT:
         return rf_say(why, status,
                       "the journal must stay inside the clearance %.9g m, got an eccentricity of %.9g m "
-                      "(x = %.9g, y = %.9g)", c, e, u[0], u[1]);
+                      "(x = %.9g, y = %.9g)",
+                      c, e, u[0], u[1]);
     default:
-        return rf_say(why, status,
-                      "the force is not finite at x = %.9g, y = %.9g m, vx = %.9g, vy = %.9g m/s, speed = %.9g rad/s",
-                      u[0], u[1], u[2], u[3], u[4]);
+        return rf_say(
+            why, status,
+            "the force is not finite at x = %.9g, y = %.9g m, vx = %.9g, vy = %.9g m/s, speed = %.9g rad/s",
+            u[0], u[1], u[2], u[3], u[4]);
     }
 }
 

@@ -26,15 +26,17 @@ static void destroy(void *kernel)
 
 static int take_tables(model *self, const rf_tables *tables, rf_message *why)
 {
-    const rf_table *A = rf_find_table(tables, "A", 2, why), *B = A ? rf_find_table(tables, "B", 2, why) : NULL;
-    const rf_table *C = B ? rf_find_table(tables, "C", 2, why) : NULL, *D = C ? rf_find_table(tables, "D", 2, why) : NULL;
+    const rf_table *A = rf_find_table(tables, "A", 2, why),
+                   *B = A ? rf_find_table(tables, "B", 2, why) : NULL;
+    const rf_table *C = B ? rf_find_table(tables, "C", 2, why) : NULL,
+                   *D = C ? rf_find_table(tables, "D", 2, why) : NULL;
     if (!D)
         return RF_INVALID;
     const size_t n = A->extent[0], m = D->extent[1], p = D->extent[0];
     if (A->extent[1] != n || B->extent[0] != n || B->extent[1] != m || C->extent[0] != p || C->extent[1] != n
         || n > MOST || m > MOST || p > MOST)
-        return rf_say(why, RF_INVALID, "A, B, C and D must fit each other, got %zu states, %zu inputs, %zu outputs",
-                      n, m, p);
+        return rf_say(why, RF_INVALID,
+                      "A, B, C and D must fit each other, got %zu states, %zu inputs, %zu outputs", n, m, p);
     self->n = n, self->m = m, self->p = p;
     self->A = A->numbers, self->B = B->numbers, self->C = C->numbers, self->D = D->numbers;
     return RF_OK;
@@ -76,7 +78,8 @@ static int require_finite(size_t count, const double *values, const char *what, 
 {
     for (size_t i = 0; i < count; ++i)
         if (!isfinite(values[i]))
-            return rf_say(why, RF_NOT_FINITE, "%s %zu of the state space is not finite at t = %.9g s", what, i, t);
+            return rf_say(why, RF_NOT_FINITE, "%s %zu of the state space is not finite at t = %.9g s", what,
+                          i, t);
     return RF_OK;
 }
 

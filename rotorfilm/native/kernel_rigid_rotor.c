@@ -10,7 +10,15 @@
 
 #include "kernel.h"
 
-enum { MASS, UNBALANCE, UNBALANCE_ANGLE, GRAVITY, STATIC_FORCE = GRAVITY + 2, SPEED = STATIC_FORCE + 2, PARAMETERS };
+enum {
+    MASS,
+    UNBALANCE,
+    UNBALANCE_ANGLE,
+    GRAVITY,
+    STATIC_FORCE = GRAVITY + 2,
+    SPEED = STATIC_FORCE + 2,
+    PARAMETERS
+};
 
 typedef struct model {
     double p[PARAMETERS];
@@ -52,8 +60,9 @@ static void integrate_profile(model *self)
 {
     self->angles[0] = 0.0;
     for (size_t k = 1; k < self->points; ++k)
-        self->angles[k] = self->angles[k - 1]
-                          + 0.5 * (self->speeds[k] + self->speeds[k - 1]) * (self->times[k] - self->times[k - 1]);
+        self->angles[k] =
+            self->angles[k - 1]
+            + 0.5 * (self->speeds[k] + self->speeds[k - 1]) * (self->times[k] - self->times[k - 1]);
 }
 
 static void destroy(void *kernel)
@@ -140,8 +149,9 @@ static int derivative(const void *kernel, const rf_point *at, double *dx, rf_mes
         dx[2 + i] = (at->u[i] + self->load[i] + shake[i]) / self->p[MASS];
     }
     if (!isfinite(dx[0]) || !isfinite(dx[1]) || !isfinite(dx[2]) || !isfinite(dx[3]))
-        return rf_say(why, RF_NOT_FINITE, "the acceleration is not finite under force_x = %.9g, force_y = %.9g N",
-                      at->u[0], at->u[1]);
+        return rf_say(why, RF_NOT_FINITE,
+                      "the acceleration is not finite under force_x = %.9g, force_y = %.9g N", at->u[0],
+                      at->u[1]);
     return RF_OK;
 }
 

@@ -14,6 +14,10 @@ from ..errors import RotorfilmError
 
 NUMBERS = POINTER(c_double)
 SUFFIXES = {"win32": ".dll", "darwin": ".dylib"}
+REMEDY = (
+    "install rotorfilm with a C compiler present, "
+    "or run 'cmake -S . -B build && cmake --build build' in its source"
+)
 
 
 class NativeLibraryError(RotorfilmError, ImportError):
@@ -86,7 +90,12 @@ def functions() -> dict[str, Any]:
 
 def _typed(loader: type[ctypes.CDLL], signatures: dict[str, list[Any]]) -> dict[str, Any]:
     library = _load(loader)
-    found = {name: getattr(library, name) for name in signatures}
+    try:
+        found = {name: getattr(library, name) for name in signatures}
+    except AttributeError as error:
+        raise NativeLibraryError(
+            f"the compiled library of rotorfilm is of another version ({error}); {REMEDY}"
+        ) from error
     for name, function in found.items():
         function.argtypes, function.restype = signatures[name], c_int
     return found
@@ -99,6 +108,5 @@ def _load(loader: type[ctypes.CDLL]) -> ctypes.CDLL:
             return loader(str(path))
     except OSError as error:
         raise NativeLibraryError(
-            f"the compiled library {name} of rotorfilm is missing or unusable ({error}); install rotorfilm "
-            "with a C compiler present, or run 'cmake -S . -B build && cmake --build build' in its source"
+            f"the compiled library {name} of rotorfilm is missing or unusable ({error}); {REMEDY}"
         ) from error

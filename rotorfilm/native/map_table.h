@@ -12,8 +12,8 @@ typedef struct rf_map_table {
     const double *coefficients; /* (cells_s + 5 or 1) x (cells_x + 5) x (cells_t + 5) */
 } rf_map_table;
 
-/* The map of one bearing: (cells_x + 5) x (cells_t + 5) coefficients and L0. RF_INVALID, without an answer, if
-   length/diameter is outside the table. */
+/* The map of one bearing: (cells_x + 5) x (cells_t + 5) coefficients and L0. RF_INVALID, without an answer,
+   if length/diameter is outside the table. */
 RF_EXPORT int rf_map_slice(const rf_map_table *table, double slenderness, double *coefficients,
                            double *center);
 

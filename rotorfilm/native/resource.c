@@ -88,7 +88,8 @@ static int measure(const unsigned char *at, size_t size, rf_table *table, size_t
     return count <= (size - offset) / 8;
 }
 
-static int read_tables(const unsigned char *bytes, size_t size, size_t directory, rf_resource *to, rf_message *why)
+static int read_tables(const unsigned char *bytes, size_t size, size_t directory, rf_resource *to,
+                       rf_message *why)
 {
     rf_table *list = calloc(to->tables.count + 1, sizeof *list);
     size_t total = 0, count;
@@ -119,10 +120,11 @@ static int read_model(const unsigned char *bytes, size_t size, rf_resource *to, 
 {
     const unsigned char *model = bytes + HEADER;
     const size_t variables = read_u32(model + 160), tables = read_u32(model + 164);
-    if (!read_text(model, to->token, sizeof to->token) || !read_text(model + 128, to->kernel, sizeof to->kernel)
-        || variables > size / VARIABLE || tables > size / TABLE
-        || HEADER + MODEL + variables * VARIABLE + tables * TABLE > size)
-        return rf_say(why, RF_INVALID, "%s has no room for %zu variables and %zu tables", FILE_NAME, variables, tables);
+    if (!read_text(model, to->token, sizeof to->token)
+        || !read_text(model + 128, to->kernel, sizeof to->kernel) || variables > size / VARIABLE
+        || tables > size / TABLE || HEADER + MODEL + variables * VARIABLE + tables * TABLE > size)
+        return rf_say(why, RF_INVALID, "%s has no room for %zu variables and %zu tables", FILE_NAME,
+                      variables, tables);
     to->variables = calloc(variables + 1, sizeof *to->variables);
     if (!to->variables)
         return rf_say(why, RF_MEMORY, "no memory for the variables of %s", FILE_NAME);
@@ -136,12 +138,14 @@ static int read_model(const unsigned char *bytes, size_t size, rf_resource *to, 
 static int check(const unsigned char *bytes, size_t size, rf_message *why)
 {
     if (size < HEADER + MODEL || memcmp(bytes, MAGIC, 8) != 0)
-        return rf_say(why, RF_INVALID, "%s must begin with %s, got %zu bytes of something else", FILE_NAME, MAGIC, size);
+        return rf_say(why, RF_INVALID, "%s must begin with %s, got %zu bytes of something else", FILE_NAME,
+                      MAGIC, size);
     if (read_u32(bytes + 8) != VERSION)
         return rf_say(why, RF_INVALID, "%s must be of version %u, got %u", FILE_NAME, VERSION,
                       (unsigned)read_u32(bytes + 8));
     if (read_u64(bytes + 16) != size)
-        return rf_say(why, RF_INVALID, "%s must have %.0f bytes, got %zu", FILE_NAME, (double)read_u64(bytes + 16), size);
+        return rf_say(why, RF_INVALID, "%s must have %.0f bytes, got %zu", FILE_NAME,
+                      (double)read_u64(bytes + 16), size);
     if (read_u32(bytes + 12) != checksum(bytes + HEADER, size - HEADER))
         return rf_say(why, RF_INVALID, "%s is damaged, its checksum is wrong", FILE_NAME);
     return RF_OK;
@@ -239,7 +243,7 @@ static int is_letter(char c)
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-/* What of file:/path, file:///path, file://host/path, file:///C:/path is the path; NULL if it is not local. */
+/* The path in file:/path, file:///path, file://host/path or file:///C:/path; NULL if there is none. */
 static const char *local_part(const char *after_scheme)
 {
     const char *path = after_scheme;
@@ -247,7 +251,7 @@ static const char *local_part(const char *after_scheme)
         path += 2;
         if (strncmp(path, "localhost/", 10) == 0)
             path += 9;
-        else if (path[0] != '/' && !(is_letter(path[0]) && path[1] == ':'))
+        else if (path[0] && path[0] != '/' && !(is_letter(path[0]) && path[1] == ':'))
             return after_scheme; /* a Windows share: //host/path */
     }
     if (path[0] == '/' && is_letter(path[1]) && path[2] == ':')

@@ -4,7 +4,15 @@
 
 #include "kernel.h"
 
-typedef enum rf_role { RF_TIME, RF_PARAMETER, RF_INPUT, RF_OUTPUT, RF_STATE, RF_DERIVATIVE, RF_ROLES } rf_role;
+typedef enum rf_role {
+    RF_TIME,
+    RF_PARAMETER,
+    RF_INPUT,
+    RF_OUTPUT,
+    RF_STATE,
+    RF_DERIVATIVE,
+    RF_ROLES
+} rf_role;
 
 enum { RF_TUNABLE = 1 };
 

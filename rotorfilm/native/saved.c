@@ -38,7 +38,8 @@ static int belongs(const rf_instance *c, const void *bytes)
 
 static rf_answer refuse(rf_instance *c)
 {
-    return rf_log(c, RF_ERROR, RF_LOG_ERROR, "the FMU state must come from this FMU, of %zu bytes", rf_saved_size(c));
+    return rf_log(c, RF_ERROR, RF_LOG_ERROR, "the FMU state must come from this FMU, of %zu bytes",
+                  rf_saved_size(c));
 }
 
 rf_answer rf_save(rf_instance *c, void **saved)

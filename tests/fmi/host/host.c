@@ -47,8 +47,8 @@ static void require(int status, const char *what)
     }
 }
 
-static void hear2(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status, fmi2String category,
-                  fmi2String message, ...)
+static void hear2(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status,
+                  fmi2String category, fmi2String message, ...)
 {
     va_list values;
     (void)environment, (void)name;
@@ -59,7 +59,8 @@ static void hear2(fmi2ComponentEnvironment environment, fmi2String name, fmi2Sta
     fputc('\n', stderr);
 }
 
-static void hear3(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category, fmi3String message)
+static void hear3(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category,
+                  fmi3String message)
 {
     (void)environment;
     fprintf(stderr, "%d %s: %s\n", (int)status, category, message);
@@ -160,7 +161,8 @@ int main(int argc, char **argv)
 {
     double dt, t = 0.0, values[MOST];
     if (argc != 7 || !(library = dlopen(argv[2], RTLD_NOW | RTLD_LOCAL))) {
-        fprintf(stderr, "%s\n", argc == 7 ? dlerror() : "host VERSION LIBRARY RESOURCES TOKEN INPUTS OUTPUTS");
+        fprintf(stderr, "%s\n",
+                argc == 7 ? dlerror() : "host VERSION LIBRARY RESOURCES TOKEN INPUTS OUTPUTS");
         return 2;
     }
     version = atoi(argv[1]);
