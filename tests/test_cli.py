@@ -208,7 +208,7 @@ def test_fmu_info_lists_variables(run, tmp_path):
     assert "rotor.mass" in run("fmu", "info", path)[1]
 
 
-def test_a_file_that_is_no_fmu_is_bad_input(run, scene):
+def test_a_file_that_is_no_fmu_is_named(run, scene):
     code, _, err = run("fmu", "check", scene)
     assert code == 1
     assert "fmu must be a readable FMU" in err
