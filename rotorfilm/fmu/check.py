@@ -266,7 +266,7 @@ def _difference(description: Any, instance: Instance, known: int, step: float, i
 
 def _state_differences(description: Any, first: Instance, second: Instance) -> int:
     """Return how many values differ between a run, the same run restored, and it in another instance."""
-    everything = [v.valueReference for v in description.modelVariables if v.causality != "independent"]
+    everything = [v.valueReference for v in _reals(description) if v.causality != "independent"]
     experiment = description.defaultExperiment
     step = float(getattr(experiment, "stepSize", None) or 1e-3)
     first.initialize([], [])
@@ -303,11 +303,15 @@ def _provides(subject: _Subject, *names: str) -> bool:
 
 
 def _variables(description: Any, causality: str) -> list[Any]:
-    """Return fmpy's variables of a causality; of "local" the continuous states in Model Exchange."""
+    """Return the real variables of a causality; of "local" the continuous states in Model Exchange."""
     if causality == "local":
         slopes = [unknown.variable for unknown in description.derivatives]
         return [slope.derivative for slope in slopes] if description.modelExchange is not None else []
-    return [v for v in description.modelVariables if v.causality == causality]
+    return [v for v in _reals(description) if v.causality == causality]
+
+
+def _reals(description: Any) -> list[Any]:
+    return [v for v in description.modelVariables if v.type in ("Real", "Float64")]
 
 
 def _references(description: Any, causality: str) -> list[int]:
