@@ -1,95 +1,121 @@
-/* The least that an FMI 2.0 Co-Simulation FMU can do with the variables of a journal bearing: it stores inputs
-   and answers their sum. What a simulator costs with it is what the simulator itself costs. */
+/* The least that a Co-Simulation FMU can do with the variables of a journal bearing, of FMI 2.0 and 3.0: it
+   stores inputs and answers sums. What a simulator costs with it is what the simulator itself costs. */
 #include <stdlib.h>
-#include <string.h>
 
-#include "fmi/fmi2Functions.h"
+#include "fmi/fmi2FunctionTypes.h"
+#include "fmi/fmi3PlatformTypes.h"
 
-typedef struct model {
-    double value[16];
-} model;
+#include "fmi/fmi3FunctionTypes.h"
 
-#define UNUSED(name, ...)                 \
-    fmi2Status name(__VA_ARGS__)          \
-    {                                     \
-        return fmi2Error;                 \
+enum { VARIABLES = 16 };
+
+static int set(double *values, const unsigned *vr, size_t n, const double *given)
+{
+    for (size_t i = 0; i < n; ++i) {
+        if (vr[i] >= VARIABLES)
+            return fmi2Error;
+        values[vr[i]] = given[i];
     }
+    return fmi2OK;
+}
 
-const char *fmi2GetTypesPlatform(void) { return fmi2TypesPlatform; }
+static int get(const double *values, const unsigned *vr, size_t n, double *asked)
+{
+    for (size_t i = 0; i < n; ++i) {
+        if (vr[i] >= VARIABLES)
+            return fmi2Error;
+        asked[i] = values[vr[i]] + values[5];
+    }
+    return fmi2OK;
+}
+
+const char *fmi2GetTypesPlatform(void) { return "default"; }
 const char *fmi2GetVersion(void) { return "2.0"; }
+const char *fmi3GetVersion(void) { return "3.0"; }
 
 fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
                               const fmi2CallbackFunctions *callbacks, fmi2Boolean visible, fmi2Boolean logging)
 {
     (void)name, (void)type, (void)guid, (void)resources, (void)callbacks, (void)visible, (void)logging;
-    return calloc(1, sizeof(model));
+    return calloc(VARIABLES, sizeof(double));
 }
 
-void fmi2FreeInstance(fmi2Component c) { free(c); }
-
-fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerance, fmi2Real value, fmi2Real start,
-                               fmi2Boolean stop, fmi2Real end)
+fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources,
+                                         fmi3Boolean visible, fmi3Boolean logging, fmi3Boolean events,
+                                         fmi3Boolean early, const fmi3ValueReference required[], size_t n,
+                                         fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
+                                         fmi3IntermediateUpdateCallback update)
 {
-    (void)c, (void)tolerance, (void)value, (void)start, (void)stop, (void)end;
-    return fmi2OK;
+    (void)name, (void)token, (void)resources, (void)visible, (void)logging, (void)events, (void)early;
+    (void)required, (void)n, (void)environment, (void)log, (void)update;
+    return calloc(VARIABLES, sizeof(double));
 }
 
-fmi2Status fmi2EnterInitializationMode(fmi2Component c) { return c ? fmi2OK : fmi2Error; }
-fmi2Status fmi2ExitInitializationMode(fmi2Component c) { return c ? fmi2OK : fmi2Error; }
-fmi2Status fmi2Terminate(fmi2Component c) { return c ? fmi2OK : fmi2Error; }
-fmi2Status fmi2Reset(fmi2Component c) { return c ? fmi2OK : fmi2Error; }
+void fmi2FreeInstance(void *c) { free(c); }
+void fmi3FreeInstance(void *c) { free(c); }
 
-fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Real value[])
+int fmi2SetReal(void *c, const unsigned vr[], size_t n, const double value[]) { return set(c, vr, n, value); }
+int fmi2GetReal(void *c, const unsigned vr[], size_t n, double value[]) { return get(c, vr, n, value); }
+
+int fmi3SetFloat64(void *c, const unsigned vr[], size_t n, const double value[], size_t m)
 {
-    model *self = c;
-    for (size_t i = 0; i < n; ++i) {
-        if (vr[i] >= 16)
-            return fmi2Error;
-        self->value[vr[i]] = value[i];
-    }
-    return fmi2OK;
+    return m == n ? set(c, vr, n, value) : fmi3Error;
 }
 
-fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Real value[])
+int fmi3GetFloat64(void *c, const unsigned vr[], size_t n, double value[], size_t m)
 {
-    const model *self = c;
-    for (size_t i = 0; i < n; ++i) {
-        if (vr[i] >= 16)
-            return fmi2Error;
-        value[i] = self->value[vr[i]] + self->value[5];
-    }
-    return fmi2OK;
+    return m == n ? get(c, vr, n, value) : fmi3Error;
 }
 
-fmi2Status fmi2DoStep(fmi2Component c, fmi2Real time, fmi2Real step, fmi2Boolean no_set_state)
+int fmi2DoStep(void *c, double time, double step, fmi2Boolean no_set_state)
 {
-    model *self = c;
+    double *values = c;
     (void)no_set_state;
-    self->value[0] = time + step;
+    values[0] = time + step;
     return fmi2OK;
 }
 
-#define VR const fmi2ValueReference vr[], size_t n
-UNUSED(fmi2SetDebugLogging, fmi2Component c, fmi2Boolean on, size_t n, const fmi2String names[])
-UNUSED(fmi2GetInteger, fmi2Component c, VR, fmi2Integer value[])
-UNUSED(fmi2GetBoolean, fmi2Component c, VR, fmi2Boolean value[])
-UNUSED(fmi2GetString, fmi2Component c, VR, fmi2String value[])
-UNUSED(fmi2SetInteger, fmi2Component c, VR, const fmi2Integer value[])
-UNUSED(fmi2SetBoolean, fmi2Component c, VR, const fmi2Boolean value[])
-UNUSED(fmi2SetString, fmi2Component c, VR, const fmi2String value[])
-UNUSED(fmi2GetFMUstate, fmi2Component c, fmi2FMUstate *state)
-UNUSED(fmi2SetFMUstate, fmi2Component c, fmi2FMUstate state)
-UNUSED(fmi2FreeFMUstate, fmi2Component c, fmi2FMUstate *state)
-UNUSED(fmi2SerializedFMUstateSize, fmi2Component c, fmi2FMUstate state, size_t *size)
-UNUSED(fmi2SerializeFMUstate, fmi2Component c, fmi2FMUstate state, fmi2Byte data[], size_t size)
-UNUSED(fmi2DeSerializeFMUstate, fmi2Component c, const fmi2Byte data[], size_t size, fmi2FMUstate *state)
-UNUSED(fmi2GetDirectionalDerivative, fmi2Component c, const fmi2ValueReference u[], size_t n,
-       const fmi2ValueReference k[], size_t m, const fmi2Real dk[], fmi2Real du[])
-UNUSED(fmi2SetRealInputDerivatives, fmi2Component c, VR, const fmi2Integer order[], const fmi2Real value[])
-UNUSED(fmi2GetRealOutputDerivatives, fmi2Component c, VR, const fmi2Integer order[], fmi2Real value[])
-UNUSED(fmi2CancelStep, fmi2Component c)
-UNUSED(fmi2GetStatus, fmi2Component c, const fmi2StatusKind kind, fmi2Status *value)
-UNUSED(fmi2GetRealStatus, fmi2Component c, const fmi2StatusKind kind, fmi2Real *value)
-UNUSED(fmi2GetIntegerStatus, fmi2Component c, const fmi2StatusKind kind, fmi2Integer *value)
-UNUSED(fmi2GetBooleanStatus, fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value)
-UNUSED(fmi2GetStringStatus, fmi2Component c, const fmi2StatusKind kind, fmi2String *value)
+int fmi3DoStep(void *c, double time, double step, fmi3Boolean no_set_state, fmi3Boolean *event,
+               fmi3Boolean *terminate, fmi3Boolean *early, double *last)
+{
+    double *values = c;
+    (void)no_set_state;
+    *event = *terminate = *early = fmi3False;
+    *last = values[0] = time + step;
+    return fmi3OK;
+}
+
+#define DONE(name) int name(void) { return fmi2OK; }
+#define UNUSED(name) int name(void) { return fmi2Error; }
+DONE(fmi2SetupExperiment) DONE(fmi2EnterInitializationMode) DONE(fmi2ExitInitializationMode) DONE(fmi2Terminate)
+DONE(fmi2Reset) DONE(fmi3EnterInitializationMode) DONE(fmi3ExitInitializationMode) DONE(fmi3Terminate)
+DONE(fmi3Reset)
+UNUSED(fmi2CancelStep) UNUSED(fmi2CompletedIntegratorStep) UNUSED(fmi2DeSerializeFMUstate)
+UNUSED(fmi2EnterContinuousTimeMode) UNUSED(fmi2EnterEventMode) UNUSED(fmi2FreeFMUstate) UNUSED(fmi2GetBoolean)
+UNUSED(fmi2GetBooleanStatus) UNUSED(fmi2GetContinuousStates) UNUSED(fmi2GetDerivatives)
+UNUSED(fmi2GetDirectionalDerivative) UNUSED(fmi2GetEventIndicators) UNUSED(fmi2GetFMUstate)
+UNUSED(fmi2GetInteger) UNUSED(fmi2GetIntegerStatus) UNUSED(fmi2GetNominalsOfContinuousStates)
+UNUSED(fmi2GetRealOutputDerivatives) UNUSED(fmi2GetRealStatus) UNUSED(fmi2GetStatus) UNUSED(fmi2GetString)
+UNUSED(fmi2GetStringStatus) UNUSED(fmi2NewDiscreteStates) UNUSED(fmi2SerializeFMUstate)
+UNUSED(fmi2SerializedFMUstateSize) UNUSED(fmi2SetBoolean) UNUSED(fmi2SetContinuousStates)
+UNUSED(fmi2SetDebugLogging) UNUSED(fmi2SetFMUstate) UNUSED(fmi2SetInteger) UNUSED(fmi2SetRealInputDerivatives)
+UNUSED(fmi2SetString) UNUSED(fmi2SetTime)
+UNUSED(fmi3ActivateModelPartition) UNUSED(fmi3CompletedIntegratorStep) UNUSED(fmi3DeserializeFMUState)
+UNUSED(fmi3EnterConfigurationMode) UNUSED(fmi3EnterContinuousTimeMode) UNUSED(fmi3EnterEventMode)
+UNUSED(fmi3EnterStepMode) UNUSED(fmi3EvaluateDiscreteStates) UNUSED(fmi3ExitConfigurationMode)
+UNUSED(fmi3FreeFMUState) UNUSED(fmi3GetAdjointDerivative) UNUSED(fmi3GetBinary) UNUSED(fmi3GetBoolean)
+UNUSED(fmi3GetClock) UNUSED(fmi3GetContinuousStateDerivatives) UNUSED(fmi3GetContinuousStates)
+UNUSED(fmi3GetDirectionalDerivative) UNUSED(fmi3GetEventIndicators) UNUSED(fmi3GetFMUState)
+UNUSED(fmi3GetFloat32) UNUSED(fmi3GetInt16) UNUSED(fmi3GetInt32) UNUSED(fmi3GetInt64) UNUSED(fmi3GetInt8)
+UNUSED(fmi3GetIntervalDecimal) UNUSED(fmi3GetIntervalFraction) UNUSED(fmi3GetNominalsOfContinuousStates)
+UNUSED(fmi3GetNumberOfContinuousStates) UNUSED(fmi3GetNumberOfEventIndicators)
+UNUSED(fmi3GetNumberOfVariableDependencies) UNUSED(fmi3GetOutputDerivatives) UNUSED(fmi3GetShiftDecimal)
+UNUSED(fmi3GetShiftFraction) UNUSED(fmi3GetString) UNUSED(fmi3GetUInt16) UNUSED(fmi3GetUInt32)
+UNUSED(fmi3GetUInt64) UNUSED(fmi3GetUInt8) UNUSED(fmi3GetVariableDependencies)
+UNUSED(fmi3InstantiateModelExchange) UNUSED(fmi3InstantiateScheduledExecution) UNUSED(fmi3SerializeFMUState)
+UNUSED(fmi3SerializedFMUStateSize) UNUSED(fmi3SetBinary) UNUSED(fmi3SetBoolean) UNUSED(fmi3SetClock)
+UNUSED(fmi3SetContinuousStates) UNUSED(fmi3SetDebugLogging) UNUSED(fmi3SetFMUState) UNUSED(fmi3SetFloat32)
+UNUSED(fmi3SetInt16) UNUSED(fmi3SetInt32) UNUSED(fmi3SetInt64) UNUSED(fmi3SetInt8)
+UNUSED(fmi3SetIntervalDecimal) UNUSED(fmi3SetIntervalFraction) UNUSED(fmi3SetShiftDecimal)
+UNUSED(fmi3SetShiftFraction) UNUSED(fmi3SetString) UNUSED(fmi3SetTime) UNUSED(fmi3SetUInt16)
+UNUSED(fmi3SetUInt32) UNUSED(fmi3SetUInt64) UNUSED(fmi3SetUInt8) UNUSED(fmi3UpdateDiscreteStates)
