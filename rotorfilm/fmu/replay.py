@@ -9,6 +9,7 @@ from scipy.integrate import DOP853
 
 from ..errors import FmuError
 from ..model import Array
+from .described import nominal_of, references_of, variables_of
 from .instance import Instance, instantiated
 
 TOLERANCE = 1e-11
@@ -26,7 +27,7 @@ def replay_steps(description: Any, folder: str, table: Array) -> Array:
     table : ndarray, shape (n_rows, 1 + n_inputs + ...)
         Columns time and inputs; the inputs of a row are held until the next row.
     """
-    inputs, outputs = _references(description, "input"), _references(description, "output")
+    inputs, outputs = references_of(description, "input"), references_of(description, "output")
     time, values = table[:, 0], table[:, 1 : 1 + len(inputs)]
     instance = instantiated(description, folder, False)
     try:
@@ -43,9 +44,9 @@ def replay_steps(description: Any, folder: str, table: Array) -> Array:
 
 def replay_exchange(description: Any, folder: str, table: Array) -> Array:
     """Return the outputs (n_rows, n_outputs) of an FMU in Model Exchange; see `replay_steps`."""
-    inputs, outputs = _references(description, "input"), _references(description, "output")
+    inputs, outputs = references_of(description, "input"), references_of(description, "output")
     time, values = table[:, 0], table[:, 1 : 1 + len(inputs)]
-    nominal = _nominals(description)
+    nominal = np.array([nominal_of(state) for state in variables_of(description, "local")])
     instance = instantiated(description, folder, True)
     try:
         next_event = instance.initialize(inputs, values[0].tolist(), float(time[0])).next_time
@@ -89,12 +90,3 @@ def _integrated(instance: Instance, t: float, x: Array, end: float, nominal: Arr
         raise FmuError(f"the integration must reach t = {end!r} s, got stuck at {solver.t!r} s")
     instance.move(end, solver.y)
     return solver.y
-
-
-def _references(description: Any, causality: str) -> list[int]:
-    return [v.valueReference for v in description.modelVariables if v.causality == causality]
-
-
-def _nominals(description: Any) -> Array:
-    states = [unknown.variable.derivative for unknown in description.derivatives]
-    return np.array([abs(float(state.nominal or 1.0)) or 1.0 for state in states])
