@@ -1,7 +1,7 @@
 """Export a film and a rotor as FMUs, couple them, and compare with the monolithic solution.
 
 The FMUs run in any FMI 2.0 co-simulation tool. Here a Gauss-Seidel master exchanges forces and motion once
-per degree of shaft rotation; beyond 2.7 degrees the explicit coupling of this bearing is unstable, and
+per degree of shaft rotation; beyond 2.8 degrees the explicit coupling of this bearing is unstable, and
 `cosimulate` raises CouplingError instead of returning a plausible orbit.
 """
 

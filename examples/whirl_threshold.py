@@ -10,11 +10,12 @@ import math
 import numpy as np
 
 from rotorfilm.bearings import JournalBearing
+from rotorfilm.films import ShortFilm
 from rotorfilm.linear import coefficients, critical_mass
 
 SPEED = 100.0  # rad/s; the parameter does not depend on it
 
-bearing = JournalBearing(radius=0.05, length=0.025, clearance=1e-4, viscosity=0.02)
+bearing = JournalBearing(radius=0.05, length=0.025, clearance=1e-4, viscosity=0.02, film=ShortFilm())
 
 
 def speed_parameter(eccentricity_ratio):

@@ -16,7 +16,8 @@ from . import console
 from .errors import InputError, RotorfilmError, SceneError
 
 if TYPE_CHECKING:
-    from .scenes.schema import FilmTable, JournalTable
+    from .scenes.film_tables import FilmTable
+    from .scenes.schema import JournalTable
 
 BAD_INPUT = 2
 FAILED = 1
@@ -35,21 +36,6 @@ fmu = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 app.add_typer(fmu, name="fmu", epilog="Example: rotorfilm fmu build examples/friswell.toml --out fmus")
-
-
-class Film(StrEnum):
-    """Film laws that the command line offers."""
-
-    MAP = "map"
-    SHORT = "short"
-    SPLITTING = "splitting"
-
-
-class Rupture(StrEnum):
-    """Rupture rules of the splitting film."""
-
-    FIXED = "fixed"
-    ROTATING = "rotating"
 
 
 class FmiVersion(StrEnum):
@@ -102,11 +88,23 @@ def coefficients(
     viscosity: Annotated[str, typer.Option(help="Dynamic viscosity.", metavar='"0.1 Pa s"')],
     load: Annotated[str, typer.Option(help='Static load: downward, or "X,Y" components.', metavar='"525 N"')],
     speed: Annotated[str, typer.Option(help="Angular speed about +z.", metavar='"1500 rpm"')],
-    film: Annotated[Film, typer.Option(help="Film law.")] = Film.SHORT,
+    film: Annotated[
+        str, typer.Option(help="Film law: map, reynolds, short or splitting.", metavar="NAME")
+    ] = "map",
     order: Annotated[
         str | None, typer.Option(help='Splitting order, "N,M" or "N,inf".', metavar="2,inf")
     ] = None,
-    rupture: Annotated[Rupture | None, typer.Option(help="Where the splitting film ends.")] = None,
+    constant: Annotated[bool, typer.Option("--constant", help="Splitting film with the function 1.")] = False,
+    rupture: Annotated[
+        str | None,
+        typer.Option(
+            help="Where the splitting film ends: fixed, rotating, reynolds or complementarity.",
+            metavar="KIND",
+        ),
+    ] = None,
+    cells: Annotated[
+        str | None, typer.Option(help='Cells of the reynolds film, "AROUND,ALONG".', metavar="96,8")
+    ] = None,
     json: Json = False,
 ) -> None:
     """Find equilibrium, stiffness and damping of a journal bearing; numbers without a unit are SI."""
@@ -114,7 +112,7 @@ def coefficients(
     from .linear import equilibrium
 
     geometry = {"radius": radius, "length": length, "clearance": clearance, "viscosity": viscosity}
-    bearing = _journal(geometry, _film(film, order, rupture)).build()
+    bearing = _journal(geometry, _film(film, order, constant, rupture, cells)).build()
     force, rate = _operation(load, speed)
     at = equilibrium(bearing, force, rate)
     derivatives = film_coefficients(bearing, at.position, rate)
@@ -226,18 +224,29 @@ def _show_warning(message: Warning | str, *_: Any) -> None:
     console.complain("warning", message)
 
 
-def _film(film: Film, order: str | None, rupture: Rupture | None) -> FilmTable:
-    from .scenes.schema import FILMS
-    from .scenes.tables import read_table
+def _film(film: str, order: str | None, constant: bool, rupture: str | None, cells: str | None) -> FilmTable:
+    from dataclasses import fields
 
-    options: dict[str, Any] = {}
-    if film is not Film.SPLITTING and (order, rupture) != (None, None):
-        raise InputError(f"--order and --rupture need --film splitting, got --film {film.value}")
-    if order is not None:
-        options["order"] = [int(part) if part.strip().isdigit() else part for part in order.split(",")]
-    if rupture is not None:
-        options["rupture"] = {"kind": rupture.value}
-    return read_table(FILMS[film.value], "--", options)
+    from .scenes.film_tables import FILMS
+    from .scenes.tables import choose, read_table
+
+    given: dict[str, Any] = {
+        "order": order and _numbers(order),
+        "constant": constant,
+        "rupture": rupture and {"kind": rupture},
+        "cells": cells and _numbers(cells),
+    }
+    options = {name: value for name, value in given.items() if value}
+    table = choose("--film", film, FILMS)
+    for name in options:
+        if name not in {field.name for field in fields(table)}:
+            raise InputError(f"--{name} must not be given with --film {film}, got {options[name]!r}")
+    return read_table(table, "--", options)
+
+
+def _numbers(text: str) -> list[int | str]:
+    """Return the integers between commas, and what is none as it is."""
+    return [int(part) if part.strip().isdigit() else part for part in text.split(",")]
 
 
 def _journal(geometry: dict[str, str], film: FilmTable) -> JournalTable:

@@ -9,6 +9,7 @@ import numpy as np
 
 from .charts import plot_accuracy, plot_coupling_error, plot_locus, plot_orbits, plot_stability, save
 from .scenes.demo import DemoResult
+from .scenes.ladder import REFERENCE_CELLS
 
 
 def draw_demo(result: DemoResult, folder: Path) -> list[Path]:
@@ -40,7 +41,8 @@ def _draw_accuracy(result: DemoResult, path: Path) -> Path:
         label: (law.force_time, law.median_error, law.high_error) for label, law in result.accuracy.items()
     }
     slenderness = result.scene.bearing.slenderness
-    reference = f"converged film on the rotating arc, L/D = {slenderness:.3g}, random states"
+    cells = "{} x {}".format(*REFERENCE_CELLS)
+    reference = f"Reynolds rupture, {cells} cells, extrapolated; L/D = {slenderness:.3g}"
     return save(plot_accuracy(rungs, reference=reference), path)
 
 

@@ -58,6 +58,9 @@ DISPLAY_UNITS: dict[str, Unit] = {
     "kN": Unit(1e3, {"kg": 1, "m": 1, "s": -2}),
     "mPa s": Unit(1e-3, {"kg": 1, "m": -1, "s": -1}),
     "g mm": Unit(1e-6, {"kg": 1, "m": 1}),
+    "kPa": Unit(1e3, {"kg": 1, "m": -1, "s": -2}),
+    "MPa": Unit(1e6, {"kg": 1, "m": -1, "s": -2}),
+    "bar": Unit(1e5, {"kg": 1, "m": -1, "s": -2}),
     "deg": Unit(math.pi / 180.0, {"rad": 1}),
     "rpm": Unit(math.pi / 30.0, {"rad": 1, "s": -1}),
 }

@@ -15,6 +15,7 @@ from fmpy import read_model_description
 from rotorfilm import cli, scenes
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import RigidRotor
+from rotorfilm.scenes.film_tables import FILMS, RUPTURES
 
 SCENE = """
 schema = 1
@@ -37,6 +38,9 @@ GEOMETRY = {
     "--load": "525 N",
     "--speed": "1500 rpm",
 }
+
+
+SHORT = ("--film", "short")
 
 
 def coefficients(**changes):
@@ -65,7 +69,7 @@ def run(capsys):
 @pytest.mark.literature
 def test_coefficients_are_those_of_the_book(run):
     # Friswell et al. (2010), example 5.9.6
-    code, out, err = run(*coefficients(), "--json")
+    code, out, err = run(*coefficients(), *SHORT, "--json")
     assert (code, err) == (0, "")
     stiffness = json.loads(out)["coefficients"]["stiffness"]
     assert [int(k) for row in stiffness for k in row] == [12807959, 16393593, -25060393, 8815302]
@@ -80,6 +84,7 @@ def test_solve_gives_the_same_numbers_as_coefficients(run, scene):
 
 
 def test_solve_prints_what_people_read(run, scene):
+    scene.write_text(SCENE.replace("[operation]", 'film = { name = "short" }\n[operation]'), encoding="utf-8")
     code, out, _ = run("solve", scene)
     assert code == 0
     assert "0.266298" in out  # eccentricity ratio
@@ -93,6 +98,40 @@ def test_splitting_film_takes_its_options(run):
     assert code == 0
     assert json.loads(out)["model"].startswith("SplittingFilm(order=(2, None)")
     assert "RotatingArc()" in json.loads(out)["model"]
+
+
+def test_reynolds_film_takes_its_cells(run):
+    code, out, _ = run(*coefficients(), "--film", "reynolds", "--cells", "48,4", "--json")
+    coarse, mapped = json.loads(out), json.loads(run(*coefficients(), "--json")[1])
+    assert code == 0
+    assert coarse["model"].startswith("ReynoldsFilm(cells=(48, 4), cavitation=Complementarity()")
+    assert mapped["model"] == "MapFilm(table=None)"
+    np.testing.assert_allclose(
+        coarse["equilibrium"]["position"], mapped["equilibrium"]["position"], atol=0.01 * 1e-4
+    )
+
+
+def test_complementary_arc_takes_the_constant_function(run):
+    options = (
+        "--film",
+        "splitting",
+        "--order",
+        "4,8",
+        "--constant",
+        "--rupture",
+        "complementarity",
+        "--json",
+    )
+    code, out, err = run(*coefficients(), *options)
+    assert (code, err) == (0, "")
+    at = json.loads(out)["equilibrium"]
+    mapped = json.loads(run(*coefficients(), "--json")[1])["equilibrium"]
+    np.testing.assert_allclose(at["position"], mapped["position"], atol=2e-3 * 1e-4)
+
+
+def test_help_names_every_film_and_rupture(run):
+    words = run("coefficients", "--help")[1].replace(",", " ").replace(".", " ").split()
+    assert {*FILMS, *RUPTURES} <= set(words)
 
 
 def test_load_vector_turns_the_answer(run):
@@ -115,7 +154,22 @@ def test_load_vector_turns_the_answer(run):
         (coefficients(load="1,2,3"), 2, "error: --load must be one magnitude or two components [x, y]"),
         ([*coefficients(), "--film", "splitting"], 2, "error: --order is required and missing"),
         ([*coefficients(), "--film", "splitting", "--order", "2"], 2, "error: --order must be [n, m]"),
-        ([*coefficients(), "--order", "2,1"], 2, "error: --order and --rupture need --film splitting"),
+        (
+            [*coefficients(), "--order", "2,1"],
+            2,
+            "error: --order must not be given with --film map, got [2, 1]",
+        ),
+        (
+            [*coefficients(), *SHORT, "--cells", "96,8"],
+            2,
+            "error: --cells must not be given with --film short",
+        ),
+        (
+            [*coefficients(), "--film", "reynolds", "--cells", "96"],
+            2,
+            "error: --cells must be [around, along]",
+        ),
+        ([*coefficients(), "--film", "shirt"], 2, "got 'shirt'; did you mean 'short'?"),
         (coefficients(load="1e20 N"), 1, "error: load must be within the film's capacity"),
         (coefficients(speed="0 rpm"), 1, "error: speed must make the film carry load"),
         (["solve", "absent.toml"], 2, "error: absent.toml: scene file cannot be read"),
@@ -129,9 +183,7 @@ def test_mistake_gives_one_line_and_its_exit_code(run, arguments, code, message)
     assert err.count("\n") == 1
 
 
-@pytest.mark.parametrize(
-    "arguments", [["coefficients"], ["solve"], ["frobnicate"], [*coefficients(), "--film", "thick"]]
-)
+@pytest.mark.parametrize("arguments", [["coefficients"], ["solve"], ["frobnicate"]])
 def test_wrong_usage_exits_with_2(run, arguments):
     code, out, err = run(*arguments)
     assert (code, out) == (2, "")
@@ -242,7 +294,10 @@ def test_demo_prints_json_alone_on_stdout(run, tmp_path, monkeypatch):
 
 def test_warning_is_one_line_on_stderr_and_is_shown_once(scene):
     # In a process of its own, under the warning filters of a user.
-    scene.write_text(SCENE.replace('"30 mm"', '"60 mm"'), encoding="utf-8")
+    long = SCENE.replace('"30 mm"', '"60 mm"').replace(
+        "[operation]", 'film = { name = "short" }\n[operation]'
+    )
+    scene.write_text(long, encoding="utf-8")
     command = [Path(sys.executable).with_name("rotorfilm"), "solve", scene, "--json"]
     done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=scene.parent)
     assert done.stderr.startswith("warning: length / diameter must not exceed 0.5 for ShortFilm(), got 0.6")

@@ -21,7 +21,7 @@ from ..errors import (
 )
 from ..films.geometry import FilmGeometry, Groove, Pad
 from ..films.law import CENTER, BindableFilm, BoundFilm, FilmLaw, FittedFilm, NativeFilm
-from ..films.short import ShortFilm
+from ..films.map import MapFilm
 from ..model import Array, Linearization, force_outputs, journal_inputs, static_linearization
 from ..native.spec import NativeParameter, NativeSpec
 from ..signals import Signal
@@ -58,7 +58,8 @@ class JournalBearing:
     viscosity : float [Pa s]
         Dynamic viscosity of the lubricant.
     film : FilmLaw
-        The film law; exchangeable by `dataclasses.replace`.
+        The film law, by default `MapFilm()`: Reynolds rupture at any L/D of its table, without pads and
+        grooves. Exchangeable by `dataclasses.replace`.
     pads : tuple of Pad
         Where there is a bearing wall, angles in the bearing frame [rad]; empty for the full circumference.
     grooves : tuple of Groove
@@ -70,7 +71,7 @@ class JournalBearing:
     ------
     InputError
         If a dimension or the viscosity is not finite and positive, the clearance is not below the radius,
-        openings overlap, or the film cannot represent pads and grooves.
+        openings overlap, there is a supply without a groove, or the film cannot represent pads and grooves.
 
     Warns
     -----
@@ -88,7 +89,7 @@ class JournalBearing:
     length: float
     clearance: float
     viscosity: float
-    film: FilmLaw = field(default_factory=ShortFilm)
+    film: FilmLaw = field(default_factory=MapFilm)
     pads: tuple[Pad, ...] = ()
     grooves: tuple[Groove, ...] = ()
     supply_pressure: float = 0.0
@@ -103,10 +104,12 @@ class JournalBearing:
         require_non_negative("supply_pressure", self.supply_pressure)
         _require_tuple("pads", self.pads, Pad)
         _require_tuple("grooves", self.grooves, Groove)
+        if self.supply_pressure > 0.0 and not self.grooves:
+            raise InputError(f"supply_pressure must be 0 without grooves, got {self.supply_pressure!r}")
         if not self.geometry.plain and not isinstance(self.film, FittedFilm):
             raise InputError(
                 f"film must represent the bearing's geometry, which {type(self.film).__name__} cannot: "
-                f"got {self.geometry!r}"
+                f"got {self.geometry!r}; ReynoldsFilm can"
             )
         limit = getattr(self.film, "slenderness_limit", None)
         if limit is not None and self.slenderness > limit:

@@ -12,7 +12,7 @@ Forces are in units of viscosity * length * radius^3 / clearance^2.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
@@ -23,6 +23,9 @@ from .geometry import FilmGeometry
 
 CENTER = 1e-8
 """Eccentricity ratio below which the derivative is taken on this circle around the center."""
+
+CHUNK = 2048
+"""States evaluated at once, which bounds the memory of a large batch."""
 
 
 @runtime_checkable
@@ -118,6 +121,10 @@ class PolarResponse(NamedTuple):
     A_turn: Array
 
 
+Respond = Callable[[PolarFrame], PolarResponse]
+"""A polar law: what it answers in a frame."""
+
+
 def polar_frame(eccentricity: Array, source: Array, floor: float = 0.0) -> PolarFrame:
     """Return the polar frame of states given as (2, B); a chi below `floor` is raised to it."""
     chi = np.hypot(eccentricity[0], eccentricity[1])
@@ -158,6 +165,33 @@ def cartesian_jacobian(frame: PolarFrame, response: PolarResponse) -> Array:
     return np.moveaxis(np.concatenate([F_eccentricity, F_source], axis=-1), 0, -1)
 
 
+def polar_force(respond: Respond, eccentricity: Array, source: Array, chunk: int = CHUNK) -> Array:
+    """Return the force (2, ...) of a polar law, which answers for `chunk` states at once."""
+    e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
+    force = np.empty(e.shape)
+    for part in _chunks(e.shape[1], chunk):
+        frame = polar_frame(e[:, part], w[:, part])
+        force[:, part] = cartesian_force(frame, respond(frame).A)
+    return force.reshape(eccentricity.shape)
+
+
+def polar_jacobian(
+    respond: Respond, eccentricity: Array, source: Array, *, turns: bool, chunk: int = CHUNK
+) -> Array:
+    """Return d force / d (eccentricity, source), shape (2, 4, ...), of a polar law.
+
+    A law whose film `turns` with the source raises UndefinedDerivativeError where the source vanishes.
+    """
+    e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
+    jacobian = np.empty((2, 4, e.shape[1]))
+    for part in _chunks(e.shape[1], chunk):
+        frame = polar_frame(e[:, part], w[:, part], floor=CENTER)
+        if turns:
+            require_direction(frame)
+        jacobian[:, :, part] = cartesian_jacobian(frame, respond(frame))
+    return jacobian.reshape(2, 4, *eccentricity.shape[1:])
+
+
 def require_direction(frame: PolarFrame) -> None:
     """Raise UndefinedDerivativeError where the source vanishes.
 
@@ -171,6 +205,10 @@ def require_direction(frame: PolarFrame) -> None:
             "source w = velocity/clearance - (speed/2) z^ x eccentricity must not vanish where a "
             f"derivative is asked for, got w = 0 at eccentricity ratio {chi:.6g}"
         )
+
+
+def _chunks(size: int, chunk: int) -> list[slice]:
+    return [slice(begin, begin + chunk) for begin in range(0, size, chunk)]
 
 
 def _quarter_turn(vectors: Array) -> Array:

@@ -9,15 +9,7 @@ import numpy as np
 
 from ..model import Array
 from .gram import arc_gram
-from .law import (
-    CENTER,
-    PolarFrame,
-    PolarResponse,
-    cartesian_force,
-    cartesian_jacobian,
-    polar_frame,
-    require_direction,
-)
+from .law import PolarFrame, PolarResponse, polar_force, polar_jacobian
 
 
 @dataclass(frozen=True)
@@ -38,15 +30,13 @@ class ShortFilm:
 
     def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
         """Return the force on the journal, shape (2, ...); see `FilmLaw.force`."""
-        frame = polar_frame(eccentricity.reshape(2, -1), source.reshape(2, -1))
-        return cartesian_force(frame, self._response(frame, slenderness).A).reshape(eccentricity.shape)
+        return polar_force(lambda frame: self._response(frame, slenderness), eccentricity, source)
 
     def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
         """Return d force / d (eccentricity, source), shape (2, 4, ...); see `FilmLaw.jacobian`."""
-        frame = polar_frame(eccentricity.reshape(2, -1), source.reshape(2, -1), floor=CENTER)
-        require_direction(frame)
-        jacobian = cartesian_jacobian(frame, self._response(frame, slenderness))
-        return jacobian.reshape(2, 4, *eccentricity.shape[1:])
+        return polar_jacobian(
+            lambda frame: self._response(frame, slenderness), eccentricity, source, turns=True
+        )
 
     @staticmethod
     def _response(frame: PolarFrame, slenderness: float) -> PolarResponse:

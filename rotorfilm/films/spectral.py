@@ -21,15 +21,7 @@ from ..errors import InputError
 from ..model import Array
 from .axial import FullAxialSum
 from .elliptic import FilmNodes, film_nodes
-from .law import (
-    CENTER,
-    PolarFrame,
-    PolarResponse,
-    cartesian_force,
-    cartesian_jacobian,
-    polar_frame,
-    require_direction,
-)
+from .law import PolarFrame, PolarResponse, polar_force, polar_jacobian
 from .legendre import gauss_weights, trial_functions
 from .rupture import Basis, FilmArc, FixedArc, Rupture
 
@@ -69,29 +61,17 @@ class SpectralArcFilm:
 
     def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
         """Return the force on the journal, shape (2, ...); see `FilmLaw.force`."""
-        e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
-        forces = np.empty(e.shape)
-        for i in range(e.shape[1]):
-            forces[:, i : i + 1] = self._single_force(e[:, i : i + 1], w[:, i : i + 1], slenderness)
-        return forces.reshape(eccentricity.shape)
+        return polar_force(lambda frame: self._response(frame, slenderness), eccentricity, source, chunk=1)
 
     def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
         """Return d force / d (eccentricity, source), shape (2, 4, ...); see `FilmLaw.jacobian`."""
-        e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
-        jacobian = np.empty((2, 4, e.shape[1]))
-        for i in range(e.shape[1]):
-            jacobian[..., i : i + 1] = self._single_jacobian(e[:, i : i + 1], w[:, i : i + 1], slenderness)
-        return jacobian.reshape(2, 4, *eccentricity.shape[1:])
-
-    def _single_force(self, e: Array, w: Array, slenderness: float) -> Array:
-        frame = polar_frame(e, w)
-        return cartesian_force(frame, self._response(frame, slenderness).A)
-
-    def _single_jacobian(self, e: Array, w: Array, slenderness: float) -> Array:
-        frame = polar_frame(e, w, floor=CENTER)
-        if self.rupture.turns:
-            require_direction(frame)
-        return cartesian_jacobian(frame, self._response(frame, slenderness))
+        return polar_jacobian(
+            lambda frame: self._response(frame, slenderness),
+            eccentricity,
+            source,
+            turns=self.rupture.turns,
+            chunk=1,
+        )
 
     def _response(self, frame: PolarFrame, slenderness: float) -> PolarResponse:
         arc = self.rupture.arc(frame.chi, frame.turn, slenderness, BASIS)

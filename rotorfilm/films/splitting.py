@@ -20,19 +20,8 @@ from ..errors import InputError, ValidityWarning
 from ..model import Array
 from .axial import AxialSum, axial_sum
 from .coupling import CouplingIntegrals, PairIntegrals, coupling_integrals, pair_integrals, whitened
-from .law import (
-    CENTER,
-    PolarFrame,
-    PolarResponse,
-    cartesian_force,
-    cartesian_jacobian,
-    polar_frame,
-    require_direction,
-)
+from .law import PolarFrame, PolarResponse, polar_force, polar_jacobian
 from .rupture import Basis, FixedArc, Rupture
-
-CHUNK = 2048
-"""States evaluated at once, which bounds the memory of a large batch."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,23 +79,13 @@ class SplittingFilm:
 
     def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
         """Return the force on the journal, shape (2, ...); see `FilmLaw.force`."""
-        e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
-        parts = []
-        for part in _chunks(e.shape[1]):
-            frame = polar_frame(e[:, part], w[:, part])
-            parts.append(cartesian_force(frame, self._response(frame, slenderness).A))
-        return np.concatenate(parts, axis=-1).reshape(eccentricity.shape)
+        return polar_force(lambda frame: self._response(frame, slenderness), eccentricity, source)
 
     def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
         """Return d force / d (eccentricity, source), shape (2, 4, ...); see `FilmLaw.jacobian`."""
-        e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
-        parts = []
-        for part in _chunks(e.shape[1]):
-            frame = polar_frame(e[:, part], w[:, part], floor=CENTER)
-            if self.rupture.turns:
-                require_direction(frame)
-            parts.append(cartesian_jacobian(frame, self._response(frame, slenderness)))
-        return np.concatenate(parts, axis=-1).reshape(2, 4, *eccentricity.shape[1:])
+        return polar_jacobian(
+            lambda frame: self._response(frame, slenderness), eccentricity, source, turns=self.rupture.turns
+        )
 
     def _response(self, frame: PolarFrame, slenderness: float) -> PolarResponse:
         n, m = self.order
@@ -173,7 +152,3 @@ def first_order_response(pair: PairIntegrals, axial: AxialSum) -> PolarResponse:
 
 def _dyad(factor: Array, column: Array, row: Array) -> Array:
     return factor[:, None, None] * column[:, :, None] * row[:, None, :]
-
-
-def _chunks(size: int) -> list[slice]:
-    return [slice(begin, begin + CHUNK) for begin in range(0, max(size, 1), CHUNK)]

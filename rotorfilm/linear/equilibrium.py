@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import EquilibriumError, InputError, require_finite, require_number
+from ..errors import EquilibriumError, InputError, ValidityWarning, require_finite, require_number
 from ..model import Array, Reaction
 from ..results import Equilibrium
 
@@ -71,13 +72,13 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     """
     load = checked_load(load)
     speed = require_number("speed", speed)
-    best: _Point | None = None
-    for start in _starts(load, speed):
-        point = _newton(reaction, load, speed, start)
-        if point.norm <= _tolerance(point.z[0]):
-            return _result(reaction, load, speed, point)
-        best = point if best is None or point.norm < best.norm else best
-    raise EquilibriumError(_why_not(reaction, load, speed, best))
+    with warnings.catch_warnings():
+        # A state that the search only passes through is nobody's answer; that of the result is warned of.
+        warnings.simplefilter("ignore", ValidityWarning)
+        best = _search(reaction, load, speed)
+    if best.norm > _tolerance(best.z[0]):
+        raise EquilibriumError(_why_not(reaction, load, speed, best))
+    return _result(reaction, load, speed, best)
 
 
 def checked_load(load: ArrayLike) -> Array:
@@ -91,6 +92,16 @@ def checked_load(load: ArrayLike) -> Array:
             "(for the centered journal use coefficients at position (0, 0))"
         )
     return array
+
+
+def _search(reaction: Reaction, load: Array, speed: float) -> _Point:
+    """Return the first converged point, or the best of all starts."""
+    points = []
+    for start in _starts(load, speed):
+        points.append(_newton(reaction, load, speed, start))
+        if points[-1].norm <= _tolerance(points[-1].z[0]):
+            return points[-1]
+    return min(points, key=lambda point: point.norm)
 
 
 def _starts(load: Array, speed: float) -> list[Array]:
@@ -176,10 +187,10 @@ def _result(reaction: Reaction, load: Array, speed: float, point: _Point) -> Equ
     )
 
 
-def _why_not(reaction: Reaction, load: Array, speed: float, best: _Point | None) -> str:
+def _why_not(reaction: Reaction, load: Array, speed: float, best: _Point) -> str:
     """Return the message that names the load, the rule it breaks, and the film force at the limit."""
     given = f"got load {load.tolist()} N with |load| = {math.hypot(*load):.6g} N"
-    if best is None or not math.isfinite(best.norm):
+    if not math.isfinite(best.norm):
         return f"speed must make the film carry load: at speed {speed!r} rad/s it carries none, {given}"
     if best.z[0] == _LARGEST_S and best.residual[0] < 0.0:
         limit = math.exp(best.residual[0]) * math.hypot(*load)

@@ -1,7 +1,7 @@
 """Schema 1 of scene files: the tables, their keys and their units.
 
 Each table checks its values by building what it describes. A later family adds a table to
-`rotorfilm.scenes.scene.Scene`, or a variant to a mapping below, and renames nothing.
+`rotorfilm.scenes.scene.Scene`, or a variant to a mapping of `film_tables`, and renames nothing.
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ from typing import Annotated, Any
 
 from ..bearings.journal import JournalBearing
 from ..errors import SceneError, require_finite, require_positive
-from ..films import ComplementarityArc, FixedArc, MapFilm, ReynoldsArc, RotatingArc, ShortFilm, SplittingFilm
 from ..rotors.rigid import RigidRotor
-from .tables import Quantity, Variant, flag
+from .film_tables import FILMS, FilmTable, GrooveTable, MapFilmTable, PadTable
+from .tables import Quantity, TableList, Variant
 
 SCHEMA = 1
 """The version that a scene file states as `schema = 1`."""
@@ -33,140 +33,9 @@ def read_load(where: str, value: Any) -> tuple[float, float]:
     return 0.0, -magnitude
 
 
-def read_order(where: str, value: Any) -> tuple[int, int | None]:
-    """Read an order [n, m] of the splitting method; m may be "inf", all axial modes."""
-    match value:
-        case [int() as n, "inf"] if _is_count(n):
-            return n, None
-        case [int() as n, int() as m] if _is_count(n) and _is_count(m):
-            return n, m
-    raise SceneError(f"{where} must be [n, m] of positive integers, m also 'inf', got {value!r}")
-
-
-def _is_count(value: int) -> bool:
-    return not isinstance(value, bool) and value > 0
-
-
-@dataclass(frozen=True, kw_only=True)
-class FixedArcTable:
-    """`rupture = {kind = "fixed"}`: the film lies on an arc fixed to the line of maximum film.
-
-    Parameters
-    ----------
-    start, extent : float [rad]
-        Where the arc starts, and its length, in the sense of rotation.
-    """
-
-    start: Annotated[float, Quantity("rad")] = 0.0
-    extent: Annotated[float, Quantity("rad")] = math.pi
-
-    def __post_init__(self) -> None:
-        self.build()
-
-    def build(self) -> FixedArc:
-        """Return the rupture rule."""
-        return FixedArc(start=self.start, extent=self.extent)
-
-
-@dataclass(frozen=True, kw_only=True)
-class RotatingArcTable:
-    """`rupture = {kind = "rotating"}`: the film lies where the wedge and squeeze press it."""
-
-    def build(self) -> RotatingArc:
-        """Return the rupture rule."""
-        return RotatingArc()
-
-
-@dataclass(frozen=True, kw_only=True)
-class ReynoldsArcTable:
-    """`rupture = {kind = "reynolds"}`: the film ends where its pressure leaves with no slope.
-
-    Parameters
-    ----------
-    start : float or None [rad]
-        Where the film starts, from the line of maximum film; if the file does not say, where the wedge and
-        squeeze begin to press it.
-    """
-
-    start: Annotated[float | None, Quantity("rad")] = None
-
-    def __post_init__(self) -> None:
-        self.build()
-
-    def build(self) -> ReynoldsArc:
-        """Return the rupture rule."""
-        return ReynoldsArc(start=self.start)
-
-
-@dataclass(frozen=True, kw_only=True)
-class ComplementarityArcTable:
-    """`rupture = {kind = "complementarity"}`: the film starts and ends where pressure has no slope."""
-
-    def build(self) -> ComplementarityArc:
-        """Return the rupture rule."""
-        return ComplementarityArc()
-
-
-RuptureTable = FixedArcTable | RotatingArcTable | ReynoldsArcTable | ComplementarityArcTable
-RUPTURES = {
-    "fixed": FixedArcTable,
-    "rotating": RotatingArcTable,
-    "reynolds": ReynoldsArcTable,
-    "complementarity": ComplementarityArcTable,
-}
-
-
-@dataclass(frozen=True, kw_only=True)
-class ShortFilmTable:
-    """`film = {name = "short"}`: the short-bearing film on a moving arc of half a turn."""
-
-    def build(self) -> ShortFilm:
-        """Return the film law."""
-        return ShortFilm()
-
-
-@dataclass(frozen=True, kw_only=True)
-class SplittingFilmTable:
-    """`film = {name = "splitting"}`: the splitting method of order (n, m).
-
-    Parameters
-    ----------
-    order : (int, int or None)
-        Circumferential functions and odd axial modes; `[2, "inf"]` takes all axial modes.
-    constant : bool
-        Whether the constant function joins the circumferential ones.
-    rupture : FixedArcTable, RotatingArcTable, ReynoldsArcTable or ComplementarityArcTable
-        Where the film begins and ends.
-    """
-
-    order: Annotated[tuple[int, int | None], read_order]
-    constant: Annotated[bool, flag] = False
-    rupture: Annotated[RuptureTable, Variant("kind", RUPTURES)] = field(default_factory=FixedArcTable)
-
-    def __post_init__(self) -> None:
-        self.build()
-
-    def build(self) -> SplittingFilm:
-        """Return the film law."""
-        return SplittingFilm(order=self.order, constant=self.constant, rupture=self.rupture.build())
-
-
-@dataclass(frozen=True, kw_only=True)
-class MapFilmTable:
-    """`film = {name = "map"}`: the film with Reynolds rupture, from its impedance map."""
-
-    def build(self) -> MapFilm:
-        """Return the film law."""
-        return MapFilm()
-
-
-FilmTable = ShortFilmTable | SplittingFilmTable | MapFilmTable
-FILMS = {"map": MapFilmTable, "short": ShortFilmTable, "splitting": SplittingFilmTable}
-
-
 @dataclass(frozen=True, kw_only=True)
 class JournalTable:
-    """`[journal]`: a plain cylindrical journal bearing.
+    """`[journal]`: a cylindrical journal bearing, full unless it has pads or grooves.
 
     Parameters
     ----------
@@ -177,15 +46,24 @@ class JournalTable:
     clearance : float [m]
         Radial clearance.
     viscosity : float [Pa s]
-    film : ShortFilmTable or SplittingFilmTable
-        The film law; short if the file does not say.
+    film : FilmTable
+        The film law; the map if the file does not say.
+    pads : tuple of PadTable
+        Where there is a bearing wall; empty for the full circumference.
+    grooves : tuple of GrooveTable
+        Axial grooves over the whole length.
+    supply_pressure : float [Pa]
+        Gauge pressure in the grooves.
     """
 
     radius: Annotated[float, Quantity("m", twice="diameter")]
     length: Annotated[float, Quantity("m")]
     clearance: Annotated[float, Quantity("m")]
     viscosity: Annotated[float, Quantity("Pa.s")]
-    film: Annotated[FilmTable, Variant("name", FILMS)] = field(default_factory=ShortFilmTable)
+    film: Annotated[FilmTable, Variant("name", FILMS)] = field(default_factory=MapFilmTable)
+    pads: Annotated[tuple[PadTable, ...], TableList(PadTable)] = ()
+    grooves: Annotated[tuple[GrooveTable, ...], TableList(GrooveTable)] = ()
+    supply_pressure: Annotated[float, Quantity("Pa")] = 0.0
 
     def __post_init__(self) -> None:
         self.build()
@@ -198,6 +76,9 @@ class JournalTable:
             clearance=self.clearance,
             viscosity=self.viscosity,
             film=self.film.build(),
+            pads=tuple(pad.build() for pad in self.pads),
+            grooves=tuple(groove.build() for groove in self.grooves),
+            supply_pressure=self.supply_pressure,
         )
 
 

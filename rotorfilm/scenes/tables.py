@@ -50,6 +50,18 @@ class Table(NamedTuple):
         return read_table(self.table, f"{where}.", value)
 
 
+class TableList(NamedTuple):
+    """Reader of an array of sub-tables, each with the same fixed set of keys."""
+
+    table: type
+
+    def __call__(self, where: str, value: Any) -> tuple[Any, ...]:
+        """Return the sub-tables as dataclasses."""
+        if not isinstance(value, list):
+            raise SceneError(f"{where} must be a list of tables, got {value!r}")
+        return tuple(read_table(self.table, f"{where}[{k}].", entry) for k, entry in enumerate(value))
+
+
 class Variant(NamedTuple):
     """Reader of a sub-table whose key `tag` names one of several dataclasses."""
 
@@ -61,11 +73,16 @@ class Variant(NamedTuple):
         data = dict(require_table(where, value))
         if self.tag not in data:
             raise SceneError(f"{where}.{self.tag} is required: one of {sorted(self.variants)}")
-        name = data.pop(self.tag)
-        if not isinstance(name, str) or name not in self.variants:
-            hint = nearest(name, self.variants)
-            raise SceneError(f"{where}.{self.tag} must be one of {sorted(self.variants)}, got {name!r}{hint}")
-        return read_table(self.variants[name], f"{where}.", data)
+        variant = choose(f"{where}.{self.tag}", data.pop(self.tag), self.variants)
+        return read_table(variant, f"{where}.", data)
+
+
+def choose(where: str, name: object, variants: Mapping[str, type]) -> type:
+    """Return the dataclass that has this name; raise SceneError if there is none."""
+    if not isinstance(name, str) or name not in variants:
+        hint = nearest(name, variants)
+        raise SceneError(f"{where} must be one of {sorted(variants)}, got {name!r}{hint}")
+    return variants[name]
 
 
 def text(where: str, value: Any) -> str:

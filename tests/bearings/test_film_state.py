@@ -155,7 +155,7 @@ def test_any_film_takes_a_pad_of_a_full_turn():
         ({"grooves": [Groove(center=0.0)]}, "grooves must be a tuple of Groove"),
         ({"pads": (1.0,)}, "pads must be a tuple of Pad"),
         ({"supply_pressure": -1.0}, "supply_pressure must be finite and not negative, got -1.0"),
-        ({"supply_pressure": 1e5}, "supply must be 0 without grooves"),
+        ({"supply_pressure": 1e5}, "supply_pressure must be 0 without grooves"),
     ],
 )
 def test_bad_geometry_is_refused(geometry, message):

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from rotorfilm.bearings import JournalBearing
 from rotorfilm.errors import FilmContactError, InputError, UndefinedDerivativeError, ValidityWarning
-from rotorfilm.films import RotatingArc, ShortFilm, SpectralArcFilm, SplittingFilm
+from rotorfilm.films import MapFilm, RotatingArc, ShortFilm, SpectralArcFilm, SplittingFilm
 from rotorfilm.model import Model, Reaction
 
 DIMENSIONS = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}
@@ -20,12 +20,20 @@ def states(count, c=1e-4):
     return q, v, rng.normal(size=count) * 200.0
 
 
+def test_film_is_the_map_unless_another_is_named():
+    q, v, omega = states(7)
+    assert bearing.film == MapFilm()
+    expected = bearing.force_scale * MapFilm().force(*bearing.kinematics(q, v, omega), bearing.slenderness)
+    np.testing.assert_allclose(bearing.force(q, v, omega), expected, rtol=1e-9)
+
+
 @pytest.mark.closed_form
 @pytest.mark.parametrize("speed", [157.0, -157.0])
 def test_static_force_in_newtons(speed):
     # Ocvirk: F_t = mu omega b^3 R pi e/(4 c^2 (1 - e^2)^1.5), F_r = -mu omega b^3 R e^2/(c^2 (1 - e^2)^2).
     mu, b, R, c = 0.1, 0.03, 0.05, 1e-4
     e = 0.4
+    bearing = JournalBearing(**DIMENSIONS, film=ShortFilm())
     force = bearing.force([0.0, -e * c], [0.0, 0.0], speed)
     radial = mu * abs(speed) * b**3 * R / c**2 * e**2 / (1 - e**2) ** 2
     tangential = np.pi * mu * speed * b**3 * R / (4 * c**2) * e / (1 - e**2) ** 1.5
@@ -115,7 +123,7 @@ def test_short_film_in_a_long_bearing_is_warned_about():
     with pytest.warns(
         ValidityWarning, match=r"length / diameter must not exceed 0.5 for ShortFilm\(\), got 0.6"
     ):
-        JournalBearing(**{**DIMENSIONS, "length": 0.06})
+        JournalBearing(**{**DIMENSIONS, "length": 0.06}, film=ShortFilm())
 
 
 @pytest.mark.closed_form

@@ -8,6 +8,7 @@ from scipy.optimize import brentq
 from rotorfilm.bearings.journal import JournalBearing
 from rotorfilm.cosim import InProcessSlave, couple, coupling_stability, critical_macro_step
 from rotorfilm.errors import FilmContactError, InputError, PartialResultError
+from rotorfilm.films import ShortFilm
 from rotorfilm.rotors import RigidRotor
 
 # Gauss-Seidel with held force, short bearing, w = 1: critical macro step in degrees of rotation, to be met
@@ -25,8 +26,8 @@ class AngularSpeedRotor(RigidRotor):
 
 
 def in_si(eccentricity):
-    """Return the same case as `nondimensional` at w = 1, on the package's own bearing in SI."""
-    bearing = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
+    """Return the same case as `nondimensional` at w = 1, on the package's own short bearing in SI."""
+    bearing = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())
     speed, position = 157.0, (eccentricity * 1e-4, 0.0)
     load = -bearing.force(position, (0.0, 0.0), speed)
     mass = np.hypot(*load) / (speed**2 * 1e-4)

@@ -20,7 +20,7 @@ FILM = MapFilm(
     )
 )
 bearing = JournalBearing(**DIMENSIONS, film=FILM)
-short = JournalBearing(**DIMENSIONS)
+short = JournalBearing(**DIMENSIONS, film=ShortFilm())
 
 
 def random_states(count, lowest=0.0, highest=0.95):

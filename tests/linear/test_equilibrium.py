@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rotorfilm.errors import EquilibriumError, InputError
-from rotorfilm.films import RotatingArc, ShortFilm, SplittingFilm
+from rotorfilm.errors import EquilibriumError, InputError, ValidityWarning
+from rotorfilm.films import MapFilm, RotatingArc, ShortFilm, SplittingFilm
 from rotorfilm.linear import equilibrium
 
 SPEED = 1500 * math.pi / 30
@@ -163,3 +163,13 @@ def test_force_that_cannot_point_against_the_load(linear_film):
 def test_bad_arguments(bearing, load, speed, message):
     with pytest.raises(InputError, match=message):
         equilibrium(bearing, load, speed)
+
+
+def test_search_beyond_the_map_warns_of_the_answer_alone(bearing):
+    mapped = replace(bearing, film=MapFilm())
+    with pytest.raises(EquilibriumError, match="load must be within the film's capacity"):
+        equilibrium(mapped, [0.0, -1e20], SPEED)
+    load = -mapped.force([0.99e-4, 0.0], [0.0, 0.0], SPEED)
+    assert equilibrium(mapped, load, SPEED).eccentricity_ratio == pytest.approx(0.99, rel=1e-9)
+    with pytest.warns(ValidityWarning, match=r"eccentricity ratio 0\.999.* is beyond the map"):
+        equilibrium(mapped, 100.0 * load, SPEED)

@@ -6,11 +6,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotorfilm.films import ComplementarityArc, FixedArc, RotatingArc, SpectralArcFilm, SplittingFilm
+from rotorfilm.films import (
+    ComplementarityArc,
+    FixedArc,
+    MapFilm,
+    ReynoldsFilm,
+    RotatingArc,
+    ShortFilm,
+    SpectralArcFilm,
+    SplittingFilm,
+)
 from rotorfilm.scenes import bundled_scene
 from rotorfilm.scenes.ladder import compared_laws, film_accuracy, film_curve, ladder_laws
 
 BEARING = bundled_scene().bearing
+SHORT = replace(BEARING, film=ShortFilm())
 RATIOS = np.array([0.1, 0.3, 0.5, 0.74, 0.76])
 
 
@@ -18,13 +28,13 @@ RATIOS = np.array([0.1, 0.3, 0.5, 0.74, 0.76])
 def test_attitude_angle_of_the_short_film():
     # tan(attitude) = pi sqrt(1 - e^2) / (4 e): Ocvirk (1952)
     expected = np.arctan2(math.pi * np.sqrt(1.0 - RATIOS**2), 4.0 * RATIOS)
-    np.testing.assert_allclose(film_curve(BEARING, RATIOS).attitude_angle, expected, rtol=1e-12)
+    np.testing.assert_allclose(film_curve(SHORT, RATIOS).attitude_angle, expected, rtol=1e-12)
 
 
 @pytest.mark.literature
 def test_threshold_of_the_short_film():
     # Ocvirk film: thresholds at e = .1, .3, .5, and none beyond e = .756
-    curve = film_curve(BEARING, RATIOS)
+    curve = film_curve(SHORT, RATIOS)
     np.testing.assert_allclose(curve.speed_parameter[:3], [2.741279, 2.605786, 2.541731], atol=1e-6)
     assert curve.speed_parameter[3] > 5.0
     assert curve.speed_parameter[4] is None
@@ -35,15 +45,44 @@ def test_first_order_on_the_fixed_arc_has_no_threshold_at_all():
     assert film_curve(bearing, RATIOS).speed_parameter == (None,) * len(RATIOS)
 
 
-@pytest.mark.convergence
-def test_errors_fall_as_the_order_rises():
-    laws = {label: law for label, law in ladder_laws().items() if label in ("(1, 1)", "(2, inf)", "(6, inf)")}
+@pytest.fixture(scope="module")
+def accuracy():
     seen = []
-    accuracy = film_accuracy(BEARING, laws, seen.append)
-    errors = [accuracy[label].median_error for label in laws]
-    assert errors[0] > 5.0 * errors[1] > 50.0 * errors[2]
-    assert all(law.high_error >= law.median_error for law in accuracy.values())
-    assert seen == ["converged film", *laws]
+    result = film_accuracy(BEARING, ladder_laws(), seen.append)
+    assert seen == ["the reference", *result]
+    return result
+
+
+def test_ladder_ends_in_the_film_of_the_bearing():
+    assert BEARING.film == list(ladder_laws().values())[-1] == list(compared_laws().values())[-1] == MapFilm()
+
+
+@pytest.mark.convergence
+def test_two_dimensional_film_converges_with_its_order(accuracy):
+    errors = [
+        accuracy[f"two-dimensional, {cells}"].median_error for cells in ("48 x 4", "96 x 8", "192 x 16")
+    ]
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    np.testing.assert_allclose(orders, ReynoldsFilm.order, atol=0.1)
+
+
+def test_each_rung_of_the_ladder_is_closer_to_reynolds_rupture(accuracy):
+    rungs = ("(1, 1) fixed arc", "(2, inf) rotating arc", "(4+1, 8) free arc", "map")
+    median, high = (
+        [getattr(accuracy[label], name) for label in rungs] for name in ("median_error", "high_error")
+    )
+    assert median[0] > 10.0 * median[1] > 100.0 * median[2] > 1000.0 * median[3]
+    assert high[0] > 1.0 > high[1] > high[2] > 10.0 * high[3]
+    assert median[3] < 1e-5
+    assert high[3] < 1e-4
+
+
+@pytest.mark.parametrize("label", ["map", "two-dimensional, 96 x 8", "(4+1, 8) free arc"])
+def test_films_with_reynolds_rupture_whirl_alike(label):
+    curve = film_curve(replace(BEARING, film=compared_laws()[label]), RATIOS[:3])
+    finest = film_curve(replace(BEARING, film=ReynoldsFilm(cells=(192, 16))), RATIOS[:3])
+    np.testing.assert_allclose(curve.attitude_angle, finest.attitude_angle, atol=math.radians(0.2))
+    np.testing.assert_allclose(curve.speed_parameter, finest.speed_parameter, rtol=0.01)
 
 
 @pytest.mark.literature
@@ -55,6 +94,7 @@ def test_errors_fall_as_the_order_rises():
         (SpectralArcFilm(rupture=RotatingArc()), 6.06),
         # With both ends free in two dimensions, instead of in one axial mode, 6.58.
         (SpectralArcFilm(rupture=ComplementarityArc()), 6.57),
+        (MapFilm(), 6.58),
     ],
 )
 def test_threshold_depends_on_the_order_and_on_the_extent_of_the_film(film, critical_mass):

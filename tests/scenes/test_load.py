@@ -5,7 +5,20 @@ import math
 import pytest
 
 from rotorfilm.errors import SceneError
-from rotorfilm.films import ComplementarityArc, FixedArc, ReynoldsArc, RotatingArc, ShortFilm, SplittingFilm
+from rotorfilm.films import (
+    ComplementarityArc,
+    FixedArc,
+    FullFilm,
+    Groove,
+    HalfSommerfeld,
+    MapFilm,
+    Pad,
+    ReynoldsArc,
+    ReynoldsFilm,
+    RotatingArc,
+    ShortFilm,
+    SplittingFilm,
+)
 from rotorfilm.scenes import Scene, bundled_scene, parse_scene
 
 GOOD = """
@@ -60,7 +73,14 @@ def test_rotor_carries_the_whole_static_load_once():
 @pytest.mark.parametrize(
     ("film", "expected"),
     [
+        ('{ name = "map" }', MapFilm()),
         ('{ name = "short" }', ShortFilm()),
+        ('{ name = "reynolds" }', ReynoldsFilm()),
+        (
+            '{ name = "reynolds", cells = [48, 4], cavitation = { kind = "half_sommerfeld" } }',
+            ReynoldsFilm(cells=(48, 4), cavitation=HalfSommerfeld()),
+        ),
+        ('{ name = "reynolds", cavitation = { kind = "full" } }', ReynoldsFilm(cavitation=FullFilm())),
         (
             '{ name = "splitting", order = [2, "inf"] }',
             SplittingFilm(order=(2, None), constant=False, rupture=FixedArc(start=0.0, extent=math.pi)),
@@ -93,8 +113,80 @@ def test_film_is_chosen_by_name(film, expected):
     assert scene.bearing.film == expected
 
 
-def test_film_is_short_where_none_is_named():
-    assert parse(GOOD).bearing.film == ShortFilm()
+def test_film_is_the_map_where_none_is_named():
+    assert parse(GOOD).bearing.film == MapFilm()
+
+
+OPENINGS = """film = { name = "reynolds" }
+supply_pressure = "2 bar"
+grooves = [{ center = "90 deg", width = "20 deg" }, { center = "270 deg" }]
+[operation]"""
+
+
+def test_grooves_and_their_supply_arrive_in_si():
+    bearing = parse(GOOD.replace("[operation]", OPENINGS)).bearing
+    assert bearing.supply_pressure == pytest.approx(2e5)
+    assert bearing.grooves == (
+        Groove(center=math.radians(90.0), width=math.radians(20.0)),
+        Groove(center=math.radians(270.0)),
+    )
+
+
+def test_pads_arrive_in_si():
+    pads = 'pads = [{ start = "15 deg", extent = 2.5 }, { start = "195 deg", extent = "150 deg" }]'
+    bearing = parse(
+        GOOD.replace("[operation]", f'film = {{ name = "reynolds" }}\n{pads}\n[operation]')
+    ).bearing
+    assert bearing.pads == (
+        Pad(start=math.radians(15.0), extent=2.5),
+        Pad(start=math.radians(195.0), extent=math.radians(150.0)),
+    )
+
+
+@pytest.mark.parametrize(
+    ("lines", "message"),
+    [
+        (
+            "grooves = [{ center = 1.0 }]",
+            r"film must represent .*, which MapFilm cannot: .*; ReynoldsFilm can",
+        ),
+        (
+            'film = { name = "short" }\npads = [{ start = 0, extent = 3 }]',
+            r"film must .* which ShortFilm cannot",
+        ),
+        ("grooves = 1", "grooves must be a list of tables, got 1"),
+        ("grooves = [1]", r"grooves\[0\] must be a table, got 1"),
+        ("grooves = [{ width = 1 }]", r"grooves\[0\].center is required and missing"),
+        (
+            'grooves = [{ center = 0 }, { center = "1 mm" }]',
+            r"grooves\[1\].center: quantity must be measured in rad",
+        ),
+        (
+            "grooves = [{ center = 0, widht = 1 }]",
+            r"grooves\[0\].widht is no known key; .*; did you mean 'width'\?",
+        ),
+        ("grooves = [{ center = 0, width = -1 }]", r"grooves\[0\].width must be .*, got -1.0"),
+        ("pads = [{ start = 0, extent = 7 }]", r"pads\[0\].extent must be in \(0, 2 pi\], got 7.0"),
+        ('supply_pressure = "1 MPa"', r"supply_pressure must be 0 without grooves, got 1000000.0"),
+        ('supply_pressure = "1 mm"', "supply_pressure: quantity must be measured in Pa"),
+        (
+            'film = { name = "reynolds" }\ngrooves = [{ center = 0, width = 2 }, { center = 1, width = 2 }]',
+            "grooves and gaps between pads must not overlap",
+        ),
+        ('film = { name = "reynolds", cells = 96 }', r"film.cells must be \[around, along\], got 96"),
+        (
+            'film = { name = "reynolds", cells = [90, 8] }',
+            r"film.cells must be two multiples of 4, at least \(16, 4\), got \(90, 8\)",
+        ),
+        (
+            'film = { name = "reynolds", cavitation = { kind = "none" } }',
+            r"film.cavitation.kind must be one of \['complementarity', 'full', 'half.*, got 'none'",
+        ),
+    ],
+)
+def test_wrong_film_or_opening_is_named_by_its_key(lines, message):
+    with pytest.raises(SceneError, match=rf"case.toml: journal\.{message}"):
+        parse(GOOD.replace("[operation]", f"{lines}\n[operation]"))
 
 
 def test_bundled_scene_is_the_bearing_of_the_book():
@@ -121,7 +213,7 @@ def test_file_is_read(tmp_path):
             "clearance",
             "clearence",
             r"case.toml: journal.clearence is no known key; known here: radius, diameter, length, clearance, "
-            r"viscosity, film; did you mean 'clearance'\?",
+            r"viscosity, film, pads, grooves, supply_pressure; did you mean 'clearance'\?",
         ),
         ("[journal]", "[jurnal]", r"case.toml: jurnal is no known key; .*; did you mean 'journal'\?"),
         ('clearance = "0.1 mm"', "", "case.toml: journal.clearance is required and missing"),
@@ -153,7 +245,7 @@ def test_file_is_read(tmp_path):
         (
             "[operation]",
             "film = { order = [1, 1] }\n[operation]",
-            r"case.toml: journal.film.name is required: one of \['map', 'short', 'splitting'\]",
+            r"case.toml: journal.film.name is required: one of \['map', 'reynolds', 'short', 'splitting'\]",
         ),
         (
             "[operation]",

@@ -1,6 +1,7 @@
 """Answers to scenes, against published numbers and exact identities."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ import pytest
 from rotorfilm.errors import EquilibriumError, InputError
 from rotorfilm.results import to_plain
 from rotorfilm.scenes import bundled_scene, parse_scene
+from rotorfilm.scenes.film_tables import ShortFilmTable
 
 SCENE = """
 schema = 1
@@ -30,17 +32,20 @@ def answer(film='{ name = "short" }', speed="1500 rpm", load=(0.0, -525.0), roto
 
 
 @pytest.mark.literature
-def test_bundled_scene_has_the_stiffness_that_the_book_prints():
+def test_bundled_scene_on_a_short_film_has_the_stiffness_that_the_book_prints():
     # Friswell et al. (2010), example 5.9.6: x horizontal, load along -y, counterclockwise rotation.
-    stiffness = bundled_scene().solve().coefficients.stiffness
+    bundled = bundled_scene()
+    book = replace(bundled, journal=replace(bundled.journal, film=ShortFilmTable()))
+    stiffness = book.solve().coefficients.stiffness
     np.testing.assert_array_equal(np.trunc(stiffness.ravel()), [12807959, 16393593, -25060393, 8815302])
 
 
 @pytest.mark.closed_form
 def test_film_force_balances_the_load():
     result = answer(load=(300.0, -400.0))
-    scene = bundled_scene()
-    force = scene.bearing.force(result.equilibrium.position, np.zeros(2), scene.operation.speed)
+    scene = parse_scene(SCENE.format(film='{ name = "short" }', speed=1, load_x=0, load_y=1, rotor=""), "")
+    speed = 50.0 * np.pi
+    force = scene.bearing.force(result.equilibrium.position, np.zeros(2), speed)
     np.testing.assert_allclose(force, [-300.0, 400.0], rtol=1e-10)
 
 
@@ -79,6 +84,24 @@ def test_first_order_splitting_gives_a_reason_and_no_number():
     assert result.whirl_threshold.speed is None
     assert result.whirl_threshold.reason
     assert result.critical_mass.mass is None
+
+
+@pytest.mark.literature
+def test_scene_with_two_grooves_has_the_stiffness_of_lund_and_thomsen():
+    # Lund & Thomsen (1978): two 20 deg grooves 90 deg from the load line, L/D .5, eccentricity ratio .477.
+    film = """{ name = "reynolds" }
+    grooves = [{ center = 0, width = "20 deg" }, { center = "180 deg", width = "20 deg" }]"""
+    document = SCENE.replace('"30 mm"', '"50 mm"')
+    # S = (mu omega/(2 pi)) 2 R L (R/c)^2/W = .58
+    load = 0.1 * 25.0 * 0.1 * 0.05 * 500.0**2 / 0.58
+    scene = parse_scene(document.format(film=film, speed="1500 rpm", load_x=0, load_y=-load, rotor=""), "")
+    found = scene.solve()
+    assert found.equilibrium.eccentricity_ratio == pytest.approx(0.477, abs=0.005)
+    assert np.degrees(found.equilibrium.attitude_angle) == pytest.approx(51.01, abs=0.5)
+    # x along the load, y 90 degrees ahead, which are -y and +x here.
+    turn = np.array([[0.0, -1.0], [1.0, 0.0]])
+    K = turn @ found.coefficients.stiffness @ turn.T * 1e-4 / load
+    np.testing.assert_allclose(K, [[2.67, 3.70], [-0.78, 1.75]], atol=0.05)
 
 
 def test_film_changes_the_answer():
