@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.films import MapFilm, ShortFilm
 from rotorfilm.fmu import export_fmu
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
@@ -38,6 +39,15 @@ def test_two_laws_of_one_module_name_give_two_answers(write_module, own_source, 
     for instance in instances:
         instance.initialize({"law.a": 1.0})
     assert [instance.get("law.b") for instance in instances] == [[2.0], [5.0]]
+
+
+def test_a_film_that_reads_a_table_comes_after_one_that_does_not(load, tmp_path):
+    for film in (ShortFilm(), MapFilm()):
+        bearing = replace(BEARING, film=film)
+        name = type(film).__name__
+        path = export_fmu(bearing, tmp_path / f"{name}.fmu", backend="python", component="bearing")
+        expected = bearing.force([3e-5, -4e-5], [0.0, 0.0], 157.0)
+        np.testing.assert_allclose(force(load(path)), expected, rtol=1e-12)
 
 
 def test_two_instances_of_one_fmu_do_not_share_values(load, tmp_path):
