@@ -51,6 +51,23 @@ def print_columns(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> Non
     Console(highlight=False).print(table)
 
 
+def print_table(title: str, rows: list[dict[str, Any]]) -> None:
+    """Print rows with the same keys as a table."""
+    table = Table(title=title, title_justify="left", box=None, pad_edge=False)
+    for key in rows[0] if rows else ():
+        table.add_column(key, overflow="fold")
+    for row in rows:
+        table.add_row(*("" if value is None else str(value) for value in row.values()))
+    Console(highlight=False, markup=False).print(table)
+
+
+def check_row(check: str, passed: bool | None, figure: float | None, remark: str) -> tuple[str, str]:
+    """Return the row of one check of an FMU."""
+    verdict = {True: "passed", False: "FAILED", None: "not applicable"}[passed]
+    measured = "" if figure is None else f" {figure:.2g}"
+    return check, f"{verdict}:{measured} {remark}"
+
+
 @contextmanager
 def progress_display() -> Iterator[Report]:
     """Yield a function (fraction, text) that moves a progress bar on stderr."""
