@@ -9,13 +9,27 @@ from importlib import import_module
 from typing import Any
 
 _HOMES = {
-    "bearings": ("JournalBearing", "film_state"),
+    "bearings": (
+        "BushGeometry",
+        "BushWear",
+        "Friction",
+        "JournalBearing",
+        "LinerMaterial",
+        "MeltingBush",
+        "ShaftMaterial",
+        "f4k20_bush",
+        "film_state",
+    ),
     "cosim": ("CoSimulation", "CouplingReport", "cosimulate", "coupling_stability", "critical_macro_step"),
     "films": (
+        "ApproximateShaft",
         "ComplementarityArc",
+        "ContactBalance",
+        "ExactShaft",
         "FilmLaw",
         "FixedArc",
         "FullFilm",
+        "GlobalBalance",
         "Groove",
         "HalfSommerfeld",
         "MapFilm",
@@ -41,7 +55,7 @@ _HOMES = {
         "transmissibility",
         "whirl_threshold",
     ),
-    "model": ("Dynamic", "Linearization", "Model", "Reaction", "Stepped"),
+    "model": ("Dynamic", "Linearization", "Model", "Reaction", "Stepped", "Switched"),
     "results": ("Coefficients", "Equilibrium", "Trajectory", "WhirlThreshold"),
     "rotors": ("RigidRotor", "SpeedProfile"),
     "scenes": ("Answer", "Scene", "bundled_scene"),

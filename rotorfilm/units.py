@@ -44,6 +44,8 @@ UNITS: dict[str, Unit] = {
     "Pa": Unit(1.0, {"kg": 1, "m": -1, "s": -2}),
     "Pa.s": Unit(1.0, {"kg": 1, "m": -1, "s": -1}),
     "kg.m": Unit(1.0, {"kg": 1, "m": 1}),
+    "N.m": Unit(1.0, {"kg": 1, "m": 2, "s": -2}),
+    "K": Unit(1.0, {"K": 1}),
 }
 """The SI units of signals, by their FMI spelling."""
 

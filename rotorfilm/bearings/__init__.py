@@ -1,6 +1,21 @@
 """Public bearing models: geometry, parameters and validation over a film law."""
 
+from .bush import BushContact, MeltingBush, f4k20_bush
+from .bush_materials import BushGeometry, Friction, LinerMaterial, ShaftMaterial
+from .bush_wear import BushWear
 from .film_state import FilmState, film_state
 from .journal import JournalBearing
 
-__all__ = ["FilmState", "JournalBearing", "film_state"]
+__all__ = [
+    "BushContact",
+    "BushGeometry",
+    "BushWear",
+    "FilmState",
+    "Friction",
+    "JournalBearing",
+    "LinerMaterial",
+    "MeltingBush",
+    "ShaftMaterial",
+    "f4k20_bush",
+    "film_state",
+]

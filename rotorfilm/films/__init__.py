@@ -1,5 +1,6 @@
 """Journal film laws: pure, dimensionless physics; one law per file."""
 
+from .bush_heat import ApproximateShaft, ContactBalance, ExactShaft, GlobalBalance
 from .cavitation import Cavitation, Complementarity, FullFilm, HalfSommerfeld
 from .complementarity_arc import ComplementarityArc
 from .geometry import FilmGeometry, Groove, Pad
@@ -15,13 +16,17 @@ from .spectral import SpectralArcFilm
 from .splitting import SplittingFilm
 
 __all__ = [
+    "ApproximateShaft",
     "Cavitation",
     "Complementarity",
     "ComplementarityArc",
+    "ContactBalance",
+    "ExactShaft",
     "FilmGeometry",
     "FilmLaw",
     "FixedArc",
     "FullFilm",
+    "GlobalBalance",
     "Groove",
     "HalfSommerfeld",
     "MapFilm",
