@@ -11,6 +11,7 @@ from typing import Any
 _HOMES = {
     "bearings": (
         "BushGeometry",
+        "BushReaction",
         "BushWear",
         "Friction",
         "JournalBearing",
@@ -32,12 +33,14 @@ _HOMES = {
         "GlobalBalance",
         "Groove",
         "HalfSommerfeld",
+        "LocalMelting",
         "MapFilm",
         "MapTable",
         "ReynoldsArc",
         "Pad",
         "ReynoldsFilm",
         "RotatingArc",
+        "SharedMelting",
         "ShortFilm",
         "SpectralArcFilm",
         "SplittingFilm",

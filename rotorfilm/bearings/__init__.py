@@ -2,6 +2,7 @@
 
 from .bush import BushContact, MeltingBush, f4k20_bush
 from .bush_materials import BushGeometry, Friction, LinerMaterial, ShaftMaterial
+from .bush_reaction import BushReaction
 from .bush_wear import BushWear
 from .film_state import FilmState, film_state
 from .journal import JournalBearing
@@ -9,6 +10,7 @@ from .journal import JournalBearing
 __all__ = [
     "BushContact",
     "BushGeometry",
+    "BushReaction",
     "BushWear",
     "FilmState",
     "Friction",

@@ -1,6 +1,7 @@
 """Journal film laws: pure, dimensionless physics; one law per file."""
 
 from .bush_heat import ApproximateShaft, ContactBalance, ExactShaft, GlobalBalance
+from .bush_profile import LocalMelting, SharedMelting
 from .cavitation import Cavitation, Complementarity, FullFilm, HalfSommerfeld
 from .complementarity_arc import ComplementarityArc
 from .geometry import FilmGeometry, Groove, Pad
@@ -29,6 +30,7 @@ __all__ = [
     "GlobalBalance",
     "Groove",
     "HalfSommerfeld",
+    "LocalMelting",
     "MapFilm",
     "MapTable",
     "Pad",
@@ -36,6 +38,7 @@ __all__ = [
     "ReynoldsFilm",
     "RotatingArc",
     "Rupture",
+    "SharedMelting",
     "ShortFilm",
     "SpectralArcFilm",
     "SplittingFilm",
