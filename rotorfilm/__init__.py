@@ -20,6 +20,7 @@ _HOMES = {
         "ShaftMaterial",
         "f4k20_bush",
         "film_state",
+        "published_stage",
     ),
     "cosim": ("CoSimulation", "CouplingReport", "cosimulate", "coupling_stability", "critical_macro_step"),
     "films": (

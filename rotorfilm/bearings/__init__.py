@@ -2,6 +2,7 @@
 
 from .bush import BushContact, MeltingBush, f4k20_bush
 from .bush_materials import BushGeometry, Friction, LinerMaterial, ShaftMaterial
+from .bush_published import PublishedStage, published_stage
 from .bush_reaction import BushReaction
 from .bush_wear import BushWear
 from .film_state import FilmState, film_state
@@ -17,7 +18,9 @@ __all__ = [
     "JournalBearing",
     "LinerMaterial",
     "MeltingBush",
+    "PublishedStage",
     "ShaftMaterial",
     "f4k20_bush",
     "film_state",
+    "published_stage",
 ]
