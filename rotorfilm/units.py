@@ -57,6 +57,7 @@ DISPLAY_UNITS: dict[str, Unit] = {
     "um": Unit(1e-6, {"m": 1}),
     "ms": Unit(1e-3, {"s": 1}),
     "g": Unit(1e-3, {"kg": 1}),
+    "MPa": Unit(1e6, {"kg": 1, "m": -1, "s": -2}),
     "kN": Unit(1e3, {"kg": 1, "m": 1, "s": -2}),
     "mPa s": Unit(1e-3, {"kg": 1, "m": -1, "s": -1}),
     "g mm": Unit(1e-6, {"kg": 1, "m": 1}),
