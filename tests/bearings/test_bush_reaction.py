@@ -1,7 +1,7 @@
 """The bush with a worn profile: contact, wear, energy, symmetries, derivatives."""
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import control
 import numpy as np
@@ -15,8 +15,9 @@ from rotorfilm.bearings.bush import f4k20_bush
 from rotorfilm.bearings.bush_reaction import BushReaction
 from rotorfilm.bearings.bush_wear import BushWear
 from rotorfilm.errors import ConvergenceError, FilmContactError, InputError
+from rotorfilm.films.bush_contact import mean_weight
 from rotorfilm.films.bush_heat import GlobalBalance
-from rotorfilm.films.bush_profile import LocalMelting, SharedMelting
+from rotorfilm.films.bush_profile import LocalMelting, Melting, SharedMelting
 from rotorfilm.linear import OperatingPoint, coefficients, linearize
 from rotorfilm.model import Dynamic, Reaction, Switched
 from rotorfilm.signals import names
@@ -149,6 +150,45 @@ def test_wear_under_a_growing_load_converges_to_the_two_moments():
     assert np.all(np.log2(np.abs(np.array(errors[:-1]) / errors[1:])) > 1.0)
     assert np.all(np.abs(errors[-1]) < 0.005)
     assert reached == pytest.approx(angle, rel=0.01)
+
+
+@dataclass(frozen=True)
+class AssumedMelting:
+    """Melting of `BushWear` on a profile: balance with the mean pressure (2.15), not with the true one."""
+
+    weight: tuple[float, ...]
+    """Angle that belongs to each node, times the cosine of its angle from the load line."""
+
+    def melting(self, at):
+        ratio = at.pressure @ np.array(self.weight)
+        mean = ratio * float(mean_weight(at.angle))
+        kept = max(0.0, at.work - at.losses / mean) if ratio > 0.0 else 0.0
+        return Melting(kept * at.pressure, *np.zeros((4, *at.pressure.shape)))
+
+    def margins(self, at):
+        return np.zeros(1)
+
+
+@pytest.mark.convergence
+def test_the_profile_converges_to_one_state_where_both_assume_the_same_mean_pressure():
+    def load(t):
+        return 3000.0 + 2000.0 * t
+
+    one = BushWear(bush=BUSH, melting_heat=1e8)
+    run = solve_ivp(
+        lambda t, x: one.derivative(t, x, [load(t), 12.0]), (0.0, 0.5), [0.0], rtol=1e-9, atol=1e-14
+    )
+    errors = []
+    for nodes in (33, 65, 129):
+        weight = np.full(nodes, 1.4 / (nodes - 1))
+        weight[[0, -1]] *= 0.5
+        model = replace(WORN, nodes=nodes, extent=1.4)
+        weight *= np.cos(model.angles + 0.5 * math.pi)
+        model = replace(model, melting=AssumedMelting(tuple(weight)))
+        wear = quasi_static(model, lambda t: np.array([0.0, -load(t)]), 12.0, 0.5).y[:, -1]
+        errors.append(weight @ wear / 13e-3 / run.y[0, -1] - 1.0)
+    assert np.all(np.log2(np.abs(np.array(errors[:-1]) / errors[1:])) > 1.0)
+    assert abs(errors[-1]) < 0.005
 
 
 @pytest.mark.convergence
