@@ -232,6 +232,8 @@ class BushReaction:
     def position(self, load: ArrayLike, speed: float, wear: ArrayLike | None = None) -> Array:
         """Return the position at which the bush carries a static load.
 
+        `equilibrium` answers the same with the wear at t = 0, but needs nodes all around.
+
         Parameters
         ----------
         load : array_like, shape (2,) [N]

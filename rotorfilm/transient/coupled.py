@@ -37,19 +37,20 @@ def connect(rotor: Dynamic, reaction: Reaction) -> Wiring:
     Raises
     ------
     InputError
-        If the rotor lacks an output that the film needs or an input for its force, either has a further
-        input, which nobody would drive, or the film has states but no derivative.
+        If the rotor lacks an output that the film needs or an input for its force, has a further input,
+        which nobody would drive, or the film has states and such an input or no derivative.
     """
     inputs = names(rotor.inputs)
     motion = indices("rotor must have the outputs", names(rotor.outputs), JOURNAL_INPUTS)
     force = indices("rotor must have the inputs", inputs, FORCE_OUTPUTS)
     if len(inputs) > len(force):
         raise InputError(f"rotor must have no inputs but {list(FORCE_OUTPUTS)}, got {inputs}")
-    driven = names(reaction.inputs)
-    if driven != list(JOURNAL_INPUTS):
-        raise InputError(f"reaction must have the inputs {list(JOURNAL_INPUTS)} and no others, got {driven}")
     if reaction.states and not isinstance(reaction, Dynamic):
         raise InputError(f"reaction must have a derivative for its states, got {reaction!r}")
+    if reaction.states and names(reaction.inputs) != list(JOURNAL_INPUTS):
+        raise InputError(
+            f"reaction must have no inputs but {list(JOURNAL_INPUTS)}, got {names(reaction.inputs)}"
+        )
     return Wiring(motion, force)
 
 

@@ -18,7 +18,7 @@ from rotorfilm.errors import ConvergenceError, FilmContactError, InputError
 from rotorfilm.films.bush_contact import mean_weight
 from rotorfilm.films.bush_heat import GlobalBalance
 from rotorfilm.films.bush_profile import LocalMelting, Melting, SharedMelting
-from rotorfilm.linear import OperatingPoint, coefficients, linearize
+from rotorfilm.linear import OperatingPoint, coefficients, equilibrium, linearize
 from rotorfilm.model import Dynamic, Reaction, Switched
 from rotorfilm.signals import names
 
@@ -94,6 +94,13 @@ def test_friction_turns_the_load_line_against_the_rotation():
     right, left = ring.position(DOWN, 5.0), ring.position(DOWN, -5.0)
     assert math.atan2(right[0], -right[1]) == pytest.approx(-math.atan(0.1), abs=1e-4)
     np.testing.assert_allclose(right, [-left[0], left[1]], rtol=1e-9)
+
+
+def test_the_equilibrium_of_a_ring_is_the_position_that_carries_the_load():
+    """Two searches that share the force law only; the general one looks all around, so it needs a ring."""
+    ring = replace(RING, wear_depth=tuple(random_wear(7, 96)))
+    load = np.array([2000.0, 1500.0])
+    np.testing.assert_allclose(equilibrium(ring, load, 5.0).position, ring.position(load, 5.0), rtol=1e-10)
 
 
 def two_moments(load, speed, duration):

@@ -89,12 +89,12 @@ def test_above_the_critical_speed_the_liner_melts_at_the_melting_point():
 
 
 @pytest.mark.closed_form
-@pytest.mark.parametrize("speed", [5.0, 9.0, -9.0])
+@pytest.mark.parametrize("speed", [5.0, -9.0])
 def test_the_wear_ends_where_the_critical_speed_has_risen_to_the_speed(speed):
     end = brentq(
         lambda a: BUSH.critical_speed(LOAD, a) - abs(speed), BUSH.contact_angle(LOAD), 1.5, xtol=1e-15
     )
-    solution = worn(WEAR, speed, 1e6)
+    solution = worn(WEAR, speed, 1e5)
     assert outputs(WEAR, solution.y[0, -1], LOAD, speed)["contact_angle"] == pytest.approx(end, rel=1e-8)
     assert np.all(np.diff(solution.y[0]) >= 0.0)
 

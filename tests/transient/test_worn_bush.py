@@ -11,6 +11,7 @@ from scipy.integrate import solve_ivp
 from rotorfilm.bearings import BushReaction, f4k20_bush
 from rotorfilm.errors import ContactError, InputError
 from rotorfilm.rotors import RigidRotor
+from rotorfilm.signals import Signal
 from rotorfilm.transient import simulate
 from rotorfilm.transient.coupled import Coupled
 
@@ -87,10 +88,16 @@ def test_the_initial_state_is_that_of_both():
         simulate(resting(1.0), WORN, duration=1e-3, initial_state=state[:4])
 
 
-def test_a_film_with_further_inputs_is_refused():
-    class Odd:
-        inputs = WORN.inputs[:4]
-        states = ()
-
-    with pytest.raises(InputError, match=r"reaction must have the inputs \['x', .*\] and no others"):
-        Coupled(resting(1.0), Odd())
+@pytest.mark.parametrize(
+    ("members", "message"),
+    [
+        ({"derivative": len, "initial_state": None}, "reaction must have no inputs but .*'heat'"),
+        ({}, "reaction must have a derivative for its states, got"),
+    ],
+)
+def test_a_film_that_nobody_could_integrate_is_refused(members, message):
+    heat = Signal(name="heat", unit="1", nominal=1.0, description="another input")
+    model = dict.fromkeys(("outputs", "output", "linearization"), len)
+    film = type("Odd", (), {**model, **members, "inputs": (*WORN.inputs, heat), "states": WORN.states})()
+    with pytest.raises(InputError, match=message):
+        Coupled(resting(1.0), film)
