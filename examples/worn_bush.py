@@ -42,7 +42,7 @@ lighter = replace(
     position=tuple(motion.position[:, -1]),
     velocity=tuple(motion.velocity[:, -1]),
 )
-after = simulate(lighter, worn, duration=0.05, samples=501, rtol=1e-6)
+after = simulate(lighter, worn, duration=0.05, samples=1001, rtol=1e-6)
 
 # The same as two coupled FMUs.
 for model, name in ((lighter, "shaft"), (worn, "bush")):
