@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, require_finite, require_non_negative, require_positive
+from ..errors import FilmContactError, InputError, require_finite, require_non_negative, require_positive
 from ..films import bush_contact as arc
 from ..films.bush_melting import Contact, MeltingLaw
 from ..model import Array, Linearization
@@ -109,7 +109,7 @@ class BushWear:
         Raises
         ------
         InputError
-            If load or wear are negative or not finite.
+            If the load is negative, or a value is not finite.
         ConvergenceError
             If friction rises so steeply with temperature that no steady contact exists.
         """
@@ -120,10 +120,24 @@ class BushWear:
         return np.array([self._law.surplus(at, *point[1:]) / self._heat_per_moment(at.alpha)])
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return the outputs, shape (7,), in the order and the units of `outputs`."""
+        """Return the outputs, shape (7,), in the order and the units of `outputs`.
+
+        Raises
+        ------
+        InputError, ConvergenceError
+            As in `derivative`.
+        FilmContactError
+            If the liner is worn through, so that the shaft reaches the housing.
+        """
         point = self._point(x, u)
         at = self._law.contact(*point)
         settlement = float(self.bush.settlement(at.alpha, at.temperature))
+        thickness = self.bush.geometry.outer_radius - self.bush.geometry.radius
+        if settlement >= thickness:
+            raise FilmContactError(
+                f"settlement must be below the thickness of the liner {thickness:.6g} m, "
+                f"got {settlement:.6g} m"
+            )
         if at.alpha == 0.0:
             return np.array([0.0, settlement, at.temperature, 0.0, 0.0, 0.0, 0.0])
         _, load_ratio, speed = point
@@ -167,7 +181,8 @@ class BushWear:
             )
         slopes = self._law.contact_slopes(at, *point[1:])
         # Columns W, load, speed from those by W, N, |speed|.
-        chain = np.diag([1.0, 1.0 / self.bush.force_unit, math.copysign(1.0, point[2])])
+        worn = float(np.all(np.asarray(x) >= 0.0))
+        chain = np.diag([worn, 1.0 / self.bush.force_unit, math.copysign(1.0, point[2])])
         rate = self._rate_slopes(at, slopes, *point[1:]) @ chain
         output = self._output_slopes(at, slopes, *point[1:]) @ chain
         return Linearization(rate[:, :1], rate[:, 1:], output[:, :1], output[:, 1:])
@@ -236,9 +251,9 @@ class BushWear:
                 f"got {state.shape} and {values.shape}"
             )
         (moment,), (load, speed) = state.tolist(), values.tolist()
-        require_non_negative("wear", moment)
         require_non_negative("load", load)
-        return moment, load / self.bush.force_unit, speed
+        # Integrators try states beyond the solution: negative wear counts as none.
+        return max(moment, 0.0), load / self.bush.force_unit, speed
 
     def _heat_per_moment(self, alpha: float) -> float:
         """Return the melting heat per contact area [J/m2] that raises W by one."""

@@ -6,14 +6,19 @@ Small exchangeable rules with their derivatives; `bearings.bush.MeltingBush` tak
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..errors import ValidityWarning
 from ..model import Array
 from .bush_shaft import approximate_flux, exact_flux
+
+COOLING_LIMIT = 0.3
+"""Largest kappa_1 R_1/lambda_1 that the source has its closed form in mind for."""
 
 
 @runtime_checkable
@@ -38,7 +43,14 @@ class ApproximateShaft:
     """Q_1 as published, by the closed form (2.13): .6 to 2.9 % high for cooling .02 to .3."""
 
     def flux(self, cooling: float, stubbiness: float) -> float:
-        """Return Q_1 in units of lambda_1 T_*/R_1."""
+        """Return Q_1 in units of lambda_1 T_*/R_1; warn beyond the `COOLING_LIMIT` of the source."""
+        if cooling > COOLING_LIMIT:
+            warnings.warn(
+                f"air_transfer shaft_radius / conductivity must not exceed {COOLING_LIMIT} for "
+                f"ApproximateShaft, got {cooling:.6g}: the heat into the shaft is too high",
+                ValidityWarning,
+                stacklevel=2,
+            )
         return approximate_flux(cooling, stubbiness)
 
 

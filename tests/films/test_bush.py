@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
 
+from rotorfilm.errors import ValidityWarning
 from rotorfilm.films import bush_contact as contact
 from rotorfilm.films import bush_shaft
 from rotorfilm.films.bush_heat import ApproximateShaft, ContactBalance, ExactShaft, GlobalBalance
@@ -156,6 +157,11 @@ def test_the_closed_form_is_high_by_what_the_kernel_approximation_allows():
     ]
     assert min(errors) > 0.006
     assert max(errors) < 0.03
+
+
+def test_the_closed_form_warns_beyond_the_range_of_the_source():
+    with pytest.warns(ValidityWarning, match="must not exceed 0.3 for ApproximateShaft, got 0.4"):
+        ApproximateShaft().flux(0.4, 0.25)
 
 
 def test_rules_are_interchangeable():
