@@ -224,6 +224,39 @@ def groove_map(
     )
 
 
+@app.command(epilog='Example: rotorfilm bush --load "3750 N" --speed "9 rad/s" --set f0=0.12')
+def bush(
+    load: Annotated[str, typer.Option(help="Radial load.", metavar='"3750 N"')],
+    speed: Annotated[str | None, typer.Option(help="Angular speed to evaluate.", metavar='"9 rad/s"')] = None,
+    settlement: Annotated[str, typer.Option(help="Up to which the liner may wear.")] = "0 mm",
+    change: Annotated[
+        list[str] | None, typer.Option("--set", help="Other value than the example's.", metavar="NAME=VALUE")
+    ] = None,
+    published: Annotated[
+        bool, typer.Option("--published", help="Shaft heat by the published formula.")
+    ] = False,
+    whole_shaft: Annotated[bool, typer.Option("--global", help="Balance heat over the whole shaft.")] = False,
+    json: Json = False,
+) -> None:
+    """Find contact and critical speeds of a polymer bush that melts: the published example unless set."""
+    from dataclasses import replace
+
+    from .films import ApproximateShaft, GlobalBalance
+    from .scenes.bush import bush_from_settings, solve_bush
+    from .units import parse_quantity
+
+    pairs = [text.partition("=")[::2] for text in change or ()]
+    model = bush_from_settings({name.strip(): value.strip() for name, value in pairs})
+    model = replace(model, shaft_heat=ApproximateShaft()) if published else model
+    model = replace(model, balance=GlobalBalance()) if whole_shaft else model
+    rate = None if speed is None else parse_quantity(speed, "rad/s")
+    answer = solve_bush(model, parse_quantity(load, "N"), rate, parse_quantity(settlement, "m"))
+    if json:
+        console.print_json(answer)
+        return
+    console.print_bush(answer)
+
+
 @app.command(epilog="Example: rotorfilm demo --out rotorfilm-demo")
 def demo(
     out: Annotated[Path, typer.Option(help="Folder for results, FMUs and charts.")] = Path("rotorfilm-demo"),

@@ -1,7 +1,28 @@
 """Public bearing models: geometry, parameters and validation over a film law."""
 
+from .bush import BushContact, MeltingBush, f4k20_bush
+from .bush_materials import BushGeometry, Friction, LinerMaterial, ShaftMaterial
+from .bush_published import PublishedStage, published_stage
+from .bush_reaction import BushReaction
+from .bush_wear import BushWear
 from .film_state import FilmState, film_state
 from .groove_map import build_groove_map
 from .journal import JournalBearing
 
-__all__ = ["FilmState", "JournalBearing", "build_groove_map", "film_state"]
+__all__ = [
+    "BushContact",
+    "BushGeometry",
+    "BushReaction",
+    "BushWear",
+    "FilmState",
+    "Friction",
+    "JournalBearing",
+    "LinerMaterial",
+    "MeltingBush",
+    "PublishedStage",
+    "ShaftMaterial",
+    "build_groove_map",
+    "f4k20_bush",
+    "film_state",
+    "published_stage",
+]

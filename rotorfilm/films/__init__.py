@@ -1,6 +1,8 @@
 """Journal film laws: pure, dimensionless physics; one law per file."""
 
 from .arc_pressure import middle_pressure, tension
+from .bush_heat import ApproximateShaft, ContactBalance, ExactShaft, GlobalBalance
+from .bush_profile import LocalMelting, SharedMelting
 from .cavitation import Cavitation, Complementarity, FullFilm, HalfSommerfeld
 from .complementarity_arc import ComplementarityArc
 from .extrapolated import ExtrapolatedFilm
@@ -20,18 +22,23 @@ from .spectral import SpectralArcFilm
 from .splitting import SplittingFilm
 
 __all__ = [
+    "ApproximateShaft",
     "Cavitation",
     "Complementarity",
     "ComplementarityArc",
+    "ContactBalance",
+    "ExactShaft",
     "ExtrapolatedFilm",
     "FilmGeometry",
     "FilmLaw",
     "FixedArc",
     "FullFilm",
+    "GlobalBalance",
     "Groove",
     "GrooveTable",
     "GroovedMapFilm",
     "HalfSommerfeld",
+    "LocalMelting",
     "MapFilm",
     "MapTable",
     "Pad",
@@ -39,6 +46,7 @@ __all__ = [
     "ReynoldsFilm",
     "RotatingArc",
     "Rupture",
+    "SharedMelting",
     "ShortFilm",
     "SpectralArcFilm",
     "SplittingFilm",

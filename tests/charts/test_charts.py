@@ -6,7 +6,9 @@ import pytest
 from rotorfilm.charts import (
     new_axes,
     plot_accuracy,
+    plot_contact_pressure,
     plot_coupling_error,
+    plot_critical_speed,
     plot_locus,
     plot_orbits,
     plot_stability,
@@ -63,3 +65,16 @@ def test_charts_draw_on_given_axes_and_save(tmp_path):
     assert plot_orbits({"a": orbit()}, clearance=1e-4, axes=axes) is axes
     path = save(axes, tmp_path / "chart.png")
     assert path.read_bytes().startswith(b"\x89PNG")
+
+
+def test_bush_charts_draw_what_they_are_given():
+    angle = np.array([0.1, 0.2])
+    axes = plot_critical_speed({"N = 1": (angle, np.array([1.0, 2.0]))})
+    np.testing.assert_allclose(axes.get_lines()[0].get_xydata(), [[0.1, 1.0], [0.2, 2.0]])
+    axes = plot_contact_pressure(
+        {"a": (angle, np.array([3e8, 0.0]))}, assumed={"a": (angle, np.array([6e8, 0.0]))}, modulus=3e8
+    )
+    drawn, dashed = axes.get_lines()
+    np.testing.assert_allclose(drawn.get_ydata(), [1.0, 0.0])
+    np.testing.assert_allclose(dashed.get_ydata(), [2.0, 0.0])
+    assert (dashed.get_linestyle(), dashed.get_color()) == ("--", drawn.get_color())
