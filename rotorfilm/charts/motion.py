@@ -43,13 +43,20 @@ def plot_orbits(
     return axes
 
 
-def plot_locus(curves: Mapping[str, tuple[np.ndarray, np.ndarray]], *, axes: Axes | None = None) -> Axes:
+def plot_locus(
+    curves: Mapping[str, tuple[np.ndarray, np.ndarray]],
+    *,
+    styles: Mapping[str, tuple[str | None, float]] | None = None,
+    axes: Axes | None = None,
+) -> Axes:
     """Draw the loci of the journal center under a load along -y, rotation counter-clockwise.
 
     Parameters
     ----------
     curves : mapping of str to (ndarray, ndarray)
         Label, eccentricity ratio [1] and attitude angle [rad], each of shape (n,).
+    styles : mapping of str to (str or None, float), optional
+        Color and width [points] by label; wider lines lie below.
     axes : Axes, optional
         Where to draw; a new figure by default.
     """
@@ -59,7 +66,8 @@ def plot_locus(curves: Mapping[str, tuple[np.ndarray, np.ndarray]], *, axes: Axe
     for label, (eccentricity_ratio, attitude_angle) in curves.items():
         x = eccentricity_ratio * np.sin(attitude_angle)
         y = -eccentricity_ratio * np.cos(attitude_angle)
-        axes.plot(x, y, label=label, linewidth=1.4)
+        color, width = (styles or {}).get(label, (None, 1.4))
+        axes.plot(x, y, label=label, color=color, linewidth=width, zorder=2.0 + 0.5 / width)
     axes.set(
         xlabel="x / clearance", ylabel="y / clearance", aspect="equal", xlim=(-0.05, 1.05), ylim=(-1.05, 0.1)
     )

@@ -15,6 +15,19 @@ FAMILY_COLORS = {
 }
 """Colors by the family of a rung."""
 
+FAMILY_WIDTHS = {
+    "short film": 9.0,
+    "2-D": 6.5,
+    "2-D extrapolated": 5.0,
+    "Reynolds arc": 3.6,
+    "free arc": 2.8,
+    "map": 1.1,
+}
+"""Widths of lines that may coincide [points]: the wider lies below, showing on both sides of the other."""
+
+USUAL_WIDTH = 1.6
+"""Width of the lines of all other families [points]."""
+
 FRONT = "#7030a0"
 """Color of a Pareto front."""
 
