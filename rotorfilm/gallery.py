@@ -19,7 +19,6 @@ from .charts import (
     plot_thresholds,
     save,
 )
-from .charts.palette import FAMILY_COLORS, FAMILY_WIDTHS, USUAL_WIDTH
 from .results import Trajectory
 from .scenes.demo import DemoResult, demo_rungs
 
@@ -46,8 +45,9 @@ def _draw_overview(result: DemoResult) -> Axes:
     """Draw orbits and their error beside the whirl threshold and the force error of every film."""
     figure = new_figure(size=OVERVIEW_SIZE)
     (orbits, coupling), (stability, accuracy) = figure.subplots(2, 2, height_ratios=(1.0, 1.25))
-    around, along = result.accuracy.reference.split(" cells")[0], result.accuracy.slenderness
-    figure.suptitle(f"{result.scene.title}\nerrors of films against the {around} cells, L/D = {along:g}")
+    compared = result.accuracy
+    reference = f"films at L/D = {compared.slenderness:g}, reference: {compared.reference}"
+    figure.suptitle(f"{result.scene.title}\n{reference}")
     _draw_orbits(result, orbits)
     orbits.set_title("Orbit of the journal center")
     _draw_coupling(result, coupling)
@@ -76,12 +76,9 @@ def _draw_orbits(result: DemoResult, axes: Axes | None = None) -> Axes:
 
 def _draw_locus(result: DemoResult) -> Axes:
     ratios = np.array(result.stability.eccentricity_ratio)
-    styles = {
-        rung.name: (FAMILY_COLORS[rung.family], FAMILY_WIDTHS.get(rung.family, USUAL_WIDTH))
-        for rung in demo_rungs()
-    }
+    families = {rung.name: rung.family for rung in demo_rungs()}
     curves = {name: (ratios, angles) for name, angles in result.attitude_angle.items()}
-    return plot_locus(curves, styles=styles)
+    return plot_locus(curves, families=families)
 
 
 def _draw_coupling(result: DemoResult, axes: Axes | None = None) -> Axes:

@@ -11,7 +11,7 @@ from matplotlib.patches import Rectangle
 
 from ..ladders import JournalStability, RungStability
 from .canvas import new_axes, new_figure
-from .palette import BAD, DOUBTFUL, FAMILY_COLORS, FAMILY_WIDTHS, GOOD, USUAL_WIDTH
+from .palette import BAD, DASHES, DOUBTFUL, FAMILY_COLORS, FAMILY_WIDTHS, GOOD
 
 SMALLEST = 0.03
 """Smallest deviation drawn [%]; smaller ones lie on the axis."""
@@ -60,8 +60,8 @@ def plot_thresholds(
 ) -> Axes:
     """Draw the threshold speed * sqrt(clearance * mass / load) over the eccentricity ratio.
 
-    Thresholds within the tolerance of the reference are solid lines, wrong ones dotted; crosses mark
-    eccentricity ratios where a film has no threshold though the reference has one. Films that may coincide
+    Thresholds within the tolerance of the reference are solid or dashed lines, wrong ones dotted; crosses
+    mark eccentricity ratios where a film has no threshold though the reference has one. Films that may coincide
     are drawn ever narrower, so that each can be seen.
 
     Parameters
@@ -92,11 +92,12 @@ def _draw_curves(axes: Axes, result: JournalStability) -> None:
     low, high = (1.0 - result.tolerance) * exact, (1.0 + result.tolerance) * exact
     axes.fill_between(ratios, low, high, color="0.8", linewidth=0.0, zorder=0)
     for rung in sorted(result.rungs, key=_width, reverse=True):
-        values, color = _numbers(rung.speed_parameter), color_of(rung)
+        values, color, width = _numbers(rung.speed_parameter), color_of(rung), _width(rung)
         good = ~(np.array(result.wrong(rung)) | np.array(result.invented(rung)))
-        axes.plot(ratios, values, ":", color=color, linewidth=1.3)
-        solid = np.where(good, values, np.nan)
-        axes.plot(ratios, solid, "-", color=color, linewidth=_width(rung), solid_capstyle="butt")
+        axes.plot(ratios, values, ":", color=color, linewidth=max(1.2, 0.5 * width))
+        right = np.where(good, values, np.nan)
+        style = DASHES.get(rung.family, "-")
+        axes.plot(ratios, right, linestyle=style, color=color, linewidth=width, solid_capstyle="butt")
     marked = slice(None, None, max(1, len(ratios) // REFERENCE_MARKS))
     axes.plot(ratios[marked], exact[marked], "ko", markerfacecolor="w", markersize=4.0, markeredgewidth=0.8)
 
@@ -108,7 +109,8 @@ def _draw_missing(axes: Axes, result: JournalStability) -> None:
         where, level = np.array(result.missing(rung)), 0.2 + 0.45 * row
         axes.plot(ratios[where], np.full(where.sum(), level), "x", color=color_of(rung))
         text = f"{rung.name}: no threshold exists"
-        axes.text(ratios[where][0], level + 0.13, text, va="bottom", fontsize=8, color=color_of(rung))
+        end = ratios[where][-1]
+        axes.text(end, level + 0.13, text, ha="right", va="bottom", fontsize=8, color=color_of(rung))
 
 
 def _draw_deviations(axes: Axes, result: JournalStability) -> None:
@@ -184,7 +186,7 @@ def color_of(rung: RungStability) -> str:
 
 
 def _width(rung: RungStability) -> float:
-    return FAMILY_WIDTHS.get(rung.family, USUAL_WIDTH)
+    return FAMILY_WIDTHS[rung.family]
 
 
 def _numbers(values: tuple[float | None, ...]) -> np.ndarray:
@@ -204,7 +206,12 @@ def _legend(result: JournalStability) -> list[Line2D]:
     return [
         *(
             Line2D(
-                [], [], color=FAMILY_COLORS[name], label=name, linewidth=FAMILY_WIDTHS.get(name, USUAL_WIDTH)
+                [],
+                [],
+                color=FAMILY_COLORS[name],
+                label=name,
+                linewidth=FAMILY_WIDTHS[name],
+                linestyle=DASHES.get(name, "-"),
             )
             for name in families
         ),

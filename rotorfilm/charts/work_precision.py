@@ -50,7 +50,7 @@ def plot_force_error(result: JournalAccuracy, *, axes: Axes | None = None) -> Ax
     axes = axes or new_axes("Error of the force against its cost", size=(8.0, 6.4))
     _draw(axes, result, _batch_time)
     axes.set(xlabel="time of one force in a batch [us]", ylabel="relative error of the force [1]")
-    axes.legend(handles=_legend(result), fontsize=8, ncols=2, loc="upper right", framealpha=1.0)
+    axes.legend(handles=_legend(result), fontsize=7.5, loc="upper right", framealpha=1.0)
     _limit_errors(axes, result)
     _label(axes, result, _batch_time)
     return axes

@@ -54,7 +54,7 @@ RUNGS = (
 STATES, ROUNDS = 100, 3
 """Random states of the comparison and rounds of timing."""
 
-REFERENCE_CELLS = (384, 32)
+REFERENCE_CELLS = (384, 16)
 """Cells of the finest grid of its reference."""
 
 ECCENTRICITY_RATIOS = tuple(np.linspace(0.02, 0.98, 49).tolist())

@@ -39,7 +39,10 @@ WANTED = (
     "published (1, 1)",
     "fixed arc (2, all)",
     "rotating arc (2, all)",
+    "free arc (4+c, 8)",
+    "2-D 48 x 4",
     "2-D 96 x 8",
+    "2-D 192 x 16",
     "map",
 )
 
@@ -123,6 +126,23 @@ def test_errors_rank_the_rungs(result):
     assert rung["rotating arc (2, all)"].median_error < 0.2 * rung["fixed arc (2, all)"].median_error
     assert rung["fixed arc (2, all)"].high_error > 1.0
     assert all(r.median_error <= r.high_error <= r.worst_error for r in result.rungs)
+
+
+@pytest.mark.convergence
+def test_two_dimensional_film_converges_with_its_order(result):
+    errors = [by_name(result)[f"2-D {cells}"].median_error for cells in ("48 x 4", "96 x 8", "192 x 16")]
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    np.testing.assert_allclose(orders, ReynoldsFilm.order, atol=0.1)
+
+
+def test_each_family_is_closer_to_reynolds_rupture(result):
+    names = ("published (1, 1)", "rotating arc (2, all)", "free arc (4+c, 8)", "map")
+    rungs = [by_name(result)[name] for name in names]
+    median, high = [rung.median_error for rung in rungs], [rung.high_error for rung in rungs]
+    assert median[0] > 10.0 * median[1] > 100.0 * median[2] > 1000.0 * median[3]
+    assert high[0] > 1.0 > high[1] > high[2] > 10.0 * high[3]
+    assert median[3] < 1e-5
+    assert high[3] < 1e-4
 
 
 def test_only_the_fixed_arc_carries_tension(result):
