@@ -61,8 +61,8 @@ def plot_thresholds(
     """Draw the threshold speed * sqrt(clearance * mass / load) over the eccentricity ratio.
 
     Thresholds within the tolerance of the reference are solid or dashed lines, wrong ones dotted; crosses
-    mark eccentricity ratios where a film has no threshold though the reference has one. Films that may coincide
-    are drawn ever narrower, so that each can be seen.
+    mark eccentricity ratios where a film has no threshold though the reference has one. Films that may
+    coincide are drawn ever narrower, so that each can be seen.
 
     Parameters
     ----------

@@ -92,7 +92,7 @@ def test_tension_and_asymmetry_are_marked(rung):
     for name in ("published (1, 1)", "published (2, 1)", "fixed arc converged"):
         assert rung[name].in_tension
         assert rung[name].tension_share > 0.4
-        assert max(rung[name].static_tension) == 0.0
+        assert max(rung[name].static_tension) < 1e-9
     assert not rung["map"].in_tension
     assert {name for name, law in rung.items() if law.unsymmetric} == {
         "published (1, 1)",
