@@ -302,7 +302,7 @@ def test_demo_prints_json_alone_on_stdout(run, tmp_path, monkeypatch):
     assert code == 0
     assert "done" in err
     result = json.loads(out)
-    assert [(tmp_path / "demo" / chart).exists() for chart in result["charts"]] == [True] * 5
+    assert [(tmp_path / "demo" / chart).exists() for chart in result["charts"]] == [True] * 6
     assert result["coupling"]["runs"][-1]["refused"]
 
 
