@@ -31,7 +31,6 @@ from rotorfilm import (
     Sprung,
     synchronous_orbits,
 )
-from rotorfilm.charts import plot_accuracy
 from rotorfilm.films import FullFilm
 
 COUNT, LARGEST = 200, 0.9
@@ -116,7 +115,11 @@ def draw(found: dict[str, tuple[float, float, float]], path: Path) -> None:
     figure = Figure(figsize=(11.0, 4.6), layout="constrained")
     left, right = figure.subplots(1, 2)
     rungs = {name: values for name, values in found.items() if values[2] > 0.0}
-    plot_accuracy(rungs, reference="rung above, L/D = .25, Phi = .001", axes=left)
+    for name, (cost, median, high) in rungs.items():
+        left.errorbar(1e6 * cost, median, yerr=[[0.0], [high - median]], fmt="o", capsize=5, label=name)
+    left.set(xscale="log", yscale="log", xlabel="time of one force in a batch, us")
+    left.set(ylabel="force error (dot: median, bar: 99 %)", title="L/D = .25, Phi = .001")
+    left.legend(fontsize=7)
     left.xaxis.set_minor_formatter(NullFormatter())
     gradings = np.linspace(0.0, 4.0, 81)
     full = damper(0.25, 0.02, extent=FullFilm())

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import sys
 import warnings
+from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -33,8 +34,37 @@ app = typer.Typer(
 )
 app.add_typer(chart_app, name="chart")
 
+fmu = typer.Typer(
+    help="Build FMUs of a scene, check one, show what is in one.",
+    no_args_is_help=True,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+app.add_typer(fmu, name="fmu", epilog="Example: rotorfilm fmu build examples/friswell.toml --out fmus")
+
+
+class FmiVersion(StrEnum):
+    """FMI versions of an export."""
+
+    TWO = "2.0"
+    THREE = "3.0"
+
+
+class Backend(StrEnum):
+    """What runs a model inside an FMU: the C library, or Python."""
+
+    NATIVE = "native"
+    PYTHON = "python"
+
+
+class Platforms(StrEnum):
+    """Machines for which a native FMU carries a library."""
+
+    HOST = "host"
+    ALL = "all"
+
 
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file of schema 1.")]
+FmuFile = Annotated[Path, typer.Argument(metavar="FILE.fmu", help="FMU of FMI 2.0 or 3.0.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON on stdout instead of tables.")]
 
 
@@ -97,21 +127,64 @@ def coefficients(
     console.print_rows("journal bearing", rows + console.coefficient_rows(derivatives))
 
 
-@app.command(epilog="Example: rotorfilm fmu examples/friswell.toml --out fmus")
-def fmu(
+@fmu.command(epilog="Example: rotorfilm fmu build examples/friswell.toml --out fmus --fmi 3.0")
+def build(
     scene: SceneFile,
     out: Annotated[Path, typer.Option(help="Folder for the FMUs; made if absent.")] = Path("."),
+    fmi: Annotated[FmiVersion, typer.Option(help="FMI version.")] = FmiVersion.TWO,
+    backend: Annotated[
+        Backend | None, typer.Option(help="What runs in them; by default native where there is a kernel.")
+    ] = None,
+    platforms: Annotated[Platforms, typer.Option(help="This machine's platform, or all of them.")] = (
+        Platforms.HOST
+    ),
     json: Json = False,
 ) -> None:
-    """Export the film and the rotor of a scene as FMI 2.0 co-simulation FMUs."""
+    """Export the film and the rotor of a scene as FMUs."""
     from .scenes import Scene
     from .scenes.export import export_scene
 
-    files = {name: str(path) for name, path in export_scene(Scene.load(scene), out)._asdict().items()}
+    made = export_scene(
+        Scene.load(scene),
+        out,
+        version=fmi.value,
+        backend=None if backend is None else backend.value,
+        platforms=platforms.value,
+    )
+    files = {name: str(path) for name, path in made._asdict().items()}
     if json:
         console.print_json(files)
         return
     console.print_rows("FMUs", list(files.items()))
+
+
+@fmu.command(epilog="Example: rotorfilm fmu check film.fmu")
+def check(file: FmuFile, json: Json = False) -> None:
+    """Check description, derivatives, FMU states and reference trajectory; exit with 1 if one fails."""
+    from .fmu import check_fmu
+
+    items = check_fmu(file)
+    if json:
+        console.print_json([item._asdict() for item in items])
+    else:
+        console.print_rows(str(file), [console.check_row(*item) for item in items])
+    if any(item.passed is False for item in items):
+        raise typer.Exit(FAILED)
+
+
+@fmu.command(epilog="Example: rotorfilm fmu info film.fmu --json")
+def info(file: FmuFile, json: Json = False) -> None:
+    """Show what an FMU says of itself: version, interfaces, platforms, variables."""
+    from .fmu import describe_fmu
+
+    found = describe_fmu(file)
+    if json:
+        console.print_json(found)
+        return
+    variables = found.pop("variables")
+    shown = {key: ", ".join(value) if isinstance(value, list) else value for key, value in found.items()}
+    console.print_rows(str(file), [(key, str(value)) for key, value in shown.items()])
+    console.print_table("variables", variables)
 
 
 @app.command(
@@ -150,6 +223,39 @@ def groove_map(
     console.print_rows(
         "map of the film", [("kept in", folder), ("eccentricity ratios", f"up to {reach:.3g}")]
     )
+
+
+@app.command(epilog='Example: rotorfilm bush --load "3750 N" --speed "9 rad/s" --set f0=0.12')
+def bush(
+    load: Annotated[str, typer.Option(help="Radial load.", metavar='"3750 N"')],
+    speed: Annotated[str | None, typer.Option(help="Angular speed to evaluate.", metavar='"9 rad/s"')] = None,
+    settlement: Annotated[str, typer.Option(help="Up to which the liner may wear.")] = "0 mm",
+    change: Annotated[
+        list[str] | None, typer.Option("--set", help="Other value than the example's.", metavar="NAME=VALUE")
+    ] = None,
+    published: Annotated[
+        bool, typer.Option("--published", help="Shaft heat by the published formula.")
+    ] = False,
+    whole_shaft: Annotated[bool, typer.Option("--global", help="Balance heat over the whole shaft.")] = False,
+    json: Json = False,
+) -> None:
+    """Find contact and critical speeds of a polymer bush that melts: the published example unless set."""
+    from dataclasses import replace
+
+    from .films import ApproximateShaft, GlobalBalance
+    from .scenes.bush import bush_from_settings, solve_bush
+    from .units import parse_quantity
+
+    pairs = [text.partition("=")[::2] for text in change or ()]
+    model = bush_from_settings({name.strip(): value.strip() for name, value in pairs})
+    model = replace(model, shaft_heat=ApproximateShaft()) if published else model
+    model = replace(model, balance=GlobalBalance()) if whole_shaft else model
+    rate = None if speed is None else parse_quantity(speed, "rad/s")
+    answer = solve_bush(model, parse_quantity(load, "N"), rate, parse_quantity(settlement, "m"))
+    if json:
+        console.print_json(answer)
+        return
+    console.print_bush(answer)
 
 
 @app.command(epilog="Example: rotorfilm demo --out rotorfilm-demo")

@@ -17,6 +17,7 @@ from .results import Coefficients, Equilibrium, WhirlThreshold, to_plain
 
 if TYPE_CHECKING:
     from .progress import Report
+    from .scenes.bush import BushAnswer
     from .scenes.coupling import CoupledRun
     from .scenes.demo import DemoResult
     from .scenes.solve import Answer
@@ -49,6 +50,23 @@ def print_columns(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> Non
     for row in rows:
         table.add_row(*row)
     Console(highlight=False).print(table)
+
+
+def print_table(title: str, rows: list[dict[str, Any]]) -> None:
+    """Print rows with the same keys as a table."""
+    table = Table(title=title, title_justify="left", box=None, pad_edge=False)
+    for key in rows[0] if rows else ():
+        table.add_column(key, overflow="fold")
+    for row in rows:
+        table.add_row(*("" if value is None else str(value) for value in row.values()))
+    Console(highlight=False, markup=False).print(table)
+
+
+def check_row(check: str, passed: bool | None, figure: float | None, remark: str) -> tuple[str, str]:
+    """Return the row of one check of an FMU."""
+    verdict = {True: "passed", False: "FAILED", None: "not applicable"}[passed]
+    measured = "" if figure is None else f" {figure:.2g}"
+    return check, f"{verdict}:{measured} {remark}"
 
 
 @contextmanager
@@ -102,6 +120,24 @@ def print_answer(title: str, answer: Answer) -> None:
     print_rows(title, rows + whirl_rows(answer.whirl_threshold))
 
 
+def print_bush(answer: BushAnswer) -> None:
+    """Print contact and critical speeds of a melting bush."""
+    at = answer.contact
+    rows = [
+        ("load", f"{at.load:.6g} N"),
+        ("contact half angle", f"{at.contact_angle:.6g} rad = {math.degrees(at.contact_angle):.4g} deg"),
+        ("settlement", f"{at.settlement * 1e6:.6g} um"),
+        ("pressure", f"mean {at.mean_pressure * 1e-6:.5g} MPa, largest {at.maximum_pressure * 1e-6:.5g} MPa"),
+        ("heat", f"shaft {at.shaft_flux:.6g} W/m2, liner {at.liner_flux:.6g} W/m2"),
+        ("critical speed", _speed(at.critical_speed)),
+        ("", f"{_speed(answer.onset_speed)} once worn to a settlement of {answer.settlement * 1e6:g} um"),
+    ]
+    operation = [(name.replace("_", " "), f"{value:.6g}") for name, value in answer.operation.items()]
+    print_rows("melting bush", rows)
+    if operation:
+        print_rows("at the speed given, unworn (SI)", operation)
+
+
 def print_demo(result: DemoResult) -> None:
     """Print the summary of the demonstration."""
     print_answer(result.scene.title, result.answer)
@@ -127,6 +163,10 @@ def _coupled_cells(run: CoupledRun) -> tuple[str, str, str, str]:
         f"{run.orbit_error:.3g}" + (" (refused)" if run.refused else ""),
         f"{run.wall_time:.2f} s",
     )
+
+
+def _speed(value: float) -> str:
+    return f"{value:.6g} rad/s = {value * 30.0 / math.pi:.6g} rpm"
 
 
 def _pair(values: np.ndarray) -> str:

@@ -1,4 +1,4 @@
-"""The protocols that everything pluggable obeys: Model, Dynamic, Kinked, Stepped, Reaction.
+"""The protocols that everything pluggable obeys: Model, Dynamic, Kinked, Switched, Stepped, Reaction.
 
 A model maps (t, x, u), that is time [s], state (n_states,) and input (n_inputs,), to its output
 (n_outputs,), all in the SI units of its signals. Linearization, export, co-simulation and charts know
@@ -93,6 +93,14 @@ class Kinked(Protocol):
     @property
     def breakpoints(self) -> tuple[float, ...]:
         """The times [s] at which an integrator should stop, in rising order."""
+
+
+@runtime_checkable
+class Switched(Protocol):
+    """What a Dynamic may add, if clamps or contacts make it smooth only piece by piece."""
+
+    def events(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return the switching functions, shape (n_events,): the model is smooth while none changes sign."""
 
 
 @runtime_checkable

@@ -45,6 +45,8 @@ UNITS: dict[str, Unit] = {
     "Pa": Unit(1.0, {"kg": 1, "m": -1, "s": -2}),
     "Pa.s": Unit(1.0, {"kg": 1, "m": -1, "s": -1}),
     "kg.m": Unit(1.0, {"kg": 1, "m": 1}),
+    "N.m": Unit(1.0, {"kg": 1, "m": 2, "s": -2}),
+    "K": Unit(1.0, {"K": 1}),
 }
 """The SI units of signals, by their FMI spelling."""
 
@@ -57,11 +59,11 @@ DISPLAY_UNITS: dict[str, Unit] = {
     "um2": Unit(1e-12, {"m": 2}),
     "ms": Unit(1e-3, {"s": 1}),
     "g": Unit(1e-3, {"kg": 1}),
+    "MPa": Unit(1e6, {"kg": 1, "m": -1, "s": -2}),
     "kN": Unit(1e3, {"kg": 1, "m": 1, "s": -2}),
     "mPa s": Unit(1e-3, {"kg": 1, "m": -1, "s": -1}),
     "g mm": Unit(1e-6, {"kg": 1, "m": 1}),
     "kPa": Unit(1e3, {"kg": 1, "m": -1, "s": -2}),
-    "MPa": Unit(1e6, {"kg": 1, "m": -1, "s": -2}),
     "bar": Unit(1e5, {"kg": 1, "m": -1, "s": -2}),
     "deg": Unit(math.pi / 180.0, {"rad": 1}),
     "rpm": Unit(math.pi / 30.0, {"rad": 1, "s": -1}),

@@ -7,12 +7,15 @@ import sys
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from zipfile import ZipFile
 
 import numpy as np
 import pytest
 from fmpy import read_model_description
 
 from rotorfilm import cli, ladders, scenes
+from rotorfilm.fmu import export_fmu
+from rotorfilm.rotors import RigidRotor
 from rotorfilm.scenes.film_tables import FILMS, RUPTURES
 
 SCENE = """
@@ -197,7 +200,18 @@ def test_unknown_key_in_a_scene_is_named(run, scene):
 
 
 @pytest.mark.parametrize(
-    "command", ["solve", "coefficients", "fmu", "groove-map", "demo", "chart journal", "chart stability"]
+    "command",
+    [
+        "solve",
+        "coefficients",
+        "fmu build",
+        "fmu check",
+        "fmu info",
+        "groove-map",
+        "demo",
+        "chart journal",
+        "chart stability",
+    ],
 )
 def test_help_shows_an_example(run, command):
     code, out, _ = run(*command.split(), "--help")
@@ -223,7 +237,7 @@ def test_installed_command_answers_without_heavy_imports(tmp_path):
 
 
 def test_fmu_writes_two_fmus_that_fit_together(run, scene, tmp_path):
-    code, out, err = run("fmu", scene, "--out", tmp_path / "fmus", "--json")
+    code, out, err = run("fmu", "build", scene, "--out", tmp_path / "fmus", "--json")
     assert (code, err) == (0, "")
     files = json.loads(out)
     film, rotor = (read_model_description(files[name]) for name in ("film", "rotor"))
@@ -233,15 +247,48 @@ def test_fmu_writes_two_fmus_that_fit_together(run, scene, tmp_path):
     assert inputs == outputs == {"x", "y", "vx", "vy", "speed"}
 
 
+def test_fmu_check_measures_and_fails_with_1(run, tmp_path):
+    path = export_fmu(RigidRotor(mass=50.0, speed=157.0), tmp_path / "rotor.fmu", "3.0")
+    code, out, err = run("fmu", "check", path, "--json")
+    assert (code, err) == (0, "")
+    items = {item["check"]: item for item in json.loads(out)}
+    assert all(item["passed"] for item in items.values())
+    assert items["reference, Model Exchange"]["figure"] < 1e-10
+    spoiled = tmp_path / "spoiled.fmu"
+    with ZipFile(path) as before, ZipFile(spoiled, "w") as after:
+        for name in before.namelist():
+            content = before.read(name)
+            after.writestr(name, content.replace(b"0.1", b"0.2") if name.endswith(".csv") else content)
+    code, out, _ = run("fmu", "check", spoiled)
+    assert code == 1
+    assert "FAILED" in out
+
+
+def test_fmu_info_lists_variables(run, tmp_path):
+    path = export_fmu(RigidRotor(mass=50.0, speed=157.0), tmp_path / "rotor.fmu", component="rotor")
+    code, out, _ = run("fmu", "info", path, "--json")
+    found = json.loads(out)
+    assert (code, found["fmi_version"], found["interfaces"]) == (0, "2.0", ["CoSimulation", "ModelExchange"])
+    assert "providesDirectionalDerivative" in found["capabilities"]
+    assert {"name": "rotor.mass", "start": "50.0"}.items() <= found["variables"][1].items()
+    assert "rotor.mass" in run("fmu", "info", path)[1]
+
+
+def test_a_file_that_is_no_fmu_is_named(run, scene):
+    code, _, err = run("fmu", "check", scene)
+    assert code == 1
+    assert "fmu must be a readable FMU" in err
+
+
 def test_fmu_of_a_scene_without_rotor_is_refused(run, scene):
     scene.write_text(SCENE.partition("[rigid_rotor]")[0], encoding="utf-8")
-    code, _, err = run("fmu", scene)
+    code, _, err = run("fmu", "build", scene)
     assert code == 2
     assert "rigid_rotor is required" in err
 
 
 def test_folder_that_cannot_be_made_is_named(run, scene, tmp_path):
-    code, _, err = run("fmu", scene, "--out", scene / "below-a-file")
+    code, _, err = run("fmu", "build", scene, "--out", scene / "below-a-file")
     assert code == 2
     assert "below-a-file" in err
     assert err.count("\n") == 1
@@ -255,7 +302,7 @@ def test_demo_prints_json_alone_on_stdout(run, tmp_path, monkeypatch):
     assert code == 0
     assert "done" in err
     result = json.loads(out)
-    assert [(tmp_path / "demo" / chart).exists() for chart in result["charts"]] == [True] * 5
+    assert [(tmp_path / "demo" / chart).exists() for chart in result["charts"]] == [True] * 6
     assert result["coupling"]["runs"][-1]["refused"]
 
 

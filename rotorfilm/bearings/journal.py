@@ -19,11 +19,20 @@ from ..errors import (
     require_positive,
 )
 from ..films.geometry import FilmGeometry, Groove, Pad
-from ..films.law import CENTER, BindableFilm, BoundFilm, FilmLaw, FittedFilm
+from ..films.law import CENTER, BindableFilm, BoundFilm, FilmLaw, FittedFilm, NativeFilm
 from ..films.map import MapFilm
 from ..model import Array, Linearization, Tangent, force_outputs, journal_inputs, static_linearization
+from ..native.spec import NativeParameter, NativeSpec
 from ..signals import Signal
 from .reaction import NOMINAL_SPEED, broadcast_state, input_vector
+
+NATIVE_PARAMETERS = (
+    ("radius", "m", "bearing radius"),
+    ("length", "m", "axial length"),
+    ("clearance", "m", "radial clearance"),
+    ("viscosity", "Pa.s", "dynamic viscosity"),
+)
+"""Names, units and meanings of what a simulator may set in the compiled bearing."""
 
 ROUNDOFF = 1e-14
 """A source below this fraction of its two terms is their cancellation, hence zero."""
@@ -265,6 +274,30 @@ class JournalBearing:
         """Return the exact derivatives at u: all of them in the feedthrough matrix D (2, 5)."""
         values = input_vector(u)
         return static_linearization(self.jacobian(values[:2], values[2:4], values[4]))
+
+    def native(self) -> NativeSpec | None:
+        """Return the kernel of the C library that is this bearing; None if its film or geometry has none.
+
+        Nor has a subclass, which may differ from it. Its parameters are the dimensions and the viscosity;
+        radius and length may change as long as length / diameter stays within the table of the film.
+        """
+        plain = type(self) is JournalBearing and self.geometry.plain
+        if not (plain and isinstance(self.film, NativeFilm)):
+            return None
+        kernel, tables = self.film.native(self.slenderness)
+        parameters = tuple(
+            NativeParameter(
+                name=name,
+                unit=unit,
+                value=float(getattr(self, name)),
+                tunable=True,
+                minimum=0.0,
+                nominal=float(getattr(self, name)),
+                description=description,
+            )
+            for name, unit, description in NATIVE_PARAMETERS
+        )
+        return NativeSpec(kernel=kernel, parameters=parameters, tables=tables)
 
     @cached_property
     def _bound(self) -> BoundFilm | None:

@@ -1,25 +1,28 @@
 """Charts: functions from results to matplotlib Axes; nothing here computes physics."""
 
-from .accuracy import plot_accuracy, plot_coupling_error
-from .canvas import new_axes, save
+from .bush import plot_contact_pressure, plot_critical_speed
+from .canvas import new_axes, new_figure, save
+from .coupling_error import plot_coupling_error
 from .damper import plot_bistable, plot_eccentricity, plot_phase, plot_transmissibility, plot_transmitted
 from .motion import plot_locus, plot_orbits
-from .stability import plot_stability
-from .whirl_verdicts import plot_journal_stability
-from .work_precision import plot_journal_accuracy
+from .whirl_verdicts import plot_journal_stability, plot_thresholds
+from .work_precision import plot_force_error, plot_journal_accuracy
 
 __all__ = [
     "new_axes",
-    "plot_accuracy",
+    "new_figure",
     "plot_bistable",
+    "plot_contact_pressure",
     "plot_coupling_error",
+    "plot_critical_speed",
     "plot_eccentricity",
+    "plot_force_error",
     "plot_journal_accuracy",
     "plot_journal_stability",
     "plot_locus",
     "plot_orbits",
     "plot_phase",
-    "plot_stability",
+    "plot_thresholds",
     "plot_transmissibility",
     "plot_transmitted",
     "save",

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 
 from ..results import Trajectory
 from .canvas import new_axes
+from .palette import DASHES, FAMILY_COLORS, FAMILY_WIDTHS
 
 
 def plot_orbits(
@@ -43,13 +44,20 @@ def plot_orbits(
     return axes
 
 
-def plot_locus(curves: Mapping[str, tuple[np.ndarray, np.ndarray]], *, axes: Axes | None = None) -> Axes:
+def plot_locus(
+    curves: Mapping[str, tuple[np.ndarray, np.ndarray]],
+    *,
+    families: Mapping[str, str] | None = None,
+    axes: Axes | None = None,
+) -> Axes:
     """Draw the loci of the journal center under a load along -y, rotation counter-clockwise.
 
     Parameters
     ----------
     curves : mapping of str to (ndarray, ndarray)
         Label, eccentricity ratio [1] and attitude angle [rad], each of shape (n,).
+    families : mapping of str to str, optional
+        Family of films by label, for its color and line.
     axes : Axes, optional
         Where to draw; a new figure by default.
     """
@@ -59,7 +67,10 @@ def plot_locus(curves: Mapping[str, tuple[np.ndarray, np.ndarray]], *, axes: Axe
     for label, (eccentricity_ratio, attitude_angle) in curves.items():
         x = eccentricity_ratio * np.sin(attitude_angle)
         y = -eccentricity_ratio * np.cos(attitude_angle)
-        axes.plot(x, y, label=label, linewidth=1.4)
+        family = (families or {}).get(label, "")
+        width, style = FAMILY_WIDTHS.get(family, 1.4), DASHES.get(family, "-")
+        color, order = FAMILY_COLORS.get(family), 2.0 + 0.5 / width
+        axes.plot(x, y, label=label, color=color, linewidth=width, linestyle=style, zorder=order)
     axes.set(
         xlabel="x / clearance", ylabel="y / clearance", aspect="equal", xlim=(-0.05, 1.05), ylim=(-1.05, 0.1)
     )

@@ -15,6 +15,22 @@ FAMILY_COLORS = {
 }
 """Colors by the family of a rung."""
 
+FAMILY_WIDTHS = {
+    "short film": 7.0,
+    "published": 3.8,
+    "fixed arc": 2.4,
+    "rotating arc": 1.3,
+    "Reynolds arc": 3.4,
+    "free arc": 2.8,
+    "2-D": 5.2,
+    "2-D extrapolated": 4.2,
+    "map": 1.1,
+}
+"""Widths of lines [points]: of curves that coincide the wider lies below and shows beside the other."""
+
+DASHES = {"map": (0.0, (4.0, 3.0))}
+"""Dashes of lines by family, in widths; all others are solid."""
+
 FRONT = "#7030a0"
 """Color of a Pareto front."""
 

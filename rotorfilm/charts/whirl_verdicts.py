@@ -10,8 +10,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
 from ..ladders import JournalStability, RungStability
-from .canvas import new_figure
-from .palette import BAD, DOUBTFUL, FAMILY_COLORS, GOOD
+from .canvas import new_axes, new_figure
+from .palette import BAD, DASHES, DOUBTFUL, FAMILY_COLORS, FAMILY_WIDTHS, GOOD
 
 SMALLEST = 0.03
 """Smallest deviation drawn [%]; smaller ones lie on the axis."""
@@ -29,46 +29,88 @@ class Cell(NamedTuple):
     color: str
 
 
-def plot_journal_stability(result: JournalStability) -> list[Axes]:
+REFERENCE_MARKS = 12
+"""Dots on the curve of the reference, about; few, so that they do not hide the films."""
+
+
+def plot_journal_stability(
+    result: JournalStability, *, point: tuple[float, float] | None = None
+) -> list[Axes]:
     """Draw thresholds and deviations over the eccentricity ratio, and a table of verdicts.
 
-    Thresholds within the tolerance of the reference are solid lines, wrong ones dotted; crosses mark
-    eccentricity ratios where a film has no threshold though the reference has one.
+    Parameters
+    ----------
+    result : JournalStability
+    point : (float, float), optional
+        Eccentricity ratio and speed parameter of a working point.
     """
     figure = new_figure(size=(14.0, 8.0))
     grid = figure.add_gridspec(2, 2, width_ratios=(1.0, 1.06), height_ratios=(1.35, 1.0))
     top, table = figure.add_subplot(grid[0, 0]), figure.add_subplot(grid[:, 1])
     bottom = figure.add_subplot(grid[1, 0], sharex=top)
-    _draw_thresholds(top, result)
+    plot_thresholds(result, point=point, axes=top)
     _draw_deviations(bottom, result)
     _draw_table(table, result)
     figure.suptitle(_title(result), fontsize=11)
     return [top, bottom, table]
 
 
-def _draw_thresholds(axes: Axes, result: JournalStability) -> None:
-    ratios, exact = np.array(result.eccentricity_ratio), _numbers(result.speed_parameter)
-    low, high = (1.0 - result.tolerance) * exact, (1.0 + result.tolerance) * exact
-    axes.fill_between(ratios, low, high, color="0.8", linewidth=0.0, zorder=0)
-    for rung in result.rungs:
-        values, color = _numbers(rung.speed_parameter), color_of(rung)
-        good = ~(np.array(result.wrong(rung)) | np.array(result.invented(rung)))
-        axes.plot(ratios, values, ":", color=color, linewidth=1.3)
-        axes.plot(ratios, np.where(good, values, np.nan), "-", color=color, linewidth=1.6)
-    if any(rung.family == "map" for rung in result.rungs):
-        axes.plot(ratios, exact, "o", color="k", markerfacecolor="w", markersize=4.0, markeredgewidth=0.8)
-    without = [rung for rung in result.rungs if any(result.missing(rung))]
-    for row, rung in enumerate(without):
-        where, level = np.array(result.missing(rung)), 0.2 + 0.45 * row
-        axes.plot(ratios[where], np.full(where.sum(), level), "x", color=color_of(rung))
-        text = f"{rung.name}: no threshold exists"
-        axes.text(ratios[where][0], level + 0.13, text, va="bottom", fontsize=8, color=color_of(rung))
+def plot_thresholds(
+    result: JournalStability, *, point: tuple[float, float] | None = None, axes: Axes | None = None
+) -> Axes:
+    """Draw the threshold speed * sqrt(clearance * mass / load) over the eccentricity ratio.
+
+    Thresholds within the tolerance of the reference are solid or dashed lines, wrong ones dotted; crosses
+    mark eccentricity ratios where a film has no threshold though the reference has one. Films that may
+    coincide are drawn ever narrower, so that each can be seen.
+
+    Parameters
+    ----------
+    result : JournalStability
+    point : (float, float), optional
+        Eccentricity ratio and speed parameter of a working point.
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+    """
+    axes = axes or new_axes("Whirl threshold of a rigid rotor (unstable above)")
+    _draw_curves(axes, result)
+    _draw_missing(axes, result)
+    if point is not None:
+        axes.plot(*point, "k*", markersize=11, label="working point")
     axes.axhline(result.highest, color="0.5", linewidth=0.8, linestyle="--")
     axes.text(0.99, result.highest, "judged up to here", fontsize=8, color="0.35", va="bottom", ha="right")
     axes.set(xlim=(0.0, 1.0), ylim=(0.0, 1.3 * result.highest))
     axes.set_ylabel("speed * sqrt(clearance * mass / load)\nat the onset of whirl [1]")
     axes.grid(visible=True, alpha=0.3)
-    axes.legend(handles=_legend(result), fontsize=8, ncols=2, loc="upper left", framealpha=1.0)
+    handles = _legend(result) + [line for line in axes.get_lines() if line.get_marker() == "*"]
+    axes.legend(handles=handles, fontsize=8, ncols=2, loc="upper left", framealpha=1.0)
+    return axes
+
+
+def _draw_curves(axes: Axes, result: JournalStability) -> None:
+    ratios, exact = np.array(result.eccentricity_ratio), _numbers(result.speed_parameter)
+    low, high = (1.0 - result.tolerance) * exact, (1.0 + result.tolerance) * exact
+    axes.fill_between(ratios, low, high, color="0.8", linewidth=0.0, zorder=0)
+    for rung in sorted(result.rungs, key=_width, reverse=True):
+        values, color, width = _numbers(rung.speed_parameter), color_of(rung), _width(rung)
+        good = ~(np.array(result.wrong(rung)) | np.array(result.invented(rung)))
+        axes.plot(ratios, values, ":", color=color, linewidth=max(1.2, 0.5 * width))
+        right = np.where(good, values, np.nan)
+        style = DASHES.get(rung.family, "-")
+        axes.plot(ratios, right, linestyle=style, color=color, linewidth=width, solid_capstyle="butt")
+    marked = slice(None, None, max(1, len(ratios) // REFERENCE_MARKS))
+    axes.plot(ratios[marked], exact[marked], "ko", markerfacecolor="w", markersize=4.0, markeredgewidth=0.8)
+
+
+def _draw_missing(axes: Axes, result: JournalStability) -> None:
+    ratios = np.array(result.eccentricity_ratio)
+    without = [rung for rung in result.rungs if any(result.missing(rung))]
+    for row, rung in enumerate(without):
+        where, level = np.array(result.missing(rung)), 0.2 + 0.45 * row
+        axes.plot(ratios[where], np.full(where.sum(), level), "x", color=color_of(rung))
+        text = f"{rung.name}: no threshold exists"
+        end = ratios[where][-1]
+        axes.text(end, level + 0.13, text, ha="right", va="bottom", fontsize=8, color=color_of(rung))
 
 
 def _draw_deviations(axes: Axes, result: JournalStability) -> None:
@@ -143,6 +185,10 @@ def color_of(rung: RungStability) -> str:
     return FAMILY_COLORS[rung.family]
 
 
+def _width(rung: RungStability) -> float:
+    return FAMILY_WIDTHS[rung.family]
+
+
 def _numbers(values: tuple[float | None, ...]) -> np.ndarray:
     return np.array([np.nan if value is None else value for value in values])
 
@@ -158,7 +204,17 @@ def _title(result: JournalStability) -> str:
 def _legend(result: JournalStability) -> list[Line2D]:
     families = list(dict.fromkeys(rung.family for rung in result.rungs))
     return [
-        *(Line2D([], [], color=FAMILY_COLORS[name], label=name) for name in families),
+        *(
+            Line2D(
+                [],
+                [],
+                color=FAMILY_COLORS[name],
+                label=name,
+                linewidth=FAMILY_WIDTHS[name],
+                linestyle=DASHES.get(name, "-"),
+            )
+            for name in families
+        ),
         Line2D([], [], marker="o", color="k", markerfacecolor="w", linestyle="", label="reference"),
         Line2D([], [], color="0.8", linewidth=7, label=f"reference +-{100.0 * result.tolerance:g} %"),
         Line2D([], [], color="0.3", linestyle=":", label="wrong"),

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from ..ladders import JournalAccuracy, RungAccuracy, pareto_front
-from .canvas import new_figure
+from .canvas import new_axes, new_figure
 from .labels import Label, place_labels
 from .palette import FAMILY_COLORS, FRONT
 
@@ -36,6 +36,24 @@ def plot_journal_accuracy(result: JournalAccuracy) -> list[Axes]:
     for axes, cost in ((batch, _batch_time), (single, _call_time)):
         _label(axes, result, cost)
     return [batch, single]
+
+
+def plot_force_error(result: JournalAccuracy, *, axes: Axes | None = None) -> Axes:
+    """Draw the ladder over the cost in a batch alone; the marks are those of `plot_journal_accuracy`.
+
+    Parameters
+    ----------
+    result : JournalAccuracy
+    axes : Axes, optional
+        Where to draw, in a figure of its final size; a new figure by default.
+    """
+    axes = axes or new_axes("Error of the force against its cost", size=(8.0, 6.4))
+    _draw(axes, result, _batch_time)
+    axes.set(xlabel="time of one force in a batch [us]", ylabel="relative error of the force [1]")
+    axes.legend(handles=_legend(result), fontsize=7.5, loc="upper right", framealpha=1.0)
+    _limit_errors(axes, result)
+    _label(axes, result, _batch_time)
+    return axes
 
 
 def _batch_time(rung: RungAccuracy) -> float:

@@ -56,7 +56,7 @@ def cosimulate(
     duration: float,
     progress: Callable[[float], None] | None = None,
 ) -> CoSimulation:
-    """Couple a rotor FMU and a film FMU, both FMI 2.0 Co-Simulation, from t = 0.
+    """Couple a rotor FMU and a film FMU, both Co-Simulation of FMI 2.0 or 3.0, from t = 0.
 
     Signals are connected by their local names (`rotor.x` to `film.x`). The film is evaluated at the
     rotor's initial state first, then at each new one, and its force is held over the next step: a

@@ -1,6 +1,8 @@
 """Journal film laws: pure, dimensionless physics; one law per file."""
 
 from .arc_pressure import middle_pressure, tension
+from .bush_heat import ApproximateShaft, ContactBalance, ExactShaft, GlobalBalance
+from .bush_profile import LocalMelting, SharedMelting
 from .cavitation import Cavitation, Complementarity, FullFilm, HalfSommerfeld
 from .complementarity_arc import ComplementarityArc
 from .extrapolated import ExtrapolatedFilm
@@ -22,9 +24,12 @@ from .squeeze_laws import FiniteSqueeze, PublishedSqueeze, ShortSqueeze
 from .squeeze_map import FiniteMapSqueeze, MapSqueeze
 
 __all__ = [
+    "ApproximateShaft",
     "Cavitation",
     "Complementarity",
     "ComplementarityArc",
+    "ContactBalance",
+    "ExactShaft",
     "ExtrapolatedFilm",
     "FilmGeometry",
     "FilmLaw",
@@ -32,10 +37,12 @@ __all__ = [
     "FiniteSqueeze",
     "FixedArc",
     "FullFilm",
+    "GlobalBalance",
     "Groove",
     "GrooveTable",
     "GroovedMapFilm",
     "HalfSommerfeld",
+    "LocalMelting",
     "MapFilm",
     "MapSqueeze",
     "MapTable",
@@ -45,6 +52,7 @@ __all__ = [
     "ReynoldsFilm",
     "RotatingArc",
     "Rupture",
+    "SharedMelting",
     "ShortFilm",
     "ShortSqueeze",
     "SpectralArcFilm",

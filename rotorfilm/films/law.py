@@ -12,7 +12,7 @@ Forces are in units of viscosity * length * radius^3 / clearance^2.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
@@ -77,6 +77,14 @@ class BindableFilm(FilmLaw, Protocol):
 
     def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundFilm:
         """Return the film of one bearing; force_scale is viscosity length radius^3 / clearance^2 [N s]."""
+
+
+@runtime_checkable
+class NativeFilm(FilmLaw, Protocol):
+    """A film law that the C library knows, for FMUs that need no Python."""
+
+    def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
+        """Return the kernel of a plain bearing of this length/diameter with this film, and its tables."""
 
 
 @runtime_checkable

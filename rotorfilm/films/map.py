@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
@@ -78,8 +79,21 @@ class MapFilm:
         """Return this film in one bearing, in SI units; see `law.BindableFilm`."""
         return BoundMap(JournalKernel(self._kernel(slenderness), clearance, force_scale), clearance)
 
+    def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
+        """Return the kernel and its tables; see `law.NativeFilm`."""
+        table = self._table(slenderness)
+        return "journal", {
+            "coefficients": table.coefficients,
+            "center": table.center,
+            "range": np.array(table.slenderness_range),
+            "reach": np.array([table.reach]),
+        }
+
+    def _table(self, slenderness: float) -> MapTable:
+        return _table_for(slenderness) if self.table is None else self.table
+
     def _kernel(self, slenderness: float) -> MapKernel:
-        return _collapsed(_table_for(slenderness) if self.table is None else self.table, float(slenderness))
+        return _collapsed(self._table(slenderness), float(slenderness))
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..model import Array
-from .quintic import quintic_weights
+from ..native import slice_table
 from .table_bytes import Layout, Sizes, seal, unseal
 
 MAGIC = b"RFILMMAP"
@@ -113,13 +113,8 @@ class MapTable:
                 f"length/diameter must be within the table of the film, {low:g} to {high:g}, "
                 f"got {slenderness!r}; MapFilm() without a table takes more"
             )
-        if len(self.center) == 1:
-            return BearingMap(self.coefficients[0], self.reach, float(self.center[0]))
-        cells = len(self.center) - 5
-        first, weights = quintic_weights(np.log(slenderness / low) / np.log(high / low) * cells, cells)
-        chosen = slice(first, first + len(weights))
-        collapsed = np.tensordot(weights, self.coefficients[chosen], 1)
-        return BearingMap(collapsed, self.reach, float(weights @ self.center[chosen]))
+        collapsed, center = slice_table(self.coefficients, self.center, self.slenderness_range, slenderness)
+        return BearingMap(collapsed, self.reach, center)
 
     def to_bytes(self, quantum: float = 0.0) -> bytes:
         """Return the table as little-endian bytes: header with sizes and checksum, then the numbers.

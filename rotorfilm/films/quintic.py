@@ -54,22 +54,6 @@ def periodic_quintic(coefficients: Array, turns: Array) -> Array:
     return BSpline(np.arange(-5.0, count + 6.0), wrapped, DEGREE)(turns % 1.0 * count)
 
 
-def quintic_weights(at: float, cells: int) -> tuple[int, Array]:
-    """Return the first coefficient and the six weights at `at` cells from the first node."""
-    cell = min(max(int(at), 0), cells - 1)
-    u = at - cell
-    v = 1.0 - u
-    half = [
-        (
-            v**5,
-            26 - 50 * u + 20 * u**2 + 20 * u**3 - 20 * u**4 + 5 * u**5,
-            66 - 60 * u**2 + 30 * u**4 - 10 * u**5,
-        )
-        for u, v in ((u, v), (v, u))
-    ]
-    return cell, np.array([*half[0], *half[1][::-1]]) / 120.0
-
-
 def _collocation(cells: int) -> Array:
     matrix = np.zeros((cells + 5, cells + 5))
     for node in range(cells + 1):

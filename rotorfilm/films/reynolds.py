@@ -88,12 +88,8 @@ class ReynoldsFilm:
 
     def force_pair(self, eccentricity: Array, source: Array, slenderness: float) -> tuple[Array, Array]:
         """Return the forces on the grid and on one with half the cells, each of shape (2, ...)."""
-        # Imported here so that a bearing with another film, in an FMU too, needs no compiler.
-        from .ring_film import force_batch
-
         e, w = _batch(eccentricity), _batch(source)
-        fine, coarse, failed = force_batch(e, w, slenderness, *self.grids(slenderness), *self._switches)
-        self._require_convergence(e, w, failed)
+        fine, coarse, _ = self._solved(e, w, slenderness, slopes=False)
         return fine.reshape(eccentricity.shape), coarse.reshape(eccentricity.shape)
 
     def extrapolated(self, eccentricity: Array, source: Array, slenderness: float) -> tuple[Array, Array]:
@@ -117,14 +113,11 @@ class ReynoldsFilm:
         ConvergenceError
             If the search for the ruptured zone does not end.
         """
-        from .ring_film import jacobian_batch
-
         e, w = _batch(eccentricity), _batch(source)
         still = self._undriven(e, w)
         # A plain centered film is linear in w, so any direction gives its damping.
         driven = np.where(still, np.array([[1.0], [0.0]]), w)
-        jacobian, failed = jacobian_batch(e, driven, slenderness, *self.grids(slenderness), *self._switches)
-        self._require_convergence(e, w, failed)
+        _, _, jacobian = self._solved(e, driven, slenderness, slopes=True)
         jacobian[:, :2, still] = 0.0
         return jacobian.reshape(2, 4, *eccentricity.shape[1:])
 
@@ -164,12 +157,19 @@ class ReynoldsFilm:
             )
         return still
 
-    def _require_convergence(self, e: Array, w: Array, failed: int) -> None:
+    def _solved(self, e: Array, w: Array, slenderness: float, *, slopes: bool) -> tuple[Array, Array, Array]:
+        """Return forces on this grid and on one with half the cells, (2, B), and, if wanted, derivatives."""
+        # Imported here so that a bearing with another film, in an FMU too, needs no compiler.
+        from .ring_film import film_batch
+
+        *solution, failed = film_batch(e, w, slenderness, *self.grids(slenderness), *self._switches, slopes)
         if failed >= 0:
             raise ConvergenceError(
                 "the search for the ruptured zone must end, and did not at "
                 f"eccentricity {e[:, failed].tolist()}, source {w[:, failed].tolist()} 1/s"
             )
+        fine, coarse, jacobian = solution
+        return fine, coarse, jacobian
 
 
 def _batch(vectors: Array) -> Array:

@@ -21,7 +21,7 @@ def film_field(film: ReynoldsFilm, eccentricity: Array, source: Array, slenderne
     """Return the solution of one state; see `ReynoldsFilm.solve`."""
     e, w = np.asarray(eccentricity, dtype=float), np.asarray(source, dtype=float)
     spans, grids = film.grids(slenderness)
-    coefficients, pressure, _, _, found = finest(e, w, slenderness, spans, grids, film.cavitation.searched)
+    coefficients, pressure, found = finest(e, w, slenderness, spans, grids, film.cavitation.searched)
     if not found:
         raise ConvergenceError(f"the search for the ruptured zone must end, and did not at eccentricity {e}")
     if film.cavitation.clipped:

@@ -16,7 +16,7 @@ from ..model import Array
 from .compiled import compiled
 from .ring import Grid, Spans
 from .ring_coefficients import Coefficients, ring_coefficients
-from .ring_solver import Factor, film_equations_slope, solve_free, solve_given, solve_ruptured
+from .ring_solver import Factor, film_equations_slope, solve_film, solve_free
 
 
 @compiled
@@ -34,21 +34,8 @@ def film_force(normal: Array, grid: Grid, pressure: Array) -> Array:
 
 
 @compiled
-def solve_level(
-    coefficients: Coefficients, grid: Grid, w: Array, free: np.ndarray, searched: bool
-) -> tuple[Array, Factor, bool]:
-    """Return pressure, factor and success on one grid; a searched free set is updated."""
-    source = film_source(coefficients.normal, grid, w)
-    if searched:
-        return solve_ruptured(coefficients, grid, source, free)
-    pressure, factor = solve_given(coefficients, grid, source, free)
-    return pressure, factor, True
-
-
-@compiled
-def first_guess(coefficients: Coefficients, grid: Grid, w: Array, searched: bool) -> np.ndarray:
+def first_guess(source: Array, grid: Grid, searched: bool) -> np.ndarray:
     """Return the free nodes to begin with: where the source drives pressure, or the whole film."""
-    source = film_source(coefficients.normal, grid, w)
     free = np.zeros(source.shape, dtype=np.bool_)
     for i in range(len(grid.span)):
         free[i] = not grid.held[i] and (not searched or source[i, 0] > 0.0)
@@ -70,7 +57,7 @@ def refined(coarse: np.ndarray, grid: Grid, searched: bool) -> np.ndarray:
 
 
 @compiled
-def force_batch(
+def film_batch(
     e: Array,
     w: Array,
     slenderness: float,
@@ -78,66 +65,51 @@ def force_batch(
     grids: tuple[Grid, ...],
     searched: bool,
     clipped: bool,
-) -> tuple[Array, Array, int]:
-    """Return the forces on the finest and the next coarser grid, (2, B), and the index of a failure or -1."""
+    slopes: bool,
+) -> tuple[Array, Array, Array, int]:
+    """Return forces on the finest and the next coarser grid, derivatives, and the index of a failure or -1.
+
+    Forces have shape (2, B), d force / d (e, w) on the finest grid (2, 4, B) with `slopes`, else (2, 4, 0).
+    One kernel for both, because compiling the solver takes most of the time.
+    """
     fine, coarse = np.zeros(e.shape), np.zeros(e.shape)
+    jacobian = np.zeros((2, 4, e.shape[1] if slopes else 0))
     for b in range(e.shape[1]):
         eb, wb = e[:, b].copy(), w[:, b].copy()
         free = np.zeros((0, 0), dtype=np.bool_)
         for level in range(len(grids) - 1, -1, -1):
             grid = grids[level]
             coefficients = ring_coefficients(eb, slenderness, spans, grid)
-            free = (
-                first_guess(coefficients, grid, wb, searched)
-                if level == len(grids) - 1
-                else refined(free, grid, searched)
-            )
-            pressure, _, found = solve_level(coefficients, grid, wb, free, searched)
+            source = film_source(coefficients.normal, grid, wb)
+            free = refined(free, grid, searched) if free.size else first_guess(source, grid, searched)
+            pressure, factor, found = solve_film(coefficients, grid, source, free, searched)
             if not found:
-                return fine, coarse, b
+                return fine, coarse, jacobian, b
+            if slopes and level == 0:
+                jacobian[:, :, b] = derivative(coefficients, grid, wb, pressure, factor, free, clipped)
             if clipped:
                 pressure = np.maximum(pressure, 0.0)
             coarse[:, b] = fine[:, b]
             fine[:, b] = film_force(coefficients.normal, grid, pressure)
-    return fine, coarse, -1
+    return fine, coarse, jacobian, -1
 
 
 @compiled
 def finest(
     e: Array, w: Array, slenderness: float, spans: Spans, grids: tuple[Grid, ...], searched: bool
-) -> tuple[Coefficients, Array, Factor, np.ndarray, bool]:
-    """Return coefficients, pressure, factor, free nodes and success on the finest grid for one state (2,)."""
-    top = len(grids) - 1
-    coefficients = ring_coefficients(e, slenderness, spans, grids[top])
-    free = first_guess(coefficients, grids[top], w, searched)
-    pressure, factor, found = solve_level(coefficients, grids[top], w, free, searched)
-    for level in range(top - 1, -1, -1):
+) -> tuple[Coefficients, Array, bool]:
+    """Return coefficients, pressure and success on the finest grid for one state (2,)."""
+    free = np.zeros((0, 0), dtype=np.bool_)
+    for level in range(len(grids) - 1, -1, -1):
         coefficients = ring_coefficients(e, slenderness, spans, grids[level])
-        free = refined(free, grids[level], searched)
-        if searched or level == 0:
-            pressure, factor, found = solve_level(coefficients, grids[level], w, free, searched)
-    return coefficients, pressure, factor, free, found
-
-
-@compiled
-def jacobian_batch(
-    e: Array,
-    w: Array,
-    slenderness: float,
-    spans: Spans,
-    grids: tuple[Grid, ...],
-    searched: bool,
-    clipped: bool,
-) -> tuple[Array, int]:
-    """Return d force / d (e, w) on the finest grid, (2, 4, B), and the index of a failure or -1."""
-    jacobian = np.zeros((2, 4, e.shape[1]))
-    for b in range(e.shape[1]):
-        eb, wb = e[:, b].copy(), w[:, b].copy()
-        coefficients, pressure, factor, free, found = finest(eb, wb, slenderness, spans, grids, searched)
-        if not found:
-            return jacobian, b
-        jacobian[:, :, b] = derivative(coefficients, grids[0], wb, pressure, factor, free, clipped)
-    return jacobian, -1
+        source = film_source(coefficients.normal, grids[level], w)
+        free = (
+            refined(free, grids[level], searched)
+            if free.size
+            else first_guess(source, grids[level], searched)
+        )
+        pressure, _, found = solve_film(coefficients, grids[level], source, free, searched)
+    return coefficients, pressure, found
 
 
 @compiled

@@ -14,7 +14,7 @@ from .compiled import compiled
 from .ring import Grid, Spans
 from .ring_coefficients import ring_coefficients
 from .ring_film import film_source, first_guess, refined
-from .ring_solver import film_equations_slope, solve_ruptured
+from .ring_solver import film_equations_slope, solve_film
 
 
 @compiled
@@ -43,11 +43,8 @@ def potential_fan(
         for d in range(count):
             wd = w[:, d].copy()
             source = film_source(coefficients.normal, grid, wd)
-            if level == levels - 1:
-                free = first_guess(coefficients, grid, wd, True)
-            else:
-                free = refined(known[d], grid, True)
-            pressure, _, found = solve_ruptured(coefficients, grid, source, free)
+            free = first_guess(source, grid, True) if level == levels - 1 else refined(known[d], grid, True)
+            pressure, _, found = solve_film(coefficients, grid, source, free, True)
             if not found:
                 return potential, slope, d
             found_sets[d] = free

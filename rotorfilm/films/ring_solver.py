@@ -241,29 +241,24 @@ def held_pressure(grid: Grid) -> Array:
 
 
 @compiled
-def solve_given(
-    coefficients: Coefficients, grid: Grid, source: Array, free: np.ndarray
-) -> tuple[Array, Factor]:
-    """Return the pressure (N, M) for a source (N, M) where the film is `free`, and the factor."""
-    held = held_pressure(grid)
-    factor = factorize(coefficients, grid, free)
-    flow = source - film_equations(coefficients, grid, held)
-    return held + solve_free(factor, free, flow), factor
-
-
-@compiled
-def solve_ruptured(
-    coefficients: Coefficients, grid: Grid, source: Array, free: np.ndarray
+def solve_film(
+    coefficients: Coefficients, grid: Grid, source: Array, free: np.ndarray, searched: bool
 ) -> tuple[Array, Factor, bool]:
-    """Return pressure and factor of the film with p >= 0, and whether the search ended; `free` is updated.
+    """Return pressure (N, M) for a source (N, M), factor, and whether the search for the film ended.
 
-    A primal-dual active set method: for this M-matrix it is Newton's method for min(A P - b, P) = 0 and
-    climbs monotonically to the solution after its first step (Hintermueller, Ito & Kunisch 2003, theorem
-    3.3).
+    The film is where `free` says, or, if searched, where p > 0, with p >= 0 elsewhere: `free` is updated.
+    The search is a primal-dual active set method: for this M-matrix it is Newton's method for
+    min(A P - b, P) = 0 and climbs monotonically to the solution after its first step (Hintermueller, Ito &
+    Kunisch 2003, theorem 3.3).
     """
     threshold = 1e-13 * np.max(np.abs(source))
+    held = held_pressure(grid)
+    flow = source - film_equations(coefficients, grid, held)
     for _ in range(MAX_SWEEPS):
-        pressure, factor = solve_given(coefficients, grid, source, free)
+        factor = factorize(coefficients, grid, free)
+        pressure = held + solve_free(factor, free, flow)
+        if not searched:
+            return pressure, factor, True
         excess = source - film_equations(coefficients, grid, pressure)
         changed = False
         for i in range(free.shape[0]):

@@ -54,13 +54,15 @@ def bundle_source(modules: Iterable[str]) -> Bundle:
     users = sorted(set(modules) - own)
     read = {name: read_user_module(name, users, PACKAGE) for name in users}
     sources = _closure({SLAVE, *own}.union(*(module.needs for module in read.values())))
-    package = f"{PACKAGE}_{content_hash(sources)}"
+    companions = _companions(own)
+    # Two FMUs in one process share modules of one name, hence also what those read from their folder.
+    package = f"{PACKAGE}_{content_hash({**sources, **companions})}"
     names = {name: name.replace(PACKAGE, package, 1) for name in sources}
     texts = {name: ast.unparse(module.tree).encode() for name, module in read.items()}
     tag = content_hash({**texts, package: b""})
     names.update({name: f"{name.replace('.', '_')}_{tag}" for name in users})
     files = {_path(name).replace(PACKAGE, package, 1): source for name, source in sources.items()}
-    files.update({f"{package}/{name}": content for name, content in _companions(own).items()})
+    files.update({f"{package}/{name}": content for name, content in companions.items()})
     files.update({f"{names[name]}.py": renamed_source(read[name].tree, names).encode() for name in users})
     return Bundle(files, names)
 

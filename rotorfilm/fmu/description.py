@@ -1,30 +1,35 @@
-"""modelDescription.xml of an FMI 2.0 Co-Simulation FMU."""
+"""What a modelDescription.xml says, and the parts of it that FMI 2.0 and 3.0 share."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import NamedTuple
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from ..units import UNITS
+from ..units import DISPLAY_UNITS, UNITS
 from .structure import Dependencies
 from .variables import Variable
 
-CAPABILITIES = {
-    # The binary is PythonFMU's: it runs the model in a Python interpreter that must be installed.
-    "needsExecutionTool": "true",
-    "canHandleVariableCommunicationStepSize": "true",
-    "canInterpolateInputs": "false",
-    "canBeInstantiatedOnlyOncePerProcess": "false",
-    "canNotUseMemoryManagementFunctions": "true",
-    "canGetAndSetFMUstate": "true",
-    "canSerializeFMUstate": "true",
-    "providesDirectionalDerivative": "false",
+QUANTITIES = {
+    "m": "Length",
+    "s": "Time",
+    "kg": "Mass",
+    "rad": "Angle",
+    "m/s": "Velocity",
+    "m/s2": "Acceleration",
+    "rad/s": "AngularVelocity",
+    "rad/s2": "AngularAcceleration",
+    "N": "Force",
+    "N/m": "Stiffness",
+    "N.s/m": "Damping",
+    "Pa": "Pressure",
+    "Pa.s": "DynamicViscosity",
+    "kg.m": "Unbalance",
 }
+"""Names of the types, by unit; a unit that is not here has a type without a name."""
 
-LOG_CATEGORIES = {
-    "logStatusDiscard": "A step that could not be made, with its values.",
-    "logAll": "All messages.",
-}
+SHOWN = {"m": "um", "rad": "deg", "rad/s": "rpm", "N": "kN", "Pa.s": "mPa s", "kg.m": "g mm"}
+"""The unit in which a tool should show values of a unit."""
 
 
 class Description(NamedTuple):
@@ -38,38 +43,96 @@ class Description(NamedTuple):
         One line on the model.
     tool : str
         Generation tool with versions.
+    copyright : str
+    interfaces : mapping of str to mapping
+        Attributes of ModelExchange and CoSimulation, as the FMI version spells them.
+    categories : mapping of str to str
+        Log categories and what they log.
     variables : tuple of Variable
     dependencies : Dependencies
     stop_time, step_size : float [s]
         Default experiment.
+    sources : tuple of str
+        C files below `sources/` that make the binary.
     """
 
     identifier: str
     title: str
     tool: str
+    copyright: str
+    interfaces: Mapping[str, Mapping[str, str]]
+    categories: Mapping[str, str]
     variables: tuple[Variable, ...]
     dependencies: Dependencies
     stop_time: float
     step_size: float
+    sources: tuple[str, ...] = ()
+
+    @property
+    def tunable(self) -> bool:
+        """Whether a parameter may change while the simulation runs."""
+        return any(variable.variability == "tunable" for variable in self.variables)
 
 
-def to_xml(description: Description, guid: str) -> bytes:
-    """Return modelDescription.xml; equal arguments give equal bytes."""
-    root = Element(
+def header(description: Description, version: str, token: str) -> Element:
+    """Return the root element; `token` is the attribute that FMI calls guid or instantiationToken."""
+    return Element(
         "fmiModelDescription",
-        fmiVersion="2.0",
-        modelName=description.identifier,
-        guid=guid,
-        description=description.title,
-        license="MIT, see documentation/licenses",
-        generationTool=description.tool,
-        variableNamingConvention="structured",
+        {
+            "fmiVersion": version,
+            "modelName": description.identifier,
+            "guid" if version == "2.0" else "instantiationToken": token,
+            "description": description.title,
+            "copyright": description.copyright,
+            "license": "MIT, see documentation/licenses",
+            "generationTool": description.tool,
+            "variableNamingConvention": "structured",
+        },
     )
-    SubElement(root, "CoSimulation", {"modelIdentifier": description.identifier, **CAPABILITIES})
-    _add_units(root, description.variables)
-    categories = SubElement(root, "LogCategories")
-    for name, text in LOG_CATEGORIES.items():
-        SubElement(categories, "Category", name=name, description=text)
+
+
+def add_units(root: Element, variables: tuple[Variable, ...]) -> None:
+    """Add the units in use, each with its SI base units and the unit to show it in."""
+    definitions = SubElement(root, "UnitDefinitions")
+    for name in sorted({variable.unit for variable in variables if variable.unit is not None}):
+        unit = SubElement(definitions, "Unit", name=name)
+        exponents = UNITS[name].exponents
+        SubElement(unit, "BaseUnit", {base: str(power) for base, power in exponents.items()})
+        if name in SHOWN:
+            factor = UNITS[name].factor / DISPLAY_UNITS[SHOWN[name]].factor
+            SubElement(unit, "DisplayUnit", name=SHOWN[name], factor=repr(factor))
+
+
+def type_attributes(variables: tuple[Variable, ...]) -> list[dict[str, str]]:
+    """Return the attributes of the types in use: quantity, unit and display unit, sorted by name."""
+    units = {v.unit for v in variables if v.unit in QUANTITIES}
+    types = [{"quantity": QUANTITIES[unit], "unit": unit, **_shown(unit)} for unit in units if unit]
+    return sorted(types, key=lambda attributes: attributes["quantity"])
+
+
+def value_attributes(variable: Variable) -> dict[str, str]:
+    """Return type, unit, bounds, nominal and start value of a variable."""
+    attributes = {} if variable.unit not in QUANTITIES else {"declaredType": QUANTITIES[variable.unit]}
+    if variable.unit is not None:
+        attributes |= {"unit": variable.unit, **_shown(variable.unit)}
+    numbers = {
+        "min": variable.minimum,
+        "max": variable.maximum,
+        "nominal": variable.nominal,
+        "start": variable.start,
+    }
+    return attributes | {name: repr(float(value)) for name, value in numbers.items() if value is not None}
+
+
+def initial(variable: Variable) -> dict[str, str]:
+    """Return the attribute `initial`, where FMI does not fix it."""
+    if variable.causality in ("input", "independent"):
+        return {}
+    return {"initial": "calculated" if variable.start is None else "exact"}
+
+
+def add_experiment(root: Element, description: Description) -> None:
+    """Add the default experiment."""
     SubElement(
         root,
         "DefaultExperiment",
@@ -77,58 +140,20 @@ def to_xml(description: Description, guid: str) -> bytes:
         stopTime=repr(description.stop_time),
         stepSize=repr(description.step_size),
     )
-    _add_variables(root, description.variables)
-    _add_structure(root, description.variables, description.dependencies)
+
+
+def add_categories(root: Element, categories: Mapping[str, str]) -> None:
+    """Add the log categories."""
+    parent = SubElement(root, "LogCategories")
+    for name, text in categories.items():
+        SubElement(parent, "Category", name=name, description=text)
+
+
+def to_bytes(root: Element) -> bytes:
+    """Return the document, indented."""
     indent(root)
     return tostring(root, encoding="UTF-8", xml_declaration=True) + b"\n"
 
 
-def _add_units(root: Element, variables: tuple[Variable, ...]) -> None:
-    definitions = SubElement(root, "UnitDefinitions")
-    for name in sorted({variable.signal.unit for variable in variables}):
-        exponents = {base: str(power) for base, power in UNITS[name].exponents.items()}
-        SubElement(SubElement(definitions, "Unit", name=name), "BaseUnit", exponents)
-
-
-def _add_variables(root: Element, variables: tuple[Variable, ...]) -> None:
-    parent = SubElement(root, "ModelVariables")
-    for reference, variable in enumerate(variables):
-        scalar = {
-            "name": variable.name,
-            "valueReference": str(reference),
-            "description": variable.signal.description,
-            "causality": variable.causality,
-            "variability": "continuous",
-        }
-        # FMI fixes the initial attribute of an input, so it must not be written.
-        if variable.causality != "input":
-            scalar["initial"] = "calculated" if variable.start is None else "exact"
-        real = {"unit": variable.signal.unit, "nominal": repr(float(variable.signal.nominal))}
-        if variable.start is not None:
-            real["start"] = repr(variable.start)
-        SubElement(SubElement(parent, "ScalarVariable", scalar), "Real", real)
-
-
-def _add_structure(root: Element, variables: tuple[Variable, ...], dependencies: Dependencies) -> None:
-    structure = SubElement(root, "ModelStructure")
-    inputs, outputs, states = (
-        [index for index, variable in enumerate(variables, start=1) if variable.causality == causality]
-        for causality in ("input", "output", "local")
-    )
-    during = [
-        [i for i, depends in zip(inputs, row, strict=True) if depends] for row in dependencies.on_inputs
-    ]
-    initially = [
-        known + [i for i, depends in zip(states, row, strict=True) if depends]
-        for known, row in zip(during, dependencies.on_states, strict=True)
-    ]
-    for name, knowns in (("Outputs", during), ("InitialUnknowns", initially)):
-        parent = SubElement(structure, name)
-        for index, known in zip(outputs, knowns, strict=True):
-            SubElement(
-                parent,
-                "Unknown",
-                index=str(index),
-                dependencies=" ".join(map(str, known)),
-                dependenciesKind=" ".join("dependent" for _ in known),
-            )
+def _shown(unit: str) -> dict[str, str]:
+    return {"displayUnit": SHOWN[unit]} if unit in SHOWN else {}

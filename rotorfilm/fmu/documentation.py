@@ -2,32 +2,105 @@
 
 from __future__ import annotations
 
-import json
+from collections.abc import Mapping
 from html import escape
-from typing import Any
 
 from .variables import Variable
 
-CONVENTIONS = (
-    "All values are in SI units. x and y are Cartesian, rotation is positive about +z (from x to y). A film "
-    "force acts on the journal. Outputs are valid from the end of initialization and always belong to the "
-    "present inputs, states and time. Inputs are held constant over a step; states may be set before the "
-    "simulation starts."
-)
+PYTHON = {
+    "Conventions": (
+        "All values are in SI units. x and y are Cartesian, rotation is positive about +z (from x to y). A "
+        "film force acts on the journal. Outputs are valid from the end of initialization and always belong "
+        "to the present inputs, states and time. Inputs are held constant over a step; states may be set "
+        "before the simulation starts."
+    ),
+    "Requirements": (
+        "The model runs in Python (3.11 or later, with numpy and scipy) through PythonFMU's libraries, on "
+        "the 64-bit platforms that the folder binaries lists. A host that is not Python itself must make "
+        "libpython available to the library, on Linux for instance by LD_PRELOAD."
+    ),
+    "Statuses": (
+        "A value that is not finite, an attempt to set an output, or a state at which the model has no "
+        "answer (a journal at the wall) ends in fmi2Fatal with the values in the log, because PythonFMU has "
+        "no way to fmi2Error. Only this instance is affected. Its later calls fail too, until it is reset or "
+        "a saved FMU state is restored. A step that a model with states cannot make is answered by "
+        "fmi2Discard with fmi2Terminated true; the states then are those at the start of the step. The log "
+        "needs loggingOn."
+    ),
+}
+"""What holds for every FMU that runs in Python."""
 
-REQUIREMENTS = (
-    "The model runs in Python (3.11 or later, with numpy and scipy) through PythonFMU's libraries, on the "
-    "64-bit platforms that the folder binaries lists. A host that is not Python itself must make libpython "
-    "available to the library, on Linux for instance by LD_PRELOAD."
-)
+NATIVE = {
+    "Conventions": (
+        "Values are in SI units where a unit is given. Outputs are valid from the end of initialization and "
+        "always belong to the present inputs, states, parameters and time. In Co-Simulation inputs are held "
+        "constant over a step. States may be set before and during initialization, tunable parameters also "
+        "between steps. Directional derivatives (in FMI 3.0 adjoint ones too) are exact: of outputs and "
+        "derivatives by inputs and states. The FMU state holds everything, to the last bit."
+    ),
+    "Requirements": (
+        "None: the model is a C library. Its sources, one C99 library without dependencies, are in sources/. "
+        "Tables and start values are in resources/rotorfilm.bin, which belongs to this FMU only."
+    ),
+    "Statuses": (
+        "A value that is not finite or out of its bounds, an attempt to set an output, and a state at which "
+        "the model has no answer (a journal at the wall) is an error, with the values in the log; the "
+        "instance works again after a reset or with a saved FMU state. In Model Exchange such a state is "
+        "discarded instead, so that the integrator can try a smaller step. A step of Co-Simulation that a "
+        "model with states cannot make is discarded; the states then are those at its start. A state beyond "
+        "the table of a film is a warning, once."
+    ),
+    "Reference": (
+        "reference.csv beside this page was computed by the model in Python: time, inputs, outputs. The "
+        "inputs of a row are held until the next one, the outputs belong to the row's time and inputs. "
+        "'rotorfilm fmu check' replays it."
+    ),
+}
+"""What holds for every native FMU."""
 
-STATUSES = (
-    "A value that is not finite, an attempt to set an output, or a state at which the model has no answer "
-    "(a journal at the wall) ends in fmi2Fatal with the values in the log, because PythonFMU has no way to "
-    "fmi2Error. Only this instance is affected. Its later calls fail too, until it is reset or a saved FMU "
-    "state is restored. A step that a model with states cannot make is answered by fmi2Discard with "
-    "fmi2Terminated true; the states then are those at the start of the step. The log needs loggingOn."
-)
+KERNELS = {
+    "journal": {
+        "Model": (
+            "Film force of a full cylindrical journal bearing of finite length, Reynolds equation with "
+            "Reynolds rupture. x and y are Cartesian from the bearing center, rotation is positive about +z "
+            "(from x to y), the force acts on the journal. With the eccentricity e = (x, y)/clearance and "
+            "the source w = (vx, vy)/clearance - (speed/2) z^ x e, the film minimizes a quadratic "
+            "functional, so that its force is a gradient:"
+        ),
+        "Equations": (
+            "F = viscosity length radius^3 / clearance^2  dJ/dw\n"
+            "J(e, w) = -|w|^2 exp(L0 + chi M(X, T)),  chi = |e|\n"
+            "X = chi / (1 - chi^2)^(1/4),  T = (1 + cos(e, w)) / 2"
+        ),
+        "Validity": (
+            "M and L0 are splines over X, T and ln(length / (2 radius)), fitted to converged solutions: one "
+            "force within 1e-4 up to an eccentricity ratio of 0.97, length / diameter from 0.1 to 4; beyond "
+            "a ratio of 0.999 extrapolated, with a warning. Laminar, isothermal, aligned, without grooves. "
+            "Where w vanishes off the center the force is zero and has no derivative."
+        ),
+    },
+    "rigid_rotor": {
+        "Model": (
+            "One journal's share of a rigid rotor that moves without tilting. x and y are Cartesian, "
+            "rotation is positive about +z (from x to y); the inputs are the film force on the journal. With "
+            "the angle p(t) of the unbalance, w = dp/dt and alpha = dw/dt:"
+        ),
+        "Equations": (
+            "mass d2x/dt2 = force_x + mass gravity_x + static_force_x + unbalance (w^2 cos p + alpha sin p)\n"
+            "mass d2y/dt2 = force_y + mass gravity_y + static_force_y + unbalance (w^2 sin p - alpha cos p)"
+        ),
+        "Validity": (
+            "Small displacements, no tilting, a speed given over time (piecewise linear). The rotor knows no "
+            "wall: the bearing's film ends the motion there."
+        ),
+    },
+    "linear": {
+        "Model": "Linear time-invariant system, exported from python-control.",
+        "Equations": "dx/dt = A x + B u\ny = C x + D u",
+        "Validity": "That of the linearization the matrices come from.",
+    },
+}
+"""What holds for the FMUs of each kernel of the C library."""
 
 PAGE = """<!DOCTYPE html>
 <html lang="en">
@@ -40,27 +113,31 @@ PAGE = """<!DOCTYPE html>
 """
 
 
-def to_html(title: str, variables: tuple[Variable, ...], model: dict[str, Any]) -> bytes:
-    """Return the page: variables, sign conventions, requirements, statuses and parameters.
+def to_html(title: str, variables: tuple[Variable, ...], texts: Mapping[str, str], parameters: str) -> bytes:
+    """Return the page.
 
     Parameters
     ----------
     title : str
         One line on the model.
     variables : tuple of Variable
-    model : dict
-        Encoded model, shown as the parameters.
+    texts : mapping of str to str
+        Paragraphs by their headings; "Equations" keep their lines.
+    parameters : str
+        The numbers of the model, as text.
     """
-    parameters = json.dumps(model, indent=2)
     sections = {
         "Variables": _table(variables),
-        "Conventions": f"<p>{CONVENTIONS}</p>",
-        "Requirements": f"<p>{REQUIREMENTS}</p>",
-        "Statuses": f"<p>{STATUSES}</p>",
+        **{name: _paragraph(name, text) for name, text in texts.items()},
         "Parameters": f"<pre>{escape(parameters)}</pre>",
     }
     body = "\n".join(f"<h2>{heading}</h2>\n{content}" for heading, content in sections.items())
     return PAGE.format(title=escape(title), body=body).encode()
+
+
+def _paragraph(name: str, text: str) -> str:
+    tag = "pre" if name == "Equations" else "p"
+    return f"<{tag}>{escape(text)}</{tag}>"
 
 
 def _table(variables: tuple[Variable, ...]) -> str:
@@ -68,16 +145,22 @@ def _table(variables: tuple[Variable, ...]) -> str:
     rows = [
         (
             variable.name,
-            "state (local)" if variable.causality == "local" else variable.causality,
-            variable.signal.unit,
+            _kind(variable),
+            variable.unit or "",
             "calculated" if variable.start is None else f"{variable.start:g}",
-            f"{variable.signal.nominal:.3g}",
-            variable.signal.description,
+            "" if variable.nominal is None else f"{variable.nominal:.3g}",
+            variable.description,
         )
         for variable in variables
     ]
     lines = [_row("th", heading), *(_row("td", row) for row in rows)]
     return "<table>\n" + "\n".join(lines) + "\n</table>"
+
+
+def _kind(variable: Variable) -> str:
+    if variable.causality == "local":
+        return "state (local)" if variable.state is None else "derivative (local)"
+    return f"{variable.variability} parameter" if variable.causality == "parameter" else variable.causality
 
 
 def _row(tag: str, cells: tuple[str, ...]) -> str:

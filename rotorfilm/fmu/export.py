@@ -1,80 +1,89 @@
-"""Export of a model as an FMU."""
+"""Export of a model as an FMU: checks, the choice of the backend, the archive."""
 
 from __future__ import annotations
 
-import json
 import re
 import uuid
-import warnings
 from collections.abc import Mapping
-from importlib.metadata import version as installed_version
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..errors import FmuError, InputError, require_finite, require_positive
 from ..model import Array, Dynamic, Model
-from .archive import binaries, licenses, require_verified_version, to_zip
-from .bundle import API, PACKAGE, SLAVE, Bundle, bundle_source, content_hash
-from .codec import class_modules, decode, encode
-from .description import Description, to_xml
-from .documentation import to_html
+from ..native.spec import HasKernel, NativeSpec
+from .archive import to_zip
+from .bundle import content_hash
+from .description import Description
+from .linear_system import from_state_space
+from .native_backend import (
+    CATEGORIES,
+    INTERFACES,
+    Export,
+    copyright_line,
+    native_files,
+    native_model_variables,
+    native_tool,
+    resource,
+    source_names,
+)
+from .python_backend import CATEGORIES as PYTHON_CATEGORIES
+from .python_backend import INTERFACES as PYTHON_INTERFACES
+from .python_backend import python_files, python_tool
 from .structure import dependencies
 from .variables import fmi_variables
+from .xml2 import to_xml2
+from .xml3 import to_xml3
+
+if TYPE_CHECKING:
+    import control
 
 NAMESPACE = uuid.UUID("6f0f6a52-9c0e-5d6b-8a53-3f5f1d7b2c11")
 """Namespace of the guids, which are uuid5 of an FMU's content."""
 
-ENTRY = '''"""Entry point of the FMU: PythonFMU loads the class Slave."""
-
-import importlib
-
-from {api} import keep
-from {slave} import ModelSlave
-
-# PythonFMU runs this file for each instance and then releases its globals, which it only borrowed.
-keep(globals())
-
-# All at once, because the folder may be gone when another instance of this FMU needs one of them.
-for name in {modules}:
-    importlib.import_module(name)
-
-
-class Slave(ModelSlave):
-    """{title}"""
-
-    tag = "{tag}"
-'''
+VERSIONS = ("2.0", "3.0")
+BACKENDS = ("native", "python")
+PLATFORMS = ("host", "all")
 
 
 def export_fmu(
-    model: Model,
+    model: Model | control.StateSpace,
     path: str | Path,
     version: str = "2.0",
-    backend: str = "python",
+    backend: str | None = None,
     *,
+    platforms: str = "host",
     component: str | None = None,
     start: Mapping[str, float] | None = None,
     stop_time: float = 0.1,
     step_size: float = 1e-4,
 ) -> Path:
-    """Write `model` as an FMI 2.0 Co-Simulation FMU that carries its own copy of the source it needs.
+    """Write `model` as an FMU.
 
-    Equal models give byte-identical files. Each output is a structured variable `component.signal`, each
+    A model with a kernel in the C library becomes a native FMU: Model Exchange and Co-Simulation in one,
+    with exact directional derivatives, its own sources, tunable parameters and a reference trajectory, and
+    without need of Python. Any other becomes an FMI 2.0 Co-Simulation FMU that carries its Python source.
+
+    Equal models give byte-identical files. Each signal is a structured variable `component.signal`, each
     state a local `component.state_signal`, settable before the simulation starts.
 
     Parameters
     ----------
-    model : Model
-        A dataclass (of this package or from a module of the user) whose fields are numbers, bools, strings,
+    model : Model or control.StateSpace
+        A continuous python-control system is a model whose signals are its labels. For the python backend
+        a dataclass (of this package or from a module of the user) whose fields are numbers, bools, strings,
         None, tuples, lists, numpy arrays or such dataclasses.
     path : str or Path
         File to write, ending in `.fmu`; its folder is made if need be.
     version : str
-        FMI version; the python backend knows "2.0".
-    backend : str
-        What runs the model inside the FMU; "python" is PythonFMU.
+        FMI version, "2.0" or "3.0"; the python backend knows "2.0" only.
+    backend : str, optional
+        What runs the model inside the FMU: "native", the C library, or "python", PythonFMU. By default
+        "native" for a model with a kernel, else "python".
+    platforms : str
+        "host", the platform of this machine, or "all": Linux on x86_64 and aarch64, Windows on x86_64,
+        macOS on both, compiled by zig (`pip install 'rotorfilm[platforms]'`). For the native backend.
     component : str, optional
         Identifier in front of the dot of each variable's name, and name of the FMU; by default the name of
         the model's class in snake case.
@@ -93,78 +102,124 @@ def export_fmu(
     InputError
         If another argument breaks its rule; the message names it.
     FmuError
-        If the model cannot be exported, or the installed pythonfmu is not the verified version.
+        If the model cannot be exported, has no kernel for the native backend, zig is needed and not
+        installed, or the installed pythonfmu is not the verified version.
     """
-    require_verified_version()
     target = Path(path)
-    _require_supported(target, version, backend)
-    _require_model(model)
-    name = _snake_case(type(model).__name__) if component is None else component
+    for argument, value in (("stop_time", stop_time), ("step_size", step_size)):
+        require_positive(argument, value)
+    subject = _subject(model)
+    spec = subject.native() if isinstance(subject, HasKernel) else None
+    native = _is_native(subject, spec, backend)
+    _require_supported(target, version, native, platforms)
+    name = _component(model) if component is None else component
     _require_component(name)
-    values = _start_values(model, start or {})
-    contents = _contents(model, name, values)
-    description = _description(model, name, values, stop_time, step_size)
-    contents["modelDescription.xml"] = to_xml(description, _guid(contents, description))
+    inputs = np.array(list(_start_values(subject, start or {}).values()))
+    _require_output(subject, inputs)
+    if native and spec is not None:
+        export = Export(subject, spec, name, _title(subject), inputs, stop_time, version, platforms)
+        contents = _native_contents(export, step_size)
+    else:
+        contents = _python_contents(subject, name, inputs, stop_time, step_size)
     target.parent.mkdir(parents=True, exist_ok=True)
     target.write_bytes(to_zip(contents))
     return target
 
 
-def _contents(model: Model, component: str, start: Mapping[str, float]) -> dict[str, bytes]:
-    """Return all files of the FMU but the XML, by path."""
-    data = encode(model)
-    bundle = bundle_source(class_modules(data))
-    _require_rebuilt(data)
-    return {
-        **_resources(data, component, start, bundle),
-        **binaries(component, bundle.files),
-        **licenses((PACKAGE, "pythonfmu")),
-        "documentation/index.html": to_html(_title(model), fmi_variables(model, component, start), data),
-    }
+def _native_contents(export: Export, step_size: float) -> dict[str, bytes]:
+    """Return all files of a native FMU by path."""
+    variables = native_model_variables(export)
+    times = np.linspace(0.0, export.stop_time, 7).tolist()
+    description = Description(
+        identifier=export.component,
+        title=export.title,
+        tool=native_tool(),
+        copyright=copyright_line(),
+        interfaces=INTERFACES[export.version],
+        categories=CATEGORIES,
+        variables=variables,
+        dependencies=dependencies(export.model, export.inputs, times),
+        stop_time=float(export.stop_time),
+        step_size=float(step_size),
+        sources=source_names(),
+    )
+    write = to_xml2 if export.version == "2.0" else to_xml3
+    contents = native_files(export, variables)
+    token = _guid({**contents, **resource(export, variables, ""), "xml": write(description, "")})
+    contents |= resource(export, variables, token)
+    return {**contents, "modelDescription.xml": write(description, token)}
 
 
-def _description(
-    model: Model, component: str, start: Mapping[str, float], stop_time: float, step_size: float
-) -> Description:
-    """Return what the XML says, once the model has an output at its start values."""
-    for argument, value in (("stop_time", stop_time), ("step_size", step_size)):
-        require_positive(argument, value)
-    inputs = np.array([start[signal.name] for signal in model.inputs])
-    _require_output(model, inputs, start)
-    return Description(
+def _python_contents(
+    model: Model, component: str, inputs: Array, stop_time: float, step_size: float
+) -> dict[str, bytes]:
+    """Return all files of an FMU of the python backend by path."""
+    start = {signal.name: float(value) for signal, value in zip(model.inputs, inputs, strict=True)}
+    variables = fmi_variables(model, component, start)
+    contents = python_files(model, component, _title(model), start, variables)
+    description = Description(
         identifier=component,
         title=_title(model),
-        tool=f"{PACKAGE} {installed_version(PACKAGE)} (PythonFMU {installed_version('pythonfmu')})",
-        variables=fmi_variables(model, component, start),
+        tool=python_tool(),
+        copyright=copyright_line(),
+        interfaces=PYTHON_INTERFACES,
+        categories=PYTHON_CATEGORIES,
+        variables=variables,
         dependencies=dependencies(model, inputs),
         stop_time=float(stop_time),
         step_size=float(step_size),
     )
+    guid = _guid({**contents, "xml": to_xml2(description, "")})
+    return {**contents, "modelDescription.xml": to_xml2(description, guid)}
+
+
+def _subject(model: Any) -> Model:
+    """Return the model; a python-control system as one."""
+    from control import StateSpace
+
+    subject = from_state_space(model) if isinstance(model, StateSpace) else model
+    if not isinstance(subject, Model):
+        raise FmuError(
+            "model must have inputs, outputs, states, output and linearization (a Model) or be a "
+            f"control.StateSpace, got {model!r} of type {type(model).__qualname__}"
+        )
+    if subject.states and not isinstance(subject, Dynamic):
+        raise FmuError(f"model must have initial_state and derivative, as it has states, got {model!r}")
+    return subject
+
+
+def _is_native(model: Model, spec: NativeSpec | None, backend: str | None) -> bool:
+    if backend is None:
+        return spec is not None
+    if backend not in BACKENDS:
+        raise InputError(f"backend must be one of {list(BACKENDS)} or None, got {backend!r}")
+    if backend == "native" and spec is None:
+        raise FmuError(
+            f"model must have a kernel in the C library for backend='native', got {model!r}; "
+            "use backend='python'"
+        )
+    return backend == "native"
+
+
+def _require_supported(path: Path, version: str, native: bool, platforms: str) -> None:
+    if path.suffix != ".fmu":
+        raise InputError(f"path must end in .fmu, got {str(path)!r}")
+    if version not in VERSIONS:
+        raise InputError(f"version must be one of {list(VERSIONS)}, got {version!r}")
+    if version == "3.0" and not native:
+        raise FmuError("version must be '2.0' for the python backend: PythonFMU has no FMI 3.0, got '3.0'")
+    if platforms not in PLATFORMS:
+        raise InputError(f"platforms must be one of {list(PLATFORMS)}, got {platforms!r}")
+    if platforms == "all" and not native:
+        raise FmuError("platforms must be 'host' for the python backend, which brings its own, got 'all'")
 
 
 def _title(model: Model) -> str:
     return (type(model).__doc__ or type(model).__name__).strip().splitlines()[0]
 
 
-def _require_supported(path: Path, version: str, backend: str) -> None:
-    if path.suffix != ".fmu":
-        raise InputError(f"path must end in .fmu, got {str(path)!r}")
-    if version == "3.0":
-        raise InputError("version must be '2.0' for the python backend: PythonFMU has no FMI 3.0, got '3.0'")
-    if version != "2.0":
-        raise InputError(f"version must be '2.0', got {version!r}")
-    if backend != "python":
-        raise InputError(f"backend must be 'python', got {backend!r}")
-
-
-def _require_model(model: Any) -> None:
-    if not isinstance(model, Model):
-        raise FmuError(
-            "model must have inputs, outputs, states, output and linearization (a Model), "
-            f"got {model!r} of type {type(model).__qualname__}"
-        )
-    if model.states and not isinstance(model, Dynamic):
-        raise FmuError(f"model must have initial_state and derivative, as it has states, got {model!r}")
+def _component(model: Any) -> str:
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", type(model).__name__).lower()
 
 
 def _require_component(component: str) -> None:
@@ -172,26 +227,14 @@ def _require_component(component: str) -> None:
         raise InputError(f"component must be an ASCII identifier without dots, got {component!r}")
 
 
-def _require_rebuilt(data: Any) -> None:
-    """Raise unless the encoded model can be built again from its fields."""
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            again = encode(decode(data, {}))
-    except Exception as error:
-        raise FmuError(f"model must follow from its fields alone, got {error!r}") from error
-    if again != data:
-        raise FmuError(f"model must keep the fields it is built by, got {again!r} from {data!r}")
-
-
-def _require_output(model: Model, inputs: Array, start: Mapping[str, float]) -> None:
+def _require_output(model: Model, inputs: Array) -> None:
     """Raise unless the model has an output at its start values."""
     state = model.initial_state if isinstance(model, Dynamic) else np.zeros(0)
     try:
         output = require_finite("output", model.output(0.0, state, inputs))
     except Exception as error:
         raise InputError(
-            f"start must be values at which the model has an output, got {dict(start)!r}: {error}"
+            f"start must be values at which the model has an output, got {inputs.tolist()}: {error}"
         ) from error
     if output.shape != (len(model.outputs),):
         raise FmuError(f"output must have shape ({len(model.outputs)},), got {output.shape}")
@@ -206,32 +249,5 @@ def _start_values(model: Model, start: Mapping[str, float]) -> dict[str, float]:
     return {name: float(start.get(name, 0.0)) for name in names}
 
 
-def _resources(data: Any, component: str, start: Mapping[str, float], bundle: Bundle) -> dict[str, bytes]:
-    """Return the files that PythonFMU reads: the entry module, the model as data, and the source."""
-    settings = {"component": component, "start": dict(start), "modules": bundle.modules, "model": data}
-    text = (json.dumps(settings, indent=2, sort_keys=True) + "\n").encode()
-    tag = content_hash({**bundle.files, "model.json": text})
-    entry = f"{component}_{tag}"
-    modules = "".join(f"\n    {name!r}," for name in sorted(bundle.modules.values()))
-    source = ENTRY.format(
-        api=bundle.modules[API],
-        slave=bundle.modules[SLAVE],
-        modules=f"({modules}\n)",
-        title=component,
-        tag=tag,
-    )
-    files = {
-        **bundle.files,
-        "model.json": text,
-        "slavemodule.txt": entry.encode(),
-        f"{entry}.py": source.encode(),
-    }
-    return {f"resources/{name}": content for name, content in files.items()}
-
-
-def _guid(contents: Mapping[str, bytes], description: Description) -> str:
-    return str(uuid.uuid5(NAMESPACE, content_hash({**contents, "xml": to_xml(description, "")})))
-
-
-def _snake_case(name: str) -> str:
-    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
+def _guid(contents: Mapping[str, bytes]) -> str:
+    return str(uuid.uuid5(NAMESPACE, content_hash(contents)))

@@ -15,7 +15,9 @@ MAX_STEPS = 10_000
 """Substeps within one macro step beyond which the model counts as not integrable."""
 
 
-def advance(model: Dynamic, t: float, x: Array, u: Array, step: float) -> Array:
+def advance(
+    model: Dynamic, t: float, x: Array, u: Array, step: float, tolerance: float = RELATIVE_TOLERANCE
+) -> Array:
     """Return the state at t + step under the constant input u.
 
     Dormand and Prince's method of order 8 with error control (Hairer, Norsett & Wanner 1993, II.10), started
@@ -29,6 +31,8 @@ def advance(model: Dynamic, t: float, x: Array, u: Array, step: float) -> Array:
     u : ndarray, shape (n_inputs,)
     step : float [s]
         Not negative.
+    tolerance : float
+        Local error relative to each state, and to its nominal value.
 
     Raises
     ------
@@ -37,20 +41,20 @@ def advance(model: Dynamic, t: float, x: Array, u: Array, step: float) -> Array:
     """
     for end in stops(model, t, t + step):
         # The end may also round to t itself.
-        x = _integrate(model, t, x, u, end) if end > t else x
+        x = _integrate(model, t, x, u, end, tolerance) if end > t else x
         t = end
     return x
 
 
-def _integrate(model: Dynamic, t: float, x: Array, u: Array, end: float) -> Array:
+def _integrate(model: Dynamic, t: float, x: Array, u: Array, end: float, tolerance: float) -> Array:
     nominal = np.array([signal.nominal for signal in model.states])
     solver = DOP853(
         lambda time, state: model.derivative(time, state, u),
         t,
         x,
         end,
-        rtol=RELATIVE_TOLERANCE,
-        atol=RELATIVE_TOLERANCE * nominal,  # type: ignore[arg-type]  # an array is fine, says scipy's manual
+        rtol=tolerance,
+        atol=tolerance * nominal,  # type: ignore[arg-type]  # an array is fine, says scipy's manual
         first_step=end - t,
     )
     for _ in range(MAX_STEPS):

@@ -1,7 +1,7 @@
 """Ladders: every model of one physics from the cheapest law to the reference, measured side by side."""
 
 from .journal_accuracy import JournalAccuracy, RungAccuracy, journal_accuracy, pareto_front
-from .journal_rungs import Rung, comparison_bearing, journal_rungs
+from .journal_rungs import Rung, comparison_bearing, fitted_bearing, journal_rungs
 from .journal_stability import JournalStability, RungStability, journal_stability
 from .journal_states import LARGE, SMALL, StateRange, random_states
 
@@ -15,6 +15,7 @@ __all__ = [
     "RungStability",
     "StateRange",
     "comparison_bearing",
+    "fitted_bearing",
     "journal_accuracy",
     "journal_rungs",
     "journal_stability",

@@ -1,13 +1,18 @@
-"""Thin view of the C library: the kernels that Python and the native FMUs share."""
+"""Thin view of the C library, whose kernels Python and the native FMUs share."""
 
-from .kernels import GroovedJournalKernel, GrooveMapKernel, JournalKernel, MapKernel, Status
+from .kernels import GroovedJournalKernel, GrooveMapKernel, JournalKernel, MapKernel, Status, slice_table
 from .library import NativeLibraryError
+from .spec import HasKernel, NativeParameter, NativeSpec
 
 __all__ = [
     "GrooveMapKernel",
     "GroovedJournalKernel",
+    "HasKernel",
     "JournalKernel",
     "MapKernel",
     "NativeLibraryError",
+    "NativeParameter",
+    "NativeSpec",
     "Status",
+    "slice_table",
 ]

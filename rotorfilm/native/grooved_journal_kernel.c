@@ -7,14 +7,10 @@
 int rf_grooved_journal_force(const rf_grooved_journal *journal, const double *state, double *f)
 {
     double e[2], w[2];
-    if (rf_kinematics(journal->clearance, state, e, w) != RF_OK) {
-        f[0] = f[1] = NAN;
-        return RF_NOT_FINITE;
-    }
+    if (rf_kinematics(journal->clearance, state, e, w) != RF_OK)
+        return rf_break(f, 2);
     const int status = rf_groove_force(&journal->map, e, w, f);
-    f[0] *= journal->force_scale;
-    f[1] *= journal->force_scale;
-    return status;
+    return rf_dimensional_force(journal->force_scale, status, f);
 }
 
 int rf_grooved_journal_jacobian(const rf_grooved_journal *journal, const double *state, double *f,
@@ -22,14 +18,11 @@ int rf_grooved_journal_jacobian(const rf_grooved_journal *journal, const double 
 {
     double e[2], w[2], film[8];
     if (rf_kinematics(journal->clearance, state, e, w) != RF_OK) {
-        f[0] = f[1] = NAN;
-        for (int i = 0; i < 10; ++i)
-            jacobian[i] = NAN;
-        return RF_NOT_FINITE;
+        rf_break(f, 2);
+        return rf_break(jacobian, 10);
     }
     const int status = rf_groove_jacobian(&journal->map, e, w, f, film);
-    rf_dimensional(journal->clearance, journal->force_scale, e, state[4], film, f, jacobian);
-    return status;
+    return rf_dimensional(journal->clearance, journal->force_scale, e, state[4], film, status, f, jacobian);
 }
 
 int rf_grooved_journal_call(const rf_grooved_journal *journal, double x, double y, double vx, double vy,

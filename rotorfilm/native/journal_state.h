@@ -15,14 +15,27 @@
 typedef int (*rf_state_force)(const void *film, const double *state, double *f);
 typedef int (*rf_state_jacobian)(const void *film, const double *state, double *f, double *jacobian);
 
+/* Whether one is not finite: fmax would hide a not-a-number, and finite factors may overflow. */
+static inline int rf_is_broken(const double *values, int count)
+{
+    double sum = 0.0;
+    for (int i = 0; i < count; ++i)
+        sum += 0.0 * values[i];
+    return !(sum == 0.0);
+}
+
+static inline int rf_break(double *values, int count)
+{
+    for (int i = 0; i < count; ++i)
+        values[i] = NAN;
+    return RF_NOT_FINITE;
+}
+
 /* Eccentricity e[2] and source w[2] of a state; RF_NOT_FINITE for anything that is no finite state. */
 static inline int rf_kinematics(double clearance, const double *state, double *e, double *w)
 {
     const double half = 0.5 * state[4];
-    double sum = 0.0;
-    for (int i = 0; i < 5; ++i)
-        sum += 0.0 * state[i]; /* fmax below would hide a not-a-number */
-    if (!(sum == 0.0))
+    if (rf_is_broken(state, 5))
         return RF_NOT_FINITE;
     e[0] = state[0] / clearance;
     e[1] = state[1] / clearance;
@@ -36,9 +49,18 @@ static inline int rf_kinematics(double clearance, const double *state, double *e
     return RF_OK;
 }
 
-/* Scale the force; turn film[2][4] = d f/d(e, w) into jacobian[2][5] = d f/d(x, y, vx, vy, speed). */
-static inline void rf_dimensional(double clearance, double scale, const double *e, double speed,
-                                  const double *film, double *f, double *jacobian)
+/* Scale the force; the status of the film, unless the force overflows. */
+static inline int rf_dimensional_force(double scale, int status, double *f)
+{
+    f[0] *= scale;
+    f[1] *= scale;
+    return status <= RF_UNDEFINED && rf_is_broken(f, 2) ? rf_break(f, 2) : status;
+}
+
+/* Scale the force; turn film[2][4] = d f/d(e, w) into jacobian[2][5] = d f/d(x, y, vx, vy, speed). The
+   status of the film, unless an answer overflows. */
+static inline int rf_dimensional(double clearance, double scale, const double *e, double speed,
+                                 const double *film, int status, double *f, double *jacobian)
 {
     const double per_c = scale / clearance, half = 0.5 * speed;
     for (int i = 0; i < 2; ++i) {
@@ -52,6 +74,11 @@ static inline void rf_dimensional(double clearance, double scale, const double *
         row[3] = per_c * by[3];
         row[4] = 0.5 * scale * (by[2] * e[1] - by[3] * e[0]);
     }
+    if (status <= RF_OUTSIDE && (rf_is_broken(f, 2) || rf_is_broken(jacobian, 10))) {
+        rf_break(f, 2);
+        return rf_break(jacobian, 10);
+    }
+    return status;
 }
 
 /* Batches as in journal_kernel.h; the most severe status, and the index of the first state with it. */

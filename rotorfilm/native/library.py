@@ -14,6 +14,10 @@ from ..errors import RotorfilmError
 
 NUMBERS = POINTER(c_double)
 SUFFIXES = {"win32": ".dll", "darwin": ".dylib"}
+REMEDY = (
+    "install rotorfilm with a C compiler present, "
+    "or run 'cmake -S . -B build && cmake --build build' in its source"
+)
 
 
 class NativeLibraryError(RotorfilmError, ImportError):
@@ -68,6 +72,20 @@ class GroovedJournalStruct(ctypes.Structure):
     ]
 
 
+class MapTableStruct(ctypes.Structure):
+    """rf_map_table of map_table.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("cells_s", c_int32),
+        ("cells_x", c_int32),
+        ("cells_t", c_int32),
+        ("low", c_double),
+        ("high", c_double),
+        ("center", c_void_p),
+        ("coefficients", c_void_p),
+    ]
+
+
 _ROWS = [c_void_p, c_size_t]
 _BATCH: dict[str, list[Any]] = {
     "rf_map_force_batch": [c_void_p, c_size_t, *_ROWS * 3, c_void_p],
@@ -84,6 +102,7 @@ _SCALAR: dict[str, list[Any]] = {
     "rf_journal_jacobian": [c_void_p, *[c_void_p] * 3],
     "rf_grooved_journal_call": [c_void_p, *[c_double] * 5, c_void_p],
     "rf_grooved_journal_jacobian": [c_void_p, *[c_void_p] * 3],
+    "rf_map_slice": [c_void_p, c_double, c_void_p, c_void_p],
 }
 
 
@@ -103,7 +122,12 @@ def functions() -> dict[str, Any]:
 
 def _typed(loader: type[ctypes.CDLL], signatures: dict[str, list[Any]]) -> dict[str, Any]:
     library = _load(loader)
-    found = {name: getattr(library, name) for name in signatures}
+    try:
+        found = {name: getattr(library, name) for name in signatures}
+    except AttributeError as error:
+        raise NativeLibraryError(
+            f"the compiled library of rotorfilm is of another version ({error}); {REMEDY}"
+        ) from error
     for name, function in found.items():
         function.argtypes, function.restype = signatures[name], c_int
     return found
@@ -116,6 +140,5 @@ def _load(loader: type[ctypes.CDLL]) -> ctypes.CDLL:
             return loader(str(path))
     except OSError as error:
         raise NativeLibraryError(
-            f"the compiled library {name} of rotorfilm is missing or unusable ({error}); install rotorfilm "
-            "with a C compiler present, or run 'cmake -S . -B build && cmake --build build' in its source"
+            f"the compiled library {name} of rotorfilm is missing or unusable ({error}); {REMEDY}"
         ) from error

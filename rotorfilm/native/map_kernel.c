@@ -16,6 +16,14 @@ typedef struct frame {
     double size, nx, ny, chi, cos, sin;
 } frame;
 
+size_t rf_spline_weights(double at, int32_t cells, double weights[RF_ORDER])
+{
+    double rest;
+    const int32_t first = rf_cell(at, cells, &rest);
+    rf_values(rest, weights);
+    return (size_t)first;
+}
+
 static const double *place(const rf_map *map, double x, double s, double *u, double *v)
 {
     const int32_t i = rf_cell(x / map->x_end * map->cells_x, map->cells_x, u);

@@ -15,15 +15,7 @@
 #include <stdint.h>
 
 #include "export.h"
-
-/* Answers in the order of their severity; of a batch, the most severe one. */
-typedef enum rf_status {
-    RF_OK = 0,
-    RF_OUTSIDE = 1,    /* beyond the last node: continued as a power of X, unverified */
-    RF_UNDEFINED = 2,  /* w = 0 off the center: the force is zero and has no derivative */
-    RF_CONTACT = 3,    /* |e| >= 1 */
-    RF_NOT_FINITE = 4  /* an argument or the answer is not finite */
-} rf_status;
+#include "status.h"
 
 typedef struct rf_map {
     int32_t cells_x;            /* cells of [0, X_end] */
@@ -33,7 +25,12 @@ typedef struct rf_map {
     const double *coefficients; /* (cells_x + 5) x (cells_t + 5), T fastest */
 } rf_map;
 
-/* Force f[2] at e[2], w[2]. What fails answers not-a-number together with its status. */
+/* Weights of the six quintic B-splines at `at` cells from the first node, and the first of them. */
+size_t rf_spline_weights(double at, int32_t cells, double weights[6]);
+
+/* Force f[2] at e[2], w[2]. Beyond the last node J goes on as a power of X, unverified: RF_OUTSIDE. Without
+   source, off the center, the force is zero and has no derivative: RF_UNDEFINED. What fails answers
+   not-a-number together with its status. */
 RF_EXPORT int rf_map_force(const rf_map *map, const double *e, const double *w, double *f);
 
 /* The same and d f/d(e, w), jacobian[2][4]. */

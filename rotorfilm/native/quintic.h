@@ -71,10 +71,13 @@ static inline int32_t rf_cell(double at, int32_t cells, double *rest)
     return i;
 }
 
+/* hypot() of some C libraries is too new for the machines that an FMU may meet. */
 static inline double rf_length(double x, double y)
 {
-    const double squared = x * x + y * y;
-    return squared > RF_SMALLEST && squared < RF_LARGEST ? sqrt(squared) : hypot(x, y);
+    const double squared = x * x + y * y, size = fmax(fabs(x), fabs(y));
+    if ((squared > RF_SMALLEST && squared < RF_LARGEST) || size == 0.0)
+        return sqrt(squared);
+    return size * sqrt((x / size) * (x / size) + (y / size) * (y / size));
 }
 
 /* X and, where asked for, dX/dchi. */

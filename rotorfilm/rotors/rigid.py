@@ -11,12 +11,25 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_non_negative, require_number, require_positive
 from ..model import MOTION_NAMES, Array, Linearization, force_outputs, journal_inputs
+from ..native.spec import NativeParameter, NativeSpec
 from ..signals import Signal
 from ..units import STANDARD_GRAVITY
 from .profile import SpeedProfile
 
 NOMINAL_LENGTH = 1e-4
 """Typical journal displacement [m], a radial clearance; the rotor does not know its bearing's."""
+
+NATIVE_PARAMETERS = {
+    "mass": ("kg", "mass carried by this journal"),
+    "unbalance": ("kg.m", "mass times eccentricity of the mass center"),
+    "unbalance_angle": ("rad", "angle of the mass center from +x at t = 0, positive about +z"),
+    "gravity_x": ("m/s2", "acceleration of gravity along x"),
+    "gravity_y": ("m/s2", "acceleration of gravity along y"),
+    "static_force_x": ("N", "constant external force along x, besides the weight"),
+    "static_force_y": ("N", "constant external force along y, besides the weight"),
+    "constant_speed": ("rad/s", "angular speed about +z, at all times"),
+}
+"""Units and meanings of what a simulator may set in the compiled rotor."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -132,6 +145,24 @@ class RigidRotor:
         B[2:] = np.eye(2) / self.mass
         return Linearization(A, B, np.eye(5, 4), np.zeros((5, 2)))
 
+    def native(self) -> NativeSpec | None:
+        """Return the kernel of the C library that is this rotor; None for a subclass, which may differ.
+
+        Its parameters are those of the rotor by component; the speed is one, fixed, where it is constant.
+        """
+        if type(self) is not RigidRotor:
+            return None
+        values = {name: getattr(self, name) for name in ("mass", "unbalance", "unbalance_angle")}
+        for name in ("gravity", "static_force"):
+            values |= {f"{name}_{axis}": value for axis, value in zip("xy", getattr(self, name), strict=True)}
+        if len(self._profile.times) == 1:
+            values["constant_speed"] = self._profile.speeds[0]
+        return NativeSpec(
+            kernel="rigid_rotor",
+            parameters=tuple(_native_parameter(name, float(value)) for name, value in values.items()),
+            tables={"times": np.array(self._profile.times), "speeds": np.array(self._profile.speeds)},
+        )
+
     # Cached because they are the inner loop of every integrator; a frozen dataclass cannot go stale.
     @cached_property
     def _profile(self) -> SpeedProfile:
@@ -144,3 +175,17 @@ class RigidRotor:
     @cached_property
     def _nominal_speed(self) -> float:
         return max(abs(speed) for speed in self._profile.speeds) or 1.0
+
+
+def _native_parameter(name: str, value: float) -> NativeParameter:
+    unit, description = NATIVE_PARAMETERS[name]
+    return NativeParameter(
+        name=name,
+        unit=unit,
+        value=value,
+        # A jump of the speed would turn the unbalance by an angle that depends on the time.
+        tunable=name != "constant_speed",
+        minimum=0.0 if name in ("mass", "unbalance") else -math.inf,
+        nominal=abs(value) or 1.0,
+        description=description,
+    )

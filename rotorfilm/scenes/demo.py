@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -11,13 +11,22 @@ import numpy as np
 
 from ..cosim import critical_macro_step
 from ..errors import InputError
-from ..films import FilmLaw
+from ..ladders import (
+    JournalAccuracy,
+    JournalStability,
+    Rung,
+    comparison_bearing,
+    journal_accuracy,
+    journal_rungs,
+    journal_stability,
+)
 from ..linear import speed_parameter
-from ..progress import Report, silent
+from ..model import Array
+from ..progress import Report, part_of, silent
 from ..results import Trajectory, to_plain, write_csv
 from .coupling import CoupledRun, CouplingStudy, study_coupling
 from .export import ExportedScene, export_scene, resting_rotor
-from .ladder import FilmAccuracy, FilmCurve, compared_laws, film_accuracy, film_curve, ladder_laws
+from .locus import attitude_angles
 from .scene import Scene
 from .solve import Answer
 
@@ -27,8 +36,29 @@ REFINEMENTS = (0.25, 0.5, 1.0, 2.0)
 BEYOND = 1.3
 """A run this far past the stability limit must be refused."""
 
+RUNGS = (
+    "short film",
+    "published (1, 1)",
+    "published (2, 1)",
+    "fixed arc (2, all)",
+    "rotating arc (2, all)",
+    "rotating arc (6, all)",
+    "free arc (4+c, 8)",
+    "2-D 48 x 4",
+    "2-D 96 x 8",
+    "2-D 192 x 16",
+    "map",
+)
+"""Films compared: the whole ladder, thinned where neighbors tell the same."""
+
+STATES, ROUNDS = 100, 3
+"""Random states of the comparison and rounds of timing."""
+
+REFERENCE_CELLS = (384, 16)
+"""Cells of the finest grid of its reference."""
+
 ECCENTRICITY_RATIOS = tuple(np.linspace(0.02, 0.98, 49).tolist())
-"""Where the film laws are compared."""
+"""Where locus and stability are compared."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,10 +77,12 @@ class DemoResult:
         Longest macro step of a stable coupling by linear theory; None where there is no limit.
     coupling : CouplingStudy
         Coupled runs beside the monolithic one.
-    curves : dict of str to FilmCurve
-        Locus and stability by film law.
-    accuracy : dict of str to FilmAccuracy
-        Error and cost by film law.
+    attitude_angle : dict of str to ndarray [rad]
+        By film, at the eccentricity ratios of `stability`.
+    stability : JournalStability
+        Whirl threshold by film.
+    accuracy : JournalAccuracy
+        Error and cost of the force by film.
     """
 
     scene: Scene
@@ -59,8 +91,9 @@ class DemoResult:
     fmus: ExportedScene
     critical_macro_angle: float | None
     coupling: CouplingStudy
-    curves: dict[str, FilmCurve]
-    accuracy: dict[str, FilmAccuracy]
+    attitude_angle: dict[str, Array]
+    stability: JournalStability
+    accuracy: JournalAccuracy
 
     @property
     def scene_run(self) -> CoupledRun:
@@ -72,41 +105,53 @@ class DemoResult:
 def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
     """Solve a scene, export its FMUs, couple them, and compare with the monolithic solution.
 
-    Writes `film.fmu`, `rotor.fmu`, `results.json`, `monolithic.csv` and `coupled.csv`.
+    Writes `film.fmu`, `rotor.fmu`, `results.json`, `monolithic.csv`, `coupled.csv`, and the films compared as
+    `stability.csv` and `accuracy.csv`.
 
     Parameters
     ----------
     folder : Path
         Made if absent.
     scene : Scene
-        With a rotor.
+        With a rotor, and a bearing of length/diameter .1 to 4, where all films of the ladder exist.
     report : callable, optional
         Told how far the job is.
 
     Raises
     ------
     InputError
-        If the scene has no rotor.
+        If the scene has no rotor or its length/diameter is out of range.
     RotorfilmError
         What the steps raise; see `Scene.solve`, `export_scene` and `study_coupling`.
     """
     if scene.rigid_rotor is None:
         raise InputError("rigid_rotor is required for the demonstration, got no such table")
+    slenderness, rungs = scene.bearing.slenderness, demo_rungs()
+    plain = comparison_bearing(slenderness)
     folder.mkdir(parents=True, exist_ok=True)
     report(0.0, "equilibrium, stiffness and damping, whirl threshold")
     answer = scene.solve()
-    report(0.05, "film laws: locus and stability")
-    curves = _curves(scene)
-    report(0.15, "film laws: accuracy and cost")
-    accuracy = film_accuracy(
-        scene.bearing, ladder_laws(), lambda label: report(0.15, f"film laws: accuracy and cost of {label}")
+    report(0.02, "locus by every film")
+    angles = attitude_angles(plain, rungs, np.array(ECCENTRICITY_RATIOS))
+    stability = journal_stability(
+        slenderness,
+        eccentricity_ratio=ECCENTRICITY_RATIOS,
+        rungs=rungs,
+        cells=REFERENCE_CELLS,
+        report=part_of(report, 0.03, 0.12),
     )
-    report(0.25, "FMUs")
+    accuracy = journal_accuracy(
+        slenderness,
+        states=STATES,
+        rungs=rungs,
+        cells=REFERENCE_CELLS,
+        rounds=ROUNDS,
+        report=part_of(report, 0.12, 0.3),
+    )
+    report(0.3, "FMUs")
     fmus = export_scene(scene, folder)
     limit = _critical_macro_angle(scene)
-    coupling = study_coupling(
-        scene, fmus, _macro_angles(scene, limit), lambda part, text: report(0.3 + 0.65 * part, text)
-    )
+    coupling = study_coupling(scene, fmus, _macro_angles(scene, limit), part_of(report, 0.3, 0.95))
     result = DemoResult(
         scene=scene,
         answer=answer,
@@ -119,7 +164,8 @@ def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
         fmus=fmus,
         critical_macro_angle=limit,
         coupling=coupling,
-        curves=curves,
+        attitude_angle=angles,
+        stability=stability,
         accuracy=accuracy,
     )
     write_results(result, folder)
@@ -127,12 +173,19 @@ def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
     return result
 
 
+def demo_rungs() -> tuple[Rung, ...]:
+    """Return the films that the demonstration compares."""
+    return tuple(rung for rung in journal_rungs() if rung.name in RUNGS)
+
+
 def write_results(result: DemoResult, folder: Path) -> None:
-    """Write `results.json`, and the trajectories as CSV in SI units."""
+    """Write `results.json`, and trajectories and comparisons as CSV in SI units."""
     text = json.dumps(plain_results(result), indent=2, allow_nan=False)
     (folder / "results.json").write_text(text + "\n", encoding="utf-8")
     _write_csv(folder / "monolithic.csv", result.coupling.monolithic)
     _write_csv(folder / "coupled.csv", result.scene_run.trajectory)
+    write_csv(folder / "stability.csv", result.stability.columns())
+    write_csv(folder / "accuracy.csv", result.accuracy.columns())
 
 
 def plain_results(result: DemoResult) -> dict[str, Any]:
@@ -151,14 +204,6 @@ def _without_trajectory(run: CoupledRun) -> dict[str, Any]:
 
 def _write_csv(path: Path, trajectory: Trajectory) -> None:
     write_csv(path, {"time": trajectory.time, **trajectory.signals})
-
-
-def _curves(scene: Scene) -> dict[str, FilmCurve]:
-    laws: dict[str, FilmLaw] = compared_laws()
-    if scene.bearing.film not in laws.values():
-        laws = {"film of the scene": scene.bearing.film, **laws}
-    ratios = np.array(ECCENTRICITY_RATIOS)
-    return {label: film_curve(replace(scene.bearing, film=law), ratios) for label, law in laws.items()}
 
 
 def _critical_macro_angle(scene: Scene) -> float | None:

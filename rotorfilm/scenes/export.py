@@ -39,7 +39,14 @@ def resting_rotor(scene: Scene) -> RigidRotor:
     return dataclasses.replace(scene.rotor, position=(float(at.position[0]), float(at.position[1])))
 
 
-def export_scene(scene: Scene, folder: Path) -> ExportedScene:
+def export_scene(
+    scene: Scene,
+    folder: Path,
+    *,
+    version: str = "2.0",
+    backend: str | None = None,
+    platforms: str = "host",
+) -> ExportedScene:
     """Write `film.fmu` and `rotor.fmu`, both starting at the static equilibrium.
 
     Parameters
@@ -48,6 +55,8 @@ def export_scene(scene: Scene, folder: Path) -> ExportedScene:
         With a rotor.
     folder : Path
         Made if absent.
+    version, backend, platforms : str
+        See `export_fmu`.
 
     Raises
     ------
@@ -60,19 +69,18 @@ def export_scene(scene: Scene, folder: Path) -> ExportedScene:
     """
     rotor = resting_rotor(scene)
     start = {"x": rotor.position[0], "y": rotor.position[1], "speed": scene.operation.speed}
-    return ExportedScene(
-        film=_exported(scene, scene.bearing, folder / "film.fmu", start),
-        rotor=_exported(scene, rotor, folder / "rotor.fmu", {}),
-    )
 
+    def write(model: Model, name: str, values: dict[str, float]) -> Path:
+        return export_fmu(
+            model,
+            folder / f"{name}.fmu",
+            version,
+            backend,
+            platforms=platforms,
+            component=name,
+            start=values,
+            step_size=scene.macro_step,
+            stop_time=scene.duration,
+        )
 
-def _exported(scene: Scene, model: Model, path: Path, start: dict[str, float]) -> Path:
-    """Write one FMU, whose component is named as its file."""
-    return export_fmu(
-        model,
-        path,
-        component=path.stem,
-        start=start,
-        step_size=scene.macro_step,
-        stop_time=scene.duration,
-    )
+    return ExportedScene(film=write(scene.bearing, "film", start), rotor=write(rotor, "rotor", {}))

@@ -38,14 +38,14 @@ def simulate(
     rotor : Dynamic
         With outputs x, y, vx, vy, speed and inputs force_x, force_y.
     reaction : Reaction
-        The film.
+        The film; one with states is a Dynamic too, as `BushReaction`.
     duration : float [s]
     samples : int
         Number of samples at equal distance, from 0 to `duration` inclusive.
     times : array_like, shape (n,) [s], optional
         Increasing sample times within [0, duration], instead of `samples`.
     initial_state : array_like, shape (n_states,), optional
-        State at t = 0, instead of the rotor's own.
+        State at t = 0, instead of the models' own: that of the rotor, then that of a film with states.
     rtol : float [1]
         Relative local error of a step; the absolute one is rtol times the nominal value of each state.
     max_step : float [s]
@@ -56,7 +56,8 @@ def simulate(
     Returns
     -------
     Trajectory
-        Signals: every output of the rotor, and the film force on the journal [N]. Work:
+        Signals: every output of the rotor, the film force on the journal [N], and of a film with states
+        its further outputs and its states. Work:
         film_evaluations, jacobians, steps, restarts (steps cut short at the wall).
 
     Raises
@@ -72,7 +73,7 @@ def simulate(
     require_positive("rtol", rtol)
     system = Coupled(rotor, reaction)
     grid = _grid(duration, samples, times)
-    state = _initial(system, rotor.initial_state if initial_state is None else initial_state)
+    state = _initial(system, system.initial_state if initial_state is None else initial_state)
     settings = Integration(method=method, rtol=rtol, max_step=max_step)
     kept: list[tuple[float, Array]] = [(0.0, state)] if grid.size and grid[0] == 0.0 else []
     try:
@@ -104,7 +105,7 @@ def _grid(duration: float, samples: int, times: ArrayLike | None) -> Array:
 def _initial(system: Coupled, initial_state: ArrayLike) -> Array:
     """Return the state at t = 0, checked for its shape and for contact."""
     state = require_finite("initial_state", initial_state)
-    expected = (len(system.rotor.states),)
+    expected = system.initial_state.shape
     if state.shape != expected:
         raise InputError(f"initial_state must have shape {expected}, got {state.shape}")
     _require_gap(system, 0.0, state)
@@ -124,9 +125,12 @@ def _trajectory(system: Coupled, kept: list[tuple[float, Array]]) -> Trajectory:
     """Return the signals at the kept samples, without one that lies beyond the wall."""
     inside = [(t, state) for t, state in kept if system.gap(t, state) > 0.0]
     no_force = np.zeros(len(FORCE_OUTPUTS))
-    outputs = np.array([system.rotor.output(t, state, no_force) for t, state in inside])
+    split, time = len(system.rotor.states), np.array([t for t, _ in inside])
+    outputs = np.array([system.rotor.output(t, state[:split], no_force) for t, state in inside])
     outputs = outputs.reshape(len(inside), len(system.rotor.outputs)).T
-    forces = system.forces(outputs[system.wiring.motion])
-    labels = [*names(system.rotor.outputs), *FORCE_OUTPUTS]
-    signals = dict(zip(labels, [*outputs, *forces], strict=True))
-    return Trajectory(time=np.array([t for t, _ in inside]), signals=signals, work=dict(system.work))
+    states = np.array([state[split:] for _, state in inside]).reshape(len(inside), -1).T
+    film = system.film_outputs(time, outputs[system.wiring.motion], states)
+    labels = [*names(system.rotor.outputs), *system.film_names()]
+    return Trajectory(
+        time=time, signals=dict(zip(labels, [*outputs, *film], strict=True)), work=dict(system.work)
+    )

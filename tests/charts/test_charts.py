@@ -5,11 +5,11 @@ import pytest
 
 from rotorfilm.charts import (
     new_axes,
-    plot_accuracy,
+    plot_contact_pressure,
     plot_coupling_error,
+    plot_critical_speed,
     plot_locus,
     plot_orbits,
-    plot_stability,
     save,
 )
 from rotorfilm.results import Trajectory
@@ -34,18 +34,12 @@ def test_locus_puts_the_attitude_angle_from_the_load_line_in_the_sense_of_rotati
     np.testing.assert_allclose([line.get_xdata()[0], line.get_ydata()[0]], [0.5, 0.0], atol=1e-15)
 
 
-def test_stability_leaves_gaps_and_names_the_film_without_a_threshold():
-    curves = {"a": (np.array([0.1, 0.9]), [2.7, None]), "b": (np.array([0.1, 0.9]), [None, None])}
-    axes = plot_stability(curves, point=(0.3, 1.0))
-    labels = [text.get_text() for text in axes.get_legend().get_texts()]
-    assert labels == ["a", "b: no threshold exists", "working point"]
-    assert np.isnan(axes.get_lines()[0].get_ydata()[1])
-
-
-def test_accuracy_draws_microseconds():
-    axes = plot_accuracy({"short": (2e-6, 1e-2, 1e-1)}, reference="converged film")
-    assert axes.get_lines()[1].get_xdata()[0] == pytest.approx(2.0)
-    assert "converged film" in axes.get_title()
+def test_films_of_the_locus_have_the_line_of_their_family():
+    curves = {name: (np.array([0.1, 0.5]), np.array([1.4, 1.0])) for name in ("grid", "chart")}
+    _, grid, chart = plot_locus(curves, families={"grid": "2-D", "chart": "map"}).get_lines()
+    assert grid.get_linewidth() > chart.get_linewidth()
+    assert grid.get_zorder() < chart.get_zorder()
+    assert (grid.get_linestyle(), chart.get_linestyle()) == ("-", "--")
 
 
 def test_coupling_error_marks_the_limit_and_the_refused_runs():
@@ -63,3 +57,16 @@ def test_charts_draw_on_given_axes_and_save(tmp_path):
     assert plot_orbits({"a": orbit()}, clearance=1e-4, axes=axes) is axes
     path = save(axes, tmp_path / "chart.png")
     assert path.read_bytes().startswith(b"\x89PNG")
+
+
+def test_bush_charts_draw_what_they_are_given():
+    angle = np.array([0.1, 0.2])
+    axes = plot_critical_speed({"N = 1": (angle, np.array([1.0, 2.0]))})
+    np.testing.assert_allclose(axes.get_lines()[0].get_xydata(), [[0.1, 1.0], [0.2, 2.0]])
+    axes = plot_contact_pressure(
+        {"a": (angle, np.array([3e8, 0.0]))}, assumed={"a": (angle, np.array([6e8, 0.0]))}, modulus=3e8
+    )
+    drawn, dashed = axes.get_lines()
+    np.testing.assert_allclose(drawn.get_ydata(), [1.0, 0.0])
+    np.testing.assert_allclose(dashed.get_ydata(), [2.0, 0.0])
+    assert (dashed.get_linestyle(), dashed.get_color()) == ("--", drawn.get_color())

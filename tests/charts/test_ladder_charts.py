@@ -3,9 +3,15 @@
 import numpy as np
 import pytest
 
-from rotorfilm.charts import new_axes, plot_journal_accuracy, plot_journal_stability
+from rotorfilm.charts import (
+    new_axes,
+    plot_force_error,
+    plot_journal_accuracy,
+    plot_journal_stability,
+    plot_thresholds,
+)
 from rotorfilm.charts.labels import Label, place_labels
-from rotorfilm.charts.palette import BAD, DOUBTFUL, FAMILY_COLORS, GOOD
+from rotorfilm.charts.palette import BAD, DOUBTFUL, FAMILY_COLORS, FAMILY_WIDTHS, GOOD
 from rotorfilm.charts.whirl_verdicts import verdicts
 from rotorfilm.ladders import (
     LARGE,
@@ -58,8 +64,9 @@ def thresholds():
     )
 
 
-def test_every_family_has_a_color():
-    assert {rung.family for rung in journal_rungs()} == set(FAMILY_COLORS)
+def test_every_family_has_a_color_and_a_width():
+    assert {rung.family for rung in journal_rungs()} == set(FAMILY_COLORS) == set(FAMILY_WIDTHS)
+    assert len(set(FAMILY_WIDTHS.values())) == len(FAMILY_WIDTHS)
     assert len(set(FAMILY_COLORS.values())) == len(FAMILY_COLORS)
 
 
@@ -77,9 +84,21 @@ def test_stability_marks_missing_thresholds_and_dots_wrong_ones(thresholds):
     top, _, table = plot_journal_stability(thresholds)
     crosses = [line for line in top.get_lines() if line.get_marker() == "x"]
     np.testing.assert_array_equal(crosses[0].get_xdata(), [0.2, 0.5])
-    solid = [line for line in top.get_lines() if line.get_linestyle() == "-" and len(line.get_xdata()) == 3]
-    np.testing.assert_array_equal(solid[1].get_ydata(), [2.6, np.nan, np.nan])
+    width = FAMILY_WIDTHS["fixed arc"]
+    (fixed,) = [line for line in top.get_lines() if line.get_linewidth() == width]
+    np.testing.assert_array_equal(fixed.get_ydata(), [2.6, np.nan, np.nan])
     assert "published x" in [text.get_text() for text in table.texts]
+
+
+def test_wider_curves_lie_below_and_the_working_point_is_marked(thresholds):
+    axes = plot_thresholds(thresholds, point=(0.3, 1.0))
+    widths = [line.get_linewidth() for line in axes.get_lines() if line.get_linestyle() in ("-", "--")][:3]
+    assert widths == sorted(widths, reverse=True)
+    (star,) = [line for line in axes.get_lines() if line.get_marker() == "*"]
+    assert (star.get_xdata()[0], star.get_ydata()[0]) == (0.3, 1.0)
+    labels = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert labels[-1] == "working point"
+    assert "published x: no threshold exists" in [text.get_text() for text in axes.texts]
 
 
 def test_accuracy_draws_both_costs_and_the_gain_of_the_map():
@@ -93,7 +112,7 @@ def test_accuracy_draws_both_costs_and_the_gain_of_the_map():
     np.testing.assert_allclose([line.get_xdata()[0] for line in filled], [1.0, 3500.0, 0.1])
     np.testing.assert_allclose([line.get_ydata()[0] for line in filled], [1.0, 1e-4, 1e-5])
     assert "map 35 000 times cheaper" in [text.get_text() for text in batch.texts]
-    assert batch.get_ylim() == single.get_ylim()
+    assert batch.get_ylim() == single.get_ylim() == plot_force_error(result).get_ylim()
     assert "9 random states (seed 1)" in batch.get_figure().get_suptitle()
 
 

@@ -2,21 +2,21 @@
 
 import numpy as np
 import pytest
-from scipy.interpolate import make_interp_spline
+from scipy.interpolate import BSpline, make_interp_spline
 
 from rotorfilm.errors import InputError, RotorfilmError
 from rotorfilm.films import MapFilm, MapTable, ShortFilm, fit_map_table, tabulate_film
 from rotorfilm.films.map_fit import node_eccentricities
 from rotorfilm.films.map_table import stretch, unstretch
-from rotorfilm.films.quintic import quintic_coefficients, quintic_weights
+from rotorfilm.films.quintic import quintic_coefficients
 
 SMALL = tabulate_film(ShortFilm(), slenderness_range=(0.1, 4.0), cells=(8, 10, 5))
 
 
 def interpolated(values, at):
     cells = len(values) - 1
-    cell, weights = quintic_weights(at * cells, cells)
-    return weights @ quintic_coefficients(values)[cell : cell + 6]
+    knots = np.arange(-5, cells + 6) / cells
+    return float(BSpline(knots, quintic_coefficients(values), 5)(at))
 
 
 @pytest.mark.parametrize("cells", [5, 9])

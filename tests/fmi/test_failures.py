@@ -55,7 +55,7 @@ class Walled:
 
 @pytest.fixture
 def film(load, tmp_path):
-    instance = load(export_fmu(BEARING, tmp_path / "film.fmu", component="bearing"))
+    instance = load(export_fmu(BEARING, tmp_path / "film.fmu", backend="python", component="bearing"))
     instance.initialize(INSIDE)
     return instance
 
@@ -63,7 +63,7 @@ def film(load, tmp_path):
 @pytest.fixture
 def walled(write_module, load, tmp_path):
     model = write_module("walled_law", WALLED).Walled()
-    return load(export_fmu(model, tmp_path / "walled.fmu", component="point"))
+    return load(export_fmu(model, tmp_path / "walled.fmu", backend="python", component="point"))
 
 
 def status(call, *arguments):
@@ -94,7 +94,7 @@ def test_a_step_at_the_wall_is_an_error_too(film):
 
 
 def test_a_start_at_the_wall_is_an_error(load, tmp_path):
-    film = load(export_fmu(BEARING, tmp_path / "film.fmu", component="bearing"))
+    film = load(export_fmu(BEARING, tmp_path / "film.fmu", backend="python", component="bearing"))
     assert status(film.initialize, {"bearing.y": -1e-4}) == fmi2Fatal
 
 
@@ -139,7 +139,7 @@ def test_other_instances_go_on(film, load, tmp_path):
 
 
 def test_many_failures_neither_crash_nor_leak(load, tmp_path):
-    path = export_fmu(BEARING, tmp_path / "film.fmu", component="counted")
+    path = export_fmu(BEARING, tmp_path / "film.fmu", backend="python", component="counted")
     film = load(path)
     film.initialize()
     film.set({"counted.x": 1.2e-4})
@@ -166,7 +166,7 @@ def test_outputs_cannot_be_set(film):
 
 
 def test_states_cannot_be_set_once_it_runs(load, tmp_path):
-    rotor = load(export_fmu(ROTOR, tmp_path / "rotor.fmu", component="rotor"))
+    rotor = load(export_fmu(ROTOR, tmp_path / "rotor.fmu", backend="python", component="rotor"))
     rotor.initialize()
     assert status(rotor.set, {"rotor.state_x": 1e-5}) == fmi2Fatal
     assert "rotor.state_x is a calculated local" in rotor.log[-1][1]
@@ -189,7 +189,7 @@ def test_a_step_from_elsewhere_is_refused(film, time, step):
 
 
 def test_a_step_before_initialization_is_refused(load, tmp_path):
-    rotor = load(export_fmu(ROTOR, tmp_path / "rotor.fmu", component="rotor"))
+    rotor = load(export_fmu(ROTOR, tmp_path / "rotor.fmu", backend="python", component="rotor"))
     assert status(rotor.fmu.doStep, 0.0, 1e-3) == fmi2Fatal
     assert "do_step must follow exit_initialization_mode" in rotor.log[-1][1]
 
@@ -217,7 +217,9 @@ def test_an_output_that_is_not_finite_is_an_error(walled):
 
 
 def test_fmpy_stops_at_the_last_good_time(write_module, tmp_path):
-    path = export_fmu(write_module("walled_law", WALLED).Walled(), tmp_path / "a.fmu", component="point")
+    path = export_fmu(
+        write_module("walled_law", WALLED).Walled(), tmp_path / "a.fmu", backend="python", component="point"
+    )
     result = fmpy.simulate_fmu(
         str(path), start_values={"point.v": 1.0}, stop_time=2.0, step_size=0.1, output_interval=0.1
     )

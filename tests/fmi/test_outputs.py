@@ -54,7 +54,7 @@ def closed_form(t, force):
 
 @pytest.mark.parametrize("bearing", FILMS.values(), ids=FILMS)
 def test_the_force_is_that_of_a_direct_call(bearing, load, tmp_path):
-    fmu = load(export_fmu(bearing, tmp_path / "a.fmu", component="bearing"))
+    fmu = load(export_fmu(bearing, tmp_path / "a.fmu", backend="python", component="bearing"))
     fmu.initialize()
     for state in random_states(20):
         fmu.set(dict(zip(INPUTS, state, strict=True)))
@@ -63,7 +63,7 @@ def test_the_force_is_that_of_a_direct_call(bearing, load, tmp_path):
 
 def test_outputs_are_valid_at_the_start(load, tmp_path):
     state = random_states(1)[0]
-    fmu = load(export_fmu(BEARING, tmp_path / "a.fmu", component="bearing"))
+    fmu = load(export_fmu(BEARING, tmp_path / "a.fmu", backend="python", component="bearing"))
     fmu.initialize(dict(zip(INPUTS, state, strict=True)))
     np.testing.assert_allclose(fmu.get(*FORCES), BEARING.output(0.0, (), state), rtol=1e-12)
 
@@ -71,7 +71,7 @@ def test_outputs_are_valid_at_the_start(load, tmp_path):
 def test_start_values_hold_without_being_set(load, tmp_path):
     state = random_states(1)[0]
     start = dict(zip([name.split(".")[1] for name in INPUTS], state, strict=True))
-    fmu = load(export_fmu(BEARING, tmp_path / "a.fmu", component="bearing", start=start))
+    fmu = load(export_fmu(BEARING, tmp_path / "a.fmu", backend="python", component="bearing", start=start))
     fmu.initialize()
     assert fmu.get(*INPUTS) == state.tolist()
     np.testing.assert_allclose(fmu.get(*FORCES), BEARING.output(0.0, (), state), rtol=1e-12)
@@ -79,7 +79,7 @@ def test_start_values_hold_without_being_set(load, tmp_path):
 
 def test_outputs_follow_one_input_without_a_step(load, tmp_path):
     first, second = random_states(2)
-    fmu = load(export_fmu(BEARING, tmp_path / "a.fmu", component="bearing"))
+    fmu = load(export_fmu(BEARING, tmp_path / "a.fmu", backend="python", component="bearing"))
     fmu.initialize(dict(zip(INPUTS, first, strict=True)))
     fmu.get(*FORCES)
     fmu.set({"bearing.speed": second[4]})
@@ -90,7 +90,7 @@ def test_outputs_follow_one_input_without_a_step(load, tmp_path):
 @pytest.mark.parametrize("steps", [1, 7, 100])
 def test_the_rotor_moves_as_its_closed_form(steps, load, tmp_path):
     force, duration = np.array([20.0, -30.0]), 0.05
-    fmu = load(export_fmu(ROTOR, tmp_path / "a.fmu", component="rotor"))
+    fmu = load(export_fmu(ROTOR, tmp_path / "a.fmu", backend="python", component="rotor"))
     fmu.initialize({"rotor.force_x": force[0], "rotor.force_y": force[1]})
     for k in range(steps):
         fmu.fmu.doStep(k * duration / steps, duration / steps)
@@ -101,7 +101,7 @@ def test_the_rotor_moves_as_its_closed_form(steps, load, tmp_path):
 
 @pytest.mark.parametrize("rotor", ROTORS.values(), ids=ROTORS)
 def test_the_rotor_answers_as_a_direct_call_at_the_start(rotor, load, tmp_path):
-    path = export_fmu(rotor, tmp_path / "a.fmu", component="rotor")
+    path = export_fmu(rotor, tmp_path / "a.fmu", backend="python", component="rotor")
     generator = np.random.default_rng(3)
     scale = [signal.nominal for signal in (*rotor.states, *rotor.inputs)]
     for value in generator.normal(0.0, scale, (10, 6)):
@@ -112,13 +112,13 @@ def test_the_rotor_answers_as_a_direct_call_at_the_start(rotor, load, tmp_path):
 
 
 def test_the_rotor_starts_where_it_is_put(load, tmp_path):
-    fmu = load(export_fmu(ROTOR, tmp_path / "a.fmu", component="rotor"))
+    fmu = load(export_fmu(ROTOR, tmp_path / "a.fmu", backend="python", component="rotor"))
     fmu.initialize({"rotor.state_x": 2e-5, "rotor.state_vy": -1e-3})
     assert fmu.get(*MOTION, "rotor.speed") == [2e-5, 0.0, 0.0, -1e-3, SPEED]
 
 
 def test_the_rotor_knows_the_start_time(load, tmp_path):
-    fmu = load(export_fmu(ROTOR, tmp_path / "a.fmu", component="rotor"))
+    fmu = load(export_fmu(ROTOR, tmp_path / "a.fmu", backend="python", component="rotor"))
     fmu.initialize(time=0.012)
     fmu.fmu.doStep(0.012, 1e-6)
     phase = SPEED * (0.012 + 0.5e-6)
@@ -127,7 +127,9 @@ def test_the_rotor_knows_the_start_time(load, tmp_path):
 
 
 def test_fmpy_simulates_the_exported_file(tmp_path):
-    path = export_fmu(ROTOR, tmp_path / "a.fmu", component="rotor", stop_time=0.02, step_size=0.001)
+    path = export_fmu(
+        ROTOR, tmp_path / "a.fmu", backend="python", component="rotor", stop_time=0.02, step_size=0.001
+    )
     result = fmpy.simulate_fmu(str(path), start_values={"rotor.force_x": 20.0}, output=MOTION)
     end = result[-1]
     assert end["time"] == pytest.approx(0.02)
@@ -137,7 +139,7 @@ def test_fmpy_simulates_the_exported_file(tmp_path):
 
 def test_a_users_own_model_runs(write_module, load, tmp_path):
     model = write_module("own_law").Proportional()
-    fmu = load(export_fmu(model, tmp_path / "a.fmu", component="own"))
+    fmu = load(export_fmu(model, tmp_path / "a.fmu", backend="python", component="own"))
     fmu.initialize({"own.a": 3.0})
     assert fmu.get("own.b") == [6.0]
 
@@ -155,7 +157,7 @@ def test_a_users_dataclass_may_extend_a_bearing(write_module, load, tmp_path):
         "        return self.factor * super().output(t, x, u)\n",
     )
     twin = law.Twin(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
-    fmu = load(export_fmu(twin, tmp_path / "a.fmu", component="twin"))
+    fmu = load(export_fmu(twin, tmp_path / "a.fmu", backend="python", component="twin"))
     state = random_states(1)[0]
     fmu.initialize(dict(zip([f"twin.{name.split('.')[1]}" for name in INPUTS], state, strict=True)))
     expected = 2.0 * BEARING.output(0.0, (), state)

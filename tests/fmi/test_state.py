@@ -14,7 +14,7 @@ FORCE = {"rotor.force_x": 1.0 / 3.0, "rotor.force_y": -np.pi}
 
 @pytest.fixture
 def path(tmp_path):
-    return export_fmu(ROTOR, tmp_path / "rotor.fmu", component="rotor")
+    return export_fmu(ROTOR, tmp_path / "rotor.fmu", backend="python", component="rotor")
 
 
 @pytest.fixture
@@ -90,7 +90,7 @@ def test_the_state_of_something_else_is_refused(rotor, data):
 
 def test_the_state_of_a_film_is_its_input(load, tmp_path):
     bearing = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
-    film = load(export_fmu(bearing, tmp_path / "film.fmu", component="bearing"))
+    film = load(export_fmu(bearing, tmp_path / "film.fmu", backend="python", component="bearing"))
     film.initialize({"bearing.x": 3e-5, "bearing.speed": 157.0})
     saved, force = film.fmu.getFMUstate(), film.get("bearing.force_x")
     film.set({"bearing.x": 5e-5})

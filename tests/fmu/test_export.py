@@ -13,13 +13,13 @@ from fmpy.validation import validate_fmu
 
 from rotorfilm.bearings.journal import JournalBearing
 from rotorfilm.errors import FmuError, InputError
-from rotorfilm.films import RotatingArc, ShortFilm, SplittingFilm
+from rotorfilm.films import MapFilm, RotatingArc, ShortFilm, SplittingFilm
 from rotorfilm.fmu import archive, export_fmu
 from rotorfilm.rotors.rigid import RigidRotor
 from rotorfilm.units import UNITS
 
-BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
-SHORT = replace(BEARING, film=ShortFilm())
+BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())
+MAP = replace(BEARING, film=MapFilm())
 SPLIT = replace(BEARING, film=SplittingFilm(order=(2, 1), rupture=RotatingArc()))
 ROTOR = RigidRotor(mass=50.0, speed=157.0, unbalance=8e-4)
 
@@ -28,7 +28,7 @@ import sys
 from rotorfilm.bearings.journal import JournalBearing
 from rotorfilm.fmu import export_fmu
 bearing = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
-export_fmu(bearing, sys.argv[1], component="bearing")
+export_fmu(bearing, sys.argv[1], backend="python", component="bearing")
 """
 
 RUN_ALONE = """
@@ -57,9 +57,9 @@ class Wrapped:
     a: float = 1.0
 
 
-@pytest.mark.parametrize("model", [BEARING, SHORT, SPLIT, ROTOR], ids=["map", "short", "split", "rotor"])
+@pytest.mark.parametrize("model", [MAP, BEARING, SPLIT, ROTOR], ids=["map", "short", "split", "rotor"])
 def test_fmpy_finds_nothing_wrong(model, tmp_path):
-    assert validate_fmu(str(export_fmu(model, tmp_path / "a.fmu"))) == []
+    assert validate_fmu(str(export_fmu(model, tmp_path / "a.fmu", backend="python"))) == []
 
 
 def test_equal_models_give_equal_bytes(tmp_path):
@@ -69,7 +69,8 @@ def test_equal_models_give_equal_bytes(tmp_path):
 
 
 def test_another_process_builds_the_same_bytes(tmp_path):
-    here = export_fmu(BEARING, tmp_path / "a.fmu", component="bearing")
+    bearing = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
+    here = export_fmu(bearing, tmp_path / "a.fmu", backend="python", component="bearing")
     environment = {**os.environ, "PYTHONHASHSEED": "1"}
     command = [sys.executable, "-c", EXPORT_ELSEWHERE, str(tmp_path / "b.fmu")]
     subprocess.run(command, check=True, env=environment, cwd=tmp_path)
@@ -92,9 +93,9 @@ def test_the_guid_changes_with_the_content(change, tmp_path):
     assert fmpy.read_model_description(str(first)).guid != fmpy.read_model_description(str(second)).guid
 
 
-@pytest.mark.parametrize("model", [BEARING, SHORT], ids=["map", "short"])
+@pytest.mark.parametrize("model", [MAP, BEARING], ids=["map", "short"])
 def test_the_fmu_needs_neither_this_package_nor_its_own_folder(model, tmp_path):
-    path = export_fmu(model, tmp_path / "a.fmu", component="bearing")
+    path = export_fmu(model, tmp_path / "a.fmu", backend="python", component="bearing")
     command = [sys.executable, "-c", RUN_ALONE, str(path)]
     answer = subprocess.run(command, check=False, capture_output=True, text=True, cwd=tmp_path)
     # The model's data is read and its source imported at the start; after that the files may go.
@@ -129,7 +130,8 @@ def test_the_structure_names_the_dependencies(tmp_path):
     assert [{v.name.split(".")[1] for v in u.dependencies} for u in film.outputs] == [
         {"x", "y", "vx", "vy", "speed"}
     ] * 2
-    rotor = fmpy.read_model_description(str(export_fmu(ROTOR, tmp_path / "b.fmu", component="r")))
+    path = export_fmu(ROTOR, tmp_path / "b.fmu", backend="python", component="r")
+    rotor = fmpy.read_model_description(str(path))
     assert [u.dependencies for u in rotor.outputs] == [[]] * 5
     assert [[v.name for v in u.dependencies] for u in rotor.initialUnknowns] == [
         ["r.state_x"],
@@ -141,7 +143,7 @@ def test_the_structure_names_the_dependencies(tmp_path):
 
 
 def test_documentation_and_licenses_are_inside(tmp_path):
-    path = export_fmu(SHORT, tmp_path / "a.fmu", component="bearing")
+    path = export_fmu(BEARING, tmp_path / "a.fmu", component="bearing")
     with zipfile.ZipFile(path) as archive:
         entries = archive.namelist()
         page = archive.read("documentation/index.html").decode()
@@ -155,7 +157,8 @@ def test_documentation_and_licenses_are_inside(tmp_path):
 
 
 def test_a_model_with_compiled_code_is_offered_on_the_platform_of_that_code_alone(tmp_path):
-    with zipfile.ZipFile(export_fmu(BEARING, tmp_path / "a.fmu", component="bearing")) as archive:
+    path = export_fmu(MAP, tmp_path / "a.fmu", backend="python", component="bearing")
+    with zipfile.ZipFile(path) as archive:
         entries = archive.namelist()
     compiled = {name.rpartition(".")[2] for name in entries if name.startswith("resources/")} & {"so", "dll"}
     offered = {name.rpartition(".")[2] for name in entries if name.startswith("binaries/")}
@@ -177,12 +180,15 @@ def test_the_component_is_named_after_the_class_by_default(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"version": "3.0"}, r"version must be '2\.0' for the python backend.*got '3\.0'"),
-        ({"version": "1.0"}, r"version must be '2\.0', got '1\.0'"),
-        ({"backend": "native"}, "backend must be 'python', got 'native'"),
+        ({"version": "1.0"}, r"version must be one of \['2\.0', '3\.0'\], got '1\.0'"),
+        ({"backend": "java"}, r"backend must be one of \['native', 'python'\] or None, got 'java'"),
+        ({"platforms": "mine"}, r"platforms must be one of \['host', 'all'\], got 'mine'"),
         ({"component": "a.b"}, r"component must be an ASCII identifier without dots, got 'a\.b'"),
         ({"start": {"z": 1.0}}, r"start must have keys from the inputs \['x', .*got 'z'"),
-        ({"start": {"x": 2e-4}}, r"start must be values at which the model has an output, got .*0\.0002"),
+        (
+            {"start": {"x": 2e-4}},
+            r"start must be values at which the model has an output, got \[0\.0002, .*inside the clearance",
+        ),
         ({"path": "a.zip"}, r"path must end in \.fmu, got 'a\.zip'"),
         ({"start": {"x": np.nan}}, r"start\['x'\] must be finite, got nan"),
         ({"stop_time": 0.0}, "stop_time must be finite and positive, got 0.0"),
@@ -192,6 +198,20 @@ def test_the_component_is_named_after_the_class_by_default(tmp_path):
 def test_bad_arguments_are_refused(arguments, message, tmp_path):
     with pytest.raises(InputError, match=message):
         export_fmu(**{"model": BEARING, "path": tmp_path / "a.fmu", **arguments})
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"version": "3.0"}, r"version must be '2\.0' for the python backend.*got '3\.0'"),
+        ({"platforms": "all"}, "platforms must be 'host' for the python backend.*got 'all'"),
+        ({"backend": "native"}, r"model must have a kernel .*got JournalBearing\(.*use backend='python'"),
+    ],
+)
+def test_what_a_model_without_kernel_cannot_is_refused(arguments, message, tmp_path):
+    with pytest.raises(FmuError, match=message):
+        export_fmu(BEARING, tmp_path / "a.fmu", **arguments)
     assert list(tmp_path.iterdir()) == []
 
 

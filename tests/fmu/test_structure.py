@@ -6,10 +6,13 @@ import numpy as np
 
 from rotorfilm.bearings.journal import JournalBearing
 from rotorfilm.errors import UndefinedDerivativeError
+from rotorfilm.films import ShortFilm
 from rotorfilm.fmu.structure import dependencies
 from rotorfilm.model import static_linearization
 from rotorfilm.rotors.rigid import RigidRotor
 from rotorfilm.signals import Signal
+
+BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())
 
 
 def signals(*names):
@@ -44,11 +47,23 @@ def test_without_derivatives_everything_may_depend():
 
 
 def test_a_film_feeds_every_input_through():
-    bearing = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
-    assert dependencies(bearing, np.zeros(5)).on_inputs.all()
+    assert dependencies(BEARING, np.zeros(5)).on_inputs.all()
 
 
 def test_a_rotor_feeds_nothing_through():
     found = dependencies(RigidRotor(mass=50.0, speed=157.0), np.zeros(2))
-    assert not found.on_inputs.any()
-    assert found.on_states.tolist() == np.eye(5, 4, dtype=bool).tolist()
+    assert not found.on_inputs[:5].any()
+    assert found.on_inputs[5:].tolist() == np.eye(4, 2, k=-2, dtype=bool).tolist()
+    outputs, derivatives = np.split(found.on_states, [5])
+    assert outputs.tolist() == np.eye(5, 4, dtype=bool).tolist()
+    assert derivatives.tolist() == np.eye(4, k=2, dtype=bool).tolist()
+
+
+def test_what_is_linear_and_what_depends_on_time():
+    rotor = RigidRotor(mass=50.0, speed=157.0, unbalance=1e-3)
+    found = dependencies(rotor, np.zeros(2), (0.0, 0.01))
+    assert not found.bent.any()
+    assert found.on_time.tolist() == [False] * 5 + [False, False, True, True]
+    film = dependencies(BEARING, np.array([1e-5, 0.0, 0.0, 0.0, 100.0]), (0.0, 0.01))
+    assert film.bent.all()
+    assert not film.on_time.any()

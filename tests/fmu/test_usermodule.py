@@ -34,7 +34,7 @@ def test_a_bundle_holds_what_its_modules_import_and_no_more():
     modules = bundle_source({"rotorfilm.rotors.rigid"}).modules
     assert {"rotorfilm.rotors.rigid", "rotorfilm.rotors.profile", "rotorfilm.errors"} <= set(modules)
     parts = {name.split(".")[1] for name in modules if "." in name}
-    assert parts <= {"errors", "units", "signals", "model", "results", "rotors", "fmu"}
+    assert parts <= {"errors", "units", "signals", "model", "results", "rotors", "fmu", "native"}
 
 
 def test_a_name_is_imported_from_where_it_is_defined(write_module):

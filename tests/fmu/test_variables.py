@@ -7,6 +7,7 @@ import pytest
 from rotorfilm.bearings.journal import JournalBearing
 from rotorfilm.errors import FmuError
 from rotorfilm.fmu import fmi_variables
+from rotorfilm.fmu.variables import structured_name
 from rotorfilm.rotors.rigid import RigidRotor
 from rotorfilm.signals import Signal, from_fmi_name, names
 
@@ -27,7 +28,8 @@ def test_fmi_names_and_signals_are_a_bijection(model):
     assert len({v.name for v in variables}) == len(variables)
     expected = [*names(model.inputs), *names(model.outputs), *("state_" + n for n in names(model.states))]
     assert [from_fmi_name(v.name) for v in variables] == [("part", name) for name in expected]
-    assert [v.signal for v in variables] == [*model.inputs, *model.outputs, *model.states]
+    signals = [*model.inputs, *model.outputs, *model.states]
+    assert [v[2:5] for v in variables] == [(s.unit, s.nominal, s.description) for s in signals]
 
 
 def test_states_start_where_the_model_starts():
@@ -50,3 +52,17 @@ def test_outputs_have_no_start_value():
 def test_signals_of_equal_name_are_refused():
     with pytest.raises(FmuError, match=r"different names.*'part\.x'"):
         fmi_variables(Clashing(), "part", {})
+
+
+@pytest.mark.parametrize(
+    ("label", "name"),
+    [("x", "part.x"), ("u[0]", "part.u[0]"), ("x.1", "part.'x.1'"), ("rotor speed", "part.'rotor speed'")],
+)
+def test_labels_that_are_no_identifiers_are_spelled_as_fmi_wants(label, name):
+    assert structured_name("part", label) == name
+
+
+@pytest.mark.parametrize("label", ["\u03c9", "it's", 'a"b', "a\nb", ""])
+def test_labels_that_fmi_has_no_letters_for_are_refused(label):
+    with pytest.raises(FmuError, match="signal names must be of ASCII letters"):
+        structured_name("part", label)

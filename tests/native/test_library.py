@@ -36,10 +36,15 @@ def test_only_the_interface_is_visible():
     )
     symbols = [line.split()[-1] for line in listed.stdout.splitlines()]
     assert symbols
-    assert all(name.startswith("rf_") for name in symbols)
+    assert all(name.startswith(("rf_", "fmi2", "fmi3")) for name in symbols)
 
 
 def test_missing_library_says_what_to_do(monkeypatch):
     monkeypatch.setattr(library, "SUFFIXES", dict.fromkeys(("linux", "darwin", "win32"), ".absent"))
     with pytest.raises(NativeLibraryError, match=r"rotorfilm\.absent of rotorfilm is missing.*C compiler"):
         library._load(ctypes.CDLL)
+
+
+def test_library_of_another_version_says_what_to_do():
+    with pytest.raises(NativeLibraryError, match=r"of another version \(.*rf_absent.*cmake"):
+        library._typed(ctypes.CDLL, {"rf_absent": []})

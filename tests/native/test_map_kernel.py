@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import BSpline
 
-from rotorfilm.native import JournalKernel, MapKernel, Status
+from rotorfilm.native import JournalKernel, MapKernel, Status, slice_table
 
 CELLS_X, CELLS_T, REACH, CENTER = 7, 9, 3.0, -0.4
 
@@ -199,3 +199,27 @@ def test_coefficients_must_fit():
         MapKernel(np.zeros((5, 6)), 1.0, 0.0)
     with pytest.raises(ValueError, match="speed must have shape"):
         JournalKernel(MAP, 1e-4, 1.0).force(np.zeros((2, 3)), np.zeros((2, 3)), np.zeros(2))
+
+
+def test_a_force_that_overflows_in_si_units_is_no_number():
+    journal = JournalKernel(MAP, 1e-4, 1e300)
+    assert journal.call(3e-5, 4e-5, 1e5, 0.0, 1e5)[2] == Status.NOT_FINITE
+    *_, jacobian, status = journal.tangent(3e-5, 4e-5, 1e5, 0.0, 1e5)
+    assert status == Status.NOT_FINITE
+    assert np.isnan(jacobian).all()
+
+
+def test_slices_of_the_universal_table_are_its_splines():
+    rng = np.random.default_rng(8)
+    coefficients, center = rng.normal(size=(12, 7, 9)), rng.normal(size=12)
+    knots = np.log(0.1) + np.arange(-5, 13) * np.log(4.0 / 0.1) / 7
+    for slenderness in (0.1, 0.10001, 0.25, 1.0, 3.999, 4.0):
+        sliced, middle = slice_table(coefficients, center, (0.1, 4.0), slenderness)
+        at = np.clip(np.log(slenderness), np.log(0.1), np.log(4.0))
+        np.testing.assert_allclose(sliced, BSpline(knots, coefficients, 5)(at), atol=1e-14)
+        assert middle == pytest.approx(float(BSpline(knots, center, 5)(at)), abs=1e-14)
+    only, middle = slice_table(coefficients[:1], center[:1], (0.5, 0.5), 0.5)
+    np.testing.assert_array_equal(only, coefficients[0])
+    assert middle == center[0]
+    with pytest.raises(ValueError, match=r"slenderness must be within \(0.1, 4.0\), got 4.1"):
+        slice_table(coefficients, center, (0.1, 4.0), 4.1)

@@ -14,8 +14,16 @@ from rotorfilm.linear import equilibrium
 from rotorfilm.scenes import bundled_scene
 from rotorfilm.scenes.demo import plain_results, run_demo
 
-FILES = {"film.fmu", "rotor.fmu", "results.json", "monolithic.csv", "coupled.csv"}
-CHARTS = ["orbit.png", "locus.png", "stability.png", "accuracy.png", "coupling.png"]
+FILES = {
+    "film.fmu",
+    "rotor.fmu",
+    "results.json",
+    "monolithic.csv",
+    "coupled.csv",
+    "stability.csv",
+    "accuracy.csv",
+}
+CHARTS = ["demo.png", "orbit.png", "locus.png", "stability.png", "accuracy.png", "coupling.png"]
 
 
 @pytest.fixture(scope="module")
@@ -73,6 +81,12 @@ def test_results_are_on_disk(demo):
     assert {path.name for path in folder.iterdir()} >= FILES
     written = json.loads((folder / "results.json").read_text(encoding="utf-8"))
     assert written == json.loads(json.dumps(plain_results(result)))
+    compared = [rung["family"] for rung in written["accuracy"]["rungs"]]
+    assert compared == [rung["family"] for rung in written["stability"]["rungs"]]
+    assert list(dict.fromkeys(compared)) == [
+        "short film", "published", "fixed arc", "rotating arc", "free arc", "2-D", "map",
+    ]  # fmt: skip
+    assert len(written["attitude_angle"]["map"]) == len(written["stability"]["eccentricity_ratio"])
     assert written["answer"]["model"] == "MapFilm(table=None)"
     # Another film with Reynolds rupture, in one axial mode for its ends: within .1 % of the clearance.
     free = SplittingFilm(order=(4, 8), constant=True, rupture=ComplementarityArc())

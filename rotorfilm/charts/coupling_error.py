@@ -1,41 +1,11 @@
-"""Charts of accuracy against cost: films over their evaluation time, coupling over the macro step."""
+"""Chart of the error of a coupled run over its macro step."""
 
 from __future__ import annotations
-
-from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
 
 from .canvas import new_axes
-
-
-def plot_accuracy(
-    rungs: Mapping[str, tuple[float, float, float]], *, reference: str, axes: Axes | None = None
-) -> Axes:
-    """Draw the error of each rung against its cost.
-
-    Parameters
-    ----------
-    rungs : mapping of str to (float, float, float)
-        Label, cost of one force [s], median error [1] and 99th percentile of the error [1].
-    reference : str
-        What the errors are measured against, printed in the title.
-    axes : Axes, optional
-        Where to draw; a new figure by default.
-    """
-    axes = axes or new_axes(f"Force error against cost\nreference: {reference}", size=(7.0, 5.2))
-    for number, (label, (cost, median, worst)) in enumerate(rungs.items()):
-        color = f"C{number % 10}"
-        axes.plot([1e6 * cost] * 2, [median, worst], "-", color=color, linewidth=1.0)
-        axes.plot(1e6 * cost, median, "o", color=color, label=label)
-        axes.plot(1e6 * cost, worst, "_", color=color, markersize=12)
-    axes.set(xscale="log", yscale="log")
-    axes.set(
-        xlabel="time of one force in a batch [us]", ylabel="relative force error (dot: median, bar: 99 %)"
-    )
-    axes.legend(fontsize=8)
-    return axes
 
 
 def plot_coupling_error(

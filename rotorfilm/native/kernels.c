@@ -1,0 +1,46 @@
+#include "kernel.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+extern const rf_kernel_type rf_journal_type, rf_linear_type, rf_rigid_rotor_type;
+
+static const rf_kernel_type *const KERNELS[] = {
+    &rf_journal_type,
+    &rf_linear_type,
+    &rf_rigid_rotor_type,
+};
+
+const rf_kernel_type *rf_find_kernel(const char *name)
+{
+    for (size_t i = 0; i < sizeof KERNELS / sizeof *KERNELS; ++i)
+        if (strcmp(KERNELS[i]->name, name) == 0)
+            return KERNELS[i];
+    return NULL;
+}
+
+const rf_table *rf_find_table(const rf_tables *tables, const char *name, uint32_t axes, rf_message *why)
+{
+    for (size_t i = 0; i < tables->count; ++i) {
+        const rf_table *table = tables->list + i;
+        if (strcmp(table->name, name) != 0)
+            continue;
+        if (table->axes == axes)
+            return table;
+        rf_say(why, RF_INVALID, "table %s must have %u axes, got %u", name, (unsigned)axes,
+               (unsigned)table->axes);
+        return NULL;
+    }
+    rf_say(why, RF_INVALID, "tables must contain %s, got %zu others", name, tables->count);
+    return NULL;
+}
+
+int rf_say(rf_message *message, int status, const char *format, ...)
+{
+    va_list values;
+    va_start(values, format);
+    vsnprintf(message->text, sizeof message->text, format, values);
+    va_end(values);
+    return status;
+}

@@ -1,0 +1,130 @@
+"""The file `resources/rotorfilm.bin` of a native FMU: all that the C library reads (`native/resource.h`)."""
+
+from __future__ import annotations
+
+import math
+import struct
+import zlib
+from collections.abc import Iterator, Sequence
+from enum import IntEnum
+from typing import NamedTuple
+
+import numpy as np
+
+from ..errors import InputError
+from ..model import Array
+from .spec import NativeSpec
+
+FILE_NAME = "rotorfilm.bin"
+MAGIC = b"RFILMRES"
+VERSION = 1
+
+_HEADER = struct.Struct("<8sIIQ")  # magic, version, checksum of what follows the header, size of the file
+_MODEL = struct.Struct("<128s32sIIII")  # token, kernel, variables, tables, two reserved
+# role, index, flags, reserved, start, minimum, maximum, nominal, name
+_VARIABLE = struct.Struct("<IIII4d48s")
+_TABLE = struct.Struct("<32sIIIIIIQ")  # name, axes, four extents, reserved, offset in the file
+_TUNABLE = 1
+
+
+class Role(IntEnum):
+    """What a variable is to the kernel, in the order of the value references."""
+
+    TIME = 0
+    PARAMETER = 1
+    INPUT = 2
+    OUTPUT = 3
+    STATE = 4
+    DERIVATIVE = 5
+
+
+class NativeVariable(NamedTuple):
+    """One variable of the file; its value reference is its place in the list.
+
+    Attributes
+    ----------
+    role : Role
+    name : str
+        For messages: at most 47 bytes are kept.
+    start : float
+        Start value; of a state, the initial state. Not used for outputs and derivatives.
+    nominal : float
+    minimum, maximum : float
+        Bounds, enforced for parameters.
+    tunable : bool
+        Of a parameter: whether it may be set between steps.
+    """
+
+    role: Role
+    name: str
+    start: float = 0.0
+    nominal: float = 1.0
+    minimum: float = -math.inf
+    maximum: float = math.inf
+    tunable: bool = False
+
+
+def pack(spec: NativeSpec, token: str, variables: Sequence[NativeVariable]) -> bytes:
+    """Return the content of the file.
+
+    Parameters
+    ----------
+    spec : NativeSpec
+    token : str
+        FMI 2 guid, FMI 3 instantiationToken: what the simulator must present. At most 127 bytes.
+    variables : sequence of NativeVariable
+        In the order of their value references, roles ascending.
+
+    Raises
+    ------
+    InputError
+        If a text is too long, the roles are not in order or the parameters are not those of the kernel.
+    """
+    _require_order(spec, variables)
+    tables = sorted(spec.tables.items())
+    entries = b"".join(_variables(variables))
+    offset = _HEADER.size + _MODEL.size + len(entries) + len(tables) * _TABLE.size
+    numbers = [np.asarray(table, dtype="<f8") for _, table in tables]
+    directory = b""
+    for (name, _), array in zip(tables, numbers, strict=True):
+        directory += _directory(name, array, offset)
+        offset += array.nbytes
+    head = _MODEL.pack(
+        _text("token", token, 128), _text("kernel", spec.kernel, 32), len(variables), len(tables), 0, 0
+    )
+    body = b"".join([head, entries, directory, *(array.tobytes() for array in numbers)])
+    return _HEADER.pack(MAGIC, VERSION, zlib.crc32(body), _HEADER.size + len(body)) + body
+
+
+def _require_order(spec: NativeSpec, variables: Sequence[NativeVariable]) -> None:
+    roles = [variable.role for variable in variables]
+    counts = {role: roles.count(role) for role in Role}
+    if roles != sorted(roles) or counts[Role.TIME] != 1:
+        raise InputError(
+            f"variables must be time, parameters, inputs, outputs, states, derivatives, got {roles}"
+        )
+    if counts[Role.PARAMETER] != len(spec.parameters) or counts[Role.STATE] != counts[Role.DERIVATIVE]:
+        raise InputError(
+            f"variables must have {len(spec.parameters)} parameters and one derivative per state, got {roles}"
+        )
+
+
+def _variables(variables: Sequence[NativeVariable]) -> Iterator[bytes]:
+    seen = dict.fromkeys(Role, 0)
+    for role, name, start, nominal, minimum, maximum, tunable in variables:
+        kept = name.encode()[:47].decode(errors="ignore").encode()
+        flags = _TUNABLE if tunable else 0
+        yield _VARIABLE.pack(role, seen[role], flags, 0, start, minimum, maximum, nominal, kept)
+        seen[role] += 1
+
+
+def _directory(name: str, array: Array, offset: int) -> bytes:
+    extents = [*array.shape, 0, 0, 0, 0][:4]
+    return _TABLE.pack(_text("table", name, 32), array.ndim, *extents, 0, offset)
+
+
+def _text(what: str, text: str, size: int) -> bytes:
+    data = text.encode()
+    if len(data) >= size or b"\0" in data:
+        raise InputError(f"{what} must have less than {size} bytes, got {text!r}")
+    return data

@@ -1,0 +1,103 @@
+"""What a model with a kernel in the C library says of itself: the kernel's name, its numbers and tables."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+
+from ..errors import InputError, require_positive
+from ..model import Array
+from ..units import UNITS
+
+
+@dataclass(frozen=True, kw_only=True)
+class NativeParameter:
+    """A number of a kernel that a simulator may set.
+
+    Parameters
+    ----------
+    name : str
+        Identifier, unique within the kernel.
+    unit : str
+        SI unit, a key of `rotorfilm.units.UNITS`.
+    value : float
+        Its value in the model, the start value.
+    tunable : bool
+        Whether it may be set between steps; otherwise only before and during initialization.
+    minimum, maximum : float
+        Both allowed; infinite where there is no bound.
+    nominal : float
+        Positive typical magnitude.
+    description : str
+        What it is and its sign.
+
+    Raises
+    ------
+    InputError
+        If the value is not finite or outside its bounds, or a field breaks its rule.
+    """
+
+    name: str
+    unit: str
+    value: float
+    tunable: bool
+    minimum: float = -math.inf
+    maximum: float = math.inf
+    nominal: float = 1.0
+    description: str = ""
+
+    def __post_init__(self) -> None:
+        if not self.name.isidentifier():
+            raise InputError(f"name must be an identifier without dots, got {self.name!r}")
+        if self.unit not in UNITS:
+            raise InputError(f"unit must be one of {sorted(UNITS)}, got {self.unit!r}")
+        if not (math.isfinite(self.value) and self.minimum <= self.value <= self.maximum):
+            raise InputError(
+                f"value of {self.name} must be within {self.minimum!r} and {self.maximum!r}, "
+                f"got {self.value!r}"
+            )
+        require_positive("nominal", self.nominal)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class NativeSpec:
+    """A kernel of the C library with its numbers.
+
+    Parameters
+    ----------
+    kernel : str
+        Name in `native/kernels.c`.
+    parameters : tuple of NativeParameter
+        In the order of the kernel.
+    tables : mapping of str to ndarray
+        Finite numbers of at most four axes, by the name that the kernel asks for.
+
+    Raises
+    ------
+    InputError
+        If two parameters have one name, or a table is not finite or has more than four axes.
+    """
+
+    kernel: str
+    parameters: tuple[NativeParameter, ...] = ()
+    tables: Mapping[str, Array] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        names = [parameter.name for parameter in self.parameters]
+        if len(set(names)) < len(names):
+            raise InputError(f"parameters must have different names, got {names}")
+        for name, table in self.tables.items():
+            if np.ndim(table) > 4 or not np.isfinite(table).all():
+                raise InputError(f"table {name} must be finite with at most four axes, got {np.shape(table)}")
+
+
+@runtime_checkable
+class HasKernel(Protocol):
+    """A Model that the C library runs without Python."""
+
+    def native(self) -> NativeSpec | None:
+        """Return its kernel; None if this instance has none, as a bearing under a film without kernel."""

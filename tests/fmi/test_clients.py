@@ -1,0 +1,77 @@
+"""Other clients than fmpy: libcosim runs native FMUs, the FMU Manipulation Toolbox finds nothing wrong."""
+
+import logging
+
+import control
+import fmpy
+import numpy as np
+import pytest
+
+from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.films import MapFilm
+from rotorfilm.fmu import export_fmu
+from rotorfilm.rotors import RigidRotor
+
+BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm())
+ROTOR = RigidRotor(mass=50.0, speed=157.0, gravity=(0.0, 0.0), position=(2e-5, -4e-5))
+PLANT = control.ss([[0.0, 1.0], [-400.0, -2.0]], [[0.0], [1.0]], [[1.0, 0.0]], [[0.0]])
+MODELS = {"film": BEARING, "rotor": ROTOR, "plant": PLANT}
+
+
+def references(path):
+    return {v.name: v.valueReference for v in fmpy.read_model_description(str(path)).modelVariables}
+
+
+@pytest.fixture
+def cosim():
+    """Return libcosim's Python modules, silenced; it has no wheels for some machines."""
+    pytest.importorskip("libcosimpy")
+    from libcosimpy import CosimExecution, CosimLogging, CosimObserver, CosimSlave
+
+    CosimLogging.log_output_level(CosimLogging.CosimLogLevel.ERROR)
+    return CosimExecution.CosimExecution, CosimSlave.CosimLocalSlave, CosimObserver.CosimObserver
+
+
+def test_libcosim_gets_the_force_of_python(cosim, tmp_path):
+    execution_of, slave_of, observer_of = cosim
+    path = export_fmu(BEARING, tmp_path / "film.fmu", component="film")
+    known = references(path)
+    execution = execution_of.from_step_size(step_size=1_000_000)  # ns
+    index = execution.add_local_slave(slave_of(fmu_path=str(path), instance_name="film"))
+    observer = observer_of.create_last_value()
+    execution.add_observer(observer)
+    for name, value in {"film.x": 3e-5, "film.speed": 157.0}.items():
+        assert execution.real_initial_value(index, known[name], value)
+    assert execution.step(1)
+    found = observer.last_real_values(index, [known["film.force_x"], known["film.force_y"]])
+    expected = BEARING.force([3e-5, 0.0], [0.0, 0.0], 157.0)
+    np.testing.assert_allclose(found, expected, rtol=1e-12)
+
+
+@pytest.mark.closed_form
+def test_libcosim_moves_a_rotor_as_its_closed_form(cosim, tmp_path):
+    execution_of, slave_of, observer_of = cosim
+    path = export_fmu(ROTOR, tmp_path / "rotor.fmu", component="rotor")
+    known = references(path)
+    execution = execution_of.from_step_size(step_size=1_000_000)
+    index = execution.add_local_slave(slave_of(fmu_path=str(path), instance_name="rotor"))
+    observer = observer_of.create_last_value()
+    execution.add_observer(observer)
+    assert execution.real_initial_value(index, known["rotor.force_x"], 20.0)
+    assert execution.step(50)
+    x, vx = observer.last_real_values(index, [known["rotor.x"], known["rotor.vx"]])
+    np.testing.assert_allclose([x, vx], [2e-5 + 0.5 * 0.4 * 0.05**2, 0.4 * 0.05], rtol=1e-11)
+
+
+@pytest.mark.parametrize("version", ["2.0", "3.0"])
+@pytest.mark.parametrize("name", MODELS)
+def test_the_fmu_manipulation_toolbox_finds_nothing_wrong(name, version, tmp_path, caplog):
+    checker = pytest.importorskip("fmu_manipulation_toolbox.checker")
+    operations = pytest.importorskip("fmu_manipulation_toolbox.operations")
+    path = export_fmu(MODELS[name], tmp_path / f"{name}.fmu", version)
+    fmu = operations.FMU(str(path))
+    caplog.set_level(logging.INFO, "fmu_manipulation_toolbox")
+    for operation in checker.get_checkers():
+        fmu.apply_operation(operation())
+    assert [record.message for record in caplog.records if record.levelno >= logging.WARNING] == []
+    assert f"compliant with FMI-{version}" in caplog.text

@@ -1,0 +1,114 @@
+"""A C program with sanitizers opens, misuses and closes instances, and offers damaged resources."""
+
+import os
+import shutil
+import struct
+import subprocess
+import zlib
+
+import numpy as np
+import pytest
+
+from rotorfilm import JournalBearing, MapFilm, MapTable, RigidRotor, SpeedProfile
+from rotorfilm.fmu.linear_system import LinearSystem
+from rotorfilm.native.resource import FILE_NAME
+
+SANITIZERS = ["-g", "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
+
+
+def small_bearing():
+    """Return a bearing over a small table of five slendernesses, for files that are quick to damage."""
+    rng = np.random.default_rng(2)
+    table = MapTable(
+        slenderness_range=(0.2, 1.0),
+        reach=3.0,
+        center=rng.normal(size=10),
+        coefficients=0.1 * rng.normal(size=(10, 7, 7)),
+    )
+    return JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm(table))
+
+
+def run_up():
+    return RigidRotor(mass=5.0, speed=SpeedProfile((0.0, 0.002, 0.01), (1.0, 200.0, 100.0)), unbalance=1e-3)
+
+
+def state_space():
+    """Return a system that grows, with inputs and outputs at the references that the program counts on."""
+    A, B, C, D = (np.random.default_rng(6).normal(size=s) for s in ((4, 4), (4, 9), (2, 4), (2, 9)))
+    labels = (tuple(f"{kind}{k}" for k in range(count)) for kind, count in (("u", 9), ("y", 2), ("x", 4)))
+    inputs, outputs, states = labels
+    return LinearSystem(
+        A=100.0 * A, B=B, C=C, D=D, input_labels=inputs, output_labels=outputs, state_labels=states
+    )
+
+
+def sealed(content):
+    """Return the content of a resource with its size and checksum set right."""
+    body = content[24:]
+    return content[:12] + struct.pack("<IQ", zlib.crc32(body), len(content)) + body
+
+
+def damaged(good):
+    """Return contents that no library may open."""
+    version = good[:8] + struct.pack("<I", 2) + good[12:]
+    yield from (good[:length] for length in (0, 7, 23, 24, 100, 200, 300, len(good) - 8, len(good) - 1))
+    yield from (sealed(good[:length]) for length in (200, 300, 500, len(good) - 8))
+    yield from (good + b"\0", version, b"RFILMMAP" + good[8:], good[:-1] + bytes([good[-1] ^ 1]))
+    yield sealed(good.replace(b"journal\0", b"journey\0"))
+    yield sealed(good[:-8] + struct.pack("<d", np.nan))
+    yield sealed(good.replace(b"coefficients\0", b"coefficienty\0"))
+
+
+def mutated(good, count):
+    """Yield contents with a few bytes changed, most of them in the directories, under a right checksum."""
+    rng = np.random.default_rng(4)
+    for _ in range(count):
+        content = bytearray(good)
+        for _ in range(rng.integers(1, 4)):
+            content[rng.integers(24, min(len(good), 2200))] = rng.integers(0, 256)
+        yield sealed(bytes(content))
+
+
+@pytest.fixture
+def stress(compiled):
+    sources = sorted(compiled.native.glob("*.c"))
+    return compiled([compiled.here / "stress.c", *sources], *SANITIZERS)
+
+
+def resources(tmp_path, contents):
+    for number, content in enumerate(contents):
+        folder = tmp_path / f"resource {number}"
+        folder.mkdir()
+        (folder / FILE_NAME).write_bytes(content)
+        yield str(folder)
+
+
+def run(program, *arguments):
+    environment = {**os.environ, "ASAN_OPTIONS": "detect_leaks=1"}
+    environment.pop("LD_PRELOAD", None)
+    ran = subprocess.run(
+        [program, *arguments], capture_output=True, text=True, check=False, env=environment, timeout=300
+    )
+    assert ran.returncode == 0, ran.stderr[-4000:]
+    return ran.stdout
+
+
+def test_no_misuse_and_no_damaged_file_breaks_an_instance(unzipped, stress, tmp_path):
+    token = "a token"
+    models = (small_bearing(), run_up(), state_space())
+    good = [unzipped(m, folder=str(k), token=token) for k, m in enumerate(models)]
+    content = good[0].resource.read_bytes()
+    bad = list(resources(tmp_path, damaged(content)))
+    missing = tmp_path / "missing"
+    shutil.rmtree(missing, ignore_errors=True)
+    (tmp_path / "maybe").mkdir()
+    maybe = resources(tmp_path / "maybe", mutated(content, 300))
+    folders = [str(folder.resource.parent) for folder in good]
+    assert "messages" in run(stress, token, "60000", *folders, "--", *bad, str(missing))
+    run(stress, token, "200", "--", "--", *maybe)
+
+
+def test_wrong_token_is_refused(unzipped, stress):
+    folder = unzipped(run_up(), token="right")
+    run(stress, "right", "0", str(folder.resource.parent))
+    run(stress, "wrong", "0", "--", str(folder.resource.parent))

@@ -1,0 +1,60 @@
+"""Draw the pictures that native FMUs carry, one for each kernel, into rotorfilm/fmu/data/.
+
+    python tools/draw_icons.py
+
+They are 96 pixels wide, on no background.
+"""
+
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle, FancyArrow, Rectangle
+
+OUT = Path(__file__).parents[1] / "rotorfilm" / "fmu" / "data"
+STEEL, OIL, INK = "#7a8794", "#f2b233", "#1d2b36"
+
+
+def draw_journal(axes: Axes) -> None:
+    """Draw a journal, out of center in its film, and its sense of rotation."""
+    axes.add_patch(Circle((0, 0), 0.95, color=STEEL))
+    axes.add_patch(Circle((0, 0), 0.72, color=OIL))
+    axes.add_patch(Circle((0.09, -0.09), 0.56, facecolor="white", edgecolor=INK, lw=2))
+    angle = np.linspace(0.6, 2.6, 40)
+    axes.plot(0.09 + 0.33 * np.cos(angle), -0.09 + 0.33 * np.sin(angle), color=INK, lw=2)
+    axes.add_patch(FancyArrow(-0.18, 0.09, -0.03, -0.06, head_width=0.16, head_length=0.14, color=INK, lw=0))
+
+
+def draw_rotor(axes: Axes) -> None:
+    """Draw a shaft with a disk and its unbalance."""
+    axes.add_patch(Rectangle((-0.95, -0.1), 1.9, 0.2, color=STEEL))
+    axes.add_patch(Rectangle((-0.18, -0.75), 0.36, 1.5, facecolor="white", edgecolor=INK, lw=2))
+    axes.add_patch(Circle((0, 0.52), 0.12, color=OIL))
+
+
+def draw_linear(axes: Axes) -> None:
+    """Draw a block with a step response."""
+    axes.add_patch(Rectangle((-0.9, -0.75), 1.8, 1.5, facecolor="white", edgecolor=INK, lw=2))
+    t = np.linspace(0, 1, 100)
+    response = 1 - np.exp(-3.5 * t) * np.cos(14 * t)
+    axes.plot(-0.75 + 1.5 * t, -0.55 + 0.65 * response, color=OIL, lw=2.5)
+
+
+def main() -> None:
+    """Draw all of them, 96 pixels wide."""
+    OUT.mkdir(exist_ok=True)
+    mpl.rcParams["savefig.transparent"] = True
+    for name, draw in {"journal": draw_journal, "rigid_rotor": draw_rotor, "linear": draw_linear}.items():
+        figure = Figure(figsize=(1, 1), dpi=96)
+        axes = figure.add_axes((0, 0, 1, 1))
+        axes.set(xlim=(-1, 1), ylim=(-1, 1), aspect="equal")
+        axes.axis("off")
+        draw(axes)
+        figure.savefig(OUT / f"{name}.png", metadata={"Software": None})
+        print(OUT / f"{name}.png")
+
+
+if __name__ == "__main__":
+    main()
