@@ -18,7 +18,7 @@ _HOMES = {
         "FixedArc",
         "FullFilm",
         "Groove",
-        "GrooveTable",
+        "GrooveMapTable",
         "GroovedMapFilm",
         "HalfSommerfeld",
         "MapFilm",

@@ -157,8 +157,8 @@ def test_pads_arrive_in_si():
     ("lines", "message"),
     [
         (
-            "grooves = [{ center = 1.0 }]",
-            r"film must represent .*, which MapFilm cannot: .*; ReynoldsFilm and, .*, GroovedMapFilm can",
+            'film = { name = "short" }\ngrooves = [{ center = 1.0 }]',
+            r"film must represent .*, which ShortFilm cannot: .*; ReynoldsFilm and, .*, MapFilm can",
         ),
         (
             'film = { name = "short" }\npads = [{ start = 0, extent = 3 }]',
