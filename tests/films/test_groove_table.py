@@ -1,13 +1,15 @@
 """Tables of grooved bearings: bytes, damage, and the cache on disk."""
 
+import ast
 import dataclasses
 import os
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from rotorfilm.errors import InputError, RotorfilmError
-from rotorfilm.films import FilmGeometry, Groove, GrooveMapTable
+from rotorfilm.films import FilmGeometry, Groove, GrooveMapTable, groove_cache
 from rotorfilm.films.groove_axis import aligned_openings
 from rotorfilm.films.groove_build import Resolution
 from rotorfilm.films.groove_cache import cache_folder, cache_path, cached_table
@@ -109,6 +111,47 @@ def test_failed_writing_leaves_nothing_behind(tmp_path, monkeypatch):
     with pytest.warns(RuntimeWarning, match="could not be kept"):
         cached_table(tmp_path / "map.bin", some_table, any_table)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_interrupted_writing_leaves_nothing_behind(tmp_path, monkeypatch):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "replace", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        cached_table(tmp_path / "map.bin", some_table, any_table)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(os.name != "posix", reason="elsewhere there is no umask")
+def test_file_has_the_mode_of_the_umask(tmp_path):
+    before = os.umask(0o027)
+    try:
+        cached_table(tmp_path / "map.bin", some_table, any_table)
+    finally:
+        os.umask(before)
+    assert (tmp_path / "map.bin").stat().st_mode & 0o777 == 0o640
+
+
+def test_table_that_is_not_as_required_is_built_anew(tmp_path):
+    def require(table):
+        if table == some_table(1):
+            raise InputError("no")
+
+    some_table(1).save(tmp_path / "map.bin")
+    assert cached_table(tmp_path / "map.bin", some_table, require) == some_table()
+
+
+def test_sources_that_decide_the_content_are_there():
+    folder = Path(groove_cache.__file__).parent
+    assert all((folder / name).is_file() for name in groove_cache.SOURCES)
+    # What the maker of a map imports from its folder decides the content too.
+    tree = ast.parse((folder / "groove_build.py").read_text(encoding="utf-8"))
+    imported = {
+        node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.level == 1
+    }
+    covered = {name.removesuffix(".py") for name in groove_cache.SOURCES}
+    assert {name for name in imported if not name.startswith("ring")} <= covered
 
 
 def test_name_in_the_cache_tells_what_decides_the_content(tmp_path, monkeypatch):
