@@ -132,7 +132,7 @@ def fmu(
 )
 def groove_map(
     scene: Annotated[
-        Path | None, typer.Argument(metavar="[SCENE.toml]", help="Scene whose bearing has grooves or pads.")
+        Path | None, typer.Argument(metavar="SCENE.toml", help="Scene whose bearing has grooves or pads.")
     ] = None,
     slenderness: Annotated[
         float | None, typer.Option(help="Without a scene: length / diameter.", metavar="0.5")
@@ -151,11 +151,7 @@ def groove_map(
     out: Annotated[Path | None, typer.Option(help="File for a copy of the map.")] = None,
     json: Json = False,
 ) -> None:
-    """Make the map of a bearing with grooves or pads, and keep it on disk.
-
-    Every bearing of the same length / diameter, openings, cells and nodes then finds it there, wherever its
-    openings are turned to and whatever its size.
-    """
+    """Make the map of a bearing with grooves or pads; all of its shape and resolution find it on disk."""
     from .films.groove_cache import cache_folder
 
     options = {"--slenderness": slenderness, "--groove": groove, "--cells": cells, "--nodes": nodes}

@@ -37,7 +37,7 @@ class GroovedMapFilm(KernelFilm):
     derivatives are exact. `MapFilm()` becomes this film in a bearing with openings, and this one `MapFilm()`
     in a plain bearing: by name it is needed for its parameters only.
 
-    A map belongs to one L/D and one set of openings, wherever they are turned to. It is made from some
+    A map belongs to one L/D, .05 to 20, and one set of openings, wherever they are turned to. It is made from some
     10^4 solutions of the two-dimensional film on first use, which takes from seconds to a minute, and then
     kept in the folder that the environment variable ROTORFILM_CACHE names, or the platform's cache.
     `build_groove_map` makes it beforehand and says how far it is.
@@ -102,7 +102,7 @@ class GroovedMapFilm(KernelFilm):
     def fitted(self, geometry: FilmGeometry) -> GroovedMapFilm | MapFilm:
         """Return this film in a bearing of the given geometry; in a plain one that is `MapFilm()`."""
         if geometry.plain and self.table is None:
-            return MapFilm().fitted(geometry)
+            return MapFilm()
         if geometry.plain:
             raise InputError("table must be that of the bearing, got one with openings; take MapFilm()")
         return dataclasses.replace(self, geometry=geometry)

@@ -115,7 +115,7 @@ class MapFilm(KernelFilm):
             If there is a supply pressure, an opening wider than 60 deg, or the table of a plain bearing
             is given where there are openings.
         """
-        if geometry.plain and geometry.supply == 0.0:
+        if geometry.plain:
             return self
         if self.table is not None:
             raise InputError(
