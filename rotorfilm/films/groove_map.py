@@ -37,9 +37,9 @@ class GroovedMapFilm(KernelFilm):
     derivatives are exact. `MapFilm()` becomes this film in a bearing with openings, and this one `MapFilm()`
     in a plain bearing: by name it is needed for its parameters only.
 
-    A map belongs to one L/D, .05 to 20, and one set of openings, wherever they are turned to. It is made from some
-    10^4 solutions of the two-dimensional film on first use, which takes from seconds to a minute, and then
-    kept in the folder that the environment variable ROTORFILM_CACHE names, or the platform's cache.
+    A map belongs to one L/D, .05 to 20, and one set of openings, wherever they are turned to. It is made
+    from some 10^4 solutions of the two-dimensional film on first use, which takes from seconds to a minute,
+    and then kept in the folder that the environment variable ROTORFILM_CACHE names, or the platform's cache.
     `build_groove_map` makes it beforehand and says how far it is.
 
     Beyond the largest eccentricity ratio J is continued as a power of X, without proof of its accuracy: a
