@@ -44,7 +44,7 @@ _HOMES = {
         "FullFilm",
         "GlobalBalance",
         "Groove",
-        "GrooveTable",
+        "GrooveMapTable",
         "GroovedMapFilm",
         "HalfSommerfeld",
         "LocalMelting",

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import sys
 import warnings
+from dataclasses import fields, replace
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -18,7 +19,9 @@ from .cli_damper import DAMPER_EXAMPLE, damper
 from .errors import InputError, RotorfilmError, SceneError
 
 if TYPE_CHECKING:
+    from .bearings import JournalBearing
     from .films import Groove
+    from .films.groove_table import GrooveMapTable
     from .scenes.film_tables import FilmTable
     from .scenes.schema import JournalTable
 
@@ -66,6 +69,10 @@ class Platforms(StrEnum):
 SceneFile = Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file of schema 1.")]
 FmuFile = Annotated[Path, typer.Argument(metavar="FILE.fmu", help="FMU of FMI 2.0 or 3.0.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON on stdout instead of tables.")]
+Grooves = Annotated[
+    list[str] | None,
+    typer.Option(help="Center and width of an axial groove; once for each.", metavar='"90 deg, 20 deg"'),
+]
 
 
 @app.command(epilog="Example: rotorfilm solve examples/friswell.toml --json")
@@ -74,6 +81,7 @@ def solve(scene: SceneFile, json: Json = False) -> None:
     from .scenes import Scene
 
     loaded = Scene.load(scene)
+    _make_map(loaded.bearing)
     answer = loaded.solve()
     if json:
         console.print_json(answer)
@@ -107,8 +115,10 @@ def coefficients(
         ),
     ] = None,
     cells: Annotated[
-        str | None, typer.Option(help='Cells of the reynolds film, "AROUND,ALONG".', metavar="96,8")
+        str | None,
+        typer.Option(help='Cells of the reynolds or grooved_map film, "AROUND,ALONG".', metavar="96,8"),
     ] = None,
+    groove: Grooves = None,
     json: Json = False,
 ) -> None:
     """Find equilibrium, stiffness and damping of a journal bearing; numbers without a unit are SI."""
@@ -116,7 +126,8 @@ def coefficients(
     from .linear import equilibrium
 
     geometry = {"radius": radius, "length": length, "clearance": clearance, "viscosity": viscosity}
-    bearing = _journal(geometry, _film(film, order, constant, rupture, cells)).build()
+    bearing = _journal(geometry, _film(film, order, constant, rupture, cells), groove or []).build()
+    _make_map(bearing)
     force, rate = _operation(load, speed)
     at = equilibrium(bearing, force, rate)
     derivatives = film_coefficients(bearing, at.position, rate)
@@ -144,8 +155,10 @@ def build(
     from .scenes import Scene
     from .scenes.export import export_scene
 
+    loaded = Scene.load(scene)
+    _make_map(loaded.bearing)
     made = export_scene(
-        Scene.load(scene),
+        loaded,
         out,
         version=fmi.value,
         backend=None if backend is None else backend.value,
@@ -192,37 +205,46 @@ def info(file: FmuFile, json: Json = False) -> None:
     '--groove "270 deg, 20 deg"'
 )
 def groove_map(
-    slenderness: Annotated[float, typer.Option(help="Length / diameter.", metavar="0.5")],
-    groove: Annotated[
-        list[str],
-        typer.Option(help="Center and width of a groove; once for each.", metavar='"90 deg, 20 deg"'),
-    ],
-    cells: Annotated[str, typer.Option(help="Cells around the film and along half of it.")] = "192,12",
-    nodes: Annotated[str, typer.Option(help="Nodes over eccentricity, its direction, motion.")] = "12,72,48",
+    scene: Annotated[
+        Path | None, typer.Argument(metavar="SCENE.toml", help="Scene whose bearing has grooves or pads.")
+    ] = None,
+    slenderness: Annotated[
+        float | None, typer.Option(help="Without a scene: length / diameter.", metavar="0.5")
+    ] = None,
+    groove: Grooves = None,
+    cells: Annotated[
+        str | None,
+        typer.Option(help="Without a scene: cells around the film and along half of it.", metavar="192,12"),
+    ] = None,
+    nodes: Annotated[
+        str | None,
+        typer.Option(
+            help="Without a scene: nodes over eccentricity, its direction, motion.", metavar="12,72,48"
+        ),
+    ] = None,
     out: Annotated[Path | None, typer.Option(help="File for a copy of the map.")] = None,
     json: Json = False,
 ) -> None:
-    """Make the map of a bearing with axial grooves, or find it on disk, for all films of such bearings."""
-    from .films import FilmGeometry, GroovedMapFilm
+    """Make the map of a bearing with grooves or pads; all of its shape and resolution find it on disk."""
     from .films.groove_cache import cache_folder
 
-    around, along = _counts("--cells", cells, 2)
-    over, turning, moving = _counts("--nodes", nodes, 3)
-    geometry = FilmGeometry(grooves=tuple(_groove(text) for text in groove))
-    film = GroovedMapFilm(cells=(around, along), nodes=(over, turning, moving), geometry=geometry)
-    with console.progress_display() as report:
-        report(0.0, "packages")
-        table = film.built_table(slenderness, report)
-        report(1.0, "done")
+    options = {"--slenderness": slenderness, "--groove": groove, "--cells": cells, "--nodes": nodes}
+    if scene is None:
+        table = _map_of_options(slenderness, groove, cells, nodes)
+    elif given := [name for name, value in options.items() if value]:
+        raise InputError(f"{given[0]} must not be given with a scene, got {options[given[0]]!r}")
+    else:
+        table = _map_of_scene(scene)
     if out is not None:
         table.save(out)
     folder, reach = str(cache_folder()), table.largest_eccentricity_ratio
     if json:
-        console.print_json({"folder": folder, "largest_eccentricity_ratio": reach})
+        console.print_json(
+            {"folder": folder, "slenderness": table.slenderness, "largest_eccentricity_ratio": reach}
+        )
         return
-    console.print_rows(
-        "map of the film", [("kept in", folder), ("eccentricity ratios", f"up to {reach:.3g}")]
-    )
+    rows = [("kept in", folder), ("length / diameter", f"{table.slenderness:.9g}")]
+    console.print_rows("map of the film", [*rows, ("eccentricity ratios", f"up to {reach:.3g}")])
 
 
 @app.command(epilog='Example: rotorfilm bush --load "3750 N" --speed "9 rad/s" --set f0=0.12')
@@ -240,8 +262,6 @@ def bush(
     json: Json = False,
 ) -> None:
     """Find contact and critical speeds of a polymer bush that melts: the published example unless set."""
-    from dataclasses import replace
-
     from .films import ApproximateShaft, GlobalBalance
     from .scenes.bush import bush_from_settings, solve_bush
     from .units import parse_quantity
@@ -298,13 +318,48 @@ def main(arguments: list[str] | None = None) -> None:
         sys.exit(FAILED)
 
 
+def _make_map(bearing: JournalBearing) -> None:
+    """Make the map of a bearing that needs one of its own, with a progress bar, unless it lies on disk."""
+    from .bearings import build_groove_map
+    from .films import GroovedMapFilm
+
+    if isinstance(bearing.fitted_film, GroovedMapFilm):
+        with console.progress_display() as report:
+            build_groove_map(bearing, report)
+
+
+def _map_of_scene(scene: Path) -> GrooveMapTable:
+    from .bearings import build_groove_map
+    from .scenes import Scene
+
+    with console.progress_display() as report:
+        return build_groove_map(Scene.load(scene).bearing, report)
+
+
+def _map_of_options(
+    slenderness: float | None, groove: list[str] | None, cells: str | None, nodes: str | None
+) -> GrooveMapTable:
+    from .films import FilmGeometry, GroovedMapFilm
+
+    if slenderness is None or not groove:
+        raise InputError("groove-map must have SCENE.toml, or --slenderness and --groove, got neither")
+    geometry = FilmGeometry(grooves=tuple(_groove(text) for text in groove))
+    film = GroovedMapFilm(geometry=geometry)
+    if cells is not None:
+        around, along = _counts("--cells", cells, 2)
+        film = replace(film, cells=(around, along))
+    if nodes is not None:
+        over, turning, moving = _counts("--nodes", nodes, 3)
+        film = replace(film, nodes=(over, turning, moving))
+    with console.progress_display() as report:
+        return film.built_table(slenderness, report)
+
+
 def _show_warning(message: Warning | str, *_: Any) -> None:
     console.complain("warning", message)
 
 
 def _film(film: str, order: str | None, constant: bool, rupture: str | None, cells: str | None) -> FilmTable:
-    from dataclasses import fields
-
     from .scenes.film_tables import FILMS
     from .scenes.tables import choose, read_table
 
@@ -345,13 +400,14 @@ def _groove(text: str) -> Groove:
     return Groove(center=parse_quantity(parts[0], "rad"), width=parse_quantity(parts[1], "rad"))
 
 
-def _journal(geometry: dict[str, str], film: FilmTable) -> JournalTable:
-    from dataclasses import replace
-
+def _journal(geometry: dict[str, str], film: FilmTable, grooves: list[str]) -> JournalTable:
+    from .scenes.film_tables import GrooveTable
     from .scenes.schema import JournalTable
     from .scenes.tables import read_table
 
-    return replace(read_table(JournalTable, "--", geometry), film=film)
+    found = [_groove(text) for text in grooves]
+    tables = tuple(GrooveTable(center=one.center, width=one.width) for one in found)
+    return replace(read_table(JournalTable, "--", geometry), film=film, grooves=tables)
 
 
 def _operation(load: str, speed: str) -> tuple[tuple[float, float], float]:

@@ -71,11 +71,22 @@ def check_row(check: str, passed: bool | None, figure: float | None, remark: str
 
 @contextmanager
 def progress_display() -> Iterator[Report]:
-    """Yield a function (fraction, text) that moves a progress bar on stderr."""
+    """Yield a function (fraction, text) that moves a progress bar on stderr; it shows from the first call."""
     columns = (BarColumn(bar_width=30), TimeElapsedColumn(), TextColumn("{task.description}"))
-    with Progress(*columns, console=Console(stderr=True)) as bar:
-        task = bar.add_task("", total=1.0)
-        yield lambda fraction, text: bar.update(task, completed=fraction, description=text)
+    bar = Progress(*columns, console=Console(stderr=True))
+    task = bar.add_task("", total=1.0, start=False)
+
+    def report(fraction: float, text: str) -> None:
+        if not bar.live.is_started:
+            bar.start()
+            bar.start_task(task)
+        bar.update(task, completed=fraction, description=text)
+
+    try:
+        yield report
+    finally:
+        if bar.live.is_started:
+            bar.stop()
 
 
 def equilibrium_rows(at: Equilibrium) -> list[tuple[str, str]]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+import warnings
 from typing import Any
 
 import numpy as np
@@ -121,6 +123,19 @@ def require_inside(position: NDArray[np.float64], clearance: float, when: str = 
             f"position must keep the journal inside the clearance {clearance!r} m, "
             f"got an eccentricity of {np.max(eccentricity):.6g} m{when}"
         )
+
+
+def warn_user(message: str, category: type[Warning] = ValidityWarning) -> None:
+    """Warn at the line outside the package whose call led here, however deep in the package that is."""
+    package = __name__.partition(".")[0]
+    frame, level, outermost = sys._getframe(), 0, 1
+    while frame is not None:
+        level += 1
+        # The generated __init__ of a dataclass has no file, but the name of its module.
+        if frame.f_globals.get("__name__", "").partition(".")[0] == package:
+            outermost = level
+        frame = frame.f_back  # type: ignore[assignment]
+    warnings.warn(message, category, stacklevel=outermost + 1)
 
 
 def _is_number(value: object) -> bool:

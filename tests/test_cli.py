@@ -384,6 +384,58 @@ def test_groove_map_is_made_and_kept(run, tmp_path, monkeypatch):
     assert kept.read_bytes() == (tmp_path / "map.bin").read_bytes()
 
 
+COARSE_SCENE = SCENE.replace(
+    "[operation]",
+    """film = { name = "grooved_map", cells = [32, 4], nodes = [6, 12, 12], largest_eccentricity_ratio = 0.9 }
+grooves = [{ center = "90 deg", width = "20 deg" }]
+[operation]""",
+)
+
+
+def test_groove_map_of_a_scene_is_that_which_the_scene_takes(run, scene, tmp_path, monkeypatch):
+    monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path / "cache"))
+    scene.write_text(COARSE_SCENE, encoding="utf-8")
+    code, out, err = run("groove-map", scene, "--json")
+    assert code == 0
+    assert "map of the grooved bearing" in err
+    assert json.loads(out)["largest_eccentricity_ratio"] == pytest.approx(0.9)
+    (kept,) = (tmp_path / "cache").iterdir()
+    code, out, err = run("solve", scene, "--json")
+    assert (code, err) == (0, "")
+    assert list((tmp_path / "cache").iterdir()) == [kept]
+    code, out, err = run("groove-map", scene, "--cells", "32,4")
+    assert (code, out) == (2, "")
+    assert "--cells must not be given with a scene, got '32,4'" in err
+
+
+def test_solve_shows_how_far_the_map_is(run, scene, tmp_path, monkeypatch):
+    monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path / "cache"))
+    scene.write_text(COARSE_SCENE, encoding="utf-8")
+    code, out, err = run("solve", scene, "--json")
+    assert code == 0
+    assert "map of the grooved bearing" in err
+    json.loads(out)
+
+
+def test_coefficients_take_grooves(run):
+    cells = ("--film", "reynolds", "--cells", "48,4", "--json")
+    grooves = ("--groove", "0 deg, 20 deg", "--groove", "180 deg, 70 deg")
+    _, plain, _ = run(*coefficients(), *cells)
+    code, grooved, _ = run(*coefficients(), *cells, *grooves)
+    assert code == 0
+    ratios = [json.loads(out)["equilibrium"]["eccentricity_ratio"] for out in (plain, grooved)]
+    assert ratios[1] > ratios[0] + 0.01
+    code, out, err = run(*coefficients(), *SHORT, *grooves)
+    assert (code, out) == (2, "")
+    assert "which ShortFilm cannot" in err
+
+
+def test_groove_map_without_a_bearing_is_refused(run):
+    code, _, err = run("groove-map", "--slenderness", "0.5")
+    assert code == 2
+    assert "groove-map must have SCENE.toml, or --slenderness and --groove" in err
+
+
 @pytest.mark.parametrize(
     ("option", "message"),
     [

@@ -4,11 +4,13 @@ import numpy as np
 import pytest
 
 from rotorfilm import errors
+from rotorfilm.bearings import JournalBearing
 from rotorfilm.errors import (
     ContactError,
     FilmContactError,
     InputError,
     RotorfilmError,
+    ValidityWarning,
     require_finite,
     require_inside,
     require_non_negative,
@@ -16,6 +18,7 @@ from rotorfilm.errors import (
     require_positive,
     require_vector,
 )
+from rotorfilm.films import ShortFilm
 
 BAD_NUMBERS = [float("nan"), float("inf"), -float("inf"), "1", None, True, [1.0]]
 
@@ -110,3 +113,9 @@ def test_contact_during_a_run_keeps_the_partial_result():
     with pytest.raises(FilmContactError) as caught:
         raise ContactError("journal touches the wall at t = 0.1 s", partial=[1, 2])
     assert caught.value.partial == [1, 2]
+
+
+def test_warning_of_a_dataclass_points_at_the_line_that_makes_it():
+    with pytest.warns(ValidityWarning) as caught:
+        JournalBearing(radius=0.05, length=0.08, clearance=1e-4, viscosity=0.1, film=ShortFilm())
+    assert caught[0].filename == __file__

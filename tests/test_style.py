@@ -87,6 +87,14 @@ def function_lengths(path):
                 yield node.name, len(lines & set(range(body[0].lineno, node.end_lineno + 1)))
 
 
+def test_glossary_has_one_row_for_each_name():
+    text = README.read_text(encoding="utf-8").partition("## Glossary")[2].partition("\n## ")[0]
+    rows = [line.split("|")[1] for line in text.splitlines() if line.startswith("|")]
+    names = [name for row in rows for name in re.findall(r"`(\w+)`", row)]
+    assert len(names) > 100
+    assert sorted(name for name in set(names) if names.count(name) > 1) == []
+
+
 def test_every_public_field_is_in_the_glossary():
     fields = {name for path in MODULES for name in public_fields(path) if not name.startswith("_")}
     assert {"clearance", "A"} <= fields

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -12,10 +11,10 @@ import numpy as np
 
 from ..errors import (
     InputError,
-    ValidityWarning,
     require_non_negative,
     require_number,
     require_positive,
+    warn_user,
 )
 from ..films.cavitation import FullFilm, HalfSommerfeld
 from ..films.porous_layer import LayerModes, PorousLayer, layer_modes
@@ -274,19 +273,15 @@ class PorousDamper(StaticReaction):
         limit = getattr(self.film, "slenderness_limit", None)
         if limit is not None and self.slenderness > limit:
             excess = 1.0 / parabola_mean(self.slenderness) - 1.0
-            warnings.warn(
+            warn_user(
                 f"length / diameter must not exceed {limit} for {self.film!r}, got {self.slenderness:.6g}: "
                 f"the damping of a solid cage is too large by {100.0 * excess:.2g} % in small motion; "
                 "FiniteSqueeze() covers it for a full film",
-                ValidityWarning,
-                stacklevel=4,
             )
         if self.cage is not None and self.cage.thickness > LARGEST_RATIO * self.radius:
-            warnings.warn(
+            warn_user(
                 f"thickness must not exceed {LARGEST_RATIO} radii of {self.radius!r} m, got "
                 f"{self.cage.thickness!r}: the layer is unrolled to a plane",
-                ValidityWarning,
-                stacklevel=4,
             )
 
 

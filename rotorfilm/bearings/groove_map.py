@@ -3,31 +3,31 @@
 from __future__ import annotations
 
 from ..errors import InputError
-from ..films.groove_build import Report
 from ..films.groove_map import GroovedMapFilm
-from ..films.groove_table import GrooveTable
+from ..films.groove_table import GrooveMapTable
+from ..progress import Report, silent
 from .journal import JournalBearing
 
 
-def build_groove_map(bearing: JournalBearing, report: Report | None = None) -> GrooveTable:
-    """Return the map of a bearing with a `GroovedMapFilm`; made and kept on disk if it is not there yet.
+def build_groove_map(bearing: JournalBearing, report: Report = silent) -> GrooveMapTable:
+    """Return the map of a bearing with grooves or several pads; made and kept on disk if it is not there yet.
 
     Parameters
     ----------
     bearing : JournalBearing
-        With grooves or several pads.
+        With grooves or several pads, and a `MapFilm()` or a `GroovedMapFilm`.
     report : callable, optional
         Called with the fraction done, 0 to 1, and a text while a map is being made.
 
     Returns
     -------
-    GrooveTable
+    GrooveMapTable
         `GroovedMapFilm(table=...)` needs neither the disk nor a compiler, in an FMU for one.
 
     Raises
     ------
     InputError
-        If the film is no `GroovedMapFilm`, or the bearing is plain.
+        If the bearing is plain or its film has no map.
 
     Examples
     --------
@@ -42,5 +42,8 @@ def build_groove_map(bearing: JournalBearing, report: Report | None = None) -> G
     """
     film = bearing.fitted_film
     if not isinstance(film, GroovedMapFilm):
-        raise InputError(f"film must be a GroovedMapFilm to have a map of its own, got {bearing.film!r}")
+        raise InputError(
+            "bearing must have openings, and a MapFilm() or GroovedMapFilm, for a map of its own, "
+            f"got {bearing!r}"
+        )
     return film.built_table(bearing.slenderness, report)

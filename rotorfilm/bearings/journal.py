@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -13,10 +12,10 @@ from numpy.typing import ArrayLike
 
 from ..errors import (
     InputError,
-    ValidityWarning,
     require_inside,
     require_non_negative,
     require_positive,
+    warn_user,
 )
 from ..films.geometry import FilmGeometry, Groove, Pad
 from ..films.law import CENTER, BindableFilm, BoundFilm, FilmLaw, FittedFilm, NativeFilm
@@ -55,8 +54,8 @@ class JournalBearing:
     viscosity : float [Pa s]
         Dynamic viscosity of the lubricant.
     film : FilmLaw
-        The film law, by default `MapFilm()`: Reynolds rupture at any L/D of its table, without pads and
-        grooves. Exchangeable by `dataclasses.replace`.
+        The film law, by default `MapFilm()`: Reynolds rupture, with grooves and pads at ambient pressure
+        too. Exchangeable by `dataclasses.replace`.
     pads : tuple of Pad
         Where there is a bearing wall, angles in the bearing frame [rad]; empty for the full circumference.
     grooves : tuple of Groove
@@ -107,22 +106,21 @@ class JournalBearing:
         if not self.geometry.plain and not isinstance(self.film, FittedFilm):
             raise InputError(
                 f"film must represent the bearing's geometry, which {type(self.film).__name__} cannot: "
-                f"got {self.geometry!r}; ReynoldsFilm and, without supply, GroovedMapFilm can"
-            )
-        low, high = getattr(self.film, "slenderness_range", (0.0, math.inf))
-        if not low * (1.0 - 1e-12) <= self.slenderness <= high * (1.0 + 1e-12):
-            raise InputError(
-                f"length / diameter must be {low:g} to {high:g} for {type(self.film).__name__}, "
-                f"got {self.slenderness:.6g}"
+                f"got {self.geometry!r}; ReynoldsFilm and, without supply, MapFilm can"
             )
         # Fitted here so that a geometry that is beyond the film is refused at once.
-        limit = getattr(self.fitted_film, "slenderness_limit", None)
+        film = self.fitted_film
+        low, high = getattr(film, "slenderness_range", (0.0, math.inf))
+        if not low * (1.0 - 1e-12) <= self.slenderness <= high * (1.0 + 1e-12):
+            raise InputError(
+                f"length / diameter must be {low:g} to {high:g} for {type(film).__name__}, "
+                f"got {self.slenderness:.6g}"
+            )
+        limit = getattr(film, "slenderness_limit", None)
         if limit is not None and self.slenderness > limit:
-            warnings.warn(
+            warn_user(
                 f"length / diameter must not exceed {limit} for {self.film!r}, got {self.slenderness:.6g}: "
-                "the film force can be wrong by half and more",
-                ValidityWarning,
-                stacklevel=3,
+                "the film force can be wrong by half and more"
             )
 
     @property
@@ -149,9 +147,7 @@ class JournalBearing:
     @cached_property
     def fitted_film(self) -> FilmLaw:
         """The film law in this bearing's geometry."""
-        if self.geometry.plain or not isinstance(self.film, FittedFilm):
-            return self.film
-        return self.film.fitted(self.geometry)
+        return self.film.fitted(self.geometry) if isinstance(self.film, FittedFilm) else self.film
 
     @property
     def inputs(self) -> tuple[Signal, ...]:

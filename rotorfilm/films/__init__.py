@@ -8,7 +8,7 @@ from .complementarity_arc import ComplementarityArc
 from .extrapolated import ExtrapolatedFilm
 from .geometry import FilmGeometry, Groove, Pad
 from .groove_map import GroovedMapFilm
-from .groove_table import GrooveTable
+from .groove_table import GrooveMapTable
 from .law import FilmLaw
 from .map import MapFilm
 from .map_fit import fit_map_table, tabulate_film
@@ -39,7 +39,7 @@ __all__ = [
     "FullFilm",
     "GlobalBalance",
     "Groove",
-    "GrooveTable",
+    "GrooveMapTable",
     "GroovedMapFilm",
     "HalfSommerfeld",
     "LocalMelting",

@@ -6,14 +6,13 @@ Small exchangeable rules with their derivatives; `bearings.bush.MeltingBush` tak
 from __future__ import annotations
 
 import math
-import warnings
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import ValidityWarning
+from ..errors import warn_user
 from ..model import Array
 from .bush_shaft import approximate_flux, exact_flux
 
@@ -45,11 +44,9 @@ class ApproximateShaft:
     def flux(self, cooling: float, stubbiness: float) -> float:
         """Return Q_1 in units of lambda_1 T_*/R_1; warn beyond the `COOLING_LIMIT` of the source."""
         if cooling > COOLING_LIMIT:
-            warnings.warn(
+            warn_user(
                 f"air_transfer shaft_radius / conductivity must not exceed {COOLING_LIMIT} for "
                 f"ApproximateShaft, got {cooling:.6g}: the heat into the shaft is too high",
-                ValidityWarning,
-                stacklevel=2,
             )
         return approximate_flux(cooling, stubbiness)
 

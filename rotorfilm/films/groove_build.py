@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
 from ..errors import ConvergenceError
 from ..model import Array
+from ..progress import Report, silent
 from .geometry import TURN, FilmGeometry, Groove
 from .groove_axis import AlignedOpenings
-from .groove_table import DIRECTIONS, GrooveTable
+from .groove_table import DIRECTIONS, GrooveMapTable
 from .map_fit import node_eccentricities
 from .map_table import stretch
 from .quintic import periodic_quintic, periodic_quintic_coefficients, quintic_coefficients
 from .ring import LONG, ring_grids, ring_spans
 
-SQUEEZE = 0.6
+CROWDING = 0.6
 """Crowds the directions across the eccentricity, where the film turns; measured to be the best."""
 
 ORDER = 4
@@ -25,9 +25,6 @@ ORDER = 4
 
 HARMONICS = 20
 """Of L0 and of dL/de at the center, over the direction of the source: beyond is the noise of the grid."""
-
-Report = Callable[[float, str], None]
-"""Called with the fraction done, 0 to 1, and what is done."""
 
 
 class Resolution(NamedTuple):
@@ -57,8 +54,8 @@ class _Center(NamedTuple):
 
 
 def build_groove_table(
-    openings: AlignedOpenings, slenderness: float, resolution: Resolution, report: Report | None = None
-) -> GrooveTable:
+    openings: AlignedOpenings, slenderness: float, resolution: Resolution, report: Report = silent
+) -> GrooveMapTable:
     """Return the map of one bearing.
 
     Parameters
@@ -84,12 +81,12 @@ def build_groove_table(
     coefficients = quintic_coefficients(np.concatenate([ghosts, M]))[cells_x:]
     for axis in (1, 2):
         coefficients = periodic_quintic_coefficients(coefficients, axis)
-    return GrooveTable(
+    return GrooveMapTable(
         slenderness=slenderness,
         grooves=openings.grooves,
         reach=float(stretch(resolution.largest_eccentricity_ratio)),
-        squeeze=SQUEEZE,
-        center=center.level,
+        crowding=CROWDING,
+        log_center=center.level,
         coefficients=coefficients,
     )
 
@@ -128,7 +125,7 @@ def extrapolated(levels: Array) -> Array:
 def node_angles(count_e: int, count_s: int) -> tuple[Array, Array]:
     """Return the angles of e, (count_e,), and those from e to w, (count_s,), of the nodes [rad]."""
     s = TURN * np.arange(count_s) / count_s
-    return TURN * np.arange(count_e) / count_e, np.arctan2(np.sin(s), SQUEEZE * np.cos(s))
+    return TURN * np.arange(count_e) / count_e, np.arctan2(np.sin(s), CROWDING * np.cos(s))
 
 
 def _center(potential: _Solver) -> _Center:
@@ -153,7 +150,7 @@ def _exponents(
     center: _Center,
     openings: AlignedOpenings,
     resolution: Resolution,
-    report: Report | None,
+    report: Report,
 ) -> Array:
     """Return M at the nodes, (cells_x + 1, count_e, count_s); symmetric ones are solved once."""
     cells_x, count_e, count_s = resolution.nodes
@@ -163,14 +160,12 @@ def _exponents(
     M = np.empty((cells_x + 1, count_e, count_s))
     solved = np.flatnonzero(source == np.arange(count_e))
     for done, j in enumerate(solved.tolist()):
-        if report is not None:
-            report(done / len(solved), "map of the grooved bearing")
+        report(done / len(solved), "map of the grooved bearing")
         M[:, j] = _column(potential, center, chi, theta[j], theta[j] + beta)
     opposite = -np.arange(count_s) % count_s
     for j in range(count_e):
         M[:, j] = M[:, source[j]][:, opposite] if mirrored[j] else M[:, source[j]]
-    if report is not None:
-        report(1.0, "map of the grooved bearing")
+    report(1.0, "map of the grooved bearing")
     return M
 
 

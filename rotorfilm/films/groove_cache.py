@@ -5,20 +5,30 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import os
-import tempfile
-import warnings
 from collections.abc import Callable
 from pathlib import Path
+from uuid import uuid4
 
-from ..errors import RotorfilmError
+from ..errors import RotorfilmError, warn_user
 from .geometry import TURN
 from .groove_axis import STEPS, AlignedOpenings
 from .groove_build import Resolution
-from .groove_table import VERSION, GrooveTable
+from .groove_table import VERSION, GrooveMapTable
 from .solver_digest import solver_digest
 
 FOLDER_VARIABLE = "ROTORFILM_CACHE"
 """Environment variable that names the folder of the cache."""
+
+SOURCES = (
+    "geometry.py",
+    "groove_axis.py",
+    "groove_build.py",
+    "groove_table.py",
+    "map_fit.py",
+    "map_table.py",
+    "quintic.py",
+)
+"""Besides the solver, what decides the content of a map."""
 
 
 def cache_folder() -> Path:
@@ -36,13 +46,22 @@ def cache_path(openings: AlignedOpenings, slenderness: float, resolution: Resolu
     """Return where the map of a bearing lies; the name is a digest of all that decides its content."""
     angles = [angle for groove in openings.grooves for angle in (groove.center, groove.width)]
     steps = [round(angle / TURN * STEPS) for angle in angles]
-    solver = solver_digest("groove_build.py", "quintic.py")
-    key = repr((VERSION, solver, steps, f"{slenderness:.12g}", resolution))
+    key = repr((VERSION, solver_digest(*SOURCES), steps, f"{slenderness:.9g}", resolution))
     return cache_folder() / f"groove-{hashlib.sha256(key.encode()).hexdigest()[:24]}.bin"
 
 
-def cached_table(path: Path, build: Callable[[], GrooveTable]) -> GrooveTable:
-    """Return the table at a path, built and written where it is missing or damaged.
+def cached_table(
+    path: Path, build: Callable[[], GrooveMapTable], require: Callable[[GrooveMapTable], None]
+) -> GrooveMapTable:
+    """Return the table at a path, built and written where it is missing, damaged or not as required.
+
+    Parameters
+    ----------
+    path : Path
+    build : callable
+        Returns the table.
+    require : callable
+        Raises an InputError if a table is not the right one.
 
     Warns
     -----
@@ -51,16 +70,17 @@ def cached_table(path: Path, build: Callable[[], GrooveTable]) -> GrooveTable:
     """
     # A file that another process is replacing, or that is damaged, is no reason to fail.
     with contextlib.suppress(OSError, RotorfilmError):
-        return GrooveTable.load(path)
+        table = GrooveMapTable.load(path)
+        require(table)
+        return table
     table = build()
     try:
         _write(path, table.to_bytes())
     except OSError as error:
-        warnings.warn(
+        warn_user(
             f"the map of the film could not be kept in {path.parent} ({error}); "
             f"{FOLDER_VARIABLE} names another folder",
             RuntimeWarning,
-            stacklevel=2,
         )
     return table
 
@@ -68,11 +88,10 @@ def cached_table(path: Path, build: Callable[[], GrooveTable]) -> GrooveTable:
 def _write(path: Path, content: bytes) -> None:
     """Write a file that is either whole or not there, whoever else writes it."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=path.stem, suffix=".part")
+    # Not by tempfile, whose files are for one user alone: the mode of this one follows the umask.
+    part = path.with_name(f"{path.stem}-{uuid4().hex}.part")
     try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(content)
-        os.replace(name, path)
-    except OSError:
-        Path(name).unlink(missing_ok=True)
-        raise
+        part.write_bytes(content)
+        os.replace(part, path)
+    finally:
+        part.unlink(missing_ok=True)

@@ -3,37 +3,43 @@
 from __future__ import annotations
 
 import dataclasses
+import logging
 from dataclasses import dataclass, field
 from functools import lru_cache
+from typing import ClassVar
 
-import numpy as np
-
-from ..errors import InputError
-from ..model import Array
-from ..native import GroovedJournalKernel, GrooveMapKernel
+from ..errors import InputError, require_number, require_positive
+from ..native import GroovedJournalKernel, GrooveMapKernel, JournalKernel
+from ..progress import Report, silent
 from .geometry import FilmGeometry
 from .groove_axis import AlignedOpenings, aligned_openings, require_mappable
-from .groove_build import Report, Resolution, build_groove_table
+from .groove_build import Resolution, build_groove_table
 from .groove_cache import cache_path, cached_table
-from .groove_table import GrooveTable
-from .map import BoundMap, MapFilm, report_batch
-from .ring import COARSENING
+from .groove_table import GrooveMapTable
+from .map import KernelFilm, MapFilm
+from .ring import are_counts, require_cells
 
-SAME = 1e-9
-"""Relative difference of length/diameter, and angle [rad], below which a table is that of a bearing."""
+SAME = 2e-9
+"""Angle [rad], and relative difference of length/diameter, below which a table is that of a bearing."""
+
+GROOVED_RANGE = (0.05, 20.0)
+"""Length/diameter for which a map can be made; a shorter film turns faster than the nodes can follow."""
+
+_logger = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, kw_only=True)
-class GroovedMapFilm:
+class GroovedMapFilm(KernelFilm):
     """Finite-length film with Reynolds rupture in a bearing with axial grooves or several pads.
 
     The openings are at ambient pressure. As in `MapFilm` the force is F = dJ/dw of a tabulated potential
     J(e, w), here over two angles (`native/groove_kernel.h`): the damping matrix is symmetric, and the
-    derivatives are exact. In a plain bearing this is `MapFilm`.
+    derivatives are exact. `MapFilm()` becomes this film in a bearing with openings, and this one `MapFilm()`
+    in a plain bearing: by name it is needed for its parameters only.
 
-    A map belongs to one L/D and one set of openings, wherever they are turned to. It is made from some
-    10^4 solutions of the two-dimensional film on first use, which takes from seconds to a minute, and then
-    kept in the folder that the environment variable ROTORFILM_CACHE names, or the platform's cache.
+    A map belongs to one L/D, .05 to 20, and one set of openings, wherever they are turned to. It is made
+    from some 10^4 solutions of the two-dimensional film on first use, which takes from seconds to a minute,
+    and then kept in the folder that the environment variable ROTORFILM_CACHE names, or the platform's cache.
     `build_groove_map` makes it beforehand and says how far it is.
 
     Beyond the largest eccentricity ratio J is continued as a power of X, without proof of its accuracy: a
@@ -49,7 +55,7 @@ class GroovedMapFilm:
         eccentricity and of the source (even, at least 12).
     largest_eccentricity_ratio : float [1]
         Of the last node.
-    table : GrooveTable, optional
+    table : GrooveMapTable, optional
         The map, where it is there already: nothing is then built nor looked for.
     geometry : FilmGeometry
         Set by `fitted`, from the geometry of the bearing.
@@ -64,87 +70,84 @@ class GroovedMapFilm:
     cells: tuple[int, int] = (192, 12)
     nodes: tuple[int, int, int] = (12, 72, 48)
     largest_eccentricity_ratio: float = 0.97
-    table: GrooveTable | None = None
+    table: GrooveMapTable | None = None
     geometry: FilmGeometry = field(default_factory=FilmGeometry)
 
+    _journal: ClassVar[type[JournalKernel]] = GroovedJournalKernel
+
     def __post_init__(self) -> None:
-        if not _are_counts(self.cells, (16, 4), (COARSENING, COARSENING)):
-            raise InputError(
-                f"cells must be two multiples of {COARSENING}, at least (16, 4), got {self.cells!r}"
-            )
-        if not _are_counts(self.nodes, (6, 12, 12), (1, 2, 2)):
+        require_cells(self.cells)
+        if not are_counts(self.nodes, (6, 12, 12), (1, 2, 2)):
             raise InputError(f"nodes must be at least (6, 12, 12), the last two even, got {self.nodes!r}")
-        if not 0.0 < self.largest_eccentricity_ratio < 1.0:
+        if not 0.0 < require_number("largest_eccentricity_ratio", self.largest_eccentricity_ratio) < 1.0:
             raise InputError(
                 f"largest_eccentricity_ratio must be in (0, 1), got {self.largest_eccentricity_ratio!r}"
             )
         if not isinstance(self.geometry, FilmGeometry):
             raise InputError(f"geometry must be a FilmGeometry, got {self.geometry!r}")
+        if self.table is not None and not isinstance(self.table, GrooveMapTable):
+            raise InputError(f"table must be a GrooveMapTable, got {self.table!r}")
         if not self.geometry.plain:
             require_mappable(self.geometry)
+            if self.table is not None:
+                require_same_openings(self.table, aligned_openings(self.geometry))
 
-    def fitted(self, geometry: FilmGeometry) -> GroovedMapFilm:
-        """Return this film in a bearing of the given geometry."""
+    @property
+    def slenderness_range(self) -> tuple[float, float]:
+        """Smallest and largest length/diameter that this film takes."""
+        if self.table is None:
+            return GROOVED_RANGE
+        return self.table.slenderness * (1.0 - SAME), self.table.slenderness * (1.0 + SAME)
+
+    def fitted(self, geometry: FilmGeometry) -> GroovedMapFilm | MapFilm:
+        """Return this film in a bearing of the given geometry; in a plain one that is `MapFilm()`."""
+        if geometry.plain and self.table is None:
+            return MapFilm()
+        if geometry.plain:
+            raise InputError("table must be that of the bearing, got one with openings; take MapFilm()")
         return dataclasses.replace(self, geometry=geometry)
 
-    def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
-        """Return the force on the journal, shape (2, ...); see `FilmLaw.force`.
-
-        Raises
-        ------
-        InputError
-            If the table is not that of this slenderness, or a state is not finite.
-        FilmContactError
-            If an eccentricity ratio is not below 1.
-        """
-        if self.geometry.plain:
-            return MapFilm().force(eccentricity, source, slenderness)
-        batch = self._kernel(slenderness).force(eccentricity.reshape(2, -1), source.reshape(2, -1))
-        report_batch(batch, np.hypot(*eccentricity.reshape(2, -1)))
-        return batch.values.reshape(eccentricity.shape)
-
-    def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
-        """Return d force / d (eccentricity, source), shape (2, 4, ...); see `FilmLaw.jacobian`.
-
-        Raises
-        ------
-        InputError, FilmContactError
-            As in `force`.
-        UndefinedDerivativeError
-            Where the source vanishes.
-        """
-        if self.geometry.plain:
-            return MapFilm().jacobian(eccentricity, source, slenderness)
-        batch = self._kernel(slenderness).jacobian(eccentricity.reshape(2, -1), source.reshape(2, -1))
-        report_batch(batch, np.hypot(*eccentricity.reshape(2, -1)))
-        return batch.values.reshape(2, 4, *eccentricity.shape[1:])
-
-    def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundMap:
-        """Return this film in one bearing, in SI units; see `law.BindableFilm`."""
-        if self.geometry.plain:
-            return MapFilm().bind(slenderness=slenderness, clearance=clearance, force_scale=force_scale)
-        kernel = GroovedJournalKernel(self._kernel(slenderness), clearance, force_scale)
-        return BoundMap(kernel, clearance)
-
-    def built_table(self, slenderness: float, report: Report | None = None) -> GrooveTable:
+    def built_table(self, slenderness: float, report: Report = silent) -> GrooveMapTable:
         """Return the map of this film: the given one, the one on disk, or a new one, which is then kept.
 
         Parameters
         ----------
         slenderness : float [1]
-            Length / diameter.
+            Length / diameter; of a new map rounded to nine digits.
         report : callable, optional
-            Called with the fraction done, 0 to 1, and a text while a map is being made.
+            Called with the fraction done, 0 to 1, and a text while a map is being made. Without it the log
+            says that one is being made.
+
+        Raises
+        ------
+        InputError
+            If the film has no openings, or the slenderness is outside `slenderness_range`.
         """
+        require_positive("length/diameter", slenderness)
+        low, high = self.slenderness_range
+        if not low <= slenderness <= high:
+            raise InputError(
+                f"length/diameter must be {low:.9g} to {high:.9g} for this map, got {slenderness!r}"
+            )
         openings = aligned_openings(self.geometry)
         if self.table is not None:
-            _require_same(self.table, openings, slenderness)
             return self.table
+        # So that L/D = 1/3 and its nine digits share a map.
+        rounded = float(f"{slenderness:.9g}")
         resolution = Resolution(self.cells, self.nodes, self.largest_eccentricity_ratio)
-        return cached_table(
-            cache_path(openings, slenderness, resolution),
-            lambda: build_groove_table(openings, slenderness, resolution, report),
-        )
+        path = cache_path(openings, rounded, resolution)
+
+        def build() -> GrooveMapTable:
+            if report is silent:
+                _logger.warning(
+                    "making the map of a bearing with openings, length/diameter %.6g, in up to a minute; "
+                    "it will be kept in %s",
+                    rounded,
+                    path.parent,
+                )
+            return build_groove_table(openings, rounded, resolution, report)
+
+        return cached_table(path, build, lambda table: require_same_openings(table, openings))
 
     def _kernel(self, slenderness: float) -> GrooveMapKernel:
         return _kernel(self, float(slenderness))
@@ -154,24 +157,14 @@ class GroovedMapFilm:
 def _kernel(film: GroovedMapFilm, slenderness: float) -> GrooveMapKernel:
     table = film.built_table(slenderness)
     axis = aligned_openings(film.geometry).axis
-    return GrooveMapKernel(table.coefficients, table.reach, table.center, table.squeeze, axis)
+    return GrooveMapKernel(table.coefficients, table.reach, table.log_center, table.crowding, axis)
 
 
-def _require_same(table: GrooveTable, openings: AlignedOpenings, slenderness: float) -> None:
-    if abs(table.slenderness / slenderness - 1.0) > SAME:
-        raise InputError(
-            f"length/diameter must be that of the table, {table.slenderness!r}, got {slenderness!r}"
-        )
+def require_same_openings(table: GrooveMapTable, openings: AlignedOpenings) -> None:
+    """Raise InputError unless a table is that of these openings."""
     same = len(table.grooves) == len(openings.grooves) and all(
-        abs(a.center - b.center) <= 2.0 * SAME and abs(a.width - b.width) <= 2.0 * SAME
+        abs(a.center - b.center) <= SAME and abs(a.width - b.width) <= SAME
         for a, b in zip(table.grooves, openings.grooves, strict=True)
     )
     if not same:
         raise InputError(f"openings must be those of the table, {table.grooves!r}, got {openings.grooves!r}")
-
-
-def _are_counts(counts: object, least: tuple[int, ...], factors: tuple[int, ...]) -> bool:
-    if not isinstance(counts, tuple) or len(counts) != len(least):
-        return False
-    rules = zip(counts, least, factors, strict=True)
-    return all(type(n) is int and n >= low and n % factor == 0 for n, low, factor in rules)

@@ -3,7 +3,7 @@
 With J(e, w) = min over films of the dissipation potential (`native/groove_kernel.h`),
 
     ln(-J/|w|^2) = L0(phi) + chi M(X, theta, s),
-    X = chi/(1 - chi^2)^(1/4),   tan s = squeeze tan(phi - theta),
+    X = chi/(1 - chi^2)^(1/4),   tan s = crowding tan(phi - theta),
 
 e at the angle theta and w at phi from the axis of the openings, on uniform grids by quintic B-splines.
 """
@@ -11,8 +11,7 @@ e at the angle theta and w at phi from the axis of the openings, on uniform grid
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
-from pathlib import Path
+from typing import Self
 
 import numpy as np
 
@@ -20,7 +19,7 @@ from ..errors import InputError
 from ..model import Array
 from .geometry import Groove
 from .map_table import unstretch
-from .table_bytes import Layout, Sizes, seal, unseal
+from .table_bytes import Layout, Sizes, StoredTable, seal, unseal
 
 MAGIC = b"RFGROOVE"
 VERSION = 1
@@ -30,7 +29,7 @@ DIRECTIONS = 192
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class GrooveTable:
+class GrooveMapTable(StoredTable):
     """The potential J of the film of one bearing with openings at ambient pressure.
 
     Parameters
@@ -41,9 +40,9 @@ class GrooveTable:
         Its openings, seen from the axis of `groove_axis.aligned_openings`.
     reach : float [1]
         X of the last node; beyond it the kernel continues J as a power of X.
-    squeeze : float [1]
+    crowding : float [1]
         In (0, 1]: how much closer the nodes lie where the source is across the eccentricity.
-    center : ndarray, shape (DIRECTIONS,)
+    log_center : ndarray, shape (DIRECTIONS,)
         Spline coefficients of L0, each centered on its node.
     coefficients : ndarray, shape (cells_x + 5, cells_e, cells_s)
         Spline coefficients of M over X, theta and s.
@@ -57,23 +56,23 @@ class GrooveTable:
     slenderness: float
     grooves: tuple[Groove, ...]
     reach: float
-    squeeze: float
-    center: Array = field(repr=False)
+    crowding: float
+    log_center: Array = field(repr=False)
     coefficients: Array = field(repr=False)
 
     def __post_init__(self) -> None:
         shape = np.shape(self.coefficients)
-        if len(shape) != 3 or min(shape) < 6 or np.shape(self.center) != (DIRECTIONS,):
+        if len(shape) != 3 or min(shape) < 6 or np.shape(self.log_center) != (DIRECTIONS,):
             raise InputError(
-                f"coefficients must have shape (x, e, s) of 6 at least and center ({DIRECTIONS},), "
-                f"got shapes {shape} and {np.shape(self.center)}"
+                f"coefficients must have shape (x, e, s) of 6 at least and log_center ({DIRECTIONS},), "
+                f"got shapes {shape} and {np.shape(self.log_center)}"
             )
-        if not (np.isfinite(self.coefficients).all() and np.isfinite(self.center).all()):
-            raise InputError("coefficients and center must be finite")
-        if not (0.0 < self.reach < np.inf and 0.0 < self.squeeze <= 1.0 and 0.0 < self.slenderness < np.inf):
+        if not (np.isfinite(self.coefficients).all() and np.isfinite(self.log_center).all()):
+            raise InputError("coefficients and log_center must be finite")
+        if not (0.0 < self.reach < np.inf and 0.0 < self.crowding <= 1.0 and 0.0 < self.slenderness < np.inf):
             raise InputError(
-                "slenderness and reach must be positive and squeeze in (0, 1], "
-                f"got {self.slenderness!r}, {self.reach!r} and {self.squeeze!r}"
+                "slenderness and reach must be positive and crowding in (0, 1], "
+                f"got {self.slenderness!r}, {self.reach!r} and {self.crowding!r}"
             )
 
     @property
@@ -84,13 +83,13 @@ class GrooveTable:
     def to_bytes(self) -> bytes:
         """Return the table as little-endian bytes: header with sizes and checksum, then the numbers."""
         openings = [angle for groove in self.grooves for angle in (groove.center, groove.width)]
-        numbers = [self.slenderness, self.reach, self.squeeze, *openings]
+        numbers = [self.slenderness, self.reach, self.crowding, *openings]
         cells_x, cells_e, cells_s = self.coefficients.shape
         sizes = (cells_x, cells_e, cells_s, len(self.grooves))
-        return seal(MAGIC, VERSION, sizes, np.array(numbers), self.center, self.coefficients)
+        return seal(MAGIC, VERSION, sizes, np.array(numbers), self.log_center, self.coefficients)
 
     @classmethod
-    def from_bytes(cls, content: bytes) -> GrooveTable:
+    def from_bytes(cls, content: bytes) -> Self:
         """Return the table that `to_bytes` wrote.
 
         Raises
@@ -100,34 +99,15 @@ class GrooveTable:
         """
         sizes, numbers, center, coefficients = unseal("groove table", MAGIC, VERSION, _layout, content)
         scalars, openings = np.split(numbers, [3])
-        slenderness, reach, squeeze = scalars.tolist()
+        slenderness, reach, crowding = scalars.tolist()
         return cls(
             slenderness=slenderness,
             grooves=tuple(Groove(center=c, width=w) for c, w in openings.reshape(-1, 2).tolist()),
             reach=reach,
-            squeeze=squeeze,
-            center=center,
+            crowding=crowding,
+            log_center=center,
             coefficients=coefficients.reshape(sizes[:3]),
         )
-
-    def save(self, path: str | Path) -> None:
-        """Write the table to a file."""
-        Path(path).write_bytes(self.to_bytes())
-
-    @classmethod
-    def load(cls, path: str | Path) -> GrooveTable:
-        """Return the table in a file; see `from_bytes` for the errors."""
-        return cls.from_bytes(Path(path).read_bytes())
-
-    @cached_property
-    def _content(self) -> bytes:
-        return self.to_bytes()
-
-    def __eq__(self, other: object) -> bool:
-        return self is other or (isinstance(other, GrooveTable) and self._content == other._content)
-
-    def __hash__(self) -> int:
-        return hash(self._content)
 
 
 def _layout(sizes: Sizes) -> Layout:

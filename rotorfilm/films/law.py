@@ -22,7 +22,7 @@ from ..model import Array
 from .geometry import FilmGeometry
 
 CENTER = 1e-8
-"""Eccentricity ratio below which the derivative is taken on this circle around the center."""
+"""Eccentricity ratio below which the derivative is taken on this circle, or that of the centered film."""
 
 CHUNK = 2048
 """States evaluated at once, which bounds the memory of a large batch."""
@@ -205,11 +205,15 @@ def require_direction(frame: PolarFrame) -> None:
     """
     vanishing = ~np.any(frame.source, axis=-1)
     if np.any(vanishing):
-        chi = frame.chi[vanishing][0]
-        raise UndefinedDerivativeError(
-            "source w = velocity/clearance - (speed/2) z^ x eccentricity must not vanish where a "
-            f"derivative is asked for, got w = 0 at eccentricity ratio {chi:.6g}"
-        )
+        raise vanishing_source(frame.chi[vanishing][0])
+
+
+def vanishing_source(chi: float) -> UndefinedDerivativeError:
+    """Return the error of a film without derivative, since nothing drives it at eccentricity ratio chi."""
+    return UndefinedDerivativeError(
+        "source w = velocity/clearance - (speed/2) z^ x eccentricity must not vanish where a "
+        f"derivative is asked for, got w = 0 at eccentricity ratio {chi:.6g}"
+    )
 
 
 def _chunks(size: int, chunk: int) -> list[slice]:

@@ -2,27 +2,77 @@
 
 from __future__ import annotations
 
-import warnings
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from ..errors import FilmContactError, InputError, RotorfilmError, UndefinedDerivativeError, ValidityWarning
+from ..errors import FilmContactError, InputError, RotorfilmError, require_inside, warn_user
 from ..model import Array
 from ..native import JournalKernel, MapKernel, Status
 from ..native.kernels import Batch
+from .geometry import FilmGeometry
+from .law import vanishing_source
 from .map_own import OWN_RANGE, bearing_table
 from .map_table import MapTable
+
+if TYPE_CHECKING:
+    from .groove_map import GroovedMapFilm
 
 TABLE = "journal_map.bin"
 """The universal table of the package, in `films/data`."""
 
 
+class KernelFilm(ABC):
+    """A film law over a compiled map: what `MapFilm` and `GroovedMapFilm` have in common."""
+
+    _journal: ClassVar[type[JournalKernel]] = JournalKernel
+
+    @abstractmethod
+    def _kernel(self, slenderness: float) -> MapKernel:
+        """Return the compiled map of a bearing."""
+
+    def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
+        """Return the force on the journal, shape (2, ...); see `FilmLaw.force`.
+
+        Raises
+        ------
+        InputError
+            If the map is not for this slenderness, or a state is not finite.
+        FilmContactError
+            If an eccentricity ratio is not below 1.
+        """
+        e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
+        batch = self._kernel(slenderness).force(e, w)
+        _report_law(batch, e, w)
+        return batch.values.reshape(eccentricity.shape)
+
+    def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
+        """Return d force / d (eccentricity, source), shape (2, 4, ...); see `FilmLaw.jacobian`.
+
+        Raises
+        ------
+        InputError, FilmContactError
+            As in `force`.
+        UndefinedDerivativeError
+            Where the source vanishes, in a plain bearing off the center only.
+        """
+        e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
+        batch = self._kernel(slenderness).jacobian(e, w)
+        _report_law(batch, e, w)
+        return batch.values.reshape(2, 4, *eccentricity.shape[1:])
+
+    def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundMap:
+        """Return this film in one bearing, in SI units; see `law.BindableFilm`."""
+        return BoundMap(self._journal(self._kernel(slenderness), clearance, force_scale), clearance)
+
+
 @dataclass(frozen=True)
-class MapFilm:
+class MapFilm(KernelFilm):
     """Finite-length film with Reynolds rupture, from a table of its dissipation potential.
 
     The film minimizes a functional, so its force is F = dJ/dw of the minimum J(e, w): the damping matrix
@@ -35,56 +85,55 @@ class MapFilm:
     Parameters
     ----------
     table : MapTable, optional
-        The potential; by default the table of the package, for the full film without grooves. It holds
-        length/diameter .1 to 4; a bearing outside gets a table of its own at its first force, in about ten
-        seconds, kept in memory (`bearing_table`, which is also the way to save one).
+        The potential of a plain bearing; by default the table of the package. It holds length/diameter .1
+        to 4; a bearing outside gets a table of its own at its first force, in about ten seconds, kept in
+        memory (`bearing_table`, which is also the way to save one). A bearing with openings gets a
+        `GroovedMapFilm`, which takes up to a minute at the first force and is kept on disk.
+
+    Raises
+    ------
+    InputError
+        If the table is no MapTable.
     """
 
     table: MapTable | None = None
 
+    def __post_init__(self) -> None:
+        if self.table is not None and not isinstance(self.table, MapTable):
+            raise InputError(f"table must be a MapTable, got {self.table!r}")
+
     @property
     def slenderness_range(self) -> tuple[float, float]:
-        """Smallest and largest length/diameter that this film takes."""
+        """Smallest and largest length/diameter that this film takes in a plain bearing."""
         return OWN_RANGE if self.table is None else self.table.slenderness_range
 
-    def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
-        """Return the force on the journal, shape (2, ...); see `FilmLaw.force`.
+    def fitted(self, geometry: FilmGeometry) -> MapFilm | GroovedMapFilm:
+        """Return this film in a plain bearing, and the `GroovedMapFilm` of one with openings.
 
         Raises
         ------
         InputError
-            If the slenderness is outside the table, or a state is not finite.
-        FilmContactError
-            If an eccentricity ratio is not below 1.
+            If there is a supply pressure, an opening wider than 60 deg, or the table of a plain bearing
+            is given where there are openings.
         """
-        batch = self._kernel(slenderness).force(eccentricity.reshape(2, -1), source.reshape(2, -1))
-        report_batch(batch, np.hypot(*eccentricity.reshape(2, -1)))
-        return batch.values.reshape(eccentricity.shape)
+        if geometry.plain:
+            return self
+        if self.table is not None:
+            raise InputError(
+                "table must be that of the bearing, got a MapTable, which is for no openings; take MapFilm() "
+                "or GroovedMapFilm(table=...)"
+            )
+        # Imported here because that film is a plain one where there is no opening.
+        from .groove_map import GroovedMapFilm
 
-    def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
-        """Return d force / d (eccentricity, source), shape (2, 4, ...); see `FilmLaw.jacobian`.
-
-        Raises
-        ------
-        InputError, FilmContactError
-            As in `force`.
-        UndefinedDerivativeError
-            Where the source vanishes off the center.
-        """
-        batch = self._kernel(slenderness).jacobian(eccentricity.reshape(2, -1), source.reshape(2, -1))
-        report_batch(batch, np.hypot(*eccentricity.reshape(2, -1)))
-        return batch.values.reshape(2, 4, *eccentricity.shape[1:])
-
-    def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundMap:
-        """Return this film in one bearing, in SI units; see `law.BindableFilm`."""
-        return BoundMap(JournalKernel(self._kernel(slenderness), clearance, force_scale), clearance)
+        return GroovedMapFilm(geometry=geometry)
 
     def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
         """Return the kernel and its tables; see `law.NativeFilm`."""
         table = self._table(slenderness)
         return "journal", {
             "coefficients": table.coefficients,
-            "center": table.center,
+            "center": table.log_center,
             "range": np.array(table.slenderness_range),
             "reach": np.array([table.reach]),
         }
@@ -115,7 +164,7 @@ class BoundMap:
         """Return (force_x, force_y) [N] for numbers, as fast as Python can ask."""
         force_x, force_y, status = self.kernel.call(x, y, vx, vy, speed)
         if status:
-            _report_at(status, np.hypot(x, y) / self.clearance, self.clearance)
+            self._report(status, x, y, vx, vy, speed)
         return force_x, force_y
 
     def tangent(
@@ -124,7 +173,7 @@ class BoundMap:
         """Return (force_x, force_y) [N] and the ten entries of the Jacobian, row by row, for numbers."""
         force_x, force_y, derivatives, status = self.kernel.tangent(x, y, vx, vy, speed)
         if status:
-            _report_at(status, np.hypot(x, y) / self.clearance, self.clearance)
+            self._report(status, x, y, vx, vy, speed)
         return force_x, force_y, derivatives
 
     def force(self, position: Array, velocity: Array, speed: Array) -> Array:
@@ -133,9 +182,9 @@ class BoundMap:
             x, y = position.tolist()
             vx, vy = velocity.tolist()
             return np.array(self.call(x, y, vx, vy, float(speed)))
-        rows = position.reshape(2, -1)
-        batch = self.kernel.force(rows, velocity.reshape(2, -1), speed.ravel())
-        self._report(batch, rows)
+        q, v, omega = position.reshape(2, -1), velocity.reshape(2, -1), speed.ravel()
+        batch = self.kernel.force(q, v, omega)
+        self._report_batch(batch, q, v, omega)
         return batch.values.reshape(position.shape)
 
     def jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
@@ -144,16 +193,27 @@ class BoundMap:
             x, y = position.tolist()
             vx, vy = velocity.tolist()
             return np.array(self.tangent(x, y, vx, vy, float(speed))[2]).reshape(2, 5)
-        rows = position.reshape(2, -1)
-        batch = self.kernel.jacobian(rows, velocity.reshape(2, -1), speed.ravel())
-        self._report(batch, rows)
+        q, v, omega = position.reshape(2, -1), velocity.reshape(2, -1), speed.ravel()
+        batch = self.kernel.jacobian(q, v, omega)
+        self._report_batch(batch, q, v, omega)
         return batch.values.reshape(2, 5, *position.shape[1:])
 
-    def _report(self, batch: Batch, rows: Array) -> None:
+    def _report_batch(self, batch: Batch, q: Array, v: Array, omega: Array) -> None:
         if batch.status:
-            chi = np.hypot(*rows) / self.clearance
-            at = np.argmax(chi) if batch.status == Status.CONTACT else batch.first
-            _report_at(batch.status, chi[at], self.clearance)
+            at = np.argmax(np.hypot(*q)) if batch.status == Status.CONTACT else batch.first
+            (x, y), (vx, vy) = q[:, at].tolist(), v[:, at].tolist()
+            self._report(batch.status, x, y, vx, vy, float(np.broadcast_to(omega, q.shape[1:])[at]))
+
+    def _report(self, status: int, x: float, y: float, vx: float, vy: float, speed: float) -> None:
+        """Raise, or warn, about a state that has this status."""
+        if status == Status.NOT_FINITE:
+            raise InputError(
+                "position, velocity and speed must be finite and not overflow, "
+                f"got ({x!r}, {y!r}) m, ({vx!r}, {vy!r}) m/s and {speed!r} rad/s"
+            )
+        if status == Status.CONTACT:
+            require_inside(np.array([x, y]), self.clearance)
+        _report_film(status, float(np.hypot(x, y)) / self.clearance)
 
 
 @lru_cache(maxsize=1)
@@ -183,28 +243,22 @@ def _collapsed(table: MapTable, slenderness: float) -> MapKernel:
     return MapKernel(*table.at(slenderness))
 
 
-def report_batch(batch: Batch, chi: Array) -> None:
-    """Raise, or warn, about the most severe status of a batch with eccentricity ratios chi (n,)."""
-    if batch.status:
-        _report_at(batch.status, chi[batch.first])
+def _report_law(batch: Batch, e: Array, w: Array) -> None:
+    """Raise, or warn, about the most severe status of a batch of eccentricities and sources (2, n)."""
+    if not batch.status:
+        return
+    at = e[:, batch.first]
+    if batch.status == Status.NOT_FINITE:
+        raise InputError(
+            "eccentricity and source must be finite and not overflow, "
+            f"got {at.tolist()} and {w[:, batch.first].tolist()} 1/s"
+        )
+    _report_film(batch.status, float(np.hypot(*at)))
 
 
-def _report_at(status: int, chi: float, clearance: float = 1.0) -> None:
-    """Raise, or warn, about the state at eccentricity ratio chi that has this status."""
-    if status == Status.NOT_FINITE:
-        raise InputError(f"position, velocity and speed must be finite and not overflow, got ratio {chi:.6g}")
+def _report_film(status: int, chi: float) -> None:
     if status == Status.CONTACT:
-        raise FilmContactError(
-            f"position must keep the journal inside the clearance {clearance!r} m, "
-            f"got an eccentricity of {chi * clearance:.6g} m"
-        )
+        raise FilmContactError(f"eccentricity ratio must be below 1, got {chi:.9g}")
     if status == Status.UNDEFINED:
-        raise UndefinedDerivativeError(
-            "source w = velocity/clearance - (speed/2) z^ x eccentricity must not vanish where a "
-            f"derivative is asked for, got w = 0 at eccentricity ratio {chi:.6g}"
-        )
-    warnings.warn(
-        f"eccentricity ratio {chi:.6g} is beyond the map of the film; its force is extrapolated there",
-        ValidityWarning,
-        stacklevel=4,
-    )
+        raise vanishing_source(chi)
+    warn_user(f"eccentricity ratio {chi:.6g} is beyond the map of the film; its force is extrapolated there")

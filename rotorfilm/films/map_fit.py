@@ -66,7 +66,7 @@ def fit_map_table(
     if len(L) > 1:
         coefficients, center = quintic_coefficients(coefficients), quintic_coefficients(center)
     return MapTable(
-        slenderness_range=slenderness_range, reach=reach, center=center, coefficients=coefficients
+        slenderness_range=slenderness_range, reach=reach, log_center=center, coefficients=coefficients
     )
 
 

@@ -10,9 +10,8 @@ on a uniform grid of X in [0, reach], T in [0, 1] and S, by quintic B-splines in
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +19,7 @@ from numpy.typing import NDArray
 from ..errors import InputError
 from ..model import Array
 from ..native import slice_table
-from .table_bytes import Layout, Sizes, seal, unseal
+from .table_bytes import Layout, Sizes, StoredTable, seal, unseal
 
 MAGIC = b"RFILMMAP"
 VERSION = 2
@@ -34,17 +33,17 @@ class BearingMap(NamedTuple):
     coefficients : ndarray, shape (cells_x + 5, cells_t + 5)
     reach : float
         X of the last node.
-    center : float
+    log_center : float
         L0.
     """
 
     coefficients: Array
     reach: float
-    center: float
+    log_center: float
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class MapTable:
+class MapTable(StoredTable):
     """The potential J of a film over eccentricity, direction and slenderness.
 
     Parameters
@@ -53,7 +52,7 @@ class MapTable:
         Smallest and largest length/diameter; equal for the table of a single bearing.
     reach : float [1]
         X of the last node; beyond it the kernel continues J as a power of X.
-    center : ndarray, shape (s,)
+    log_center : ndarray, shape (s,)
         Spline coefficients of L0 over ln(L/D); s = 1 for a single bearing.
     coefficients : ndarray, shape (s, cells_x + 5, cells_t + 5)
         Spline coefficients of M over ln(L/D), X and T.
@@ -66,23 +65,23 @@ class MapTable:
 
     slenderness_range: tuple[float, float]
     reach: float
-    center: Array = field(repr=False)
+    log_center: Array = field(repr=False)
     coefficients: Array = field(repr=False)
 
     def __post_init__(self) -> None:
-        shape, count = np.shape(self.coefficients), np.size(self.center)
+        shape, count = np.shape(self.coefficients), np.size(self.log_center)
         low, high = self.slenderness_range
         if len(shape) != 3 or min(shape[1:]) < 6 or shape[0] != count or 1 < count < 10:
             raise InputError(
-                "coefficients must have shape (s, x, t) with x, t >= 6 and center (s,), s = 1 or s >= 10, "
-                f"got shapes {shape} and {np.shape(self.center)}"
+                "coefficients must have shape (s, x, t) with x, t >= 6 and log_center (s,), s 1 or >= 10, "
+                f"got shapes {shape} and {np.shape(self.log_center)}"
             )
         if not (0.0 < low <= high < np.inf and (low < high) == (count > 1)):
             raise InputError(f"slenderness_range must be positive, ascending, got {self.slenderness_range!r}")
         if not (0.0 < self.reach < np.inf and np.isfinite(self.coefficients).all()):
             raise InputError(f"reach must be positive and coefficients finite, got reach {self.reach!r}")
-        if not np.isfinite(self.center).all():
-            raise InputError("center must be finite")
+        if not np.isfinite(self.log_center).all():
+            raise InputError("log_center must be finite")
 
     @property
     def largest_eccentricity_ratio(self) -> float:
@@ -113,7 +112,9 @@ class MapTable:
                 f"length/diameter must be within the table of the film, {low:g} to {high:g}, "
                 f"got {slenderness!r}; MapFilm() without a table takes more"
             )
-        collapsed, center = slice_table(self.coefficients, self.center, self.slenderness_range, slenderness)
+        collapsed, center = slice_table(
+            self.coefficients, self.log_center, self.slenderness_range, slenderness
+        )
         return BearingMap(collapsed, self.reach, center)
 
     def to_bytes(self, quantum: float = 0.0) -> bytes:
@@ -129,7 +130,7 @@ class MapTable:
         InputError
             If a coefficient is beyond 2^31 quanta.
         """
-        numbers = np.array([self.reach, *self.slenderness_range, quantum, *np.ravel(self.center)])
+        numbers = np.array([self.reach, *self.slenderness_range, quantum, *np.ravel(self.log_center)])
         s, x, t = self.coefficients.shape
         return seal(MAGIC, VERSION, (s, x, t, 4 if quantum else 8), numbers, self._packed(quantum))
 
@@ -143,7 +144,7 @@ class MapTable:
         return multiples.astype(np.int32)
 
     @classmethod
-    def from_bytes(cls, content: bytes) -> MapTable:
+    def from_bytes(cls, content: bytes) -> Self:
         """Return the table that `to_bytes` wrote.
 
         Raises
@@ -155,28 +156,13 @@ class MapTable:
         return cls(
             slenderness_range=(float(numbers[1]), float(numbers[2])),
             reach=float(numbers[0]),
-            center=numbers[4:],
+            log_center=numbers[4:],
             coefficients=packed.reshape(sizes[:3]) * (numbers[3] or 1.0),
         )
 
     def save(self, path: str | Path, quantum: float = 0.0) -> None:
         """Write the table to a file; see `to_bytes`."""
         Path(path).write_bytes(self.to_bytes(quantum))
-
-    @classmethod
-    def load(cls, path: str | Path) -> MapTable:
-        """Return the table in a file; see `from_bytes` for the errors."""
-        return cls.from_bytes(Path(path).read_bytes())
-
-    @cached_property
-    def _content(self) -> bytes:
-        return self.to_bytes()
-
-    def __eq__(self, other: object) -> bool:
-        return self is other or (isinstance(other, MapTable) and self._content == other._content)
-
-    def __hash__(self) -> int:
-        return hash(self._content)
 
 
 def stretch(eccentricity_ratio: Array | float) -> Array:

@@ -8,15 +8,13 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..errors import ConvergenceError, InputError, UndefinedDerivativeError
+from ..errors import ConvergenceError, InputError
 from ..model import Array
 from .cavitation import Cavitation, Complementarity
 from .film_field import FilmField
 from .geometry import FilmGeometry
-from .ring import COARSENING, LONG, Grid, Spans, ring_grids, ring_spans
-
-CENTER = 1e-8
-"""Eccentricity ratio below which a plain film counts as isotropic."""
+from .law import CENTER, vanishing_source
+from .ring import LONG, Grid, Spans, require_cells, ring_grids, ring_spans
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,10 +61,7 @@ class ReynoldsFilm:
     geometry: FilmGeometry = field(default_factory=FilmGeometry)
 
     def __post_init__(self) -> None:
-        if not _are_cells(self.cells):
-            raise InputError(
-                f"cells must be two multiples of {COARSENING}, at least (16, 4), got {self.cells!r}"
-            )
+        require_cells(self.cells)
         if not isinstance(self.cavitation, Cavitation):
             raise InputError(f"cavitation must be such as Complementarity(), got {self.cavitation!r}")
         if not isinstance(self.geometry, FilmGeometry):
@@ -151,10 +146,7 @@ class ReynoldsFilm:
         chi = np.hypot(e[0], e[1])
         undefined = still & ((chi > CENTER) | (not self.geometry.plain))
         if np.any(undefined):
-            raise UndefinedDerivativeError(
-                "source w = velocity/clearance - (speed/2) z^ x eccentricity must not vanish where a "
-                f"derivative is asked for, got w = 0 at eccentricity ratio {chi[undefined][0]:.6g}"
-            )
+            raise vanishing_source(chi[undefined][0])
         return still
 
     def _solved(self, e: Array, w: Array, slenderness: float, *, slopes: bool) -> tuple[Array, Array, Array]:
@@ -174,10 +166,3 @@ class ReynoldsFilm:
 
 def _batch(vectors: Array) -> Array:
     return np.ascontiguousarray(vectors, dtype=np.float64).reshape(2, -1)
-
-
-def _are_cells(cells: object) -> bool:
-    if not isinstance(cells, tuple) or len(cells) != 2:
-        return False
-    rules = zip(cells, (16, 4), strict=True)
-    return all(type(n) is int and n % COARSENING == 0 and n >= least for n, least in rules)

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..errors import InputError
 from ..model import Array
 from .geometry import TURN, FilmGeometry, Span
 
@@ -27,6 +28,20 @@ GRADING = 1.2
 
 LONG = 4.0
 """Length/diameter above which the cells at the end shrink as the inverse of it, with the layer there."""
+
+
+def require_cells(cells: object) -> None:
+    """Raise InputError unless these are possible cells around the film and along half the length."""
+    if not are_counts(cells, (16, 4), (COARSENING, COARSENING)):
+        raise InputError(f"cells must be two multiples of {COARSENING}, at least (16, 4), got {cells!r}")
+
+
+def are_counts(counts: object, least: tuple[int, ...], factors: tuple[int, ...]) -> bool:
+    """Return whether these are whole numbers, none below the least, multiples of the factors."""
+    if not isinstance(counts, tuple) or len(counts) != len(least):
+        return False
+    rules = zip(counts, least, factors, strict=True)
+    return all(type(n) is int and n >= low and n % factor == 0 for n, low, factor in rules)
 
 
 class Spans(NamedTuple):

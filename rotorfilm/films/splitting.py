@@ -11,12 +11,11 @@ scalar function of each eigenvalue (`axial`), also when it runs over all modes.
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..errors import InputError, ValidityWarning
+from ..errors import InputError, warn_user
 from ..model import Array
 from .axial import AxialSum, axial_sum
 from .coupling import CouplingIntegrals, PairIntegrals, coupling_integrals, pair_integrals, whitened
@@ -70,7 +69,7 @@ class SplittingFilm:
             raise InputError(f"rupture must be an arc such as FixedArc(), got {self.rupture!r}")
         shortcoming = self.rupture.shortcoming(self.basis)
         if shortcoming:
-            warnings.warn(shortcoming, ValidityWarning, stacklevel=3)
+            warn_user(shortcoming)
 
     @property
     def basis(self) -> Basis:

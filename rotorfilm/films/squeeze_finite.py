@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import ValidityWarning
+from ..errors import warn_user
 from ..model import Array
 from .law import CENTER, PolarResponse, cartesian_force, cartesian_jacobian, polar_frame
 from .porous_layer import SINGLE_MODES, LayerModes, PorousLayer, axial_numbers, leakage
@@ -101,11 +100,9 @@ class FiniteSqueezeFilm:
     def _response(self, chi: Array) -> tuple[PolarResponse, Array, Array]:
         """Return the polar matrix, the lift per eccentricity and its slope at eccentricity ratios (B,)."""
         if np.any(chi > LARGEST):
-            warnings.warn(
+            warn_user(
                 f"eccentricity ratio must not exceed {LARGEST} for a film of finite length, got "
                 f"{chi.max():.6g}: its harmonics no longer resolve the pressure",
-                ValidityWarning,
-                stacklevel=6,
             )
         values = np.array([self._radial(float(eps)) for eps in chi]).reshape(-1, 6)
         A, A_chi = np.zeros((2, chi.size, 2, 2))

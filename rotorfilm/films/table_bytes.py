@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import struct
 import zlib
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
-from typing import Any
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +22,38 @@ Sizes = tuple[int, int, int, int]
 
 Layout = tuple[tuple[str, int], ...]
 """Little-endian dtype and count of each array of a table."""
+
+
+class StoredTable(ABC):
+    """A table that is its bytes: saved, loaded, compared and hashed by them."""
+
+    @abstractmethod
+    def to_bytes(self) -> bytes:
+        """Return the table as little-endian bytes."""
+
+    @classmethod
+    @abstractmethod
+    def from_bytes(cls, content: bytes) -> Self:
+        """Return the table that `to_bytes` wrote."""
+
+    def save(self, path: str | Path) -> None:
+        """Write the table to a file."""
+        Path(path).write_bytes(self.to_bytes())
+
+    @classmethod
+    def load(cls, path: str | Path) -> Self:
+        """Return the table in a file; see `from_bytes` for the errors."""
+        return cls.from_bytes(Path(path).read_bytes())
+
+    @cached_property
+    def _content(self) -> bytes:
+        return self.to_bytes()
+
+    def __eq__(self, other: object) -> bool:
+        return self is other or (type(other) is type(self) and self._content == other._content)
+
+    def __hash__(self) -> int:
+        return hash(self._content)
 
 
 def seal(mark: bytes, version: int, sizes: Sizes, *arrays: Array | NDArray[np.int32]) -> bytes:

@@ -58,19 +58,19 @@ class MapKernel:
         Quintic B-spline coefficients of M(X, T).
     reach : float
         X of the last node.
-    center : float
+    log_center : float
         L0, the logarithm of -J/|w|^2 at the center.
     """
 
     _prefix: ClassVar[str] = "rf_map"
 
-    def __init__(self, coefficients: Array, reach: float, center: float) -> None:
-        self._arguments: tuple[Any, ...] = (coefficients, reach, center)
+    def __init__(self, coefficients: Array, reach: float, log_center: float) -> None:
+        self._arguments: tuple[Any, ...] = (coefficients, reach, log_center)
         self.coefficients = np.ascontiguousarray(coefficients, dtype=float)
         cells_x, cells_t = (count - 5 for count in self.coefficients.shape)
         if min(cells_x, cells_t) < 1 or not np.isfinite(self.coefficients).all():
             raise ValueError(f"coefficients must be finite, 6 x 6 at least, got shape {coefficients.shape}")
-        self.struct: Any = MapStruct(cells_x, cells_t, reach, center, self.coefficients.ctypes.data)
+        self.struct: Any = MapStruct(cells_x, cells_t, reach, log_center, self.coefficients.ctypes.data)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._arguments
@@ -98,9 +98,9 @@ class GrooveMapKernel(MapKernel):
         Quintic B-spline coefficients of M(X, theta, s), in the angles those centered on the nodes.
     reach : float
         X of the last node.
-    center : ndarray, shape (cells_w,)
+    log_center : ndarray, shape (cells_w,)
         Those of L0 over the direction of the source.
-    squeeze : float
+    crowding : float
         Ratio of tan s and the tangent of the angle from the eccentricity to the source.
     axis : float [rad]
         Angle of the axis of the openings in the bearing frame.
@@ -108,14 +108,17 @@ class GrooveMapKernel(MapKernel):
 
     _prefix: ClassVar[str] = "rf_groove"
 
-    def __init__(self, coefficients: Array, reach: float, center: Array, squeeze: float, axis: float) -> None:
-        self._arguments = (coefficients, reach, center, squeeze, axis)
+    def __init__(
+        self, coefficients: Array, reach: float, log_center: Array, crowding: float, axis: float
+    ) -> None:
+        self._arguments = (coefficients, reach, log_center, crowding, axis)
         wide = _wrapped(_wrapped(coefficients, 1), 2)
         self.coefficients = np.ascontiguousarray(wide, dtype=float)
-        self.center = np.ascontiguousarray(_wrapped(center, 0), dtype=float)
+        self.log_center = np.ascontiguousarray(_wrapped(log_center, 0), dtype=float)
         cells_x, cells_e, cells_s = (count - 5 for count in self.coefficients.shape)
-        places = self.center.ctypes.data, self.coefficients.ctypes.data
-        self.struct = GrooveMapStruct(cells_x, cells_e, cells_s, len(center), reach, squeeze, axis, *places)
+        places = self.log_center.ctypes.data, self.coefficients.ctypes.data
+        counts = cells_x, cells_e, cells_s, len(log_center)
+        self.struct = GrooveMapStruct(*counts, reach, crowding, axis, *places)
 
 
 class JournalKernel:
@@ -171,7 +174,9 @@ class JournalKernel:
         n = q.shape[1]
         step = 0 if omega.shape == (1,) else 1
         given = [*_pointer(q), *_pointer(v), omega.ctypes.data, step]
-        if v.shape != (2, n) or (step and omega.shape != (n,)):
+        if v.shape != (2, n):
+            raise ValueError(f"velocity must have the shape of position, (2, {n}), got {v.shape}")
+        if step and omega.shape != (n,):
             raise ValueError(f"speed must have shape ({n},) or (1,), got {omega.shape}")
         return _run(f"{self._prefix}_{name}_batch", self._struct, n, given, shape)
 

@@ -45,6 +45,14 @@ def read_cells(where: str, value: Any) -> tuple[int, int]:
     return around, along
 
 
+def read_nodes(where: str, value: Any) -> tuple[int, int, int]:
+    """Read the nodes of a map with openings, which checks them itself."""
+    if not isinstance(value, list) or len(value) != 3:
+        raise SceneError(f"{where} must be three numbers of nodes, got {value!r}")
+    over, turning, moving = value
+    return over, turning, moving
+
+
 def _is_count(value: int) -> bool:
     return not isinstance(value, bool) and value > 0
 
@@ -159,7 +167,10 @@ class SplittingFilmTable:
 
 @dataclass(frozen=True, kw_only=True)
 class MapFilmTable:
-    """`film = {name = "map"}`: the film with Reynolds rupture, from its impedance map."""
+    """`film = {name = "map"}`: the film with Reynolds rupture, from its impedance map.
+
+    With grooves or several pads at ambient pressure that is `grooved_map` with its defaults.
+    """
 
     def build(self) -> MapFilm:
         """Return the film law."""
@@ -168,11 +179,32 @@ class MapFilmTable:
 
 @dataclass(frozen=True, kw_only=True)
 class GroovedMapFilmTable:
-    """`film = {name = "grooved_map"}`: the impedance map of a bearing with grooves, made on first use."""
+    """`film = {name = "grooved_map"}`: the impedance map of a bearing with grooves, made on first use.
+
+    Parameters
+    ----------
+    cells : (int, int)
+        Cells of the two-dimensional film around it and along half the length.
+    nodes : (int, int, int)
+        Nodes over the eccentricity ratio, its direction and that of the motion.
+    largest_eccentricity_ratio : float [1]
+        Of the last node.
+    """
+
+    cells: Annotated[tuple[int, int], read_cells] = GroovedMapFilm.cells
+    nodes: Annotated[tuple[int, int, int], read_nodes] = GroovedMapFilm.nodes
+    largest_eccentricity_ratio: Annotated[float, Quantity("1")] = GroovedMapFilm.largest_eccentricity_ratio
+
+    def __post_init__(self) -> None:
+        self.build()
 
     def build(self) -> GroovedMapFilm:
         """Return the film law."""
-        return GroovedMapFilm()
+        return GroovedMapFilm(
+            cells=self.cells,
+            nodes=self.nodes,
+            largest_eccentricity_ratio=self.largest_eccentricity_ratio,
+        )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,13 +1,15 @@
 """Tables of grooved bearings: bytes, damage, and the cache on disk."""
 
+import ast
 import dataclasses
 import os
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from rotorfilm.errors import InputError, RotorfilmError
-from rotorfilm.films import FilmGeometry, Groove, GrooveTable
+from rotorfilm.films import FilmGeometry, Groove, GrooveMapTable, groove_cache
 from rotorfilm.films.groove_axis import aligned_openings
 from rotorfilm.films.groove_build import Resolution
 from rotorfilm.films.groove_cache import cache_folder, cache_path, cached_table
@@ -20,14 +22,18 @@ FINE = Resolution((96, 8), (8, 24, 24), 0.9)
 
 def some_table(seed=0):
     rng = np.random.default_rng(seed)
-    return GrooveTable(
+    return GrooveMapTable(
         slenderness=0.5,
         grooves=GROOVES,
         reach=2.0,
-        squeeze=0.6,
-        center=rng.normal(size=DIRECTIONS),
+        crowding=0.6,
+        log_center=rng.normal(size=DIRECTIONS),
         coefficients=rng.normal(size=(11, 8, 12)),
     )
+
+
+def any_table(table):
+    """Require nothing."""
 
 
 def openings(turn=0.0):
@@ -37,11 +43,11 @@ def openings(turn=0.0):
 
 def test_bytes_and_back(tmp_path):
     table = some_table()
-    assert GrooveTable.from_bytes(table.to_bytes()) == table
-    assert hash(GrooveTable.from_bytes(table.to_bytes())) == hash(table)
+    assert GrooveMapTable.from_bytes(table.to_bytes()) == table
+    assert hash(GrooveMapTable.from_bytes(table.to_bytes())) == hash(table)
     assert some_table(1) != table
     table.save(tmp_path / "map.bin")
-    assert GrooveTable.load(tmp_path / "map.bin") == table
+    assert GrooveMapTable.load(tmp_path / "map.bin") == table
 
 
 @pytest.mark.parametrize(
@@ -57,16 +63,16 @@ def test_bytes_and_back(tmp_path):
 )
 def test_damaged_bytes_are_refused(damage, message):
     with pytest.raises(RotorfilmError, match=message):
-        GrooveTable.from_bytes(damage(some_table().to_bytes()))
+        GrooveMapTable.from_bytes(damage(some_table().to_bytes()))
 
 
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
         ({"coefficients": np.zeros((11, 8))}, "coefficients must have shape"),
-        ({"center": np.zeros(5)}, "coefficients must have shape"),
+        ({"log_center": np.zeros(5)}, "coefficients must have shape"),
         ({"coefficients": np.full((11, 8, 12), np.nan)}, "must be finite"),
-        ({"squeeze": 0.0}, r"squeeze in \(0, 1\], got 0\.5, 2\.0 and 0\.0"),
+        ({"crowding": 0.0}, r"crowding in \(0, 1\], got 0\.5, 2\.0 and 0\.0"),
     ],
 )
 def test_impossible_tables_are_refused(changes, message):
@@ -81,12 +87,12 @@ def test_table_is_built_once_and_again_after_damage(tmp_path):
         built.append(1)
         return some_table()
 
-    assert cached_table(path, build) == cached_table(path, build) == some_table()
+    assert cached_table(path, build, any_table) == cached_table(path, build, any_table) == some_table()
     assert len(built) == 1
     path.write_bytes(path.read_bytes()[:-9] + b"damaged!!")
-    assert cached_table(path, build) == some_table()
+    assert cached_table(path, build, any_table) == some_table()
     assert len(built) == 2
-    assert cached_table(path, build) == some_table()
+    assert cached_table(path, build, any_table) == some_table()
     assert len(built) == 2
     assert [entry.name for entry in path.parent.iterdir()] == ["map.bin"]
 
@@ -94,7 +100,7 @@ def test_table_is_built_once_and_again_after_damage(tmp_path):
 def test_folder_that_cannot_be_written_costs_a_warning_only(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.warns(RuntimeWarning, match="ROTORFILM_CACHE names another folder"):
-        assert cached_table(tmp_path / "file" / "map.bin", some_table) == some_table()
+        assert cached_table(tmp_path / "file" / "map.bin", some_table, any_table) == some_table()
 
 
 def test_failed_writing_leaves_nothing_behind(tmp_path, monkeypatch):
@@ -103,8 +109,49 @@ def test_failed_writing_leaves_nothing_behind(tmp_path, monkeypatch):
 
     monkeypatch.setattr(os, "replace", refuse)
     with pytest.warns(RuntimeWarning, match="could not be kept"):
-        cached_table(tmp_path / "map.bin", some_table)
+        cached_table(tmp_path / "map.bin", some_table, any_table)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_interrupted_writing_leaves_nothing_behind(tmp_path, monkeypatch):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "replace", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        cached_table(tmp_path / "map.bin", some_table, any_table)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(os.name != "posix", reason="elsewhere there is no umask")
+def test_file_has_the_mode_of_the_umask(tmp_path):
+    before = os.umask(0o027)
+    try:
+        cached_table(tmp_path / "map.bin", some_table, any_table)
+    finally:
+        os.umask(before)
+    assert (tmp_path / "map.bin").stat().st_mode & 0o777 == 0o640
+
+
+def test_table_that_is_not_as_required_is_built_anew(tmp_path):
+    def require(table):
+        if table == some_table(1):
+            raise InputError("no")
+
+    some_table(1).save(tmp_path / "map.bin")
+    assert cached_table(tmp_path / "map.bin", some_table, require) == some_table()
+
+
+def test_sources_that_decide_the_content_are_there():
+    folder = Path(groove_cache.__file__).parent
+    assert all((folder / name).is_file() for name in groove_cache.SOURCES)
+    # What the maker of a map imports from its folder decides the content too.
+    tree = ast.parse((folder / "groove_build.py").read_text(encoding="utf-8"))
+    imported = {
+        node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.level == 1
+    }
+    covered = {name.removesuffix(".py") for name in groove_cache.SOURCES}
+    assert {name for name in imported if not name.startswith("ring")} <= covered
 
 
 def test_name_in_the_cache_tells_what_decides_the_content(tmp_path, monkeypatch):

@@ -12,6 +12,8 @@ from rotorfilm.bearings import JournalBearing
 from rotorfilm.errors import FilmContactError, InputError, UndefinedDerivativeError, ValidityWarning
 from rotorfilm.films import FilmLaw, MapFilm, ShortFilm, tabulate_film
 from rotorfilm.films.law import BindableFilm
+from rotorfilm.linear import coefficients
+from rotorfilm.native import JournalKernel
 
 DIMENSIONS = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}
 FILM = MapFilm(
@@ -186,3 +188,43 @@ def test_bearings_copy_and_pickle_after_use(twin):
     force = bearing.force([1e-5, 0.0], [0.0, 0.0], 100.0)
     np.testing.assert_array_equal(twin(bearing).force([1e-5, 0.0], [0.0, 0.0], 100.0), force)
     assert twin(bearing) == bearing
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda far: bearing.force(far, [1e-3, 0.0], 0.0),
+        lambda far: bearing.jacobian(far[:, None], [[1e-3], [0.0]], [0.0]),
+        lambda far: bearing.prepare()(*far.tolist(), 1e-3, 0.0, 0.0),
+        lambda far: bearing.prepare_tangent()(*far.tolist(), 1e-3, 0.0, 0.0),
+        lambda far: FILM.force(far / 1e-4, np.array([1.0, 0.0]), 0.3),
+        lambda far: coefficients(bearing, far, 100.0),
+    ],
+)
+def test_warning_points_at_the_line_that_asks(ask):
+    with pytest.warns(ValidityWarning, match="beyond the map") as caught:
+        ask(np.array([0.9999e-4, 0.0]))
+    line = ask.__code__.co_firstlineno
+    assert {(entry.filename, entry.lineno) for entry in caught} == {(__file__, line)}
+
+
+def test_message_has_the_values_at_fault():
+    with pytest.raises(InputError, match=r"got \(1e-05, 0\.0\) m, \(nan, 0\.0\) m/s and 5\.0 rad/s"):
+        bearing.prepare()(1e-5, 0.0, np.nan, 0.0, 5.0)
+    states = np.zeros((2, 3)), np.array([[0.0, 0.0, 0.0], [0.0, 0.0, np.inf]]), np.array([1.0, 2.0, 3.0])
+    with pytest.raises(InputError, match=r"got \(0\.0, 0\.0\) m, \(0\.0, inf\) m/s and 3\.0 rad/s"):
+        bearing.prepared_force(*states)
+    with pytest.raises(FilmContactError, match=r"eccentricity ratio must be below 1, got 1\.1"):
+        FILM.force(np.array([0.0, 1.1]), np.array([1.0, 0.0]), 0.3)
+    with pytest.raises(
+        InputError, match=r"eccentricity and source must .* got \[0\.5, 0\.0\] and \[nan, 0\.0\] 1/s"
+    ):
+        FILM.jacobian(np.array([0.5, 0.0]), np.array([np.nan, 0.0]), 0.3)
+    with pytest.raises(ValueError, match=r"velocity must have the shape of position, \(2, 3\), got \(2, 2\)"):
+        JournalKernel(FILM._kernel(0.3), 1e-4, 1.0).force(np.zeros((2, 3)), np.zeros((2, 2)), np.zeros(3))
+
+
+@pytest.mark.parametrize("table", [3, ShortFilm(), "map.bin"])
+def test_what_is_no_table_is_refused(table):
+    with pytest.raises(InputError, match="table must be a MapTable, got"):
+        MapFilm(table)

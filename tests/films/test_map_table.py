@@ -127,7 +127,7 @@ def test_rounded_table_takes_half_the_bytes_and_is_off_by_half_a_quantum():
     again = MapTable.from_bytes(content)
     assert len(content) < 0.55 * len(SMALL.to_bytes())
     assert 0.0 < np.abs(again.coefficients - SMALL.coefficients).max() <= 0.5 * quantum
-    np.testing.assert_array_equal(again.center, SMALL.center)
+    np.testing.assert_array_equal(again.log_center, SMALL.log_center)
     assert again.to_bytes(quantum) == content
     with pytest.raises(InputError, match=r"quantum must be above .* got 1e-20"):
         SMALL.to_bytes(1e-20)
@@ -158,7 +158,7 @@ def test_slenderness_outside_the_table_is_refused(slenderness):
 
 def test_edges_of_the_slenderness_range_belong_to_it():
     for slenderness in (0.1, 4.0):
-        assert SMALL.at(slenderness).center == pytest.approx(
+        assert SMALL.at(slenderness).log_center == pytest.approx(
             float(np.log(0.5 * 4 * slenderness**2 * np.pi / 2))
         )
 
@@ -168,12 +168,14 @@ def test_edges_of_the_slenderness_range_belong_to_it():
     [
         ({"slenderness_range": (4.0, 0.1)}, "slenderness_range"),
         ({"reach": -1.0}, "reach must be positive"),
-        ({"center": np.full(10, np.nan)}, "center must be finite"),
-        ({"center": np.zeros(3)}, "coefficients must have shape"),
+        ({"log_center": np.full(10, np.nan)}, "log_center must be finite"),
+        ({"log_center": np.zeros(3)}, "coefficients must have shape"),
     ],
 )
 def test_inconsistent_table_is_refused(change, message):
-    fields = {name: getattr(SMALL, name) for name in ("slenderness_range", "reach", "center", "coefficients")}
+    fields = {
+        name: getattr(SMALL, name) for name in ("slenderness_range", "reach", "log_center", "coefficients")
+    }
     with pytest.raises(InputError, match=message):
         MapTable(**{**fields, **change})
 

@@ -22,7 +22,7 @@ def small_bearing():
     table = MapTable(
         slenderness_range=(0.2, 1.0),
         reach=3.0,
-        center=rng.normal(size=10),
+        log_center=rng.normal(size=10),
         coefficients=0.1 * rng.normal(size=(10, 7, 7)),
     )
     return JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm(table))

@@ -140,6 +140,15 @@ def test_grooves_at_ambient_pressure_take_the_map():
     assert len(bearing.fitted_film.geometry.grooves) == 2
     with pytest.raises(SceneError, match="supply"):
         parse(GOOD.replace("[operation]", opened))
+    default = "\n".join(OPENINGS.splitlines()[2:])
+    assert isinstance(parse(GOOD.replace("[operation]", default)).bearing.fitted_film, GroovedMapFilm)
+
+
+def test_map_of_grooves_takes_its_keys():
+    keys = "cells = [64, 8], nodes = [8, 48, 32], largest_eccentricity_ratio = 0.9"
+    film = f'film = {{ name = "grooved_map", {keys} }}'
+    found = parse(GOOD.replace("[operation]", f"{film}\n[operation]")).bearing.film
+    assert found == GroovedMapFilm(cells=(64, 8), nodes=(8, 48, 32), largest_eccentricity_ratio=0.9)
 
 
 def test_pads_arrive_in_si():
@@ -157,8 +166,8 @@ def test_pads_arrive_in_si():
     ("lines", "message"),
     [
         (
-            "grooves = [{ center = 1.0 }]",
-            r"film must represent .*, which MapFilm cannot: .*; ReynoldsFilm and, .*, GroovedMapFilm can",
+            'film = { name = "short" }\ngrooves = [{ center = 1.0 }]',
+            r"film must represent .*, which ShortFilm cannot: .*; ReynoldsFilm and, .*, MapFilm can",
         ),
         (
             'film = { name = "short" }\npads = [{ start = 0, extent = 3 }]',
@@ -187,6 +196,14 @@ def test_pads_arrive_in_si():
         (
             'film = { name = "reynolds", cells = [90, 8] }',
             r"film.cells must be two multiples of 4, at least \(16, 4\), got \(90, 8\)",
+        ),
+        (
+            'film = { name = "grooved_map", nodes = [8, 48] }',
+            r"film.nodes must be three numbers of nodes, got \[8, 48\]",
+        ),
+        (
+            'film = { name = "grooved_map", nodes = [8, 48, 31] }',
+            r"film.nodes must be at least \(6, 12, 12\), the last two even, got \(8, 48, 31\)",
         ),
         (
             'film = { name = "reynolds", cavitation = { kind = "none" } }',
