@@ -17,6 +17,7 @@ import sys
 import numpy as np
 
 from rotorfilm.films import MapFilm, ReynoldsFilm
+from rotorfilm.films.reynolds import richardson
 
 RATIOS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0)
 BANDS = ((0.0, 0.95), (0.95, 0.99))
@@ -51,7 +52,7 @@ def grid_jacobian(e: np.ndarray, w: np.ndarray, slenderness: float, cells: tuple
         )
         for film in pair
     )
-    return fine + (fine - coarse) / 3.0
+    return richardson(fine, coarse)
 
 
 def force_errors(slenderness: float, band: tuple[float, float], states: int) -> tuple[float, float]:
