@@ -52,10 +52,7 @@ def main() -> None:
     sys.stdout.write("|---|---|---|---|---|\n")
     for name, film in (("map", MapFilm()), ("short film", ShortFilm())):
         bearing = JournalBearing(**DIMENSIONS, film=film)
-        one = (
-            shortest_time(lambda b=bearing: [b.force([1e-5, -2e-5], [0.0, 0.0], SPEED) for _ in range(200)])
-            / 200
-        )
+        one = shortest_time(lambda b=bearing: b.force([1e-5, -2e-5], [0.0, 0.0], SPEED), loops=200)
         for kind, reaction in (("numbers", bearing), ("arrays", Plain(bearing))):
             points = solve(reaction)
             each = shortest_time(lambda r=reaction: solve(r)) / len(LOADS)

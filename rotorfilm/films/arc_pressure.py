@@ -35,9 +35,9 @@ LARGEST = 300.0
 def tension(film: FilmLaw, eccentricity: Array, source: Array, slenderness: float) -> Array:
     """Return the largest tension in the middle of the bearing / the largest |pressure| there.
 
-    Zero for films whose pressure is nowhere negative by construction: `ShortFilm`, `GroovedMapFilm`, `MapFilm`
-    with the tables of the package, and a `ReynoldsFilm` that ruptures. One that does not is solved, as is
-    a splitting film.
+    Zero for films whose pressure is nowhere negative by construction: `ShortFilm`, `GroovedMapFilm`,
+    `MapFilm` without a foreign table, and a `ReynoldsFilm` that ruptures. One that does not is solved, as
+    is a splitting film.
 
     Parameters
     ----------

@@ -58,8 +58,7 @@ def journal_stability(
     Notes
     -----
     The reference is `AveragedFilm`. Its distance from the same on a grid with half the cells estimates its
-    error; undivided, since the edge of the ruptured zone, which jumps from node to node, makes the error of the
-    derivatives one of first order.
+    error; undivided, since the derivatives err by first order as the edge of the ruptured zone jumps.
     """
     rungs = chosen_rungs(rungs)
     ratios = _required_ratios(eccentricity_ratio)

@@ -67,6 +67,13 @@ class StateRange:
         )
 
 
+def _pair(name: str, values: tuple[float, float]) -> tuple[float, float]:
+    if not isinstance(values, tuple) or len(values) != 2:
+        raise InputError(f"{name} must be two numbers, got {values!r}")
+    low, high = (require_number(name, value) for value in values)
+    return low, high
+
+
 LARGE = StateRange()
 """Large motion: from strong squeeze to whirl at one and a half times the speed, either way."""
 
@@ -111,7 +118,7 @@ def random_states(ranges: StateRange, *, count: int, clearance: float, seed: int
 
 
 def require_cells(cells: tuple[int, int]) -> None:
-    """Raise InputError unless a grid of so many cells can be halved twice: multiples of 16, at least (64, 16)."""
+    """Raise InputError unless the cells are multiples of 16, at least (64, 16): a grid halved twice."""
     match cells:
         case (int() as around, int() as along) if around % 16 == along % 16 == 0 < along and around >= 64:
             return
@@ -168,10 +175,3 @@ def _extrapolation(e: Array, w: Array, slenderness: float, cells: tuple[int, int
     finer, _ = ReynoldsFilm(cells=cells).extrapolated(e, w, slenderness)
     coarser, _ = ReynoldsFilm(cells=(around // 2, along // 2)).extrapolated(e, w, slenderness)
     return finer, np.hypot(*(finer - coarser)) / (3.0 * np.hypot(*finer))
-
-
-def _pair(name: str, values: tuple[float, float]) -> tuple[float, float]:
-    if not isinstance(values, tuple) or len(values) != 2:
-        raise InputError(f"{name} must be two numbers, got {values!r}")
-    low, high = (require_number(name, value) for value in values)
-    return low, high
