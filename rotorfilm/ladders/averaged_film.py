@@ -9,7 +9,7 @@ import numpy as np
 from ..films import ReynoldsFilm
 from ..model import Array
 
-PLACES = 4
+PLACES = 8
 """Positions of the journal within a cell."""
 
 
