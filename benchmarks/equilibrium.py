@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import sys
 from dataclasses import dataclass
-from time import perf_counter
 
 import numpy as np
 
 from rotorfilm.bearings import JournalBearing
 from rotorfilm.films import MapFilm, ShortFilm
+from rotorfilm.ladders.timing import shortest_time
 from rotorfilm.linear import coefficients, equilibrium
 
 DIMENSIONS = {"radius": 0.05, "length": 0.05, "clearance": 1e-4, "viscosity": 0.1}
@@ -46,26 +46,16 @@ def solve(reaction) -> list:
     return points
 
 
-def timed(call, repeats: int = 7) -> float:
-    """Return the shortest time [s] of one call."""
-    times = []
-    for _ in range(repeats):
-        begin = perf_counter()
-        call()
-        times.append(perf_counter() - begin)
-    return min(times)
-
-
 def main() -> None:
     """Print the table."""
     sys.stdout.write("| bearing | equilibrium and coefficients [us] | forces | Newton steps | residual |\n")
     sys.stdout.write("|---|---|---|---|---|\n")
     for name, film in (("map", MapFilm()), ("short film", ShortFilm())):
         bearing = JournalBearing(**DIMENSIONS, film=film)
-        one = timed(lambda b=bearing: [b.force([1e-5, -2e-5], [0.0, 0.0], SPEED) for _ in range(200)]) / 200
+        one = shortest_time(lambda b=bearing: b.force([1e-5, -2e-5], [0.0, 0.0], SPEED), loops=200)
         for kind, reaction in (("numbers", bearing), ("arrays", Plain(bearing))):
             points = solve(reaction)
-            each = timed(lambda r=reaction: solve(r)) / len(LOADS)
+            each = shortest_time(lambda r=reaction: solve(r)) / len(LOADS)
             steps = np.mean([point.iterations for point in points])
             worst = max(point.residual for point in points)
             row = f"| {name}, {kind} | {1e6 * each:.0f} | {each / one:.1f} | {steps:.1f} | {worst:.0e} |"

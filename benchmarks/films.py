@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from time import perf_counter
 from typing import NamedTuple
 
 import numpy as np
@@ -21,6 +20,7 @@ from numpy.typing import NDArray
 from scipy.linalg import solveh_banded
 
 from rotorfilm.films import FilmLaw, ShortFilm, SpectralArcFilm, SplittingFilm
+from rotorfilm.ladders.timing import shortest_time
 
 SLENDERNESS = (0.25, 1.0)
 STATES, COPIES = 12, 8
@@ -111,22 +111,12 @@ def finite_volumes(e: NDArray, w: NDArray, slenderness: float, grid: Grid, solve
     return directions @ load.T
 
 
-def timed(call: Callable[[], object], repeats: int) -> float:
-    """Return the shortest of several runs [s]."""
-    times = []
-    for _ in range(repeats):
-        begin = perf_counter()
-        call()
-        times.append(perf_counter() - begin)
-    return min(times)
-
-
 def measured(force: Callable[[NDArray, NDArray], NDArray], e: NDArray, w: NDArray, exact: NDArray) -> Cost:
     """Return error and cost of a force law."""
     error = np.linalg.norm(force(e, w) - exact, axis=0) / np.linalg.norm(exact, axis=0)
     many_e, many_w = np.tile(e, COPIES), np.tile(w, COPIES)
-    alone = timed(lambda: force(e[:, :1], w[:, :1]), 10)
-    batched = timed(lambda: force(many_e, many_w), 5) / many_e.shape[1]
+    alone = shortest_time(lambda: force(e[:, :1], w[:, :1]), 10)
+    batched = shortest_time(lambda: force(many_e, many_w), 5) / many_e.shape[1]
     return Cost(float(np.median(error)), alone, min(alone, batched))
 
 

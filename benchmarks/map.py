@@ -13,7 +13,6 @@ journal written out with `math`.
 from __future__ import annotations
 
 from math import pi, sqrt
-from time import perf_counter
 
 import numpy as np
 
@@ -33,7 +32,7 @@ from rotorfilm.ladders import LARGE, comparison_bearing, random_states
 from rotorfilm.ladders.journal_accuracy import relative_error
 from rotorfilm.ladders.journal_rungs import fitted_bearing
 from rotorfilm.ladders.journal_states import States, reference_force
-from rotorfilm.ladders.timing import film_costs
+from rotorfilm.ladders.timing import film_costs, shortest_time
 
 COUNT = 20000
 RANGES = ((0.0, 0.95), (0.95, 0.99), (0.99, 0.999))
@@ -42,17 +41,6 @@ STATES = 64
 REFERENCE_CELLS = (1536, 32)
 GRIDS = ((32, 8), (48, 8), (64, 8), (96, 8), (128, 8), (192, 8), (384, 8), (384, 16), (768, 16), (768, 32))
 STATE = (1e-5, -2e-5, 1e-3, 2e-3, 100.0)
-
-
-def timed(call, repeats: int = 7, loops: int = 1) -> float:
-    """Return the shortest time [s] of one call."""
-    times = []
-    for _ in range(repeats):
-        begin = perf_counter()
-        for _ in range(loops):
-            call()
-        times.append(perf_counter() - begin)
-    return min(times) / loops
 
 
 def steady_force(x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
@@ -98,7 +86,7 @@ def print_batch(mapped: JournalBearing, short: JournalBearing) -> None:
         ("short film, force", lambda: short.force(*arguments)),
         ("short film, Jacobian", lambda: short.jacobian(*arguments)),
     ]
-    times = {name: timed(call) / COUNT for name, call in rows}
+    times = {name: shortest_time(call) / COUNT for name, call in rows}
     print(f"\nbatch of {COUNT} validated states in SI units, per state; map force = 1")
     for name, seconds in times.items():
         print(f"{name:32s}{1e9 * seconds:9.0f} ns{seconds / times['map, force']:9.2f}")
@@ -118,7 +106,7 @@ def print_scalar(mapped: JournalBearing, short: JournalBearing) -> None:
         ("short film, force", lambda: short.force(position, velocity, speed)),
         ("short film, jacobian", lambda: short.jacobian(position, velocity, speed)),
     ]
-    times = {name: timed(call, loops=1000) for name, call in rows}
+    times = {name: shortest_time(call, loops=1000) for name, call in rows}
     print("\none state per call; plain Python = 1")
     for name, seconds in times.items():
         print(f"{name:32s}{1e6 * seconds:9.2f} us{seconds / times[rows[0][0]]:9.1f}")

@@ -17,6 +17,8 @@ import sys
 import numpy as np
 
 from rotorfilm.films import MapFilm, ReynoldsFilm
+from rotorfilm.films.reynolds import richardson
+from rotorfilm.ladders.averaged_film import cell_turns
 
 RATIOS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0)
 BANDS = ((0.0, 0.95), (0.95, 0.99))
@@ -30,8 +32,7 @@ QUARTER_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
 
 def turns(cells: tuple[int, int]) -> list[np.ndarray]:
     """Return rotations that move the journal across a cell of the coarse grid."""
-    angles = 4.0 * np.pi / cells[0] * np.arange(PLACES) / PLACES
-    return [np.array([[np.cos(a), -np.sin(a)], [np.sin(a), np.cos(a)]]) for a in angles]
+    return cell_turns(cells[0] // 2, PLACES)
 
 
 def grid_force(e: np.ndarray, w: np.ndarray, slenderness: float, cells: tuple[int, int]) -> np.ndarray:
@@ -51,7 +52,7 @@ def grid_jacobian(e: np.ndarray, w: np.ndarray, slenderness: float, cells: tuple
         )
         for film in pair
     )
-    return fine + (fine - coarse) / 3.0
+    return richardson(fine, coarse)
 
 
 def force_errors(slenderness: float, band: tuple[float, float], states: int) -> tuple[float, float]:

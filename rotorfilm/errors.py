@@ -86,6 +86,12 @@ def require_non_negative(name: str, value: float) -> None:
         raise InputError(f"{name} must be finite and not negative, got {value!r}")
 
 
+def require_count(name: str, value: int, least: int = 1) -> None:
+    """Raise InputError unless `value` is an integer, at least `least`."""
+    if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < least:
+        raise InputError(f"{name} must be an integer, at least {least}, got {value!r}")
+
+
 def require_finite(name: str, value: ArrayLike) -> NDArray[np.float64]:
     """Return `value` as an array of floats; raise InputError where an entry is not finite."""
     try:

@@ -1,4 +1,4 @@
-"""Pressure of a splitting film in the middle of the bearing, and the tension that it carries.
+"""Pressure of a splitting film in the middle of the bearing, and the tension that films carry.
 
 From the coupling functions of `coupling`, H^3 u_j' = sum b_i (S_i - <S_i>/<1>) with (k_j^2 K + M) b = <X g>;
 in the middle of the bearing p / (12 viscosity (R/c)^2) = sum_j 4/(pi j) sin(j pi/2) u_j. Over all odd modes
@@ -12,10 +12,16 @@ from functools import cache
 
 import numpy as np
 
+from ..errors import InputError
 from ..model import Array
 from .coupling import whitened_functions
+from .extrapolated import ExtrapolatedFilm
+from .groove_map import GroovedMapFilm
 from .law import FilmLaw, polar_frame
+from .map import MapFilm
+from .reynolds import ReynoldsFilm
 from .rupture import Rupture
+from .short import ShortFilm
 from .spectral import SpectralArcFilm
 from .splitting import SplittingFilm
 
@@ -29,12 +35,14 @@ LARGEST = 300.0
 def tension(film: FilmLaw, eccentricity: Array, source: Array, slenderness: float) -> Array:
     """Return the largest tension in the middle of the bearing / the largest |pressure| there.
 
-    Zero for films whose pressure is nowhere negative by construction: `ShortFilm`, `MapFilm` and a
-    `ReynoldsFilm` that ruptures.
+    Zero for films whose pressure is nowhere negative by construction: `ShortFilm`, `GroovedMapFilm`,
+    `MapFilm` without a foreign table, and a `ReynoldsFilm` that ruptures. One that does not is solved, as
+    is a splitting film.
 
     Parameters
     ----------
     film : FilmLaw
+        One of those, their extrapolation, or a `SpectralArcFilm`.
     eccentricity : ndarray, shape (2, B) [1]
     source : ndarray, shape (2, B) [1/s]
     slenderness : float [1]
@@ -44,14 +52,36 @@ def tension(film: FilmLaw, eccentricity: Array, source: Array, slenderness: floa
     -------
     ndarray, shape (B,) [1]
         0 without tension, 1 where it exceeds every pressure.
+
+    Raises
+    ------
+    InputError
+        If nothing is known of the pressure of the film.
     """
-    if isinstance(film, SpectralArcFilm):
-        film = _converged(film.rupture)
-    if not isinstance(film, SplittingFilm):
-        return np.zeros(eccentricity.shape[1])
-    pressure = middle_pressure(film, eccentricity, source, slenderness)[1]
+    match film:
+        case ShortFilm() | GroovedMapFilm() | MapFilm(table=None):
+            return np.zeros(eccentricity.shape[1])
+        case ExtrapolatedFilm():
+            return tension(film.film, eccentricity, source, slenderness)
+        case ReynoldsFilm():
+            return _grid_tension(film, eccentricity, source, slenderness)
+        case SpectralArcFilm():
+            return tension(_converged(film.rupture), eccentricity, source, slenderness)
+        case SplittingFilm():
+            return _tension(middle_pressure(film, eccentricity, source, slenderness)[1])
+    raise InputError(f"film must be one whose pressure is known, such as ReynoldsFilm(), got {film!r}")
+
+
+def _tension(pressure: Array) -> Array:
     lowest, scale = pressure.min(axis=1), np.abs(pressure).max(axis=1)
     return np.where(lowest < 0.0, -lowest / np.where(scale > 0.0, scale, 1.0), 0.0)
+
+
+def _grid_tension(film: ReynoldsFilm, eccentricity: Array, source: Array, slenderness: float) -> Array:
+    if film.cavitation.searched or film.cavitation.clipped:
+        return np.zeros(eccentricity.shape[1])
+    states = zip(eccentricity.T, source.T, strict=True)
+    return _tension(np.array([film.solve(e, w, slenderness).pressure[:, 0] for e, w in states]))
 
 
 def middle_pressure(

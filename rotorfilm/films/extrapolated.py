@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from ..errors import InputError
 from ..model import Array
 from .geometry import FilmGeometry
-from .reynolds import ReynoldsFilm
+from .reynolds import ReynoldsFilm, richardson
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,4 +67,4 @@ class ExtrapolatedFilm:
         """
         fine = self.film.jacobian(eccentricity, source, slenderness)
         coarse = self.coarse.jacobian(eccentricity, source, slenderness)
-        return fine + (fine - coarse) / (2.0**self.film.order - 1.0)
+        return richardson(fine, coarse, self.film.order)

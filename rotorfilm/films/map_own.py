@@ -8,11 +8,10 @@ extrapolated from two grids, has a smaller error than its force.
 from __future__ import annotations
 
 import logging
-from dataclasses import dataclass
 from functools import lru_cache
 
 from ..errors import InputError
-from ..model import Array
+from .extrapolated import ExtrapolatedFilm
 from .map_fit import tabulate_film
 from .map_table import MapTable
 from .reynolds import ReynoldsFilm
@@ -53,18 +52,8 @@ def bearing_table(slenderness: float) -> MapTable:
         slenderness,
     )
     return tabulate_film(
-        _Extrapolated(_SHORT if slenderness < 1.0 else _LONG),
+        ExtrapolatedFilm(film=_SHORT if slenderness < 1.0 else _LONG),
         slenderness_range=(slenderness, slenderness),
         cells=TABLE_CELLS,
         largest_eccentricity_ratio=REACH,
     )
-
-
-@dataclass(frozen=True)
-class _Extrapolated:
-    """The two-dimensional film with its force extrapolated."""
-
-    film: ReynoldsFilm
-
-    def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
-        return self.film.extrapolated(eccentricity, source, slenderness)[0]

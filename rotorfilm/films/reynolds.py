@@ -95,8 +95,8 @@ class ReynoldsFilm:
         keeps it from converging faster than at second order.
         """
         fine, coarse = self.force_pair(eccentricity, source, slenderness)
-        correction = (fine - coarse) / (2.0**self.order - 1.0)
-        return fine + correction, np.hypot(correction[0], correction[1])
+        extrapolated = richardson(fine, coarse, self.order)
+        return extrapolated, np.hypot(*(extrapolated - fine))
 
     def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
         """Return d force / d (eccentricity, source), shape (2, 4, ...); see `FilmLaw.jacobian`.
@@ -162,6 +162,11 @@ class ReynoldsFilm:
             )
         fine, coarse, jacobian = solution
         return fine, coarse, jacobian
+
+
+def richardson(fine: Array, coarse: Array, order: int = ReynoldsFilm.order) -> Array:
+    """Return the extrapolation of what errs by the given order, from a grid and one with half its cells."""
+    return fine + (fine - coarse) / (2.0**order - 1.0)
 
 
 def _batch(vectors: Array) -> Array:

@@ -2,8 +2,9 @@
 
 from .journal_accuracy import JournalAccuracy, RungAccuracy, journal_accuracy, pareto_front
 from .journal_rungs import Rung, comparison_bearing, fitted_bearing, journal_rungs
-from .journal_stability import JournalStability, RungStability, journal_stability
+from .journal_stability import journal_stability
 from .journal_states import LARGE, SMALL, StateRange, random_states
+from .journal_thresholds import JournalStability, RungStability
 
 __all__ = [
     "LARGE",

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..bearings.journal import JournalBearing
-from ..errors import InputError
+from ..errors import require_count
 from ..films import tension
 from ..model import Array
 from ..progress import Report, part_of, silent
-from .journal_rungs import Rung, comparison_bearing, fitted_bearing, journal_rungs
+from .journal_rungs import Rung, RungName, chosen_rungs, comparison_bearing, fitted_bearing
 from .journal_states import (
     LARGE,
     REFERENCE_CELLS,
@@ -34,13 +34,11 @@ ROUNDS = 9
 
 
 @dataclass(frozen=True, kw_only=True)
-class RungAccuracy:
+class RungAccuracy(RungName):
     """Error and cost of one rung.
 
     Attributes
     ----------
-    family, label : str
-        As of the `Rung`.
     median_error, high_error, worst_error : float [1]
         Median, 99th percentile and maximum of |force - reference| / |reference|.
     tension_share : float [1]
@@ -48,18 +46,11 @@ class RungAccuracy:
     cost : FilmCost
     """
 
-    family: str
-    label: str
     median_error: float
     high_error: float
     worst_error: float
     tension_share: float
     cost: FilmCost
-
-    @property
-    def name(self) -> str:
-        """Family and label."""
-        return f"{self.family} {self.label}".strip()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -161,11 +152,10 @@ def journal_accuracy(
     Raises
     ------
     InputError
-        If a number is out of range.
+        If a number is out of range, the cells break their rule, or there are no rungs.
     """
-    if states < 1 or rounds < 1:
-        raise InputError(f"states and rounds must be at least 1, got {states!r} and {rounds!r}")
-    rungs = journal_rungs() if rungs is None else tuple(rungs)
+    require_count("rounds", rounds)
+    rungs = chosen_rungs(rungs)
     bearing = comparison_bearing(slenderness)
     sample = random_states(ranges, count=states, clearance=bearing.clearance, seed=seed)
     reference = reference_force(bearing, sample, cells=cells, report=part_of(report, 0.0, 0.5))

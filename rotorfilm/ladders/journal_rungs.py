@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 from ..bearings.journal import JournalBearing
 from ..errors import InputError, ValidityWarning, require_positive
@@ -37,8 +38,8 @@ SHORT, MAP, GRID, EXTRAPOLATED = "short film", "map", "2-D", "2-D extrapolated"
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rung:
-    """One film law of the ladder.
+class RungName:
+    """What a rung is called.
 
     Attributes
     ----------
@@ -46,17 +47,27 @@ class Rung:
         What it has in common with its neighbors: where the film ends, or how it is solved.
     label : str
         What tells it from them; empty if nothing has to.
-    film : FilmLaw
     """
 
     family: str
     label: str
-    film: FilmLaw
 
     @property
     def name(self) -> str:
         """Family and label, unique in the ladder."""
         return f"{self.family} {self.label}".strip()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rung(RungName):
+    """One film law of the ladder.
+
+    Attributes
+    ----------
+    film : FilmLaw
+    """
+
+    film: FilmLaw
 
 
 def journal_rungs() -> tuple[Rung, ...]:
@@ -75,6 +86,25 @@ def journal_rungs() -> tuple[Rung, ...]:
         *(_extrapolated(*cells) for cells in ((48, 8), (96, 8), (192, 8), (384, 16))),
         Rung(family=MAP, label="", film=MapFilm()),
     )
+
+
+def chosen_rungs(rungs: Sequence[Rung] | None) -> tuple[Rung, ...]:
+    """Return the rungs to compare, the whole ladder for None.
+
+    Raises
+    ------
+    InputError
+        If there is none, one is not a `Rung`, or two have the same name.
+    """
+    if rungs is None:
+        return journal_rungs()
+    chosen = tuple(rungs)
+    if not chosen or not all(isinstance(rung, Rung) for rung in chosen):
+        raise InputError(f"rungs must hold at least one Rung and nothing else, got {rungs!r}")
+    names = [rung.name for rung in chosen]
+    if len(set(names)) < len(names):
+        raise InputError(f"rungs must have different names, got {names!r}")
+    return chosen
 
 
 def comparison_bearing(slenderness: float) -> JournalBearing:
@@ -98,13 +128,7 @@ def fitted_bearing(bearing: JournalBearing, film: FilmLaw) -> JournalBearing:
     """Return the bearing with another film, which may be meant for other bearings: that is the question."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ValidityWarning)
-        return JournalBearing(
-            radius=bearing.radius,
-            length=bearing.length,
-            clearance=bearing.clearance,
-            viscosity=bearing.viscosity,
-            film=film,
-        )
+        return replace(bearing, film=film)
 
 
 def _splitting(family: str, arc: Rupture, n: int, m: int | None, constant: bool = False) -> Rung:

@@ -3,179 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from ..bearings.journal import JournalBearing
-from ..films import ExtrapolatedFilm, ReynoldsFilm, tension
+from ..errors import InputError, require_finite
+from ..films import ReynoldsFilm, tension
 from ..linear import critical_mass, damping_has_rank_one, speed_parameter
 from ..model import Array
 from ..progress import Report, silent
 from ..results import Coefficients
+from .averaged_film import PLACES, AveragedFilm
 from .journal_accuracy import TENSION
-from .journal_rungs import Rung, comparison_bearing, fitted_bearing, journal_rungs
-from .journal_states import LARGE, REFERENCE_CELLS, SPEED, States, random_states
-
-TOLERANCE = 0.05
-"""Relative deviation from which a threshold counts as wrong."""
-
-ASYMMETRY = 0.01
-"""|C_xy - C_yx| / max |C| from which damping counts as unsymmetric; exact for films with a potential: 0."""
-
-HIGHEST = 5.0
-"""Speed parameter up to which a threshold is judged: further up it rises so steeply that a shift of the
-eccentricity ratio by 0.001 changes it by several per cent."""
+from .journal_rungs import Rung, chosen_rungs, comparison_bearing, fitted_bearing
+from .journal_states import LARGE, REFERENCE_CELLS, SPEED, States, random_states, require_cells
+from .journal_thresholds import HIGHEST, JournalStability, RungStability
 
 ECCENTRICITY_RATIOS = tuple(np.linspace(0.05, 0.95, 46).tolist())
 """Where thresholds are computed."""
 
 TENSION_STATES = 400
 """Random states of large motion in which tension is looked for."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class RungStability:
-    """Whirl threshold by one rung, over the eccentricity ratios of a `JournalStability`.
-
-    Attributes
-    ----------
-    family, label : str
-        As of the `Rung`.
-    speed_parameter : tuple of n floats or None [1]
-        speed * sqrt(clearance * mass / load) at the onset of whirl; None where there is none.
-    deviation : tuple of n floats or None [1]
-        Of the speed parameter from the reference, relative; None where one of the two has none.
-    reasons : tuple of n str
-        Why there is no threshold; empty where there is one.
-    rank_one : tuple of n bool
-        Whether det C = 0, so that stability does not depend on the mass.
-    asymmetry : tuple of n floats [1]
-        |C_xy - C_yx| / max |C|.
-    static_tension : tuple of n floats [1]
-        Largest tension of the film at rest / its largest pressure.
-    tension_share : float [1]
-        Share of random states of large motion in which the film carries more tension than `TENSION`.
-    """
-
-    family: str
-    label: str
-    speed_parameter: tuple[float | None, ...]
-    deviation: tuple[float | None, ...]
-    reasons: tuple[str, ...]
-    rank_one: tuple[bool, ...]
-    asymmetry: tuple[float, ...]
-    static_tension: tuple[float, ...]
-    tension_share: float
-
-    @property
-    def name(self) -> str:
-        """Family and label."""
-        return f"{self.family} {self.label}".strip()
-
-    @property
-    def in_tension(self) -> bool:
-        """Whether the film carries tension at rest or in large motion."""
-        return self.tension_share > 0.0 or max(self.static_tension) > TENSION
-
-    @property
-    def unsymmetric(self) -> bool:
-        """Whether the damping matrix is unsymmetric by more than `ASYMMETRY` somewhere."""
-        return max(self.asymmetry) > ASYMMETRY
-
-    @property
-    def has_threshold(self) -> bool:
-        """Whether it predicts whirl anywhere."""
-        return any(value is not None for value in self.speed_parameter)
-
-
-@dataclass(frozen=True, kw_only=True)
-class JournalStability:
-    """Whirl threshold over the eccentricity ratio, by every rung.
-
-    Attributes
-    ----------
-    slenderness : float [1]
-        Length / diameter.
-    eccentricity_ratio : tuple of n floats [1]
-    speed_parameter : tuple of n floats or None [1]
-        Of the reference.
-    reference : str
-        What it is.
-    reference_error : float [1]
-        Estimate of its largest relative error.
-    tolerance, asymmetry_tolerance, tension_tolerance : float [1]
-        From which a threshold, a damping matrix and a film are marked.
-    highest : float [1]
-        Speed parameter of the reference up to which thresholds are judged.
-    rungs : tuple of RungStability
-    """
-
-    slenderness: float
-    eccentricity_ratio: tuple[float, ...]
-    speed_parameter: tuple[float | None, ...]
-    reference: str
-    reference_error: float
-    tolerance: float = TOLERANCE
-    asymmetry_tolerance: float = ASYMMETRY
-    tension_tolerance: float = TENSION
-    highest: float = HIGHEST
-    rungs: tuple[RungStability, ...]
-
-    @property
-    def judged(self) -> tuple[bool, ...]:
-        """Where the reference has a threshold not above `highest`."""
-        return tuple(value is not None and value <= self.highest for value in self.speed_parameter)
-
-    def wrong(self, rung: RungStability) -> tuple[bool, ...]:
-        """Return where a judged threshold is off by more than the tolerance."""
-        pairs = zip(self.judged, rung.deviation, strict=True)
-        return tuple(judged and gap is not None and abs(gap) > self.tolerance for judged, gap in pairs)
-
-    def missing(self, rung: RungStability) -> tuple[bool, ...]:
-        """Return where the reference has a judged threshold and the rung has none."""
-        pairs = zip(self.judged, rung.speed_parameter, strict=True)
-        return tuple(judged and value is None for judged, value in pairs)
-
-    def invented(self, rung: RungStability) -> tuple[bool, ...]:
-        """Return where the rung has a threshold not above `highest` and the reference has none at all."""
-        pairs = zip(self.speed_parameter, rung.speed_parameter, strict=True)
-        return tuple(exact is None and value is not None and value <= self.highest for exact, value in pairs)
-
-    def largest_deviation(self, rung: RungStability) -> float | None:
-        """Return the largest |deviation| of a judged threshold [1]; None where the rung has none."""
-        pairs = zip(self.judged, rung.deviation, strict=True)
-        return max((abs(gap) for judged, gap in pairs if judged and gap is not None), default=None)
-
-    def columns(self) -> dict[str, list[object]]:
-        """Return one row for each rung and eccentricity ratio, headings with units."""
-        rows = [row for rung in self.rungs for row in self._rows(rung)]
-        return {heading: [row[heading] for row in rows] for heading in rows[0]}
-
-    def _rows(self, rung: RungStability) -> list[dict[str, object]]:
-        wrong, missing, invented = self.wrong(rung), self.missing(rung), self.invented(rung)
-        return [
-            {
-                "family [-]": rung.family,
-                "label [-]": rung.label,
-                "eccentricity ratio [1]": ratio,
-                "speed sqrt(c m/W) [1]": rung.speed_parameter[k],
-                "reference [1]": self.speed_parameter[k],
-                "deviation [1]": rung.deviation[k],
-                f"deviation above {self.tolerance:g} [-]": int(wrong[k]),
-                "none where the reference has one [-]": int(missing[k]),
-                "one where the reference has none [-]": int(invented[k]),
-                "damping of rank one [-]": int(rung.rank_one[k]),
-                "|Cxy - Cyx|/max|C| [1]": rung.asymmetry[k],
-                "tension/largest pressure at rest [1]": rung.static_tension[k],
-                "states of large motion in tension [1]": rung.tension_share,
-                "why none [-]": rung.reasons[k],
-                "length/diameter [1]": self.slenderness,
-                "error of the reference [1]": self.reference_error,
-            }
-            for k, ratio in enumerate(self.eccentricity_ratio)
-        ]
 
 
 def journal_stability(
@@ -193,6 +42,7 @@ def journal_stability(
     slenderness : float [1]
         Length / diameter, 0.1 to 4.
     eccentricity_ratio : sequence of float [1]
+        Each above 0 and below 1.
     rungs : sequence of Rung, optional
         `journal_rungs()` by default.
     cells : tuple of int
@@ -200,17 +50,23 @@ def journal_stability(
     report : callable
         Told how far the job is.
 
+    Raises
+    ------
+    InputError
+        If an argument is out of range, or there are no rungs.
+
     Notes
     -----
-    The reference is extrapolated from two grids, and so are its derivatives. A third of its distance from the
-    extrapolation of the next coarser pair estimates its error.
+    The reference is `AveragedFilm`. Its distance from the same on a grid with half the cells estimates its
+    error; undivided, since the derivatives err by first order as the edge of the ruptured zone jumps.
     """
-    rungs = journal_rungs() if rungs is None else tuple(rungs)
-    ratios = np.asarray(eccentricity_ratio, dtype=float)
+    rungs = chosen_rungs(rungs)
+    ratios = _required_ratios(eccentricity_ratio)
+    require_cells(cells)
     bearing = comparison_bearing(slenderness)
     report(0.0, "two-dimensional reference")
     around, along = cells
-    exact, rough = (_curve(_gridded(bearing, pair), ratios) for pair in (cells, (around // 2, along // 2)))
+    exact, rough = (_curve(_averaged(bearing, grid), ratios) for grid in (cells, (around // 2, along // 2)))
     sample = random_states(LARGE, count=TENSION_STATES, clearance=bearing.clearance)
     judged = []
     for number, rung in enumerate(rungs):
@@ -220,8 +76,8 @@ def journal_stability(
         slenderness=slenderness,
         eccentricity_ratio=tuple(ratios.tolist()),
         speed_parameter=exact.parameters,
-        reference=f"2-D film, {around} x {along} and {around // 2} x {along // 2} cells extrapolated",
-        reference_error=_largest_gap(rough.parameters, exact.parameters) / 3.0,
+        reference=f"2-D film, {around} x {along} cells, averaged over {PLACES} positions within a cell",
+        reference_error=_largest_gap(rough.parameters, exact.parameters),
         rungs=tuple(judged),
     )
 
@@ -234,8 +90,15 @@ class _Curve(NamedTuple):
     coefficients: tuple[Coefficients, ...]
 
 
-def _gridded(bearing: JournalBearing, cells: tuple[int, int]) -> JournalBearing:
-    return fitted_bearing(bearing, ExtrapolatedFilm(film=ReynoldsFilm(cells=cells)))
+def _averaged(bearing: JournalBearing, cells: tuple[int, int]) -> JournalBearing:
+    return fitted_bearing(bearing, AveragedFilm(film=ReynoldsFilm(cells=cells)))
+
+
+def _required_ratios(eccentricity_ratio: Sequence[float]) -> Array:
+    ratios = require_finite("eccentricity_ratio", eccentricity_ratio)
+    if ratios.ndim != 1 or ratios.size == 0 or np.any((ratios <= 0.0) | (ratios >= 1.0)):
+        raise InputError(f"eccentricity_ratio must hold numbers within (0, 1), got {eccentricity_ratio!r}")
+    return ratios
 
 
 def _static_states(bearing: JournalBearing, ratios: Array) -> States:

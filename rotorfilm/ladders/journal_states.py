@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..bearings.journal import JournalBearing
-from ..errors import InputError
+from ..errors import InputError, require_count, require_number
 from ..films import ReynoldsFilm
 from ..model import Array
 from ..progress import Report, silent
@@ -42,7 +42,7 @@ class StateRange:
     Raises
     ------
     InputError
-        If a range is empty or leaves the clearance.
+        If a range is empty, not finite, or leaves the clearance.
     """
 
     eccentricity_ratio: tuple[float, float] = (0.05, 0.95)
@@ -50,10 +50,12 @@ class StateRange:
     whirl: tuple[float, float] = (-0.5, 1.5)
 
     def __post_init__(self) -> None:
-        lowest, highest = self.eccentricity_ratio
+        lowest, highest = _pair("eccentricity_ratio", self.eccentricity_ratio)
+        slowest, fastest = _pair("whirl", self.whirl)
+        require_number("squeeze", self.squeeze)
         if not 0.0 < lowest < highest < 1.0:
             raise InputError(f"eccentricity_ratio must rise within (0, 1), got {self.eccentricity_ratio!r}")
-        if not (self.squeeze > 0.0 and self.whirl[0] < self.whirl[1]):
+        if not (self.squeeze > 0.0 and slowest < fastest):
             raise InputError(f"squeeze and whirl must span a range, got {self.squeeze!r}, {self.whirl!r}")
 
     def describe(self) -> str:
@@ -63,6 +65,13 @@ class StateRange:
             f"eps {low:g} to {high:g}, |deps/dt| < {self.squeeze:g} omega, "
             f"{slow:g} omega < dphi/dt < {fast:g} omega, all uniform"
         )
+
+
+def _pair(name: str, values: tuple[float, float]) -> tuple[float, float]:
+    if not isinstance(values, tuple) or len(values) != 2:
+        raise InputError(f"{name} must be two numbers, got {values!r}")
+    low, high = (require_number(name, value) for value in values)
+    return low, high
 
 
 LARGE = StateRange()
@@ -88,7 +97,15 @@ class ReferenceForce(NamedTuple):
 
 
 def random_states(ranges: StateRange, *, count: int, clearance: float, seed: int = SEED) -> States:
-    """Return `count` random states of a journal that turns at `SPEED`."""
+    """Return `count` random states of a journal that turns at `SPEED`.
+
+    Raises
+    ------
+    InputError
+        If count is not a positive integer, seed not a natural number.
+    """
+    require_count("states", count)
+    require_count("seed", seed, least=0)
     random = np.random.default_rng(seed)
     ratio = random.uniform(*ranges.eccentricity_ratio, count)
     angle = random.uniform(0.0, 2.0 * np.pi, count)
@@ -98,6 +115,14 @@ def random_states(ranges: StateRange, *, count: int, clearance: float, seed: int
     across = np.array([-outward[1], outward[0]])
     velocity = clearance * SPEED * (squeeze * outward + ratio * whirl * across)
     return States(clearance * ratio * outward, velocity, np.full(count, SPEED))
+
+
+def require_cells(cells: tuple[int, int]) -> None:
+    """Raise InputError unless the cells are multiples of 16, at least (64, 16): a grid halved twice."""
+    match cells:
+        case (int() as around, int() as along) if around % 16 == along % 16 == 0 < along and around >= 64:
+            return
+    raise InputError(f"cells must be two multiples of 16, at least (64, 16), got {cells!r}")
 
 
 def squeeze_share(bearing: JournalBearing, states: States) -> float:
@@ -125,9 +150,15 @@ def reference_force(
         Its own film is not used.
     states : States
     cells : tuple of int
-        Cells of the finest grid.
+        Cells of the finest grid, multiples of 16 and at least (64, 16).
     report : callable
+
+    Raises
+    ------
+    InputError
+        If the cells break their rule.
     """
+    require_cells(cells)
     e, w = bearing.kinematics(*states)
     count = e.shape[1]
     force, error = np.empty((2, count)), np.empty(count)

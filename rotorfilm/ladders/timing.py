@@ -64,7 +64,7 @@ def film_costs(
         for name, pair in runs.items():
             report(number / rounds, f"cost, round {number + 1} of {rounds}: {name}")
             for k, (run, _) in enumerate(pair):
-                shortest[name][k] = min(shortest[name][k], _seconds(run))
+                shortest[name][k] = min(shortest[name][k], shortest_time(run, 1))
     return {
         name: FilmCost(
             force_time=shortest[name][0] / batch[1], call_time=shortest[name][1] / calls[1], batch=batch[1]
@@ -73,10 +73,15 @@ def film_costs(
     }
 
 
-def _seconds(run: Callable[[], object]) -> float:
-    begin = perf_counter()
-    run()
-    return perf_counter() - begin
+def shortest_time(call: Callable[[], object], repeats: int = 7, loops: int = 1) -> float:
+    """Return the shortest time [s] of a call, among several runs of so many calls each."""
+    times = []
+    for _ in range(repeats):
+        begin = perf_counter()
+        for _ in range(loops):
+            call()
+        times.append(perf_counter() - begin)
+    return min(times) / loops
 
 
 def _batch_run(bearing: JournalBearing, states: States) -> tuple[Callable[[], object], int]:
@@ -89,7 +94,7 @@ def _batch_run(bearing: JournalBearing, states: States) -> tuple[Callable[[], ob
             return bearing.force(*arguments)
 
         run()  # The first call compiles and builds tables.
-        seconds, before = min(_seconds(run), _seconds(run)), each
+        seconds, before = shortest_time(run, 2), each
         each = seconds / size
         if size >= largest or (seconds > SHORTEST_RUN and each > STILL_FALLING * before):
             return run, size
@@ -109,6 +114,6 @@ def _call_run(bearing: JournalBearing, states: States) -> tuple[Callable[[], obj
                 call(*state)
 
         run()
-        if _seconds(run) > SHORTEST_RUN:
+        if shortest_time(run, 1) > SHORTEST_RUN:
             return run, size
         size *= 2

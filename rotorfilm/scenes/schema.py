@@ -40,7 +40,7 @@ class JournalTable:
     Parameters
     ----------
     radius : float [m]
-        Journal radius; a file may give `diameter` instead.
+        Bearing radius; a file may give `diameter` instead.
     length : float [m]
         Full axial length.
     clearance : float [m]

@@ -2,6 +2,7 @@
 
 import csv
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,6 +10,10 @@ import pytest
 from rotorfilm.errors import InputError
 from rotorfilm.films import (
     ComplementarityArc,
+    ExtrapolatedFilm,
+    FullFilm,
+    Groove,
+    HalfSommerfeld,
     MapFilm,
     ReynoldsFilm,
     RotatingArc,
@@ -160,6 +165,31 @@ def test_fixed_arc_carries_no_tension_at_rest_and_nothing_else_in_fast_whirl():
         np.testing.assert_allclose(tension(film, e, w, 0.5), 0.0, atol=1e-9)
 
 
+@pytest.mark.closed_form
+def test_full_film_at_rest_pulls_as_much_as_it_pushes():
+    # Sommerfeld: without rupture the pressure of a static film is odd about the line of centers.
+    e, w = np.array([[0.6], [0.0]]), np.array([[0.0], [-0.3]])
+    full = ReynoldsFilm(cavitation=FullFilm())
+    for film in (full, ExtrapolatedFilm(film=full)):
+        np.testing.assert_allclose(tension(film, e, w, 0.5), 1.0, atol=1e-9)
+    np.testing.assert_array_equal(tension(ReynoldsFilm(cavitation=HalfSommerfeld()), e, w, 0.5), 0.0)
+
+
+def test_tension_of_a_film_that_nobody_knows_is_refused():
+    class Unknown:
+        force = jacobian = None
+
+    with pytest.raises(InputError, match="film must be one whose pressure is known"):
+        tension(Unknown(), np.zeros((2, 1)), np.ones((2, 1)), 0.5)
+
+
+def test_fitted_bearing_keeps_what_the_film_does_not_touch():
+    grooved = replace(comparison_bearing(0.5), film=ReynoldsFilm(), grooves=(Groove(center=1.0),))
+    assert fitted_bearing(grooved, ReynoldsFilm(cells=(48, 4))).grooves == grooved.grooves
+    with pytest.raises(InputError, match="film must represent the bearing's geometry"):
+        fitted_bearing(grooved, ShortFilm())
+
+
 @pytest.mark.parametrize("w", [(0.0, -0.3), (0.3, -0.1)])
 def test_middle_pressure_is_that_of_the_two_dimensional_film(w):
     film = SplittingFilm(order=(16, None), constant=True, rupture=ComplementarityArc())
@@ -212,8 +242,18 @@ def test_result_is_json(result):
     [
         (lambda: comparison_bearing(5.0), r"slenderness \(L/D\) must be from 0.1 to 4.0, got 5.0"),
         (lambda: comparison_bearing(-1.0), "slenderness must be finite and positive, got -1.0"),
-        (lambda: journal_accuracy(0.5, states=0), "states and rounds must be at least 1, got 0 and 9"),
+        (lambda: journal_accuracy(0.5, states=0), "states must be an integer, at least 1, got 0"),
         (lambda: StateRange(eccentricity_ratio=(0.5, 1.0)), "eccentricity_ratio must rise within"),
+        (lambda: journal_accuracy(0.5, states=4.5), "states must be an integer, at least 1, got 4.5"),
+        (lambda: journal_accuracy(0.5, rounds=0), "rounds must be an integer, at least 1, got 0"),
+        (lambda: journal_accuracy(0.5, rungs=[]), "rungs must hold at least one Rung"),
+        (lambda: journal_accuracy(0.5, cells=(384, 20)), "cells must be two multiples of 16"),
+        (
+            lambda: random_states(LARGE, count=3, clearance=1.0, seed=-1),
+            "seed must be an integer, at least 0",
+        ),
+        (lambda: StateRange(squeeze=np.inf), "squeeze must be a single finite number, got inf"),
+        (lambda: StateRange(whirl=(-np.inf, 1.0)), "whirl must be a single finite number, got -inf"),
         (lambda: StateRange(squeeze=0.0), "squeeze and whirl must span a range, got 0.0"),
     ],
 )

@@ -37,7 +37,9 @@ def test_bundled_scene_on_a_short_film_has_the_stiffness_that_the_book_prints():
     bundled = bundled_scene()
     book = replace(bundled, journal=replace(bundled.journal, film=ShortFilmTable()))
     stiffness = book.solve().coefficients.stiffness
-    np.testing.assert_array_equal(np.trunc(stiffness.ravel()), [12807959, 16393593, -25060393, 8815302])
+    # Whole N/m in print, cut or rounded: within one unit either way.
+    printed = [12807959, 16393593, -25060393, 8815302]
+    np.testing.assert_allclose(stiffness.ravel(), printed, rtol=0.0, atol=1.0)
 
 
 @pytest.mark.closed_form
