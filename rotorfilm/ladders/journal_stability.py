@@ -17,8 +17,11 @@ from ..results import Coefficients
 from .averaged_film import PLACES, AveragedFilm
 from .journal_accuracy import TENSION
 from .journal_rungs import Rung, chosen_rungs, comparison_bearing, fitted_bearing
-from .journal_states import LARGE, REFERENCE_CELLS, SPEED, States, random_states, require_cells
+from .journal_states import LARGE, SPEED, States, random_states, require_cells
 from .journal_thresholds import HIGHEST, JournalStability, RungStability
+
+THRESHOLD_CELLS = (384, 16)
+"""Finer grid of the reference; each derivative is a mean of eight solutions on it."""
 
 ECCENTRICITY_RATIOS = tuple(np.linspace(0.05, 0.95, 46).tolist())
 """Where thresholds are computed."""
@@ -32,7 +35,7 @@ def journal_stability(
     *,
     eccentricity_ratio: Sequence[float] = ECCENTRICITY_RATIOS,
     rungs: Sequence[Rung] | None = None,
-    cells: tuple[int, int] = REFERENCE_CELLS,
+    cells: tuple[int, int] = THRESHOLD_CELLS,
     report: Report = silent,
 ) -> JournalStability:
     """Return the whirl threshold of a rigid rotor by every rung and by the two-dimensional reference.
