@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..model import Array
-from ..native import GroovedJournalKernel, GrooveMapKernel
+from ..native import GrooveMapKernel, JournalKernel
 from .geometry import FilmGeometry
 from .groove_axis import AlignedOpenings, aligned_openings, require_mappable
 from .groove_build import Report, Resolution, build_groove_table
@@ -123,7 +123,7 @@ class GroovedMapFilm:
         """Return this film in one bearing, in SI units; see `law.BindableFilm`."""
         if self.geometry.plain:
             return MapFilm().bind(slenderness=slenderness, clearance=clearance, force_scale=force_scale)
-        kernel = GroovedJournalKernel(self._kernel(slenderness), clearance, force_scale)
+        kernel = JournalKernel(self._kernel(slenderness), clearance, force_scale)
         return BoundMap(kernel, clearance)
 
     def built_table(self, slenderness: float, report: Report | None = None) -> GrooveTable:
