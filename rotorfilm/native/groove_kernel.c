@@ -24,16 +24,27 @@ static int32_t turned(double angle, int32_t cells, double *rest)
     return rf_cell((turns - floor(turns)) * cells, cells, rest);
 }
 
+static RF_ONCE void values(double u, double b[RF_ORDER])
+{
+    rf_values(u, b);
+}
+
+static RF_ONCE void slopes(double u, double b[RF_ORDER])
+{
+    rf_slopes(u, b);
+}
+
+static RF_ONCE void rows(const double *block, const double b[RF_ORDER], double sum[RF_ORDER])
+{
+    rf_rows(block, RF_ORDER, b, sum);
+}
+
 /* Sums over X of a block of 6 x 6 coefficients under theta and s. */
-static void layers(const double *c, size_t layer, size_t row, const double b[RF_ORDER],
+static RF_ONCE void layers(const double *c, size_t layer, size_t row, const double b[RF_ORDER],
                    double sum[RF_ORDER * RF_ORDER])
 {
-    for (size_t j = 0; j < RF_ORDER * RF_ORDER; ++j)
-        sum[j] = 0.0;
-    for (size_t i = 0; i < RF_ORDER; ++i)
-        for (size_t j = 0; j < RF_ORDER; ++j)
-            for (size_t k = 0; k < RF_ORDER; ++k)
-                sum[j * RF_ORDER + k] += b[i] * c[i * layer + j * row + k];
+    for (size_t j = 0; j < RF_ORDER; ++j)
+        rf_rows(c + j * row, layer, b, sum + j * RF_ORDER);
 }
 
 static const double *place(const rf_groove_map *map, double x, double theta, double s, double rest[3])
@@ -46,57 +57,46 @@ static const double *place(const rf_groove_map *map, double x, double theta, dou
     return map->coefficients + i * layer + j * row + k;
 }
 
-/* What the force needs: M and its derivative in s. */
-static spline value_spline(const rf_groove_map *map, double x, double theta, double s)
-{
-    double rest[3], b[RF_ORDER], block[RF_ORDER * RF_ORDER], row[RF_ORDER];
-    const double *c = place(map, x, theta, s, rest);
-    const size_t width = (size_t)map->cells_s + RF_ORDER - 1;
-    spline at = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-    rf_values(rest[0], b);
-    layers(c, ((size_t)map->cells_e + RF_ORDER - 1) * width, width, b, block);
-    rf_values(rest[1], b);
-    rf_rows(block, RF_ORDER, b, row);
-    rf_values(rest[2], b);
-    at.m = rf_dot(row, b);
-    rf_slopes(rest[2], b);
-    at.m_s = map->cells_s / TURN * rf_dot(row, b);
-    return at;
-}
-
-/* All of it. Beyond the last node M goes on linearly in ln X: J is a power of X, as in thin films. */
-static spline full_spline(const rf_groove_map *map, double x, double theta, double s)
+/* M and m_s, and the rest if `full`, as it must be beyond the last node: there M goes on linearly in ln X: J
+   is a power of X, as in thin films. */
+static spline look_up(const rf_groove_map *map, double x, double theta, double s, int full)
 {
     const int outside = x > map->x_end;
-    double rest[3], b[RF_ORDER], b_s[RF_ORDER], b_ss[RF_ORDER];
+    double rest[3], b[RF_ORDER], b_s[RF_ORDER], row[RF_ORDER], row_x[RF_ORDER], row_e[RF_ORDER];
     double block[RF_ORDER * RF_ORDER], block_x[RF_ORDER * RF_ORDER];
-    double row[RF_ORDER], row_x[RF_ORDER], row_e[RF_ORDER];
     const double *c = place(map, outside ? map->x_end : x, theta, s, rest);
     const size_t width = (size_t)map->cells_s + RF_ORDER - 1;
     const size_t layer = ((size_t)map->cells_e + RF_ORDER - 1) * width;
     const double per_x = map->cells_x / (outside ? x : map->x_end);
     const double per_e = map->cells_e / TURN, per_s = map->cells_s / TURN;
-    rf_values(rest[0], b);
+    spline at = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+    values(rest[0], b);
     layers(c, layer, width, b, block);
-    rf_slopes(rest[0], b);
-    layers(c, layer, width, b, block_x);
-    if (outside)
-        for (int j = 0; j < RF_ORDER * RF_ORDER; ++j)
+    if (full) {
+        slopes(rest[0], b);
+        layers(c, layer, width, b, block_x);
+        for (int j = 0; outside && j < RF_ORDER * RF_ORDER; ++j)
             block[j] += map->cells_x * log(x / map->x_end) * block_x[j];
-    rf_values(rest[1], b);
-    rf_rows(block, RF_ORDER, b, row);
-    rf_rows(block_x, RF_ORDER, b, row_x);
-    rf_slopes(rest[1], b);
-    rf_rows(block, RF_ORDER, b, row_e);
-    rf_values(rest[2], b);
-    rf_slopes(rest[2], b_s);
-    rf_curvatures(rest[2], b_ss);
-    const spline at = {
-        rf_dot(row, b),                   per_x * rf_dot(row_x, b),
-        per_e * rf_dot(row_e, b),         per_s * rf_dot(row, b_s),
-        per_x * per_s * rf_dot(row_x, b_s), per_e * per_s * rf_dot(row_e, b_s),
-        per_s * per_s * rf_dot(row, b_ss),
-    };
+    }
+    values(rest[1], b);
+    rows(block, b, row);
+    if (full) {
+        rows(block_x, b, row_x);
+        slopes(rest[1], b);
+        rows(block, b, row_e);
+    }
+    values(rest[2], b);
+    slopes(rest[2], b_s);
+    at.m = rf_dot(row, b);
+    at.m_s = per_s * rf_dot(row, b_s);
+    if (full) {
+        at.m_x = per_x * rf_dot(row_x, b);
+        at.m_e = per_e * rf_dot(row_e, b);
+        at.m_xs = per_x * per_s * rf_dot(row_x, b_s);
+        at.m_es = per_e * per_s * rf_dot(row_e, b_s);
+        rf_curvatures(rest[2], b);
+        at.m_ss = per_s * per_s * rf_dot(row, b);
+    }
     return at;
 }
 
@@ -106,21 +106,21 @@ static void center(const rf_groove_map *map, double phi, double out[3])
     double rest, b[RF_ORDER];
     const double *c = map->center + turned(phi, map->cells_w, &rest);
     const double per = map->cells_w / TURN;
-    rf_values(rest, b);
+    values(rest, b);
     out[0] = rf_dot(c, b);
-    rf_slopes(rest, b);
+    slopes(rest, b);
     out[1] = per * rf_dot(c, b);
     rf_curvatures(rest, b);
     out[2] = per * per * rf_dot(c, b);
 }
 
-static field look_up(const rf_groove_map *map, const rf_frame *at, double x, double slope, int full)
+static field film(const rf_groove_map *map, const rf_frame *at, double x, double slope, int full)
 {
     const double q = map->squeeze, c = at->cos, s = -at->sin, chi = at->chi;
     const double bent = c * c + q * q * s * s;
     const double by_b = q / bent, by_bb = 2.0 * q * (1.0 - q * q) * s * c / (bent * bent);
     const double theta = atan2(at->ry, at->rx) - map->axis, angle = atan2(q * s, c);
-    const spline m = full ? full_spline(map, x, theta, angle) : value_spline(map, x, theta, angle);
+    const spline m = look_up(map, x, theta, angle, full);
     const double m_b = m.m_s * by_b, m_bb = m.m_ss * by_b * by_b + m.m_s * by_bb;
     double zero[3];
     center(map, atan2(at->ny, at->nx) - map->axis, zero);
@@ -147,7 +147,7 @@ int rf_groove_film(const void *of, const double *e, const double *w, double *f, 
         return rf_fail(status, f, jacobian, 8);
     double slope = 0.0;
     const double x = rf_stretch(at.chi, jacobian ? &slope : NULL);
-    const field here = look_up(map, &at, x, slope, jacobian || x > map->x_end);
+    const field here = film(map, &at, x, slope, jacobian || x > map->x_end);
     const double potential = -exp(here.value), k = at.size * potential, turn = here.turn;
     const double by_e[4] = {2.0 * k * here.along, 2.0 * k * here.across,
                             k * (here.along * turn + here.turn_along),

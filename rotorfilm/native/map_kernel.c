@@ -11,14 +11,6 @@ typedef struct field {
     double m, m_x, m_s, m_xs, m_ss;
 } field;
 
-size_t rf_spline_weights(double at, int32_t cells, double weights[RF_ORDER])
-{
-    double rest;
-    const int32_t first = rf_cell(at, cells, &rest);
-    rf_values(rest, weights);
-    return (size_t)first;
-}
-
 static const double *place(const rf_map *map, double x, double s, double *u, double *v)
 {
     const int32_t i = rf_cell(x / map->x_end * map->cells_x, map->cells_x, u);
@@ -26,44 +18,34 @@ static const double *place(const rf_map *map, double x, double s, double *u, dou
     return map->coefficients + (size_t)i * (size_t)(map->cells_t + RF_ORDER - 1) + (size_t)j;
 }
 
-static field value_field(const rf_map *map, double x, double s)
-{
-    double u, v, b[RF_ORDER], row[RF_ORDER];
-    const double *c = place(map, x, s, &u, &v);
-    field at = {0.0, 0.0, 0.0, 0.0, 0.0};
-    rf_values(u, b);
-    rf_rows(c, (size_t)(map->cells_t + RF_ORDER - 1), b, row);
-    rf_values(v, b);
-    at.m = rf_dot(row, b);
-    rf_slopes(v, b);
-    at.m_s = 0.5 * map->cells_t * rf_dot(row, b);
-    return at;
-}
-
-/* All of it. Beyond the last node M goes on linearly in ln X: J is a power of X, as in thin films. */
-static field full_field(const rf_map *map, double x, double s)
+/* What the force needs, and the rest if `full`, as it must be beyond the last node: there M goes on linearly
+   in ln X: J is a power of X, as in thin films. */
+static field look_up(const rf_map *map, double x, double s, int full)
 {
     const int outside = x > map->x_end;
-    double u, v, b[RF_ORDER], b_s[RF_ORDER], b_ss[RF_ORDER], row[RF_ORDER], row_x[RF_ORDER];
+    double u, v, b[RF_ORDER], b_s[RF_ORDER], row[RF_ORDER], row_x[RF_ORDER];
     const double *c = place(map, outside ? map->x_end : x, s, &u, &v);
     const size_t stride = (size_t)(map->cells_t + RF_ORDER - 1);
     const double per_x = map->cells_x / (outside ? x : map->x_end), per_s = 0.5 * map->cells_t;
     field at;
     rf_values(u, b);
     rf_rows(c, stride, b, row);
-    rf_slopes(u, b);
-    rf_rows(c, stride, b, row_x);
-    if (outside)
-        for (int j = 0; j < RF_ORDER; ++j)
+    if (full) {
+        rf_slopes(u, b);
+        rf_rows(c, stride, b, row_x);
+        for (int j = 0; outside && j < RF_ORDER; ++j)
             row[j] += map->cells_x * log(x / map->x_end) * row_x[j];
+    }
     rf_values(v, b);
     rf_slopes(v, b_s);
-    rf_curvatures(v, b_ss);
     at.m = rf_dot(row, b);
     at.m_s = per_s * rf_dot(row, b_s);
-    at.m_ss = per_s * per_s * rf_dot(row, b_ss);
-    at.m_x = per_x * rf_dot(row_x, b);
-    at.m_xs = per_x * per_s * rf_dot(row_x, b_s);
+    if (full) {
+        at.m_x = per_x * rf_dot(row_x, b);
+        at.m_xs = per_x * per_s * rf_dot(row_x, b_s);
+        rf_curvatures(v, b);
+        at.m_ss = per_s * per_s * rf_dot(row, b);
+    }
     return at;
 }
 
@@ -107,8 +89,7 @@ int rf_map_film(const void *of, const double *e, const double *w, double *f, dou
         return rf_fail(status, f, jacobian, 8);
     double slope = 0.0;
     const double x = rf_stretch(at.chi, jacobian ? &slope : NULL);
-    const int full = jacobian || x > map->x_end;
-    const field m = full ? full_field(map, x, at.cos) : value_field(map, x, at.cos);
+    const field m = look_up(map, x, at.cos, jacobian || x > map->x_end);
     const double potential = -exp(map->center + at.chi * m.m);
     rf_set_force(&at, potential, m.m_s * at.chi * at.sin, f);
     if (jacobian)

@@ -24,9 +24,6 @@ typedef struct rf_map {
     const double *coefficients; /* (cells_x + 5) x (cells_t + 5), T fastest */
 } rf_map;
 
-/* Weights of the six quintic B-splines at `at` cells from the first node, and the first of them. */
-size_t rf_spline_weights(double at, int32_t cells, double weights[6]);
-
 /* The film of an rf_map. Beyond the last node J goes on as a power of X, unverified: RF_OUTSIDE. Without
    source there is a derivative at the center only. */
 RF_EXPORT int rf_map_film(const void *map, const double *e, const double *w, double *f, double *jacobian);
