@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
 
@@ -125,6 +126,24 @@ class GroovedMapFilm:
             return MapFilm().bind(slenderness=slenderness, clearance=clearance, force_scale=force_scale)
         kernel = JournalKernel(self._kernel(slenderness), clearance, force_scale)
         return BoundMap(kernel, clearance)
+
+    def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
+        """Return the kernel and its tables, made now if they are not there yet; see `law.NativeFilm`."""
+        if self.geometry.plain:
+            return MapFilm().native(slenderness)
+        kernel = self._kernel(slenderness)
+        numbers = [slenderness, kernel.struct.x_end, kernel.struct.squeeze, kernel.struct.axis]
+        return "grooved_journal", {
+            "coefficients": kernel.coefficients,
+            "center": kernel.center,
+            "map": np.array(numbers),
+        }
+
+    def tabulated(self, slenderness: float) -> MapFilm | GroovedMapFilm:
+        """Return this film with its table; see `law.TabulatedFilm`."""
+        if self.geometry.plain:
+            return MapFilm().tabulated(slenderness)
+        return dataclasses.replace(self, table=self.built_table(slenderness)) if self.table is None else self
 
     def built_table(self, slenderness: float, report: Report | None = None) -> GrooveTable:
         """Return the map of this film: the given one, the one on disk, or a new one, which is then kept.

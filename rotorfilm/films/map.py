@@ -89,6 +89,11 @@ class MapFilm:
             "reach": np.array([table.reach]),
         }
 
+    def tabulated(self, slenderness: float) -> MapFilm:
+        """Return this film with the table that it would make; see `law.TabulatedFilm`."""
+        table = self._table(slenderness)
+        return self if self.table is not None or table is packaged_table() else MapFilm(table)
+
     def _table(self, slenderness: float) -> MapTable:
         return _table_for(slenderness) if self.table is None else self.table
 

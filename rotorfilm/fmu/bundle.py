@@ -20,9 +20,11 @@ SHELVES = {PACKAGE, f"{PACKAGE}.fmu"}
 SLAVE = f"{PACKAGE}.fmu.slave"
 API = f"{PACKAGE}.fmu.pythonfmu_api"
 
-
-COMPANIONS = {f"{PACKAGE}.films.map": ("films/data/*", "native/*.so", "native/*.dylib", "native/*.dll")}
-"""Files, below the package, that a module reads at run time."""
+COMPANIONS = {
+    f"{PACKAGE}.native.library": ("native/*.so", "native/*.dylib", "native/*.dll"),
+    f"{PACKAGE}.films.map": ("films/data/*",),
+}
+"""Files, below the package, that a module reads at run time; they go wherever the module goes."""
 
 
 class Bundle(NamedTuple):
@@ -54,7 +56,7 @@ def bundle_source(modules: Iterable[str]) -> Bundle:
     users = sorted(set(modules) - own)
     read = {name: read_user_module(name, users, PACKAGE) for name in users}
     sources = _closure({SLAVE, *own}.union(*(module.needs for module in read.values())))
-    companions = _companions(own)
+    companions = _companions(sources)
     # Two FMUs in one process share modules of one name, hence also what those read from their folder.
     package = f"{PACKAGE}_{content_hash({**sources, **companions})}"
     names = {name: name.replace(PACKAGE, package, 1) for name in sources}
