@@ -81,10 +81,10 @@ KERNELS = {
     },
     "grooved_journal": {
         "Model": (
-            "Film force of a cylindrical journal bearing of finite length with axial grooves or several pads, "
-            "open to ambient pressure; Reynolds equation with Reynolds rupture. x and y are Cartesian from "
-            "the bearing center, rotation is positive about +z (from x to y), the force acts on the journal. "
-            "With the eccentricity e = (x, y)/clearance at the angle theta and the source w = (vx, "
+            "Film force of a cylindrical journal bearing of finite length with axial grooves or several "
+            "pads, open to ambient pressure; Reynolds equation with Reynolds rupture. x and y are Cartesian "
+            "from the bearing center, rotation is positive about +z (from x to y), the force acts on the "
+            "journal. With the eccentricity e = (x, y)/clearance at the angle theta and the source w = (vx, "
             "vy)/clearance - (speed/2) z^ x e at the angle phi, both from the axis of the openings, the film "
             "minimizes a quadratic functional, so that its force is a gradient:"
         ),

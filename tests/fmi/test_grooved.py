@@ -145,9 +145,7 @@ def test_of_a_grooved_bearing_only_what_scales_the_film_is_tunable(version, groo
         instance = instantiated(description, folder, False)
         u = [3e-5, -4e-5, 1e-3, 2e-3, 150.0]
         # Fixed does not mean constant: another size of the same L/D may be set before the start.
-        instance.initialize(
-            [reference[name] for name in ("radius", "length", *INPUTS)], [0.04, 0.04, *u]
-        )
+        instance.initialize([reference[name] for name in ("radius", "length", *INPUTS)], [0.04, 0.04, *u])
         instance.step(0.0, 1e-3)
         instance.set([reference["clearance"], reference["viscosity"]], [8e-5, 0.2])
         found = instance.get([reference["force_x"], reference["force_y"]])

@@ -341,7 +341,9 @@ def test_units_bounds_and_kinds_are_described(version, tmp_path):
 def test_a_film_at_the_wall_ends_fmpy(interface, status, version, tmp_path, capsys):
     rows = [[0.0, 0.0, 0.0, 0.0, 0.0, SPEED], [0.01, 2e-4, 0.0, 0.0, 0.0, SPEED]]
     path = export_fmu(BEARING, tmp_path / "film.fmu", version, component="bearing")
-    with pytest.raises(FMICallException, match=r"fmi[23](Get|DoStep)\w* failed with status " + re.escape(status)):
+    with pytest.raises(
+        FMICallException, match=r"fmi[23](Get|DoStep)\w* failed with status " + re.escape(status)
+    ):
         fmpy.simulate_fmu(
             str(path),
             fmi_type=interface,

@@ -79,7 +79,7 @@ def impossible(good):
         numbers = np.frombuffer(good[-32:], "<f8").copy()
         numbers[place] = value
         yield sealed(good[:-32] + numbers.tobytes())
-    yield sealed(good.replace(struct.pack("<III", 12, 11, 13), struct.pack("<III", 4, 33, 13)))
+    yield sealed(good.replace(struct.pack("<III", 7, 11, 13), struct.pack("<III", 77, 13, 1)))
 
 
 def mutated(good, count):
