@@ -13,6 +13,7 @@
 
 #include "fmi/fmi2FunctionTypes.h"
 #include "journal_kernel.h"
+#include "map_kernel.h"
 
 static double now(void)
 {
@@ -77,7 +78,9 @@ int main(int argc, char **argv)
 
     size_t size, count;
     const double *map = read_numbers(argv[5], &size), *states = read_numbers(argv[6], &count);
-    const rf_journal journal = {{(int32_t)map[0], (int32_t)map[1], map[2], map[3], map + 6}, map[4], map[5]};
+    const rf_map plain = {(int32_t)map[0], (int32_t)map[1], map[2], map[3], map + 6};
+    rf_journal journal = {NULL, &plain, map[4], map[5]};
+    *(void **)&journal.film = function(library, "rf_map_film");
     const unsigned first = (unsigned)atoi(argv[4]);
     const fmi2ValueReference inputs[5] = {first, first + 1, first + 2, first + 3, first + 4};
     const fmi2ValueReference outputs[2] = {first + 5, first + 6};

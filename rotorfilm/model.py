@@ -75,6 +75,14 @@ class Model(Protocol):
 
 
 @runtime_checkable
+class Portable(Protocol):
+    """What would make something large on first use, as a film its table."""
+
+    def portable(self) -> Any:
+        """Return an equal object that has it in its fields, for an FMU that must not make it again."""
+
+
+@runtime_checkable
 class Dynamic(Model, Protocol):
     """A model with states that an ODE solver integrates."""
 

@@ -27,6 +27,14 @@ def draw_journal(axes: Axes) -> None:
     axes.add_patch(FancyArrow(-0.18, 0.09, -0.03, -0.06, head_width=0.16, head_length=0.14, color=INK, lw=0))
 
 
+def draw_grooved_journal(axes: Axes) -> None:
+    """Draw the same with two axial grooves."""
+    for x in (-0.86, 0.6):
+        axes.add_patch(Rectangle((x, -0.13), 0.26, 0.26, color=OIL, zorder=1))
+    draw_journal(axes)
+    axes.patches[2].set_zorder(0.5)
+
+
 def draw_rotor(axes: Axes) -> None:
     """Draw a shaft with a disk and its unbalance."""
     axes.add_patch(Rectangle((-0.95, -0.1), 1.9, 0.2, color=STEEL))
@@ -42,11 +50,19 @@ def draw_linear(axes: Axes) -> None:
     axes.plot(-0.75 + 1.5 * t, -0.55 + 0.65 * response, color=OIL, lw=2.5)
 
 
+DRAWN = {
+    "grooved_journal": draw_grooved_journal,
+    "journal": draw_journal,
+    "linear": draw_linear,
+    "rigid_rotor": draw_rotor,
+}
+
+
 def main() -> None:
     """Draw all of them, 96 pixels wide."""
     OUT.mkdir(exist_ok=True)
     mpl.rcParams["savefig.transparent"] = True
-    for name, draw in {"journal": draw_journal, "rigid_rotor": draw_rotor, "linear": draw_linear}.items():
+    for name, draw in DRAWN.items():
         figure = Figure(figsize=(1, 1), dpi=96)
         axes = figure.add_axes((0, 0, 1, 1))
         axes.set(xlim=(-1, 1), ylim=(-1, 1), aspect="equal")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -18,7 +18,7 @@ from ..errors import (
     warn_user,
 )
 from ..films.geometry import FilmGeometry, Groove, Pad
-from ..films.law import CENTER, BindableFilm, BoundFilm, FilmLaw, FittedFilm, NativeFilm
+from ..films.law import CENTER, BindableFilm, BoundFilm, FilmLaw, FittedFilm, NativeFilm, TabulatedFilm
 from ..films.map import MapFilm
 from ..model import Array, Linearization, Tangent, force_outputs, journal_inputs, static_linearization
 from ..native.spec import NativeParameter, NativeSpec
@@ -32,6 +32,9 @@ NATIVE_PARAMETERS = (
     ("viscosity", "Pa.s", "dynamic viscosity"),
 )
 """Names, units and meanings of what a simulator may set in the compiled bearing."""
+
+SCALES = {"clearance", "viscosity"}
+"""Those of them that only scale a film: the others change what the map of a film depends on."""
 
 ROUNDOFF = 1e-14
 """A source below this fraction of its two terms is their cancellation, hence zero."""
@@ -272,21 +275,22 @@ class JournalBearing:
         return static_linearization(self.jacobian(values[:2], values[2:4], values[4]))
 
     def native(self) -> NativeSpec | None:
-        """Return the kernel of the C library that is this bearing; None if its film or geometry has none.
+        """Return the kernel of the C library that is this bearing; None if its film has none.
 
         Nor has a subclass, which may differ from it. Its parameters are the dimensions and the viscosity;
-        radius and length may change as long as length / diameter stays within the table of the film.
+        radius and length may change as long as length / diameter stays within the table of the film. With
+        pads or grooves that is one of a single length / diameter: radius and length then are fixed.
         """
-        plain = type(self) is JournalBearing and self.geometry.plain
-        if not (plain and isinstance(self.film, NativeFilm)):
+        film = self.fitted_film
+        if type(self) is not JournalBearing or not isinstance(film, NativeFilm):
             return None
-        kernel, tables = self.film.native(self.slenderness)
+        kernel, tables = film.native(self.slenderness)
         parameters = tuple(
             NativeParameter(
                 name=name,
                 unit=unit,
                 value=float(getattr(self, name)),
-                tunable=True,
+                tunable=self.geometry.plain or name in SCALES,
                 minimum=0.0,
                 nominal=float(getattr(self, name)),
                 description=description,
@@ -294,6 +298,12 @@ class JournalBearing:
             for name, unit, description in NATIVE_PARAMETERS
         )
         return NativeSpec(kernel=kernel, parameters=parameters, tables=tables)
+
+    def portable(self) -> JournalBearing:
+        """Return this bearing with a film that carries the table it needs; see `model.Portable`."""
+        film = self.fitted_film
+        carried = film.tabulated(self.slenderness) if isinstance(film, TabulatedFilm) else film
+        return self if carried is film else replace(self, film=carried)
 
     @cached_property
     def _bound(self) -> BoundFilm | None:

@@ -10,7 +10,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeVar, cast
 
-from numba import njit
+try:
+    from numba import njit
+except ImportError:  # An FMU carries this module, and asks no more of a machine than numpy and scipy.
+    njit = None
 
 from .solver_digest import solver_digest
 
@@ -21,12 +24,16 @@ _STAMP = solver_digest()
 
 
 def compiled(function: Kernel) -> Kernel:
-    """Return the function compiled by numba, cached on disk."""
+    """Return the function compiled by numba, cached on disk; as it is where there is no numba."""
+    if njit is None:
+        return function
     function.__qualname__ += f"_{_STAMP}"
     return cast(Kernel, njit(cache=True)(function))
 
 
 def compiled_sums(function: Kernel) -> Kernel:
-    """Return the function compiled with sums in any order, so that they vectorize; cached on disk."""
+    """Return the function compiled with sums in any order, so that they vectorize; else as `compiled`."""
+    if njit is None:
+        return function
     function.__qualname__ += f"_{_STAMP}"
     return cast(Kernel, njit(cache=True, fastmath={"reassoc", "contract"})(function))

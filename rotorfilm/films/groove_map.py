@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import dataclasses
 import logging
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
-from typing import ClassVar
+
+import numpy as np
 
 from ..errors import InputError, require_number, require_positive
-from ..native import GroovedJournalKernel, GrooveMapKernel, JournalKernel
+from ..model import Array
+from ..native import GrooveMapKernel
 from ..progress import Report, silent
 from .geometry import FilmGeometry
 from .groove_axis import AlignedOpenings, aligned_openings, require_mappable
@@ -73,8 +76,6 @@ class GroovedMapFilm(KernelFilm):
     table: GrooveMapTable | None = None
     geometry: FilmGeometry = field(default_factory=FilmGeometry)
 
-    _journal: ClassVar[type[JournalKernel]] = GroovedJournalKernel
-
     def __post_init__(self) -> None:
         require_cells(self.cells)
         if not are_counts(self.nodes, (6, 12, 12), (1, 2, 2)):
@@ -106,6 +107,20 @@ class GroovedMapFilm(KernelFilm):
         if geometry.plain:
             raise InputError("table must be that of the bearing, got one with openings; take MapFilm()")
         return dataclasses.replace(self, geometry=geometry)
+
+    def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
+        """Return the kernel and its tables, made now if they are not there yet; see `law.NativeFilm`."""
+        kernel = self._kernel(slenderness)
+        numbers = [slenderness, kernel.struct.x_end, kernel.struct.squeeze, kernel.struct.axis]
+        return "grooved_journal", {
+            "coefficients": kernel.coefficients,
+            "center": kernel.log_center,
+            "map": np.array(numbers),
+        }
+
+    def tabulated(self, slenderness: float) -> GroovedMapFilm:
+        """Return this film with its table; see `law.TabulatedFilm`."""
+        return dataclasses.replace(self, table=self.built_table(slenderness)) if self.table is None else self
 
     def built_table(self, slenderness: float, report: Report = silent) -> GrooveMapTable:
         """Return the map of this film: the given one, the one on disk, or a new one, which is then kept.

@@ -84,7 +84,15 @@ class NativeFilm(FilmLaw, Protocol):
     """A film law that the C library knows, for FMUs that need no Python."""
 
     def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
-        """Return the kernel of a plain bearing of this length/diameter with this film, and its tables."""
+        """Return the kernel of a bearing of this length/diameter with this film, and its tables."""
+
+
+@runtime_checkable
+class TabulatedFilm(FilmLaw, Protocol):
+    """A film law that makes a table on first use, for FMUs that must not."""
+
+    def tabulated(self, slenderness: float) -> FilmLaw:
+        """Return this law in a bearing of this length/diameter, with the table that it would make there."""
 
 
 @runtime_checkable

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -29,8 +29,6 @@ TABLE = "journal_map.bin"
 
 class KernelFilm(ABC):
     """A film law over a compiled map: what `MapFilm` and `GroovedMapFilm` have in common."""
-
-    _journal: ClassVar[type[JournalKernel]] = JournalKernel
 
     @abstractmethod
     def _kernel(self, slenderness: float) -> MapKernel:
@@ -68,7 +66,7 @@ class KernelFilm(ABC):
 
     def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundMap:
         """Return this film in one bearing, in SI units; see `law.BindableFilm`."""
-        return BoundMap(self._journal(self._kernel(slenderness), clearance, force_scale), clearance)
+        return BoundMap(JournalKernel(self._kernel(slenderness), clearance, force_scale), clearance)
 
 
 @dataclass(frozen=True)
@@ -137,6 +135,11 @@ class MapFilm(KernelFilm):
             "range": np.array(table.slenderness_range),
             "reach": np.array([table.reach]),
         }
+
+    def tabulated(self, slenderness: float) -> MapFilm:
+        """Return this film with the table that it would make; see `law.TabulatedFilm`."""
+        table = self._table(slenderness)
+        return self if self.table is not None or table is packaged_table() else MapFilm(table)
 
     def _table(self, slenderness: float) -> MapTable:
         return _table_for(slenderness) if self.table is None else self.table

@@ -20,9 +20,15 @@ SHELVES = {PACKAGE, f"{PACKAGE}.fmu"}
 SLAVE = f"{PACKAGE}.fmu.slave"
 API = f"{PACKAGE}.fmu.pythonfmu_api"
 
+LIBRARY = f"{PACKAGE}.native"
+"""What a module imports that calls the compiled library."""
 
-COMPANIONS = {f"{PACKAGE}.films.map": ("films/data/*", "native/*.so", "native/*.dylib", "native/*.dll")}
-"""Files, below the package, that a module reads at run time."""
+COMPANIONS = ("films/data/*", "native/*.so", "native/*.dylib", "native/*.dll")
+"""Files, below the package, that such a module reads at run time.
+
+They go along where the model, or a user's module, names such a module, not wherever the import closure holds
+one: every film brings all others with it, and with the library an FMU runs on one platform only.
+"""
 
 
 class Bundle(NamedTuple):
@@ -54,7 +60,7 @@ def bundle_source(modules: Iterable[str]) -> Bundle:
     users = sorted(set(modules) - own)
     read = {name: read_user_module(name, users, PACKAGE) for name in users}
     sources = _closure({SLAVE, *own}.union(*(module.needs for module in read.values())))
-    companions = _companions(own)
+    companions = _companions(own.union(*(module.needs for module in read.values())))
     # Two FMUs in one process share modules of one name, hence also what those read from their folder.
     package = f"{PACKAGE}_{content_hash({**sources, **companions})}"
     names = {name: name.replace(PACKAGE, package, 1) for name in sources}
@@ -91,8 +97,10 @@ def _closure(modules: Iterable[str]) -> dict[str, bytes]:
 
 
 def _companions(modules: Iterable[str]) -> dict[str, bytes]:
-    patterns = [pattern for name in modules for pattern in COMPANIONS.get(name, ())]
-    found = sorted(path for pattern in patterns for path in ROOT.glob(pattern) if path.is_file())
+    sources = {name: (ROOT.parent / _path(name)).read_bytes() for name in modules}
+    if not any(LIBRARY in _imported(name, source) for name, source in sources.items()):
+        return {}
+    found = sorted(path for pattern in COMPANIONS for path in ROOT.glob(pattern) if path.is_file())
     return {path.relative_to(ROOT).as_posix(): path.read_bytes() for path in found}
 
 

@@ -11,13 +11,19 @@ from typing import Any
 import numpy as np
 
 from ..errors import FmuError
+from ..model import Portable
 
 PLAIN_DTYPES = {"|b1", "<i4", "<i8", "<u4", "<u8", "<f4", "<f8"}
 """Array types that JSON numbers hold exactly."""
 
+SHOWN = 50
+"""Longest array that is shown to people."""
+
 
 def encode(value: Any, name: str = "model") -> Any:
     """Return `value` as JSON data from which `decode` makes an equal value.
+
+    What is `Portable` goes with what it would otherwise make on first use.
 
     Parameters
     ----------
@@ -76,6 +82,15 @@ def decode(data: Any, modules: Mapping[str, str]) -> Any:
     return _load_class(data["class"], modules)(**fields)
 
 
+def shortened(data: Any) -> Any:
+    """Return encoded data for people: of long arrays only how long they are."""
+    if isinstance(data, dict) and len(data.get("array", ())) > SHOWN:
+        return {**data, "array": f"{len(data['array'])} numbers"}
+    if isinstance(data, dict):
+        return {name: shortened(value) for name, value in data.items()}
+    return [shortened(item) for item in data] if isinstance(data, list) else data
+
+
 def class_modules(data: Any) -> set[str]:
     """Return the names of the modules whose classes occur in encoded data."""
     return {name.partition(":")[0] for name in _class_names(data)}
@@ -96,6 +111,7 @@ def _encode_array(array: np.ndarray, name: str) -> dict[str, Any]:
 
 
 def _encode_dataclass(value: Any, name: str) -> dict[str, Any]:
+    value = value.portable() if isinstance(value, Portable) else value
     cls = type(value)
     if cls.__module__ == "__main__" or "<locals>" in cls.__qualname__:
         raise FmuError(

@@ -79,6 +79,28 @@ KERNELS = {
             "Where w vanishes off the center the force is zero and has no derivative."
         ),
     },
+    "grooved_journal": {
+        "Model": (
+            "Film force of a cylindrical journal bearing of finite length with axial grooves or several "
+            "pads, open to ambient pressure; Reynolds equation with Reynolds rupture. x and y are Cartesian "
+            "from the bearing center, rotation is positive about +z (from x to y), the force acts on the "
+            "journal. With the eccentricity e = (x, y)/clearance at the angle theta and the source w = (vx, "
+            "vy)/clearance - (speed/2) z^ x e at the angle phi, both from the axis of the openings, the film "
+            "minimizes a quadratic functional, so that its force is a gradient:"
+        ),
+        "Equations": (
+            "F = viscosity length radius^3 / clearance^2  dJ/dw\n"
+            "J(e, w) = -|w|^2 exp(L0(phi) + chi M(X, theta, s)),  chi = |e|\n"
+            "X = chi / (1 - chi^2)^(1/4),  tan s = squeeze tan(phi - theta)"
+        ),
+        "Validity": (
+            "M and L0 are splines over X and the angles, made for these openings and this length / diameter: "
+            "radius and length are fixed, clearance and viscosity tunable. The table `map` is length / "
+            "diameter, the last X, squeeze and the axis [rad]; beyond the last X the force is extrapolated, "
+            "with a warning. Laminar, isothermal, aligned. Where w vanishes the force is zero and has no "
+            "derivative."
+        ),
+    },
     "rigid_rotor": {
         "Model": (
             "One journal's share of a rigid rotor that moves without tilting. x and y are Cartesian, "

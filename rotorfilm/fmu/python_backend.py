@@ -12,7 +12,7 @@ from ..errors import FmuError
 from ..model import Model
 from .archive import binaries, licenses, require_verified_version
 from .bundle import API, PACKAGE, SLAVE, Bundle, bundle_source, content_hash
-from .codec import class_modules, decode, encode
+from .codec import class_modules, decode, encode, shortened
 from .documentation import PYTHON, to_html
 from .variables import Variable
 
@@ -76,7 +76,7 @@ def python_files(
     data = encode(model)
     bundle = bundle_source(class_modules(data))
     _require_rebuilt(data)
-    page = to_html(title, variables, PYTHON, json.dumps(data, indent=2))
+    page = to_html(title, variables, PYTHON, json.dumps(shortened(data), indent=2))
     return {
         **_resources(data, component, start, bundle),
         **binaries(component, bundle.files),

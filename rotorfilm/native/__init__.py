@@ -1,12 +1,11 @@
 """Thin view of the C library, whose kernels Python and the native FMUs share."""
 
-from .kernels import GroovedJournalKernel, GrooveMapKernel, JournalKernel, MapKernel, Status, slice_table
+from .kernels import GrooveMapKernel, JournalKernel, MapKernel, Status, slice_table
 from .library import NativeLibraryError
 from .spec import HasKernel, NativeParameter, NativeSpec
 
 __all__ = [
     "GrooveMapKernel",
-    "GroovedJournalKernel",
     "HasKernel",
     "JournalKernel",
     "MapKernel",

@@ -16,8 +16,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "export.h"
-#include "map_kernel.h"
+#include "film.h"
 
 typedef struct rf_groove_map {
     int32_t cells_x;            /* cells of [0, X_end] */
@@ -32,21 +31,8 @@ typedef struct rf_groove_map {
                                    angles the last five repeat the first */
 } rf_groove_map;
 
-/* Force f[2] at e[2], w[2]; statuses as in map_kernel.h. Without source there is no derivative, not at the
-   center either: RF_UNDEFINED. */
-RF_EXPORT int rf_groove_force(const rf_groove_map *map, const double *e, const double *w, double *f);
-
-/* The same and d f/d(e, w), jacobian[2][4]. */
-RF_EXPORT int rf_groove_jacobian(const rf_groove_map *map, const double *e, const double *w, double *f,
-                                 double *jacobian);
-
-/* Batches as in map_kernel.h. */
-RF_EXPORT int rf_groove_force_batch(const rf_groove_map *map, size_t n, const double *e, size_t e_stride,
-                                    const double *w, size_t w_stride, double *f, size_t f_stride,
-                                    size_t *first);
-RF_EXPORT int rf_groove_jacobian_batch(const rf_groove_map *map, size_t n, const double *e,
-                                       size_t e_stride, const double *w, size_t w_stride, double *f,
-                                       size_t f_stride, double *jacobian, size_t jacobian_stride,
-                                       size_t *first);
+/* The film of an rf_groove_map. Beyond the last node J goes on as a power of X, unverified: RF_OUTSIDE. Without
+   source there is no derivative, not at the center either. */
+RF_EXPORT int rf_groove_film(const void *map, const double *e, const double *w, double *f, double *jacobian);
 
 #endif

@@ -2,59 +2,79 @@
 
 #include <math.h>
 
-#include "journal_state.h"
+#include "map_frame.h"
 
-int rf_journal_force(const rf_journal *journal, const double *state, double *f)
+#define ROUNDOFF 1e-14 /* a source below this fraction of its two terms is their cancellation */
+
+/* Eccentricity e[2] and source w[2] of a state. */
+static void set_kinematics(double clearance, const double *state, double *e, double *w)
 {
-    double e[2], w[2];
-    if (rf_kinematics(journal->clearance, state, e, w) != RF_OK)
-        return rf_break(f, 2);
-    const int status = rf_map_force(&journal->map, e, w, f);
-    return rf_dimensional_force(journal->force_scale, status, f);
+    const double half = 0.5 * state[4];
+    e[0] = state[0] / clearance;
+    e[1] = state[1] / clearance;
+    const double squeeze[2] = {state[2] / clearance, state[3] / clearance};
+    const double wedge[2] = {half * e[1], -half * e[0]};
+    w[0] = squeeze[0] + wedge[0];
+    w[1] = squeeze[1] + wedge[1];
+    const double terms = fmax(fabs(squeeze[0]) + fabs(wedge[0]), fabs(squeeze[1]) + fabs(wedge[1]));
+    if (fmax(fabs(w[0]), fabs(w[1])) <= ROUNDOFF * terms)
+        w[0] = w[1] = 0.0;
 }
 
-int rf_journal_jacobian(const rf_journal *journal, const double *state, double *f, double *jacobian)
+/* Turn film[2][4] = d f/d(e, w) into jacobian[2][5]. */
+static void set_jacobian(const rf_journal *journal, const double *e, double speed, const double *film,
+                         double *jacobian)
+{
+    const double scale = journal->force_scale, per_c = scale / journal->clearance, half = 0.5 * speed;
+    for (int i = 0; i < 2; ++i) {
+        const double *by = film + 4 * i;
+        double *row = jacobian + 5 * i;
+        /* w = v/c + (speed/2) (e_y, -e_x) */
+        row[0] = per_c * (by[0] - half * by[3]);
+        row[1] = per_c * (by[1] + half * by[2]);
+        row[2] = per_c * by[2];
+        row[3] = per_c * by[3];
+        row[4] = 0.5 * scale * (by[2] * e[1] - by[3] * e[0]);
+    }
+}
+
+int rf_journal_at(const rf_journal *journal, const double *state, double *f, double *jacobian)
 {
     double e[2], w[2], film[8];
-    if (rf_kinematics(journal->clearance, state, e, w) != RF_OK) {
-        rf_break(f, 2);
-        return rf_break(jacobian, 10);
-    }
-    const int status = rf_map_jacobian(&journal->map, e, w, f, film);
-    return rf_dimensional(journal->clearance, journal->force_scale, e, state[4], film, status, f, jacobian);
+    if (rf_is_broken(state, 5))
+        return rf_fail(RF_NOT_FINITE, f, jacobian, 10);
+    set_kinematics(journal->clearance, state, e, w);
+    const int status = journal->film(journal->map, e, w, f, jacobian ? film : NULL);
+    f[0] *= journal->force_scale;
+    f[1] *= journal->force_scale;
+    if (jacobian)
+        set_jacobian(journal, e, state[4], film, jacobian);
+    /* Finite factors may overflow. */
+    if (status <= RF_OUTSIDE && (rf_is_broken(f, 2) || (jacobian && rf_is_broken(jacobian, 10))))
+        return rf_fail(RF_NOT_FINITE, f, jacobian, 10);
+    return status;
 }
 
 int rf_journal_call(const rf_journal *journal, double x, double y, double vx, double vy, double speed,
                     double *f)
 {
     const double state[5] = {x, y, vx, vy, speed};
-    return rf_journal_force(journal, state, f);
+    return rf_journal_at(journal, state, f, NULL);
 }
 
-static int force_of(const void *film, const double *state, double *f)
+static int respond(const void *of, const double *state, double *f, double *jacobian)
 {
-    return rf_journal_force(film, state, f);
+    return rf_journal_at(of, state, f, jacobian);
 }
 
-static int jacobian_of(const void *film, const double *state, double *f, double *jacobian)
+int rf_journal_batch(const rf_journal *journal, size_t n, const double *position, size_t position_stride,
+                     const double *velocity, size_t velocity_stride, const double *speed, size_t speed_step,
+                     double *f, size_t f_stride, double *jacobian, size_t jacobian_stride, size_t *first)
 {
-    return rf_journal_jacobian(film, state, f, jacobian);
-}
-
-int rf_journal_force_batch(const rf_journal *journal, size_t n, const double *position,
-                           size_t position_stride, const double *velocity, size_t velocity_stride,
-                           const double *speed, size_t speed_step, double *f, size_t f_stride,
-                           size_t *first)
-{
-    return rf_each_force(force_of, journal, n, position, position_stride, velocity, velocity_stride, speed,
-                         speed_step, f, f_stride, first);
-}
-
-int rf_journal_jacobian_batch(const rf_journal *journal, size_t n, const double *position,
-                              size_t position_stride, const double *velocity, size_t velocity_stride,
-                              const double *speed, size_t speed_step, double *f, size_t f_stride,
-                              double *jacobian, size_t jacobian_stride, size_t *first)
-{
-    return rf_each_jacobian(jacobian_of, journal, n, position, position_stride, velocity, velocity_stride,
-                            speed, speed_step, f, f_stride, jacobian, jacobian_stride, first);
+    const rf_states states = {
+        {position, position + position_stride, velocity, velocity + velocity_stride, speed},
+        {1, 1, 1, 1, speed_step},
+    };
+    const rf_answers answers = {f, f_stride, jacobian, jacobian_stride};
+    return rf_each(respond, journal, &states, 5, n, &answers, first);
 }

@@ -1,21 +1,18 @@
 /* Kernel "journal": a plain journal bearing over the universal impedance map.
 
-   Parameters radius, length, clearance [m], viscosity [Pa s]; inputs x, y [m], vx, vy [m/s], speed [rad/s];
-   outputs force_x, force_y [N]. Tables: coefficients (s, x, t), center (s), range (2: smallest and largest
+   Parameters, inputs and outputs as in journal_model.h. Tables: coefficients (s, x, t), center (s), range (2: smallest and largest
    length/diameter), reach (1). */
-#include <math.h>
 #include <stdlib.h>
 
-#include "journal_kernel.h"
-#include "kernel.h"
+#include "journal_model.h"
+#include "map_kernel.h"
 #include "map_table.h"
 
-enum { RADIUS, LENGTH, CLEARANCE, VISCOSITY, PARAMETERS };
-
 typedef struct model {
-    rf_journal journal;
+    rf_journal journal; /* first, as journal_model.h asks */
+    rf_map map;
     rf_map_table table;
-    double slenderness; /* of the map in `journal`; 0 as long as there is none */
+    double slenderness; /* of the map; 0 as long as there is none */
     double *slice, *spare;
 } model;
 
@@ -51,9 +48,9 @@ static int take_tables(model *self, const rf_tables *tables, rf_message *why)
                                 center->numbers,
                                 c->numbers};
     self->table = table;
-    self->journal.map.cells_x = table.cells_x;
-    self->journal.map.cells_t = table.cells_t;
-    self->journal.map.x_end = reach->numbers[0];
+    self->map.cells_x = table.cells_x;
+    self->map.cells_t = table.cells_t;
+    self->map.x_end = reach->numbers[0];
     return RF_OK;
 }
 
@@ -76,34 +73,19 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
         destroy(self);
         return NULL;
     }
-    const rf_sizes mine = {PARAMETERS, 5, 2, 0};
-    *sizes = mine;
+    self->journal.film = rf_map_film;
+    self->journal.map = &self->map;
+    *sizes = RF_JOURNAL_SIZES;
     return self;
-}
-
-static int check(const double *p, rf_message *why)
-{
-    static const char *const NAMES[] = {"radius", "length", "clearance", "viscosity"};
-    for (int i = 0; i < PARAMETERS; ++i)
-        if (!(p[i] > 0.0 && p[i] < HUGE_VAL))
-            return rf_say(why, RF_INVALID, "%s must be finite and positive, got %.9g", NAMES[i], p[i]);
-    if (p[CLEARANCE] >= p[RADIUS])
-        return rf_say(why, RF_INVALID, "clearance must be below the radius %.9g, got %.9g", p[RADIUS],
-                      p[CLEARANCE]);
-    return RF_OK;
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)
 {
     model *self = kernel;
-    if (check(p, why) != RF_OK)
+    rf_journal scaled = self->journal;
+    if (rf_scale_journal(&scaled, p, why) != RF_OK)
         return RF_INVALID;
-    const double slenderness = p[LENGTH] / (2.0 * p[RADIUS]);
-    const double c = p[CLEARANCE],
-                 scale = p[VISCOSITY] * p[LENGTH] * (p[RADIUS] * p[RADIUS] * p[RADIUS]) / (c * c);
-    if (!(scale > 0.0 && scale < HUGE_VAL))
-        return rf_say(why, RF_INVALID, "viscosity length radius^3 / clearance^2 must be finite, got %.9g",
-                      scale);
+    const double slenderness = rf_slenderness(p);
     if (slenderness != self->slenderness) {
         double center;
         if (rf_map_slice(&self->table, slenderness, self->spare, &center) != RF_OK)
@@ -114,53 +96,11 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
         self->slice = self->spare;
         self->spare = old;
         self->slenderness = slenderness;
-        self->journal.map.center = center;
-        self->journal.map.coefficients = self->slice;
+        self->map.center = center;
+        self->map.coefficients = self->slice;
     }
-    self->journal.clearance = c;
-    self->journal.force_scale = scale;
+    self->journal = scaled;
     return RF_OK;
-}
-
-static int explain(const model *self, int status, const double *u, rf_message *why)
-{
-    const double c = self->journal.clearance, e = sqrt(u[0] * u[0] + u[1] * u[1]);
-    switch (status) {
-    case RF_OK: return RF_OK;
-    case RF_OUTSIDE:
-        return rf_say(why, status,
-                      "eccentricity ratio %.6g is beyond the map of the film; its force is extrapolated",
-                      e / c);
-    case RF_UNDEFINED:
-        return rf_say(
-            why, status,
-            "the film has no derivative where its source velocity/clearance - (speed/2) z x eccentricity "
-            "vanishes: x = %.9g, y = %.9g m, vx = %.9g, vy = %.9g m/s, speed = %.9g rad/s",
-            u[0], u[1], u[2], u[3], u[4]);
-    case RF_CONTACT:
-        return rf_say(why, status,
-                      "the journal must stay inside the clearance %.9g m, got an eccentricity of %.9g m "
-                      "(x = %.9g, y = %.9g)",
-                      c, e, u[0], u[1]);
-    default:
-        return rf_say(
-            why, status,
-            "the force is not finite at x = %.9g, y = %.9g m, vx = %.9g, vy = %.9g m/s, speed = %.9g rad/s",
-            u[0], u[1], u[2], u[3], u[4]);
-    }
-}
-
-static int output(const void *kernel, const rf_point *at, double *y, rf_message *why)
-{
-    const model *self = kernel;
-    return explain(self, rf_journal_force(&self->journal, at->u, y), at->u, why);
-}
-
-static int jacobian(const void *kernel, const rf_point *at, rf_jacobian *answer, rf_message *why)
-{
-    const model *self = kernel;
-    double y[2];
-    return explain(self, rf_journal_jacobian(&self->journal, at->u, y, answer->D), at->u, why);
 }
 
 extern const rf_kernel_type rf_journal_type;
@@ -169,6 +109,6 @@ const rf_kernel_type rf_journal_type = {
     .create = create,
     .destroy = destroy,
     .set_parameters = set_parameters,
-    .output = output,
-    .jacobian = jacobian,
+    .output = rf_journal_output,
+    .jacobian = rf_journal_derivatives,
 };

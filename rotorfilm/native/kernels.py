@@ -2,21 +2,14 @@
 
 from __future__ import annotations
 
-from ctypes import byref, c_double, c_size_t
+from ctypes import addressof, byref, c_double, c_size_t, c_void_p, cast
 from enum import IntEnum
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from ..model import Array
-from .library import (
-    GroovedJournalStruct,
-    GrooveMapStruct,
-    JournalStruct,
-    MapStruct,
-    MapTableStruct,
-    functions,
-)
+from .library import GrooveMapStruct, JournalStruct, MapStruct, MapTableStruct, functions
 
 _Pair, _Five, _Ten = c_double * 2, c_double * 5, c_double * 10
 
@@ -62,7 +55,7 @@ class MapKernel:
         L0, the logarithm of -J/|w|^2 at the center.
     """
 
-    _prefix: ClassVar[str] = "rf_map"
+    _function: ClassVar[str] = "rf_map_film"
 
     def __init__(self, coefficients: Array, reach: float, log_center: float) -> None:
         self._arguments: tuple[Any, ...] = (coefficients, reach, log_center)
@@ -75,18 +68,23 @@ class MapKernel:
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._arguments
 
+    @property
+    def film(self) -> int | None:
+        """The address of its rf_film."""
+        return cast(functions()[self._function], c_void_p).value
+
     def force(self, eccentricity: Array, source: Array) -> Batch:
         """Return the forces (2, n) at the eccentricities and sources (2, n)."""
-        return self._batch("force", eccentricity, source, ())
+        return self._batch(eccentricity, source, ())
 
     def jacobian(self, eccentricity: Array, source: Array) -> Batch:
         """Return d force / d (eccentricity, source), shape (2, 4, n)."""
-        return self._batch("jacobian", eccentricity, source, (2, 4))
+        return self._batch(eccentricity, source, (2, 4))
 
-    def _batch(self, name: str, e: Array, w: Array, shape: tuple[int, ...]) -> Batch:
+    def _batch(self, e: Array, w: Array, shape: tuple[int, ...]) -> Batch:
         e, w = _rows(e), _rows(w)
-        given = [*_pointer(e), *_pointer(w)]
-        return _run(f"{self._prefix}_{name}_batch", self.struct, e.shape[1], given, shape)
+        film = [self.film, byref(self.struct)]
+        return _run("rf_film_batch", film, e.shape[1], [*_pointer(e), *_pointer(w)], shape)
 
 
 class GrooveMapKernel(MapKernel):
@@ -106,7 +104,7 @@ class GrooveMapKernel(MapKernel):
         Angle of the axis of the openings in the bearing frame.
     """
 
-    _prefix: ClassVar[str] = "rf_groove"
+    _function: ClassVar[str] = "rf_groove_film"
 
     def __init__(
         self, coefficients: Array, reach: float, log_center: Array, crowding: float, axis: float
@@ -127,22 +125,19 @@ class JournalKernel:
     Parameters
     ----------
     kernel : MapKernel
-        Its map.
+        Its map, or the GrooveMapKernel of a bearing with openings.
     clearance : float [m]
         Radial clearance.
     force_scale : float [N s]
         viscosity * length * radius^3 / clearance^2.
     """
 
-    _prefix: ClassVar[str] = "rf_journal"
-    _layout: ClassVar[Any] = JournalStruct
-
     def __init__(self, kernel: MapKernel, clearance: float, force_scale: float) -> None:
         self._arguments = (kernel, clearance, force_scale)
-        self._struct = self._layout(kernel.struct, clearance, force_scale)
+        self._struct = JournalStruct(kernel.film, addressof(kernel.struct), clearance, force_scale)
         self._reference = byref(self._struct)
-        self._call = functions()[f"{self._prefix}_call"]
-        self._tangent = functions()[f"{self._prefix}_jacobian"]
+        self._call = functions()["rf_journal_call"]
+        self._tangent = functions()["rf_journal_at"]
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._arguments
@@ -163,13 +158,13 @@ class JournalKernel:
 
     def force(self, position: Array, velocity: Array, speed: Array) -> Batch:
         """Return the forces (2, n) at positions, velocities (2, n) and speeds (n,) or (1,)."""
-        return self._batch("force", position, velocity, speed, ())
+        return self._batch(position, velocity, speed, ())
 
     def jacobian(self, position: Array, velocity: Array, speed: Array) -> Batch:
         """Return d force / d (x, y, vx, vy, speed), shape (2, 5, n)."""
-        return self._batch("jacobian", position, velocity, speed, (2, 5))
+        return self._batch(position, velocity, speed, (2, 5))
 
-    def _batch(self, name: str, q: Array, v: Array, omega: Array, shape: tuple[int, ...]) -> Batch:
+    def _batch(self, q: Array, v: Array, omega: Array, shape: tuple[int, ...]) -> Batch:
         q, v, omega = _rows(q), _rows(v), np.ascontiguousarray(omega, dtype=float)
         n = q.shape[1]
         step = 0 if omega.shape == (1,) else 1
@@ -178,14 +173,7 @@ class JournalKernel:
             raise ValueError(f"velocity must have the shape of position, (2, {n}), got {v.shape}")
         if step and omega.shape != (n,):
             raise ValueError(f"speed must have shape ({n},) or (1,), got {omega.shape}")
-        return _run(f"{self._prefix}_{name}_batch", self._struct, n, given, shape)
-
-
-class GroovedJournalKernel(JournalKernel):
-    """The film force of a journal bearing with axial openings in SI units, over a GrooveMapKernel."""
-
-    _prefix: ClassVar[str] = "rf_grooved_journal"
-    _layout: ClassVar[Any] = GroovedJournalStruct
+        return _run("rf_journal_batch", [self._reference], n, given, shape)
 
 
 def _wrapped(coefficients: Array, axis: int) -> Array:
@@ -226,12 +214,12 @@ def slice_table(
     return collapsed, middle.value
 
 
-def _run(name: str, struct: Any, n: int, given: list[Any], shape: tuple[int, ...]) -> Batch:
+def _run(name: str, of: list[Any], n: int, given: list[Any], shape: tuple[int, ...]) -> Batch:
+    """Call a batch function; its answer is the forces, or with a shape the Jacobians."""
     force, first = np.empty((2, n)), c_size_t()
     jacobian = np.empty((*shape, n)) if shape else None
-    answers = [force] if jacobian is None else [force, jacobian]
-    places = [entry for answer in answers for entry in (answer.ctypes.data, n)]
-    status = functions()[name](byref(struct), n, *given, *places, byref(first))
+    place = (None, 0) if jacobian is None else (jacobian.ctypes.data, n)
+    status = functions()[name](*of, n, *given, force.ctypes.data, n, *place, byref(first))
     return Batch(force if jacobian is None else jacobian, status, first.value)
 
 

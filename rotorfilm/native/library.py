@@ -40,7 +40,8 @@ class JournalStruct(ctypes.Structure):
     """rf_journal of journal_kernel.h."""
 
     _fields_: ClassVar[Sequence[Any]] = [
-        ("map", MapStruct),
+        ("film", c_void_p),
+        ("map", c_void_p),
         ("clearance", c_double),
         ("force_scale", c_double),
     ]
@@ -62,16 +63,6 @@ class GrooveMapStruct(ctypes.Structure):
     ]
 
 
-class GroovedJournalStruct(ctypes.Structure):
-    """rf_grooved_journal of grooved_journal_kernel.h."""
-
-    _fields_: ClassVar[Sequence[Any]] = [
-        ("map", GrooveMapStruct),
-        ("clearance", c_double),
-        ("force_scale", c_double),
-    ]
-
-
 class MapTableStruct(ctypes.Structure):
     """rf_map_table of map_table.h."""
 
@@ -88,20 +79,14 @@ class MapTableStruct(ctypes.Structure):
 
 _ROWS = [c_void_p, c_size_t]
 _BATCH: dict[str, list[Any]] = {
-    "rf_map_force_batch": [c_void_p, c_size_t, *_ROWS * 3, c_void_p],
-    "rf_map_jacobian_batch": [c_void_p, c_size_t, *_ROWS * 4, c_void_p],
-    "rf_journal_force_batch": [c_void_p, c_size_t, *_ROWS * 4, c_void_p],
-    "rf_journal_jacobian_batch": [c_void_p, c_size_t, *_ROWS * 5, c_void_p],
-    "rf_groove_force_batch": [c_void_p, c_size_t, *_ROWS * 3, c_void_p],
-    "rf_groove_jacobian_batch": [c_void_p, c_size_t, *_ROWS * 4, c_void_p],
-    "rf_grooved_journal_force_batch": [c_void_p, c_size_t, *_ROWS * 4, c_void_p],
-    "rf_grooved_journal_jacobian_batch": [c_void_p, c_size_t, *_ROWS * 5, c_void_p],
+    "rf_film_batch": [c_void_p, c_void_p, c_size_t, *_ROWS * 4, c_void_p],
+    "rf_journal_batch": [c_void_p, c_size_t, *_ROWS * 5, c_void_p],
 }
 _SCALAR: dict[str, list[Any]] = {
+    "rf_map_film": [c_void_p] * 5,
+    "rf_groove_film": [c_void_p] * 5,
     "rf_journal_call": [c_void_p, *[c_double] * 5, c_void_p],
-    "rf_journal_jacobian": [c_void_p, *[c_void_p] * 3],
-    "rf_grooved_journal_call": [c_void_p, *[c_double] * 5, c_void_p],
-    "rf_grooved_journal_jacobian": [c_void_p, *[c_void_p] * 3],
+    "rf_journal_at": [c_void_p] * 4,
     "rf_map_slice": [c_void_p, c_double, c_void_p, c_void_p],
 }
 

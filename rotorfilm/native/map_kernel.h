@@ -14,8 +14,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "export.h"
-#include "status.h"
+#include "film.h"
 
 typedef struct rf_map {
     int32_t cells_x;            /* cells of [0, X_end] */
@@ -25,25 +24,8 @@ typedef struct rf_map {
     const double *coefficients; /* (cells_x + 5) x (cells_t + 5), T fastest */
 } rf_map;
 
-/* Weights of the six quintic B-splines at `at` cells from the first node, and the first of them. */
-size_t rf_spline_weights(double at, int32_t cells, double weights[6]);
-
-/* Force f[2] at e[2], w[2]. Beyond the last node J goes on as a power of X, unverified: RF_OUTSIDE. Without
-   source, off the center, the force is zero and has no derivative: RF_UNDEFINED. What fails answers
-   not-a-number together with its status. */
-RF_EXPORT int rf_map_force(const rf_map *map, const double *e, const double *w, double *f);
-
-/* The same and d f/d(e, w), jacobian[2][4]. */
-RF_EXPORT int rf_map_jacobian(const rf_map *map, const double *e, const double *w, double *f,
-                              double *jacobian);
-
-/* A batch of n states: the components lead, one contiguous row of n each, the rows of e, w, f and
-   jacobian (2 x 4 rows) one stride apart. `first` receives the index of the most severe status. */
-RF_EXPORT int rf_map_force_batch(const rf_map *map, size_t n, const double *e, size_t e_stride,
-                                 const double *w, size_t w_stride, double *f, size_t f_stride,
-                                 size_t *first);
-RF_EXPORT int rf_map_jacobian_batch(const rf_map *map, size_t n, const double *e, size_t e_stride,
-                                    const double *w, size_t w_stride, double *f, size_t f_stride,
-                                    double *jacobian, size_t jacobian_stride, size_t *first);
+/* The film of an rf_map. Beyond the last node J goes on as a power of X, unverified: RF_OUTSIDE. Without
+   source there is a derivative at the center only. */
+RF_EXPORT int rf_map_film(const void *map, const double *e, const double *w, double *f, double *jacobian);
 
 #endif

@@ -10,6 +10,15 @@
 #define RF_SMALLEST 1e-200 /* squares outside these bounds lose digits or overflow */
 #define RF_LARGEST 1e200
 
+/* Kept out of line: large, and called where a call costs little. */
+#if defined(__GNUC__)
+#define RF_ONCE __attribute__((noinline))
+#elif defined(_MSC_VER)
+#define RF_ONCE __declspec(noinline)
+#else
+#define RF_ONCE
+#endif
+
 /* Values and up to two derivatives of the six quintic B-splines on one cell, at u in [0, 1]. */
 static inline void rf_values(double u, double b[RF_ORDER])
 {
@@ -55,11 +64,23 @@ static inline double rf_dot(const double a[RF_ORDER], const double b[RF_ORDER])
 /* Sum of the six rows of coefficients from `c`, weighted by b. */
 static inline void rf_rows(const double *c, size_t stride, const double b[RF_ORDER], double sum[RF_ORDER])
 {
-    for (int j = 0; j < RF_ORDER; ++j)
-        sum[j] = b[0] * c[j];
-    for (int i = 1; i < RF_ORDER; ++i)
-        for (int j = 0; j < RF_ORDER; ++j)
-            sum[j] += b[i] * c[(size_t)i * stride + (size_t)j];
+    double s0 = b[0] * c[0], s1 = b[0] * c[1], s2 = b[0] * c[2];
+    double s3 = b[0] * c[3], s4 = b[0] * c[4], s5 = b[0] * c[5];
+    for (int i = 1; i < RF_ORDER; ++i) {
+        const double *r = c + (size_t)i * stride, k = b[i];
+        s0 += k * r[0];
+        s1 += k * r[1];
+        s2 += k * r[2];
+        s3 += k * r[3];
+        s4 += k * r[4];
+        s5 += k * r[5];
+    }
+    sum[0] = s0;
+    sum[1] = s1;
+    sum[2] = s2;
+    sum[3] = s3;
+    sum[4] = s4;
+    sum[5] = s5;
 }
 
 /* Cell of a point at `at` cells from the first node; the rest is its place in the cell. */

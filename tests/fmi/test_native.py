@@ -2,6 +2,7 @@
 
 import io
 import os
+import re
 import subprocess
 import sys
 import zipfile
@@ -333,13 +334,25 @@ def test_units_bounds_and_kinds_are_described(version, tmp_path):
     assert float(rpm.factor) * 2.0 * np.pi / 60.0 == pytest.approx(1.0, rel=1e-15)
 
 
-def test_a_film_at_the_wall_ends_fmpy(tmp_path):
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize(
+    ("interface", "status"), [("CoSimulation", "3 (error)"), ("ModelExchange", "2 (discard)")]
+)
+def test_a_film_at_the_wall_ends_fmpy(interface, status, version, tmp_path, capsys):
     rows = [[0.0, 0.0, 0.0, 0.0, 0.0, SPEED], [0.01, 2e-4, 0.0, 0.0, 0.0, SPEED]]
-    path = export_fmu(BEARING, tmp_path / "film.fmu", component="bearing")
-    with pytest.raises(FMICallException, match=r"fmi2GetReal|fmi2DoStep"):
+    path = export_fmu(BEARING, tmp_path / "film.fmu", version, component="bearing")
+    with pytest.raises(
+        FMICallException, match=r"fmi[23](Get|DoStep)\w* failed with status " + re.escape(status)
+    ):
         fmpy.simulate_fmu(
-            str(path), input=signals(rows), stop_time=0.01, step_size=1e-3, output_interval=1e-3
+            str(path),
+            fmi_type=interface,
+            input=signals(rows),
+            stop_time=0.01,
+            step_size=1e-3,
+            output_interval=1e-3,
         )
+    assert "must stay inside the clearance 0.0001 m, got an eccentricity of" in capsys.readouterr().out
 
 
 def test_a_rotor_that_cannot_step_ends_fmpy_at_the_last_good_time(tmp_path):

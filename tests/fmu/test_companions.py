@@ -2,6 +2,9 @@
 
 import subprocess
 import sys
+from pathlib import Path
+
+import pytest
 
 from rotorfilm.fmu.bundle import bundle_source
 
@@ -28,6 +31,18 @@ def test_map_film_travels_with_its_library(tmp_path):
         check=False,
     )
     assert ran.stdout.strip() == "True", ran.stderr
+
+
+@pytest.mark.parametrize("name", ["map", "groove_map"])
+def test_every_film_of_the_library_travels_with_it(name):
+    carried = {Path(file).name for file in bundle_source({f"rotorfilm.films.{name}"}).files}
+    assert "journal_map.bin" in carried
+    assert any(file.startswith("rotorfilm.") for file in carried)
+
+
+def test_a_users_film_over_a_map_travels_with_it(write_module):
+    module = write_module("over_a_map", "from rotorfilm.films import GroovedMapFilm\n")
+    assert [name for name in bundle_source({module.__name__}).files if name.endswith("journal_map.bin")]
 
 
 def test_other_films_travel_without_it():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import BSpline
 
-from rotorfilm.native import GroovedJournalKernel, GrooveMapKernel, Status
+from rotorfilm.native import GrooveMapKernel, JournalKernel, Status
 
 CELLS, REACH, SQUEEZE, AXIS = (7, 9, 12, 15), 3.0, 0.7, 0.4
 TURN = 2.0 * np.pi
@@ -117,7 +117,7 @@ def test_sources_of_any_size(scale):
 
 def test_journal_scales_and_moves_with_the_speed():
     c, k, speed = 1e-4, 3.0, 80.0
-    journal = GroovedJournalKernel(MAP, c, k)
+    journal = JournalKernel(MAP, c, k)
     q, v = 1e-4 * np.array([[0.3], [-0.4]]), np.array([[2e-3], [1e-3]])
     w = v / c + 0.5 * speed * np.array([[-0.4], [-0.3]])
     exact = k * MAP.force(q / c, w).values

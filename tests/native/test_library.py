@@ -1,8 +1,10 @@
 """The C sources compile without a warning, show only their interface, and their absence is explained."""
 
 import ctypes
+import platform
 import shutil
 import subprocess
+import sys
 from importlib.resources import files
 from pathlib import Path
 
@@ -12,6 +14,8 @@ from rotorfilm.native import NativeLibraryError, library
 
 SOURCES = sorted((Path(__file__).parents[2] / "rotorfilm" / "native").glob("*.c"))
 COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
+LARGEST = 60_000
+"""Bytes of the library on Linux, x86_64."""
 
 
 @pytest.mark.skipif(not COMPILERS, reason="no C compiler")
@@ -37,6 +41,14 @@ def test_only_the_interface_is_visible():
     symbols = [line.split()[-1] for line in listed.stdout.splitlines()]
     assert symbols
     assert all(name.startswith(("rf_", "fmi2", "fmi3")) for name in symbols)
+
+
+@pytest.mark.skipif(
+    (sys.platform, platform.machine()) != ("linux", "x86_64"), reason="the bound is that of Linux on x86_64"
+)
+def test_every_fmu_carries_little():
+    built = Path(str(files("rotorfilm.native"))) / "rotorfilm.so"
+    assert built.stat().st_size <= LARGEST
 
 
 def test_missing_library_says_what_to_do(monkeypatch):

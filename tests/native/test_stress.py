@@ -5,12 +5,14 @@ import shutil
 import struct
 import subprocess
 import zlib
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from rotorfilm import JournalBearing, MapFilm, MapTable, RigidRotor, SpeedProfile
 from rotorfilm.fmu.linear_system import LinearSystem
+from rotorfilm.native import GrooveMapKernel
 from rotorfilm.native.resource import FILE_NAME
 
 SANITIZERS = ["-g", "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
@@ -26,6 +28,18 @@ def small_bearing():
         coefficients=0.1 * rng.normal(size=(10, 7, 7)),
     )
     return JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm(table))
+
+
+class RoughGrooves(JournalBearing):
+    """A bearing with openings over a small map at random."""
+
+    def native(self):
+        """Return its kernel."""
+        rng = np.random.default_rng(3)
+        film = GrooveMapKernel(0.1 * rng.normal(size=(7, 6, 8)), 3.0, rng.normal(size=12), 0.7, 0.4)
+        numbers = np.array([self.slenderness, 3.0, 0.7, 0.4])
+        tables = {"coefficients": film.coefficients, "center": film.log_center, "map": numbers}
+        return replace(JournalBearing.native(small_bearing()), kernel="grooved_journal", tables=tables)
 
 
 def run_up():
@@ -57,6 +71,15 @@ def damaged(good):
     yield sealed(good.replace(b"journal\0", b"journey\0"))
     yield sealed(good[:-8] + struct.pack("<d", np.nan))
     yield sealed(good.replace(b"coefficients\0", b"coefficienty\0"))
+
+
+def impossible(good):
+    """Return contents of a bearing with openings whose map no library may take."""
+    for place, value in ((0, -0.3), (1, 0.0), (2, 0.0), (2, 1.5)):
+        numbers = np.frombuffer(good[-32:], "<f8").copy()
+        numbers[place] = value
+        yield sealed(good[:-32] + numbers.tobytes())
+    yield sealed(good.replace(struct.pack("<III", 7, 11, 13), struct.pack("<III", 77, 13, 1)))
 
 
 def mutated(good, count):
@@ -95,14 +118,16 @@ def run(program, *arguments):
 
 def test_no_misuse_and_no_damaged_file_breaks_an_instance(unzipped, stress, tmp_path):
     token = "a token"
-    models = (small_bearing(), run_up(), state_space())
+    grooved = RoughGrooves(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
+    models = (small_bearing(), grooved, run_up(), state_space())
     good = [unzipped(m, folder=str(k), token=token) for k, m in enumerate(models)]
-    content = good[0].resource.read_bytes()
-    bad = list(resources(tmp_path, damaged(content)))
+    plain, openings = (folder.resource.read_bytes() for folder in good[:2])
+    contents = (*damaged(plain), *damaged(openings), *impossible(openings))
+    bad = list(resources(tmp_path, contents))
     missing = tmp_path / "missing"
     shutil.rmtree(missing, ignore_errors=True)
     (tmp_path / "maybe").mkdir()
-    maybe = resources(tmp_path / "maybe", mutated(content, 300))
+    maybe = resources(tmp_path / "maybe", (*mutated(plain, 300), *mutated(openings, 300)))
     folders = [str(folder.resource.parent) for folder in good]
     assert "messages" in run(stress, token, "60000", *folders, "--", *bad, str(missing))
     run(stress, token, "200", "--", "--", *maybe)

@@ -1,0 +1,64 @@
+#include "journal_model.h"
+
+#include <math.h>
+
+enum { RADIUS, LENGTH, CLEARANCE, VISCOSITY, PARAMETERS };
+
+const rf_sizes RF_JOURNAL_SIZES = {PARAMETERS, 5, 2, 0};
+
+double rf_slenderness(const double *p)
+{
+    return p[LENGTH] / (2.0 * p[RADIUS]);
+}
+
+int rf_scale_journal(rf_journal *journal, const double *p, rf_message *why)
+{
+    static const char *const NAMES[] = {"radius", "length", "clearance", "viscosity"};
+    for (int i = 0; i < PARAMETERS; ++i)
+        if (!(p[i] > 0.0 && p[i] < HUGE_VAL))
+            return rf_say(why, RF_INVALID, "%s must be finite and positive, got %.9g", NAMES[i], p[i]);
+    const double r = p[RADIUS], c = p[CLEARANCE], scale = p[VISCOSITY] * p[LENGTH] * (r * r * r) / (c * c);
+    if (c >= r)
+        return rf_say(why, RF_INVALID, "clearance must be below the radius %.9g, got %.9g", r, c);
+    if (!(scale > 0.0 && scale < HUGE_VAL))
+        return rf_say(why, RF_INVALID, "viscosity length radius^3 / clearance^2 must be finite, got %.9g",
+                      scale);
+    journal->clearance = c;
+    journal->force_scale = scale;
+    return RF_OK;
+}
+
+static int explain(const rf_journal *journal, int status, const double *u, rf_message *why)
+{
+    const double c = journal->clearance, e = sqrt(u[0] * u[0] + u[1] * u[1]);
+    switch (status) {
+    case RF_OK: return RF_OK;
+    case RF_OUTSIDE:
+        return rf_say(why, status,
+                      "eccentricity ratio %.6g is beyond the map of the film; its force is extrapolated",
+                      e / c);
+    case RF_CONTACT:
+        return rf_say(why, status,
+                      "the journal must stay inside the clearance %.9g m, got an eccentricity of %.9g m "
+                      "(x = %.9g, y = %.9g)",
+                      c, e, u[0], u[1]);
+    default:
+        return rf_say(
+            why, status, "%s: x = %.9g, y = %.9g m, vx = %.9g, vy = %.9g m/s, speed = %.9g rad/s",
+            status == RF_UNDEFINED ? "the film has no derivative where its source velocity/clearance - "
+                                     "(speed/2) z x eccentricity vanishes"
+                                   : "the force is not finite",
+            u[0], u[1], u[2], u[3], u[4]);
+    }
+}
+
+int rf_journal_output(const void *kernel, const rf_point *at, double *y, rf_message *why)
+{
+    return explain(kernel, rf_journal_at(kernel, at->u, y, NULL), at->u, why);
+}
+
+int rf_journal_derivatives(const void *kernel, const rf_point *at, rf_jacobian *answer, rf_message *why)
+{
+    double y[2];
+    return explain(kernel, rf_journal_at(kernel, at->u, y, answer->D), at->u, why);
+}
