@@ -14,7 +14,7 @@ LAYERS = [
     ["native"],
     ["films"],
     ["bearings", "rotors"],
-    ["linear", "transient", "cosim", "fmu"],
+    ["linear", "reduce", "transient", "cosim", "fmu"],
     ["ladders"],
     ["scenes", "charts"],
     ["console", "gallery"],

@@ -8,6 +8,7 @@ from .bush_wear import BushWear
 from .film_state import FilmState, film_state
 from .groove_map import build_groove_map
 from .journal import JournalBearing
+from .linear import LinearBearing
 
 __all__ = [
     "BushContact",
@@ -17,6 +18,7 @@ __all__ = [
     "FilmState",
     "Friction",
     "JournalBearing",
+    "LinearBearing",
     "LinerMaterial",
     "MeltingBush",
     "PublishedStage",
