@@ -4,20 +4,25 @@ from .bush import plot_contact_pressure, plot_critical_speed
 from .canvas import new_axes, new_figure, save
 from .coupling_error import plot_coupling_error
 from .motion import plot_locus, plot_orbits
+from .rotor import plot_campbell, plot_critical_speed_map, plot_log_decrement, plot_unbalance_response
 from .whirl_verdicts import plot_journal_stability, plot_thresholds
 from .work_precision import plot_force_error, plot_journal_accuracy
 
 __all__ = [
     "new_axes",
     "new_figure",
+    "plot_campbell",
     "plot_contact_pressure",
     "plot_coupling_error",
     "plot_critical_speed",
+    "plot_critical_speed_map",
     "plot_force_error",
     "plot_journal_accuracy",
     "plot_journal_stability",
     "plot_locus",
+    "plot_log_decrement",
     "plot_orbits",
     "plot_thresholds",
+    "plot_unbalance_response",
     "save",
 ]

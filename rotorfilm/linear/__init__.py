@@ -6,20 +6,46 @@ from .critical_mass import CriticalMass, critical_mass, damping_has_rank_one
 from .equilibrium import equilibrium
 from .linearize import OperatingPoint, linearize
 from .nonlinear_system import ModelSystem, to_nlsys
+from .rotor_modes import (
+    Campbell,
+    CriticalSpeed,
+    RotorModes,
+    RotorThreshold,
+    campbell,
+    critical_speed_map,
+    critical_speeds,
+    rotor_modes,
+    rotor_threshold,
+)
+from .rotor_rest import RotorEquilibrium, rotor_equilibrium
+from .rotor_system import rotor_system, unbalance_response
 from .whirl import speed_parameter, whirl_threshold
 
 __all__ = [
+    "Campbell",
     "CriticalMass",
+    "CriticalSpeed",
     "ModelSystem",
     "OperatingPoint",
+    "RotorEquilibrium",
+    "RotorModes",
+    "RotorThreshold",
+    "campbell",
     "closed_loop",
     "coefficients",
     "critical_mass",
+    "critical_speed_map",
+    "critical_speeds",
     "damping_has_rank_one",
     "equilibrium",
     "linearize",
+    "rotor_equilibrium",
+    "rotor_modes",
+    "rotor_system",
+    "rotor_threshold",
     "speed_parameter",
     "to_nlsys",
     "transmissibility",
+    "unbalance_response",
     "whirl_threshold",
 ]
