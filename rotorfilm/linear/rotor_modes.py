@@ -16,7 +16,7 @@ from ..model import Array, Reaction
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
 from .rotor_rest import rotor_equilibrium
-from .rotor_system import SecondOrder, checked_speeds, second_order
+from .rotor_system import SecondOrder, checked_speeds, second_order, with_hysteresis
 
 _OSCILLATES = 1e-6
 
@@ -284,21 +284,39 @@ def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 
 
 
 def _modes(structure: Structure, system: SecondOrder, speed: float) -> RotorModes:
-    values, vectors = np.linalg.eig(system.state_matrix())
-    rising = values.imag > _OSCILLATES * np.abs(values)
-    order = np.flatnonzero(rising)[np.argsort(values.imag[rising])]
+    values, shapes = _whirls(structure, system, speed)
     n = len(structure.coordinates)
-    shapes = vectors[: 2 * n, order]
     mass = structure.mass[:n, :n]
     turned = [shapes[:n] + sign * 1j * shapes[n:] for sign in (1.0, -1.0)]
     forward, backward = (np.einsum("ik,ij,jk->k", u.conj(), mass, u).real for u in turned)
     sense = -1.0 if speed < 0.0 else 1.0
     return RotorModes(
         speed=speed,
-        eigenvalues=values[order],
+        eigenvalues=values,
         shapes=shapes,
         direction=sense * (forward - backward) / (forward + backward),
     )
+
+
+def _whirls(
+    structure: Structure, system: SecondOrder, speed: float
+) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+    """Return the eigenvalues that oscillate, rising, and their shapes."""
+    if structure.hysteresis is None:
+        return _oscillating(system, 0.0, math.inf)
+    turn = abs(speed)
+    slow = _oscillating(with_hysteresis(structure, system, 0.5 * turn, speed), 0.0, turn)
+    fast = _oscillating(with_hysteresis(structure, system, 2.0 * turn + 1.0, speed), turn, math.inf)
+    return np.concatenate([slow[0], fast[0]]), np.hstack([slow[1], fast[1]])
+
+
+def _oscillating(
+    system: SecondOrder, low: float, high: float
+) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+    values, vectors = np.linalg.eig(system.state_matrix())
+    rising = (values.imag > _OSCILLATES * np.abs(values)) & (values.imag >= low) & (values.imag < high)
+    order = np.flatnonzero(rising)[np.argsort(values.imag[rising])]
+    return values[order].astype(complex), vectors[: len(system.mass), order].astype(complex)
 
 
 def _tracks(points: list[RotorModes], mass: Array) -> list[dict[int, int]]:

@@ -12,7 +12,7 @@ from ..errors import EquilibriumError, InputError, require_number
 from ..model import Array, Reaction
 from ..results import Coefficients
 from ..rotors import FlexibleRotor
-from ..rotors.structure import Structure
+from ..rotors.structure import Structure, across_planes
 from .coefficients import coefficients
 from .equilibrium import equilibrium
 
@@ -105,6 +105,8 @@ class _System:
         rows = [2 * structure.stations.index(name) + axis for name in self.names for axis in range(2)]
         self.journals = structure.journals[rows]
         self.stiffness = structure.stiffness + speed * structure.circulation
+        if structure.hysteresis is not None:
+            self.stiffness = self.stiffness + np.sign(speed) * across_planes(structure.hysteresis)
         self.weight = structure.weight
         self.size = float(np.abs(structure.weight).sum()) or 1.0
 

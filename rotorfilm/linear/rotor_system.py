@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from ..errors import InputError, require_finite
 from ..model import Array, Reaction
 from ..rotors import FlexibleRotor
-from ..rotors.structure import Structure, output_rows, station_name
+from ..rotors.structure import Structure, across_planes, both_planes, output_rows, station_name
 from ..signals import names
 from .closed_loop import HOUSING
 from .rotor_rest import RotorEquilibrium, rotor_equilibrium
@@ -23,9 +23,9 @@ class SecondOrder(NamedTuple):
 
     mass: Array
     damping: Array
-    stiffness: Array
+    stiffness: np.ndarray
 
-    def state_matrix(self) -> Array:
+    def state_matrix(self) -> np.ndarray:
         """Return A of (q, q')' = A (q, q'), shape (2 N, 2 N)."""
         n = len(self.mass)
         solved = np.linalg.solve(self.mass, np.hstack([self.stiffness, self.damping]))
@@ -45,6 +45,22 @@ def second_order(structure: Structure, at: RotorEquilibrium) -> SecondOrder:
         damping = damping + rows.T @ film.damping @ rows
         stiffness = stiffness + rows.T @ film.stiffness @ rows
     return SecondOrder(structure.mass, damping, stiffness)
+
+
+def with_hysteresis(structure: Structure, system: SecondOrder, frequency: float, speed: float) -> SecondOrder:
+    """Return the equations at a positive frequency [rad/s], with the hysteresis of the rotating shaft.
+
+    Its stiffness is K (1 + i eta sgn(p)) where p is the frequency in the rotating shaft: frequency - speed of
+    forward circles, -(frequency + speed) of backward ones. Whirl slower than the shaft then feels the real
+    matrix -i eta K on x + i y, which drives it forward; faster whirl feels the damping i eta K; synchronous
+    whirl the mean of both, as forward circles do not bend the shaft to and fro.
+    """
+    if structure.hysteresis is None:
+        return system
+    driving = np.sign(speed) * across_planes(structure.hysteresis)
+    resisting = 1j * both_planes(structure.hysteresis)
+    share = 0.5 * (1.0 + np.sign(frequency - abs(speed)))
+    return system._replace(stiffness=system.stiffness + (1.0 - share) * driving + share * resisting)
 
 
 def rotor_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = None) -> control.StateSpace:
@@ -67,6 +83,8 @@ def rotor_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = 
         bearing `left_housing_force_x`, `left_housing_force_y`: change of the force on its housing [N].
     """
     s = rotor.structure
+    if s.hysteresis is not None:
+        raise InputError("loss_factor must be 0 for a state space, which hysteresis has not; see rotor_modes")
     system = second_order(s, at)
     push = np.vstack([np.zeros_like(s.journals.T), np.linalg.solve(s.mass, s.journals.T)])
     sense, labels = _outputs(rotor, at)
@@ -119,7 +137,8 @@ def unbalance_response(
         at = rotor_equilibrium(rotor, bearings, float(speed))
         # (cos, sin) of the angle are the real parts of (1, -i) exp(i w t)
         force = speed**2 * s.unbalance @ np.array([1.0, -1.0j])
-        motion = np.linalg.solve(second_order(s, at).dynamic_stiffness(speed), force)
+        system = with_hysteresis(s, second_order(s, at), speed, speed)
+        motion = np.linalg.solve(system.dynamic_stiffness(speed), force)
         sense, labels = _outputs(rotor, at)
         responses.append(sense @ np.concatenate([motion, 1j * speed * motion]))
     data = np.stack(responses, axis=-1)[:, None, :]

@@ -33,6 +33,7 @@ def assemble(
     probes: Sequence[Probe],
     unbalances: Sequence[Unbalance],
     internal_damping: float,
+    loss_factor: float,
     gravity: tuple[float, float],
     beam: Beam,
 ) -> Structure:
@@ -74,6 +75,7 @@ def assemble(
             *_support_readouts(supported, size),
         ),
         supports=tuple(range(size - len(supported), size)),
+        hysteresis=loss_factor * stiffness if loss_factor else None,
     )
 
 

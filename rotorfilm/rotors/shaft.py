@@ -38,6 +38,10 @@ class ShaftRotor(FlexibleRotor):
     internal_damping : float [s]
         Damping of the rotating shaft: stress = E (strain + internal_damping * strain rate). It acts on
         elements and couplings and drives forward whirl slower than the shaft.
+    loss_factor : float [1]
+        Hysteresis of the rotating shaft: bent to and fro at any frequency in its own frame, stress leads
+        strain by the angle with this tangent. For modes, thresholds and unbalance response only; over time
+        it raises InputError.
     gravity : tuple of two floats [m/s2]
     beam : Beam
         The element: `FourthOrderBeam()`, or `ClassicalBeam()` as published rotors were computed with.
@@ -67,6 +71,7 @@ class ShaftRotor(FlexibleRotor):
     unbalances: tuple[Unbalance, ...] = ()
     probes: tuple[Probe, ...] = ()
     internal_damping: float = 0.0
+    loss_factor: float = 0.0
     gravity: tuple[float, float] = (0.0, -STANDARD_GRAVITY)
     beam: Beam = field(default_factory=FourthOrderBeam)
     initial: tuple[float, ...] = ()
@@ -75,6 +80,7 @@ class ShaftRotor(FlexibleRotor):
         if not any(isinstance(element, ShaftElement) for element in self.elements):
             raise InputError(f"elements must hold at least one ShaftElement, got {self.elements!r}")
         require_non_negative("internal_damping", self.internal_damping)
+        require_non_negative("loss_factor", self.loss_factor)
         check_nodes(
             len(self.elements) + 1,
             {
@@ -108,6 +114,7 @@ class ShaftRotor(FlexibleRotor):
             probes=self.probes,
             unbalances=self.unbalances,
             internal_damping=self.internal_damping,
+            loss_factor=self.loss_factor,
             gravity=self.gravity,
             beam=self.beam,
         )

@@ -67,6 +67,8 @@ class Structure(NamedTuple):
     readouts : tuple of Readout
     supports : tuple of int
         Places of the housings among the coordinates of a plane.
+    hysteresis : ndarray, shape (N / 2, N / 2), or None
+        Loss factor times stiffness of the rotating shaft in one plane [N/m].
     """
 
     mass: Array
@@ -81,6 +83,7 @@ class Structure(NamedTuple):
     coordinates: tuple[Coordinate, ...]
     readouts: tuple[Readout, ...]
     supports: tuple[int, ...] = ()
+    hysteresis: Array | None = None
 
 
 class _Operators(NamedTuple):
@@ -199,6 +202,11 @@ class FlexibleRotor:
     @cached_property
     def _operators(self) -> _Operators:
         s = self.structure
+        if s.hysteresis is not None:
+            raise InputError(
+                "loss_factor must be 0 over time, where hysteresis is not a force: use internal_damping, "
+                "the loss factor / the frequency of the bending in the rotating shaft"
+            )
         n = len(s.weight)
         factor = cho_factor(s.mass)
 

@@ -287,6 +287,66 @@ def test_threshold_of_internal_damping():
     assert rotor_threshold(rotor, hard, [800.0, 900.0]).reason == "unstable at the lowest speed given"
 
 
+def light_shaft(**changes):
+    """A disk that only moves, in the middle of a shaft without weight, on hard bearings: k = 48 E I / L^3."""
+    light = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=1e-3)
+    piece = ShaftElement(length=1.0, outer_diameter=0.03, material=light, shear_coefficient=math.inf)
+    parts = {
+        "elements": piece.split(2),
+        "disks": (Disk(node=1, mass=20.0),),
+        "stations": (
+            Station(node=0, name="left"),
+            Station(node=2, name="right"),
+            Station(node=1, name="air"),
+        ),
+        "probes": (Probe(node=1, name="disk"),),
+        "unbalances": (Unbalance(node=1, unbalance=1e-3),),
+        "beam": ClassicalBeam(),
+        "speed": 0.0,
+        "gravity": (0.0, 0.0),
+    }
+    stiffness = 48 * 211e9 * math.pi * 0.03**4 / 64
+    return ShaftRotor(**(parts | changes)), stiffness, math.sqrt(stiffness / 20.0)
+
+
+def hard_with_air(damping):
+    hard = LinearBearing(stiffness=1e13)
+    return {"left": hard, "right": hard, "air": LinearBearing(stiffness=0.0, damping=damping)}
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("factor", [0.5, 1.5, 4.0])
+def test_hysteresis_damps_below_and_drives_above_the_critical_speed(factor):
+    """m u'' + c u' + k (1 +- i eta) u = 0 at any speed, with the sign of frequency - speed."""
+    eta, damping = 0.02, 1.0
+    rotor, stiffness, natural = light_shaft(loss_factor=eta)
+    speed = factor * natural
+    modes = rotor_modes(rotor, hard_with_air(damping), speed)
+    first = modes.eigenvalues[:2]
+    for value, direction in zip(first, modes.direction[:2], strict=True):
+        sign = -1.0 if direction > 0.0 and factor > 1.0 else 1.0
+        roots = np.roots([20.0, damping, stiffness * (1 + 1j * sign * eta)])
+        assert value == pytest.approx(roots[np.argmax(roots.imag)], rel=1e-4)
+    assert (first.real.max() > 0.0) == (factor > 1.0)
+
+
+@pytest.mark.closed_form
+def test_hysteresis_does_not_limit_forward_synchronous_whirl():
+    """The shaft is bent once and for all: |r| = u s^2 / |1 - s^2|."""
+    rotor, _, natural = light_shaft(loss_factor=0.1)
+    found = unbalance_response(rotor, hard_with_air(0.0), [0.9 * natural])
+    x = found.complex[found.output_labels.index("disk_x"), 0, 0]
+    assert abs(x) == pytest.approx(1e-3 / 20.0 * 0.81 / 0.19, rel=1e-4)
+
+
+def test_hysteresis_has_no_time_domain():
+    rotor, *_ = light_shaft(loss_factor=0.1)
+    with pytest.raises(InputError, match="loss_factor must be 0 over time"):
+        rotor.derivative(0.0, rotor.initial_state, np.zeros(6))
+    with pytest.raises(InputError, match="loss_factor must be 0 for a state space"):
+        rotor_system(rotor, rotor_equilibrium(rotor, hard_with_air(0.0), 10.0))
+
+
 @pytest.mark.parametrize("speeds", [[], [0.0, 1.0], [2.0, 1.0], [[1.0]], 5.0])
 def test_speeds_must_be_positive_and_rising(speeds):
     with pytest.raises(InputError, match="speeds must be"):
