@@ -29,6 +29,8 @@ LAST_NUMBER = {
     "melting_bush.py": pytest.approx(0.520632, abs=1e-6),
     # the friction carries a part of the load, 1 - 1/sqrt(1 + f^2), and samples are .6 % apart
     "worn_bush.py": pytest.approx(1.008, abs=0.005),
+    # Friswell et al. (2010), example 5.9.1 at 4000 rpm: first forward whirl
+    "flexible_rotor.py": pytest.approx(87.80, abs=0.005),
     # whirl ratio of a lightly loaded full film: one half
     "python_control.py": pytest.approx(0.5, abs=2e-3),
     # fold of the response of a solid damper at Bs = .08, Omega_s = .4

@@ -14,7 +14,7 @@ LAYERS = [
     ["native"],
     ["films"],
     ["bearings", "rotors"],
-    ["linear", "transient", "orbits", "cosim", "fmu"],
+    ["linear", "reduce", "transient", "orbits", "cosim", "fmu"],
     ["ladders"],
     ["scenes", "charts"],
     ["console", "gallery"],

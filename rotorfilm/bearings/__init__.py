@@ -9,6 +9,7 @@ from .damper import AxialFeed, DamperGroups, PorousCage, PorousDamper, RadialFee
 from .film_state import FilmState, film_state
 from .groove_map import build_groove_map
 from .journal import JournalBearing
+from .linear import LinearBearing
 from .sprung import Sprung
 
 __all__ = [
@@ -21,6 +22,7 @@ __all__ = [
     "FilmState",
     "Friction",
     "JournalBearing",
+    "LinearBearing",
     "LinerMaterial",
     "MeltingBush",
     "PorousCage",

@@ -5,6 +5,7 @@ from .canvas import new_axes, new_figure, save
 from .coupling_error import plot_coupling_error
 from .damper import plot_bistable, plot_eccentricity, plot_phase, plot_transmissibility, plot_transmitted
 from .motion import plot_locus, plot_orbits
+from .rotor import plot_campbell, plot_critical_speed_map, plot_log_decrement, plot_unbalance_response
 from .whirl_verdicts import plot_journal_stability, plot_thresholds
 from .work_precision import plot_force_error, plot_journal_accuracy
 
@@ -12,18 +13,22 @@ __all__ = [
     "new_axes",
     "new_figure",
     "plot_bistable",
+    "plot_campbell",
     "plot_contact_pressure",
     "plot_coupling_error",
     "plot_critical_speed",
+    "plot_critical_speed_map",
     "plot_eccentricity",
     "plot_force_error",
     "plot_journal_accuracy",
     "plot_journal_stability",
     "plot_locus",
+    "plot_log_decrement",
     "plot_orbits",
     "plot_phase",
     "plot_thresholds",
     "plot_transmissibility",
     "plot_transmitted",
+    "plot_unbalance_response",
     "save",
 ]

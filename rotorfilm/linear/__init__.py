@@ -7,24 +7,50 @@ from .equilibrium import equilibrium
 from .linearize import OperatingPoint, linearize
 from .nonlinear_system import ModelSystem, to_nlsys
 from .orbit import OrbitCoefficients, orbit_coefficients, orbit_system, small_motion_transmissibility
+from .rotor_modes import (
+    Campbell,
+    CriticalSpeed,
+    RotorModes,
+    RotorThreshold,
+    campbell,
+    critical_speed_map,
+    critical_speeds,
+    rotor_modes,
+    rotor_threshold,
+)
+from .rotor_rest import RotorEquilibrium, rotor_equilibrium
+from .rotor_system import rotor_system, unbalance_response
 from .whirl import speed_parameter, whirl_threshold
 
 __all__ = [
+    "Campbell",
     "CriticalMass",
+    "CriticalSpeed",
     "ModelSystem",
     "OperatingPoint",
     "OrbitCoefficients",
+    "RotorEquilibrium",
+    "RotorModes",
+    "RotorThreshold",
+    "campbell",
     "closed_loop",
     "coefficients",
     "critical_mass",
+    "critical_speed_map",
+    "critical_speeds",
     "damping_has_rank_one",
     "equilibrium",
     "linearize",
     "orbit_coefficients",
     "orbit_system",
+    "rotor_equilibrium",
+    "rotor_modes",
+    "rotor_system",
+    "rotor_threshold",
     "small_motion_transmissibility",
     "speed_parameter",
     "to_nlsys",
     "transmissibility",
+    "unbalance_response",
     "whirl_threshold",
 ]

@@ -1,6 +1,36 @@
 """Rotors: what a bearing carries, as Dynamic models."""
 
+from .beam import Beam, ClassicalBeam, FourthOrderBeam, cowper_coefficient
+from .jeffcott import JeffcottRotor
+from .mounted import MountedRotor, mount
+from .parts import Coupling, Disk, ElasticMaterial, Probe, ShaftElement, Station, Support, Unbalance
 from .profile import SpeedProfile
+from .reduced import ReducedRotor
 from .rigid import RigidRotor
+from .rigid_shaft import RigidShaft
+from .shaft import ShaftRotor
+from .structure import FlexibleRotor
 
-__all__ = ["RigidRotor", "SpeedProfile"]
+__all__ = [
+    "Beam",
+    "ClassicalBeam",
+    "Coupling",
+    "Disk",
+    "ElasticMaterial",
+    "FlexibleRotor",
+    "FourthOrderBeam",
+    "JeffcottRotor",
+    "MountedRotor",
+    "Probe",
+    "ReducedRotor",
+    "RigidRotor",
+    "RigidShaft",
+    "ShaftElement",
+    "ShaftRotor",
+    "SpeedProfile",
+    "Station",
+    "Support",
+    "Unbalance",
+    "cowper_coefficient",
+    "mount",
+]

@@ -1,0 +1,192 @@
+"""The static equilibrium of a flexible rotor in several bearings."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import EquilibriumError, InputError, require_number
+from ..model import Array, Reaction
+from ..results import Coefficients
+from ..rotors import FlexibleRotor
+from ..rotors.structure import Structure, across_planes
+from .coefficients import coefficients
+from .equilibrium import equilibrium
+
+TOLERANCE = 1e-10
+"""Largest imbalance of forces, and misfit of displacements, relative to their scale."""
+
+CONTINUATION = 8
+"""Steps in which the bearings' displacements are handed to the shaft when one step does not converge."""
+
+_NEWTON_STEPS = 40
+
+
+@dataclass(frozen=True, kw_only=True)
+class RotorEquilibrium:
+    """A rotor at rest in its bearings.
+
+    Attributes
+    ----------
+    speed : float [rad/s]
+    coefficients : dict of str to Coefficients
+        Stiffness, damping and journal position of each bearing, by station.
+    loads : dict of str to ndarray, shape (2,) [N]
+        Static load on each bearing, by station.
+    displacement : ndarray, shape (N,)
+        Coordinates of the rotor.
+    residual : float [1]
+        Largest imbalance of forces / weight.
+    """
+
+    speed: float
+    coefficients: dict[str, Coefficients]
+    loads: dict[str, Array]
+    displacement: Array
+    residual: float
+
+
+def rotor_equilibrium(
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speed: float
+) -> RotorEquilibrium:
+    """Return where a rotor rests in its bearings under its weight.
+
+    In two bearings the loads follow from statics; in more of them from the stiffness of the shaft as well.
+
+    Parameters
+    ----------
+    rotor : FlexibleRotor
+        Its own speed is not used.
+    bearings : mapping of str to Reaction
+        By the name of the station; a station without one is free.
+    speed : float [rad/s]
+        Angular speed about +z, of either sign.
+
+    Raises
+    ------
+    InputError
+        If there is no such station.
+    EquilibriumError
+        If a film cannot carry its load, the bearings do not hold the rotor, or the search does not converge.
+    UndefinedDerivativeError
+        If a film has no derivative at the equilibrium.
+
+    Notes
+    -----
+    With the displacement q of the rotor and p of the journals in their bearings,
+    (K + w H) q = weight + T' F(p) and T q = s p. At s = 0 the bearings are rigid, which gives the
+    first loads; s then goes to 1, each step by Newton's method with the exact Jacobian.
+    """
+    speed = require_number("speed", speed)
+    system = _System(rotor.structure, bearings, speed)
+    q, loads = system.on_rigid_bearings()
+    p = np.concatenate([system.alone(k, load) for k, load in enumerate(loads.reshape(-1, 2))])
+    try:
+        q, p = system.solve(q, p, 1.0)
+    except EquilibriumError:
+        for s in np.arange(1, CONTINUATION + 1) / CONTINUATION:
+            q, p = system.solve(q, p, float(s))
+    return system.result(q, p)
+
+
+class _System:
+    """The equations of a rotor at rest: displacements in units of the smallest clearance."""
+
+    def __init__(self, structure: Structure, bearings: Mapping[str, Reaction], speed: float) -> None:
+        unknown = sorted(set(bearings) - set(structure.stations))
+        if unknown:
+            raise InputError(f"bearings must be in the stations {list(structure.stations)}, got {unknown}")
+        self.names = [name for name in structure.stations if name in bearings]
+        self.bearings = [bearings[name] for name in self.names]
+        self.speed = speed
+        rows = [2 * structure.stations.index(name) + axis for name in self.names for axis in range(2)]
+        self.journals = structure.journals[rows]
+        self.stiffness = structure.stiffness + speed * structure.circulation
+        if structure.hysteresis is not None:
+            self.stiffness = self.stiffness + np.sign(speed) * across_planes(structure.hysteresis)
+        self.weight = structure.weight
+        self.size = float(np.abs(structure.weight).sum()) or 1.0
+
+    def on_rigid_bearings(self) -> tuple[Array, Array]:
+        """Return the displacement of the rotor, and the loads on bearings that do not give way."""
+        n, m = len(self.weight), len(self.journals)
+        saddle = np.block([[self.stiffness, self.journals.T], [self.journals, np.zeros((m, m))]])
+        # Rows and columns are scaled alike: stiffness is some 1e6 to 1e9 N/m.
+        largest = max(float(np.abs(self.stiffness).max()), self.size / 1e-4)
+        scale = np.concatenate([np.full(n, largest**-0.5), np.ones(m)])
+        scale[n:] = 1.0 / scale[0]
+        matrix = saddle * np.outer(scale, scale)
+        if n and np.linalg.cond(matrix) > 1e15:
+            raise EquilibriumError(
+                f"bearings must hold the rotor, got {self.names} that leave it free to move"
+            )
+        solved = scale * np.linalg.solve(matrix, scale * np.concatenate([self.weight, np.zeros(m)]))
+        return solved[:n], solved[n:]
+
+    def alone(self, k: int, load: Array) -> Array:
+        """Return the position of one journal under its load."""
+        bearing = self.bearings[k]
+        if np.linalg.norm(load) <= 1e-9 * self.size or not math.isfinite(bearing.clearance):
+            return np.zeros(2)
+        return equilibrium(bearing, load, self.speed).position
+
+    def forces(self, p: Array) -> Array:
+        pairs = zip(self.bearings, p.reshape(-1, 2), strict=True)
+        return np.concatenate([b.force(at, np.zeros(2), self.speed) for b, at in pairs])
+
+    def slopes(self, p: Array) -> Array:
+        """Return d(forces)/dp, block by block."""
+        whole = np.zeros((len(p), len(p)))
+        for k, (bearing, at) in enumerate(zip(self.bearings, p.reshape(-1, 2), strict=True)):
+            pair = slice(2 * k, 2 * k + 2)
+            whole[pair, pair] = bearing.jacobian(at, np.zeros(2), self.speed)[:, :2]
+        return whole
+
+    def residual(self, q: Array, p: Array, s: float) -> tuple[Array, Array]:
+        forces = self.stiffness @ q - self.weight - self.journals.T @ self.forces(p)
+        return forces, self.journals @ q - s * p
+
+    def solve(self, q: Array, p: Array, s: float) -> tuple[Array, Array]:
+        """Return (q, p) by Newton's method with steps that stay within the clearances."""
+        n = len(q)
+        lengths = np.repeat([min(b.clearance, 1e-4) for b in self.bearings], 2)
+        for _ in range(_NEWTON_STEPS):
+            forces, misfit = self.residual(q, p, s)
+            done = np.abs(forces).max() <= TOLERANCE * self.size
+            if done and np.all(np.abs(misfit) <= TOLERANCE * lengths):
+                return q, p
+            slopes = self.slopes(p)
+            matrix = np.block(
+                [[self.stiffness, -self.journals.T @ slopes], [self.journals, -s * np.eye(len(p))]]
+            )
+            step = np.linalg.solve(matrix, -np.concatenate([forces, misfit]))
+            share = self._within(p, step[n:])
+            q, p = q + share * step[:n], p + share * step[n:]
+        raise EquilibriumError(
+            f"rotor must have an equilibrium at speed {self.speed!r} rad/s, and the search found none: "
+            f"the imbalance is {np.abs(forces).max() / self.size:.3g} of the weight"
+        )
+
+    def _within(self, p: Array, step: Array) -> float:
+        """Return the part of a step that leaves every journal at least half of its gap."""
+        share = 1.0
+        pairs = zip(self.bearings, p.reshape(-1, 2), step.reshape(-1, 2), strict=True)
+        for bearing, at, move in pairs:
+            gap, length = bearing.clearance - math.hypot(*at), math.hypot(*move)
+            share = min(share, 0.5 * gap / length if length > 0.5 * gap else 1.0)
+        return share
+
+    def result(self, q: Array, p: Array) -> RotorEquilibrium:
+        forces = self.forces(p)
+        places = dict(zip(self.names, p.reshape(-1, 2), strict=True))
+        films = dict(zip(self.names, self.bearings, strict=True))
+        return RotorEquilibrium(
+            speed=self.speed,
+            coefficients={name: coefficients(films[name], at, self.speed) for name, at in places.items()},
+            loads=dict(zip(self.names, -forces.reshape(-1, 2), strict=True)),
+            displacement=q,
+            residual=float(np.abs(self.residual(q, p, 1.0)[0]).max()) / self.size,
+        )

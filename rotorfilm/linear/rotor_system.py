@@ -1,0 +1,172 @@
+"""A flexible rotor on its films as one linear system: eigenvalues, python-control, unbalance response."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import control
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import InputError, require_finite
+from ..model import Array, Reaction
+from ..rotors import FlexibleRotor
+from ..rotors.structure import Structure, across_planes, both_planes, output_rows, station_name
+from ..signals import names
+from .closed_loop import HOUSING
+from .rotor_rest import RotorEquilibrium, rotor_equilibrium
+
+
+class SecondOrder(NamedTuple):
+    """mass q'' + damping q' + stiffness q = force, bearings, gyroscopic effect and all, shape (N, N) each."""
+
+    mass: Array
+    damping: Array
+    stiffness: np.ndarray
+
+    def state_matrix(self) -> np.ndarray:
+        """Return A of (q, q')' = A (q, q'), shape (2 N, 2 N)."""
+        n = len(self.mass)
+        solved = np.linalg.solve(self.mass, np.hstack([self.stiffness, self.damping]))
+        return np.vstack([np.eye(n, 2 * n, n), -solved])
+
+    def dynamic_stiffness(self, frequency: float) -> np.ndarray:
+        """Return stiffness - frequency^2 mass + i frequency damping [rad/s], complex."""
+        return self.stiffness - frequency**2 * self.mass + 1j * frequency * self.damping
+
+
+def second_order(structure: Structure, at: RotorEquilibrium) -> SecondOrder:
+    """Return the equations of small motion about an equilibrium, at its speed."""
+    damping = structure.damping + at.speed * structure.gyroscopic
+    stiffness = structure.stiffness + at.speed * structure.circulation
+    for name, film in at.coefficients.items():
+        rows = _journal(structure, name)
+        damping = damping + rows.T @ film.damping @ rows
+        stiffness = stiffness + rows.T @ film.stiffness @ rows
+    return SecondOrder(structure.mass, damping, stiffness)
+
+
+def with_hysteresis(structure: Structure, system: SecondOrder, frequency: float, speed: float) -> SecondOrder:
+    """Return the equations at a positive frequency [rad/s], with the hysteresis of the rotating shaft.
+
+    Its stiffness is K (1 + i eta sgn(p)) where p is the frequency in the rotating shaft: frequency - speed of
+    forward circles, -(frequency + speed) of backward ones. Whirl slower than the shaft then feels the real
+    matrix -i eta K on x + i y, which drives it forward; faster whirl feels the damping i eta K; synchronous
+    whirl the mean of both, as forward circles do not bend the shaft to and fro.
+    """
+    if structure.hysteresis is None:
+        return system
+    driving = np.sign(speed) * across_planes(structure.hysteresis)
+    resisting = 1j * both_planes(structure.hysteresis)
+    share = 0.5 * (1.0 + np.sign(frequency - abs(speed)))
+    return system._replace(stiffness=system.stiffness + (1.0 - share) * driving + share * resisting)
+
+
+def rotor_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = None) -> control.StateSpace:
+    """Return a rotor on its films, linearized about an equilibrium.
+
+    Parameters
+    ----------
+    rotor : FlexibleRotor
+        The one that rests at `at`.
+    at : RotorEquilibrium
+        As `rotor_equilibrium` returns it.
+    name : str, optional
+        Name of the system.
+
+    Returns
+    -------
+    control.StateSpace
+        Inputs: small external forces at the stations, `left_force_x` and so on [N], on the journal and
+        opposite on its housing. Outputs: those of the rotor but its speed, as small motion, and for each
+        bearing `left_housing_force_x`, `left_housing_force_y`: change of the force on its housing [N].
+    """
+    s = rotor.structure
+    if s.hysteresis is not None:
+        raise InputError("loss_factor must be 0 for a state space, which hysteresis has not; see rotor_modes")
+    system = second_order(s, at)
+    push = np.vstack([np.zeros_like(s.journals.T), np.linalg.solve(s.mass, s.journals.T)])
+    sense, labels = _outputs(rotor, at)
+    return control.StateSpace(
+        system.state_matrix(),
+        push,
+        sense,
+        np.zeros((len(sense), push.shape[1])),
+        inputs=names(rotor.inputs),
+        outputs=labels,
+        states=names(rotor.states),
+        name=name,
+        remove_useless_states=False,
+    )
+
+
+def unbalance_response(
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
+) -> control.FrequencyResponseData:
+    """Return the synchronous response of a rotor to its own unbalance.
+
+    Parameters
+    ----------
+    rotor : FlexibleRotor
+        With an unbalance.
+    bearings : mapping of str to Reaction
+        By the name of the station; each is linearized at the equilibrium of every speed.
+    speeds : array_like, shape (n,) [rad/s]
+        Angular speeds, positive and rising.
+
+    Returns
+    -------
+    control.FrequencyResponseData
+        Input `unbalance` [1]: the unbalance of the rotor, 1 as it is. Outputs as of `rotor_system`: phasors
+        at exp(i w t) [m, m/s, N]; x leads y by 90 degrees in forward whirl.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule, or the rotor has no unbalance.
+    EquilibriumError
+        If there is no equilibrium at one of the speeds.
+    """
+    grid = checked_speeds(speeds)
+    s = rotor.structure
+    if not s.unbalance.any():
+        raise InputError("rotor must have an unbalance, got none")
+    responses = []
+    for speed in grid:
+        at = rotor_equilibrium(rotor, bearings, float(speed))
+        # (cos, sin) of the angle are the real parts of (1, -i) exp(i w t)
+        force = speed**2 * s.unbalance @ np.array([1.0, -1.0j])
+        system = with_hysteresis(s, second_order(s, at), speed, speed)
+        motion = np.linalg.solve(system.dynamic_stiffness(speed), force)
+        sense, labels = _outputs(rotor, at)
+        responses.append(sense @ np.concatenate([motion, 1j * speed * motion]))
+    data = np.stack(responses, axis=-1)[:, None, :]
+    return control.FrequencyResponseData(
+        data, grid, inputs=["unbalance"], outputs=labels, name="unbalance_response"
+    )
+
+
+def checked_speeds(speeds: ArrayLike) -> Array:
+    """Return angular speeds [rad/s]; raise InputError unless they are positive and rising."""
+    grid = require_finite("speeds", speeds)
+    if grid.ndim != 1 or not grid.size or grid[0] <= 0.0 or np.any(np.diff(grid) <= 0.0):
+        raise InputError(f"speeds must be a list of positive and rising numbers, got {speeds!r}")
+    return grid
+
+
+def _journal(structure: Structure, name: str) -> Array:
+    k = structure.stations.index(name)
+    return structure.journals[2 * k : 2 * k + 2]
+
+
+def _outputs(rotor: FlexibleRotor, at: RotorEquilibrium) -> tuple[Array, list[str]]:
+    """Return rows over (q, q') and names of all outputs."""
+    s = rotor.structure
+    rows: Sequence[Array] = [output_rows(s)]
+    labels = names(rotor.outputs)[:-1]
+    for name, film in at.coefficients.items():
+        journal = _journal(s, name)
+        rows = [*rows, np.hstack([film.stiffness @ journal, film.damping @ journal])]
+        labels += [station_name(name, signal) for signal in HOUSING]
+    return np.vstack(rows), labels

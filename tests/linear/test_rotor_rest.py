@@ -1,0 +1,120 @@
+"""Flexible rotors at rest in several bearings."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from rotorfilm.bearings import JournalBearing, LinearBearing
+from rotorfilm.errors import EquilibriumError, InputError
+from rotorfilm.films import ShortFilm
+from rotorfilm.linear import equilibrium, rotor_equilibrium
+from rotorfilm.rotors import (
+    ClassicalBeam,
+    Disk,
+    ElasticMaterial,
+    ShaftElement,
+    ShaftRotor,
+    Station,
+    Support,
+    mount,
+)
+from rotorfilm.transient import simulate
+
+STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
+FILM = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())
+WIDE = JournalBearing(radius=0.05, length=0.045, clearance=1.5e-4, viscosity=0.05, film=ShortFilm())
+SPEED = 157.0
+
+
+def shaft(pieces=6, **changes):
+    disk = {"density": 7810.0, "width": 0.07, "inner_diameter": 0.05}
+    parts = {
+        "elements": ShaftElement(length=1.5, outer_diameter=0.05, material=STEEL).split(pieces),
+        "disks": (Disk.solid(2, outer_diameter=0.28, **disk), Disk.solid(4, outer_diameter=0.35, **disk)),
+        "stations": (Station(node=0, name="left"), Station(node=pieces)),
+        "speed": SPEED,
+    }
+    return ShaftRotor(**(parts | changes))
+
+
+@pytest.mark.closed_form
+def test_two_bearings_share_the_weight_by_the_lever():
+    rotor = shaft()
+    at = rotor_equilibrium(rotor, {"left": FILM, "": WIDE}, SPEED)
+    small, large = (disk.mass for disk in rotor.disks)
+    uniform = rotor.mass - small - large
+    left = 9.80665 * (uniform / 2 + small * 2 / 3 + large / 3)
+    assert_allclose(at.loads["left"], [0.0, -left], atol=1e-6 * left)
+    assert_allclose(at.loads["left"] + at.loads[""], [0.0, -9.80665 * rotor.mass], rtol=1e-9, atol=1e-6)
+    for name, film in (("left", FILM), ("", WIDE)):
+        alone = equilibrium(film, at.loads[name], SPEED)
+        assert_allclose(at.coefficients[name].position, alone.position, rtol=1e-7)
+    assert at.residual < 1e-9
+
+
+@pytest.mark.closed_form
+def test_two_spans_on_rigid_bearings():
+    """Uniform beam on three stiff supports: the middle one carries 5/8 of the weight, the ends 3/16 each."""
+    light = ShaftElement(length=2.0, outer_diameter=0.02, material=STEEL)
+    rotor = ShaftRotor(
+        elements=light.split(8),
+        stations=tuple(Station(node=n, name=f"b{n}") for n in (0, 4, 8)),
+        speed=0.0,
+    )
+    hard = LinearBearing(stiffness=1e13)
+    at = rotor_equilibrium(rotor, dict.fromkeys(("b0", "b4", "b8"), hard), 0.0)
+    shares = [at.loads[name][1] / (-9.80665 * rotor.mass) for name in ("b0", "b4", "b8")]
+    assert_allclose(shares, [3 / 16, 5 / 8, 3 / 16], rtol=3e-3)  # shear takes 2e-3
+
+
+def test_three_films_carry_what_shaft_and_films_agree_on():
+    """Forces and displacements fit, by an independent solution with a stiff shaft: all journals in line."""
+    stiff = ElasticMaterial(young_modulus=211e13, shear_modulus=81e13, density=7810.0)
+    piece = ShaftElement(length=1.0, outer_diameter=0.1, material=stiff)
+    rotor = ShaftRotor(
+        elements=piece.split(4), stations=tuple(Station(node=n, name=f"b{n}") for n in (0, 2, 4)), speed=SPEED
+    )
+    at = rotor_equilibrium(rotor, {"b0": FILM, "b2": WIDE, "b4": FILM}, SPEED)
+    places = [at.coefficients[name].position for name in ("b0", "b2", "b4")]
+    assert_allclose(places[0], places[1], atol=1e-4 * FILM.clearance)
+    assert_allclose(places[0], places[2], atol=1e-4 * FILM.clearance)
+    both = 2 * FILM.force(places[0], [0.0, 0.0], SPEED) + WIDE.force(places[0], [0.0, 0.0], SPEED)
+    assert_allclose(both, [0.0, 9.80665 * rotor.mass], rtol=2e-3, atol=0.5)
+
+
+@pytest.mark.closed_form
+def test_support_gives_way_under_its_bearing():
+    support = Support(mass=10.0, stiffness=((2e6, 3e5), (-1e5, 1e6)))
+    rotor = shaft(stations=(Station(node=0, name="left", support=support), Station(node=6)))
+    at = rotor_equilibrium(rotor, {"left": FILM, "": FILM}, SPEED)
+    size = len(rotor.structure.coordinates)
+    housing = at.displacement[[size - 1, 2 * size - 1]]
+    expected = np.linalg.solve(support.stiffness, at.loads["left"] + [0.0, -98.0665])
+    assert_allclose(housing, expected, rtol=1e-7)
+    journal = at.displacement[[0, size]]
+    assert_allclose(journal - housing, at.coefficients["left"].position, atol=1e-12)
+
+
+def test_rotor_stays_where_it_rests():
+    rotor = shaft(beam=ClassicalBeam(), internal_damping=1e-4)
+    at = rotor_equilibrium(rotor, {"left": FILM, "": WIDE}, SPEED)
+    start = np.concatenate([at.displacement, 0 * at.displacement])
+    run = simulate(
+        mount(rotor, {"left": FILM}), WIDE, duration=0.02, samples=5, initial_state=start, rtol=1e-6
+    )
+    drift = run.position - at.coefficients[""].position[:, None]
+    assert np.abs(drift).max() < 1e-6 * WIDE.clearance
+
+
+def test_no_weight_leaves_the_journals_in_the_middle():
+    at = rotor_equilibrium(shaft(gravity=(0.0, 0.0)), {"left": FILM, "": FILM}, SPEED)
+    assert_allclose(at.coefficients["left"].position, 0.0, atol=1e-12)
+
+
+def test_what_cannot_rest_is_refused():
+    with pytest.raises(EquilibriumError, match="bearings must hold the rotor, got \\['left'\\]"):
+        rotor_equilibrium(shaft(), {"left": FILM}, SPEED)
+    with pytest.raises(InputError, match=r"bearings must be in the stations \['left', ''\], got \['right'\]"):
+        rotor_equilibrium(shaft(), {"right": FILM}, SPEED)
+    with pytest.raises(EquilibriumError, match=r"capacity|carries none"):
+        rotor_equilibrium(shaft(), {"left": FILM, "": FILM}, 1e-9)
