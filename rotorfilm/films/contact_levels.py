@@ -49,6 +49,10 @@ class ContactMotion(Protocol):
     """What moves the contact: a ball with a mass, or a given approach."""
 
     @property
+    def inertia(self) -> float:
+        """W, by which errors of the velocity count."""
+
+    @property
     def breakpoints(self) -> tuple[float, ...]:
         """Times at which the drive jumps or kinks."""
 
@@ -77,6 +81,11 @@ class BallMotion:
     def __post_init__(self) -> None:
         require_non_negative("W", self.W)
         _require_callable("load", self.load)
+
+    @property
+    def inertia(self) -> float:
+        """W."""
+        return float(self.W)
 
     @property
     def breakpoints(self) -> tuple[float, ...]:
@@ -108,6 +117,11 @@ class GivenMotion:
 
     def __post_init__(self) -> None:
         _require_callable("approach", self.approach)
+
+    @property
+    def inertia(self) -> float:
+        """None: the velocity is given."""
+        return 0.0
 
     @property
     def breakpoints(self) -> tuple[float, ...]:

@@ -21,17 +21,24 @@ from .contact_preconditioner import Closure, Distribution, Factors, distribution
 MAX_STEPS = 30
 """Newton steps tried."""
 
-FORCING = 1e-3
-"""Relative residual to which GMRES solves each step."""
+FORCING = (1e-4, 1e-2)
+"""Range of the relative residual to which GMRES solves a step: no closer than the step can be of use."""
 
-KRYLOV = 60
-"""Iterations of GMRES before the factors are renewed."""
+KRYLOV = 80
+"""Most iterations of GMRES in a step."""
 
-PATIENCE = 40
-"""Iterations that stale factors may cost in all, beyond those of fresh ones, before they are renewed."""
+STALE = 0.125
+"""Cells that may gain or lose film before the preconditioner is renewed, per cells along x.
+
+Each costs an iteration more, and factors cost more iterations on finer grids. Old coefficients cost nothing.
+"""
 
 SHRINK = 0.2
 """A step may thin the film down to this share at most."""
+
+
+THINNEST = 1e-7
+"""Film thickness below which a search has gone astray."""
 
 
 class Contact(NamedTuple):
@@ -70,7 +77,6 @@ class NewtonKrylov:
     def __post_init__(self) -> None:
         self._change: Distribution | None = None
         self._factors: Factors | None = None
-        self._wasted = 0
 
     def solve(self, pressure: Array, delta: float, closure: Closure, time: TimeDerivative) -> Contact:
         """Return the solution near a guess.
@@ -93,7 +99,7 @@ class NewtonKrylov:
         pressure = np.where(wet, pressure, 0.0)
         film = self.equations.film(pressure, delta)
         for step in range(MAX_STEPS):
-            if not film.min() > 0.0:
+            if not film.min() > THINNEST:
                 break
             residual = self.equations.residual(pressure, film, time)
             settled = np.where(wet, pressure > 0.0, residual > 0.0)
@@ -107,40 +113,38 @@ class NewtonKrylov:
                 residual = self.equations.residual(pressure, film, time)
             linear = self._linear(pressure, film, wet, closure, time.rate)
             miss = closure.value - closure.approach * delta - closure.load * self.equations.load(pressure)
-            dp, dd, count = self._step(linear, np.where(wet, -residual, 0.0), miss)
+            forcing = float(np.clip(0.3 * self.tolerance / error, *FORCING)) if error < np.inf else FORCING[1]
+            dp, dd, count = self._step(linear, np.where(wet, -residual, 0.0), miss, forcing)
             iterations += count
             share, film = self._damped(film, dp, dd)
             pressure, delta = pressure + share * dp, delta + share * dd
             size = max(float(np.max(abs(dp))), abs(dd))
-            error = size * (FORCING + self.equations.Q0 * size) if share == 1.0 else np.inf
+            error = size * (forcing + self.equations.Q0 * size) if share == 1.0 else np.inf
         raise ConvergenceError(
             f"Newton's method for the contact must converge within {MAX_STEPS} steps to "
             f"{self.tolerance:.0e}, got an error of {error:.1e} at delta = {delta:.6g}"
         )
-
-    def forget(self) -> None:
-        """Drop the preconditioner: the next call makes a new one."""
-        self._factors = None
 
     def _linear(self, pressure: Array, film: Array, wet: Array, closure: Closure, rate: float) -> _Linear:
         derivatives = self.equations.derivatives(pressure, film, rate)
         by_delta = derivatives.by_film @ np.ones(derivatives.by_film.shape[1])
         return _Linear(derivatives, np.where(wet, by_delta, 0.0), wet, closure)
 
-    def _step(self, linear: _Linear, residual: Array, miss: float) -> tuple[Array, float, int]:
-        """Return the changes of pressure and approach, and the iterations, from stale or new factors."""
-        total = 0
-        for fresh in (False, True):
-            if fresh or self._factors is None:
-                self._factors, self._wasted = self._factorized(linear), 0
-            answer, count, done = self._krylov(linear, self._factors, residual, miss)
-            total += count
-            if done:
-                break
-        self._wasted += max(count - 8, 0)
-        if self._wasted > PATIENCE:
-            self._factors = None
-        return np.where(linear.wet, answer[:-1], 0.0), float(answer[-1]), total
+    def _step(
+        self, linear: _Linear, residual: Array, miss: float, forcing: float
+    ) -> tuple[Array, float, int]:
+        """Return the changes of pressure and approach, and the iterations."""
+        if linear.closure.approach == 0.0 and not np.any(linear.wet):
+            raise ConvergenceError("some cell must hold film for a load to rest on, got none")
+        limit = STALE * self.equations.grid.shape[0]
+        fresh = self._factors is None or int(np.sum(self._factors.wet != linear.wet)) > limit
+        factors = self._factors = self._factorized(linear) if fresh or self._factors is None else self._factors
+        answer, count = self._krylov(linear, factors, residual, miss, forcing)
+        if count >= KRYLOV and not fresh:
+            self._factors = self._factorized(linear)
+            answer, more = self._krylov(linear, self._factors, residual, miss, forcing)
+            count += more
+        return np.where(linear.wet, answer[:-1], 0.0), float(answer[-1]), count
 
     def _factorized(self, linear: _Linear) -> Factors:
         if self._change is None:
@@ -148,8 +152,8 @@ class NewtonKrylov:
         return factorize(self.equations, self._change, linear.derivatives, linear.wet, linear.closure)
 
     def _krylov(
-        self, linear: _Linear, factors: Factors, residual: Array, miss: float
-    ) -> tuple[Array, int, bool]:
+        self, linear: _Linear, factors: Factors, residual: Array, miss: float, forcing: float
+    ) -> tuple[Array, int]:
         """Return the solution of the linear equations by GMRES, preconditioned from the right."""
         # The two residuals count alike: film equations per V, the closure per its coefficients.
         scales = np.full(len(residual) + 1, 1.0 / self.equations.V)
@@ -165,11 +169,11 @@ class NewtonKrylov:
 
         size = len(scales)
         operator = linalg.LinearOperator((size, size), matvec=product, dtype=np.float64)
-        y, info = linalg.gmres(
-            operator, scales * np.append(residual, miss), rtol=FORCING, restart=KRYLOV, maxiter=1,
+        y, _ = linalg.gmres(
+            operator, scales * np.append(residual, miss), rtol=forcing, restart=KRYLOV, maxiter=1,
             callback=tally, callback_type="pr_norm",
         )  # fmt: skip
-        return self._preconditioned(linear, factors, y / scales), count, info == 0
+        return self._preconditioned(linear, factors, y / scales), count
 
     def _product(self, linear: _Linear, x: Array) -> Array:
         pressure = np.where(linear.wet, x[:-1], 0.0)

@@ -49,12 +49,12 @@ class Factors(NamedTuple):
 
     Attributes
     ----------
-    solver : scipy.sparse.linalg.SuperLU
-        Of the equations for w of the cells with film, in single precision.
+    solver : scipy.sparse.linalg.SuperLU or None
+        Of the equations for w of the cells with film, in single precision; None where there are none.
     laplacian : sparse matrix
         T between those cells.
-    wet : ndarray, shape (n_wet,)
-        Indices of the cells with film.
+    wet : ndarray of bool, shape (n,)
+        Cells with film.
     shift : ndarray, shape (n,)
         Pressures that answer the film equations to delta = 1.
     pivot : float
@@ -70,6 +70,8 @@ class Factors(NamedTuple):
     def pressures(self, residual: Array) -> Array:
         """Return the pressures, shape (n,), that answer residuals of the film equations, shape (n,)."""
         answer = residual.copy()
+        if self.solver is None:
+            return answer
         answer[self.wet] = self.laplacian @ self.solver.solve(residual[self.wet].astype(np.float32))
         return answer
 
@@ -98,7 +100,7 @@ def factorize(
     equations: ContactEquations,
     change: Distribution,
     derivatives: Derivatives,
-    wet: Array,
+    wet: np.ndarray,
     closure: Closure,
 ) -> Factors:
     """Return the factors at a state.
@@ -115,10 +117,12 @@ def factorize(
     """
     cells = np.flatnonzero(wet)
     matrix = (derivatives.by_pressure[cells] @ change.laplacian + derivatives.by_film[cells] @ change.deflection)
-    solver = linalg.splu(
-        matrix[:, cells].tocsc().astype(np.float32), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01
-    )
-    bare = Factors(solver, change.laplacian[cells][:, cells], cells, np.zeros(len(wet)), 1.0)
+    solver = None
+    if len(cells):
+        solver = linalg.splu(
+            matrix[:, cells].tocsc().astype(np.float32), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01
+        )
+    bare = Factors(solver, change.laplacian[cells][:, cells], wet, np.zeros(len(wet)), 1.0)
     by_delta = derivatives.by_film @ np.ones(derivatives.by_film.shape[1])
     shift = bare.pressures(np.where(wet, by_delta, 0.0))
     return bare._replace(shift=shift, pivot=closure.approach - closure.load * equations.load(shift))

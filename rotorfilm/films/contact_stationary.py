@@ -22,7 +22,7 @@ COARSEST = 24
 EASY = (0.1, 5.0)
 """V and Q0 from which harder contacts are reached: solvable from the dry contact on any grid."""
 
-SMALLEST_MOVE = 1e-3
+SMALLEST_MOVE = 1.0 / 64.0
 """Share of the way from easy to hard below which the search is given up."""
 
 

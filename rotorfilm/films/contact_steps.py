@@ -31,6 +31,9 @@ LEVELS = 3
 SAFETY, SLOWEST, FASTEST = 0.9, 0.3, 2.0
 """Of the step control: margin, and the range of the ratio of two steps (below 2.41, where BDF2 is stable)."""
 
+HOPELESS = 1e-5
+"""Step below which equations that cannot be solved end an integration."""
+
 SHORTEST = 1e-9
 """Step below which an integration is given up."""
 
@@ -39,8 +42,8 @@ SHORTEST = 1e-9
 class AdaptiveSteps:
     """Second-order backward differences (BDF2), each step as long as its error allows.
 
-    The error of approach, velocity and film thickness (rms over the contact) in one step is estimated from its
-    distance to the extrapolation of earlier levels. At `breakpoints` of the drive the history starts anew.
+    The error of approach, velocity times sqrt(W) and film thickness (rms over the contact) in one step is
+    estimated from its distance to the extrapolation of earlier levels. At `breakpoints` of the drive the history starts anew.
 
     Parameters
     ----------
@@ -150,10 +153,9 @@ class Stepper:
             try:
                 level, error = self._step(levels, end if now == left else levels[0].t + now)
             except ConvergenceError:
-                if isinstance(self.control, FixedSteps) or now * SLOWEST < SHORTEST:
+                if isinstance(self.control, FixedSteps) or now * SLOWEST < HOPELESS:
                     raise
                 error = np.inf
-                self.solver.forget()
             if isinstance(self.control, FixedSteps):
                 return self._kept(level, levels), self.control.step
             if error <= 1.0:
@@ -206,4 +208,4 @@ class Stepper:
             )
         ]
         film = np.sqrt(np.mean(missed[2][self._near.ravel()] ** 2))
-        return share * float(max(abs(missed[0]), abs(missed[1]), film)) / self.control.tolerance
+        return share * float(max(abs(missed[0]), np.sqrt(self.motion.inertia) * abs(missed[1]), film)) / self.control.tolerance
