@@ -123,11 +123,16 @@ class PointContact:
                 f" and a smallest entry of {values.min() if values.size else None!r}"
             )
         level = level_of(
-            self.equations, values.ravel(), require_number("delta", delta), require_number("velocity", velocity)
+            self.equations,
+            values.ravel(),
+            require_number("delta", delta),
+            require_number("velocity", velocity),
         )
         made = state_of(self.equations, (level,))
         if not made.minimum_film > 0.0:
-            raise InputError(f"delta must leave a film everywhere, got {delta!r} with {made.minimum_film:.3g}")
+            raise InputError(
+                f"delta must leave a film everywhere, got {delta!r} with {made.minimum_film:.3g}"
+            )
         return made
 
     def simulate(

@@ -119,7 +119,9 @@ class ContactLaw:
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return dx/dt [1/s]."""
         delta = float(np.asarray(u)[0]) / self.film_scale
-        return (self.A @ np.asarray(x, dtype=float) + self.B[:, 0] * (delta - self.operating)) / self.time_scale
+        return (
+            self.A @ np.asarray(x, dtype=float) + self.B[:, 0] * (delta - self.operating)
+        ) / self.time_scale
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives, in SI."""
@@ -134,7 +136,9 @@ class ContactLaw:
 
     def resting(self, delta: float) -> Array:
         """Return the state in which the contact has long rested at an approach delta [1]."""
-        return -np.linalg.solve(self.A, self.B[:, 0]) * (delta - self.operating) if self.order else np.zeros(0)
+        return (
+            -np.linalg.solve(self.A, self.B[:, 0]) * (delta - self.operating) if self.order else np.zeros(0)
+        )
 
     @property
     def _static(self) -> StaticLaw:
@@ -183,7 +187,9 @@ def reduce_contact(contact: PointContact, order: int = 5) -> ContactLaw:
 def reduce_ball(ball: RollingBall, contact: PointContact, order: int = 5) -> ContactLaw:
     """Return the law of a rolling ball in SI, from its contact (`ball.contact(...)`)."""
     if (contact.V, contact.Q0) != (ball.V, ball.Q0):
-        raise InputError(f"contact must be of the ball, with V = {ball.V!r} and Q0 = {ball.Q0!r}, got {contact!r}")
+        raise InputError(
+            f"contact must be of the ball, with V = {ball.V!r} and Q0 = {ball.Q0!r}, got {contact!r}"
+        )
     return replace(
         reduce_contact(contact, order),
         film_scale=ball.film_scale,

@@ -89,7 +89,7 @@ class RollingBall:
 
     @property
     def contact_radius(self) -> float:
-        """a of the dry contact (Hertz) [m]."""
+        """A of the dry contact (Hertz) [m]."""
         return float((1.5 * self.load * self.radius / self.combined_modulus) ** (1.0 / 3.0))
 
     @property
@@ -176,6 +176,4 @@ class RollingBall:
                 "pressure_coefficient must give Roelands' law an exponent of at most 1, "
                 f"got {self.pressure_coefficient!r} with {exponent:.3g}"
             )
-        return RoelandsViscosity(
-            exponent=exponent, pressure_ratio=self.contact_pressure / ROELANDS_PRESSURE
-        )
+        return RoelandsViscosity(exponent=exponent, pressure_ratio=self.contact_pressure / ROELANDS_PRESSURE)

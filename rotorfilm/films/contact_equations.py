@@ -21,7 +21,7 @@ from scipy import sparse
 from ..model import Array
 from .contact_fluid import DowsonHigginsonDensity, Piezoviscosity
 from .contact_grid import ContactGrid
-from .contact_scheme import ContactScheme, Sampling, product
+from .contact_scheme import SLACK, ContactScheme, Sampling, opening, product
 
 ZERO = np.zeros(1)
 
@@ -81,11 +81,6 @@ class ContactEquations:
         """Area of a cell and its mirror image: the load is this times the sum of the pressures."""
         return 2.0 * self.grid.spacing[0] * self.grid.spacing[1]
 
-    @cached_property
-    def carry(self) -> Any:
-        """Divergence of what the surfaces carry, from samples to cells."""
-        return (self._flow.divergence[0] @ self.sampling.carried).tocsr()
-
     def film(self, pressure: Array, delta: float) -> Array:
         """Return the film thickness H at the samples."""
         return self.sampling.gap + delta + self.sampling.deflection(pressure)
@@ -110,13 +105,14 @@ class ContactEquations:
         if self.density is not None:
             flux = [f * d for f, d in zip(flux, self._face_density(pressure), strict=True)]
         along, across = self._flow.divergence
-        return along @ flux[0] + across @ flux[1] - self.V * (self.carry @ carried + gained)
+        return along @ flux[0] + across @ flux[1] - self.V * (along @ self._carried(carried) + gained)
 
     def derivatives(self, pressure: Array, film: Array, rate: complex) -> Derivatives:
         """Return the exact derivatives of the residual; `rate` may be complex, for harmonic motion."""
         mobility = sparse.diags(self.viscosity.mobility(pressure, self.Q0))
         density = self._face_density(pressure)
-        transport = (self.carry + rate * self.sampling.stored) * -self.V
+        carried = self._flow.divergence[0] @ self._carrying(self._density(pressure) * film)
+        transport = (carried + rate * self.sampling.stored) * -self.V
         by_pressure, by_film = 0.0, transport @ sparse.diags(self._density(pressure))
         parts = zip(
             self._flow.divergence, self._flow.gradient, self._faces(film), self._gradients(pressure),
@@ -139,6 +135,23 @@ class ContactEquations:
         for divergence, mean, h, slope in parts:
             total = total + _scaled(divergence, h**3 * slope) @ mean
         return total @ sparse.diags(self.density.slope(pressure))
+
+    def _carried(self, content: Array) -> Array:
+        """Return what the surfaces carry through the faces across x of rho H at the samples."""
+        flux = self.sampling.carried @ content
+        if self.sampling.upstream is not None:
+            flux -= opening(*(part @ content for part in self.sampling.upstream))[0]
+        return flux
+
+    def _carrying(self, content: Array) -> Any:
+        """Return the derivative of `_carried`."""
+        if self.sampling.upstream is None:
+            return self.sampling.carried
+        here, before, after = self.sampling.upstream
+        excess, slope = opening(here @ content, before @ content, after @ content)
+        acts = sparse.diags((excess > 0.0).astype(float))
+        limited = sparse.diags(slope) @ before + acts @ (after / 3.0 - SLACK * here)
+        return self.sampling.carried - limited
 
     def _faces(self, film: Array) -> tuple[Array, Array]:
         return self.sampling.along @ film, self.sampling.across @ film

@@ -148,9 +148,7 @@ def derivative_weights(t: float, times: Sequence[float]) -> Weights:
 
 def extrapolation_weights(t: float, times: Sequence[float]) -> Array:
     """Return the weights of the polynomial through all earlier times, at t."""
-    return np.array(
-        [np.prod([(t - b) / (a - b) for b in times if b != a]) for a in times]
-    )
+    return np.array([np.prod([(t - b) / (a - b) for b in times if b != a]) for a in times])
 
 
 def error_share(t: float, times: Sequence[float]) -> float:

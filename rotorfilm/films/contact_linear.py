@@ -67,7 +67,9 @@ class SmallMotion:
             if abs(move) < CLOSE * abs(now):
                 return now
             missed = W * now**2 + self.stiffness(now)
-        raise ConvergenceError(f"the secant method must find the natural motion near {guess:.4g}, got {now:.4g}")
+        raise ConvergenceError(
+            f"the secant method must find the natural motion near {guess:.4g}, got {now:.4g}"
+        )
 
 
 def _reduced(derivatives: object, wet: Array, columns: Array) -> tuple[Array, Array]:

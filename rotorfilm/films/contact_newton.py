@@ -138,7 +138,9 @@ class NewtonKrylov:
             raise ConvergenceError("some cell must hold film for a load to rest on, got none")
         limit = STALE * self.equations.grid.shape[0]
         fresh = self._factors is None or int(np.sum(self._factors.wet != linear.wet)) > limit
-        factors = self._factors = self._factorized(linear) if fresh or self._factors is None else self._factors
+        factors = self._factors = (
+            self._factorized(linear) if fresh or self._factors is None else self._factors
+        )
         answer, count = self._krylov(linear, factors, residual, miss, forcing)
         if count >= KRYLOV and not fresh:
             self._factors = self._factorized(linear)

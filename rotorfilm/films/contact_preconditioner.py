@@ -116,7 +116,9 @@ def factorize(
     closure : Closure
     """
     cells = np.flatnonzero(wet)
-    matrix = (derivatives.by_pressure[cells] @ change.laplacian + derivatives.by_film[cells] @ change.deflection)
+    matrix = (
+        derivatives.by_pressure[cells] @ change.laplacian + derivatives.by_film[cells] @ change.deflection
+    )
     solver = None
     if len(cells):
         solver = linalg.splu(
@@ -147,7 +149,11 @@ def _couplings(
     Cells beyond y = 0 are the mirror images of cells in the grid; others outside of it do not count.
     """
     a, b, k, l = np.meshgrid(
-        np.arange(points[0]), np.arange(points[1]), np.arange(len(along)), np.arange(len(across)), indexing="ij"
+        np.arange(points[0]),
+        np.arange(points[1]),
+        np.arange(len(along)),
+        np.arange(len(across)),
+        indexing="ij",
     )
     i, j = a + shift - along[k], b - across[l]
     j = np.where(j < 0, -1 - j, j)

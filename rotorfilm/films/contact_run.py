@@ -30,7 +30,15 @@ class _Recorder:
         film = self.equations.film(newest.pressure, newest.delta)
         central = self.equations.central_film(newest.pressure, newest.delta)
         load = self.equations.load(newest.pressure) / (2.0 * np.pi / 3.0)
-        row = (newest.t, newest.delta, newest.velocity, central, film.min(), load, self.motion.drive(newest.t))
+        row = (
+            newest.t,
+            newest.delta,
+            newest.velocity,
+            central,
+            film.min(),
+            load,
+            self.motion.drive(newest.t),
+        )
         self.levels = levels
         self.rows.append(row)
         if any(abs(newest.t - t) < 1e-9 for t in self.wanted):

@@ -17,6 +17,10 @@ from .contact_grid import ContactGrid
 from .contact_kernel import Deflection, cell_deflection, center_weights, smooth_cell_deflection
 
 
+SLACK = 0.1
+"""Share of the film thickness by which a face may be too high before it is limited."""
+
+
 class Sampling(NamedTuple):
     """Where film thickness is sampled, and the matrices from samples to faces and cells.
 
@@ -32,6 +36,9 @@ class Sampling(NamedTuple):
         Film thickness on the faces across x, ((nx + 1) m, samples), and across y, (nx (m + 1), samples).
     carried : sparse matrix, shape ((nx + 1) m, samples)
         Film thickness that the moving surfaces carry through the faces across x.
+    upstream : tuple of sparse matrix, or None
+        Film of the cell upstream of each of these faces, its rise before and after that cell, for a scheme that
+        is limited where the film opens: see `opening`.
     stored : sparse matrix, shape (n, samples)
         Film thickness in the cells.
     spread : sparse matrix, shape (samples, n)
@@ -44,6 +51,7 @@ class Sampling(NamedTuple):
     along: Any
     across: Any
     carried: Any
+    upstream: tuple[Any, Any, Any] | None
     stored: Any
     spread: Any
 
@@ -87,6 +95,7 @@ class StaggeredScheme:
             along=along,
             across=product(half_x, sparse.identity(m + 1)),
             carried=along,
+            upstream=None,
             stored=stored,
             # Cells at the symmetry line meet their own mirror image there, which doubles their share.
             spread=product(half_x.T, _mirrored(half_y.T)),
@@ -97,7 +106,8 @@ class StaggeredScheme:
 class UpwindScheme:
     """Film thickness at the centers of the cells, carried by third-order upwind faces: no checkerboard.
 
-    The faces across x take (-H_(i-1) + 5 H_i + 2 H_(i+1))/6, which dissipates an alternating film. The flow
+    The faces across x take (-H_(i-1) + 5 H_i + 2 H_(i+1))/6, which dissipates an alternating film, limited at
+    the outlet, where the film opens (`opening`). The flow
     by pressure takes film thicknesses of fourth order, and the kernel is that of pressures at the centers
     (`smooth_cell_deflection`). What is left is of second order: the edges of the rectangle and of the film.
     """
@@ -114,16 +124,44 @@ class UpwindScheme:
         column = sparse.diags([1.0], [2], shape=(nx, nx + 3))
         return Sampling(
             gap=_squares(x, y),
-            deflection=Deflection(grid, first=-1.5, shape=shape, corners=False, kernel=smooth_cell_deflection),
+            deflection=Deflection(
+                grid, first=-1.5, shape=shape, corners=False, kernel=smooth_cell_deflection
+            ),
             center=center_weights(grid, smooth_cell_deflection),
             along=product(_fourth_order_faces(nx), row),
             across=product(column, _faces_across(m)),
-            carried=product(
-                sparse.diags([-1 / 6, 5 / 6, 1 / 3], [0, 1, 2], shape=(nx + 1, nx + 3)), row
+            carried=product(_faces(nx, [-1 / 6, 5 / 6, 1 / 3]), row),
+            upstream=(
+                product(_faces(nx, [0.0, 1.0, 0.0]), row),
+                product(_faces(nx, [-1.0, 1.0, 0.0]), row),
+                product(_faces(nx, [0.0, -1.0, 1.0]), row),
             ),
             stored=product(column, row),
             spread=product(column.T, row.T),
         )
+
+
+def _faces(nx: int, weights: list[float]) -> Any:
+    """Return faces across x from two samples upstream and one downstream, samples beginning two cells out."""
+    return sparse.diags(weights, [0, 1, 2], shape=(nx + 1, nx + 3))
+
+
+def opening(here: Array, before: Array, after: Array) -> tuple[Array, Array]:
+    """Return by how much a third-order face is too high where the film opens, and its slope by `before`.
+
+    Behind the outlet the film opens so fast that (-H_(i-1) + 5 H_i + 2 H_(i+1))/6 would drain the thinnest cell
+    below zero. The face is limited to H_i + d for rises d = `before` up to there, and to H_i - d/4 for falls,
+    give or take a share `SLACK` of H_i, which leaves films of moderate curvature alone. The slopes by `here` and
+    `after`, where the limit acts, are -SLACK and 1/3.
+
+    Parameters
+    ----------
+    here, before, after : ndarray
+        H_i, H_i - H_(i-1) and H_(i+1) - H_i.
+    """
+    slope = np.where(before > 0.0, 5.0 / 6.0, -5.0 / 12.0)
+    excess = after / 3.0 - slope * before - SLACK * here
+    return np.maximum(excess, 0.0), np.where(excess > 0.0, -slope, 0.0)
 
 
 def pair(rows: int, columns: int, first: int) -> Any:

@@ -83,16 +83,17 @@ def state_of(equations: ContactEquations, levels: tuple[Level, ...]) -> ContactS
     """Return the state that the newest of some levels is."""
     newest, shape = levels[0], equations.grid.shape
     film = equations.film(newest.pressure, newest.delta)
+    load = equations.load(newest.pressure) / HERTZ_LOAD
     return ContactState(
         t=newest.t,
         delta=newest.delta,
         velocity=newest.velocity,
         central_film=equations.central_film(newest.pressure, newest.delta),
         minimum_film=float(film.min()),
-        carried_load=equations.load(newest.pressure) / HERTZ_LOAD,
+        carried_load=load,
         pressure=newest.pressure.reshape(shape),
         thickness=(equations.sampling.stored @ film).reshape(shape),
-        checkerboard=checkerboard(newest.pressure.reshape(shape), equations.grid),
+        checkerboard=checkerboard(newest.pressure.reshape(shape), equations.grid, load),
         levels=levels,
     )
 

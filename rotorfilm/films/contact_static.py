@@ -47,5 +47,8 @@ def fit_static_law(delta: Array, load: Array) -> StaticLaw:
     lead = np.exp(minimize_scalar(lambda x: float(np.sum(fitted(np.exp(x))[1] ** 2)), bounds=(-7.0, 2.0)).x)
     (exponent, shift), missed = fitted(float(lead))
     return StaticLaw(
-        highest + float(lead), float(np.exp(-shift / exponent)), float(exponent), float(np.max(abs(np.expm1(missed))))
+        highest + float(lead),
+        float(np.exp(-shift / exponent)),
+        float(exponent),
+        float(np.max(abs(np.expm1(missed)))),
     )

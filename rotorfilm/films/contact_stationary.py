@@ -16,7 +16,7 @@ from .contact_preconditioner import Closure
 HERTZ_LOAD = 2.0 * math.pi / 3.0
 """Integral of the pressure of the dry contact, sqrt(1 - r^2): the unit of the load f."""
 
-COARSEST = 24
+COARSEST = 32
 """Fewest cells along a side down to which grids are halved."""
 
 EASY = (0.1, 5.0)
@@ -44,17 +44,15 @@ def stationary(equations: ContactEquations, load: float, tolerance: float = 1e-7
     coarse = _halved(equations)
     if coarse is None:
         return _from_dry(equations, load, tolerance)
-    below = stationary(coarse, load, max(tolerance, 1e-4))
-    guess = _refined(below.pressure.reshape(coarse.grid.shape)).ravel()
     try:
+        below = stationary(coarse, load, max(tolerance, 1e-4))
+        guess = _refined(below.pressure.reshape(coarse.grid.shape)).ravel()
         return _solved(equations, guess, below.delta, load, tolerance)
     except ConvergenceError:
         return _from_dry(equations, load, tolerance)
 
 
-def follow(
-    equations: ContactEquations, start: Contact, load: float, tolerance: float = 1e-7
-) -> Contact:
+def follow(equations: ContactEquations, start: Contact, load: float, tolerance: float = 1e-7) -> Contact:
     """Return the stationary solution under a load from one under a load near by."""
     try:
         return _solved(equations, start.pressure, start.delta, load, tolerance)

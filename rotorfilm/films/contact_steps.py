@@ -144,7 +144,9 @@ class Stepper:
             return self._first()
         return levels[0].t - levels[1].t
 
-    def _accepted(self, levels: tuple[Level, ...], step: float, end: float) -> tuple[tuple[Level, ...], float]:
+    def _accepted(
+        self, levels: tuple[Level, ...], step: float, end: float
+    ) -> tuple[tuple[Level, ...], float]:
         """Return the levels after one step that passed its test, and the length proposed for the next."""
         while True:
             left = end - levels[0].t
@@ -159,7 +161,9 @@ class Stepper:
             if isinstance(self.control, FixedSteps):
                 return self._kept(level, levels), self.control.step
             if error <= 1.0:
-                growth = FASTEST if error == 0.0 else min(FASTEST, max(SLOWEST, SAFETY * error ** (-1.0 / 3.0)))
+                growth = (
+                    FASTEST if error == 0.0 else min(FASTEST, max(SLOWEST, SAFETY * error ** (-1.0 / 3.0)))
+                )
                 return self._kept(level, levels), min(now * growth, max(self.control.largest, now))
             self.work["rejected"] += 1
             step = now * max(SLOWEST, SAFETY * error ** (-1.0 / 3.0))
@@ -208,4 +212,8 @@ class Stepper:
             )
         ]
         film = np.sqrt(np.mean(missed[2][self._near.ravel()] ** 2))
-        return share * float(max(abs(missed[0]), np.sqrt(self.motion.inertia) * abs(missed[1]), film)) / self.control.tolerance
+        return (
+            share
+            * float(max(abs(missed[0]), np.sqrt(self.motion.inertia) * abs(missed[1]), film))
+            / self.control.tolerance
+        )

@@ -65,7 +65,9 @@ def fit_transfer(frequency: Array, value: np.ndarray, order: int, weight: Array)
 
 def _start(frequency: Array, order: int) -> tuple[Array, Array]:
     """Return weakly damped pole pairs spread over the frequencies, and one real pole if the order is odd."""
-    pairs = np.geomspace(max(frequency[0], 1e-2 * frequency[-1]), frequency[-1], max(order // 2, 1))[: order // 2]
+    pairs = np.geomspace(max(frequency[0], 1e-2 * frequency[-1]), frequency[-1], max(order // 2, 1))[
+        : order // 2
+    ]
     poles = [-0.3 * w + 1j * w for w in pairs]
     return _canonical(np.array([*poles, *np.conj(poles), *([-frequency[-1] / 3.0] * (order % 2))]))
 
