@@ -33,8 +33,8 @@ class PointContact:
 
     Lengths in the plane are in Hertzian radii a, pressures in the Hertzian maximum p_H, film thickness and
     approach in a^2/(2 R), time in 2 a/(u1 + u2), u1 and u2 being the surface speeds in the frame of the
-    contact; loads in the Hertzian load 2 pi p_H a^2/3. `RollingBall` converts from SI. Equations and errata of
-    the source: `docs/contact.md`.
+    contact; loads in the Hertzian load 2 pi p_H a^2/3. `RollingBall` converts from SI. Equations, accuracy
+    and errata of the source: `docs/contact.md`.
 
     Parameters
     ----------
@@ -115,7 +115,7 @@ class PointContact:
         return self._checked(state_of(self.equations, (level,)))
 
     def state(self, pressure: np.ndarray, delta: float, velocity: float = 0.0) -> ContactState:
-        """Return the state at t = 0 of given pressures (nx, m), approach and velocity, to start a run from."""
+        """Return the state at t = 0 of given pressures (nx, m), approach and velocity: a start of a run."""
         values = np.asarray(pressure, dtype=float)
         if values.shape != self.grid.shape or not np.all(values >= 0.0):
             raise InputError(
@@ -155,8 +155,8 @@ class PointContact:
         W : float [1]
             Inertia of the ball, pi m (u1 + u2)^2/(12 P0 R); 0 for a massless one.
         load : float or callable
-            f or f(t). A callable may list the times of its jumps in an attribute `breakpoints`; at one of them
-            it is to return the value before the jump.
+            f or f(t). A callable may list the times of its jumps in an attribute `breakpoints`; at one of
+            them it is to return the value before the jump.
         control : AdaptiveSteps or FixedSteps, optional
             `AdaptiveSteps()` by default.
         snapshots : sequence of float [1]
@@ -183,7 +183,7 @@ class PointContact:
         return self._run(start, GivenMotion(approach=approach), duration, control, snapshots)
 
     def save(self, run: ContactRun, path: str | Path) -> None:
-        """Write a run and its final state, from which it can be resumed, as NetCDF; snapshots are left out."""
+        """Write a run and its final state, from which to resume it, as NetCDF; snapshots are left out."""
         save_run(run, path, repr(self))
 
     def load(self, path: str | Path) -> ContactRun:
@@ -214,7 +214,8 @@ class PointContact:
         if state.checkerboard > ALTERNATING:
             warnings.warn(
                 f"pressure must not alternate from cell to cell by more than {ALTERNATING:.1%}, got "
-                f"{state.checkerboard:.1%} at V = {self.V:.4g}, Q0 = {self.Q0:.4g}: use UpwindScheme() or more cells",
+                f"{state.checkerboard:.1%} at V = {self.V:.4g}, Q0 = {self.Q0:.4g}: use UpwindScheme() "
+                "or more cells",
                 ValidityWarning,
                 stacklevel=3,
             )

@@ -36,8 +36,8 @@ SLOWEST = 0.3
 class ContactLaw:
     """Force of a lubricated point contact over the approach z of the ball, a Model with `order` states.
 
-    F = F_s(z) - [Z(s) - Z(0)] (z - z_1): the static law, and what the dynamic stiffness at the load f = 1 adds
-    to it. The state space is stable and has no static part. Built by `reduce_contact` or `reduce_ball`; the
+    F = F_s(z) - [Z(s) - Z(0)] (z - z_1): the static law, and what the dynamic stiffness at the load f = 1
+    adds to it. The state space is stable and has no static part. Built by `reduce_contact` or `reduce_ball`; the
     errors of both fits are kept, that of a motion is to be asked from the full model.
 
     Parameters
@@ -136,9 +136,9 @@ class ContactLaw:
 
     def resting(self, delta: float) -> Array:
         """Return the state in which the contact has long rested at an approach delta [1]."""
-        return (
-            -np.linalg.solve(self.A, self.B[:, 0]) * (delta - self.operating) if self.order else np.zeros(0)
-        )
+        if not self.order:
+            return np.zeros(0)
+        return np.asarray(-np.linalg.solve(self.A, self.B[:, 0]) * (delta - self.operating), dtype=float)
 
     @property
     def _static(self) -> StaticLaw:
@@ -215,8 +215,8 @@ def _require_damping(law: ContactLaw) -> None:
     damping = -transfer(Linearization(law.A, law.B, law.C, law.D), 1j * frequency).imag / frequency
     if damping.min() < -1e-3 * damping.max():
         warnings.warn(
-            f"the law must damp at every frequency, got negative damping at {frequency[damping.argmin()]:.3g}: "
-            "take another order",
+            "the law must damp at every frequency, got negative damping at "
+            f"{frequency[damping.argmin()]:.3g}: take another order",
             ValidityWarning,
             stacklevel=3,
         )

@@ -33,7 +33,8 @@ class RollingBall:
 
         V = 48 mu0 speed R^2/(p_H a^3),    t0 = a/speed,    W = pi m speed^2/(3 P R).
 
-    The source (Panovko 2011) writes |v| for u1 + u2; taken for the rolling speed, its V would be half of this.
+    The source (Panovko 2011) writes |v| for u1 + u2; taken for the rolling speed, its V would
+    be half of this.
 
     Parameters
     ----------

@@ -12,11 +12,11 @@ CORE = 0.85
 
 
 def checkerboard(pressure: Array, grid: ContactGrid, load: float) -> float:
-    """Return the alternating part of the pressure / its rms, in the core of the contact, by the median over cells.
+    """Return the alternating part of the pressure / its rms, by the median over the core of the contact.
 
     The sixth difference along x, over 64, passes what alternates from cell to cell and suppresses what is
     smooth with the sixth power of the spacing, so the answer tends to 0 on fine grids unless the scheme is
-    blind to the alternating mode. The median leaves out a pressure spike, which is steep on a few cells only.
+    blind to the alternating mode. The median leaves out a pressure spike, which is steep on a few cells.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 """The discrete equations of a lubricated point contact, their residual and its derivatives.
 
-In units of the Hertzian contact (`docs/contact.md`; Panovko 2011, equations 5-7, with the errata listed there)
+In units of the Hertzian contact (Panovko 2011, equations 5-7, with the errata listed in `docs/contact.md`)
 
     H = delta + x^2 + y^2 + (4/pi^2) integral of p/|r - r'| dS',
     div(rho H^3 grad Phi) - V (rho H)_x - V (rho H)_t = R,    p >= 0,  R <= 0,  p R = 0,
@@ -113,7 +113,8 @@ class ContactEquations:
         density = self._face_density(pressure)
         carried = self._flow.divergence[0] @ self._carrying(self._density(pressure) * film)
         transport = (carried + rate * self.sampling.stored) * -self.V
-        by_pressure, by_film = 0.0, transport @ sparse.diags(self._density(pressure))
+        by_pressure: Any = 0.0
+        by_film: Any = transport @ sparse.diags(self._density(pressure))
         parts = zip(
             self._flow.divergence, self._flow.gradient, self._faces(film), self._gradients(pressure),
             (self.sampling.along, self.sampling.across), density, strict=True,

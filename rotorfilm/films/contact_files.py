@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from scipy.io import netcdf_file
@@ -27,6 +28,7 @@ def save_run(run: ContactRun, path: str | Path, contact: str) -> None:
     contact : str
         What was computed, to be compared on loading.
     """
+    file: Any
     with netcdf_file(path, "w") as file:
         file.contact, file.complete = contact.encode(), int(run.complete)
         file.work = json.dumps(run.work).encode()
@@ -52,6 +54,7 @@ def load_run(path: str | Path, contact: str, equations: ContactEquations) -> Con
     InputError
         If the file is of another contact.
     """
+    file: Any
     with netcdf_file(path, "r", mmap=False) as file:
         if file.contact.decode() != contact:
             raise InputError(f"path must be a run of {contact}, got one of {file.contact.decode()}")
@@ -60,7 +63,7 @@ def load_run(path: str | Path, contact: str, equations: ContactEquations) -> Con
     rows = zip(*(arrays[f"level_{name}"] for name in Level._fields), strict=True)
     levels = tuple(Level(float(t), float(d), float(v), p, s) for t, d, v, p, s in rows)
     return ContactRun(
-        **{name: arrays[name] for name in COLUMNS},  # type: ignore[arg-type]
+        **{name: arrays[name] for name in COLUMNS},
         snapshots=(),
         final=state_of(equations, levels),
         complete=complete,

@@ -66,12 +66,12 @@ class ContactGrid:
     @property
     def x(self) -> Array:
         """Centers of the cells along x, shape (cells[0],) [1]."""
-        return self.inlet + (np.arange(self.shape[0]) + 0.5) * self.spacing[0]
+        return np.asarray(self.inlet + (np.arange(self.shape[0]) + 0.5) * self.spacing[0], dtype=float)
 
     @property
     def y(self) -> Array:
         """Centers of the cells across, y > 0 only, shape (cells[1] // 2,) [1]."""
-        return (np.arange(self.shape[1]) + 0.5) * self.spacing[1]
+        return np.asarray((np.arange(self.shape[1]) + 0.5) * self.spacing[1], dtype=float)
 
 
 def _are_cells(cells: object) -> bool:

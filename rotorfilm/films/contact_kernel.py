@@ -88,7 +88,11 @@ class Deflection:
         lag = np.where(lag < shape[0], lag, lag - self.along)
         x = (first - 0.5 + lag) * grid.spacing[0]
         lines = np.arange(self.across + (not corners)) + 0.5 * corners
-        table = kernel(x[:, None], lines * grid.spacing[1], grid.spacing)
+        table = kernel(
+            np.asarray(x[:, None], dtype=float),
+            np.asarray(lines * grid.spacing[1], dtype=float),
+            grid.spacing,
+        )
         # Even about y = 0: a cosine transform of the first kind for centers, of the second for lines.
         spectrum = fft.dct(table, type=2 if corners else 1, axis=1)[:, : self.across]
         self.spectrum = fft.rfft(spectrum, axis=0) / (2.0 * self.across if corners else 1.0)
@@ -96,8 +100,8 @@ class Deflection:
     def __call__(self, pressure: Array) -> Array:
         """Return the deflection at the sample points, flat, for pressures on the cells, flat."""
         wave = fft.dct(pressure.reshape(self.grid.shape), type=2, n=self.across, axis=1)
-        wave = fft.rfft(wave, n=self.along, axis=0) * self.spectrum
-        lines = fft.irfft(wave, n=self.along, axis=0)[: self.samples[0]]
+        product = fft.rfft(wave, n=self.along, axis=0) * self.spectrum
+        lines = fft.irfft(product, n=self.along, axis=0)[: self.samples[0]]
         if self.corners:
             lines = fft.dct(np.pad(lines, ((0, 0), (0, 1))), type=1, axis=1)
         else:

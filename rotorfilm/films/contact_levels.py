@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol, runtime_checkable
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -39,7 +39,7 @@ class Weights(NamedTuple):
     new: float
     old: Array
 
-    def history(self, values: Sequence[float] | Sequence[Array]) -> float | Array:
+    def history(self, values: Sequence[Any]) -> Any:
         """Return the part of the derivative that earlier levels make."""
         return sum(w * y for w, y in zip(self.old, values, strict=False))
 
@@ -155,8 +155,8 @@ def error_share(t: float, times: Sequence[float]) -> float:
     """Return the error of a second-order step / its distance from the extrapolation through `times`.
 
     From three times this is the ratio of the leading terms: y'''/6 times h g (t - times[2]) for the
-    extrapolation and times (h g)^2/(h + g) for the step, of opposite signs. From two times, as after a jump, the
-    extrapolation is one order short and the share is on the safe side.
+    extrapolation and times (h g)^2/(h + g) for the step, of opposite signs. From two times, as after a jump,
+    the extrapolation is one order short and the share is on the safe side.
     """
     h, g = t - times[0], t - times[1]
     if len(times) == 2:

@@ -12,9 +12,7 @@ from scipy import linalg
 
 from ..errors import ConvergenceError
 from ..model import Array
-from .contact_equations import ContactEquations
-
-ComplexArray = np.ndarray
+from .contact_equations import ContactEquations, Derivatives
 
 CLOSE = 1e-10
 """Relative change of an eigenvalue that ends the search for it."""
@@ -72,14 +70,14 @@ class SmallMotion:
         )
 
 
-def _reduced(derivatives: object, wet: Array, columns: Array) -> tuple[Array, Array]:
+def _reduced(derivatives: Derivatives, wet: np.ndarray, columns: Array) -> tuple[Array, Array]:
     """Return the dense derivatives of the film cells' equations by their pressures and by delta."""
-    by_pressure, by_film = derivatives  # type: ignore[misc]
+    by_pressure, by_film = derivatives
     rows = by_film[wet]
     return by_pressure[wet][:, wet].toarray() + rows @ columns, rows @ np.ones(rows.shape[1])
 
 
-def _deflections(equations: ContactEquations, wet: Array) -> Array:
+def _deflections(equations: ContactEquations, wet: np.ndarray) -> Array:
     """Return the film thickness at the samples per pressure of each film cell, shape (samples, n_wet)."""
     unit = np.zeros(equations.grid.shape[0] * equations.grid.shape[1])
     columns = np.empty((len(equations.sampling.gap), len(wet)))

@@ -7,7 +7,6 @@ changes sides when its pressure turns negative or its residual positive (Hinterm
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -56,11 +55,10 @@ class _Linear(NamedTuple):
 
     derivatives: Derivatives
     by_delta: Array
-    wet: Array
+    wet: np.ndarray
     closure: Closure
 
 
-@dataclass
 class NewtonKrylov:
     """Solver of one set of equations that keeps its preconditioner from call to call.
 
@@ -71,10 +69,8 @@ class NewtonKrylov:
         Largest error of pressures and approach.
     """
 
-    equations: ContactEquations
-    tolerance: float = 1e-7
-
-    def __post_init__(self) -> None:
+    def __init__(self, equations: ContactEquations, tolerance: float) -> None:
+        self.equations, self.tolerance = equations, tolerance
         self._change: Distribution | None = None
         self._factors: Factors | None = None
 
@@ -125,7 +121,9 @@ class NewtonKrylov:
             f"{self.tolerance:.0e}, got an error of {error:.1e} at delta = {delta:.6g}"
         )
 
-    def _linear(self, pressure: Array, film: Array, wet: Array, closure: Closure, rate: float) -> _Linear:
+    def _linear(
+        self, pressure: Array, film: Array, wet: np.ndarray, closure: Closure, rate: float
+    ) -> _Linear:
         derivatives = self.equations.derivatives(pressure, film, rate)
         by_delta = derivatives.by_film @ np.ones(derivatives.by_film.shape[1])
         return _Linear(derivatives, np.where(wet, by_delta, 0.0), wet, closure)

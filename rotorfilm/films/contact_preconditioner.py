@@ -148,15 +148,15 @@ def _couplings(
 
     Cells beyond y = 0 are the mirror images of cells in the grid; others outside of it do not count.
     """
-    a, b, k, l = np.meshgrid(
+    a, b, k, q = np.meshgrid(
         np.arange(points[0]),
         np.arange(points[1]),
         np.arange(len(along)),
         np.arange(len(across)),
         indexing="ij",
     )
-    i, j = a + shift - along[k], b - across[l]
+    i, j = a + shift - along[k], b - across[q]
     j = np.where(j < 0, -1 - j, j)
-    inside = (i >= 0) & (i < cells[0]) & (j < cells[1]) & (values[k, l] != 0.0)
-    entries = (values[k, l][inside], ((a * points[1] + b)[inside], (i * cells[1] + j)[inside]))
+    inside = (i >= 0) & (i < cells[0]) & (j < cells[1]) & (values[k, q] != 0.0)
+    entries = (values[k, q][inside], ((a * points[1] + b)[inside], (i * cells[1] + j)[inside]))
     return sparse.csr_matrix(entries, shape=(points[0] * points[1], cells[0] * cells[1]))

@@ -48,7 +48,7 @@ class _Recorder:
         """Return what has been recorded."""
         columns = np.array(self.rows, dtype=float).T
         return ContactRun(
-            **dict(zip(SERIES, columns, strict=False)),  # type: ignore[arg-type]
+            **dict(zip(SERIES, columns, strict=False)),
             driven=columns[-1],
             snapshots=tuple(self.snapshots),
             final=state_of(self.equations, self.levels),

@@ -16,7 +16,6 @@ from ..model import Array
 from .contact_grid import ContactGrid
 from .contact_kernel import Deflection, cell_deflection, center_weights, smooth_cell_deflection
 
-
 SLACK = 0.1
 """Share of the film thickness by which a face may be too high before it is limited."""
 
@@ -37,8 +36,8 @@ class Sampling(NamedTuple):
     carried : sparse matrix, shape ((nx + 1) m, samples)
         Film thickness that the moving surfaces carry through the faces across x.
     upstream : tuple of sparse matrix, or None
-        Film of the cell upstream of each of these faces, its rise before and after that cell, for a scheme that
-        is limited where the film opens: see `opening`.
+        Film of the cell upstream of each of these faces, its rise before and after that cell, for a scheme
+        that is limited where the film opens: see `opening`.
     stored : sparse matrix, shape (n, samples)
         Film thickness in the cells.
     spread : sparse matrix, shape (samples, n)
@@ -149,10 +148,10 @@ def _faces(nx: int, weights: list[float]) -> Any:
 def opening(here: Array, before: Array, after: Array) -> tuple[Array, Array]:
     """Return by how much a third-order face is too high where the film opens, and its slope by `before`.
 
-    Behind the outlet the film opens so fast that (-H_(i-1) + 5 H_i + 2 H_(i+1))/6 would drain the thinnest cell
-    below zero. The face is limited to H_i + d for rises d = `before` up to there, and to H_i - d/4 for falls,
-    give or take a share `SLACK` of H_i, which leaves films of moderate curvature alone. The slopes by `here` and
-    `after`, where the limit acts, are -SLACK and 1/3.
+    Behind the outlet the film opens so fast that (-H_(i-1) + 5 H_i + 2 H_(i+1))/6 would drain the thinnest
+    cell below zero. The face is limited to H_i + d for rises d = `before` up to there, and to H_i - d/4 for
+    falls, give or take a share `SLACK` of H_i, which leaves films of moderate curvature alone. The slopes by
+    `here` and `after`, where the limit acts, are -SLACK and 1/3.
 
     Parameters
     ----------
@@ -174,8 +173,8 @@ def product(along: Any, across: Any) -> Any:
     return sparse.kron(along, across).tocsr()
 
 
-def _squares(x: Array, y: Array) -> Array:
-    return (x[:, None] ** 2 + y**2).ravel()
+def _squares(x: np.ndarray, y: np.ndarray) -> Array:
+    return np.asarray(x[:, None] ** 2 + y**2, dtype=float).ravel()
 
 
 def _fourth_order_faces(nx: int) -> Any:

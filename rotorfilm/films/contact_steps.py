@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -18,7 +17,6 @@ from .contact_equations import ContactEquations, TimeDerivative
 from .contact_levels import (
     ContactMotion,
     Level,
-    Weights,
     derivative_weights,
     error_share,
     extrapolation_weights,
@@ -29,7 +27,13 @@ LEVELS = 3
 """Levels that the extrapolation takes."""
 
 SAFETY, SLOWEST, FASTEST = 0.9, 0.3, 2.0
-"""Of the step control: margin, and the range of the ratio of two steps (below 2.41, where BDF2 is stable)."""
+"""Of the step control: margin, and range of the ratio of two steps (BDF2 is stable below 2.41)."""
+
+NEWTON_SHARE = 1e-2
+"""Error of the equations of a step, per error allowed in it."""
+
+CONTACT_RADIUS = 1.2
+"""Radius within which errors of the film thickness count."""
 
 HOPELESS = 1e-5
 """Step below which equations that cannot be solved end an integration."""
@@ -43,7 +47,8 @@ class AdaptiveSteps:
     """Second-order backward differences (BDF2), each step as long as its error allows.
 
     The error of approach, velocity times sqrt(W) and film thickness (rms over the contact) in one step is
-    estimated from its distance to the extrapolation of earlier levels. At `breakpoints` of the drive the history starts anew.
+    estimated from its distance to the extrapolation of earlier levels. At `breakpoints` of the drive the
+    history starts anew.
 
     Parameters
     ----------
@@ -80,7 +85,7 @@ class FixedSteps:
 
     step: float
     order: int = 2
-    tolerance: float = 1e-6
+    tolerance: float = 1e-7
 
     def __post_init__(self) -> None:
         require_positive("step", self.step)
@@ -89,16 +94,6 @@ class FixedSteps:
             raise InputError(f"order must be 1 or 2, got {self.order!r}")
 
 
-@runtime_checkable
-class HasBreakpoints(Protocol):
-    """A function of time that knows where it jumps."""
-
-    @property
-    def breakpoints(self) -> tuple[float, ...]:
-        """Times of the jumps, in rising order."""
-
-
-@dataclass
 class Stepper:
     """One step after another, with the solver whose preconditioner they share.
 
@@ -109,15 +104,15 @@ class Stepper:
     control : AdaptiveSteps or FixedSteps
     """
 
-    equations: ContactEquations
-    motion: ContactMotion
-    control: AdaptiveSteps | FixedSteps
-
-    def __post_init__(self) -> None:
-        share = 1e-2 if isinstance(self.control, AdaptiveSteps) else 1.0
-        self.solver = NewtonKrylov(self.equations, share * self.control.tolerance)
+    def __init__(
+        self, equations: ContactEquations, motion: ContactMotion, control: AdaptiveSteps | FixedSteps
+    ) -> None:
+        self.equations, self.motion, self.control = equations, motion, control
+        share = NEWTON_SHARE if isinstance(control, AdaptiveSteps) else 1.0
+        self.solver = NewtonKrylov(equations, share * control.tolerance)
         self.work = {"steps": 0, "rejected": 0, "newton": 0, "gmres": 0}
-        self._near = np.hypot(*np.meshgrid(self.equations.grid.x, self.equations.grid.y, indexing="ij")) < 1.2
+        distance = np.hypot(*np.meshgrid(equations.grid.x, equations.grid.y, indexing="ij"))
+        self._near = (distance < CONTACT_RADIUS).ravel()
 
     def advance(self, levels: tuple[Level, ...], ends: Sequence[float]) -> Iterator[tuple[Level, ...]]:
         """Yield the levels after each step, newest first, until the last of `ends`, hitting each of them.
@@ -160,17 +155,16 @@ class Stepper:
                 error = np.inf
             if isinstance(self.control, FixedSteps):
                 return self._kept(level, levels), self.control.step
+            factor = SAFETY * max(error, 1e-6) ** (-1.0 / 3.0)
             if error <= 1.0:
-                growth = (
-                    FASTEST if error == 0.0 else min(FASTEST, max(SLOWEST, SAFETY * error ** (-1.0 / 3.0)))
-                )
-                return self._kept(level, levels), min(now * growth, max(self.control.largest, now))
+                longest = max(self.control.largest, now)
+                return self._kept(level, levels), min(now * min(FASTEST, max(SLOWEST, factor)), longest)
             self.work["rejected"] += 1
-            step = now * max(SLOWEST, SAFETY * error ** (-1.0 / 3.0))
+            step = now * max(SLOWEST, factor)
             if step < SHORTEST:
                 raise ConvergenceError(
-                    f"steps must be at least {SHORTEST:.0e} long, got {step:.1e} at t = {levels[0].t:.6g}: list "
-                    "the jumps of the drive in its attribute `breakpoints`"
+                    f"steps must be at least {SHORTEST:.0e} long, got {step:.1e} at t = {levels[0].t:.6g}: "
+                    "list the jumps of the drive in its attribute `breakpoints`"
                 )
 
     def _kept(self, level: Level, levels: tuple[Level, ...]) -> tuple[Level, ...]:
@@ -193,27 +187,22 @@ class Stepper:
         velocity = weights.new * found.delta + weights.history([level.delta for level in levels])
         stored = self.equations.stored(found.pressure, found.film)
         level = Level(t, found.delta, float(velocity), found.pressure, stored)
-        return level, self._error(levels, level, ahead, weights)
+        return level, self._error(levels, level, ahead)
 
     def _wet(self, guess: Array, newest: Level) -> Array:
         """Return the extrapolated pressure on the cells that held film, and a little above zero there."""
         return np.where(newest.pressure > 0.0, np.maximum(guess, 1e-12), 0.0)
 
-    def _error(self, levels: tuple[Level, ...], level: Level, ahead: Array, weights: Weights) -> float:
+    def _error(self, levels: tuple[Level, ...], level: Level, ahead: Array) -> float:
         if isinstance(self.control, FixedSteps) or len(levels) == 1:
             return 0.0
         share = error_share(level.t, [earlier.t for earlier in levels])
-        missed = [
-            now - sum(w * old for w, old in zip(ahead, earlier, strict=True))
-            for now, earlier in (
-                (level.delta, [e.delta for e in levels]),
-                (level.velocity, [e.velocity for e in levels]),
-                (level.stored, [e.stored for e in levels]),
-            )
-        ]
-        film = np.sqrt(np.mean(missed[2][self._near.ravel()] ** 2))
-        return (
-            share
-            * float(max(abs(missed[0]), np.sqrt(self.motion.inertia) * abs(missed[1]), film))
-            / self.control.tolerance
+        parts = ([getattr(earlier, name) for earlier in levels] for name in ("delta", "velocity", "stored"))
+        new = (level.delta, level.velocity, level.stored)
+        delta, velocity, stored = (
+            now - sum(w * old for w, old in zip(ahead, past, strict=True))
+            for now, past in zip(new, parts, strict=True)
         )
+        film = np.sqrt(np.mean(stored[self._near] ** 2))
+        largest = max(abs(delta), np.sqrt(self.motion.inertia) * abs(velocity), film)
+        return share * float(largest) / self.control.tolerance

@@ -1,8 +1,8 @@
 """Vector fitting: a stable state space of given order through samples of a transfer function.
 
-After Gustavsen and Semlyen (1999), for functions that vanish at s = 0: f(s) = s sum of r_k/(s - p_k). The poles
-are moved to the zeros of a fitted denominator, and those that land in the right half-plane are mirrored, so
-the result is stable by construction; its static gain is exactly zero.
+After Gustavsen and Semlyen (1999), for functions that vanish at s = 0: f(s) = s sum of r_k/(s - p_k). The
+poles are moved to the zeros of a fitted denominator, and those that land in the right half-plane are
+mirrored, so the result is stable by construction; its static gain is exactly zero.
 """
 
 from __future__ import annotations

@@ -31,30 +31,30 @@ def test_dry_contact_is_hertz():
 
 @pytest.mark.closed_form
 def test_velocity_scale_is_the_sum_of_the_surface_speeds():
-    # Reynolds' equation in SI, (h^3 p_x/(12 mu))_x = (u1 + u2)/2 h_x + h_t with u1 = u2 = speed: V is the ratio of the
-    # wedge term to the pressure term in Hertzian units, and squeeze counts as much as the wedge after time a/speed.
+    # Reynolds' equation in SI, (h^3 p_x/(12 mu))_x = (u1 + u2)/2 h_x + h_t with u1 = u2 = speed: V is the
+    # ratio of wedge to pressure flow in Hertzian units, and squeeze counts as much as the wedge in a/speed.
     a, p, h, t = BALL.contact_radius, BALL.contact_pressure, BALL.film_scale, BALL.time_scale
     pressure_flow = h**3 * p / (12.0 * BALL.viscosity * a**2)
-    assert BALL.V == pytest.approx(BALL.speed * h / a / pressure_flow)
-    assert BALL.V == pytest.approx(h / t / pressure_flow)
+    assert pytest.approx(BALL.speed * h / a / pressure_flow) == BALL.V
+    assert pytest.approx(h / t / pressure_flow) == BALL.V
     # m z'' = load, in the same units
-    assert BALL.W == pytest.approx(BALL.mass * h / t**2 / (p * a**2))
+    assert pytest.approx(BALL.mass * h / t**2 / (p * a**2)) == BALL.W
 
 
 @pytest.mark.closed_form
 def test_parameters_of_moes_agree_with_their_definition():
     E, R = BALL.combined_modulus, BALL.radius
     speed = 2.0 * BALL.viscosity * BALL.speed / (E * R)
-    assert BALL.moes.M == pytest.approx(BALL.load / (E * R**2) * speed**-0.75)
-    assert BALL.moes.L == pytest.approx(BALL.pressure_coefficient * E * speed**0.25)
+    assert pytest.approx(BALL.load / (E * R**2) * speed**-0.75) == BALL.moes.M
+    assert pytest.approx(BALL.pressure_coefficient * E * speed**0.25) == BALL.moes.L
     assert hamrock_dowson(BALL.moes, BALL.hamrock_dowson.U) == pytest.approx(BALL.hamrock_dowson)
 
 
 @pytest.mark.literature
 def test_parameters_of_the_published_case():
     moes = moes_parameters(0.1, 5.0)
-    assert moes.M == pytest.approx(95.92, abs=0.01)
-    assert moes.L == pytest.approx(2.998, abs=1e-3)
+    assert pytest.approx(95.92, abs=0.01) == moes.M
+    assert pytest.approx(2.998, abs=1e-3) == moes.L
 
 
 @pytest.mark.literature
@@ -101,5 +101,7 @@ def test_ball_names_the_broken_rule(change, message):
 def test_roelands_refuses_a_lubricant_that_thickens_too_fast():
     from dataclasses import replace
 
-    with pytest.raises(InputError, match=r"pressure_coefficient must give Roelands' law an exponent of at most 1"):
+    with pytest.raises(
+        InputError, match=r"pressure_coefficient must give Roelands' law an exponent of at most 1"
+    ):
         replace(BALL, pressure_coefficient=6e-8).contact(roelands=True)

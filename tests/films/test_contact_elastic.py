@@ -77,7 +77,9 @@ def test_dry_contact_scales_with_the_load(load):
 @pytest.mark.parametrize("law", [BarusViscosity(), RoelandsViscosity(exponent=0.6, pressure_ratio=4.0)])
 def test_potential_is_the_integral_of_the_mobility(law):
     for pressure in (0.0, 0.3, 1.2):
-        exact, _ = integrate.quad(lambda p: law.mobility(np.array(p), 7.0), pressure, 60.0, epsabs=0, limit=400)
+        exact, _ = integrate.quad(
+            lambda p: law.mobility(np.array(p), 7.0), pressure, 60.0, epsabs=0, limit=400
+        )
         assert law.potential(np.array(pressure), 7.0) == pytest.approx(-exact, rel=1e-8)
     assert law.mobility(np.zeros(1), 7.0)[0] == 1.0
     slope = (law.mobility(np.array(1e-6), 7.0) - 1.0) / 1e-6
