@@ -5,11 +5,15 @@ from .bush_materials import BushGeometry, Friction, LinerMaterial, ShaftMaterial
 from .bush_published import PublishedStage, published_stage
 from .bush_reaction import BushReaction
 from .bush_wear import BushWear
+from .contact import PointContact, perturbed
+from .contact_law import ContactLaw, reduce_ball, reduce_contact
 from .damper import AxialFeed, DamperGroups, PorousCage, PorousDamper, RadialFeed, damper_groups
 from .film_state import FilmState, film_state
 from .groove_map import build_groove_map
 from .journal import JournalBearing
 from .linear import LinearBearing
+from .ride import ride
+from .rolling_ball import RollingBall
 from .sprung import Sprung
 
 __all__ = [
@@ -18,6 +22,7 @@ __all__ = [
     "BushGeometry",
     "BushReaction",
     "BushWear",
+    "ContactLaw",
     "DamperGroups",
     "FilmState",
     "Friction",
@@ -25,15 +30,21 @@ __all__ = [
     "LinearBearing",
     "LinerMaterial",
     "MeltingBush",
+    "PointContact",
     "PorousCage",
     "PorousDamper",
     "PublishedStage",
     "RadialFeed",
+    "RollingBall",
     "ShaftMaterial",
     "Sprung",
     "build_groove_map",
     "damper_groups",
     "f4k20_bush",
     "film_state",
+    "perturbed",
     "published_stage",
+    "reduce_ball",
+    "reduce_contact",
+    "ride",
 ]

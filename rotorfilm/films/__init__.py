@@ -5,6 +5,13 @@ from .bush_heat import ApproximateShaft, ContactBalance, ExactShaft, GlobalBalan
 from .bush_profile import LocalMelting, SharedMelting
 from .cavitation import Cavitation, Complementarity, FullFilm, HalfSommerfeld
 from .complementarity_arc import ComplementarityArc
+from .contact_checkerboard import checkerboard
+from .contact_fluid import BarusViscosity, DowsonHigginsonDensity, RoelandsViscosity
+from .contact_grid import ContactGrid
+from .contact_loads import SineLoad, StepLoad
+from .contact_scheme import StaggeredScheme, UpwindScheme
+from .contact_state import ContactRun, ContactState
+from .contact_steps import AdaptiveSteps, FixedSteps
 from .extrapolated import ExtrapolatedFilm
 from .geometry import FilmGeometry, Groove, Pad
 from .groove_map import GroovedMapFilm
@@ -24,11 +31,17 @@ from .squeeze_laws import FiniteSqueeze, PublishedSqueeze, ShortSqueeze
 from .squeeze_map import FiniteMapSqueeze, MapSqueeze
 
 __all__ = [
+    "AdaptiveSteps",
     "ApproximateShaft",
+    "BarusViscosity",
     "Cavitation",
     "Complementarity",
     "ComplementarityArc",
     "ContactBalance",
+    "ContactGrid",
+    "ContactRun",
+    "ContactState",
+    "DowsonHigginsonDensity",
     "ExactShaft",
     "ExtrapolatedFilm",
     "FilmGeometry",
@@ -36,6 +49,7 @@ __all__ = [
     "FiniteMapSqueeze",
     "FiniteSqueeze",
     "FixedArc",
+    "FixedSteps",
     "FullFilm",
     "GlobalBalance",
     "Groove",
@@ -50,14 +64,20 @@ __all__ = [
     "PublishedSqueeze",
     "ReynoldsArc",
     "ReynoldsFilm",
+    "RoelandsViscosity",
     "RotatingArc",
     "Rupture",
     "SharedMelting",
     "ShortFilm",
     "ShortSqueeze",
+    "SineLoad",
     "SpectralArcFilm",
     "SplittingFilm",
+    "StaggeredScheme",
+    "StepLoad",
+    "UpwindScheme",
     "bearing_table",
+    "checkerboard",
     "fit_map_table",
     "middle_pressure",
     "tabulate_film",
