@@ -124,6 +124,7 @@ def coefficients(
     """Find equilibrium, stiffness and damping of a journal bearing; numbers without a unit are SI."""
     from .linear import coefficients as film_coefficients
     from .linear import equilibrium
+    from .scenes.echo import bearing_data, film_name
 
     geometry = {"radius": radius, "length": length, "clearance": clearance, "viscosity": viscosity}
     bearing = _journal(geometry, _film(film, order, constant, rupture, cells), groove or []).build()
@@ -131,10 +132,11 @@ def coefficients(
     force, rate = _operation(load, speed)
     at = equilibrium(bearing, force, rate)
     derivatives = film_coefficients(bearing, at.position, rate)
+    data, name = bearing_data(bearing), film_name(bearing.fitted_film)
     if json:
-        console.print_json({"model": repr(bearing.film), "equilibrium": at, "coefficients": derivatives})
+        console.print_json({"bearing": data, "model": name, "equilibrium": at, "coefficients": derivatives})
         return
-    rows = [("film", repr(bearing.film)), *console.equilibrium_rows(at)]
+    rows = [*console.bearing_rows(data), ("film", name), *console.equilibrium_rows(at)]
     console.print_rows("journal bearing", rows + console.coefficient_rows(derivatives))
 
 

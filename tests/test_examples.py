@@ -49,7 +49,9 @@ def test_example_ends_in_its_number(path, tmp_path):
 
 def test_python_of_the_readme_runs(tmp_path):
     (block,) = re.findall(r"```python\n(.*?)```", README.read_text(encoding="utf-8"), re.DOTALL)
-    script = block + "print(threshold.whirl_ratio, *motion.position.shape, loop.nstates, at.eccentricity_ratio)"
+    script = (
+        block + "print(threshold.whirl_ratio, *motion.position.shape, loop.nstates, at.eccentricity_ratio)"
+    )
     environment = {**os.environ, "PYTHONWARNINGS": "error"}
     command = [sys.executable, "-c", script]
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path, env=environment)
