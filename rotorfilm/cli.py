@@ -29,7 +29,6 @@ BAD_INPUT = 2
 FAILED = 1
 
 app = typer.Typer(
-    help="Bearing films for rotor dynamics: static and dynamic coefficients, FMUs, coupled simulation.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
@@ -73,6 +72,24 @@ Grooves = Annotated[
     list[str] | None,
     typer.Option(help="Center and width of an axial groove; once for each.", metavar='"90 deg, 20 deg"'),
 ]
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        from importlib import metadata
+
+        typer.echo(f"rotorfilm {metadata.version('rotorfilm')}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool,
+        typer.Option("--version", help="Print the version and exit.", callback=_show_version, is_eager=True),
+    ] = False,
+) -> None:
+    """Bearing films for rotor dynamics: static and dynamic coefficients, FMUs, coupled simulation."""
 
 
 @app.command(epilog="Example: rotorfilm solve examples/friswell.toml --json")

@@ -7,6 +7,7 @@ import subprocess
 import sys
 from dataclasses import replace
 from functools import partial
+from importlib.metadata import version
 from pathlib import Path
 from zipfile import ZipFile
 
@@ -14,6 +15,7 @@ import numpy as np
 import pytest
 from fmpy import read_model_description
 
+import rotorfilm
 from rotorfilm import cli, ladders, scenes
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import RigidRotor
@@ -286,10 +288,19 @@ def test_fmu_info_lists_variables(run, tmp_path):
     assert "rotor.mass" in run("fmu", "info", path)[1]
 
 
-def test_a_file_that_is_no_fmu_is_named(run, scene):
-    code, _, err = run("fmu", "check", scene)
-    assert code == 1
+@pytest.mark.parametrize("command", ["check", "info"])
+def test_a_file_that_is_no_fmu_is_bad_input(run, scene, command):
+    code, out, err = run("fmu", command, scene)
+    assert (code, out) == (2, "")
     assert "fmu must be a readable FMU" in err
+    code, out, err = run("fmu", command, "absent.fmu")
+    assert (code, out) == (2, "")
+    assert err == "error: fmu must be a readable FMU, got 'absent.fmu': no such file\n"
+
+
+def test_version_is_that_of_the_package(run):
+    assert run("--version") == (0, f"rotorfilm {rotorfilm.__version__}\n", "")
+    assert rotorfilm.__version__ == version("rotorfilm")
 
 
 def test_fmu_of_a_scene_without_rotor_is_refused(run, scene):
