@@ -152,6 +152,7 @@ _HOMES = {
         "EquilibriumError",
         "FilmContactError",
         "FmuError",
+        "FmuFileError",
         "FmuRunError",
         "InputError",
         "PartialResultError",
@@ -168,6 +169,10 @@ __all__ = sorted(_HOME_OF)
 
 def __getattr__(name: str) -> Any:
     """Import a public name from its home on first use (PEP 562)."""
+    if name == "__version__":
+        from importlib.metadata import version
+
+        return version(__name__)
     if name not in _HOME_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(import_module(f".{_HOME_OF[name]}", __name__), name)

@@ -29,7 +29,6 @@ BAD_INPUT = 2
 FAILED = 1
 
 app = typer.Typer(
-    help="Bearing films for rotor dynamics: static and dynamic coefficients, FMUs, coupled simulation.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
@@ -73,6 +72,24 @@ Grooves = Annotated[
     list[str] | None,
     typer.Option(help="Center and width of an axial groove; once for each.", metavar='"90 deg, 20 deg"'),
 ]
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        from importlib import metadata
+
+        typer.echo(f"rotorfilm {metadata.version('rotorfilm')}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool,
+        typer.Option("--version", help="Print the version and exit.", callback=_show_version, is_eager=True),
+    ] = False,
+) -> None:
+    """Bearing films for rotor dynamics: static and dynamic coefficients, FMUs, coupled simulation."""
 
 
 @app.command(epilog="Example: rotorfilm solve examples/friswell.toml --json")
@@ -124,6 +141,7 @@ def coefficients(
     """Find equilibrium, stiffness and damping of a journal bearing; numbers without a unit are SI."""
     from .linear import coefficients as film_coefficients
     from .linear import equilibrium
+    from .scenes.echo import bearing_data, film_name
 
     geometry = {"radius": radius, "length": length, "clearance": clearance, "viscosity": viscosity}
     bearing = _journal(geometry, _film(film, order, constant, rupture, cells), groove or []).build()
@@ -131,10 +149,11 @@ def coefficients(
     force, rate = _operation(load, speed)
     at = equilibrium(bearing, force, rate)
     derivatives = film_coefficients(bearing, at.position, rate)
+    data, name = bearing_data(bearing), film_name(bearing.fitted_film)
     if json:
-        console.print_json({"model": repr(bearing.film), "equilibrium": at, "coefficients": derivatives})
+        console.print_json({"bearing": data, "model": name, "equilibrium": at, "coefficients": derivatives})
         return
-    rows = [("film", repr(bearing.film)), *console.equilibrium_rows(at)]
+    rows = [*console.bearing_rows(data), ("film", name), *console.equilibrium_rows(at)]
     console.print_rows("journal bearing", rows + console.coefficient_rows(derivatives))
 
 

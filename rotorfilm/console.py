@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .scenes.bush import BushAnswer
     from .scenes.coupling import CoupledRun
     from .scenes.demo import DemoResult
+    from .scenes.echo import BearingData
     from .scenes.solve import Answer
 
 
@@ -89,6 +90,20 @@ def progress_display() -> Iterator[Report]:
             bar.stop()
 
 
+def bearing_rows(bearing: BearingData) -> list[tuple[str, str]]:
+    """Return the rows that repeat a bearing."""
+    size = f"R {bearing.radius * 1e3:.6g} mm, L {bearing.length * 1e3:.6g} mm, L/D {bearing.slenderness:.6g}"
+    rows = [
+        ("bearing", f"{size}, c {bearing.clearance * 1e6:.6g} um"),
+        ("viscosity", f"{bearing.viscosity:.6g} Pa s"),
+    ]
+    rows += [("groove", f"{_degrees(one.center)}, {_degrees(one.width)} wide") for one in bearing.grooves]
+    rows += [("pad", f"from {_degrees(one.start)} over {_degrees(one.extent)}") for one in bearing.pads]
+    if bearing.supply_pressure:
+        rows.append(("supply pressure", f"{bearing.supply_pressure:.6g} Pa"))
+    return rows
+
+
 def equilibrium_rows(at: Equilibrium) -> list[tuple[str, str]]:
     """Return the rows that describe an equilibrium."""
     return [
@@ -126,7 +141,7 @@ def whirl_rows(threshold: WhirlThreshold | None) -> list[tuple[str, str]]:
 
 def print_answer(title: str, answer: Answer) -> None:
     """Print equilibrium, coefficients and whirl threshold."""
-    rows = [("film", answer.model), *equilibrium_rows(answer.equilibrium)]
+    rows = [*bearing_rows(answer.bearing), ("film", answer.model), *equilibrium_rows(answer.equilibrium)]
     rows += coefficient_rows(answer.coefficients)
     print_rows(title, rows + whirl_rows(answer.whirl_threshold))
 
@@ -178,6 +193,10 @@ def _coupled_cells(run: CoupledRun) -> tuple[str, str, str, str]:
 
 def _speed(value: float) -> str:
     return f"{value:.6g} rad/s = {value * 30.0 / math.pi:.6g} rpm"
+
+
+def _degrees(angle: float) -> str:
+    return f"{math.degrees(angle):.6g} deg"
 
 
 def _pair(values: np.ndarray) -> str:

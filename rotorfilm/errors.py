@@ -38,6 +38,10 @@ class FmuError(RotorfilmError):
     """A model cannot be exported, or an FMU answered with an error status."""
 
 
+class FmuFileError(FmuError, InputError):
+    """A file is no FMU of a version that can be read, or is not there."""
+
+
 class PartialResultError(RotorfilmError):
     """A simulation went wrong; what it had computed until then is kept.
 

@@ -11,6 +11,9 @@ from .errors import InputError
 STANDARD_GRAVITY = 9.80665
 """Standard acceleration of gravity [m/s2], by definition."""
 
+_INCH = 0.0254
+_POUND_FORCE = 0.45359237 * STANDARD_GRAVITY
+
 
 @dataclass(frozen=True)
 class Unit:
@@ -65,6 +68,10 @@ DISPLAY_UNITS: dict[str, Unit] = {
     "g mm": Unit(1e-6, {"kg": 1, "m": 1}),
     "kPa": Unit(1e3, {"kg": 1, "m": -1, "s": -2}),
     "bar": Unit(1e5, {"kg": 1, "m": -1, "s": -2}),
+    "cP": Unit(1e-3, {"kg": 1, "m": -1, "s": -1}),
+    "in": Unit(_INCH, {"m": 1}),
+    "lbf": Unit(_POUND_FORCE, {"kg": 1, "m": 1, "s": -2}),
+    "psi": Unit(_POUND_FORCE / _INCH**2, {"kg": 1, "m": -1, "s": -2}),
     "deg": Unit(math.pi / 180.0, {"rad": 1}),
     "rpm": Unit(math.pi / 30.0, {"rad": 1, "s": -1}),
 }
@@ -97,7 +104,9 @@ def parse_quantity(text: str | float, unit: str) -> float:
         raise InputError(f"quantity must be a number with a unit such as '1 {unit}', got {text!r}")
     name = match[2] or unit
     if name not in DISPLAY_UNITS:
-        raise InputError(f"unit must be one of {sorted(DISPLAY_UNITS)}, got {name!r} in {text!r}")
+        exponents = UNITS[unit].exponents
+        fitting = sorted(known for known, other in DISPLAY_UNITS.items() if other.exponents == exponents)
+        raise InputError(f"unit must be one of {', '.join(fitting)}, got {name!r} in {text!r}")
     if DISPLAY_UNITS[name].exponents != UNITS[unit].exponents:
         raise InputError(f"quantity must be measured in {unit} or a multiple of it, got {text!r}")
     return float(match[1]) * DISPLAY_UNITS[name].factor

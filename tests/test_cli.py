@@ -1,11 +1,13 @@
 """The command line: its numbers, its JSON, its exit codes, and one clear line for each mistake."""
 
 import json
+import math
 import os
 import subprocess
 import sys
 from dataclasses import replace
 from functools import partial
+from importlib.metadata import version
 from pathlib import Path
 from zipfile import ZipFile
 
@@ -13,6 +15,7 @@ import numpy as np
 import pytest
 from fmpy import read_model_description
 
+import rotorfilm
 from rotorfilm import cli, ladders, scenes
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import RigidRotor
@@ -93,6 +96,17 @@ def test_solve_prints_what_people_read(run, scene):
     assert "1500 rpm" in out
 
 
+def test_print_outs_repeat_the_bearing(run, scene):
+    code, out, _ = run("solve", scene)
+    assert code == 0
+    assert "R 50 mm, L 30 mm, L/D 0.3, c 100 um" in out
+    assert "MapFilm()" in out
+    told = [json.loads(run(*arguments, "--json")[1]) for arguments in (("solve", scene), coefficients())]
+    assert told[0]["bearing"] == told[1]["bearing"]
+    assert told[0]["bearing"]["slenderness"] == pytest.approx(0.3)
+    assert told[0]["model"] == told[1]["model"] == "MapFilm()"
+
+
 def test_splitting_film_takes_its_options(run):
     options = ("--film", "splitting", "--order", "2,inf", "--rupture", "rotating", "--json")
     code, out, _ = run(*coefficients(), *options)
@@ -106,7 +120,7 @@ def test_reynolds_film_takes_its_cells(run):
     coarse, mapped = json.loads(out), json.loads(run(*coefficients(), "--json")[1])
     assert code == 0
     assert coarse["model"].startswith("ReynoldsFilm(cells=(48, 4), cavitation=Complementarity()")
-    assert mapped["model"] == "MapFilm(table=None)"
+    assert mapped["model"] == "MapFilm()"
     np.testing.assert_allclose(
         coarse["equilibrium"]["position"], mapped["equilibrium"]["position"], atol=0.01 * 1e-4
     )
@@ -274,10 +288,19 @@ def test_fmu_info_lists_variables(run, tmp_path):
     assert "rotor.mass" in run("fmu", "info", path)[1]
 
 
-def test_a_file_that_is_no_fmu_is_named(run, scene):
-    code, _, err = run("fmu", "check", scene)
-    assert code == 1
+@pytest.mark.parametrize("command", ["check", "info"])
+def test_a_file_that_is_no_fmu_is_bad_input(run, scene, command):
+    code, out, err = run("fmu", command, scene)
+    assert (code, out) == (2, "")
     assert "fmu must be a readable FMU" in err
+    code, out, err = run("fmu", command, "absent.fmu")
+    assert (code, out) == (2, "")
+    assert err == "error: fmu must be a readable FMU, got 'absent.fmu': no such file\n"
+
+
+def test_version_is_that_of_the_package(run):
+    assert run("--version") == (0, f"rotorfilm {rotorfilm.__version__}\n", "")
+    assert rotorfilm.__version__ == version("rotorfilm")
 
 
 def test_fmu_of_a_scene_without_rotor_is_refused(run, scene):
@@ -402,6 +425,9 @@ def test_groove_map_of_a_scene_is_that_which_the_scene_takes(run, scene, tmp_pat
     (kept,) = (tmp_path / "cache").iterdir()
     code, out, err = run("solve", scene, "--json")
     assert (code, err) == (0, "")
+    assert json.loads(out)["model"].startswith("GroovedMapFilm(cells=(32, 4), nodes=(6, 12, 12)")
+    assert json.loads(out)["bearing"]["grooves"][0]["center"] == pytest.approx(math.pi / 2.0)
+    assert "90 deg, 20 deg wide" in run("solve", scene)[1]
     assert list((tmp_path / "cache").iterdir()) == [kept]
     code, out, err = run("groove-map", scene, "--cells", "32,4")
     assert (code, out) == (2, "")

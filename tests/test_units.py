@@ -57,6 +57,11 @@ def test_exponents_add_up_as_the_definitions_say(product, factors):
         ("0.1 Pa s", "Pa.s", 0.1),
         ("12 mPa s", "Pa.s", 0.012),
         ("2147 g mm", "kg.m", 2.147e-3),
+        # ISO 80000: 1 in = 25.4 mm, 1 lb = 0.453 592 37 kg, g_n = 9.806 65 m/s2
+        ("4 in", "m", 0.1016),
+        ("1 lbf", "N", 4.4482216152605),
+        ("1 psi", "Pa", 4.4482216152605 / 0.00064516),
+        ("100 cP", "Pa.s", 0.1),
         ("1.5e2 kN", "N", 1.5e5),
         (".5", "m", 0.5),
         ("+3. s", "s", 3.0),
@@ -78,7 +83,7 @@ def test_every_number_with_every_unit_is_read(number, name):
     ("text", "unit", "message"),
     [
         ("0.1 kg", "m", "must be measured in m or a multiple of it, got '0.1 kg'"),
-        ("10 furlong", "m", "unit must be one of .*, got 'furlong' in '10 furlong'"),
+        ("10 furlong", "m", "unit must be one of in, m, mm, um, got 'furlong' in '10 furlong'"),
         ("long", "m", "must be a number with a unit such as '1 m', got 'long'"),
         ("", "m", "must be a number with a unit"),
         ("nan m", "m", "must be a number with a unit"),

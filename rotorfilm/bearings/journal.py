@@ -36,6 +36,9 @@ NATIVE_PARAMETERS = (
 SCALES = {"clearance", "viscosity"}
 """Those of them that only scale a film: the others change what the map of a film depends on."""
 
+CLEARANCE_RATIOS = (1e-5, 2e-2)
+"""Clearance / radius of bearings that are built; outside, a unit probably is wrong."""
+
 ROUNDOFF = 1e-14
 """A source below this fraction of its two terms is their cancellation, hence zero."""
 
@@ -76,7 +79,8 @@ class JournalBearing:
     Warns
     -----
     ValidityWarning
-        If length / diameter is beyond the `slenderness_limit` that the film law declares.
+        If length / diameter is beyond the `slenderness_limit` that the film law declares, or clearance /
+        radius is outside `CLEARANCE_RATIOS`.
 
     Examples
     --------
@@ -118,6 +122,15 @@ class JournalBearing:
             raise InputError(
                 f"length / diameter must be {low:g} to {high:g} for {type(film).__name__}, "
                 f"got {self.slenderness:.6g}"
+            )
+        self._warn_of_odd_dimensions(film)
+
+    def _warn_of_odd_dimensions(self, film: FilmLaw) -> None:
+        ratio, (least, most) = self.clearance / self.radius, CLEARANCE_RATIOS
+        if not least * (1.0 - 1e-12) <= ratio <= most * (1.0 + 1e-12):
+            warn_user(
+                f"clearance / radius should be {least:g} to {most:g}, got {ratio:.3g} "
+                f"from {self.clearance!r} m and {self.radius!r} m: check units"
             )
         limit = getattr(film, "slenderness_limit", None)
         if limit is not None and self.slenderness > limit:

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from ctypes import c_double
 from os import PathLike
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import fmpy
@@ -24,7 +25,7 @@ from fmpy.fmi2 import (
 )
 from fmpy.fmi3 import FMU3Model, FMU3Slave
 
-from ..errors import FmuError
+from ..errors import FmuError, FmuFileError
 from ..model import Array
 
 FMI_OK = 0
@@ -263,18 +264,22 @@ def extracted(path: str | PathLike[str]) -> Iterator[tuple[Any, str]]:
 
     Raises
     ------
-    FmuError
+    FmuFileError
         If the file cannot be read, or is of another FMI version.
     """
+    if not Path(path).is_file():
+        raise FmuFileError(f"fmu must be a readable FMU, got {str(path)!r}: no such file")
     folder = tempfile.mkdtemp(prefix="rotorfilm-")
     try:
         try:
             description = fmpy.read_model_description(str(path), validate=False)
             fmpy.extract(str(path), unzipdir=folder)
         except Exception as error:
-            raise FmuError(f"fmu must be a readable FMU, got {str(path)!r}: {error}") from error
+            raise FmuFileError(f"fmu must be a readable FMU, got {str(path)!r}: {error}") from error
         if not str(description.fmiVersion).startswith(("2.0", "3.0")):
-            raise FmuError(f"fmu must be of FMI 2.0 or 3.0, got {description.fmiVersion} in {str(path)!r}")
+            raise FmuFileError(
+                f"fmu must be of FMI 2.0 or 3.0, got {description.fmiVersion} in {str(path)!r}"
+            )
         yield description, folder
     finally:
         shutil.rmtree(folder, ignore_errors=True)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from ..bearings.journal import JournalBearing
 from ..linear import CriticalMass, coefficients, critical_mass, equilibrium, whirl_threshold
 from ..results import Coefficients, Equilibrium, WhirlThreshold
+from .echo import BearingData, bearing_data, film_name
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -15,6 +16,8 @@ class Answer:
 
     Attributes
     ----------
+    bearing : BearingData
+        The bearing that was asked about.
     model : str
         The film law that answered.
     equilibrium : Equilibrium
@@ -26,6 +29,7 @@ class Answer:
         Onset of self-excited whirl; None when the scene has no rotor.
     """
 
+    bearing: BearingData
     model: str
     equilibrium: Equilibrium
     coefficients: Coefficients
@@ -55,7 +59,8 @@ def solve(
     at = equilibrium(bearing, load, speed)
     derivatives = coefficients(bearing, at.position, speed)
     return Answer(
-        model=repr(bearing.film),
+        bearing=bearing_data(bearing),
+        model=film_name(bearing.fitted_film),
         equilibrium=at,
         coefficients=derivatives,
         critical_mass=critical_mass(derivatives),

@@ -108,6 +108,19 @@ def test_bad_dimension_is_refused(name, value):
         JournalBearing(**{**DIMENSIONS, name: value})
 
 
+@pytest.mark.parametrize("clearance", [0.1e-6, 2e-3])
+def test_clearance_that_no_bearing_has_is_warned_of(clearance):
+    with pytest.warns(
+        ValidityWarning, match=r"clearance / radius should be 1e-05 to 0\.02, got .*check units"
+    ):
+        JournalBearing(**{**DIMENSIONS, "clearance": clearance})
+
+
+@pytest.mark.parametrize("clearance", [0.5e-6, 1e-3])
+def test_clearance_at_the_end_of_the_range_is_taken(clearance):
+    assert JournalBearing(**{**DIMENSIONS, "clearance": clearance}).clearance == clearance
+
+
 def test_clearance_above_the_radius_is_refused():
     with pytest.raises(InputError, match=r"clearance must be below the radius 0.05, got 0.1"):
         JournalBearing(**{**DIMENSIONS, "clearance": 0.1})

@@ -87,7 +87,7 @@ def test_results_are_on_disk(demo):
         "short film", "published", "fixed arc", "rotating arc", "free arc", "2-D", "map",
     ]  # fmt: skip
     assert len(written["attitude_angle"]["map"]) == len(written["stability"]["eccentricity_ratio"])
-    assert written["answer"]["model"] == "MapFilm(table=None)"
+    assert written["answer"]["model"] == "MapFilm()"
     # Another film with Reynolds rupture, in one axial mode for its ends: within .1 % of the clearance.
     free = SplittingFilm(order=(4, 8), constant=True, rupture=ComplementarityArc())
     at = equilibrium(replace(result.scene.bearing, film=free), (0.0, -525.0), result.scene.operation.speed)
