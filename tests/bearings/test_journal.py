@@ -110,7 +110,9 @@ def test_bad_dimension_is_refused(name, value):
 
 @pytest.mark.parametrize("clearance", [0.1e-6, 2e-3])
 def test_clearance_that_no_bearing_has_is_warned_of(clearance):
-    with pytest.warns(ValidityWarning, match=r"clearance / radius should be 1e-05 to 0\.02, got .*check units"):
+    with pytest.warns(
+        ValidityWarning, match=r"clearance / radius should be 1e-05 to 0\.02, got .*check units"
+    ):
         JournalBearing(**{**DIMENSIONS, "clearance": clearance})
 
 
