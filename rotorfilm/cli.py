@@ -317,7 +317,8 @@ def demo(
         console.print_json({**plain_results(result), "charts": [chart.name for chart in charts]})
         return
     console.print_demo(result)
-    console.print_rows("files", [(path.name, "") for path in sorted(out.iterdir())])
+    notes = {"demo.png": "overview: orbits, coupling error, whirl, force error"}
+    console.print_rows("files", [(path.name, notes.get(path.name, "")) for path in sorted(out.iterdir())])
 
 
 app.command(epilog=DAMPER_EXAMPLE)(damper)

@@ -170,16 +170,27 @@ def print_demo(result: DemoResult) -> None:
     table = Table(title="coupled FMUs beside the monolithic solution", title_justify="left", box=None)
     for heading in ("macro step", "spectral radius", "orbit error / clearance", "time"):
         table.add_column(heading, justify="right")
+    table.add_column("")
     for run in result.coupling.runs:
-        table.add_row(*_coupled_cells(run))
+        table.add_row(*_coupled_cells(run), "too long on purpose" if run is result.refusal_run else "")
     Console(highlight=False).print("", table)
     limit, order = result.critical_macro_angle, result.coupling.observed_order
     rows = [
         ("stability limit of the macro step", "none" if limit is None else f"{math.degrees(limit):.4g} deg"),
+        *_purpose_rows(result),
         ("order of convergence", "not observed" if order is None else f"{order:.3f}"),
         ("refused", "; ".join(run.refused for run in result.coupling.runs if run.refused) or "no run"),
     ]
     print_rows("", rows)
+
+
+def _purpose_rows(result: DemoResult) -> list[tuple[str, str]]:
+    """Return the row that says why one macro step is too long."""
+    run, limit = result.refusal_run, result.critical_macro_angle
+    if run is None or limit is None:
+        return []
+    times = run.macro_angle / limit
+    return [("too long on purpose", f"{times:.3g} x the limit: must be refused")]
 
 
 def _coupled_cells(run: CoupledRun) -> tuple[str, str, str, str]:

@@ -79,6 +79,8 @@ DISPLAY_UNITS: dict[str, Unit] = {
 
 _QUANTITY = re.compile(r"^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
 
+_NOT_FINITE = re.compile(r"^\s*[-+]?(?:nan|inf|infinity)\b", re.IGNORECASE)
+
 
 def parse_quantity(text: str | float, unit: str) -> float:
     """Return a quantity in SI.
@@ -93,12 +95,14 @@ def parse_quantity(text: str | float, unit: str) -> float:
     Raises
     ------
     InputError
-        If the text is no quantity, its unit is unknown, or it measures something else than `unit`.
+        If the text is no finite quantity, its unit is unknown, or it measures something else than `unit`.
     """
     if isinstance(text, bool):
         raise InputError(f"quantity must be a number or a number with a unit, got {text!r}")
     if isinstance(text, int | float):
         return float(text)
+    if _NOT_FINITE.match(text):
+        raise InputError(f"quantity must be finite, got {text!r}")
     match = _QUANTITY.match(text)
     if match is None:
         raise InputError(f"quantity must be a number with a unit such as '1 {unit}', got {text!r}")

@@ -298,6 +298,7 @@ class JournalBearing:
         if type(self) is not JournalBearing or not isinstance(film, NativeFilm):
             return None
         kernel, tables = film.native(self.slenderness)
+        bounds = _bounds(tables.get("range"))
         parameters = tuple(
             NativeParameter(
                 name=name,
@@ -306,7 +307,7 @@ class JournalBearing:
                 tunable=self.geometry.plain or name in SCALES,
                 minimum=0.0,
                 nominal=float(getattr(self, name)),
-                description=description,
+                description=description if name in SCALES else description + bounds,
             )
             for name, unit, description in NATIVE_PARAMETERS
         )
@@ -368,6 +369,14 @@ class JournalBearing:
         terms = (abs(squeeze) + abs(wedge)).max(axis=0)
         source *= abs(source).max(axis=0) > ROUNDOFF * terms
         return eccentricity, source
+
+
+def _bounds(slenderness_range: Array | None) -> str:
+    """Return what the description of radius and length says of their range."""
+    if slenderness_range is None:
+        return "; fixed, as the map of the film holds for this length / diameter"
+    low, high = slenderness_range
+    return f"; length / diameter must stay from {low:g} to {high:g}"
 
 
 def _require_tuple(name: str, values: object, kind: type) -> None:

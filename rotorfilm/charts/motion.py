@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping
 
 import numpy as np
@@ -9,7 +10,7 @@ from matplotlib.axes import Axes
 
 from ..results import Trajectory
 from .canvas import new_axes
-from .palette import DASHES, FAMILY_COLORS, FAMILY_WIDTHS
+from .palette import DASHES, FAMILY_COLORS, FAMILY_WIDTHS, WITHIN
 
 
 def plot_orbits(
@@ -61,18 +62,21 @@ def plot_locus(
     axes : Axes, optional
         Where to draw; a new figure by default.
     """
-    axes = axes or new_axes("Locus of the journal center, load along -y", size=(5.6, 5.2))
+    axes = axes or new_axes("Locus of the journal center, load along -y", size=(7.6, 5.2))
     turn = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 181)
     axes.plot(np.cos(turn), np.sin(turn), "k-", linewidth=1.0, label="clearance circle")
+    drawn: Counter[str] = Counter()
     for label, (eccentricity_ratio, attitude_angle) in curves.items():
         x = eccentricity_ratio * np.sin(attitude_angle)
         y = -eccentricity_ratio * np.cos(attitude_angle)
         family = (families or {}).get(label, "")
-        width, style = FAMILY_WIDTHS.get(family, 1.4), DASHES.get(family, "-")
+        width, style = FAMILY_WIDTHS.get(family, 1.4), DASHES.get(family, WITHIN[drawn[family] % len(WITHIN)])
+        drawn[family] += 1
         color, order = FAMILY_COLORS.get(family), 2.0 + 0.5 / width
         axes.plot(x, y, label=label, color=color, linewidth=width, linestyle=style, zorder=order)
     axes.set(
         xlabel="x / clearance", ylabel="y / clearance", aspect="equal", xlim=(-0.05, 1.05), ylim=(-1.05, 0.1)
     )
-    axes.legend(fontsize=7, loc="lower right")
+    # Beside the picture: inside, it would lie on the clearance circle.
+    axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.02, 0.5), handlelength=5.0)
     return axes

@@ -29,7 +29,10 @@ FAMILY_WIDTHS = {
 """Widths of lines [points]: of curves that coincide the wider lies below and shows beside the other."""
 
 DASHES = {"map": (0.0, (4.0, 3.0))}
-"""Dashes of lines by family, in widths; all others are solid."""
+"""Dashes of lines by family, in widths; of all others the first is solid."""
+
+WITHIN = ("-", "--", ":", "-.")
+"""Lines that tell the films of a family apart."""
 
 FRONT = "#7030a0"
 """Color of a Pareto front."""

@@ -23,6 +23,11 @@ from ..results import Equilibrium
 MAXIMUM_ECCENTRICITY = 0.9999
 """Eccentricity ratio beyond which a load counts as more than the film can carry."""
 
+UNLOADED = (
+    "an unloaded journal has no attitude angle (for the centered journal use coefficients at position (0, 0))"
+)
+"""Why a load of zero has no equilibrium."""
+
 _TOLERANCE = 1e-12
 _ROUNDOFF_STOP = 1e-13
 _NEWTON_STEPS = 60
@@ -111,12 +116,10 @@ def checked_load(load: ArrayLike) -> Array:
     """Return a static load as an array, shape (2,) [N]; raise InputError where it breaks a rule."""
     array = require_finite("load", load)
     if array.shape != (2,):
-        raise InputError(f"load must have shape (2,), got shape {array.shape}")
+        hint = f", e.g. (0, {-abs(float(array)):g})" if array.ndim == 0 else ""
+        raise InputError(f"load must have shape (2,){hint}, got shape {array.shape}")
     if not array.any():
-        raise InputError(
-            "load must not be zero, got [0, 0]: an unloaded journal has no attitude angle "
-            "(for the centered journal use coefficients at position (0, 0))"
-        )
+        raise InputError(f"load must not be zero, got [0, 0]: {UNLOADED}")
     return array
 
 

@@ -101,6 +101,14 @@ class DemoResult:
         wanted = self.scene.cosimulation.macro_angle
         return min(self.coupling.runs, key=lambda run: abs(run.macro_angle - wanted))
 
+    @property
+    def refusal_run(self) -> CoupledRun | None:
+        """The run whose macro step is past the stability limit on purpose, to show that it is refused."""
+        if self.critical_macro_angle is None:
+            return None
+        wanted = BEYOND * self.critical_macro_angle
+        return min(self.coupling.runs, key=lambda run: abs(run.macro_angle - wanted))
+
 
 def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
     """Solve a scene, export its FMUs, couple them, and compare with the monolithic solution.

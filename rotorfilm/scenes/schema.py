@@ -12,6 +12,7 @@ from typing import Annotated, Any
 
 from ..bearings.journal import JournalBearing
 from ..errors import SceneError, require_finite, require_positive
+from ..linear.equilibrium import UNLOADED
 from ..rotors.rigid import RigidRotor
 from .film_tables import FILMS, FilmTable, GrooveTable, MapFilmTable, PadTable
 from .tables import Quantity, TableList, Variant
@@ -28,6 +29,8 @@ def read_load(where: str, value: Any) -> tuple[float, float]:
         x, y = (Quantity("N")(f"{where}[{index}]", entry) for index, entry in enumerate(value))
         return x, y
     magnitude = Quantity("N")(where, value)
+    if magnitude == 0.0:
+        raise SceneError(f"{where} must not be zero, got {value!r}: {UNLOADED}")
     if not magnitude > 0.0:
         raise SceneError(f"{where} must be a positive magnitude or two components [x, y], got {value!r}")
     return 0.0, -magnitude

@@ -207,3 +207,11 @@ def test_stiffness_at_the_exact_center_is_the_limit_of_the_force(film):
     jacobian = bearing.jacobian([0.0, 0.0], [0.0, 0.0], 100.0)
     force = bearing.force(q * np.eye(2), np.zeros((2, 2)), 100.0)
     np.testing.assert_allclose(jacobian[:, :2], force / q, atol=1e-5 * np.abs(force / q).max())
+
+
+def test_native_parameters_say_how_far_they_may_change():
+    spec = JournalBearing(**DIMENSIONS).native()
+    said = {parameter.name: parameter.description for parameter in spec.parameters}
+    assert said["radius"] == "bearing radius; length / diameter must stay from 0.1 to 4"
+    assert said["length"] == "axial length; length / diameter must stay from 0.1 to 4"
+    assert said["clearance"] == "radial clearance"

@@ -42,6 +42,14 @@ def test_films_of_the_locus_have_the_line_of_their_family():
     assert (grid.get_linestyle(), chart.get_linestyle()) == ("-", "--")
 
 
+def test_films_of_a_family_differ_in_the_locus_and_the_legend_leaves_it_free():
+    curves = {name: (np.array([0.1, 0.5]), np.array([1.4, 1.0])) for name in ("coarse", "fine", "finest")}
+    axes = plot_locus(curves, families=dict.fromkeys(curves, "2-D"))
+    assert len({line.get_linestyle() for line in axes.get_lines()[1:]}) == 3
+    axes.figure.draw_without_rendering()
+    assert axes.get_legend().get_window_extent().x0 >= axes.get_window_extent().x1
+
+
 def test_coupling_error_marks_the_limit_and_the_refused_runs():
     angles, errors = np.radians([1.0, 2.0, 12.0]), np.array([1e-3, 2e-3, 0.1])
     axes = plot_coupling_error(angles, errors, np.array([False, False, True]), limit=np.radians(10.0))

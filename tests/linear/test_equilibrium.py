@@ -172,7 +172,7 @@ def test_force_that_cannot_point_against_the_load(linear_film):
         ([0.0, 0.0], SPEED, "load must not be zero"),
         ([math.nan, 1.0], SPEED, "load must be finite"),
         ([1.0, 1.0, 1.0], SPEED, "load must have shape"),
-        (5.0, SPEED, "load must have shape"),
+        (5.0, SPEED, r"load must have shape \(2,\), e\.g\. \(0, -5\), got shape \(\)"),
         ([1.0, 0.0], math.inf, "speed must be a single finite number, got inf"),
         ([1.0, 0.0], [1.0, 2.0], "speed must be a single finite number"),
     ],

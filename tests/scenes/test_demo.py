@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rotorfilm.console import print_demo
 from rotorfilm.errors import InputError
 from rotorfilm.films import ComplementarityArc, SplittingFilm
 from rotorfilm.gallery import draw_demo
@@ -74,6 +75,16 @@ def test_runs_start_at_the_equilibrium_and_keep_time(demo):
     assert result.scene_run.macro_angle == pytest.approx(math.radians(1.0))
     assert result.scene_run.trajectory.time.size == 361
     assert result.scene_run.trajectory.time[-1] == pytest.approx(2.0 * math.pi / result.scene.operation.speed)
+
+
+def test_one_run_is_too_long_on_purpose_and_print_outs_say_so(demo, capsys):
+    result, _, _ = demo
+    assert result.refusal_run.macro_angle == pytest.approx(1.3 * result.critical_macro_angle)
+    assert result.refusal_run.refused
+    print_demo(result)
+    out = capsys.readouterr().out
+    assert "1.3 x the limit: must be refused" in out
+    assert out.count("too long on purpose") == 2
 
 
 def test_results_are_on_disk(demo):
