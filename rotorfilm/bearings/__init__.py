@@ -9,6 +9,7 @@ from .film_state import FilmState, film_state
 from .groove_map import build_groove_map
 from .journal import JournalBearing
 from .linear import LinearBearing
+from .tabulated import TabulatedBearing
 
 __all__ = [
     "BushContact",
@@ -23,6 +24,7 @@ __all__ = [
     "MeltingBush",
     "PublishedStage",
     "ShaftMaterial",
+    "TabulatedBearing",
     "build_groove_map",
     "f4k20_bush",
     "film_state",
