@@ -15,6 +15,7 @@ from .linear import LinearBearing
 from .ride import ride
 from .rolling_ball import RollingBall
 from .sprung import Sprung
+from .tabulated import TabulatedBearing
 
 __all__ = [
     "AxialFeed",
@@ -38,6 +39,7 @@ __all__ = [
     "RollingBall",
     "ShaftMaterial",
     "Sprung",
+    "TabulatedBearing",
     "build_groove_map",
     "damper_groups",
     "f4k20_bush",

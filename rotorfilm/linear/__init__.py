@@ -1,6 +1,7 @@
 """Linear analysis: equilibrium, coefficients, whirl, and systems for python-control."""
 
 from .closed_loop import closed_loop, transmissibility
+from .coefficient_table import coefficient_table
 from .coefficients import coefficients
 from .critical_mass import CriticalMass, critical_mass, damping_has_rank_one
 from .equilibrium import equilibrium
@@ -34,6 +35,7 @@ __all__ = [
     "RotorThreshold",
     "campbell",
     "closed_loop",
+    "coefficient_table",
     "coefficients",
     "critical_mass",
     "critical_speed_map",

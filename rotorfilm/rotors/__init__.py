@@ -3,7 +3,17 @@
 from .beam import Beam, ClassicalBeam, FourthOrderBeam, cowper_coefficient
 from .jeffcott import JeffcottRotor
 from .mounted import MountedRotor, mount
-from .parts import Coupling, Disk, ElasticMaterial, Probe, ShaftElement, Station, Support, Unbalance
+from .parts import (
+    Coupling,
+    Disk,
+    ElasticMaterial,
+    LayeredElement,
+    Probe,
+    ShaftElement,
+    Station,
+    Support,
+    Unbalance,
+)
 from .profile import SpeedProfile
 from .reduced import ReducedRotor
 from .rigid import RigidRotor
@@ -20,6 +30,7 @@ __all__ = [
     "FlexibleRotor",
     "FourthOrderBeam",
     "JeffcottRotor",
+    "LayeredElement",
     "MountedRotor",
     "Probe",
     "ReducedRotor",

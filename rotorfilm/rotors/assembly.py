@@ -10,7 +10,7 @@ from ..errors import InputError
 from ..model import Array
 from ..signals import Signal
 from .beam import Beam
-from .parts import Coupling, Disk, Probe, ShaftElement, Station, Unbalance
+from .parts import Coupling, Disk, LayeredElement, Probe, ShaftElement, Station, Unbalance
 from .structure import (
     NOMINAL_LENGTH,
     Coordinate,
@@ -24,10 +24,13 @@ from .structure import (
     unbalance_columns,
 )
 
+ShaftPiece = ShaftElement | LayeredElement | Coupling
+"""What joins one node to the next."""
+
 
 def assemble(
     *,
-    elements: Sequence[ShaftElement | Coupling],
+    elements: Sequence[ShaftPiece],
     disks: Sequence[Disk],
     stations: Sequence[Station],
     probes: Sequence[Probe],
@@ -79,25 +82,25 @@ def assemble(
     )
 
 
-def _node_coordinates(elements: Sequence[ShaftElement | Coupling]) -> Iterator[Coordinate]:
+def _node_coordinates(elements: Sequence[ShaftPiece]) -> Iterator[Coordinate]:
     tilt = NOMINAL_LENGTH / sum(element.length for element in elements)
     for node in range(len(elements) + 1):
         yield Coordinate(f"{{}}_{node}", "m", NOMINAL_LENGTH)
         yield Coordinate(f"tilt_{{}}_{node}", "rad", tilt)
 
 
-def _inner_coordinates(elements: Sequence[ShaftElement | Coupling], beam: Beam) -> Iterator[Coordinate]:
+def _inner_coordinates(elements: Sequence[ShaftPiece], beam: Beam) -> Iterator[Coordinate]:
     tilt = NOMINAL_LENGTH / sum(element.length for element in elements)
     for number, element in enumerate(elements):
         for k in range(_inner(element, beam)):
             yield Coordinate(f"inner_{{}}_{number}_{k}", "rad", tilt)
 
 
-def _inner(element: ShaftElement | Coupling, beam: Beam) -> int:
-    return beam.internal if isinstance(element, ShaftElement) else 0
+def _inner(element: ShaftPiece, beam: Beam) -> int:
+    return 0 if isinstance(element, Coupling) else beam.internal
 
 
-def _chain(elements: Sequence[ShaftElement | Coupling], beam: Beam, size: int) -> tuple[Array, Array, Array]:
+def _chain(elements: Sequence[ShaftPiece], beam: Beam, size: int) -> tuple[Array, Array, Array]:
     """Return mass, polar and stiffness matrix of one plane."""
     total = np.zeros((3, size, size))
     inside = 2 * (len(elements) + 1)
@@ -132,9 +135,7 @@ def _journals(stations: Sequence[Station], size: int) -> Array:
     return rows
 
 
-def _translation(
-    elements: Sequence[ShaftElement | Coupling], supports: int, size: int, by: tuple[float, float]
-) -> Array:
+def _translation(elements: Sequence[ShaftPiece], supports: int, size: int, by: tuple[float, float]) -> Array:
     """Return the coordinates of a translation of the whole rotor, shape (2 size,)."""
     plane = np.zeros(size)
     plane[0 : 2 * (len(elements) + 1) : 2] = 1.0

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_non_negative, require_number, require_positive
 from ..model import Array
-from .beam import Beam, BeamMatrices, beam_matrices, cowper_coefficient, round_section
+from .beam import Beam, BeamMatrices, Section, beam_matrices, cowper_coefficient, round_section
 
 Pair = tuple[tuple[float, float], tuple[float, float]]
 
@@ -80,19 +80,50 @@ class ShaftElement:
             raise InputError(f"pieces must be at least 1, got {pieces!r}")
         return (replace(self, length=self.length / pieces),) * pieces
 
-    def matrices(self, beam: Beam) -> BeamMatrices:
-        """Return the matrices of one plane."""
+    def section(self) -> Section:
+        """Return the stiffness and inertia of the cross section."""
         kappa = self.shear_coefficient
         if kappa is None:
             kappa = cowper_coefficient(self.material.poisson_ratio, self.inner_diameter / self.outer_diameter)
-        section = round_section(
+        return round_section(
             outer_diameter=self.outer_diameter,
             inner_diameter=self.inner_diameter,
             young_modulus=self.material.young_modulus,
             shear=kappa * self.material.shear_modulus,
             density=self.material.density,
         )
-        return beam_matrices(beam, section, self.length)
+
+    def matrices(self, beam: Beam) -> BeamMatrices:
+        """Return the matrices of one plane."""
+        return beam_matrices(beam, self.section(), self.length)
+
+
+@dataclass(frozen=True, kw_only=True)
+class LayeredElement:
+    """Pieces of shaft inside each other, as a shaft and its sleeve: one deflection and tilt for all.
+
+    Parameters
+    ----------
+    layers : tuple of ShaftElement
+        Of equal length.
+    """
+
+    layers: tuple[ShaftElement, ...]
+
+    def __post_init__(self) -> None:
+        lengths = {layer.length for layer in self.layers}
+        if len(lengths) != 1:
+            raise InputError(f"layers must be of equal length, got {sorted(lengths)}")
+
+    @property
+    def length(self) -> float:
+        """Length [m]."""
+        return self.layers[0].length
+
+    def matrices(self, beam: Beam) -> BeamMatrices:
+        """Return the matrices of one plane."""
+        sections = np.array([layer.section() for layer in self.layers])
+        return beam_matrices(beam, Section(*sections.sum(axis=0).tolist()), self.length)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,9 +9,9 @@ import numpy as np
 from ..errors import InputError, require_non_negative
 from ..model import Array
 from ..units import STANDARD_GRAVITY
-from .assembly import assemble, check_nodes
+from .assembly import ShaftPiece, assemble, check_nodes
 from .beam import Beam, FourthOrderBeam
-from .parts import Coupling, Disk, Probe, ShaftElement, Station, Unbalance
+from .parts import Coupling, Disk, Probe, Station, Unbalance
 from .profile import SpeedProfile
 from .structure import FlexibleRotor, Structure, check_motion
 
@@ -25,7 +25,7 @@ class ShaftRotor(FlexibleRotor):
 
     Parameters
     ----------
-    elements : tuple of ShaftElement and Coupling
+    elements : tuple of ShaftElement, LayeredElement and Coupling
         From the first node to the last.
     speed : float or SpeedProfile [rad/s]
         Angular speed about +z.
@@ -64,7 +64,7 @@ class ShaftRotor(FlexibleRotor):
     ['left_force_x', 'left_force_y', 'force_x', 'force_y']
     """
 
-    elements: tuple[ShaftElement | Coupling, ...]
+    elements: tuple[ShaftPiece, ...]
     speed: float | SpeedProfile
     stations: tuple[Station, ...] = ()
     disks: tuple[Disk, ...] = ()
@@ -77,7 +77,7 @@ class ShaftRotor(FlexibleRotor):
     initial: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
-        if not any(isinstance(element, ShaftElement) for element in self.elements):
+        if all(isinstance(element, Coupling) for element in self.elements):
             raise InputError(f"elements must hold at least one ShaftElement, got {self.elements!r}")
         require_non_negative("internal_damping", self.internal_damping)
         require_non_negative("loss_factor", self.loss_factor)

@@ -1,6 +1,7 @@
 """Modes, Campbell diagram, critical speeds and unbalance response of flexible rotors."""
 
 import math
+from dataclasses import replace
 
 import control
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotorfilm.bearings import JournalBearing, LinearBearing
+from rotorfilm.cosim import critical_macro_step
 from rotorfilm.errors import InputError
 from rotorfilm.films import ShortFilm
 from rotorfilm.linear import (
@@ -20,6 +22,7 @@ from rotorfilm.linear import (
     rotor_modes,
     rotor_system,
     rotor_threshold,
+    to_nlsys,
     unbalance_response,
     whirl_threshold,
 )
@@ -358,3 +361,33 @@ def test_speeds_must_be_positive_and_rising(speeds):
 def test_response_needs_an_unbalance():
     with pytest.raises(InputError, match="rotor must have an unbalance"):
         unbalance_response(friswell(unbalances=()), both(SPRING), [1.0])
+
+
+@pytest.mark.closed_form
+def test_other_analyses_know_a_mounted_rotor_by_its_signals():
+    """closed_loop and python-control's own linearize give the poles of rotor_system."""
+    speed = 150.0
+    rotor = friswell(speed=speed, stations=(Station(node=0, name="left"), Station(node=6)))
+    films = {"left": FILM, "": FILM}
+    at = rotor_equilibrium(rotor, films, speed)
+    rest = (*at.displacement, *(0.0 * at.displacement))
+    model = mount(replace(rotor, initial=rest), {"left": FILM})
+    wanted = np.sort_complex(rotor_system(rotor, at).poles())
+    alone = equilibrium(FILM, at.loads[""], speed)
+    assert_allclose(alone.position, at.coefficients[""].position, rtol=1e-6)
+    poles = np.sort_complex(closed_loop(model, FILM, alone).poles())
+    slow = np.abs(wanted) < 3000.0
+    assert_allclose(np.poly(poles[np.abs(poles) < 3000.0]), np.poly(wanted[slow]), rtol=1e-5)
+    linear = to_nlsys(mount(model, {"": FILM})).linearize(rest, [])
+    assert_allclose(
+        np.poly(linear.poles()[np.abs(linear.poles()) < 3000.0]), np.poly(wanted[slow]), rtol=1e-5
+    )
+
+
+def test_the_coupling_of_a_mounted_rotor_has_a_longest_stable_step():
+    shaft = rigid_shaft(stations=(("left", -0.4), ("", 0.4)), speed=150.0, unbalances=())
+    at = rotor_equilibrium(shaft, {"left": FILM, "": FILM}, 150.0)
+    rest = (*at.displacement, *(0.0 * at.displacement))
+    model = mount(replace(shaft, initial=rest), {"left": FILM})
+    limit = critical_macro_step(model, FILM, state=model.initial_state).macro_step
+    assert 1e-5 < limit < 1e-2

@@ -150,3 +150,18 @@ def test_no_shear_needs_the_classical_element():
     section = Section(bending=1.0, shear=math.inf, mass=1.0, inertia=0.0)
     with pytest.raises(InputError, match="shear_coefficient must be finite for FourthOrderBeam"):
         beam_matrices(FourthOrderBeam(), section, 1.0)
+
+
+@pytest.mark.closed_form
+def test_a_clamped_element_answers_an_even_load_and_an_even_moment_exactly():
+    """Work of q: q^2 (L^5/720 EI + L^3/12 kGA); of m: m^2 L^3/12 EI / (1 + kGA L^2/12 EI)."""
+    beam, length = FourthOrderBeam(), 1.5
+    section = Section(bending=3.0, shear=5.0, mass=1.0, inertia=0.0)
+    inside = beam_matrices(beam, section, length).stiffness[4:, 4:]
+    shapes = beam.shapes(length, 12 * 3.0 / (5.0 * length**2))[4:]
+    for part, wanted in (
+        (0, length**5 / (720 * 3.0) + length**3 / (12 * 5.0)),
+        (1, length**3 / (12 * 3.0) / (1 + 5.0 * length**2 / (12 * 3.0))),
+    ):
+        load = np.array([length * shape[part].integ()(1.0) for shape in shapes])
+        assert load @ np.linalg.solve(inside, load) == pytest.approx(wanted, rel=1e-12)

@@ -1,0 +1,94 @@
+"""Coefficient tables over speed."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from rotorfilm.bearings import JournalBearing, TabulatedBearing
+from rotorfilm.errors import InputError
+from rotorfilm.films import ShortFilm
+from rotorfilm.linear import coefficient_table, coefficients, equilibrium
+from rotorfilm.model import Reaction
+
+FILM = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())
+LOAD = [0.0, -525.0]
+SPEEDS = np.linspace(50.0, 400.0, 15)
+
+
+@pytest.fixture(scope="module")
+def table():
+    return coefficient_table(FILM, LOAD, SPEEDS)
+
+
+def test_it_is_the_film_at_its_own_speeds(table):
+    assert isinstance(table, Reaction)
+    at = equilibrium(FILM, LOAD, SPEEDS[3])
+    film = coefficients(FILM, at.position, at.speed)
+    q, v = np.array([1e-6, -2e-6]), np.array([1e-3, 2e-3])
+    assert_allclose(table.force(q, v, SPEEDS[3]), -film.stiffness @ q - film.damping @ v, rtol=1e-12)
+
+
+def test_between_speeds_it_is_close(table):
+    speed = 0.5 * (SPEEDS[5] + SPEEDS[6])
+    at = equilibrium(FILM, LOAD, speed)
+    wanted = coefficients(FILM, at.position, speed)
+    found = coefficients(table, [0.0, 0.0], speed)
+    for name in ("stiffness", "damping"):
+        exact = getattr(wanted, name)
+        assert_allclose(getattr(found, name), exact, atol=5e-3 * np.abs(exact).max())
+
+
+def test_derivatives_by_speed_too(table):
+    q, v, speed, h = np.array([1e-6, -2e-6]), np.array([1e-3, 2e-3]), 123.0, 0.1
+    jacobian = table.jacobian(q, v, speed)
+    steps = {k: table.force(q, v, speed + k * h) for k in (-2, -1, 1, 2)}
+    slope = (steps[-2] - 8 * steps[-1] + 8 * steps[1] - steps[2]) / (12 * h)
+    assert_allclose(jacobian[:, 4], slope, rtol=1e-6)
+    assert_allclose(jacobian[:, :4] @ [*q, *v], table.force(q, v, speed), rtol=1e-12)
+
+
+def test_batches(table):
+    q, v = np.random.default_rng(0).standard_normal((2, 2, 3))
+    speeds = np.array([60.0, 70.0, 80.0])
+    force, jacobian = table.force(q, v, speeds), table.jacobian(q, v, speeds)
+    assert (force.shape, jacobian.shape) == ((2, 3), (2, 5, 3))
+    for k, speed in enumerate(speeds):
+        assert_allclose(force[:, k], table.force(q[:, k], v[:, k], speed))
+        assert_allclose(jacobian[:, :, k], table.jacobian(q[:, k], v[:, k], speed))
+
+
+def test_csv_and_back(table, tmp_path):
+    path = table.to_csv(tmp_path / "film.csv")
+    assert (
+        path.read_text()
+        .splitlines()[0]
+        .startswith("speed [rad/s],kxx [N/m],kxy [N/m],kyx [N/m],kyy [N/m],cxx")
+    )
+    again = TabulatedBearing.from_csv(path)
+    assert_allclose(again.stiffness, table.stiffness, rtol=1e-8)
+    assert_allclose(again.damping, table.damping, rtol=1e-8)
+    (tmp_path / "other.csv").write_text("a,b\n1,2\n")
+    with pytest.raises(InputError, match="must have the columns"):
+        TabulatedBearing.from_csv(tmp_path / "other.csv")
+    (tmp_path / "words.csv").write_text(path.read_text().replace("50,", "fifty,", 1))
+    with pytest.raises(InputError, match="must hold numbers below its heading"):
+        TabulatedBearing.from_csv(tmp_path / "words.csv")
+
+
+@pytest.mark.parametrize("speed", [49.9, 400.1, [100.0, 401.0], -100.0])
+def test_it_refuses_speeds_outside_its_range(table, speed):
+    q = np.zeros((2, *np.shape(speed)))
+    for call in (table.force, table.jacobian):
+        with pytest.raises(InputError, match="speed must be within the table, 50 to 400 rad/s"):
+            call(q, q, speed)
+
+
+def test_bad_tables_are_named():
+    one = np.zeros((1, 2, 2))
+    with pytest.raises(InputError, match=r"stiffness must have shape \(2, 2, 2\), got \(1, 2, 2\)"):
+        TabulatedBearing(speeds=[1.0, 2.0], stiffness=one, damping=one)
+    with pytest.raises(InputError, match="speeds must be a list of rising numbers"):
+        TabulatedBearing(speeds=[2.0, 1.0], stiffness=one, damping=one)
+    single = TabulatedBearing(speeds=[5.0], stiffness=one + np.eye(2), damping=one)
+    assert_allclose(single.force([1.0, 2.0], [0.0, 0.0], 5.0), [-1.0, -2.0])
+    assert not single.jacobian([1.0, 2.0], [0.0, 0.0], 5.0)[:, 2:].any()
