@@ -37,8 +37,8 @@ class ContactLaw:
     """Force of a lubricated point contact over the approach z of the ball, a Model with `order` states.
 
     F = F_s(z) - [Z(s) - Z(0)] (z - z_1): the static law, and what the dynamic stiffness at the load f = 1
-    adds to it. The state space is stable and has no static part. Built by `reduce_contact` or `reduce_ball`; the
-    errors of both fits are kept, that of a motion is to be asked from the full model.
+    adds to it. The state space is stable and has no static part. Built by `reduce_contact` or `reduce_ball`;
+    the errors of both fits are kept, that of a motion is to be asked from the full model.
 
     Parameters
     ----------

@@ -1,5 +1,6 @@
 """Ladders: every model of one physics from the cheapest law to the reference, measured side by side."""
 
+from .contact_cases import contact_cases
 from .journal_accuracy import JournalAccuracy, RungAccuracy, journal_accuracy, pareto_front
 from .journal_rungs import Rung, comparison_bearing, journal_rungs
 from .journal_stability import JournalStability, RungStability, journal_stability
@@ -15,6 +16,7 @@ __all__ = [
     "RungStability",
     "StateRange",
     "comparison_bearing",
+    "contact_cases",
     "journal_accuracy",
     "journal_rungs",
     "journal_stability",
