@@ -98,6 +98,30 @@ def stability(ld: Slenderness = 0.5, out: Folder = OUT, json: Json = False) -> N
     console.print_rows("", [("reference", result.reference), *files])
 
 
+@chart_app.command(epilog="Example: rotorfilm chart contact --cells 48")
+def contact(
+    cells: Annotated[int, typer.Option(help="Cells along each side, converged runs.", min=8)] = 48,
+    out: Folder = OUT,
+    json: Json = False,
+) -> None:
+    """Compare published cases of a rolling ball, by the published scheme and converged: takes minutes."""
+    with console.progress_display() as report:
+        report(0.0, "packages")
+        from .charts import plot_contact_cases
+        from .ladders import contact_cases
+
+        result = contact_cases(cells, report=report)
+        files = _write(out, "chart_contact", result, plot_contact_cases(result))
+        report(1.0, "done")
+    if json:
+        console.print_json([row._asdict() for row in result.statements])
+        return
+    headings = ("statement", "section", "published scheme", "converged", "verdict")
+    rows = [(row.text, row.section, row.published, row.converged, row.verdict) for row in result.statements]
+    console.print_columns(headings, rows)
+    console.print_rows("", files)
+
+
 def _write(out: Path, name: str, result: Tabular, axes: Sequence[Axes]) -> list[tuple[str, str]]:
     """Write chart and table; return the rows that name them."""
     from .charts import save

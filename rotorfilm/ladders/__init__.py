@@ -1,5 +1,6 @@
 """Ladders: every model of one physics from the cheapest law to the reference, measured side by side."""
 
+from .contact_cases import contact_cases
 from .journal_accuracy import JournalAccuracy, RungAccuracy, journal_accuracy, pareto_front
 from .journal_rungs import Rung, comparison_bearing, fitted_bearing, journal_rungs
 from .journal_stability import journal_stability
@@ -16,6 +17,7 @@ __all__ = [
     "RungStability",
     "StateRange",
     "comparison_bearing",
+    "contact_cases",
     "fitted_bearing",
     "journal_accuracy",
     "journal_rungs",

@@ -1,0 +1,215 @@
+"""The point contact: cost against dense Newton, limits of grid and rectangle, decay, reduced law, failures.
+
+    python benchmarks/contact.py [cost] [grid] [decay] [law] [hard]
+
+`cost`: time of a step of case 4.1 (W = 1, BDF2, dt = 0.1, t = 1 to 2) by the product, and by the best that
+numpy and scipy offer without its structure: the same Newton steps with a dense matrix, the elastic kernel
+tabulated beforehand, y-symmetry used, LAPACK. Both in one run, to the same tolerance. `grid`: stationary
+solution on ever finer grids and larger rectangles. `decay`: decay time of case 4.1 in three independent ways.
+`law`: the reduced law beside the full model. `hard`: continuation, load step, and where the published scheme
+fails. All of it takes some ten minutes on one core.
+"""
+
+from __future__ import annotations
+
+import sys
+from itertools import pairwise
+from time import perf_counter, process_time
+
+import numpy as np
+from scipy import linalg
+
+import rotorfilm.films.contact_steps as contact_steps
+from rotorfilm import (
+    AdaptiveSteps,
+    ContactGrid,
+    ConvergenceError,
+    FixedSteps,
+    PointContact,
+    SineLoad,
+    StaggeredScheme,
+    StepLoad,
+    UpwindScheme,
+    perturbed,
+    reduce_contact,
+    ride,
+)
+from rotorfilm.films.contact_linear import SmallMotion
+from rotorfilm.films.contact_newton import NewtonKrylov
+from rotorfilm.films.contact_stationary import HERTZ_LOAD
+from rotorfilm.ladders.contact_cases import decay_time
+
+
+class DenseNewton(NewtonKrylov):
+    """The same Newton's method with a dense matrix."""
+
+    def _step(self, linear, residual, miss, forcing):
+        if not hasattr(self, "columns"):
+            cells = residual.size
+            self.columns = np.stack(
+                [self.equations.sampling.deflection(row) for row in np.eye(cells)], axis=1
+            )
+        wet = np.flatnonzero(linear.wet)
+        by_pressure, by_film = linear.derivatives
+        size = len(wet)
+        matrix = np.empty((size + 1, size + 1), order="F")
+        matrix[:size, :size] = by_film[wet] @ self.columns[:, wet] + by_pressure[wet][:, wet].toarray()
+        matrix[:size, size] = linear.by_delta[wet]
+        matrix[size, :size] = linear.closure.load * self.equations.area
+        matrix[size, size] = linear.closure.approach
+        answer = linalg.solve(matrix, np.append(residual[wet], miss), overwrite_a=True, check_finite=False)
+        change = np.zeros_like(residual)
+        change[wet] = answer[:size]
+        return change, float(answer[size]), 1
+
+
+def contact(cells, scheme=None, **rectangle):
+    grid = ContactGrid(cells=(cells, cells) if isinstance(cells, int) else cells, **rectangle)
+    return PointContact(V=0.1, Q0=5.0, grid=grid, scheme=UpwindScheme() if scheme is None else scheme)
+
+
+def print_cost():
+    print("cost of a step of case 4.1, ms; ratio of dense Newton (extrapolated by n^3 where it is not run)")
+    print(
+        f"{'cells':>7s}{'product':>10s}{'Newton':>8s}{'GMRES':>7s}{'dense':>11s}{'ratio':>8s}{'difference':>12s}"
+    )
+    dense, product = {}, {}
+    for cells in (40, 64, 128, 256):
+        c = contact(cells)
+        start = c.simulate(
+            perturbed(c, c.stationary(), -0.2), duration=1.0, W=1.0, control=FixedSteps(step=0.1)
+        ).final
+        times, ends, works = {}, {}, {}
+        for solver in (NewtonKrylov, DenseNewton) if cells <= 64 else (NewtonKrylov,):
+            contact_steps.NewtonKrylov = solver
+            c.simulate(start, duration=0.1, W=1.0, control=FixedSteps(step=0.1))
+            begin = process_time()
+            run = c.simulate(start, duration=1.0, W=1.0, control=FixedSteps(step=0.1))
+            times[solver], ends[solver] = (process_time() - begin) / run.work["steps"], run.delta[-1]
+            works[solver] = run.work
+        contact_steps.NewtonKrylov = NewtonKrylov
+        work = works[NewtonKrylov]
+        product[cells] = times[NewtonKrylov]
+        dense[cells] = times.get(DenseNewton, dense.get(64, 0.0) * (cells / 64) ** 6)
+        gap = abs(ends[NewtonKrylov] - ends[DenseNewton]) if DenseNewton in ends else np.nan
+        print(
+            f"{cells:7d}{1e3 * product[cells]:10.0f}{work['newton'] / 10:8.1f}{work['gmres'] / 10:7.0f}"
+            f"{1e3 * dense[cells]:11.0f}{dense[cells] / product[cells]:8.0f}{gap:12.1e}"
+        )
+    print("growth: " + ", ".join(f"{a} to {b}: {product[b] / product[a]:.1f}" for a, b in pairwise(product)))
+
+
+def print_grid():
+    print("stationary contact on [-2.5, 1.5] x [-2, 2]")
+    print(f"{'scheme':>18s}{'cells':>7s}{'delta':>12s}{'H0':>12s}{'order':>8s}{'CPU s':>8s}")
+    for scheme in (StaggeredScheme(), UpwindScheme()):
+        past = []
+        for cells in (32, 64, 128, 256):
+            begin = process_time()
+            state = contact(cells, scheme).stationary()
+            past.append(state.delta)
+            order = np.log2((past[-2] - past[-3]) / (past[-1] - past[-2])) if len(past) > 2 else np.nan
+            name = type(scheme).__name__
+            print(
+                f"{name:>18s}{cells:7d}{state.delta:12.6f}{state.central_film:12.6f}{order:8.2f}"
+                f"{process_time() - begin:8.1f}"
+            )
+    print("larger rectangles, upwind, 16 cells per unit; delta errs by some constant / length")
+    found = []
+    for inlet, outlet, half in ((-2.5, 1.5, 2.0), (-4.5, 1.5, 3.0), (-8.0, 2.0, 5.0), (-16.0, 2.0, 9.0)):
+        cells = (round(16 * (outlet - inlet)), round(32 * half))
+        state = contact(cells, inlet=inlet, outlet=outlet, half_width=half).stationary()
+        found.append((-inlet, state.delta, state.central_film))
+        print(f"[{inlet:g}, {outlet:g}] x {half:g}: delta {state.delta:.6f}, H0 {state.central_film:.6f}")
+    (a, da, _), (b, db, hb) = found[-2:]
+    print(f"delta extrapolated to infinity: {(b * db - a * da) / (b - a):.5f}, H0 {hb:.5f}")
+
+
+def print_decay():
+    print("decay time of case 4.1: time integration, eigenvalue, energy of a given motion")
+    for cells in (40, 64):
+        c = contact(cells)
+        rest = c.stationary()
+        small = SmallMotion(c.equations, rest.levels[0].pressure, rest.delta)
+        for W in (0.5, 1.0):
+            s = small.natural_motion(W, 1j * np.sqrt(1.57 / W))
+            pushed = c.state(rest.pressure, rest.delta, velocity=0.1)
+            run = c.simulate(pushed, duration=26.0, W=W, control=FixedSteps(step=0.04 * np.sqrt(W)))
+            period = 2.0 * np.pi / s.imag
+            given = c.drive(
+                rest,
+                duration=3.0 * period,
+                approach=lambda t, s=s, rest=rest: rest.delta + 0.08 * np.sin(s.imag * t),
+                control=FixedSteps(step=period / 120),
+            )
+            last = given.time > 2.0 * period - 1e-9
+            lost = -np.trapezoid(HERTZ_LOAD * given.carried_load[last], given.delta[last])
+            energy = 2.0 * W * np.pi * s.imag * 0.08**2 / lost
+            print(
+                f"{cells} cells, W = {W}: {decay_time(run, rest.delta, 6.0):.2f}, {-1.0 / s.real:.2f}, "
+                f"{energy:.2f}; "
+                f"Euler at dt = 0.2: {0.2 / np.log(abs(1.0 - 0.2 * s)):.2f}"
+            )
+
+
+def print_law():
+    c = contact(40)
+    rest = c.stationary()
+    for order in (2, 3, 5, 8):
+        law = reduce_contact(c, order)
+        print(f"order {order}: static law {law.static_error:.2%}, damping {law.damping_error:.2%}")
+    law = reduce_contact(c, 5)
+    print(f"{'case':>36s}{'rms error':>11s}{'full s':>9s}{'law s':>9s}{'ratio':>8s}")
+    cases = (
+        ("W = 1, 1 + .2 sin t", 1.0, SineLoad(amplitude=0.2, frequency=1.0), rest),
+        ("W = .1, 1 + .2 sin t", 0.1, SineLoad(amplitude=0.2, frequency=1.0), rest),
+        ("W = 1, 1 + .5 sin 2t", 1.0, SineLoad(amplitude=0.5, frequency=2.0), rest),
+        ("W = 1, 1 + .5 sin 5t", 1.0, SineLoad(amplitude=0.5, frequency=5.0), rest),
+        ("W = 1, load step .7", 1.0, StepLoad(amplitude=0.7, start=1.0), rest),
+        ("W = 1, load drop -.5", 1.0, StepLoad(amplitude=-0.5, start=1.0), rest),
+        ("W = 1, free decay from -20 %", 1.0, StepLoad(amplitude=0.0, start=40.0), perturbed(c, rest, -0.2)),
+    )
+    for name, W, load, start in cases:
+        begin = perf_counter()
+        full = c.simulate(start, duration=20.0, W=W, load=load, control=FixedSteps(step=0.05))
+        middle = perf_counter()
+        motion = ride(law, mass=W / HERTZ_LOAD, load=load, start=start.delta, duration=20.0, rtol=1e-4)
+        after = perf_counter()
+        error = np.interp(full.time, motion.time, motion["z"]) - full.delta
+        rms = np.sqrt(np.mean(error**2) / np.mean((full.delta - rest.delta) ** 2))
+        times = (middle - begin, after - middle)
+        print(f"{name:>36s}{rms:11.1%}{times[0]:9.2f}{times[1]:9.4f}{times[0] / times[1]:8.0f}")
+
+
+def print_hard():
+    state = PointContact(V=0.006, Q0=20.0, grid=ContactGrid(cells=(64, 64))).stationary()
+    print(f"Q0 = 20, V = .006, 64 x 64: delta {state.delta:.5f}, H0 {state.central_film:.5f}")
+    c = contact((72, 56), inlet=-4.5, outlet=4.0, half_width=3.5)
+    run = c.simulate(
+        c.stationary(), duration=10.0, W=1.0, load=StepLoad(amplitude=8.0, start=1.0),
+        control=AdaptiveSteps(tolerance=1e-3),
+    )  # fmt: skip
+    print(f"load step A = 8, W = 1: complete {run.complete}, {run.work}")
+    print("published scheme (Euler, 40 x 40, staggered), load step A at W = 1: + runs, - fails")
+    c = contact(40, StaggeredScheme())
+    rest = c.stationary()
+    print(" dt\\A " + "".join(f"{a:>6g}" for a in (0.7, 1.5, 3.0, 5.0)))
+    for step in (0.1, 0.2, 0.5, 1.0):
+        marks = [_runs(c, rest, step, a) for a in (0.7, 1.5, 3.0, 5.0)]
+        print(f"{step:5g} " + "".join(f"{'+' if mark else '-':>6s}" for mark in marks))
+
+
+def _runs(c, rest, step, a):
+    load = StepLoad(amplitude=a, start=step)
+    try:
+        c.simulate(rest, duration=5.0, W=1.0, load=load, control=FixedSteps(step=step, order=1))
+    except ConvergenceError:
+        return False
+    return True
+
+
+PARTS = {"cost": print_cost, "grid": print_grid, "decay": print_decay, "law": print_law, "hard": print_hard}
+
+if __name__ == "__main__":
+    for part in sys.argv[1:] or PARTS:
+        PARTS[part]()
