@@ -103,7 +103,7 @@ def time_c(native: Path, folder: Path, states: np.ndarray) -> None:
     library = next((unpacked / "binaries").rglob("bearing.*"))
     chart = packaged_table().at(BEARING.slenderness)
     cells = [count - 5 for count in chart.coefficients.shape]
-    head = [*cells, chart.reach, chart.center, BEARING.clearance, BEARING.force_scale]
+    head = [*cells, chart.reach, chart.log_center, BEARING.clearance, BEARING.force_scale]
     np.array([*head, *chart.coefficients.ravel()]).tofile(folder / "kernel.bin")
     states.tofile(folder / "states.bin")
     description = fmpy.read_model_description(str(native))
