@@ -102,9 +102,7 @@ def host_binary(identifier: str, fmi_version: str, library: str) -> dict[str, by
     if target is None:
         raise FmuError(f"machine must be one of {[t.folder for t in TARGETS]}, got {folder}")
     if not built.is_file():
-        raise FmuError(
-            f"the compiled library must lie at {built}, got no such file; install rotorfilm again"
-        )
+        raise FmuError(f"the compiled library must lie at {built}, got no such file; install rotorfilm again")
     return {_path(target, identifier, fmi_version): built.read_bytes()}
 
 
@@ -121,7 +119,9 @@ def all_binaries(identifier: str, fmi_version: str, library: str) -> dict[str, b
     sources = native_sources()
     slices: dict[str, list[bytes]] = {}
     for target in TARGETS:
-        slices.setdefault(_path(target, identifier, fmi_version), []).append(compiled(target, sources, library))
+        slices.setdefault(_path(target, identifier, fmi_version), []).append(
+            compiled(target, sources, library)
+        )
     return {path: parts[0] if len(parts) == 1 else universal(parts) for path, parts in slices.items()}
 
 

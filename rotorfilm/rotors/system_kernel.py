@@ -99,9 +99,7 @@ def _equal(one: NativeSpec, other: NativeSpec) -> bool:
     )
 
 
-def _parameters(
-    bearings: Mapping[str, Reaction], specs: Sequence[NativeSpec]
-) -> tuple[NativeParameter, ...]:
+def _parameters(bearings: Mapping[str, Reaction], specs: Sequence[NativeSpec]) -> tuple[NativeParameter, ...]:
     return tuple(
         NativeParameter(
             name=station_name(station, p.name),

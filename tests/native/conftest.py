@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from fmpy.fmi3 import FMU3Model, FMU3Slave
 
-from rotorfilm.native.spec import library_of
 from rotorfilm.native.resource import FILE_NAME, NativeVariable, Role, pack
+from rotorfilm.native.spec import library_of
 
 TOKEN = "{8c4e810f-3df3-4a00-8276-176fa3c9f000}"
 NATIVE = Path(__file__).parents[2] / "rotorfilm" / "native"

@@ -135,7 +135,9 @@ def test_no_misuse_and_no_damaged_file_breaks_an_instance(unzipped, stress, tmp_
     missing = tmp_path / "missing"
     shutil.rmtree(missing, ignore_errors=True)
     (tmp_path / "maybe").mkdir()
-    maybe = resources(tmp_path / "maybe", (*mutated(plain, 300), *mutated(openings, 300), *mutated(whole, 300)))
+    maybe = resources(
+        tmp_path / "maybe", (*mutated(plain, 300), *mutated(openings, 300), *mutated(whole, 300))
+    )
     folders = [str(folder.resource.parent) for folder in good]
     assert "messages" in run(stress, token, "60000", *folders, "--", *bad, str(missing))
     run(stress, token, "200", "--", "--", *maybe)
