@@ -1,7 +1,8 @@
 """A flexible rotor and its two oil films as one native FMU: any macro step is stable.
 
 The rotor of Friswell, Penny, Garvey & Lees, Dynamics of Rotating Machines (2010), example 5.9.6,
-reduced to what its bearings feel up to 500 rad/s. Beside it the step at which film FMUs coupled to a rotor FMU would fail.
+reduced to what its bearings feel up to 500 rad/s. Beside it the macro step
+at which film FMUs coupled to a rotor FMU would fail.
 """
 
 import math
