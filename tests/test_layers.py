@@ -17,7 +17,7 @@ LAYERS = [
     ["linear", "reduce", "transient", "orbits", "cosim", "fmu"],
     ["ladders"],
     ["scenes", "charts"],
-    ["console", "gallery"],
+    ["console", "console_ladder", "gallery"],
     ["chart_commands", "cli_damper"],
     ["cli"],
 ]
