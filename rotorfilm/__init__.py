@@ -142,10 +142,11 @@ _HOMES = {
         "SpeedProfile",
         "Station",
         "Support",
+        "TiltSpring",
         "Unbalance",
         "mount",
     ),
-    "scenes": ("Answer", "RossRotor", "Scene", "bundled_scene", "read_ross"),
+    "scenes": ("Answer", "RossRotor", "Scene", "bundled_scene", "read_ross", "to_ross"),
     "signals": ("Signal",),
     "transient": ("simulate",),
     "errors": (

@@ -12,6 +12,7 @@ from .parts import (
     ShaftElement,
     Station,
     Support,
+    TiltSpring,
     Unbalance,
 )
 from .profile import SpeedProfile
@@ -41,6 +42,7 @@ __all__ = [
     "SpeedProfile",
     "Station",
     "Support",
+    "TiltSpring",
     "Unbalance",
     "cowper_coefficient",
     "mount",
