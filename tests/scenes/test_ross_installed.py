@@ -11,7 +11,14 @@ from numpy.testing import assert_allclose
 from rotorfilm.bearings import JournalBearing, LinearBearing, TabulatedBearing
 from rotorfilm.errors import InputError
 from rotorfilm.films import ShortFilm
-from rotorfilm.linear import coefficient_table, rotor_equilibrium, rotor_modes, unbalance_response
+from rotorfilm.linear import (
+    coefficient_table,
+    critical_speed_map,
+    critical_speeds,
+    rotor_equilibrium,
+    rotor_modes,
+    unbalance_response,
+)
 from rotorfilm.linear.rotor_system import second_order
 from rotorfilm.rotors import Probe, Unbalance
 from rotorfilm.scenes import read_ross, to_ross
@@ -199,6 +206,52 @@ def test_unbalance_response_is_that_of_ross(tmp_path):
     for axis, place in (("x", 0), ("y", 1)):
         mine = response.complex[response.output_labels.index(f"large_{axis}"), 0]
         assert_allclose(mine, answer.forced_resp[4 * 6 + place], rtol=1e-8)
+
+
+# Nelson & McVaugh (1976), J. Eng. Ind. 98, 593-600, in cm as a public script has it: places of the nodes,
+# inner and outer radii.
+PLACES = [0.00, 1.27, 5.08, 7.62, 8.89, 10.16, 10.67, 11.43, 12.70, 13.46, 16.51, 19.05, 22.86, 26.67, 28.70,
+          30.48, 31.50, 34.54, 35.81]  # fmt: skip
+INNER = [0, 0, 0, 0, 0, 0, 1.52, 1.78, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1.52]
+OUTER = [0.51, 1.02, 0.76, 2.03, 2.03, 3.30, 3.30, 2.54, 2.54, 1.27, 1.27, 1.52, 1.52, 1.27, 1.27, 3.81, 2.03,
+         2.03]  # fmt: skip
+
+
+def nelson_mcvaugh(**bearing):
+    metal = ross.Material("N", rho=7806, E=2.078e11, Poisson=0.3)
+    lengths = np.diff(PLACES) / 100
+    return ross.Rotor(
+        [
+            ross.ShaftElement(L=length, idl=bore / 50, odl=out / 50, material=metal, shear_effects=False)
+            for length, bore, out in zip(lengths, INNER, OUTER, strict=True)
+        ],
+        [ross.DiskElement(n=4, m=1.401, Ip=0.00203, Id=0.00136)],
+        [ross.BearingElement(n=n, **bearing) for n in (10, 14)],
+    )
+
+
+@pytest.mark.parametrize(
+    "bearing",
+    [
+        {"kxx": 4.378e7, "cxx": 0.0},
+        {"kxx": 3.503e7, "kyy": 3.503e7, "kxy": -8.756e6, "kyx": -8.756e6, "cxx": 1752.0},
+    ],
+)
+def test_critical_speeds_of_the_rotor_of_nelson_and_mcvaugh(tmp_path, bearing):
+    """Every crossing with the speed: at each of them ROSS has a mode of that frequency, and no other has."""
+    rotor = nelson_mcvaugh(**bearing)
+    rotor.save(tmp_path / "rotor.toml")
+    found = read_ross(tmp_path / "rotor.toml")
+    grid = np.linspace(200.0, 10500.0, 104)
+    critical = critical_speeds(found.rotor, found.bearings, grid)
+    assert len(critical) == 6
+    for one in critical:
+        assert np.abs(theirs(rotor, one.speed).imag - one.speed).min() < 1e-6 * one.speed
+    slower = [np.sum(theirs(rotor, speed).imag < speed) for speed in grid[[0, -1]]]
+    assert slower[1] - slower[0] == len(critical)
+    if "kxy" not in bearing:
+        forward = [one.speed for one in critical if one.direction > 0.0]
+        assert_allclose(forward, critical_speed_map(found.rotor, [4.378e7], count=3)[:, 0], rtol=1e-8)
 
 
 @pytest.fixture(scope="module")
