@@ -20,6 +20,7 @@ from .reduced import ReducedRotor
 from .rigid import RigidRotor
 from .rigid_shaft import RigidShaft
 from .shaft import ShaftRotor
+from .steady import SteadyRotor
 from .structure import FlexibleRotor
 
 __all__ = [
@@ -41,6 +42,7 @@ __all__ = [
     "ShaftRotor",
     "SpeedProfile",
     "Station",
+    "SteadyRotor",
     "Support",
     "TiltSpring",
     "Unbalance",
