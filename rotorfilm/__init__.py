@@ -107,6 +107,7 @@ _HOMES = {
         "rotor_modes",
         "rotor_system",
         "rotor_threshold",
+        "rotor_transmissibility",
         "small_motion_transmissibility",
         "to_nlsys",
         "transmissibility",

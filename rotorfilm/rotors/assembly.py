@@ -62,6 +62,7 @@ def assemble(
         held[tilts] += spring.stiffness
         damping[tilts] += spring.damping
     supported = [s for s in stations if s.support]
+    housings = _housings(stations, size)
     for place, station in enumerate(supported, start=size - len(supported)):
         assert station.support is not None
         pair = np.ix_([place, place + size], [place, place + size])
@@ -75,7 +76,7 @@ def assemble(
         stiffness=held,
         circulation=internal_damping * across_planes(stiffness),
         stations=checked_stations([station.name for station in stations]),
-        journals=_journals(stations, size),
+        journals=_journals(stations, size) - housings,
         weight=both_planes(mass) @ _translation(elements, len(supported), size, gravity),
         unbalance=_unbalance(unbalances, size),
         coordinates=tuple(coordinates),
@@ -84,6 +85,7 @@ def assemble(
             *_support_readouts(supported, size),
         ),
         supports=tuple(range(size - len(supported), size)),
+        housings=housings if supported else None,
         hysteresis=loss_factor * stiffness if loss_factor else None,
     )
 
@@ -130,14 +132,23 @@ def _add_disks(mass: Array, polar: Array, disks: Sequence[Disk]) -> None:
 
 
 def _journals(stations: Sequence[Station], size: int) -> Array:
+    """Return the displacement of each journal, shape (2 n_stations, 2 size)."""
     rows = np.zeros((2 * len(stations), 2 * size))
-    support = size - sum(station.support is not None for station in stations)
     for k, station in enumerate(stations):
         for axis in range(2):
             rows[2 * k + axis, axis * size + 2 * station.node] = 1.0
-            if station.support:
-                rows[2 * k + axis, axis * size + support] = -1.0
-        support += station.support is not None
+    return rows
+
+
+def _housings(stations: Sequence[Station], size: int) -> Array:
+    """Return the displacement of each housing, shape (2 n_stations, 2 size); 0 where it is rigid."""
+    rows = np.zeros((2 * len(stations), 2 * size))
+    place = size - sum(station.support is not None for station in stations)
+    for k, station in enumerate(stations):
+        if station.support:
+            for axis in range(2):
+                rows[2 * k + axis, axis * size + place] = 1.0
+            place += 1
     return rows
 
 

@@ -2,8 +2,8 @@
 
 The numbers are those that ROSS (https://github.com/petrobras/ross, commit 631a249) quotes from the book in
 `ross/tests/test_examples.py`, or prints for the example in `docs/user_guide`; the docstrings say which.
-Printed digits may be cut, not rounded: the tolerance is one unit of the last place. Modes of torsion, at 650.41 rad/s
-or 103.52 Hz, are in the lists of ROSS and left out here.
+Printed digits may be cut, not rounded: the tolerance is one unit of the last place. Modes of torsion, at
+650.41 rad/s or 103.52 Hz, are in the lists of ROSS and left out here.
 """
 
 import numpy as np
