@@ -16,6 +16,7 @@ import typer
 from . import console
 from .chart_commands import chart_app
 from .cli_damper import DAMPER_EXAMPLE, damper
+from .cli_rotor import ROTOR_EXAMPLE, rotor
 from .errors import InputError, RotorfilmError, SceneError
 
 if TYPE_CHECKING:
@@ -322,6 +323,7 @@ def demo(
 
 
 app.command(epilog=DAMPER_EXAMPLE)(damper)
+app.command(epilog=ROTOR_EXAMPLE)(rotor)
 
 
 def main(arguments: list[str] | None = None) -> None:
