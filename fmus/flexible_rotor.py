@@ -1,4 +1,4 @@
-"""The flexible rotor of Friswell et al. (2010), section 5.9, reduced, at rest in the films of example 5.9.6."""
+"""The flexible rotor of Friswell et al. (2010), section 5.9, reduced, at rest in two films."""
 
 from dataclasses import replace
 from functools import cache

@@ -59,12 +59,16 @@ def plot_campbell(
 
 
 def plot_log_decrement(chart: Campbell, *, axes: Axes | None = None) -> Axes:
-    """Draw the logarithmic decrement of each mode over speed [rpm]; below zero the whirl grows."""
+    """Draw the logarithmic decrement of each mode over speed [rpm]; below zero the whirl grows.
+
+    The axis is linear from -0.1 to 0.1, where shafts live, and logarithmic beyond, where films do.
+    """
     axes = axes or new_axes("Stability")
     for decrement, frequency in zip(chart.log_decrement, chart.frequency, strict=True):
         first = frequency[np.isfinite(frequency)][0] / HERTZ
         axes.plot(chart.speeds / RPM, decrement, label=f"from {first:.3g} Hz")
     axes.axhline(0.0, color="k", linewidth=0.8)
+    axes.set_yscale("symlog", linthresh=0.1)
     axes.set(xlabel="speed [rpm]", ylabel="logarithmic decrement")
     axes.legend(fontsize=8)
     return axes

@@ -95,7 +95,7 @@ def read_ross(path: str | Path, *, speed: float | SpeedProfile = 0.0) -> RossRot
 def _read(file: Path, data: RossTable, speed: float | SpeedProfile) -> RossRotor:
     tables = {name: table for name, table in data.items() if isinstance(table, dict) and name != "parameters"}
     couplings = _of(tables, "CouplingElement")
-    pieces = [
+    pieces: list[tuple[int, ShaftElement | Coupling]] = [
         *((table["n"], _element(name, table)) for name, table in _of(tables, "ShaftElement").items()),
         *((table["n"], _coupling(name, table)) for name, table in couplings.items()),
     ]

@@ -149,8 +149,10 @@ def read_pieces(where: str, value: Any) -> tuple[PieceTable | CouplingTable, ...
         raise SceneError(f"{where} must be a list of tables, got {value!r}")
     pieces: list[PieceTable | CouplingTable] = []
     for k, entry in enumerate(value):
-        kind = CouplingTable if "stiffness" in require_table(f"{where}[{k}]", entry) else PieceTable
-        pieces.append(read_table(kind, f"{where}[{k}].", entry))
+        if "stiffness" in require_table(f"{where}[{k}]", entry):
+            pieces.append(read_table(CouplingTable, f"{where}[{k}].", entry))
+        else:
+            pieces.append(read_table(PieceTable, f"{where}[{k}].", entry))
     return tuple(pieces)
 
 
