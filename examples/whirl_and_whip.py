@@ -68,5 +68,6 @@ axes.legend()
 save(axes, Path("whirl_and_whip.png"))
 
 whip = whirl_frequency(1.0, duration)
-print(f"at {last / RPM:.0f} rpm: {np.abs(disk[time > 1.4]).max() * 1e6:.0f} um at {whip / last:.3f} x speed")
+swing = 0.5 * np.ptp(disk.real[time > 1.4]) * 1e6
+print(f"at {last / RPM:.0f} rpm the disk moves by +-{swing:.0f} um at {whip / last:.3f} of the speed")
 print("frequency of the whip / first critical speed:", whip / critical)

@@ -13,8 +13,10 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError
 from ..model import JOURNAL_INPUTS, Array, Dynamic, Kinked, Linearization, Reaction, indices
+from ..native.spec import NativeSpec
 from ..signals import Signal, names
 from .structure import prefixed, station_names
+from .system_kernel import system_kernel
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -129,6 +131,18 @@ class MountedRotor:
             np.vstack([rotor.B[:, free], np.zeros((states, len(free)))]),
             np.vstack([seen, slopes.forces, slopes.further]),
             np.vstack([rotor.D[:, free], np.zeros((len(slopes.forces) + len(slopes.further), len(free)))]),
+        )
+
+    def native(self) -> NativeSpec | None:
+        """Return rotor and bearings as one kernel of the C library; None if a part of them has none."""
+        if type(self) is not MountedRotor:
+            return None
+        return system_kernel(
+            self.rotor,
+            dict(zip(self.stations, self.bearings, strict=True)),
+            carried=np.ravel(self._force).astype(int).tolist(),
+            free=self._free,
+            motion=[row for rows in self._motion for row in rows[:4]],
         )
 
     def _split(self, t: float, x: ArrayLike) -> tuple[Array, list[Array], list[Array]]:

@@ -90,7 +90,7 @@ class Structure(NamedTuple):
 
 
 class Operators(NamedTuple):
-    """x' = (steady + w spin) x + push u + weight + unbalance r(t);  y = (sense x, w)."""
+    """x' = (steady + w spin) x + push u + weight + unbalance r(t);  y = (sense x, w), r as in `Structure`."""
 
     steady: Array
     spin: Array
