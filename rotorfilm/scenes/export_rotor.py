@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 
-from ..fmu import export_fmu
 from ..linear import rotor_equilibrium
 from ..model import Reaction
 from ..reduce import Reduction, reduce_rotor
@@ -56,6 +55,8 @@ def export_rotor_fmu(
     EquilibriumError
         If there is no equilibrium in the bearings.
     """
+    from ..fmu import export_fmu  # slow to load, and not needed to read a scene
+
     reduction = reduce_rotor(rotor, frequency=frequency, tolerance=tolerance)
     start = {}
     if bearings is not None:
