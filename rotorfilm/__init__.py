@@ -150,6 +150,7 @@ _HOMES = {
     ),
     "scenes": ("Answer", "RossRotor", "Scene", "bundled_scene", "export_rotor_fmu", "read_ross", "to_ross"),
     "signals": ("Signal",),
+    "sweeps": ("sweep",),
     "transient": ("simulate",),
     "errors": (
         "ContactError",
