@@ -16,6 +16,7 @@ import typer
 from . import console
 from .chart_commands import chart_app
 from .cli_damper import DAMPER_EXAMPLE, damper
+from .cli_rotor import ROTOR_EXAMPLE, rotor
 from .cli_sweep import SWEEP_EXAMPLE, sweep
 from .errors import InputError, RotorfilmError, SceneError
 
@@ -351,6 +352,7 @@ def demo(
 
 
 app.command(epilog=DAMPER_EXAMPLE)(damper)
+app.command(epilog=ROTOR_EXAMPLE)(rotor)
 app.command(epilog=SWEEP_EXAMPLE)(sweep)
 
 

@@ -8,7 +8,13 @@ from .damper import plot_bistable, plot_eccentricity, plot_phase, plot_transmiss
 from .limits import plot_limits
 from .motion import plot_locus, plot_orbits
 from .page import write_page
-from .rotor import plot_campbell, plot_critical_speed_map, plot_log_decrement, plot_unbalance_response
+from .rotor import (
+    plot_campbell,
+    plot_critical_speed_map,
+    plot_log_decrement,
+    plot_mode_shape,
+    plot_unbalance_response,
+)
 from .whirl_verdicts import plot_journal_stability, plot_thresholds
 from .work_precision import plot_force_error, plot_journal_accuracy
 
@@ -29,6 +35,7 @@ __all__ = [
     "plot_limits",
     "plot_locus",
     "plot_log_decrement",
+    "plot_mode_shape",
     "plot_orbits",
     "plot_phase",
     "plot_thresholds",

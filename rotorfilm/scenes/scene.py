@@ -20,6 +20,7 @@ from .ladder import QuestionAnswer
 from .lubricant_table import LubricantTable
 from .question_table import QuestionTable
 from .questions import ask
+from .rotor_table import ShaftTable
 from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
 from .solve import Answer, solve
 from .tables import Table, Variant, read_table, require_no_near_miss, text
@@ -44,6 +45,8 @@ class Scene:
         One line for print-outs and charts.
     journal : JournalTable or None
         A journal bearing.
+    shaft : ShaftTable or None
+        A flexible rotor in its own bearings.
     operation : OperationTable or None
         Speed and load.
     lubricant : LubricantTable
@@ -70,6 +73,8 @@ class Scene:
     #     damper: Annotated[DamperTable | None, Table(DamperTable)] = None
     # and nowhere else. It checks what it needs of the other tables where it is solved.
     journal: Annotated[JournalTable | None, Table(JournalTable)] = None
+
+    shaft: Annotated[ShaftTable | None, Table(ShaftTable)] = None
 
     # What all families share.
     operation: Annotated[OperationTable | None, Table(OperationTable)] = None
