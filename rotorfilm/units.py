@@ -50,6 +50,12 @@ UNITS: dict[str, Unit] = {
     "kg.m": Unit(1.0, {"kg": 1, "m": 1}),
     "N.m": Unit(1.0, {"kg": 1, "m": 2, "s": -2}),
     "K": Unit(1.0, {"K": 1}),
+    "1/K": Unit(1.0, {"K": -1}),
+    "1/K2": Unit(1.0, {"K": -2}),
+    "1/s": Unit(1.0, {"s": -1}),
+    "J/m3": Unit(1.0, {"kg": 1, "m": -1, "s": -2}),
+    "W/(m.K)": Unit(1.0, {"kg": 1, "m": 1, "s": -3, "K": -1}),
+    "W/(m2.K)": Unit(1.0, {"kg": 1, "s": -3, "K": -1}),
 }
 """The SI units of signals, by their FMI spelling."""
 

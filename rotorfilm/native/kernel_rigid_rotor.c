@@ -111,7 +111,7 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
                    times->numbers[k - 1]);
             return NULL;
         }
-    const rf_sizes mine = {n == 1 ? PARAMETERS : SPEED, 2, 5, 4};
+    const rf_sizes mine = {n == 1 ? PARAMETERS : SPEED, 2, 5, 4, 0};
     *sizes = mine;
     return with_profile(times, speeds, why);
 }

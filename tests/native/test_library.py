@@ -14,7 +14,7 @@ from rotorfilm.native import NativeLibraryError, library
 
 SOURCES = sorted((Path(__file__).parents[2] / "rotorfilm" / "native").glob("*.c"))
 COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
-LARGEST = 60_000
+LARGEST = 80_000
 """Bytes of the library on Linux, x86_64."""
 
 
