@@ -149,9 +149,7 @@ def require_unique(variables: Sequence[Variable]) -> None:
 def references(variables: Sequence[Variable], causality: str) -> list[int]:
     """Return the value references of a causality; of "local" those of the states."""
     return [
-        k
-        for k, v in enumerate(variables)
-        if v.causality == causality and v.state is None and not v.switch
+        k for k, v in enumerate(variables) if v.causality == causality and v.state is None and not v.switch
     ]
 
 

@@ -15,22 +15,16 @@ static const double MOMENT[TERMS] = {1.0 / 3,           -1.0 / 30,        1.0 / 
                                      -1.0 / 45360,      1.0 / 3991680,    -1.0 / 518918400,
                                      1.0 / 93405312000, -1.0 / 22230464256000, 1.0 / 6758061133824000};
 
-static double series(const double *c, double a)
+void rf_arc(double a, double sin_a, double cos_a, double *segment, double *moment)
 {
-    double sum = 0.0;
-    for (int k = TERMS; k-- > 0;)
-        sum = sum * a * a + c[k];
-    return sum * a * a * a;
-}
-
-double rf_arc_segment(double a, double sin_a, double cos_a)
-{
-    return a < SERIES_LIMIT ? series(SEGMENT, a) : a - sin_a * cos_a;
-}
-
-double rf_arc_moment(double a, double sin_a, double cos_a)
-{
-    return a < SERIES_LIMIT ? series(MOMENT, a) : sin_a - a * cos_a;
+    const double square = a * a;
+    double s = SEGMENT[TERMS - 1], m = MOMENT[TERMS - 1];
+    for (int k = TERMS - 1; k-- > 0;) {
+        s = s * square + SEGMENT[k];
+        m = m * square + MOMENT[k];
+    }
+    *segment = a < SERIES_LIMIT ? s * square * a : a - sin_a * cos_a;
+    *moment = a < SERIES_LIMIT ? m * square * a : sin_a - a * cos_a;
 }
 
 double rf_bush_friction(const rf_bush *b, double T)

@@ -31,9 +31,8 @@ typedef struct rf_bush {
 int rf_bush_tables(rf_bush *bush, const rf_tables *tables, rf_message *why);
 int rf_bush_parameters(rf_bush *bush, const double *p, rf_message *why);
 
-/* sin(a) - a cos(a) and a - sin(2 a)/2, without cancellation. */
-double rf_arc_moment(double a, double sin_a, double cos_a);
-double rf_arc_segment(double a, double sin_a, double cos_a);
+/* a - sin(2 a)/2 and sin(a) - a cos(a), without cancellation. */
+void rf_arc(double a, double sin_a, double cos_a, double *segment, double *moment);
 
 double rf_bush_friction(const rf_bush *bush, double temperature);
 /* Heat per area and kelvin that shaft and liner take; what they take at T_*, and its derivative by a. */

@@ -252,6 +252,9 @@ static int evaluate(rf_instance *c, rf_role role, rf_message *why)
     const rf_point at = point(c);
     if (status == RF_OK)
         status = function(c->kernel, &at, c->values[role], why);
+    for (size_t i = 0; status <= RF_OUTSIDE && i < c->resource->count[role]; ++i)
+        if (!isfinite(c->values[role][i]))
+            status = rf_say(why, RF_NOT_FINITE, "value %zu is not finite", i);
     if (status <= RF_OUTSIDE)
         c->known |= 1u << role;
     return status;

@@ -42,8 +42,7 @@ static void see(double a, arc *at)
     at->a = a;
     at->sin = sin(a);
     at->cos = cos(a);
-    at->segment = rf_arc_segment(a, at->sin, at->cos);
-    at->moment = rf_arc_moment(a, at->sin, at->cos);
+    rf_arc(a, at->sin, at->cos, &at->segment, &at->moment);
     at->F = at->segment / at->cos;
     at->F_slope = at->sin * (2.0 * at->sin + at->F) / at->cos;
     at->weight = at->moment / (a * at->segment);
@@ -57,7 +56,9 @@ static double angle_of(double y)
                        : HALF_PI;
     for (int i = 0; i < MOST_STEPS; ++i) {
         const double sine = sin(a), cosine = cos(a), slope = sine * (2.0 * sine + y);
-        const double newton = (rf_arc_segment(a, sine, cosine) - y * cosine) / slope;
+        double segment, moment;
+        rf_arc(a, sine, cosine, &segment, &moment);
+        const double newton = (segment - y * cosine) / slope;
         const double step = newton / (1.0 - 0.5 * newton * (4.0 * sine + y) * cosine / slope);
         a -= step;
         if (fabs(step) <= 2e-5 * a) /* its cube is what is left */
@@ -116,7 +117,12 @@ static int find_cold(const rf_bush *b, const demand *d, double lifted, contact *
         if (fabs(step) <= 4e-16 * c->at.a || fabs(residual) <= 1e-15 * lifted || high - low <= 4e-16 * high)
             break;
         const double trial = c->at.a - step;
-        see(trial > low && trial < high ? trial : 0.5 * (low + high), &c->at);
+        const int inside = trial > low && trial < high;
+        see(inside ? trial : 0.5 * (low + high), &c->at);
+        if (inside && fabs(step) <= 1e-8 * trial) { /* its square is what is left */
+            c->temperature = steady(b, &c->at, d);
+            return RF_OK;
+        }
     }
     if (fabs(residual) <= 1e-9 * lifted)
         return RF_OK;
@@ -220,8 +226,6 @@ static int output(const void *kernel, const rf_point *at, double *y, rf_message 
            * d.load * 2.0 * c.at.a * c.at.weight;
     y[5] = surplus(b, &c, &d) / b->melting_heat;
     y[6] = sliding(b, &c.at, &d) * b->grip / rf_bush_losses(b, c.at.a, c.at.sin);
-    if (!isfinite(y[3] + y[4] + y[5] + y[6]))
-        return rf_say(why, RF_NOT_FINITE, "the outputs must be finite, got a load of %.9g N", at->u[0]);
     return RF_OK;
 }
 
@@ -326,7 +330,8 @@ static double grow(const rf_bush *b, const demand *d, double h, arc *at, rate *r
         *r = melt(b, d, at);
         const double z = h * r->by_moment, growth = known + h * r->f * (0.5 - z / 12.0);
         step = (b->gap * (at->F - start.F) - growth) / (b->gap * at->F_slope * (1.0 - 0.5 * z + z * z / 12.0));
-        if (fabs(step) <= 1e-9 * at->a) {
+        /* What is left of the step changes the growth by z of it. */
+        if (fabs(step * z) <= 1e-13 * (a - start.a) || fabs(step) <= 4e-16 * a) {
             *error = fabs(h * (r0.f - r->f) / 6.0 + h * h * (r0.f * r0.by_moment + r->f * r->by_moment) / 12.0);
             return growth;
         }
@@ -361,7 +366,7 @@ static int step(void *kernel, const rf_point *at, double dt, double *x, rf_messa
         }
         if (left > 0.0)
             h = fmin(left, h * (error < HUGE_VAL ? fmin(4.0, 0.8 * pow(allowed / (error + 1e-30), 0.25)) : 0.1));
-        if (h < 1e-12 * dt)
+        if (left > 0.0 && h < 1e-16 * left)
             return rf_say(why, RF_STUCK, "the wear cannot go on beyond %.9g of a step", 1.0 - left / dt);
     }
     *x = moment;
