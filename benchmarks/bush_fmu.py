@@ -1,6 +1,6 @@
 """What a step of the native bush FMUs costs in C, and how accurate it is, in one run.
 
-A step: setting the inputs, `doStep`, getting all outputs. Errors are those of the outputs after the last step,
+A step: setting the inputs, `doStep`, getting all outputs. Errors are those of the outputs after the last,
 against DOP853 at 1e-12. The ratio is to scipy's LSODA on the Python model, at about the same error. Needs a C
 compiler, on Linux or macOS.
 

@@ -106,7 +106,7 @@ class BushWear:
         return np.array([self.wear])
 
     def native(self) -> NativeSpec | None:
-        """Return the kernel of the C library that is this model; None for a subclass or a balance of others."""
+        """Return the kernel of the C library that is this model; None for a subclass or a foreign balance."""
         if type(self) is not BushWear or not has_kernel(self.bush):
             return None
         parameters = bush_parameters(self.bush, self.melting_heat)

@@ -139,9 +139,9 @@ KERNELS = {
     },
     "bush_reaction": {
         "Model": (
-            "Force and friction torque of a polymer bush on the shaft in it, with wear depths at nodes of the "
-            "liner: loads may fall and turn, the shaft may leave the liner and come back. The contact is held "
-            "at the melting point. Where the depth d of the shaft in the liner is positive it carries "
+            "Force and friction torque of a polymer bush on the shaft in it, with wear depths at nodes of "
+            "the liner: loads may fall and turn, the shaft may leave the liner and come back. The contact is "
+            "held at the melting point. Where the depth d of the shaft in the liner is positive it carries "
             "pressure q; what friction heat leaves over melts the liner. In Co-Simulation the wear is "
             "advanced by extrapolated implicit Euler steps with error control under held inputs; nodes that "
             "enter or leave the contact, melting, and the sense of rotation are event indicators."

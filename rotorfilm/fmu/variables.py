@@ -25,8 +25,8 @@ class Variable(NamedTuple):
     name : str
         Structured name, `component.signal`; states are `component.state_signal`.
     causality : str
-        "input", "output", "local" (a state, its derivative, an event indicator), "parameter" or "independent" (the time), as
-        FMI spells them.
+        "input", "output", "local" (a state, its derivative, an event indicator), "parameter" or
+        "independent" (the time), as FMI spells them.
     unit : str or None
         SI unit, None where it is not known.
     nominal : float or None

@@ -50,7 +50,7 @@ def opened(unzipped, model, kind, u):
 
 
 def compare(client, model, x, u, tolerance=1e-12):
-    """Outputs, rates, events and derivatives of an instance in continuous-time mode are those of the model."""
+    """Outputs, rates, events and derivatives of an instance in continuous-time mode are the model's."""
     n = len(x)
     client.set(**dict(zip((s.name for s in model.inputs), map(float, u), strict=True)))
     client.set_states(x)
@@ -169,7 +169,7 @@ def test_a_step_below_the_critical_speed_wears_nothing(unzipped):
 def test_steps_of_the_profile_follow_an_accurate_solution(
     unzipped, kind, melting, tolerance, speed, duration, steps, extent
 ):
-    """On a rough profile, whose peaks leave the contact within the steps: kinks that have no end of a step."""
+    """On a rough profile, whose peaks leave the contact within the steps: kinks that end no step."""
     model = worn(melting=melting, extent=extent)
     u = [*model.position([0.0, -LOAD], speed, model.initial_state), 0.0, 0.0, speed]
     client, _ = opened(unzipped, model, kind, u)
@@ -243,9 +243,13 @@ def test_parameters_are_those_of_the_model(unzipped):
 )
 def test_what_cannot_be_is_an_error_with_values(unzipped, capsys, model, values, message):
     client, _ = opened(unzipped, model, FMU2Slave, np.zeros(len(model.inputs)))
-    with pytest.raises(Exception, match="failed with status 3"):
+
+    def set_and_get():
         client.set(**values)
         client.get(names(model)[0])
+
+    with pytest.raises(Exception, match="failed with status 3"):
+        set_and_get()
     assert message in capsys.readouterr().out
 
 
