@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from time import perf_counter
 
 import numpy as np
@@ -134,20 +135,16 @@ def bush_tiers(
     bush, times = f4k20_bush(), np.linspace(0.0, DURATION, SAMPLES)
     exact = two_moments(bush, times, **TIGHT)
     worn = BushReaction(bush=bush, melting_heat=HEAT, extent=1.5)
+    local = replace(worn, nodes=max(nodes), melting=LocalMelting())
     runs: dict[tuple[str, str], Callable[[], Array]] = {
-        ("two moments", "two moments"): lambda: two_moments(bush, times, **USUAL),
-        ("BushWear", "BushWear"): lambda: _one_state(bush, times),
+        ("two moments", "two moments"): partial(two_moments, bush, times, **USUAL),
+        ("BushWear", "BushWear"): partial(_one_state, bush, times),
         **{
-            ("BushReaction", f"BushReaction, {n} nodes"): lambda n=n: _profile(times, replace(worn, nodes=n))
+            ("BushReaction", f"BushReaction, {n} nodes"): partial(_profile, times, replace(worn, nodes=n))
             for n in nodes
         },
-        ("LocalMelting: another law", f"LocalMelting, {max(nodes)} nodes"): lambda: _profile(
-            times, replace(worn, nodes=max(nodes), melting=LocalMelting())
-        ),
-        **{
-            ("as published", f"as published, {n} steps"): lambda n=n: _published(bush, times, n)
-            for n in steps
-        },
+        ("LocalMelting: another law", f"LocalMelting, {local.nodes} nodes"): partial(_profile, times, local),
+        **{("as published", f"as published, {n} steps"): partial(_published, bush, times, n) for n in steps},
     }
     tiers = []
     for number, ((family, name), run) in enumerate(runs.items()):

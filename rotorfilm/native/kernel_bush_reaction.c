@@ -17,9 +17,9 @@
 #define TYPICAL_PRESSURE 4e-2 /* in shear moduli */
 #define TOLERANCE 1e-10       /* of the local error, relative to each depth and to a typical one */
 #define ROWS 8               /* of the extrapolation */
-#define MOST_PARTS 1000000
+#define MOST_PARTS 5000
 
-enum { ARRAYS = 8, WORK = 8 + ROWS };
+enum { ARRAYS = 8, WORK = 9 + ROWS };
 
 typedef struct model {
     rf_bush bush;
@@ -351,6 +351,7 @@ static int step(void *kernel, const rf_point *at, double dt, double *x, rf_messa
     const int status = enter(m, at, why);
     if (status != RF_OK)
         return status;
+    memcpy(m->scratch[WORK - 1], x, n * sizeof *x);
     for (int part = 0; part < MOST_PARTS && left > 0.0; ++part) {
         int rows;
         const double error = extrapolate(m, x, at->u, h, &rows);
@@ -361,9 +362,13 @@ static int step(void *kernel, const rf_point *at, double dt, double *x, rf_messa
         }
         const double most = error <= 1.0 ? (rows < ROWS ? 4.0 : 1.0) : 0.5;
         h = fmin(left, h * (error < HUGE_VAL ? fmin(fmax(0.8 * pow(error + 1e-30, -1.0 / rows), 0.1), most) : 0.1));
-        if (left > 0.0 && h < 1e-16 * left)
-            return rf_say(why, RF_STUCK, "the wear cannot go on beyond %.9g of a step", 1.0 - left / dt);
+        if (left > 0.0 && !(h >= 1e-16 * left))
+            break;
     }
+    if (left > 0.0)
+        memcpy(x, m->scratch[WORK - 1], n * sizeof *x);
+    if (left > 0.0)
+        return rf_say(why, RF_STUCK, "the wear cannot go on beyond %.9g of a step", 1.0 - left / dt);
     return RF_OK;
 }
 

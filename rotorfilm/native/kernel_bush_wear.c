@@ -13,7 +13,7 @@
 #define TOLERANCE 1e-10 /* of the local error of W, relative to it and to a typical value */
 #define TYPICAL 1e-3
 #define LEAST 1e-250 /* of what is lifted: below, the powers of the angle are none */
-#define MOST_PARTS 1000000
+#define MOST_PARTS 20000
 
 /* Half the contact angle and what follows from it alone. */
 typedef struct arc {
@@ -355,8 +355,10 @@ static int step(void *kernel, const rf_point *at, double dt, double *x, rf_messa
         arc next = c.at;
         rate then = r;
         double error, allowed = TOLERANCE * (TYPICAL + moment);
-        if (r.f * left <= 1e-17 * moment)
-            break; /* the wear is at its end */
+        if (r.f * left <= 1e-17 * moment) {
+            left = 0.0; /* the wear is at its end */
+            break;
+        }
         const double growth = grow(b, &d, h, &next, &then, &error);
         if (error <= allowed) {
             c.at = next;
@@ -366,9 +368,11 @@ static int step(void *kernel, const rf_point *at, double dt, double *x, rf_messa
         }
         if (left > 0.0)
             h = fmin(left, h * (error < HUGE_VAL ? fmin(4.0, 0.8 * pow(allowed / (error + 1e-30), 0.25)) : 0.1));
-        if (left > 0.0 && h < 1e-16 * left)
-            return rf_say(why, RF_STUCK, "the wear cannot go on beyond %.9g of a step", 1.0 - left / dt);
+        if (left > 0.0 && !(h >= 1e-16 * left))
+            break;
     }
+    if (left > 0.0)
+        return rf_say(why, RF_STUCK, "the wear cannot go on beyond %.9g of a step", 1.0 - left / dt);
     *x = moment;
     return RF_OK;
 }
