@@ -17,7 +17,7 @@
 #define TYPICAL_PRESSURE 4e-2 /* in shear moduli */
 #define TOLERANCE 1e-10       /* of the local error, relative to each depth and to a typical one */
 #define ROWS 8               /* of the extrapolation */
-#define MOST_PARTS 5000
+#define MOST_PARTS 2000
 
 enum { ARRAYS = 8, WORK = 9 + ROWS };
 

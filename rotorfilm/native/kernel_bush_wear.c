@@ -13,6 +13,7 @@
 #define TOLERANCE 1e-10 /* of the local error of W, relative to it and to a typical value */
 #define TYPICAL 1e-3
 #define LEAST 1e-250 /* of what is lifted: below, the powers of the angle are none */
+#define LONGEST 8.0 /* step, in times in which the rate of wear falls by 1/e */
 #define MOST_PARTS 20000
 
 /* Half the contact angle and what follows from it alone. */
@@ -355,10 +356,12 @@ static int step(void *kernel, const rf_point *at, double dt, double *x, rf_messa
         arc next = c.at;
         rate then = r;
         double error, allowed = TOLERANCE * (TYPICAL + moment);
-        if (r.f * left <= 1e-17 * moment) {
-            left = 0.0; /* the wear is at its end */
+        if (r.f <= -1e-3 * allowed * r.by_moment) {
+            left = 0.0; /* all wear that is left is none */
             break;
         }
+        if (r.by_moment < 0.0) /* where longer steps would not damp what is left */
+            h = fmin(h, -LONGEST / r.by_moment);
         const double growth = grow(b, &d, h, &next, &then, &error);
         if (error <= allowed) {
             c.at = next;
