@@ -82,7 +82,12 @@ def test_example_is_short(path):
 
 @pytest.mark.parametrize("path", SCENES, ids=lambda path: path.name)
 def test_scene_file_loads_and_solves(path):
-    assert Scene.load(path).solve().equilibrium.residual < 1e-10
+    scene = Scene.load(path)
+    if scene.journal is None:
+        # Evtushenko & Kovalenko (1993) print .201 rad.
+        assert scene.melting().contact.contact_angle == pytest.approx(0.201, abs=5e-4)
+        return
+    assert scene.solve().equilibrium.residual < 1e-10
 
 
 def test_shown_scene_is_the_bundled_one():

@@ -15,6 +15,7 @@ from ..bearings.journal import JournalBearing
 from ..errors import InputError, SceneError, warn_user
 from ..rotors.rigid import RigidRotor
 from ..units import STANDARD_GRAVITY
+from .bush import BushAnswer, solve_bush
 from .bush_table import BushTable
 from .excitation_table import EXCITATIONS, ExcitationTable
 from .ladder import QuestionAnswer
@@ -151,6 +152,12 @@ class Scene:
         """Return equilibrium, coefficients and whirl threshold; see `rotorfilm.scenes.solve.solve`."""
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
         return solve(self.bearing, load=self.static_load, speed=self.speed, mass=mass)
+
+    def melting(self) -> BushAnswer:
+        """Return contact and critical speeds of the unworn bush; raises InputError if the scene has none."""
+        if self.bush is None:
+            raise InputError("bush is required for a critical speed of melting, got no such table")
+        return solve_bush(self.bush.build(), math.hypot(*self.static_load), self.speed, 0.0)
 
     @property
     def film_is_given(self) -> bool:
