@@ -16,10 +16,9 @@ import numpy as np
 from ..errors import InputError
 from ..model import Array
 from .map import BoundMap, MapFilm
-from .map_table import MapTable
 from .squeeze import SqueezeFilm
 from .squeeze_laws import SqueezeCase
-from .squeeze_table import LARGEST, LARGEST_FINITE, RATIO, finite_table, short_table
+from .squeeze_table import LARGEST, LARGEST_FINITE, RATIO, SqueezeTable, finite_table, short_table
 
 
 @runtime_checkable
@@ -41,7 +40,7 @@ class MapSqueeze:
     cells : tuple of int
         Cells of the table over the eccentricity ratio and over the direction of the velocity; a full film
         takes three times as many of the latter.
-    table : MapTable, optional
+    table : SqueezeTable, optional
         Of this damper, as `tabulated` gives it; made by default.
     """
 
@@ -49,53 +48,56 @@ class MapSqueeze:
     largest_eccentricity_ratio: ClassVar[float] = LARGEST
 
     cells: tuple[int, int] = (24, 48)
-    table: MapTable | None = None
+    table: SqueezeTable | None = None
 
     def bind(self, case: SqueezeCase) -> SqueezeFilm:
         """Return the film of one damper; raise InputError for one with feed."""
         _require_potential(self, case)
-        table = short_table(case.layer, case.cavitated, self.cells) if self.table is None else self.table
-        return MappedSqueezeFilm(MapFilm(table), one_slenderness=False)
+        return MappedSqueezeFilm(MapFilm(self._table(case).table), one_slenderness=False)
 
     def tabulated(self, case: SqueezeCase) -> MapSqueeze:
         """Return this law with the table of one damper; see `TabulatedSqueeze`."""
-        return replace(self, table=short_table(case.layer, case.cavitated, self.cells))
+        return replace(self, table=self._table(case))
+
+    def _table(self, case: SqueezeCase) -> SqueezeTable:
+        if self.table is None:
+            return short_table(case.layer, case.cavitated, self.cells)
+        return self.table.required(None, case.layer, case.cavitated)
 
 
 @dataclass(frozen=True)
 class FiniteMapSqueeze:
     """Film of finite length from a table of its potential, flow around the circumference included.
 
-    The table takes some seconds for a damper and is kept on disk; L/D to 2, eccentricity ratio to 0.985, or
-    0.99 for a full film.
+    The table takes some seconds for a damper and is kept on disk; L/D to 2, eccentricity ratio to 0.985.
 
     Parameters
     ----------
     cells : tuple of int
         Cells of the table over the eccentricity ratio and over the direction of the velocity; a full film
         takes three times as many of the latter.
-    table : MapTable, optional
+    table : SqueezeTable, optional
         Of this damper, as `tabulated` gives it; made, or found on disk, by default.
     """
 
     largest_eccentricity_ratio: ClassVar[float] = LARGEST_FINITE
 
     cells: tuple[int, int] = (16, 32)
-    table: MapTable | None = None
+    table: SqueezeTable | None = None
 
     def bind(self, case: SqueezeCase) -> SqueezeFilm:
         """Return the film of one damper; raise InputError for one with feed."""
         _require_potential(self, case)
-        return MappedSqueezeFilm(MapFilm(self._table(case)), one_slenderness=True)
+        return MappedSqueezeFilm(MapFilm(self._table(case).table), one_slenderness=True)
 
     def tabulated(self, case: SqueezeCase) -> FiniteMapSqueeze:
         """Return this law with the table of one damper; see `TabulatedSqueeze`."""
         return replace(self, table=self._table(case))
 
-    def _table(self, case: SqueezeCase) -> MapTable:
-        if self.table is not None:
-            return self.table
-        return finite_table(case.slenderness, case.layer, case.cavitated, self.cells)
+    def _table(self, case: SqueezeCase) -> SqueezeTable:
+        if self.table is None:
+            return finite_table(case.slenderness, case.layer, case.cavitated, self.cells)
+        return self.table.required(case.slenderness, case.layer, case.cavitated)
 
 
 @dataclass(frozen=True)

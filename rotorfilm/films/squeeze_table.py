@@ -46,8 +46,36 @@ SOURCES = (
 """What decides the content of a table."""
 
 
+@dataclass(frozen=True)
+class SqueezeTable:
+    """A table and the damper it is for.
+
+    Parameters
+    ----------
+    slenderness : float or None [1]
+        L/D; None for a short film, whose table holds for any.
+    layer : tuple or None
+        The numbers of the PorousLayer; None for a solid cage.
+    cavitated : bool
+    table : MapTable
+        In units of viscosity * radius * length^3 / clearance^2 per 1/s.
+    """
+
+    slenderness: float | None
+    layer: tuple[float, ...] | None
+    cavitated: bool
+    table: MapTable
+
+    def required(self, slenderness: float | None, layer: PorousLayer | None, cavitated: bool) -> SqueezeTable:
+        """Return this table; raise InputError if it is that of another damper."""
+        own, other = (self.slenderness, self.layer, self.cavitated), (slenderness, layer, cavitated)
+        if own != other:
+            raise InputError(f"table must be that of the damper, {other}, got that of {own}")
+        return self
+
+
 @lru_cache(maxsize=32)
-def short_table(layer: PorousLayer | None, cavitated: bool, cells: tuple[int, int]) -> MapTable:
+def short_table(layer: PorousLayer | None, cavitated: bool, cells: tuple[int, int]) -> SqueezeTable:
     """Return the table of a short film on a layer, in some hundredths of a second.
 
     Parameters
@@ -59,20 +87,22 @@ def short_table(layer: PorousLayer | None, cavitated: bool, cells: tuple[int, in
         Over the eccentricity ratio and the direction of the velocity.
     """
     modes = layer_modes(layer)
-    if not cavitated:
-        return _full_table(FullSqueezeFilm(modes, np.zeros_like(modes.weight)), cells, LARGEST)
-    return tabulate_film(
-        _AsJournalFilm(CavitatedSqueezeFilm(modes)),
-        slenderness_range=(RATIO, RATIO),
-        cells=(*cells, 0),
-        largest_eccentricity_ratio=LARGEST,
-    )
+    if cavitated:
+        table = tabulate_film(
+            _AsJournalFilm(CavitatedSqueezeFilm(modes)),
+            slenderness_range=(RATIO, RATIO),
+            cells=(*cells, 0),
+            largest_eccentricity_ratio=LARGEST,
+        )
+    else:
+        table = _full_table(FullSqueezeFilm(modes, np.zeros_like(modes.weight)), cells, LARGEST)
+    return SqueezeTable(None, layer and tuple(layer), cavitated, table)
 
 
 @lru_cache(maxsize=16)
 def finite_table(
     slenderness: float, layer: PorousLayer | None, cavitated: bool, cells: tuple[int, int]
-) -> MapTable:
+) -> SqueezeTable:
     """Return the table of a film of finite length, from disk if it was made before; see `short_table`."""
     path = table_path(slenderness, layer, cavitated, cells)
     shape = (1, cells[0] + 5, cells[1] * (1 if cavitated else FULL) + 5)
@@ -88,7 +118,8 @@ def finite_table(
         if table.coefficients.shape != shape:
             raise InputError(f"coefficients must have shape {shape}, got {table.coefficients.shape}")
 
-    return cached_table(MapTable, path, build, require)
+    table = cached_table(MapTable, path, build, require)
+    return SqueezeTable(slenderness, layer and tuple(layer), cavitated, table)
 
 
 def table_path(

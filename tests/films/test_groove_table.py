@@ -88,7 +88,11 @@ def test_table_is_built_once_and_again_after_damage(tmp_path):
         built.append(1)
         return some_table()
 
-    assert cached_table(GrooveMapTable, path, build, any_table) == cached_table(GrooveMapTable, path, build, any_table) == some_table()
+    assert (
+        cached_table(GrooveMapTable, path, build, any_table)
+        == cached_table(GrooveMapTable, path, build, any_table)
+        == some_table()
+    )
     assert len(built) == 1
     path.write_bytes(path.read_bytes()[:-9] + b"damaged!!")
     assert cached_table(GrooveMapTable, path, build, any_table) == some_table()
@@ -101,7 +105,9 @@ def test_table_is_built_once_and_again_after_damage(tmp_path):
 def test_folder_that_cannot_be_written_costs_a_warning_only(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.warns(RuntimeWarning, match="ROTORFILM_CACHE names another folder"):
-        assert cached_table(GrooveMapTable, tmp_path / "file" / "map.bin", some_table, any_table) == some_table()
+        assert (
+            cached_table(GrooveMapTable, tmp_path / "file" / "map.bin", some_table, any_table) == some_table()
+        )
 
 
 def test_failed_writing_leaves_nothing_behind(tmp_path, monkeypatch):
