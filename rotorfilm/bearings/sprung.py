@@ -57,7 +57,7 @@ class Sprung(StaticReaction):
         return self.reaction.outputs[0].nominal
 
     def native(self) -> NativeSpec | None:
-        """Return the kernel of the C library that is a damper with these springs; None for other reactions."""
+        """Return the kernel of a damper with these springs; None for other reactions."""
         if type(self) is not Sprung or not isinstance(self.reaction, HasKernel):
             return None
         return sprung_spec(self.reaction.native(), self.stiffness)

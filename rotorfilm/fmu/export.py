@@ -17,7 +17,7 @@ from .archive import to_zip
 from .bundle import content_hash
 from .description import Description
 from .linear_system import from_state_space
-from .narrow import NarrowModel
+from .narrow import as_exported
 from .native_backend import (
     CATEGORIES,
     INTERFACES,
@@ -116,8 +116,7 @@ def export_fmu(
     name = _component(model) if component is None else component
     _require_component(name)
     title = _title(subject)
-    if native and spec is not None and spec.inputs is not None:
-        subject = NarrowModel(subject, spec.inputs)
+    subject = as_exported(subject) if native else subject
     inputs = np.array(list(_start_values(subject, start or {}).values()))
     _require_output(subject, inputs)
     if native and spec is not None:

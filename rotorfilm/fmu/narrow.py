@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..model import Array, Linearization, Model, indices
+from ..native.spec import HasKernel
 from ..signals import Signal, names
 
 
@@ -62,3 +63,9 @@ class NarrowModel:
         wide = np.zeros(len(self.model.inputs))
         wide[self._places] = u
         return wide
+
+
+def as_exported(model: Model) -> Model:
+    """Return a model as its native FMU shows it: without inputs that its kernel does not take."""
+    spec = model.native() if isinstance(model, HasKernel) else None
+    return model if spec is None or spec.inputs is None else NarrowModel(model, spec.inputs)

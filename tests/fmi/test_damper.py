@@ -174,7 +174,6 @@ def test_bad_parameters_are_named(values, rule, opened):
     instance, reference = opened(replace(DAMPER, cage=None), "2.0", False)
     with pytest.raises(FMICallException):
         instance.initialize([reference[name] for name in values], list(values.values()))
-        instance.get([reference["force_x"]])
     assert any(rule in line for line in instance.log), instance.log
 
 
