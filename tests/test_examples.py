@@ -35,6 +35,10 @@ LAST_NUMBER = {
     "flexible_rotor.py": pytest.approx(87.80, abs=0.005),
     # whirl ratio of a lightly loaded full film: one half
     "python_control.py": pytest.approx(0.5, abs=2e-3),
+    # the orbit of the new unbalance, in closed form
+    "blade_loss.py": pytest.approx(1.0, abs=1e-5),
+    # a run leaves an orbit later than it ends: 1 as it gets slower
+    "run_up.py": pytest.approx(1.52, abs=0.03),
     # fold of the response of a solid damper at Bs = .08, Omega_s = .4
     "damper_paper.py": pytest.approx(0.3931, abs=5e-5),
 }
@@ -76,7 +80,11 @@ def test_example_is_short(path):
 
 @pytest.mark.parametrize("path", SCENES, ids=lambda path: path.name)
 def test_scene_file_loads_and_solves(path):
-    assert Scene.load(path).solve().equilibrium.residual < 1e-10
+    scene = Scene.load(path)
+    if scene.journal is None:
+        assert path.with_suffix(".py") in SCRIPTS  # which runs it
+        return
+    assert scene.solve().equilibrium.residual < 1e-10
 
 
 def test_shown_scene_is_the_bundled_one():

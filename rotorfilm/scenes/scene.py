@@ -15,6 +15,7 @@ from ..bearings.journal import JournalBearing
 from ..errors import InputError, SceneError
 from ..rotors.rigid import RigidRotor
 from ..units import STANDARD_GRAVITY
+from .damper_table import DamperTable
 from .excitation_table import EXCITATIONS, ExcitationTable
 from .question_table import QuestionTable
 from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
@@ -41,11 +42,13 @@ class Scene:
         One line for print-outs and charts.
     journal : JournalTable or None
         A journal bearing.
+    damper : DamperTable or None
+        A squeeze-film damper.
     operation : OperationTable or None
         Speed and load.
     rigid_rotor : RigidRotorTable or None
         What the bearing carries; without it there is no whirl threshold and no transient.
-    excitation : UnbalanceTable, BladeLossTable, StepLoadTable, SineLoadTable or None
+    excitation : UnbalanceTable, BladeLossTable, RunUpTable, StepLoadTable, SineLoadTable or None
         What shakes it besides the steady load.
     cosimulation : CosimulationTable
         Macro step and length of a coupled run.
@@ -65,6 +68,7 @@ class Scene:
     #     damper: Annotated[DamperTable | None, Table(DamperTable)] = None
     # and nowhere else. It checks what it needs of the other tables where it is solved.
     journal: Annotated[JournalTable | None, Table(JournalTable)] = None
+    damper: Annotated[DamperTable | None, Table(DamperTable)] = None
 
     # What all families share.
     operation: Annotated[OperationTable | None, Table(OperationTable)] = None
