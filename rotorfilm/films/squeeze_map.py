@@ -25,6 +25,9 @@ from .squeeze_table import LARGEST, LARGEST_FINITE, RATIO, SqueezeTable, finite_
 class TabulatedSqueeze(Protocol):
     """A squeeze law that makes a table on first use."""
 
+    def bind(self, case: SqueezeCase) -> SqueezeFilm:
+        """Return the film of one damper; see `SqueezeLaw`."""
+
     def tabulated(self, case: SqueezeCase) -> TabulatedSqueeze:
         """Return the same law with the table that it would make in this damper."""
 

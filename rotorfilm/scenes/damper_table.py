@@ -75,14 +75,17 @@ class RadialFeedTable:
         Velocity at the back of the cage, towards the film.
     cosine : bool
         Whether it falls as a cosine from the middle to the ends.
+    at_film : bool
+        Whether the velocity is that into the film.
     """
 
     inflow: Annotated[float, Quantity("m/s")]
     cosine: Annotated[bool, flag] = False
+    at_film: Annotated[bool, flag] = False
 
     def build(self) -> RadialFeed:
         """Return the feed."""
-        return RadialFeed(inflow=self.inflow, cosine=self.cosine)
+        return RadialFeed(inflow=self.inflow, cosine=self.cosine, at_film=self.at_film)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -104,8 +107,8 @@ class AxialFeedTable:
 
 
 FeedTable = RadialFeedTable | AxialFeedTable
-FEEDS = {"radial": RadialFeedTable, "axial": AxialFeedTable}
-EXTENTS = {"half_sommerfeld": HalfSommerfeld, "full": FullFilm}
+FEEDS: dict[str, type] = {"radial": RadialFeedTable, "axial": AxialFeedTable}
+EXTENTS: dict[str, type] = {"half_sommerfeld": HalfSommerfeld, "full": FullFilm}
 
 
 @dataclass(frozen=True, kw_only=True)

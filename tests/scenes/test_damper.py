@@ -206,7 +206,7 @@ def test_profile_of_a_run_up():
     assert [up.rotor.profile.speed(t) for t in (0.0, 1.0, 2.0, 3.0, 4.0)] == [400, 450, 500, 450, 400]
     there = replace(scene(rest=rest).excitation, back=False).profile(100.0)
     assert (there.times, there.speeds) == ((0.0, 2.0), (100.0, 500.0))
-    with pytest.raises(SceneError, match="excitation.duration must be finite and positive"):
+    with pytest.raises(SceneError, match=r"excitation\.duration must be finite and positive"):
         scene(rest=rest.replace("duration = 2.0", "duration = 0.0"))
 
 
