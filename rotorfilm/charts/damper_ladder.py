@@ -9,14 +9,13 @@ from matplotlib.axes import Axes
 from ..ladders import DamperAccuracy, DamperRung
 from .canvas import new_figure
 from .labels import Label, place_labels
-from .palette import FRONT
 
 COLORS = {"series": "#2ca02c", "finite length": "#1f4fb4", "map": "#000000", "published": "#e377c2"}
 OTHER = "#d62728"
 
 
 def plot_damper_accuracy(result: DamperAccuracy) -> list[Axes]:
-    """Draw the squeeze films over the cost of a force alone: against finite length, and against the series.
+    """Draw the squeeze films over the cost of a force: against finite length, and against the series.
 
     A filled dot is the 99th percentile of the error, an open one the median.
     """
@@ -42,19 +41,18 @@ def plot_damper_accuracy(result: DamperAccuracy) -> list[Axes]:
 def _draw(axes: Axes, points: Sequence[tuple[DamperRung, float, float | None]]) -> None:
     axes.set(xscale="log", yscale="log")
     axes.grid(visible=True, which="major", alpha=0.3)
-    axes.set(xlabel="time of one force, called state by state from Python [us]", ylabel="relative error [1]")
+    axes.set(xlabel="time of one force in a batch [us]", ylabel="relative error [1]")
     labels, medians = [], []
     for rung, high, median in points:
-        x, color = 1e6 * rung.cost.call_time, _color(rung.name)
+        x, color = 1e6 * rung.cost.force_time, _color(rung.name)
         axes.plot(x, high, "o", color=color, markersize=7)
         if median is not None:
             axes.plot([x, x], [median, high], "-", color=color, linewidth=1.0, alpha=0.5)
             axes.plot(x, median, "o", color=color, markerfacecolor="white", markersize=4.5)
             medians.append((x, median))
         labels.append(Label(x, high, rung.name, color))
-    times = [1e6 * rung.cost.call_time for rung, _, _ in points]
+    times = [1e6 * rung.cost.force_time for rung, _, _ in points]
     axes.set_xlim(0.3 * min(times), 6.0 * max(times))
-    axes.axvline(1.0, color=FRONT, linewidth=0.6, linestyle=":")
     place_labels(axes, labels, obstacles=medians)
 
 

@@ -35,7 +35,7 @@ RADIUS, CLEARANCE, VISCOSITY, THICKNESS = 0.05, 1e-4, 0.01, 0.1
 SERIES = (1, 2, 3, 5, 10)
 """Axial modes of the truncated series, the last of which takes the rest."""
 
-ROUNDS = 5
+ROUNDS = 9
 
 
 @dataclass(frozen=True)

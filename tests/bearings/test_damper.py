@@ -132,8 +132,8 @@ def test_cosine_feed_through_darcys_layer_is_its_first_mode():
 @pytest.mark.closed_form
 @pytest.mark.parametrize("grading", [0.0, 0.8])
 def test_feed_stiffness_by_where_the_velocity_is_given(grading):
-    # Into the film: 3 pi Bs v sum of w_n/(1 + c_n)^2, modes by hand. At the back each mode has less: 1/cosh of
-    # its wave number without grading, from the two exponentials of Darcy's equation with it.
+    # Into the film: 3 pi Bs v sum of w_n/(1 + c_n)^2, modes by hand. At the back each mode has less: 1/cosh
+    # of its wave number without grading, from the two exponentials of Darcy's equation with it.
     cage, count = replace(CAGE, grading=grading), 400
     a = 0.5 * np.pi * (2.0 * np.arange(1, count + 1) - 1.0)
     q = 2.0 * 0.1 * a

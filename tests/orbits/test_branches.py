@@ -67,10 +67,10 @@ def test_solid_folds_are_the_roots_of_the_polynomial(support, rotor, unit):
 
 
 def limit_of_the_closed_form(spring):
-    """Return Bs/Omega at which U^2(eps^2) of the solid cavitated film is level, its slope by a complex step."""
+    """Return Bs/Omega at which U^2(eps^2) of the solid film is level; slope by a complex step."""
 
     def least(b):
-        E = np.linspace(0.1, 0.9, 800_001) + 1e-30j
+        E = np.linspace(0.1, 0.9, 40_001) + 1e-30j
         along = (spring**2 - 1.0) + 2.0 * b * np.sqrt(E) / (1.0 - E) ** 2
         across = 0.5 * np.pi * b / (1.0 - E) ** 1.5
         return np.min((E * (along**2 + across**2)).imag) / 1e-30
