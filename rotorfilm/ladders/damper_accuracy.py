@@ -20,7 +20,7 @@ from ..films import (
     ShortSqueeze,
 )
 from ..films.squeeze import SqueezeFilm
-from ..films.squeeze_laws import SqueezeCase
+from ..films.squeeze_laws import SqueezeCase, SqueezeLaw
 from ..model import Array
 from ..progress import Report, part_of, silent
 from .journal_states import SEED, States
@@ -191,7 +191,9 @@ def damper_rungs(
         cage=cage,
         extent=HalfSommerfeld() if cavitated else FullFilm(),
     )
-    full = {} if cavitated else {"published": PublishedSqueeze(), "finite length": FiniteSqueeze()}
+    full: dict[str, SqueezeLaw] = (
+        {} if cavitated else {"published": PublishedSqueeze(), "finite length": FiniteSqueeze()}
+    )
     return {
         "solid cage": replace(whole, cage=None),
         "Morgan-Cameron": replace(whole, cage=replace(cage, thin=True)),

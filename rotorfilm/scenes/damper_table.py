@@ -159,7 +159,7 @@ class PublishedSqueezeTable:
 SqueezeTable = (
     ShortSqueezeTable | MapSqueezeTable | FiniteSqueezeTable | FiniteMapSqueezeTable | PublishedSqueezeTable
 )
-SQUEEZES = {
+SQUEEZES: dict[str, type[SqueezeTable]] = {
     "short": ShortSqueezeTable,
     "map": MapSqueezeTable,
     "finite": FiniteSqueezeTable,
