@@ -175,7 +175,8 @@ def build(
     from .scenes.export import export_scene
 
     loaded = Scene.load(scene)
-    _make_map(loaded.bearing)
+    if loaded.damper is None:
+        _make_map(loaded.bearing)
     made = export_scene(
         loaded,
         out,

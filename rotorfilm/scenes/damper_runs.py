@@ -1,4 +1,4 @@
-"""Runs of a scene with a damper: a blade is lost, or the rotor runs up; as one system, or as two FMUs."""
+"""Runs of a scene with a damper, as a lost blade or a run-up: as one system, or as two FMUs."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from ..bearings import PorousDamper, Sprung
 from ..cosim import CoSimulation, cosimulate
 from ..errors import ContactError, InputError
 from ..fmu import export_fmu
-from ..model import Array
+from ..model import Array, Model
 from ..results import Trajectory
 from ..rotors import RigidRotor
 from ..transient import simulate
-from .excitation_table import BladeLossTable, RunUpTable
+from .excitation_table import BladeLossTable, RunUpTable, UnbalanceTable
 from .scene import Scene
 
 RTOL = 1e-6
@@ -68,30 +68,34 @@ class DamperRun:
 
 
 def damper_models(scene: Scene) -> DamperScene:
-    """Return rotor and damper of a scene whose excitation is a blade loss or a run-up.
+    """Return rotor and damper of a scene.
+
+    An unbalance is that of `[rigid_rotor]`, there from the start, or that of the excitation: `unbalance`,
+    `blade_loss` or `run_up`.
 
     Raises
     ------
     InputError
-        If the scene lacks a damper, a rotor without unbalance of its own, or such an excitation.
+        If the scene lacks a damper or a rotor, has two unbalances, or another excitation.
     """
     excitation = scene.excitation
     if scene.damper is None or scene.rigid_rotor is None:
         raise InputError("damper and rigid_rotor are required for a run on a damper, got a scene without")
-    if scene.rigid_rotor.unbalance:
-        raise InputError("rigid_rotor.unbalance must be 0 where [excitation] has the unbalance, got both")
+    rotor, start, duration = scene.rigid_rotor.build(scene.speed, (0.0, 0.0)), 0.0, 0.0
+    if excitation is not None:
+        if not isinstance(excitation, UnbalanceTable):
+            raise InputError(f"excitation must be an unbalance, a blade_loss or a run_up, got {excitation!r}")
+        if rotor.unbalance:
+            raise InputError("rigid_rotor.unbalance must be 0 where [excitation] has the unbalance, got both")
+        turned = excitation.unbalance_angle
+        rotor = replace(rotor, unbalance=excitation.unbalance, unbalance_angle=turned)
     if isinstance(excitation, BladeLossTable):
         start, duration = excitation.start, scene.time_of(2.0 * np.pi * excitation.revolutions)
-        rotor = scene.rigid_rotor.build(scene.speed, (0.0, 0.0))
-        turned = excitation.unbalance_angle + scene.speed * start
-    elif isinstance(excitation, RunUpTable):
+        rotor = replace(rotor, unbalance_angle=turned + scene.speed * start)
+    if isinstance(excitation, RunUpTable):
         profile = excitation.profile(scene.speed)
-        start, duration, turned = 0.0, profile.times[-1], excitation.unbalance_angle
-        rotor = replace(scene.rigid_rotor.build(0.0, (0.0, 0.0)), speed=profile)
-    else:
-        raise InputError(f"excitation must be a blade_loss or a run_up, got {excitation!r}")
-    rotor = replace(rotor, unbalance=excitation.unbalance, unbalance_angle=turned)
-    return DamperScene(rotor, scene.damper.support(), start, duration, scene.macro_step)
+        rotor, duration = replace(rotor, speed=profile), profile.times[-1]
+    return DamperScene(rotor, scene.damper.support(), start, duration or scene.duration, scene.macro_step)
 
 
 def run_damper(scene: Scene) -> DamperRun:
@@ -116,13 +120,33 @@ def couple_damper(scene: Scene, folder: Path, version: str = "2.0") -> DamperRun
         FMI version; a damper whose film is no map has 2.0 only.
     """
     models = damper_models(scene)
-    rotor = export_fmu(models.rotor, folder / "rotor.fmu", version, component="rotor")
-    damper = export_fmu(models.support, folder / "damper.fmu", version, component="damper")
+    rotor, damper = export_damper(scene, folder, version)
     try:
         run = cosimulate(rotor, damper, macro_step=models.step, duration=models.duration)
     except ContactError as contact:
         return _run(models, _partial(contact), touched=True)
     return _run(models, run.trajectory, touched=False)
+
+
+def export_damper(
+    scene: Scene, folder: Path, version: str = "2.0", *, backend: str | None = None, platforms: str = "host"
+) -> tuple[Path, Path]:
+    """Write `rotor.fmu` and `damper.fmu` of a scene, at rest in the center; see `export_fmu`."""
+    models = damper_models(scene)
+
+    def write(model: Model, name: str) -> Path:
+        return export_fmu(
+            model,
+            folder / f"{name}.fmu",
+            version,
+            backend,
+            platforms=platforms,
+            component=name,
+            step_size=models.step,
+            stop_time=models.duration,
+        )
+
+    return write(models.rotor, "rotor"), write(models.support, "damper")
 
 
 def _partial(contact: ContactError) -> Trajectory:

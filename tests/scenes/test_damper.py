@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import fmpy
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -23,6 +24,8 @@ from rotorfilm.errors import InputError, SceneError
 from rotorfilm.films import FullFilm
 from rotorfilm.scenes import parse_scene
 from rotorfilm.scenes.damper_runs import couple_damper, damper_models, run_damper
+from rotorfilm.scenes.excitation_table import StepLoadTable
+from rotorfilm.scenes.export import export_scene
 
 DAMPER = """
 schema = 1
@@ -138,11 +141,37 @@ def test_what_a_run_lacks_is_named():
     whole = scene(SPRINGS)
     for change, match in (
         ({"rigid_rotor": None}, "damper and rigid_rotor are required"),
-        ({"excitation": None}, "excitation must be a blade_loss or a run_up, got None"),
+        (
+            {"excitation": StepLoadTable(load=(1.0, 0.0))},
+            "excitation must be an unbalance, a blade_loss or a run_up",
+        ),
         ({"rigid_rotor": replace(whole.rigid_rotor, unbalance=1e-4)}, "rigid_rotor.unbalance must be 0"),
     ):
         with pytest.raises(InputError, match=match):
             damper_models(replace(whole, **change))
+
+
+def test_exported_scene_starts_at_rest_in_the_center(tmp_path):
+    made = export_scene(scene(SPRINGS + CAGE), tmp_path, version="3.0")
+    assert [path.name for path in made] == ["damper.fmu", "rotor.fmu"]
+    found = {v.name: v for v in fmpy.read_model_description(str(made.film)).modelVariables}
+    assert float(found["damper.stiffness"].start) == 2.56e5
+    assert "damper.speed" not in found
+    rotor = {v.name: v for v in fmpy.read_model_description(str(made.rotor)).modelVariables}
+    assert float(rotor["rotor.unbalance"].start) == 3.5e-4
+
+
+def test_unbalance_of_the_rotor_or_of_the_excitation():
+    own = replace(scene(SPRINGS), excitation=None)
+    own = replace(own, rigid_rotor=replace(own.rigid_rotor, unbalance=2e-4, unbalance_angle=0.3))
+    shaken = scene(
+        SPRINGS, REST.replace("revolutions = 3", "unbalance_angle = 0.3").replace("blade_loss", "unbalance")
+    )
+    shaken = replace(shaken, excitation=replace(shaken.excitation, unbalance=2e-4))
+    for each in (own, shaken):
+        models = damper_models(each)
+        assert (models.rotor.unbalance, models.rotor.unbalance_angle) == (2e-4, 0.3)
+        assert models.duration == each.duration
 
 
 @pytest.mark.closed_form
