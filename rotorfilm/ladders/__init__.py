@@ -2,6 +2,7 @@
 
 from .bush_tiers import BushTier, BushTiers, ShaftFluxError, bush_tiers, shaft_flux_errors
 from .contact_cases import contact_cases
+from .damper_accuracy import DamperAccuracy, DamperRung, damper_accuracy, damper_rungs
 from .journal_accuracy import JournalAccuracy, RungAccuracy, journal_accuracy, pareto_front
 from .journal_rungs import Rung, comparison_bearing, fitted_bearing, journal_rungs
 from .journal_stability import journal_stability
@@ -14,6 +15,8 @@ __all__ = [
     "SMALL",
     "BushTier",
     "BushTiers",
+    "DamperAccuracy",
+    "DamperRung",
     "JournalAccuracy",
     "JournalStability",
     "Limit",
@@ -27,6 +30,8 @@ __all__ = [
     "bush_tiers",
     "comparison_bearing",
     "contact_cases",
+    "damper_accuracy",
+    "damper_rungs",
     "failures",
     "fitted_bearing",
     "journal_accuracy",

@@ -17,6 +17,7 @@ from ..rotors.rigid import RigidRotor
 from ..units import STANDARD_GRAVITY
 from .bush import BushAnswer, solve_bush
 from .bush_table import BushTable
+from .damper_table import DamperTable
 from .excitation_table import EXCITATIONS, ExcitationTable
 from .ladder import QuestionAnswer
 from .lubricant_table import LubricantTable
@@ -51,13 +52,15 @@ class Scene:
         A flexible rotor in its own bearings.
     bush : BushTable or None
         A polymer bush that wears by melting.
+    damper : DamperTable or None
+        A squeeze-film damper.
     operation : OperationTable or None
         Speed and load.
     lubricant : LubricantTable
         Properties for the checks of what the films leave out.
     rigid_rotor : RigidRotorTable or None
         What the bearing carries; without it there is no whirl threshold and no transient.
-    excitation : UnbalanceTable, BladeLossTable, StepLoadTable, SineLoadTable or None
+    excitation : UnbalanceTable, BladeLossTable, RunUpTable, StepLoadTable, SineLoadTable or None
         What shakes it besides the steady load.
     cosimulation : CosimulationTable
         Macro step and length of a coupled run.
@@ -74,12 +77,12 @@ class Scene:
     title: Annotated[str, text] = "untitled scene"
 
     # Bearings, and rotors with their own bearings. A family registers its table by one line here, as
-    #     damper: Annotated[DamperTable | None, Table(DamperTable)] = None
+    #     bush: Annotated[BushTable | None, Table(BushTable)] = None
     # and nowhere else. It checks what it needs of the other tables where it is solved.
     journal: Annotated[JournalTable | None, Table(JournalTable)] = None
     bush: Annotated[BushTable | None, Table(BushTable)] = None
-
     shaft: Annotated[ShaftTable | None, Table(ShaftTable)] = None
+    damper: Annotated[DamperTable | None, Table(DamperTable)] = None
 
     # What all families share.
     operation: Annotated[OperationTable | None, Table(OperationTable)] = None
