@@ -1,9 +1,10 @@
-"""The Gauss-Seidel master: rotor first, then the film at the rotor's new state, its force held meanwhile."""
+"""The master: rotor and films coupled over macro steps by a scheme, under watch."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from contextlib import ExitStack
 from dataclasses import dataclass
 from itertools import pairwise
 from os import PathLike
@@ -17,17 +18,20 @@ from ..errors import (
     FilmContactError,
     FmuError,
     FmuRunError,
+    InputError,
     PartialResultError,
     require_positive,
 )
-from ..model import FORCE_OUTPUTS, indices
 from ..results import Trajectory
+from .bench import Partners, Sample
 from .chatter import CouplingReport, inspect_coupling
-from .fmu_slave import open_fmu
+from .explicit import GaussSeidel
+from .fmu_slave import open_fmu, open_rotor
+from .scheme import MEMORY, Scheme
 from .slaves import Slave
+from .watch import CouplingWatch, Watch
 
-ORDER = 1
-"""Order of convergence in the macro step."""
+Paths = str | PathLike[str] | Mapping[str, str | PathLike[str]]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,75 +41,100 @@ class CoSimulation:
     Attributes
     ----------
     trajectory : Trajectory
-        Every output of both partners at the communication points. Work: steps, film_evaluations.
+        Every output of all partners at the communication points. Work: steps, film_evaluations, film_jacobians,
+        rotor_steps, rollbacks.
     macro_step : float [s]
+    scheme : Scheme
     coupling : CouplingReport
-        Whether the coupling can be believed.
+        Whether the coupling can be believed, by the forces exchanged.
+    watch : CouplingWatch
+        How far the coupling was from its limit, and its local error.
     """
 
     trajectory: Trajectory
     macro_step: float
+    scheme: Scheme
     coupling: CouplingReport
+    watch: CouplingWatch
 
 
 def cosimulate(
     rotor_fmu: str | PathLike[str],
-    film_fmu: str | PathLike[str],
+    film_fmu: Paths,
     *,
     macro_step: float,
     duration: float,
+    scheme: Scheme | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> CoSimulation:
-    """Couple a rotor FMU and a film FMU, both Co-Simulation of FMI 2.0 or 3.0, from t = 0.
+    """Couple a rotor FMU with one or several film FMUs of FMI 2.0 or 3.0, from t = 0.
 
-    Signals are connected by their local names (`rotor.x` to `film.x`). The film is evaluated at the
-    rotor's initial state first, then at each new one, and its force is held over the next step: a
-    Gauss-Seidel scheme of order 1 in the macro step.
+    Signals are connected by their local names (`rotor.x` to `film.x`; in a rotor with several journals
+    `rotor.left_x` to `x` of the film in the station `left`).
 
     Parameters
     ----------
-    rotor_fmu, film_fmu : path
-        The rotor takes forces and gives motion, the film takes motion and gives forces.
+    rotor_fmu : path
+        It takes forces and gives motion. Co-Simulation will do for held forces; other schemes take an FMU for
+        Model Exchange with directional derivatives, which the master integrates, or one with the inputs of a
+        force law (`rotorfilm.rotors.LawRotor`).
+    film_fmu : path, or mapping of station to path
+        It takes motion and gives forces, for Co-Simulation.
     macro_step : float [s]
         Distance of the communication points; the last step is shorter where it must be.
     duration : float [s]
+    scheme : Scheme, optional
+        `GaussSeidel()` by default: the film is evaluated at the rotor's new state, and its force is held over
+        the next step.
     progress : callable, optional
         Called after each step with the time reached [s].
 
     Raises
     ------
     InputError
-        If an argument is out of range or the signals do not fit.
+        If an argument is out of range, the signals do not fit or an FMU lacks what the scheme needs.
     CouplingError
         If the forces alternate from step to step without decaying: the macro step is past the stability
-        limit. Carries the CoSimulation.
+        limit. The run stops there; carries the CoSimulation until then.
     ContactError
         If the journal reached the wall; carries the CoSimulation until then.
     FmuError
         If a file is no such FMU; as FmuRunError, with the CoSimulation until then, if an FMU fails.
+    ConvergenceError
+        If the scheme or the rotor's integration does not converge; carries the CoSimulation until then.
     """
     _require_times(macro_step, duration)
-    with open_fmu(rotor_fmu) as rotor, open_fmu(film_fmu) as film:
-        return couple(rotor, film, macro_step=macro_step, duration=duration, progress=progress)
+    chosen = GaussSeidel() if scheme is None else scheme
+    paths = dict(film_fmu) if isinstance(film_fmu, Mapping) else {"": film_fmu}
+    with ExitStack() as stack:
+        rotor = stack.enter_context(open_rotor(rotor_fmu, held=not chosen.needs.laws))
+        films = {name: stack.enter_context(open_fmu(path)) for name, path in paths.items()}
+        return couple(
+            rotor, films, macro_step=macro_step, duration=duration, scheme=chosen, progress=progress
+        )
 
 
 def couple(
     rotor: Slave,
-    film: Slave,
+    film: Slave | Mapping[str, Slave],
     *,
     macro_step: float,
     duration: float,
+    scheme: Scheme | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> CoSimulation:
-    """Couple two partners that were not started yet; see `cosimulate`, which does this with FMUs."""
+    """Couple partners that were not started yet; see `cosimulate`, which does this with FMUs."""
     _require_times(macro_step, duration)
-    run = _Run(rotor, film, macro_step)
+    chosen = GaussSeidel() if scheme is None else scheme
+    films = film if isinstance(film, Mapping) else {"": film}
+    run = _Run(Partners(rotor, films, chosen.needs), chosen, macro_step)
     try:
         run.start()
         for t, dt in _steps(macro_step, duration):
-            run.step(t, dt)
+            run.reach(t, t + dt)
             if progress is not None:
                 progress(t + dt)
+            run.judge()
     except (FilmContactError, FmuError, ConvergenceError) as failure:
         raise _failed(failure, run.result()) from failure
     result = run.result()
@@ -122,63 +151,47 @@ def _require_times(macro_step: float, duration: float) -> None:
 class _Run:
     """A co-simulation on its way: the partners, and what they have exchanged so far."""
 
-    def __init__(self, rotor: Slave, film: Slave, macro_step: float) -> None:
-        self._rotor, self._film, self._macro_step = rotor, film, macro_step
-        self._force_names = _force_names(rotor, film)
-        self._motion_names = _motion_names(rotor, film)
-        self._times: list[float] = []
-        self._motions: list[dict[str, float]] = []
-        self._forces: list[dict[str, float]] = []
+    def __init__(self, partners: Partners, scheme: Scheme, macro_step: float) -> None:
+        self._partners, self._scheme, self._macro_step = partners, scheme, macro_step
+        self._samples: list[Sample] = []
+        self._watch = Watch(partners, scheme, macro_step)
 
     def start(self) -> None:
-        """Start the rotor, then the film at the rotor's initial state."""
-        self._rotor.start({})
-        motion = _finite("rotor", 0.0, self._rotor.get())
-        self._film.start(_picked(motion, self._motion_names))
-        self._keep(0.0, motion, _finite("film", 0.0, self._film.get()))
+        """Start rotor and films."""
+        self._keep(self._partners.start())
 
-    def step(self, t: float, dt: float) -> None:
-        """Advance the rotor under the last force, then evaluate the film at its new state."""
-        self._rotor.set(_picked(self._forces[-1], self._force_names))
-        self._rotor.step(t, dt)
-        motion = _finite("rotor", t + dt, self._rotor.get())
-        self._film.set(_picked(motion, self._motion_names))
-        self._film.step(t, dt)
-        self._keep(t + dt, motion, _finite("film", t + dt, self._film.get()))
+    def reach(self, t: float, end: float) -> None:
+        """Advance to the end of a macro step, in one step of the scheme unless that takes shorter ones."""
+        while t < end:
+            found = self._scheme.step(self._partners, self._samples[-MEMORY:], t, end - t)
+            self._keep(found)
+            self._partners.work["steps"] += 1
+            t = end if found.time >= end - 1e-9 * self._macro_step else found.time
+
+    def judge(self) -> None:
+        """Raise CouplingError where the run has begun to chatter."""
+        if self._watch.chatters:
+            result = self.result()
+            if result.coupling.chatter or result.coupling.coarse:
+                raise CouplingError(_coupling_message(result), result)
 
     def result(self) -> CoSimulation:
         """Return what has been exchanged so far."""
-        time = np.array(self._times)
-        signals = {
-            name: np.array([values[name] for values in series])
-            for series, outputs in ((self._motions, self._rotor.outputs), (self._forces, self._film.outputs))
-            for name in outputs
-        }
-        forces = np.array([signals[name] for name in self._force_names])
-        work = {"steps": max(time.size - 1, 0), "film_evaluations": time.size}
+        time = np.array([sample.time for sample in self._samples])
+        rows = [{**sample.motion.outputs, **sample.outputs} for sample in self._samples]
+        signals = {name: np.array([row[name] for row in rows]) for name in self._partners.signals}
+        forces = np.array([sample.force for sample in self._samples]).reshape(len(rows), self._partners.size).T
         return CoSimulation(
-            trajectory=Trajectory(time=time, signals=signals, work=work),
+            trajectory=Trajectory(time=time, signals=signals, work=dict(self._partners.work)),
             macro_step=self._macro_step,
+            scheme=self._scheme,
             coupling=inspect_coupling(time, forces),
+            watch=self._watch.result(),
         )
 
-    def _keep(self, t: float, motion: dict[str, float], force: dict[str, float]) -> None:
-        self._times.append(t)
-        self._motions.append(motion)
-        self._forces.append(force)
-
-
-def _motion_names(rotor: Slave, film: Slave) -> list[str]:
-    """Return the signals from rotor to film: every input of the film must be among them."""
-    indices("rotor must have the outputs", rotor.outputs, film.inputs)
-    return list(film.inputs)
-
-
-def _force_names(rotor: Slave, film: Slave) -> list[str]:
-    """Return the signals from film to rotor; further inputs of the rotor keep their start values."""
-    indices("rotor must have the inputs", rotor.inputs, FORCE_OUTPUTS)
-    indices("film must have the outputs", film.outputs, FORCE_OUTPUTS)
-    return [name for name in rotor.inputs if name in film.outputs]
+    def _keep(self, sample: Sample) -> None:
+        self._samples.append(sample)
+        self._watch.see(sample)
 
 
 def _steps(macro_step: float, duration: float) -> list[tuple[float, float]]:
@@ -186,17 +199,6 @@ def _steps(macro_step: float, duration: float) -> list[tuple[float, float]]:
     count = max(1, math.ceil(duration / macro_step * (1.0 - 1e-12)))
     points = [*(k * macro_step for k in range(count)), duration]
     return [(start, end - start) for start, end in pairwise(points)]
-
-
-def _picked(values: Mapping[str, float], wanted: list[str]) -> dict[str, float]:
-    return {name: values[name] for name in wanted}
-
-
-def _finite(who: str, t: float, values: dict[str, float]) -> dict[str, float]:
-    bad = {name: value for name, value in values.items() if not math.isfinite(value)}
-    if bad:
-        raise FmuError(f"outputs of the {who} must be finite, got {bad} at t = {t:.9g} s")
-    return values
 
 
 def _failed(failure: Exception, result: CoSimulation) -> PartialResultError:
