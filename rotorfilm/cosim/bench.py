@@ -145,6 +145,11 @@ class Partners:
             dict.fromkeys(("steps", "film_evaluations", "film_jacobians", "rotor_steps", "rollbacks"), 0)
         )
         self._require(needs)
+        # Asked once: checks against protocols are slow.
+        self._driven = rotor if isinstance(rotor, Driven) else None
+        self._known = {name: [n for n in JOURNAL_INPUTS if n in film.inputs] for name, film in films.items()}
+        self._differentiable = [film for film in films.values() if isinstance(film, Differentiable)]
+        self._restorable = [p for p in (rotor, *films.values()) if isinstance(p, Restorable)]
         self._probed: tuple[float, Array] | None = None
 
     def start(self) -> Sample:
@@ -158,8 +163,8 @@ class Partners:
     def drive(self, t: float, dt: float, law: ForceLaw) -> Motion:
         """Advance the rotor; see `Bench`."""
         self.work["rotor_steps"] += 1
-        if isinstance(self.rotor, Driven):
-            self.rotor.drive(t, dt, law, self.wiring)
+        if self._driven is not None:
+            self._driven.drive(t, dt, law, self.wiring)
         else:
             self.rotor.set(dict(zip(self.wiring.force, law.force.tolist(), strict=True)))
             self.rotor.step(t, dt)
@@ -182,18 +187,18 @@ class Partners:
 
     def save(self) -> list[Any]:
         """Return the state of all partners."""
-        return [partner.save() for partner in self._restorable()]
+        return [partner.save() for partner in self._restorable]
 
     def restore(self, state: list[Any]) -> None:
         """Return to a state of all partners."""
         self.work["rollbacks"] += 1
-        for partner, own in zip(self._restorable(), state, strict=True):
+        for partner, own in zip(self._restorable, state, strict=True):
             partner.restore(own)
         self.release(state)
 
     def release(self, state: list[Any]) -> None:
         """Forget a state."""
-        for partner, own in zip(self._restorable(), state, strict=True):
+        for partner, own in zip(self._restorable, state, strict=True):
             partner.release(own)
 
     @property
@@ -210,7 +215,8 @@ class Partners:
     @property
     def differentiates(self) -> bool:
         """Whether all films tell their derivatives."""
-        return all(isinstance(film, Differentiable) and film.differentiates for film in self.films.values())
+        known = [film for film in self.films.values() if isinstance(film, Differentiable)]
+        return len(known) == len(self.films) and all(film.differentiates for film in known)
 
     def tangents(self) -> Tangents:
         """Return the derivatives of all films at present.
@@ -222,10 +228,10 @@ class Partners:
         """
         size = 2 * len(self.films)
         found = Tangents(np.zeros((size, size)), np.zeros((size, size)), np.zeros(size))
-        for number, film in enumerate(self.films.values()):
-            assert isinstance(film, Differentiable)
+        for number, (known, film) in enumerate(
+            zip(self._known.values(), self._differentiable, strict=True)
+        ):
             own = slice(2 * number, 2 * number + 2)
-            known = [name for name in JOURNAL_INPUTS if name in film.inputs]
             whole = np.zeros((2, len(JOURNAL_INPUTS)))
             whole[:, [JOURNAL_INPUTS.index(name) for name in known]] = film.jacobian(FORCE_OUTPUTS, known)
             found.stiffness[own, own], found.damping[own, own] = -whole[:, :2], -whole[:, 2:4]
@@ -235,7 +241,7 @@ class Partners:
 
     def linear_rotor(self, t: float) -> Linearization | None:
         """Return the exact derivatives of the rotor, those of its journals only; None if it has none."""
-        found = self.rotor.linear(t) if isinstance(self.rotor, Driven) else None
+        found = self._driven.linear(t) if self._driven is not None else None
         if found is None:
             return None
         forces = [self.rotor.inputs.index(name) for name in self.wiring.force]
@@ -288,10 +294,6 @@ class Partners:
         motion = self.drive(t, dt, held_law(t, PROBE * force))
         self.restore(state)
         return np.concatenate([motion.position, motion.velocity]) / PROBE
-
-    def _restorable(self) -> list[Restorable]:
-        partners = [self.rotor, *self.films.values()]
-        return [partner for partner in partners if isinstance(partner, Restorable)]
 
     def _require(self, needs: Needs) -> None:
         if needs.derivatives and not self.differentiates:

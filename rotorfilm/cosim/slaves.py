@@ -114,11 +114,11 @@ class InProcessSlave:
         With or without states.
     """
 
-    differentiates = True
     restores = True
 
     def __init__(self, model: Model) -> None:
         self._model = model
+        self.differentiates = hasattr(model, "linearization")
         self._inputs, self._outputs = tuple(names(model.inputs)), tuple(names(model.outputs))
         self._u = np.zeros(len(model.inputs))
         self._x: Array = model.initial_state if isinstance(model, Dynamic) else np.zeros(0)

@@ -22,7 +22,7 @@ EVERY = 8
 LOOK_BACK = 4 * WINDOW
 """Steps that are looked at."""
 
-CHECK = 32
+CHECK = 8
 """Steps between two checks of the distance from the limit, each at the price of the films' derivatives."""
 
 EARLY = 0.5
