@@ -1,12 +1,15 @@
 """Co-simulation of rotor and films: schemes, their stability limits, and the detection of chatter."""
 
 from .adaptive import Adaptive
+from .auto import Auto, choose_scheme
 from .chatter import CouplingReport, inspect_coupling
+from .choice import Choice, Trial
 from .explicit import GaussSeidel, Jacobi
 from .fmu_slave import FmuSlave, open_fmu, open_rotor
 from .implicit import SIExp, SIExp3
-from .master import CoSimulation, cosimulate, couple
+from .master import cosimulate
 from .newton import Newton
+from .run import CoSimulation, couple
 from .scheme import Scheme
 from .slaves import InProcessSlave, Slave
 from .stability import (
@@ -20,6 +23,8 @@ from .watch import CouplingWatch
 
 __all__ = [
     "Adaptive",
+    "Auto",
+    "Choice",
     "CoSimulation",
     "CouplingReport",
     "CouplingStability",
@@ -34,6 +39,8 @@ __all__ = [
     "SIExp3",
     "Scheme",
     "Slave",
+    "Trial",
+    "choose_scheme",
     "cosimulate",
     "couple",
     "coupling_stability",

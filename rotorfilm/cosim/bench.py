@@ -16,7 +16,6 @@ from ..rotors.structure import station_name, station_names
 from .exponential import Wiring
 from .slaves import Differentiable, Driven, Restorable, Slave
 
-
 PROBE = 1e3
 """Force of a trial step [N]; a linear rotor tells the same with any."""
 
@@ -88,7 +87,7 @@ class Bench(Protocol):
         """Advance the rotor from t to t + dt [s] under a force law."""
 
     def evaluate(self, t: float, dt: float, motion: Motion, derive: bool) -> Sample:
-        """Step the films from t to t + dt [s] with this motion at the end; with their derivatives if asked."""
+        """Step the films from t to t + dt [s] with this motion at the end; derivatives if asked."""
 
     def sensitivity(self, t: float, dt: float) -> Array:
         """Return d(position, velocity at t + dt)/d(held force) of the rotor, shape (2 m, m)."""
@@ -228,9 +227,7 @@ class Partners:
         """
         size = 2 * len(self.films)
         found = Tangents(np.zeros((size, size)), np.zeros((size, size)), np.zeros(size))
-        for number, (known, film) in enumerate(
-            zip(self._known.values(), self._differentiable, strict=True)
-        ):
+        for number, (known, film) in enumerate(zip(self._known.values(), self._differentiable, strict=True)):
             own = slice(2 * number, 2 * number + 2)
             whole = np.zeros((2, len(JOURNAL_INPUTS)))
             whole[:, [JOURNAL_INPUTS.index(name) for name in known]] = film.jacobian(FORCE_OUTPUTS, known)
@@ -246,9 +243,7 @@ class Partners:
             return None
         forces = [self.rotor.inputs.index(name) for name in self.wiring.force]
         motion = [self.rotor.outputs.index(n) for n in (*self.wiring.position, *self.wiring.velocity)]
-        return Linearization(
-            found.A, found.B[:, forces], found.C[motion], found.D[np.ix_(motion, forces)]
-        )
+        return Linearization(found.A, found.B[:, forces], found.C[motion], found.D[np.ix_(motion, forces)])
 
     def _sample(self, t: float, motion: Motion, derive: bool) -> Sample:
         self.work["film_evaluations"] += 1
@@ -297,16 +292,16 @@ class Partners:
 
     def _require(self, needs: Needs) -> None:
         if needs.derivatives and not self.differentiates:
-            raise InputError("film must tell its directional derivatives for this scheme, got one that does not")
+            raise InputError("film must tell its directional derivatives for this scheme, got one without")
         driven = isinstance(self.rotor, Driven) and self.rotor.takes_laws(self.wiring)
         if needs.laws and not driven:
             raise InputError(
-                "rotor must take force laws for this scheme, as a model, an FMU for Model Exchange or one with "
-                f"inputs such as stiffness_xx, got the inputs {list(self.rotor.inputs)}"
+                "rotor must take force laws for this scheme, as a model, an FMU for Model Exchange or one "
+                f"with inputs such as stiffness_xx, got the inputs {list(self.rotor.inputs)}"
             )
         partners = [self.rotor, *self.films.values()]
         if needs.rollback and not all(isinstance(p, Restorable) and p.restores for p in partners):
-            raise InputError("rotor and film must get and set their state for this scheme, got one that cannot")
+            raise InputError("rotor and film must get and set their state for this scheme, got one without")
 
 
 def _wiring(rotor: Slave, films: Mapping[str, Slave]) -> Wiring:

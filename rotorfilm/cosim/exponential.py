@@ -1,8 +1,8 @@
 """Integration of a rotor under a force law by the matrix exponential, exact where the rotor is linear.
 
-Over a step from (t, x), y = x(t + tau) - x obeys y' = M y + g(tau) + r with M = A + B dF/d(motion) C, the film's
-stiffness and damping included, g(tau) the rate of the frozen state x at t + tau, and a remainder r that is
-zero for a linear rotor. g is interpolated by a polynomial, and
+Over a step from (t, x), y = x(t + tau) - x obeys y' = M y + g(tau) + r with M = A + B dF/d(motion) C, the
+film's stiffness and damping included, g(tau) the rate of the frozen state x at t + tau, and a remainder r
+that is zero for a linear rotor. g is interpolated by a polynomial, and
 
     y(H) = int_0^H exp(M (H - tau)) g(tau) dtau
 

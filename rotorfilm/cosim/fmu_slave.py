@@ -1,6 +1,6 @@
 """FMUs of FMI 2.0 or 3.0 as partners in a co-simulation, run by fmpy.
 
-A film, and a rotor that takes force laws as inputs (or held forces only), is an FMU for Co-Simulation. A rotor
+A film, and a rotor that takes force laws as inputs (or held forces only), is one for Co-Simulation. A rotor
 for Model Exchange is integrated by the master.
 """
 

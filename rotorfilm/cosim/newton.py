@@ -15,7 +15,7 @@ from .bench import Bench, Needs, Sample
 
 @dataclass(frozen=True, kw_only=True)
 class Newton:
-    """The force of a step is held at the mean of both its ends, the end found by Newton's method with rollback.
+    """The force of a step is held at the mean of both ends, found by Newton's method with rollback.
 
     The films tell their derivatives; those of the rotor, by the force, are had from one trial step for each
     force, in the first step and wherever the length of the step changes, exact for a linear rotor. Needs no

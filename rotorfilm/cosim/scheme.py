@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from typing import Protocol
 
 import numpy as np
@@ -16,7 +16,7 @@ MEMORY = 4
 """Communication points that a scheme may look back on."""
 
 
-class Scheme(Protocol):
+class Scheme(Hashable, Protocol):
     """How rotor and films take turns over one macro step.
 
     Schemes are frozen dataclasses without memory: what they extrapolate from is handed to them.

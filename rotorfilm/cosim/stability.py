@@ -300,7 +300,8 @@ def coupling_loop(
     films = reaction if isinstance(reaction, Mapping) else {"": reaction}
     outputs = rotor.output(time, x, np.zeros(len(rotor.inputs)))
     size = 2 * len(films)
-    K, C, force, u = np.zeros((size, size)), np.zeros((size, size)), [], np.zeros(len(rotor.inputs))
+    K, C, u = np.zeros((size, size)), np.zeros((size, size)), np.zeros(len(rotor.inputs))
+    force: list[int] = []
     position: list[int] = []
     velocity: list[int] = []
     for number, (station, film) in enumerate(films.items()):

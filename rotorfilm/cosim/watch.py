@@ -135,13 +135,13 @@ class Watch:
         itself = float(np.linalg.eigvals(loop.closed).real.max())
         if radius > 1.0 and itself < 0.0:
             self._warn(
-                f"at t = {t:.6g} s the coupling grows by a factor of {radius:.4g} per macro step, where rotor "
-                "and film alone are stable: shorten macro_step or take scheme=SIExp3()"
+                f"at t = {t:.6g} s the coupling grows by a factor of {radius:.4g} per macro step, where "
+                "rotor and film alone are stable: shorten macro_step or take scheme=SIExp3()"
             )
         elif ratio > EARLY * limit:
             self._warn(
-                f"at t = {t:.6g} s macro_step * damping / local mass is {ratio:.3g}, near the limit {limit:.3g} "
-                f"of {self._scheme.label}: shorten macro_step or take scheme=SIExp3()"
+                f"at t = {t:.6g} s macro_step * damping / local mass is {ratio:.3g}, near the limit "
+                f"{limit:.3g} of {self._scheme.label}: shorten macro_step or take scheme=SIExp3()"
             )
 
     def _warn(self, message: str) -> None:

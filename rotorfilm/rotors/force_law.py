@@ -1,4 +1,4 @@
-"""The force of a film over one macro step, as a rotor takes it: first order in the motion, a parabola in time.
+"""The force of a film over one macro step, as a rotor takes it: linear in the motion, a parabola in time.
 
     F(t, q, v) = force + slope (t - start) + curvature (t - start)^2
                  - stiffness (q - position) - damping (v - velocity)

@@ -110,9 +110,7 @@ class LawRotor:
         for number in range(len(self.stations)):
             slope, curvature, K, C, base = self._law(number, u)
             away = sensed[self._motion[number]] - base
-            own[self._force[number]] += (
-                elapsed * (slope + elapsed * curvature) - K @ away[:2] - C @ away[2:]
-            )
+            own[self._force[number]] += elapsed * (slope + elapsed * curvature) - K @ away[:2] - C @ away[2:]
         return own
 
     def _law(self, number: int, u: Array) -> tuple[Array, Array, Array, Array, Array]:
