@@ -15,6 +15,7 @@ import typer
 
 from . import console
 from .chart_commands import chart_app
+from .cli_cosim import COSIM_EXAMPLE, cosim
 from .cli_damper import DAMPER_EXAMPLE, damper
 from .errors import InputError, RotorfilmError, SceneError
 
@@ -321,6 +322,7 @@ def demo(
     console.print_rows("files", [(path.name, notes.get(path.name, "")) for path in sorted(out.iterdir())])
 
 
+app.command(epilog=COSIM_EXAMPLE)(cosim)
 app.command(epilog=DAMPER_EXAMPLE)(damper)
 
 
