@@ -135,8 +135,10 @@ def _tried(
 
     try:
         run = attempt(scheme, macro_step, length)
-    except (PartialResultError, InputError) as failure:
+    except InputError as failure:
         return trial(str(failure)), False
+    except PartialResultError as failure:
+        return trial(_failure(failure)), False
     error = _distance(run.trajectory, reference)
     radius = run.watch.spectral_radius
     if radius is not None and radius > 1.0 and run.watch.warnings:
@@ -145,6 +147,13 @@ def _tried(
         return trial(f"not accurate enough: off by {error:.2g}", error, run), False
     reason = f"stable, off by {error:.2g}, {_calls(run):.3g} film calls per step: the cheapest that will do"
     return trial(reason, error, run), True
+
+
+def _failure(failure: PartialResultError) -> str:
+    """Return why a trial broke off: where the coupling was unstable by theory, that."""
+    partial = failure.partial
+    warned = partial.watch.warnings if isinstance(partial, CoSimulation) else ()
+    return f"unstable: {warned[0]}" if warned else str(failure)
 
 
 def _calls(run: CoSimulation) -> float:

@@ -71,8 +71,8 @@ class Newton:
             state = bench.save()
             found = bench.evaluate(t, dt, bench.drive(t, dt, held_law(t, force)), True)
             residual = force - 0.5 * (now.force + found.force)
-            size = float(np.max(np.abs(force) + np.abs(now.force)))
-            if np.max(np.abs(residual)) <= self.tolerance * size:
+            size = np.max(np.abs(force) + np.abs(now.force), axis=0)
+            if np.all(np.max(np.abs(residual), axis=0) <= self.tolerance * size):
                 bench.release(state)
                 return found
             bench.restore(state)

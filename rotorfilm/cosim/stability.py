@@ -9,7 +9,7 @@ radius is below 1.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -25,6 +25,7 @@ from ..rotors.structure import station_name, station_names
 from ..signals import names
 from .bench import Motion, Sample, Tangents
 from .explicit import GaussSeidel
+from .newton import Newton
 from .scheme import Scheme
 
 SHORTEST = 1e-6
@@ -35,6 +36,10 @@ LONGEST = 1e3
 
 SEARCH_RATIO = 1.1
 """Ratio of neighboring trial steps: a stable island narrower than this could be missed."""
+
+
+CONVERGED = 1e-11
+"""Tolerance of Newton's iteration, which is exact after one correction here."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -234,7 +239,8 @@ def sampled_matrix(loop: Loop, macro_step: float, scheme: Scheme) -> Array:
         Sample(-k * macro_step, motion, force, bench.tangents, {})
         for k, motion, force in zip((2, 1, 0), (*motions, now), reversed(forces), strict=True)
     ]
-    found = scheme.step(bench, history, 0.0, macro_step)
+    exact = replace(scheme, tolerance=CONVERGED) if isinstance(scheme, Newton) else scheme
+    found = exact.step(bench, history, 0.0, macro_step)
     rows = [bench.x, now.position, now.velocity, before, found.force, *forces[:2]]
     return np.concatenate(rows)
 

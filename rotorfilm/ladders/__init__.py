@@ -1,6 +1,8 @@
 """Ladders: every model of one physics from the cheapest law to the reference, measured side by side."""
 
 from .contact_cases import contact_cases
+from .coupling_cost import CostRow, CouplingCost, coupling_cost
+from .coupling_limits import CouplingLimits, LimitRow, coupling_limits
 from .journal_accuracy import JournalAccuracy, RungAccuracy, journal_accuracy, pareto_front
 from .journal_rungs import Rung, comparison_bearing, fitted_bearing, journal_rungs
 from .journal_stability import journal_stability
@@ -10,14 +12,20 @@ from .journal_thresholds import JournalStability, RungStability
 __all__ = [
     "LARGE",
     "SMALL",
+    "CostRow",
+    "CouplingCost",
+    "CouplingLimits",
     "JournalAccuracy",
     "JournalStability",
+    "LimitRow",
     "Rung",
     "RungAccuracy",
     "RungStability",
     "StateRange",
     "comparison_bearing",
     "contact_cases",
+    "coupling_cost",
+    "coupling_limits",
     "fitted_bearing",
     "journal_accuracy",
     "journal_rungs",

@@ -12,13 +12,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..bearings.journal import JournalBearing
-from ..cosim import GaussSeidel, InProcessSlave, Jacobi, Scheme, SIExp, SIExp3, couple, critical_macro_step
+from ..cosim import GaussSeidel, InProcessSlave, Scheme, SIExp, SIExp3, couple, critical_macro_step
 from ..cosim.stability import coupling_loop
 from ..errors import PartialResultError
 from ..films import MapFilm
 from ..model import Array
 from ..results import Trajectory
 from ..rotors.rigid import RigidRotor
+from .coupling_schemes import EXPLICIT
 
 SPEED = 157.0
 TURNS = 3
@@ -33,12 +34,6 @@ GOOD = (0.1, 0.8)
 BAD = (1.1, 2.5)
 IMPLICIT_ANGLE = (1.0, 8.0)
 HIGHEST = 0.95
-
-EXPLICIT: tuple[Scheme, ...] = (
-    *(GaussSeidel(degree=degree) for degree in range(3)),
-    *(Jacobi(degree=degree) for degree in range(3)),
-)
-IMPLICIT: tuple[Scheme, ...] = (SIExp(), SIExp3())
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -105,7 +100,7 @@ def _drawn(random: np.random.Generator, bad: bool) -> CouplingCase | None:
     )
     unbalance, offset = random.uniform(*UNBALANCE), random.uniform(*OFFSET)
     turn = random.uniform(0.0, 2.0 * np.pi)
-    schemes = EXPLICIT if bad else (*EXPLICIT, *IMPLICIT)
+    schemes = EXPLICIT if bad else (*EXPLICIT, SIExp(), SIExp3())
     scheme = schemes[random.integers(len(schemes))]
     bearing = JournalBearing(
         radius=0.05, length=0.1 * slenderness, clearance=1e-4, viscosity=0.03, film=MapFilm()

@@ -117,9 +117,7 @@ def scheme_named(name: str, tolerance: float) -> Scheme | Auto:
     return SCHEMES[name]
 
 
-def run_scene(
-    scene: Scene, scheme: Scheme | Auto, report: Report = silent
-) -> tuple[CosimAnswer, Trajectory]:
+def run_scene(scene: Scene, scheme: Scheme | Auto, report: Report = silent) -> tuple[CosimAnswer, Trajectory]:
     """Couple the FMUs of a scene; return what that says, and the signals.
 
     A film without a kernel in the C library runs as a model in this process, because its FMU would not tell
@@ -176,9 +174,7 @@ def _answer(scene: Scene, result: CoSimulation) -> CosimAnswer:
         limit = None if found is None else found * abs(scene.speed)
     times = np.minimum(own.time, scene.duration)
     try:
-        whole = simulate(
-            rotor, scene.bearing, duration=scene.duration, times=times, rtol=REFERENCE_TOLERANCE
-        )
+        whole = simulate(rotor, scene.bearing, duration=scene.duration, times=times, rtol=REFERENCE_TOLERANCE)
     except ContactError as wall:
         raise ContactError(f"the monolithic solution: {wall}", result) from wall
     choice = result.choice
