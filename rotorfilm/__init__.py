@@ -156,6 +156,7 @@ _HOMES = {
         "ShaftRotor",
         "SpeedProfile",
         "Station",
+        "SteadyRotor",
         "Support",
         "Unbalance",
         "mount",

@@ -13,6 +13,10 @@ from ..rotors.force_law import held_law
 from .bench import Bench, Needs, Sample
 
 
+LEAST = 1e-30
+"""Of several runs at once, the smallest force that counts, in the largest."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Newton:
     """The force of a step is held at the mean of both ends, found by Newton's method with rollback.
@@ -72,6 +76,7 @@ class Newton:
             found = bench.evaluate(t, dt, bench.drive(t, dt, held_law(t, force)), True)
             residual = force - 0.5 * (now.force + found.force)
             size = np.max(np.abs(force) + np.abs(now.force), axis=0)
+            size = np.maximum(size, LEAST * np.max(size))
             if np.all(np.max(np.abs(residual), axis=0) <= self.tolerance * size):
                 bench.release(state)
                 return found

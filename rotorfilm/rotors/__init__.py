@@ -21,6 +21,7 @@ from .reduced import ReducedRotor
 from .rigid import RigidRotor
 from .rigid_shaft import RigidShaft
 from .shaft import ShaftRotor
+from .steady import SteadyRotor
 from .structure import FlexibleRotor
 
 __all__ = [
@@ -44,6 +45,7 @@ __all__ = [
     "ShaftRotor",
     "SpeedProfile",
     "Station",
+    "SteadyRotor",
     "Support",
     "Unbalance",
     "cowper_coefficient",
