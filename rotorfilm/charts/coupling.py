@@ -38,7 +38,8 @@ def plot_coupling_limits(limits: CouplingLimits) -> Sequence[Axes]:
         axes.set_ylabel("longest stable macro step [deg]")
         axes.grid(visible=True, which="both", alpha=0.25)
     free = sorted({row.scheme for row in limits.rows} - {row.scheme for row in limits.rows if _limited(row)})
-    left.legend(fontsize=8, title=f"no limit: {', '.join(free)}", title_fontsize=8)
+    handles, labels = right.get_legend_handles_labels()
+    right.legend(handles, labels, fontsize=8, title=f"no limit: {', '.join(free)}", title_fontsize=8, ncols=2)
     return [left, right]
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .bench import Bench, Motion, Needs, Sample
-from .scheme import extrapolated_law, extrapolation, require_degree
+from .scheme import extrapolated_law, extrapolation, require_degree, started
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,7 +47,8 @@ class GaussSeidel:
         return Needs(laws=self.degree > 0)
 
     def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
-        """Advance by one macro step; see `Scheme`."""
+        """Advance by one macro step, at the start by a part of it; see `Scheme`."""
+        dt = started(history, self.degree, dt)
         motion = bench.drive(t, dt, extrapolated_law(history, self.degree))
         return bench.evaluate(t, dt, motion, False)
 
@@ -88,7 +89,8 @@ class Jacobi:
         return Needs(laws=self.degree > 0)
 
     def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
-        """Advance by one macro step; see `Scheme`."""
+        """Advance by one macro step, at the start by a part of it; see `Scheme`."""
+        dt = started(history, self.degree, dt)
         seen = bench.evaluate(t, dt, _ahead(history[-1 - self.degree :], t + dt), False)
         motion = bench.drive(t, dt, extrapolated_law(history, self.degree))
         return seen._replace(motion=motion)

@@ -177,7 +177,7 @@ class LawIntegrator:
             jac=lambda time, state: self._loop(self._system.matrices(time, state, self._inputs), law),
             rtol=TOLERANCE,
             atol=TOLERANCE * self._system.nominals,
-            first_step=dt,
+            first_step=0.5 * dt,
         )
         if not found.success:
             raise ConvergenceError(f"the rotor cannot be integrated from t = {t:.9g} s: {found.message}", x)

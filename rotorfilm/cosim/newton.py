@@ -24,7 +24,7 @@ class Newton:
     The films tell their derivatives; those of the rotor, by the force, are had from one trial step for each
     force, in the first step and wherever the length of the step changes, exact for a linear rotor. Needs no
     more of a rotor than held forces and the way back, so any Co-Simulation FMU with FMU states will do.
-    Stable wherever the coupled system is, but it damps what is fast hardly at all.
+    It damps what is fast hardly at all, and a light journal on an elastic shaft gives it a limit after all.
 
     Parameters
     ----------

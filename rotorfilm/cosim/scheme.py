@@ -16,6 +16,10 @@ MEMORY = 4
 """Communication points that a scheme may look back on."""
 
 
+FIRST = 1.0 / 63.0
+"""First step of a scheme that extrapolates by parabolas, in macro steps: doubled five times, the sum is one."""
+
+
 class Scheme(Hashable, Protocol):
     """How rotor and films take turns over one macro step.
 
@@ -35,7 +39,7 @@ class Scheme(Hashable, Protocol):
         """What it asks of its partners."""
 
     def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
-        """Advance from t to t + dt [s] and return what was exchanged there.
+        """Advance from t to t + dt [s], or less, and return what was exchanged there.
 
         Parameters
         ----------
@@ -73,6 +77,18 @@ def extrapolated_law(history: Sequence[Sample], degree: int) -> ForceLaw:
     value, slope, curvature = extrapolation([s.time for s in latest], [s.force for s in latest])
     none, zero = np.zeros((len(value), len(value))), np.zeros_like(value)
     return ForceLaw(latest[-1].time, value, slope, curvature, none, none, zero, zero)
+
+
+def started(history: Sequence[Sample], degree: int, dt: float) -> float:
+    """Return the length of a step: parabolas need a past, so a run that begins takes short steps, then longer.
+
+    A force held over the first step would spoil the order for good; over FIRST of it, it does not matter.
+    """
+    if degree < 2:
+        return dt
+    if len(history) < 2:
+        return FIRST * dt
+    return min(dt, 2.0 * (history[-1].time - history[-2].time))
 
 
 def require_degree(degree: int) -> None:

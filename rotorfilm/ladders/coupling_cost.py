@@ -129,8 +129,10 @@ def _row(
     except PartialResultError as failure:
         return _refused(scheme, angle, failure.partial, str(failure))
     own = run.trajectory
-    whole = np.searchsorted(exact.time, own.time - 1e-9 * duration)
-    distance = np.hypot(*(own.position - exact.position[:, whole]))
+    # Schemes that begin with short steps have more points than these.
+    times = _times(angle, duration)
+    at, whole = (np.searchsorted(series, times - 1e-9 * duration) for series in (own.time, exact.time))
+    distance = np.hypot(*(own.position[:, at] - exact.position[:, whole]))
     return CostRow(
         scheme=scheme.label,
         macro_angle=angle,

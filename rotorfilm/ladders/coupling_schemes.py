@@ -11,4 +11,4 @@ EXPLICIT: tuple[Scheme, ...] = (
 """Schemes with a longest stable macro step."""
 
 IMPLICIT: tuple[Scheme, ...] = (SIExp(), SIExp3(), Newton())
-"""Schemes that are stable wherever the coupled system is."""
+"""Schemes that are stable where explicit ones are not."""
