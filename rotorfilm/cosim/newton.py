@@ -12,7 +12,6 @@ from ..model import Array
 from ..rotors.force_law import held_law
 from .bench import Bench, Needs, Sample
 
-
 LEAST = 1e-30
 """Of several runs at once, the smallest force that counts, in the largest."""
 

@@ -17,7 +17,7 @@ MEMORY = 4
 
 
 FIRST = 1.0 / 63.0
-"""First step of a scheme that extrapolates by parabolas, in macro steps: doubled five times, the sum is one."""
+"""First step of a scheme of parabolas, in macro steps: doubled five times, the sum is one."""
 
 
 class Scheme(Hashable, Protocol):
@@ -80,7 +80,7 @@ def extrapolated_law(history: Sequence[Sample], degree: int) -> ForceLaw:
 
 
 def started(history: Sequence[Sample], degree: int, dt: float) -> float:
-    """Return the length of a step: parabolas need a past, so a run that begins takes short steps, then longer.
+    """Return the length of a step: parabolas need a past, so a run begins with short steps.
 
     A force held over the first step would spoil the order for good; over FIRST of it, it does not matter.
     """

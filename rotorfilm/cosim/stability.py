@@ -38,6 +38,9 @@ SEARCH_RATIO = 1.1
 """Ratio of neighboring trial steps: a stable island narrower than this could be missed."""
 
 
+ROUNDOFF = 1e-12
+"""Growth per step that may be roundoff: steps much shorter than the slowest rate have an eigenvalue of 1."""
+
 CONVERGED = 1e-11
 """Tolerance of Newton's iteration, which is exact after one correction here."""
 
@@ -217,7 +220,7 @@ def _none(growth: float, reason: str) -> CriticalMacroStep:
 
 
 def _excess(macro_step: float, loop: Loop, scheme: Scheme) -> float:
-    return abs(dominant_eigenvalue(loop, macro_step, scheme)) - 1.0
+    return abs(dominant_eigenvalue(loop, macro_step, scheme)) - 1.0 - ROUNDOFF
 
 
 def dominant_eigenvalue(loop: Loop, macro_step: float, scheme: Scheme) -> complex:

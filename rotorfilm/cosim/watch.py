@@ -122,7 +122,7 @@ class Watch:
         m = len(tangents.damping)
         loop = Loop(linear.A, linear.B, linear.C[:m], linear.C[m:], tangents.stiffness, tangents.damping)
         ratio = float(self._macro_step * loop.squeeze_rate)
-        if self._ratio is None or ratio > 1.05 * self._ratio:
+        if self._ratio is None or ratio > 1.01 * self._ratio:
             self._ratio = ratio
             self._judge(loop, ratio, sample.time)
 

@@ -15,7 +15,7 @@ from ..progress import Report, silent
 from ..results import Trajectory
 from ..rotors.rigid import RigidRotor
 from ..transient import simulate
-from .coupling_schemes import EXPLICIT, IMPLICIT
+from .coupling_schemes import EXPLICIT, IMPLICIT, quietly
 
 SPEED = 157.0
 REVOLUTIONS = 2
@@ -119,13 +119,14 @@ def _row(
 ) -> CostRow:
     duration = float(exact.time[-1])
     try:
-        run = couple(
-            InProcessSlave(rotor),
-            InProcessSlave(bearing),
-            macro_step=angle / SPEED,
-            duration=duration,
-            scheme=scheme,
-        )
+        with quietly():
+            run = couple(
+                InProcessSlave(rotor),
+                InProcessSlave(bearing),
+                macro_step=angle / SPEED,
+                duration=duration,
+                scheme=scheme,
+            )
     except PartialResultError as failure:
         return _refused(scheme, angle, failure.partial, str(failure))
     own = run.trajectory

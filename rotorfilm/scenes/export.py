@@ -84,4 +84,6 @@ def export_scene(
             stop_time=scene.duration,
         )
 
-    return ExportedScene(film=write(scene.bearing, "film", start), rotor=write(LawRotor(rotor=rotor), "rotor", {}))
+    return ExportedScene(
+        film=write(scene.bearing, "film", start), rotor=write(LawRotor(rotor=rotor), "rotor", {})
+    )

@@ -1,4 +1,4 @@
-"""Every coupling scheme: its declared order, its closed forms, what it asks of its partners, what it costs."""
+"""Every coupling scheme: its declared order, closed forms, what it asks of its partners, what it costs."""
 
 from dataclasses import dataclass, replace
 
