@@ -151,8 +151,8 @@ def test_plausible_runs_past_the_limit_are_caught(nondimensional, eccentricity, 
     result = caught.value.partial
     assert result.coupling.chatter
     assert 16 <= result.trajectory.time.size <= 121  # it is stopped as soon as it is sure
-    assert result.watch.spectral_radius > 1.0
-    assert "grows by a factor" in result.watch.warnings[0]
+    assert result.watch.warnings
+    assert result.watch.spectral_radius > 0.95 * factor
 
 
 def test_what_is_caught_looks_like_an_answer(nondimensional):

@@ -63,9 +63,11 @@ def test_the_distance_from_the_limit_is_step_times_damping_over_mass(make_spring
     assert_allclose(calm.watch.explicit_ratio, 0.1 * 4.0 / 3.0, rtol=1e-12)
     assert calm.watch.warnings == ()
     damper = InProcessSlave(make_spring_damper(1.0, 4.0))
-    with pytest.warns(CouplingWarning, match=r"damping / local mass is 1.33, near the limit 2 of Gauss"):
-        with pytest.raises(CouplingError, match="more than Gauss-Seidel 0 foresees"):
-            couple(InProcessSlave(rotor), damper, macro_step=1.0, duration=20.0)
+    with (
+        pytest.warns(CouplingWarning, match=r"damping / local mass is 1.33, near the limit 2 of Gauss"),
+        pytest.raises(CouplingError, match="more than Gauss-Seidel 0 foresees"),
+    ):
+        couple(InProcessSlave(rotor), damper, macro_step=1.0, duration=20.0)
 
 
 def test_a_run_past_the_limit_is_warned_of_at_once_and_stopped():
