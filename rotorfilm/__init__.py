@@ -163,6 +163,7 @@ _HOMES = {
     ),
     "scenes": ("Answer", "RossRotor", "Scene", "bundled_scene", "read_ross"),
     "signals": ("Signal",),
+    "sweeps": ("sweep",),
     "transient": ("simulate",),
     "errors": (
         "ContactError",
