@@ -42,19 +42,23 @@ def judged(case):
 
 
 def main():
+    """Print what the monitor made of all runs; return how many it got wrong."""
+    wrong = 0
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 100
     warnings.simplefilter("ignore", CouplingWarning)
     for bad in (True, False):
         verdicts = [judged(case) for case in coupling_cases(count, bad=bad)]
         right, warned = (sum(verdict[k] for verdict in verdicts) for k in (0, 1))
         print(f"{'bad: found' if bad else 'good: not stopped'} {right} of {count}; warned {warned}")
+        wrong += count - right
         errors = sorted(verdict[2] for verdict in verdicts)
         middle = errors[count // 2]
         print(f"  orbit error: {errors[0]:.1e} to {errors[-1]:.1e} of the clearance, median {middle:.1e}")
         for is_right, _, _, line in verdicts:
             if not is_right:
                 print("  EXCEPTION", line)
+    return wrong
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())
