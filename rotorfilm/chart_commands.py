@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from enum import StrEnum
 from pathlib import Path
@@ -210,6 +211,31 @@ def damper(
     ]
     headings = ("film", "median error", "99 % error", "against the short film", "batch", "alone")
     console.print_columns(headings, rows)
+    console.print_rows("", files)
+
+
+@chart_app.command(epilog="Example: rotorfilm chart cosim --json")
+def cosim(out: Folder = OUT, json: Json = False) -> None:
+    """Stability limits of the coupling schemes, and their error against film calls: takes minutes."""
+    with console.progress_display() as report:
+        report(0.0, "packages")
+        from .charts import plot_coupling_cost, plot_coupling_limits
+        from .ladders import coupling_cost, coupling_limits
+        from .progress import part_of
+
+        limits = coupling_limits(report=part_of(report, 0.0, 0.6))
+        cost = coupling_cost(report=part_of(report, 0.6, 1.0))
+        files = _write(out, "chart_cosim_limits", limits, plot_coupling_limits(limits))
+        files += _write(out, "chart_cosim_cost", cost, plot_coupling_cost(cost))
+        report(1.0, "done")
+    if json:
+        console.print_json({"limits": limits, "cost": cost})
+        return
+    best = [row for row in cost.rows if row.orbit_error is not None]
+    rows = [
+        (row.scheme, f"{math.degrees(row.macro_angle):.3g} deg", f"{row.orbit_error:.1e}") for row in best
+    ]
+    console.print_columns(("scheme", "macro step", "orbit error / clearance"), rows)
     console.print_rows("", files)
 
 
