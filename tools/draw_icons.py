@@ -35,6 +35,14 @@ def draw_grooved_journal(axes: Axes) -> None:
     axes.patches[2].set_zorder(0.5)
 
 
+def draw_contact(axes: Axes) -> None:
+    """Draw a ball on a plane with the film between them."""
+    axes.add_patch(Rectangle((-0.95, -0.85), 1.9, 0.3, color=STEEL))
+    axes.add_patch(Rectangle((-0.95, -0.55), 1.9, 0.16, color=OIL))
+    axes.add_patch(Circle((0, 0.2), 0.66, facecolor="white", edgecolor=INK, lw=2))
+    axes.add_patch(FancyArrow(-0.35, 0.2, 0.5, 0.0, head_width=0.2, head_length=0.2, color=INK, lw=0))
+
+
 def draw_rotor(axes: Axes) -> None:
     """Draw a shaft with a disk and its unbalance."""
     axes.add_patch(Rectangle((-0.95, -0.1), 1.9, 0.2, color=STEEL))
@@ -51,6 +59,7 @@ def draw_linear(axes: Axes) -> None:
 
 
 DRAWN = {
+    "contact": draw_contact,
     "grooved_journal": draw_grooved_journal,
     "journal": draw_journal,
     "linear": draw_linear,

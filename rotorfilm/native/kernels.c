@@ -4,9 +4,11 @@
 #include <stdio.h>
 #include <string.h>
 
-extern const rf_kernel_type rf_grooved_journal_type, rf_journal_type, rf_linear_type, rf_rigid_rotor_type;
+extern const rf_kernel_type rf_contact_type, rf_grooved_journal_type, rf_journal_type, rf_linear_type,
+    rf_rigid_rotor_type;
 
 static const rf_kernel_type *const KERNELS[] = {
+    &rf_contact_type,
     &rf_grooved_journal_type,
     &rf_journal_type,
     &rf_linear_type,
