@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -54,11 +53,16 @@ class BallSupport:
             raise InputError(f"angles must be a list of at least one angle, got {self.angles!r}")
         object.__setattr__(self, "angles", tuple(angles.tolist()))
         require_number("gap", self.gap)
+        if not self.clearance > 0.0:
+            raise InputError(
+                f"gap must leave the balls below {self.law.load_range[1]:.6g} N, to which their law was "
+                f"fitted, got {self.gap!r}"
+            )
 
     @property
     def clearance(self) -> float:
-        """Infinite: the balls yield, they have no wall."""
-        return math.inf
+        """Distance from the center [m] within which no ball carries more than its law was fitted to."""
+        return self.gap - float(self.law.approach(self.law.load_range[1]))
 
     @property
     def inputs(self) -> tuple[Signal, ...]:
@@ -105,8 +109,8 @@ class BallSupport:
         """Return the derivatives of `force`, shape (2, 5, ...)."""
         z, rate = self._approaches(position, velocity)
         damping = self._damping(z)
-        pressed = self.law.static_force(z) - damping * rate >= 0.0
-        by_position, by_velocity = pressed * self.law.static_slope(z), -pressed * damping
+        pressed = (self.law.static_force(z) - damping * rate >= 0.0).astype(float)
+        by_position, by_velocity = pressed * self.law.static_slope(z), -damping * pressed
         n = self._motion[:, :2]
         blocks = [np.einsum("ai,i...,ib->ab...", self._push, by, n) for by in (by_position, by_velocity)]
         return np.concatenate([*blocks, np.zeros((2, 1, *z.shape[1:]))], axis=1)

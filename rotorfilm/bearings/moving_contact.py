@@ -23,7 +23,7 @@ from .rolling_ball import RollingBall
 
 Levels = tuple[Level, ...]
 
-HALVINGS = 6
+HALVINGS = 4
 """Times that a step is halved before it is given up."""
 
 

@@ -14,6 +14,7 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
+from zipfile import BadZipFile
 
 import numpy as np
 
@@ -108,7 +109,7 @@ def operating_point(equations: ContactEquations) -> ContactPoint:
     """
     path = _path(equations)
     # A file that is damaged, or being replaced, is no reason to fail.
-    with contextlib.suppress(OSError, ValueError, KeyError):
+    with contextlib.suppress(OSError, ValueError):
         return _read(path)
     point = _computed(equations)
     try:
@@ -126,7 +127,7 @@ def kept_points(equations: ContactEquations) -> list[ContactPoint]:
     """Return the points on disk that differ from some equations in V and Q0 at most, sorted by these."""
     found = []
     for path in sorted(cache_folder().glob(f"contact-{_family(equations)}-*.npz")):
-        with contextlib.suppress(OSError, ValueError, KeyError):
+        with contextlib.suppress(OSError, ValueError):
             found.append(_read(path))
     return sorted(found, key=lambda point: (point.V, point.Q0))
 
@@ -194,8 +195,13 @@ def _bytes(point: ContactPoint) -> bytes:
 
 
 def _read(path: Path) -> ContactPoint:
-    with np.load(path, allow_pickle=False) as file:
-        values = {name: file[name] for name in _FIELDS}
+    # From memory: numpy leaves a damaged file open.
+    content = io.BytesIO(path.read_bytes())
+    try:
+        with np.load(content, allow_pickle=False) as file:
+            values = {name: file[name] for name in _FIELDS}
+    except (BadZipFile, EOFError, KeyError) as error:
+        raise ValueError(f"{path} is damaged: {error}") from error
     if values["delta"].shape != (len(LOADS),) or values["stiffness"].shape != (len(FREQUENCIES) + 1,):
         raise ValueError(f"{path} holds no operating point")
     scalars = {name: float(values[name]) for name in ("V", "Q0", "checkerboard")}

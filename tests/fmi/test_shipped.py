@@ -24,7 +24,7 @@ def shipped():
     return module
 
 
-NAMES = ["journal", "rotor"]
+NAMES = ["journal", "rotor", "contact"]
 
 
 def test_all_recipes_are_tested(shipped):
