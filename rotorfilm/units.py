@@ -74,6 +74,8 @@ DISPLAY_UNITS: dict[str, Unit] = {
     "psi": Unit(_POUND_FORCE / _INCH**2, {"kg": 1, "m": -1, "s": -2}),
     "deg": Unit(math.pi / 180.0, {"rad": 1}),
     "rpm": Unit(math.pi / 30.0, {"rad": 1, "s": -1}),
+    "Hz": Unit(2.0 * math.pi, {"rad": 1, "s": -1}),
+    "%": Unit(0.01),
 }
 """Units accepted in scene files and at the command line, besides plain SI numbers."""
 
