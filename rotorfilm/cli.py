@@ -15,6 +15,7 @@ import typer
 
 from . import console
 from .chart_commands import chart_app
+from .cli_contact import CONTACT_EXAMPLE, contact
 from .cli_damper import DAMPER_EXAMPLE, damper
 from .errors import InputError, RotorfilmError, SceneError
 
@@ -322,6 +323,7 @@ def demo(
 
 
 app.command(epilog=DAMPER_EXAMPLE)(damper)
+app.command(epilog=CONTACT_EXAMPLE)(contact)
 
 
 def main(arguments: list[str] | None = None) -> None:

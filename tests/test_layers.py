@@ -18,7 +18,7 @@ LAYERS = [
     ["ladders"],
     ["scenes", "charts"],
     ["console", "gallery"],
-    ["chart_commands", "cli_damper"],
+    ["chart_commands", "cli_contact", "cli_damper"],
     ["cli"],
 ]
 RANK = {name: rank for rank, layer in enumerate(LAYERS) for name in layer}

@@ -34,6 +34,8 @@ class BallSupport:
     gap : float [m]
         Approach of every ball where the journal is in the center; negative for a preload, as
         `law.approach(load)`.
+    position : (float, float) [m]
+        Of the journal until t = 0, where the balls have rested.
 
     Raises
     ------
@@ -44,6 +46,7 @@ class BallSupport:
     law: ContactLaw
     angles: tuple[float, ...]
     gap: float = 0.0
+    position: tuple[float, float] = (0.0, 0.0)
 
     def __post_init__(self) -> None:
         if not isinstance(self.law, ContactLaw):
@@ -53,6 +56,8 @@ class BallSupport:
             raise InputError(f"angles must be a list of at least one angle, got {self.angles!r}")
         object.__setattr__(self, "angles", tuple(angles.tolist()))
         require_number("gap", self.gap)
+        if require_finite("position", self.position).shape != (2,):
+            raise InputError(f"position must be two numbers, got {self.position!r}")
         if not self.clearance > 0.0:
             raise InputError(
                 f"gap must leave the balls below {self.law.load_range[1]:.6g} N, to which their law was "
@@ -87,8 +92,8 @@ class BallSupport:
 
     @property
     def initial_state(self) -> Array:
-        """Balls that have rested at the approach of the static load f = 1."""
-        return np.zeros(len(self.states))
+        """Balls that have rested at `position`."""
+        return self.resting(self.position)
 
     def resting(self, position: ArrayLike) -> Array:
         """Return the state in which the balls have long rested with the journal at a position (2,) [m]."""

@@ -15,6 +15,7 @@ from ..bearings.journal import JournalBearing
 from ..errors import InputError, SceneError
 from ..rotors.rigid import RigidRotor
 from ..units import STANDARD_GRAVITY
+from .contact_table import ContactTable
 from .excitation_table import EXCITATIONS, ExcitationTable
 from .question_table import QuestionTable
 from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
@@ -41,6 +42,8 @@ class Scene:
         One line for print-outs and charts.
     journal : JournalTable or None
         A journal bearing.
+    contact : ContactTable or None
+        Rolling balls in lubricated contact, alone or as a support of the rotor.
     operation : OperationTable or None
         Speed and load.
     rigid_rotor : RigidRotorTable or None
@@ -65,6 +68,7 @@ class Scene:
     #     damper: Annotated[DamperTable | None, Table(DamperTable)] = None
     # and nowhere else. It checks what it needs of the other tables where it is solved.
     journal: Annotated[JournalTable | None, Table(JournalTable)] = None
+    contact: Annotated[ContactTable | None, Table(ContactTable)] = None
 
     # What all families share.
     operation: Annotated[OperationTable | None, Table(OperationTable)] = None
