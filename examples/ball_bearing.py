@@ -49,7 +49,6 @@ K = coefficients(support, at.position, scene.speed).stiffness
 print(f"at rest: y = {at.position[1] * 1e9:.1f} nm, Kyy = {K[1, 1] * 1e-6:.1f} N/um")
 
 
-
 def couple(rotor, duration, step):
     """Return the motion of a rotor from rest, as two FMUs, and the same solved as one system."""
     balls = replace(support, position=tuple(at.position))

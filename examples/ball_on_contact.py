@@ -1,4 +1,4 @@
-"""A ball on a lubricated plane as coupled FMUs: the full film in Python and its reduced law in C, side by side.
+"""A ball on a lubricated plane as coupled FMUs: the full film in Python beside its reduced law in C.
 
 The ball rolls at 0.9 m/s under 10 N, which swing by a third. Both couplings are compared with the full film
 and the ball solved as one system.

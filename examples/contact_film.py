@@ -12,15 +12,12 @@ state = contact.stationary()
 law = reduce_contact(PointContact(V=0.1, Q0=5.0, grid=ContactGrid(cells=(40, 40))))
 
 figure, (above, middle, right) = plt.subplots(1, 3, figsize=(12, 3.4), layout="constrained")
-film = middle.contourf(
-    grid.x,
-    np.concatenate([-grid.y[::-1], grid.y]),
-    np.concatenate([state.thickness[:, ::-1], state.thickness], axis=1).T,
-    np.linspace(0.08, 0.4, 17),
-    cmap="viridis",
-    extend="both",
+y = np.concatenate([-grid.y[::-1], grid.y])
+thickness, pressure = (
+    np.concatenate([half[:, ::-1], half], axis=1).T for half in (state.thickness, state.pressure)
 )
-middle.contour(grid.x, grid.y, state.pressure.T, [1e-3], colors="white", linewidths=1)
+film = middle.contourf(grid.x, y, thickness, np.linspace(0.08, 0.4, 17), cmap="viridis", extend="both")
+middle.contour(grid.x, y, pressure, [1e-3], colors="white", linewidths=1)
 middle.set(xlim=(-2, 1.5), ylim=(-1.5, 1.5), xlabel="x / a", ylabel="y / a", title="film thickness H")
 figure.colorbar(film, ax=middle)
 
@@ -32,14 +29,10 @@ above.set(xlim=(-2.5, 1.5), ylim=(0, 1.2), xlabel="x / a, rolling direction", ti
 above.legend(fontsize=8)
 
 omega = np.geomspace(0.05, 6.0, 200)
-answer = [
-    (law.C @ np.linalg.solve(1j * w * np.eye(law.order) - law.A, law.B) + law.D)[0, 0] for w in omega
-]
+answer = [(law.C @ np.linalg.solve(1j * w * np.eye(law.order) - law.A, law.B) + law.D)[0, 0] for w in omega]
 damping = -np.imag(answer) / omega
 right.semilogx(omega, damping / law.damping, color="#2c3e50")
-right.set(
-    xlabel="angular frequency x transit time / 2", title="damping of the reduced law / of slow motion", ylim=(0, 1.1)
-)
+right.set(xlabel="angular frequency x transit time / 2", title="damping / that of slow motion", ylim=(0, 1.1))
 figure.savefig("contact.png", dpi=110)
 
 print(f"approach {state.delta:.5f}, smallest film {state.minimum_film:.4f}")

@@ -77,7 +77,9 @@ def contact(
     full = full or save is not None or resume is not None
     _require_response(case, step, sine, frequency, full)
     time = 20.0 if duration is None else _scaled(case, "--duration", duration, "s", case.time_scale)
-    rate = 0.0 if frequency is None else _scaled(case, "--frequency", frequency, "rad/s", 1.0 / case.time_scale)
+    rate = (
+        0.0 if frequency is None else _scaled(case, "--frequency", frequency, "rad/s", 1.0 / case.time_scale)
+    )
     drive = load_over_time(step, sine, rate)
     with console.progress_display() as report:
         answer, law = solve_contact(case, order, report)
@@ -91,7 +93,9 @@ def contact(
         return
     console.print_rows("lubricated contact", contact_rows(answer, case.ball is not None))
     if response is not None:
-        console.print_rows(f"response by the {response.model}", response_rows(response, case.ball is not None))
+        console.print_rows(
+            f"response by the {response.model}", response_rows(response, case.ball is not None)
+        )
 
 
 def contact_rows(answer: ContactAnswer, si: bool) -> list[tuple[str, str]]:
@@ -107,10 +111,14 @@ def contact_rows(answer: ContactAnswer, si: bool) -> list[tuple[str, str]]:
         ("central, minimum film", f"{_length(answer.central_film, si)}, {_length(answer.minimum_film, si)}"),
         *published,
         ("largest pressure", pressure),
-        ("stiffness, damping", f"{answer.stiffness:.5g}, {answer.damping:.5g}" + (" N/m, N s/m" if si else "")),
+        (
+            "stiffness, damping",
+            f"{answer.stiffness:.5g}, {answer.damping:.5g}" + (" N/m, N s/m" if si else ""),
+        ),
         (
             "errors of the reduced law",
-            f"load {answer.static_error:.2%} (of 0.2 to 3 times the load), damping {answer.damping_error:.2%}",
+            f"load {answer.static_error:.2%} (at 0.2 to 3 times the load), "
+            f"damping {answer.damping_error:.2%}",
         ),
         ("alternating share of the pressure", f"{answer.checkerboard:.2%}"),
     ]

@@ -26,7 +26,11 @@ BALL = RollingBall(
 
 
 def ball(*flags, drop=()):
-    return ["contact", *(w for name, value in OPTIONS.items() if name not in drop for w in (name, value)), *flags]
+    return [
+        "contact",
+        *(w for name, value in OPTIONS.items() if name not in drop for w in (name, value)),
+        *flags,
+    ]
 
 
 @pytest.fixture(autouse=True)

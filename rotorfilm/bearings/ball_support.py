@@ -84,7 +84,10 @@ class BallSupport:
         """States of the dynamic stiffness of each ball, without dimension."""
         return tuple(
             Signal(
-                name=f"ball_{ball}_{k}", unit="1", nominal=1.0, description=f"dynamic stiffness of ball {ball}"
+                name=f"ball_{ball}_{k}",
+                unit="1",
+                nominal=1.0,
+                description=f"dynamic stiffness of ball {ball}",
             )
             for ball in range(len(self.angles))
             for k in range(self.law.order)

@@ -185,7 +185,7 @@ class ContactLaw:
         return np.asarray(-np.linalg.solve(self.A, self.B[:, 0]) * self._drive(delta), dtype=float)
 
     def _drive(self, delta: float) -> float:
-        """Return what the state space sees of the approach: a ball that has left no longer drives the film."""
+        """Return what drives the state space: a ball that has left does so no longer."""
         return min(delta, self.offset) - self.operating
 
     def _load(self, delta: float, x: Array) -> Array:

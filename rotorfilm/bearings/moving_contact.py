@@ -111,9 +111,7 @@ class MovingContact:
             control = FixedSteps(step=duration / (pieces * 2**halving))
             stepper = Stepper(self.contact.equations, motion, control)
             try:
-                levels = state
-                for levels in stepper.advance(state, (begin.t + duration,)):
-                    pass
+                *_, levels = stepper.advance(state, (begin.t + duration,))
             except ConvergenceError:
                 if halving == HALVINGS:
                     raise

@@ -87,7 +87,9 @@ def stationary_at(equations: ContactEquations, delta: float, tolerance: float = 
         before, level = found.delta, level + move
         found = follow(equations, found, math.exp(level), tolerance)
         slope = min((found.delta - before) / move, 0.1 * slope)
-    raise ConvergenceError(f"delta must be reached by some load, got {found.delta:.6g} instead of {delta:.6g}")
+    raise ConvergenceError(
+        f"delta must be reached by some load, got {found.delta:.6g} instead of {delta:.6g}"
+    )
 
 
 def _solved(

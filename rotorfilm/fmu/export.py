@@ -166,9 +166,7 @@ def _python_contents(
         interfaces=PYTHON_INTERFACES,
         categories=PYTHON_CATEGORIES,
         variables=variables,
-        dependencies=dependencies(model, inputs)
-        if isinstance(model, Model)
-        else delayed_dependencies(model),
+        dependencies=dependencies(model, inputs) if isinstance(model, Model) else delayed_dependencies(model),
         stop_time=float(stop_time),
         step_size=float(step_size),
     )

@@ -73,7 +73,11 @@ def python_tool() -> str:
 
 
 def python_files(
-    model: Model | Stepped, component: str, title: str, start: Mapping[str, float], variables: tuple[Variable, ...]
+    model: Model | Stepped,
+    component: str,
+    title: str,
+    start: Mapping[str, float],
+    variables: tuple[Variable, ...],
 ) -> dict[str, bytes]:
     """Return all files of the FMU but the XML, by path.
 

@@ -89,7 +89,9 @@ def delayed_dependencies(model: Stepped) -> Dependencies:
     """Return the dependencies of a model with its own integrator: all outputs follow from all inputs."""
     shape = len(model.outputs), len(model.inputs)
     every = np.ones(shape, dtype=bool)
-    return Dependencies(every, np.zeros((shape[0], 0), dtype=bool), np.zeros(shape[0], dtype=bool), every, True)
+    return Dependencies(
+        every, np.zeros((shape[0], 0), dtype=bool), np.zeros(shape[0], dtype=bool), every, True
+    )
 
 
 def running_unknowns(variables: Sequence[Variable], found: Dependencies, tunable: bool) -> list[Unknown]:

@@ -96,10 +96,7 @@ def fmi_variables(model: Model | Stepped, component: str, start: Mapping[str, fl
     variables = (
         *(labelled(component, "input", s, float(start.get(s.name, 0.0))) for s in model.inputs),
         *(labelled(component, "output", s) for s in model.outputs),
-        *(
-            labelled(component, "local", s, float(value))
-            for s, value in zip(states, initial, strict=True)
-        ),
+        *(labelled(component, "local", s, float(value)) for s, value in zip(states, initial, strict=True)),
     )
     require_unique(variables)
     return variables

@@ -13,7 +13,7 @@ from ..bearings.contact_law import ContactLaw
 from ..bearings.contact_reduction import reduce_contact
 from ..bearings.ride import ride
 from ..bearings.rolling_ball import RollingBall
-from ..errors import require_positive
+from ..errors import ValidityWarning, require_positive, warn_user
 from ..films.contact_loads import SineLoad, StepLoad
 from ..films.contact_state import ContactRun, ContactState
 from ..films.contact_stationary import HERTZ_LOAD
@@ -130,10 +130,24 @@ def solve_contact(case: ContactCase, order: int, report: Report = silent) -> tup
 def respond(
     case: ContactCase, law: ContactLaw, load: Callable[[float], float], *, duration: float
 ) -> ContactResponse:
-    """Return the response by the reduced law; load f(t) and duration are dimensionless."""
+    """Return the response by the reduced law; load f(t) and duration are dimensionless.
+
+    Warns
+    -----
+    ValidityWarning
+        If the force leaves the range of the law.
+    """
     motion = ride(
         law, mass=case.W / HERTZ_LOAD, load=load, start=law.operating, duration=duration, samples=1001
     )
+    lowest, highest = (bound / law.force_scale for bound in law.load_range)
+    carried = motion["force_z"]
+    if carried.min() < lowest or carried.max() > highest:
+        warn_user(
+            f"force must stay within {lowest:g} and {highest:g} static loads, to which the reduced law was "
+            f"fitted, got {carried.min():.3g} to {carried.max():.3g}: compare with the full film",
+            ValidityWarning,
+        )
     return ContactResponse(
         model="reduced law",
         complete=True,
@@ -189,9 +203,7 @@ def load_over_time(step: float | None, sine: float | None, frequency: float) -> 
 class _Told:
     """A load that tells how far the run is."""
 
-    def __init__(
-        self, load: Callable[[float], float], start: float, duration: float, report: Report
-    ) -> None:
+    def __init__(self, load: Callable[[float], float], start: float, duration: float, report: Report) -> None:
         self.load, self.start, self.duration, self.report = load, start, duration, report
         self.breakpoints = tuple(getattr(load, "breakpoints", ()))
 

@@ -63,9 +63,7 @@ def test_at_rest_the_states_add_nothing():
     assert SUPPORT.output(0.0, x, u) == pytest.approx(SUPPORT.force(position, [0.0, 0.0]))
 
 
-@given(
-    st.tuples(*[st.floats(-1.5e-6, 1.5e-6)] * 2), st.lists(st.floats(-0.3, 0.3), min_size=8, max_size=8)
-)
+@given(st.tuples(*[st.floats(-1.5e-6, 1.5e-6)] * 2), st.lists(st.floats(-0.3, 0.3), min_size=8, max_size=8))
 def test_linearization_is_exact(position, x):
     u = np.array([*position, 0.0, 0.0, 10.0])
     at = SUPPORT.linearization(0.0, x, u)
@@ -81,10 +79,12 @@ def test_linearization_is_exact(position, x):
     x = np.array(x)
     forces = [SUPPORT.output(0.0, x + d, u) for d in (1e-6 * np.eye(8))]
     slope = (np.array(forces) - SUPPORT.output(0.0, x, u)).T / 1e-6
-    assert at.C == pytest.approx(slope, abs=1e-3)
+    assert pytest.approx(slope, abs=1e-3) == at.C
 
 
-@given(st.floats(0.0, 6.3), st.tuples(*[st.floats(-1e-6, 1e-6)] * 2), st.tuples(*[st.floats(-1e-4, 1e-4)] * 2))
+@given(
+    st.floats(0.0, 6.3), st.tuples(*[st.floats(-1e-6, 1e-6)] * 2), st.tuples(*[st.floats(-1e-4, 1e-4)] * 2)
+)
 def test_turned_balls_turn_the_force(angle, position, velocity):
     turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
     turned = BallSupport(law=law(), angles=tuple(a + angle for a in ANGLES), gap=-1e-6)

@@ -16,7 +16,9 @@ STEP = 0.05
 
 @pytest.fixture(scope="module")
 def film(tmp_path_factory):
-    return export_fmu(MODEL, tmp_path_factory.mktemp("film") / "film.fmu", component="film", start={"z": -1.8})
+    return export_fmu(
+        MODEL, tmp_path_factory.mktemp("film") / "film.fmu", component="film", start={"z": -1.8}
+    )
 
 
 def values(answer):

@@ -21,7 +21,11 @@ SUPPORT = BallSupport(law=LAW, angles=(-2.2, -1.5, 0.4), gap=-1e-6)
 MODELS = [LAW, SUPPORT]
 POINTS = {
     "law": [[-1.8e-6], [-3e-6], [0.29e-6], [0.31e-6], [4e-6]],
-    "support": [[1e-7, -2e-7, 0.0, 0.0, 9.0], [1.2e-6, 1.9e-6, 1.0, 1.0, 0.0], [-2e-6, 0.5e-6, 0.0, 0.0, 1.0]],
+    "support": [
+        [1e-7, -2e-7, 0.0, 0.0, 9.0],
+        [1.2e-6, 1.9e-6, 1.0, 1.0, 0.0],
+        [-2e-6, 0.5e-6, 0.0, 0.0, 1.0],
+    ],
 }
 
 
@@ -36,7 +40,9 @@ def test_outputs_are_those_of_python(model, kind, unzipped):
     names = [signal.name for signal in model.outputs]
     for u in case(model):
         client.set(**{signal.name: value for signal, value in zip(model.inputs, u, strict=True)})
-        assert client.get(*names) == pytest.approx(model.output(0.0, model.initial_state, u), rel=1e-13, abs=1e-12)
+        assert client.get(*names) == pytest.approx(
+            model.output(0.0, model.initial_state, u), rel=1e-13, abs=1e-12
+        )
 
 
 @pytest.mark.parametrize("kind", [FMU2Model, FMU3Model])
@@ -72,9 +78,7 @@ def test_a_step_is_the_exact_one_under_a_held_approach(kind, unzipped):
     for dt in (1e-5, 3e-4, 5e-5):
         client.step(t, dt)
         t += dt
-    done = solve_ivp(
-        lambda s, y: SUPPORT.derivative(s, y, u), (0.0, t), x, rtol=1e-11, atol=1e-13
-    ).y[:, -1]
+    done = solve_ivp(lambda s, y: SUPPORT.derivative(s, y, u), (0.0, t), x, rtol=1e-11, atol=1e-13).y[:, -1]
     assert client.get(*(f"state_{s.name}" for s in SUPPORT.states)) == pytest.approx(done, abs=1e-9)
 
 
