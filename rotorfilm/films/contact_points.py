@@ -191,7 +191,8 @@ def _digest(key: str) -> str:
 
 def _bytes(point: ContactPoint) -> bytes:
     buffer = io.BytesIO()
-    np.savez(buffer, **{name: np.asarray(getattr(point, name)) for name in _FIELDS})
+    values: Any = {name: np.asarray(getattr(point, name)) for name in _FIELDS}
+    np.savez(buffer, **values)
     return buffer.getvalue()
 
 
