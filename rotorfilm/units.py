@@ -51,6 +51,10 @@ UNITS: dict[str, Unit] = {
     "kg.m": Unit(1.0, {"kg": 1, "m": 1}),
     "N.m": Unit(1.0, {"kg": 1, "m": 2, "s": -2}),
     "K": Unit(1.0, {"K": 1}),
+    "kg/m3": Unit(1.0, {"kg": 1, "m": -3}),
+    "J/(kg.K)": Unit(1.0, {"m": 2, "s": -2, "K": -1}),
+    "W/(m.K)": Unit(1.0, {"kg": 1, "m": 1, "s": -3, "K": -1}),
+    "1/K": Unit(1.0, {"K": -1}),
 }
 """The SI units of signals, by their FMI spelling."""
 

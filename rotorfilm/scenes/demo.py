@@ -138,7 +138,7 @@ def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
     plain = comparison_bearing(slenderness)
     folder.mkdir(parents=True, exist_ok=True)
     report(0.0, "equilibrium, stiffness and damping, whirl threshold")
-    answer = scene.solve()
+    answer = scene.describe()
     report(0.02, "locus by every film")
     angles = attitude_angles(plain, rungs, np.array(ECCENTRICITY_RATIOS))
     stability = journal_stability(

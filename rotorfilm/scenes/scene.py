@@ -12,12 +12,15 @@ from pathlib import Path
 from typing import Annotated, Any
 
 from ..bearings.journal import JournalBearing
-from ..errors import InputError, SceneError
+from ..errors import InputError, SceneError, warn_user
 from ..rotors.rigid import RigidRotor
 from ..units import STANDARD_GRAVITY
 from .contact_table import ContactTable
 from .excitation_table import EXCITATIONS, ExcitationTable
+from .ladder import QuestionAnswer
+from .lubricant_table import LubricantTable
 from .question_table import QuestionTable
+from .questions import ask
 from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
 from .solve import Answer, solve
 from .tables import Table, Variant, read_table, require_no_near_miss, text
@@ -26,7 +29,7 @@ BUNDLED = "friswell_5_9_6.toml"
 """The scene file that ships with the package."""
 
 
-NOT_A_BEARING = ("title", "operation", "rigid_rotor", "excitation", "cosimulation", "question")
+NOT_A_BEARING = ("title", "operation", "lubricant", "rigid_rotor", "excitation", "cosimulation", "question")
 """Fields of a scene that do not make one by themselves; every other field is a bearing or has some."""
 
 
@@ -46,6 +49,8 @@ class Scene:
         Rolling balls in lubricated contact, alone or as a support of the rotor.
     operation : OperationTable or None
         Speed and load.
+    lubricant : LubricantTable
+        Properties for the checks of what the films leave out.
     rigid_rotor : RigidRotorTable or None
         What the bearing carries; without it there is no whirl threshold and no transient.
     excitation : UnbalanceTable, BladeLossTable, StepLoadTable, SineLoadTable or None
@@ -72,6 +77,7 @@ class Scene:
 
     # What all families share.
     operation: Annotated[OperationTable | None, Table(OperationTable)] = None
+    lubricant: Annotated[LubricantTable, Table(LubricantTable)] = field(default_factory=LubricantTable)
     rigid_rotor: Annotated[RigidRotorTable | None, Table(RigidRotorTable)] = None
     excitation: Annotated[ExcitationTable | None, Variant("kind", EXCITATIONS)] = None
     cosimulation: Annotated[CosimulationTable, Table(CosimulationTable)] = field(
@@ -112,12 +118,44 @@ class Scene:
             raise SceneError(f"{path}: scene file cannot be read: {reason}") from None
         return parse_scene(document, str(path))
 
-    def solve(self) -> Answer:
+    def solve(self) -> Answer | QuestionAnswer:
+        """Return the answer to the question, or `describe()` where none is asked."""
+        return self.describe() if self.question is None else self.ask()
+
+    def ask(self) -> QuestionAnswer:
+        """Return the answer to the question by the first rung that meets its tolerance.
+
+        Returns
+        -------
+        QuestionAnswer
+            With the whole ladder, also where no rung meets the tolerance: then `met` is false.
+
+        Raises
+        ------
+        InputError
+            If nothing is asked, or something that the scene's tables do not have.
+        RotorfilmError
+            If no rung has an answer.
+
+        Warns
+        -----
+        ValidityWarning
+            Where the physics of all rungs leaves out what matters in this scene.
+        """
+        answer = ask(self)
+        for remark in answer.remarks:
+            warn_user(f"left out: {remark}")
+        return answer
+
+    def describe(self) -> Answer:
         """Return equilibrium, coefficients and whirl threshold; see `rotorfilm.scenes.solve.solve`."""
-        if self.question is not None:
-            raise InputError(f"question.quantity has no ladder yet, got {self.question.quantity!r}")
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
         return solve(self.bearing, load=self.static_load, speed=self.speed, mass=mass)
+
+    @property
+    def film_is_given(self) -> bool:
+        """Whether the file names the film, so that no other may answer."""
+        return self.journal is not None and self.journal.film is not None
 
     @property
     def speed(self) -> float:

@@ -7,7 +7,7 @@ registers it by one line in `rotorfilm.scenes.scene.Scene`, and renames nothing.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Annotated
 
 from ..bearings.journal import JournalBearing
@@ -34,8 +34,8 @@ class JournalTable:
     clearance : float [m]
         Radial clearance.
     viscosity : float [Pa s]
-    film : FilmTable
-        The film law; the map if the file does not say.
+    film : FilmTable or None
+        The film law; if the file does not say, the map, or what the question of the scene needs.
     pads : tuple of PadTable
         Where there is a bearing wall; empty for the full circumference.
     grooves : tuple of GrooveTable
@@ -48,7 +48,7 @@ class JournalTable:
     length: Annotated[float, Quantity("m")]
     clearance: Annotated[float, Quantity("m")]
     viscosity: Annotated[float, Quantity("Pa.s")]
-    film: Annotated[FilmTable, Variant("name", FILMS)] = field(default_factory=MapFilmTable)
+    film: Annotated[FilmTable | None, Variant("name", FILMS)] = None
     pads: Annotated[tuple[PadTable, ...], TableList(PadTable)] = ()
     grooves: Annotated[tuple[GrooveTable, ...], TableList(GrooveTable)] = ()
     supply_pressure: Annotated[float, Quantity("Pa")] = 0.0
@@ -63,7 +63,7 @@ class JournalTable:
             length=self.length,
             clearance=self.clearance,
             viscosity=self.viscosity,
-            film=self.film.build(),
+            film=(self.film or MapFilmTable()).build(),
             pads=tuple(pad.build() for pad in self.pads),
             grooves=tuple(groove.build() for groove in self.grooves),
             supply_pressure=self.supply_pressure,
