@@ -79,7 +79,7 @@ def test_a_step_is_the_exact_one_under_a_held_approach(kind, unzipped):
         client.step(t, dt)
         t += dt
     done = solve_ivp(lambda s, y: SUPPORT.derivative(s, y, u), (0.0, t), x, rtol=1e-11, atol=1e-13).y[:, -1]
-    assert client.get(*(f"state_{s.name}" for s in SUPPORT.states)) == pytest.approx(done, abs=1e-9)
+    assert client.get(*(f"state_{s.name}" for s in SUPPORT.states)) == pytest.approx(done, rel=1e-8, abs=1e-9)
 
 
 @pytest.mark.closed_form
