@@ -17,6 +17,7 @@ from . import console
 from .chart_commands import chart_app
 from .cli_contact import CONTACT_EXAMPLE, contact
 from .cli_damper import DAMPER_EXAMPLE, damper
+from .cli_rotor import ROTOR_EXAMPLE, rotor
 from .cli_sweep import SWEEP_EXAMPLE, sweep
 from .errors import InputError, RotorfilmError, SceneError
 
@@ -353,6 +354,7 @@ def demo(
 
 app.command(epilog=DAMPER_EXAMPLE)(damper)
 app.command(epilog=CONTACT_EXAMPLE)(contact)
+app.command(epilog=ROTOR_EXAMPLE)(rotor)
 app.command(epilog=SWEEP_EXAMPLE)(sweep)
 
 

@@ -5,8 +5,16 @@ from .canvas import new_axes, new_figure, save
 from .contact_cases import plot_contact_cases
 from .coupling_error import plot_coupling_error
 from .damper import plot_bistable, plot_eccentricity, plot_phase, plot_transmissibility, plot_transmitted
+from .limits import plot_limits
 from .motion import plot_locus, plot_orbits
-from .rotor import plot_campbell, plot_critical_speed_map, plot_log_decrement, plot_unbalance_response
+from .page import write_page
+from .rotor import (
+    plot_campbell,
+    plot_critical_speed_map,
+    plot_log_decrement,
+    plot_mode_shape,
+    plot_unbalance_response,
+)
 from .whirl_verdicts import plot_journal_stability, plot_thresholds
 from .work_precision import plot_force_error, plot_journal_accuracy
 
@@ -24,8 +32,10 @@ __all__ = [
     "plot_force_error",
     "plot_journal_accuracy",
     "plot_journal_stability",
+    "plot_limits",
     "plot_locus",
     "plot_log_decrement",
+    "plot_mode_shape",
     "plot_orbits",
     "plot_phase",
     "plot_thresholds",
@@ -33,4 +43,5 @@ __all__ = [
     "plot_transmitted",
     "plot_unbalance_response",
     "save",
+    "write_page",
 ]

@@ -6,20 +6,26 @@ from .journal_rungs import Rung, comparison_bearing, fitted_bearing, journal_run
 from .journal_stability import journal_stability
 from .journal_states import LARGE, SMALL, StateRange, random_states
 from .journal_thresholds import JournalStability, RungStability
+from .limits import Limit, LimitAtlas, Panel, failures, journal_limits
 
 __all__ = [
     "LARGE",
     "SMALL",
     "JournalAccuracy",
     "JournalStability",
+    "Limit",
+    "LimitAtlas",
+    "Panel",
     "Rung",
     "RungAccuracy",
     "RungStability",
     "StateRange",
     "comparison_bearing",
     "contact_cases",
+    "failures",
     "fitted_bearing",
     "journal_accuracy",
+    "journal_limits",
     "journal_rungs",
     "journal_stability",
     "pareto_front",

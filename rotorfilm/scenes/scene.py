@@ -21,6 +21,7 @@ from .ladder import QuestionAnswer
 from .lubricant_table import LubricantTable
 from .question_table import QuestionTable
 from .questions import ask
+from .rotor_table import ShaftTable
 from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
 from .solve import Answer, solve
 from .tables import Table, Variant, read_table, require_no_near_miss, text
@@ -47,6 +48,8 @@ class Scene:
         A journal bearing.
     contact : ContactTable or None
         Rolling balls in lubricated contact, alone or as a support of the rotor.
+    shaft : ShaftTable or None
+        A flexible rotor in its own bearings.
     operation : OperationTable or None
         Speed and load.
     lubricant : LubricantTable
@@ -74,6 +77,8 @@ class Scene:
     # and nowhere else. It checks what it needs of the other tables where it is solved.
     journal: Annotated[JournalTable | None, Table(JournalTable)] = None
     contact: Annotated[ContactTable | None, Table(ContactTable)] = None
+
+    shaft: Annotated[ShaftTable | None, Table(ShaftTable)] = None
 
     # What all families share.
     operation: Annotated[OperationTable | None, Table(OperationTable)] = None
