@@ -153,6 +153,30 @@ def page(out: Folder = OUT, json: Json = False) -> None:
     console.print_rows("", [("page", str(path))])
 
 
+@chart_app.command(epilog="Example: rotorfilm chart bush --json")
+def bush(out: Folder = OUT, json: Json = False) -> None:
+    """Tiers of the polymer bush: error against cost, as published too, and the closed form of its shaft."""
+    with console.progress_display() as report:
+        report(0.0, "packages")
+        from .charts import plot_bush_tiers
+        from .ladders import bush_tiers
+        from .results import write_csv
+
+        result = bush_tiers(report=report)
+        files = _write(out, "chart_bush", result, plot_bush_tiers(result))
+        shaft = write_csv(out / "chart_bush_shaft.csv", result.shaft_columns())
+        report(1.0, "done")
+    if json:
+        console.print_json(result)
+        return
+    rows = [(tier.name, f"{tier.error:.1e}", f"{1e3 * tier.cost:.3g} ms") for tier in result.tiers]
+    console.print_columns(("tier", "error of the angle", "time of the run"), rows)
+    errors = [100.0 * row.error for row in result.shaft]
+    closed = f"{min(errors):.2f} to {max(errors):.2f} % high"
+    last = [("closed form of the shaft", closed), ("its table", str(shaft))]
+    console.print_rows("", [("reference", result.reference), *files, *last])
+
+
 def _write(out: Path, name: str, result: Tabular, axes: Sequence[Axes]) -> list[tuple[str, str]]:
     """Write chart and table; return the rows that name them."""
     from .charts import save

@@ -116,6 +116,13 @@ def solve(
         return
     if explain:
         raise InputError(f"--explain must be given with a scene that has a [question], got {str(scene)!r}")
+    if loaded.bush is not None and loaded.journal is None:
+        melting = loaded.melting()
+        if json:
+            console.print_json(melting)
+            return
+        console.print_bush(melting)
+        return
     _make_map(loaded.bearing)
     answer = loaded.describe()
     if json:

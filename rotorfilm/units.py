@@ -53,11 +53,15 @@ UNITS: dict[str, Unit] = {
     "N.m/rad": Unit(1.0, {"kg": 1, "m": 2, "s": -2, "rad": -1}),
     "N.m.s/rad": Unit(1.0, {"kg": 1, "m": 2, "s": -1, "rad": -1}),
     "kg.m2": Unit(1.0, {"kg": 1, "m": 2}),
+    "1/s": Unit(1.0, {"s": -1}),
+    "J/m3": Unit(1.0, {"kg": 1, "m": -1, "s": -2}),
     "kg/m3": Unit(1.0, {"kg": 1, "m": -3}),
     "K": Unit(1.0, {"K": 1}),
+    "1/K": Unit(1.0, {"K": -1}),
+    "1/K2": Unit(1.0, {"K": -2}),
     "J/(kg.K)": Unit(1.0, {"m": 2, "s": -2, "K": -1}),
     "W/(m.K)": Unit(1.0, {"kg": 1, "m": 1, "s": -3, "K": -1}),
-    "1/K": Unit(1.0, {"K": -1}),
+    "W/(m2.K)": Unit(1.0, {"kg": 1, "s": -3, "K": -1}),
 }
 """The SI units of signals, by their FMI spelling."""
 

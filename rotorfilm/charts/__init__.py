@@ -1,6 +1,7 @@
 """Charts: functions from results to matplotlib Axes; nothing here computes physics."""
 
 from .bush import plot_contact_pressure, plot_critical_speed
+from .bush_tiers import plot_bush_tiers, plot_shaft_flux_error
 from .canvas import new_axes, new_figure, save
 from .contact_cases import plot_contact_cases
 from .coupling_error import plot_coupling_error
@@ -22,6 +23,7 @@ __all__ = [
     "new_axes",
     "new_figure",
     "plot_bistable",
+    "plot_bush_tiers",
     "plot_campbell",
     "plot_contact_cases",
     "plot_contact_pressure",
@@ -38,6 +40,7 @@ __all__ = [
     "plot_mode_shape",
     "plot_orbits",
     "plot_phase",
+    "plot_shaft_flux_error",
     "plot_thresholds",
     "plot_transmissibility",
     "plot_transmitted",

@@ -1,5 +1,6 @@
 """Ladders: every model of one physics from the cheapest law to the reference, measured side by side."""
 
+from .bush_tiers import BushTier, BushTiers, ShaftFluxError, bush_tiers, shaft_flux_errors
 from .contact_cases import contact_cases
 from .journal_accuracy import JournalAccuracy, RungAccuracy, journal_accuracy, pareto_front
 from .journal_rungs import Rung, comparison_bearing, fitted_bearing, journal_rungs
@@ -11,6 +12,8 @@ from .limits import Limit, LimitAtlas, Panel, failures, journal_limits
 __all__ = [
     "LARGE",
     "SMALL",
+    "BushTier",
+    "BushTiers",
     "JournalAccuracy",
     "JournalStability",
     "Limit",
@@ -19,7 +22,9 @@ __all__ = [
     "Rung",
     "RungAccuracy",
     "RungStability",
+    "ShaftFluxError",
     "StateRange",
+    "bush_tiers",
     "comparison_bearing",
     "contact_cases",
     "failures",
@@ -30,4 +35,5 @@ __all__ = [
     "journal_stability",
     "pareto_front",
     "random_states",
+    "shaft_flux_errors",
 ]

@@ -15,6 +15,8 @@ from ..bearings.journal import JournalBearing
 from ..errors import InputError, SceneError, warn_user
 from ..rotors.rigid import RigidRotor
 from ..units import STANDARD_GRAVITY
+from .bush import BushAnswer, solve_bush
+from .bush_table import BushTable
 from .contact_table import ContactTable
 from .excitation_table import EXCITATIONS, ExcitationTable
 from .ladder import QuestionAnswer
@@ -50,6 +52,8 @@ class Scene:
         Rolling balls in lubricated contact, alone or as a support of the rotor.
     shaft : ShaftTable or None
         A flexible rotor in its own bearings.
+    bush : BushTable or None
+        A polymer bush that wears by melting.
     operation : OperationTable or None
         Speed and load.
     lubricant : LubricantTable
@@ -76,6 +80,7 @@ class Scene:
     #     damper: Annotated[DamperTable | None, Table(DamperTable)] = None
     # and nowhere else. It checks what it needs of the other tables where it is solved.
     journal: Annotated[JournalTable | None, Table(JournalTable)] = None
+    bush: Annotated[BushTable | None, Table(BushTable)] = None
     contact: Annotated[ContactTable | None, Table(ContactTable)] = None
 
     shaft: Annotated[ShaftTable | None, Table(ShaftTable)] = None
@@ -156,6 +161,12 @@ class Scene:
         """Return equilibrium, coefficients and whirl threshold; see `rotorfilm.scenes.solve.solve`."""
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
         return solve(self.bearing, load=self.static_load, speed=self.speed, mass=mass)
+
+    def melting(self) -> BushAnswer:
+        """Return contact and critical speeds of the unworn bush; raises InputError if the scene has none."""
+        if self.bush is None:
+            raise InputError("bush is required for a critical speed of melting, got no such table")
+        return solve_bush(self.bush.build(), math.hypot(*self.static_load), self.speed, 0.0)
 
     @property
     def film_is_given(self) -> bool:
