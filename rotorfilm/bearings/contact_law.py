@@ -131,7 +131,7 @@ class ContactLaw:
     def events(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return what changes sign where the ball leaves the film, and where the force vanishes."""
         delta = float(np.asarray(u)[0]) / self.film_scale
-        return np.array([delta - self.offset, self._load(delta, np.asarray(x, dtype=float))[0]])
+        return np.array([(delta - self.offset) / self.span, self._load(delta, np.asarray(x, dtype=float))[0]])
 
     @property
     def load_range(self) -> tuple[float, float]:

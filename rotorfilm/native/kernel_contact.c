@@ -26,6 +26,7 @@ typedef struct model {
 /* The contacts at one point. */
 typedef struct contacts {
     double drive[MOST], force[MOST], slope[MOST]; /* slope of the static law; 0 where it is open */
+    double lift[MOST];                            /* approach beyond the offset, in spans */
     int near[MOST];                               /* whether the state space is driven */
 } contacts;
 
@@ -45,7 +46,7 @@ static int take_tables(model *self, const rf_tables *tables, rf_message *why)
     const rf_table *motion = rf_find_table(tables, "motion", 2, why),
                    *push = motion ? rf_find_table(tables, "push", 2, why) : NULL,
                    *law = push ? rf_find_table(tables, "law", 1, why) : NULL;
-    rf_sizes sizes = {0, 0, 0, 0};
+    rf_sizes sizes = {0, 0, 0, 0, 0};
     if (!law || !(self->linear = rf_linear_type.create(tables, &sizes, why)))
         return RF_INVALID;
     self->contacts = motion->extent[0], self->inputs = motion->extent[1];
@@ -71,7 +72,7 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
         destroy(self);
         return NULL;
     }
-    const rf_sizes mine = {1, self->inputs, self->outputs, self->states};
+    const rf_sizes mine = {1, self->inputs, self->outputs, self->states, 2 * self->contacts};
     *sizes = mine;
     return self;
 }
@@ -97,6 +98,7 @@ static int press(const model *self, const rf_point *at, contacts *now, rf_messag
         if (!isfinite(d))
             return rf_say(why, RF_NOT_FINITE, "approach %zu is not finite at t = %.9g s", i, at->t);
         now->near[i] = d <= law[OFFSET];
+        now->lift[i] = (d - law[OFFSET]) / law[SPAN];
         const double depth = now->near[i] ? (law[OFFSET] - d) / law[SPAN] : 0.0;
         now->drive[i] = (now->near[i] ? d : law[OFFSET]) - law[OPERATING];
         now->force[i] = law[SCALE] * pow(depth, law[EXPONENT]);
@@ -136,6 +138,21 @@ static int output(const void *kernel, const rf_point *at, double *y, rf_message 
             y[k] += self->push[k * self->contacts + i] * (now.force[i] > 0.0 ? now.force[i] : 0.0);
     }
     return status;
+}
+
+/* Of each contact what changes sign where the ball leaves its film, and where its force vanishes. */
+static int events(const void *kernel, const rf_point *at, double *z, rf_message *why)
+{
+    const model *self = kernel;
+    contacts now;
+    int status = press(self, at, &now, why);
+    if (status > RF_OUTSIDE || (status = add_dynamic(self, at, &now, why)) != RF_OK)
+        return status;
+    for (size_t i = 0; i < self->contacts; ++i) {
+        z[2 * i] = now.lift[i];
+        z[2 * i + 1] = now.force[i] / self->law[SCALE];
+    }
+    return RF_OK;
 }
 
 static int derivative(const void *kernel, const rf_point *at, double *dx, rf_message *why)
@@ -210,4 +227,5 @@ const rf_kernel_type rf_contact_type = {
     .jacobian = jacobian,
     .derivative = derivative,
     .step = step,
+    .events = events,
 };

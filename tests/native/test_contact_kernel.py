@@ -60,6 +60,9 @@ def test_derivatives_are_those_of_python(model, kind, unzipped):
         client.set(**dict(zip(inputs, u, strict=True)))
         client.set_states(x)
         assert client.derivatives(len(x)) == pytest.approx(model.derivative(0.0, x, u), rel=1e-12, abs=1e-9)
+        events = model.events(0.0, x, u)
+        found = client.get(*(f"event_{k}" for k in range(len(events))))
+        assert found == pytest.approx(events, rel=1e-12, abs=1e-12)
         at = model.linearization(0.0, x, u)
         for k, name in enumerate(inputs):
             assert client.differentiate(outputs, [name], [1.0]) == pytest.approx(at.D[:, k], rel=1e-12)
