@@ -11,6 +11,7 @@ from typing import Any
 _HOMES = {
     "bearings": (
         "AxialFeed",
+        "BallSupport",
         "BushGeometry",
         "BushReaction",
         "BushWear",
@@ -21,6 +22,7 @@ _HOMES = {
         "LinearBearing",
         "LinerMaterial",
         "MeltingBush",
+        "MovingContact",
         "PointContact",
         "PorousCage",
         "PorousDamper",
@@ -33,6 +35,8 @@ _HOMES = {
         "damper_groups",
         "f4k20_bush",
         "film_state",
+        "interpolate_contact",
+        "moving_contact",
         "perturbed",
         "published_stage",
         "reduce_ball",

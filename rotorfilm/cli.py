@@ -15,6 +15,7 @@ import typer
 
 from . import console
 from .chart_commands import chart_app
+from .cli_contact import CONTACT_EXAMPLE, contact
 from .cli_cosim import COSIM_EXAMPLE, cosim
 from .cli_damper import DAMPER_EXAMPLE, damper
 from .cli_rotor import ROTOR_EXAMPLE, rotor
@@ -362,6 +363,7 @@ def demo(
 
 app.command(epilog=COSIM_EXAMPLE)(cosim)
 app.command(epilog=DAMPER_EXAMPLE)(damper)
+app.command(epilog=CONTACT_EXAMPLE)(contact)
 app.command(epilog=ROTOR_EXAMPLE)(rotor)
 app.command(epilog=SWEEP_EXAMPLE)(sweep)
 

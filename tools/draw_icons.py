@@ -35,6 +35,14 @@ def draw_grooved_journal(axes: Axes) -> None:
     axes.patches[2].set_zorder(0.5)
 
 
+def draw_contact(axes: Axes) -> None:
+    """Draw a ball on a plane with the film between them."""
+    axes.add_patch(Rectangle((-0.95, -0.85), 1.9, 0.3, color=STEEL))
+    axes.add_patch(Rectangle((-0.95, -0.55), 1.9, 0.16, color=OIL))
+    axes.add_patch(Circle((0, 0.2), 0.66, facecolor="white", edgecolor=INK, lw=2))
+    axes.add_patch(FancyArrow(-0.35, 0.2, 0.5, 0.0, head_width=0.2, head_length=0.2, color=INK, lw=0))
+
+
 def draw_bush(axes: Axes) -> None:
     """Draw a shaft that has sunk into the liner of its bush."""
     axes.add_patch(Circle((0, 0), 0.95, color=STEEL))
@@ -85,6 +93,7 @@ def draw_linear(axes: Axes) -> None:
 
 
 DRAWN = {
+    "contact": draw_contact,
     "bush_reaction": draw_worn_bush,
     "bush_wear": draw_bush,
     "damper": draw_damper,

@@ -17,6 +17,7 @@ from ..rotors.rigid import RigidRotor
 from ..units import STANDARD_GRAVITY
 from .bush import BushAnswer, solve_bush
 from .bush_table import BushTable
+from .contact_table import ContactTable
 from .damper_table import DamperTable
 from .excitation_table import EXCITATIONS, ExcitationTable
 from .ladder import QuestionAnswer
@@ -48,6 +49,8 @@ class Scene:
         One line for print-outs and charts.
     journal : JournalTable or None
         A journal bearing.
+    contact : ContactTable or None
+        Rolling balls in lubricated contact, alone or as a support of the rotor.
     shaft : ShaftTable or None
         A flexible rotor in its own bearings.
     bush : BushTable or None
@@ -81,6 +84,7 @@ class Scene:
     # and nowhere else. It checks what it needs of the other tables where it is solved.
     journal: Annotated[JournalTable | None, Table(JournalTable)] = None
     bush: Annotated[BushTable | None, Table(BushTable)] = None
+    contact: Annotated[ContactTable | None, Table(ContactTable)] = None
     shaft: Annotated[ShaftTable | None, Table(ShaftTable)] = None
     damper: Annotated[DamperTable | None, Table(DamperTable)] = None
 

@@ -11,6 +11,7 @@ from rotorfilm import (
     PointContact,
     RollingBall,
     SineLoad,
+    StepLoad,
     linearize,
     reduce_ball,
     reduce_contact,
@@ -23,6 +24,14 @@ from rotorfilm.films.contact_stationary import HERTZ_LOAD
 from rotorfilm.films.rational_fit import fit_transfer
 from rotorfilm.linear import OperatingPoint
 from rotorfilm.model import Dynamic, Linearization
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _cache(tmp_path_factory):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROTORFILM_CACHE", str(tmp_path_factory.mktemp("cache")))
+        yield
+
 
 CONTACT = PointContact(V=0.1, Q0=5.0, grid=ContactGrid(cells=(28, 28)))
 
@@ -136,3 +145,52 @@ def test_law_of_a_ball_is_the_dimensionless_one_in_si():
     assert scaled == pytest.approx(motions[0]["z"], abs=1e-5)
     with pytest.raises(InputError, match="contact must be of the ball, with V = "):
         reduce_ball(ball, CONTACT)
+
+
+def test_a_ball_that_leaves_is_neither_pulled_nor_felt(law):
+    away = law.offset + np.array([0.01, 1.0, 5.0])
+    rates = [law.derivative(0.0, np.zeros(5), [delta]) for delta in away]
+    assert np.array_equal(rates[0], rates[1])
+    assert np.array_equal(rates[0], rates[2])
+    x = -10.0 * np.linalg.pinv(law.C)[:, 0]
+    assert law.output(0.0, x, [away[0]]) == 0.0
+    assert not law.linearization(0.0, x, [away[0]]).C.any()
+    assert law.events(0.0, x, [away[1]])[0] == pytest.approx(1.0 / law.span)
+
+
+def test_a_bounce_is_that_of_the_full_film(law, resting):
+    load = StepLoad(amplitude=-1.2, start=1.0, end=2.5)
+    full = CONTACT.simulate(resting, duration=8.0, W=1.0, load=load, control=FixedSteps(step=0.05))
+    assert full.delta.max() > 1.0  # it leaves
+    reduced = ride(
+        law, mass=1.0 / HERTZ_LOAD, load=load, start=resting.delta, duration=8.0, samples=full.time.size
+    )
+    error = np.interp(full.time, reduced.time, reduced["z"]) - full.delta
+    assert np.sqrt(np.mean(error**2) / np.mean((full.delta - resting.delta) ** 2)) < 0.06
+    assert reduced["force_z"].min() == 0.0
+
+
+def test_a_law_about_another_load():
+    heavy = reduce_contact(CONTACT, load=1.6)
+    state = CONTACT.stationary(1.6)
+    # The rectangles differ: that of the law is in the Hertzian radii of its load.
+    assert float(heavy.approach(1.6)) == pytest.approx(state.delta, rel=0.01)
+    assert heavy.load_range == pytest.approx((0.32, 4.8))
+    small = SmallMotion(CONTACT.equations, state.levels[0].pressure, state.delta)
+    answer = small.stiffness(1.0j) / HERTZ_LOAD
+    assert heavy.stiffness == pytest.approx(small.stiffness(1e-6j).real / HERTZ_LOAD, rel=0.02)
+    s = 1.0j * heavy.time_scale  # its own unit of time
+    fitted = transfer(Linearization(heavy.A, heavy.B, heavy.C, heavy.D), np.array([s]))[0]
+    damping = -fitted.imag * heavy.force_scale / heavy.film_scale
+    assert damping == pytest.approx(answer.imag, rel=0.05)
+
+
+@pytest.mark.closed_form
+def test_approach_and_static_force_are_inverse(law):
+    loads = np.array([[0.3, 1.0], [2.0, 0.0]])
+    assert law.static_force(law.approach(loads)) == pytest.approx(loads, abs=1e-12)
+    z, step = law.approach(1.3), 1e-6
+    slope = (law.static_force(z + step) - law.static_force(z - step)) / (2.0 * step)
+    assert float(law.static_slope(z)) == pytest.approx(float(slope), rel=1e-7)
+    with pytest.raises(InputError, match="load must not be negative"):
+        law.approach(-1.0)
