@@ -33,14 +33,18 @@ class _Rider(NamedTuple):
     law: Array
     fastest: float
     load: Callable[[float], float]
+    time_scale: float
+    force_scale: float
 
     def part(self, begin: float, end: float, start: Array, tolerance: float) -> _Part:
         """Return the motion by halving the steps until the answer settles."""
         n = max(4, math.ceil((end - begin) * self.fastest))
-        rough = self._steps(begin, end, start, n)
+        pushes = self._pushes(begin, end, 2 * n)
+        rough = self._steps(begin, end, start, pushes)
         for _ in range(FINEST):
-            n *= 2
-            fine = self._steps(begin, end, start, n)
+            between = self._pushes(begin, end, 2 * len(pushes) - 2, odd=True)
+            pushes = np.insert(pushes, np.arange(1, len(pushes)), between)
+            fine = self._steps(begin, end, start, pushes)
             # Of order four, so the finer answer is some fifteen times better than this.
             miss = float(np.max(np.abs(fine.y[::2, 0] - rough.y[:, 0])))
             if miss <= 15.0 * tolerance:
@@ -48,16 +52,22 @@ class _Rider(NamedTuple):
             rough = fine
         raise ConvergenceError(
             f"halving the steps must settle the motion to {tolerance:.1e}, got changes of {miss:.1e} "
-            f"with {n} steps"
+            f"with {len(pushes) // 2} steps"
         )
 
-    def _steps(self, begin: float, end: float, start: Array, n: int) -> _Part:
-        times = np.linspace(begin, end, 2 * n + 1)
+    def _pushes(self, begin: float, end: float, intervals: int, *, odd: bool = False) -> Array:
+        """Return the loads at the ends of equal intervals, or at every second of them."""
+        times = np.linspace(begin, end, intervals + 1)
         times[0] = np.nextafter(begin, end)  # the load after a jump
-        pushes = np.array([self.load(t) for t in times.tolist()], dtype=float)
-        times[0] = begin
+        scale, load = self.time_scale, self.load
+        chosen = times[1::2] if odd else times
+        values = [load(t) for t in (scale * chosen).tolist()]
+        return np.array(values, dtype=float) / self.force_scale
+
+    def _steps(self, begin: float, end: float, start: Array, pushes: Array) -> _Part:
+        n = len(pushes) // 2
         y = ride_steps(start, (end - begin) / n, pushes, self.W, *self.matrices, self.law)
-        return _Part(times[::2], y)
+        return _Part(np.linspace(begin, end, n + 1), y)
 
     def force(self, y: Array) -> Array:
         """Return the film's force, shape (n,), for rows of y."""
@@ -136,7 +146,9 @@ def _rider(law: ContactLaw, mass: float, load: Callable[[float], float]) -> _Rid
         (A, B, C, float(law.D[0, 0])),
         static,
         max(natural, float(poles.max())),
-        lambda t: float(load(t * law.time_scale)) / law.force_scale,
+        load,
+        law.time_scale,
+        law.force_scale,
     )
 
 
