@@ -10,12 +10,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import linalg
 
 from ..errors import ConvergenceError
 from ..model import Array
 from .contact_equations import ContactEquations, Derivatives, TimeDerivative
 from .contact_preconditioner import Closure, Distribution, Factors, distribution, factorize
+from .krylov import gmres
 
 MAX_STEPS = 30
 """Newton steps tried."""
@@ -158,21 +158,11 @@ class NewtonKrylov:
         # The two residuals count alike: film equations per V, the closure per its coefficients.
         scales = np.full(len(residual) + 1, 1.0 / self.equations.V)
         scales[-1] = 1.0 / (abs(linear.closure.approach) + 2.0 * linear.closure.load)
-        count = 0
 
         def product(y: Array) -> Array:
             return scales * self._product(linear, self._preconditioned(linear, factors, y / scales))
 
-        def tally(_: float) -> None:
-            nonlocal count
-            count += 1
-
-        size = len(scales)
-        operator = linalg.LinearOperator((size, size), matvec=product, dtype=np.float64)
-        y, _ = linalg.gmres(
-            operator, scales * np.append(residual, miss), rtol=forcing, restart=KRYLOV, maxiter=1,
-            callback=tally, callback_type="pr_norm",
-        )  # fmt: skip
+        y, count = gmres(product, scales * np.append(residual, miss), tolerance=forcing, most=KRYLOV)
         return self._preconditioned(linear, factors, y / scales), count
 
     def _product(self, linear: _Linear, x: Array) -> Array:
