@@ -26,7 +26,7 @@ FORCING = (1e-4, 1e-2)
 KRYLOV = 80
 """Most iterations of GMRES in a step."""
 
-STALE = 0.125
+STALE = 0.06
 """Cells that may gain or lose film before the preconditioner is renewed, per cells along x.
 
 Each costs an iteration more, and factors cost more iterations on finer grids. Old coefficients cost nothing.
@@ -57,6 +57,7 @@ class _Linear(NamedTuple):
     by_delta: Array
     wet: np.ndarray
     closure: Closure
+    rate: float
 
 
 class NewtonKrylov:
@@ -126,7 +127,7 @@ class NewtonKrylov:
     ) -> _Linear:
         derivatives = self.equations.derivatives(pressure, film, rate)
         by_delta = derivatives.by_film @ np.ones(derivatives.by_film.shape[1])
-        return _Linear(derivatives, np.where(wet, by_delta, 0.0), wet, closure)
+        return _Linear(derivatives, np.where(wet, by_delta, 0.0), wet, closure, rate)
 
     def _step(
         self, linear: _Linear, residual: Array, miss: float, forcing: float
@@ -149,7 +150,9 @@ class NewtonKrylov:
     def _factorized(self, linear: _Linear) -> Factors:
         if self._change is None:
             self._change = distribution(self.equations)
-        return factorize(self.equations, self._change, linear.derivatives, linear.wet, linear.closure)
+        return factorize(
+            self.equations, self._change, linear.derivatives, linear.wet, linear.closure, linear.rate
+        )
 
     def _krylov(
         self, linear: _Linear, factors: Factors, residual: Array, miss: float, forcing: float
