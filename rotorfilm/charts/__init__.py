@@ -3,6 +3,7 @@
 from .bush import plot_contact_pressure, plot_critical_speed
 from .canvas import new_axes, new_figure, save
 from .contact_cases import plot_contact_cases
+from .contact_ladder import plot_contact_limits, plot_contact_precision
 from .coupling_error import plot_coupling_error
 from .damper import plot_bistable, plot_eccentricity, plot_phase, plot_transmissibility, plot_transmitted
 from .motion import plot_locus, plot_orbits
@@ -16,6 +17,8 @@ __all__ = [
     "plot_bistable",
     "plot_campbell",
     "plot_contact_cases",
+    "plot_contact_limits",
+    "plot_contact_precision",
     "plot_contact_pressure",
     "plot_coupling_error",
     "plot_critical_speed",

@@ -1,6 +1,8 @@
 """Ladders: every model of one physics from the cheapest law to the reference, measured side by side."""
 
 from .contact_cases import contact_cases
+from .contact_limits import contact_limits
+from .contact_precision import contact_precision
 from .journal_accuracy import JournalAccuracy, RungAccuracy, journal_accuracy, pareto_front
 from .journal_rungs import Rung, comparison_bearing, fitted_bearing, journal_rungs
 from .journal_stability import journal_stability
@@ -18,6 +20,8 @@ __all__ = [
     "StateRange",
     "comparison_bearing",
     "contact_cases",
+    "contact_limits",
+    "contact_precision",
     "fitted_bearing",
     "journal_accuracy",
     "journal_rungs",

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from scipy.interpolate import CubicSpline
+from scipy.signal import find_peaks
 
 from ..films.contact_state import ContactRun, ContactState
 from ..model import Array
@@ -15,6 +16,9 @@ SMALLEST_PEAK = 1e-4
 
 SAMPLES = 4001
 """Instants at which a span of time is searched for its extremes."""
+
+PROMINENT = 0.02
+"""Prominence of a crest / range of the film's change: less is noise."""
 
 CORE = 0.6
 """Half the length along y = 0 on which the travelling film is followed."""
@@ -49,16 +53,17 @@ def unrest(run: ContactRun, period: float, end: float, name: str = "delta") -> f
     return float(np.max(np.abs(last - before)) / (0.5 * np.ptp(last)))
 
 
-def wave_speed(states: Sequence[ContactState], x: Array) -> float:
-    """Return c of H_t + c H_x = 0 along y = 0 in the core, by least squares at the middle of three states.
-
-    1 is the rolling speed (u1 + u2)/2.
-    """
+def wave_speed(states: Sequence[ContactState], rest: ContactState, x: Array) -> float:
+    """Return the speed of the first crest of the film's change from rest along y = 0, in (u1 + u2)/2."""
     points = np.linspace(-CORE, CORE, SAMPLES)
-    before, now, after = (CubicSpline(x, state.thickness[:, 0]) for state in states)
-    rate = (after(points) - before(points)) / (states[2].t - states[0].t)
-    slope = now(points, 1)
-    return float(-(rate @ slope) / (slope @ slope))
+    times, crests = [], []
+    for state in states:
+        change = CubicSpline(x, (state.thickness - rest.thickness)[:, 0])(points)
+        found, _ = find_peaks(change, prominence=PROMINENT * float(np.ptp(change)))
+        if len(found):
+            times.append(state.t)
+            crests.append(points[found[0]])
+    return float(np.polyfit(times, crests, 1)[0]) if len(times) > 1 else 0.0
 
 
 def wave_height(state: ContactState, rest: ContactState, x: Array) -> float:
