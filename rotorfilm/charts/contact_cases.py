@@ -78,9 +78,7 @@ def _shown(cases: ContactCases) -> list[Solution]:
     return [solution for solution in cases.solutions if solution.name in SHOWN]
 
 
-def _dressed(
-    row: list[Axes], titles: tuple[str, str], labels: tuple[str, str], abscissa: str
-) -> list[Axes]:
+def _dressed(row: list[Axes], titles: tuple[str, str], labels: tuple[str, str], abscissa: str) -> list[Axes]:
     for axes, title, label in zip(row, titles, labels, strict=True):
         axes.set(title=title, ylabel=label, xlabel=abscissa)
         axes.grid(visible=True, alpha=0.3)

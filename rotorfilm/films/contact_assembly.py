@@ -58,8 +58,8 @@ class Assembly:
             for part, (left, _) in zip(parts, pairs, strict=True)
         ]
         self._map = sparse.hstack(maps).tocsr()
-        self.fixed = [
-            np.bincount(np.searchsorted(pattern, key), matrix.data, len(pattern))
+        self.fixed: list[Array] = [
+            np.bincount(np.searchsorted(pattern, key), matrix.data, len(pattern)).astype(float)
             for key, matrix in zip(keys, given, strict=True)
         ]
 

@@ -134,8 +134,9 @@ class ContactEquations:
             excess, slope = opening(*(part @ content for part in self.sampling.upstream))
             unmoved = np.zeros(self._flow.divergence[1].shape[1])
             acts = (excess > 0.0).astype(float)
-            carried = carried - bend.entries(np.zeros_like(acts), unmoved, slope, acts)
-        return -self.V * (carried + rate * stored)
+            limited = bend.entries(np.zeros_like(acts), unmoved, slope, acts)
+            return np.asarray(-self.V * (carried - limited + rate * stored))
+        return np.asarray(-self.V * (carried + rate * stored))
 
     def _by_density(self, pressure: Array, film: Array, transport: Any) -> Any:
         assert self.density is not None

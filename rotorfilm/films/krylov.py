@@ -15,11 +15,13 @@ class KrylovAnswer(NamedTuple):
     """An approximate solution, and the products taken."""
 
     x: Array
-    count: int
+    products: int
 
 
 def gmres(product: Callable[[Array], Array], right: Array, *, tolerance: float, most: int) -> KrylovAnswer:
-    """Return x with |right - A x| <= tolerance |right|, or the best of `most` products (Saad and Schultz 1986).
+    """Return x with |right - A x| <= tolerance |right|, or the best of `most` products.
+
+    After Saad and Schultz (1986).
 
     Parameters
     ----------

@@ -75,10 +75,9 @@ def contact_limits(
 ) -> ContactLimits:
     """Return the limits of the published scheme on its grid, or one of `cells` x `cells`; a minute."""
     grid = ContactGrid(cells=(cells, cells))
-    contact = PointContact(
-        V=SPEED_PARAMETER, Q0=PRESSURE_COEFFICIENT, grid=grid, scheme=StaggeredScheme()
-    )
-    rest = contact.stationary()
+    contact = PointContact(V=SPEED_PARAMETER, Q0=PRESSURE_COEFFICIENT, grid=grid, scheme=StaggeredScheme())
+    with as_published():
+        rest = contact.stationary()
     small = SmallMotion(contact.equations, rest.levels[0].pressure, rest.delta)
     natural = []
     for number, W in enumerate(inertias):
@@ -91,9 +90,7 @@ def contact_limits(
             reached[i, j] = _reached(contact, rest, step, amplitude)
     s = np.array(natural)
     shown = np.array([step / np.log(np.abs(1.0 - step * s)) for step in steps])
-    return ContactLimits(
-        tuple(steps), tuple(amplitudes), tuple(inertias), reached, -1.0 / s.real, shown
-    )
+    return ContactLimits(tuple(steps), tuple(amplitudes), tuple(inertias), reached, -1.0 / s.real, shown)
 
 
 def _reached(contact: PointContact, rest: ContactState, step: float, amplitude: float) -> float:

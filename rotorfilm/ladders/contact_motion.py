@@ -25,7 +25,7 @@ CORE = 0.6
 
 
 def decay_time(run: ContactRun, rest: float, begin: float = 1.0, end: float = np.inf) -> float:
-    """Return the time in which the oscillation of delta about `rest` falls by e, from its peaks; 0 if none."""
+    """Return the time in which delta's oscillation about `rest` falls by e, from its peaks; 0 if none."""
     spline = CubicSpline(run.time, run.delta - rest)
     peaks = spline.derivative().roots(extrapolate=False)
     peaks = peaks[(peaks > begin) & (peaks < end)]

@@ -57,7 +57,8 @@ class Statement(NamedTuple):
         else:
             verdict = "artefact of numerical damping"
         answers = (published, same_grid, converged)
-        return cls(*published[:3], *(_written(answer.numbers) for answer in answers), verdict)
+        first, second, third = (_written(answer.numbers) for answer in answers)
+        return cls(published.section, published.text, published.measure, first, second, third, verdict)
 
 
 class Solved(Protocol):
@@ -159,7 +160,8 @@ def _driven(slow: list[ContactRun], fast: list[ContactRun]) -> list[Claim]:
                "change over a period, W = 0.01, 0.1, 1", early, lambda row: max(row) < 0.05),
         _claim("4.3", "the same for A = 0.5, W = 1: at last", "change over a period, omega = 1, 2, 5",
                late, lambda row: max(row) < 0.1),
-        _claim("4.3", "the amplitude of delta falls with W", "amplitude, W = 0.01, 0.1, 1", delta_W, _falling),
+        _claim("4.3", "the amplitude of delta falls with W", "amplitude, W = 0.01, 0.1, 1",
+               delta_W, _falling),
         _claim("4.3", "the amplitude of H0 falls with W", "amplitude, W = 0.01, 0.1, 1", film_W, _falling),
         _claim("4.3", "omega = 2 has the largest amplitude of delta", "amplitude, omega = 1, 2, 5",
                delta_w, _second_largest),

@@ -199,13 +199,13 @@ def test_three_ways_to_the_decay_time(coarse, resting, natural, W):
     small = natural[0]
     s = small.natural_motion(W, 1j * np.sqrt(1.57 / W))
     assert abs(W * s**2 + small.stiffness(s)) < 1e-8
-    # In time, by variable steps. Smaller motions are off by 2-4 % on so coarse a grid: the film's edge moves by
-    # whole cells.
+    # In time, by variable steps. Smaller motions are off by 2-4 % on so coarse a grid: the film's edge
+    # moves by whole cells.
     pushed = coarse.state(resting.pressure, resting.delta, velocity=0.1 / np.sqrt(W))
     run = coarse.simulate(pushed, duration=18.0, W=W, control=AdaptiveSteps(tolerance=2e-5, largest=0.1))
     assert np.ptp(np.diff(run.time)) > 0.02
     assert _decay(run.time, run.delta - resting.delta) == pytest.approx(-s.real, rel=0.02)
-    # By the energy that a given motion loses in a cycle, over twice that it stores: pi omega c a^2 / (W omega^2 a^2).
+    # By the energy that a given motion loses in a cycle, pi omega c a^2, over what the ball stores.
     omega, amplitude = s.imag, 0.08
     period = 2.0 * np.pi / omega
     driven = coarse.drive(

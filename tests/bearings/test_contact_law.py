@@ -147,7 +147,7 @@ def test_ball_that_has_left_falls_freely(law):
 
 def test_ride_says_when_a_motion_does_not_settle(law):
     rng = np.random.default_rng(0)
-    with pytest.raises(ConvergenceError, match="halving the steps must settle the motion to 1.0e-12"):
+    with pytest.raises(ConvergenceError, match=r"halving the steps must settle the motion to 1\.0e-12"):
         ride(
             law, mass=0.4, load=lambda t: rng.normal(), start=law.operating, duration=0.05, samples=5,
             rtol=1e-12,

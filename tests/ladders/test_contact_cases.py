@@ -66,11 +66,14 @@ def test_wave_speed_is_that_of_a_crest():
     contact = PointContact(V=0.1, Q0=5.0, grid=ContactGrid(cells=(48, 8)))
     rest = contact.state(np.zeros(contact.grid.shape), 0.5)
     x = contact.grid.x[:, None] + 0.0 * contact.grid.y
+
     def at(t):
         crest = 0.02 * np.exp(-((x + 0.4 - 0.8 * t) ** 2) / 0.02)
         return replace(rest, t=t, thickness=rest.thickness + crest)
 
-    assert wave_speed([at(t) for t in (0.1, 0.3, 0.6, 0.9)], rest, contact.grid.x) == pytest.approx(0.8, rel=1e-2)
+    assert wave_speed([at(t) for t in (0.1, 0.3, 0.6, 0.9)], rest, contact.grid.x) == pytest.approx(
+        0.8, rel=1e-2
+    )
 
 
 def test_verdicts():
@@ -99,7 +102,9 @@ def curves_of(solution, decay):
 
     free = [replace(run_of(time, rest.delta + swing(W, 0.0, 0.3)), snapshots=states) for W in (0.0, 0.5, 1.0)]
     step = [
-        run_of(time, np.where(time < 1.0, rest.delta, pressed.delta + swing(W, 1.0, rest.delta - pressed.delta)))
+        run_of(
+            time, np.where(time < 1.0, rest.delta, pressed.delta + swing(W, 1.0, rest.delta - pressed.delta))
+        )
         for W in (0.3, 1.0, 3.0)
     ]
     driven = [run_of(time, rest.delta + size * np.sin(time)) for size in (0.3, 0.2, 0.1)]
@@ -172,7 +177,7 @@ def test_cases_run_by_a_plan(monkeypatch):
 
 @pytest.mark.literature
 def test_published_step_halves_the_travelling_film_and_hides_the_decay():
-    # Case 4.1 on 24 cells: the decay times 3.2 and 6.0 of the published figures, and of the equations 50 to 70.
+    # Case 4.1 on 24 cells: decay times 3.2 and 6.0 by the published steps, 50 to 70 by the equations.
     contact = PointContact(V=0.1, Q0=5.0, grid=ContactGrid(cells=(24, 24)))
     rest = contact.stationary()
     start = perturbed(contact, rest, -0.2)
