@@ -15,7 +15,7 @@ from functools import partial
 from typing import NamedTuple
 
 from ..bearings.contact import PointContact, perturbed
-from ..errors import ValidityWarning
+from ..errors import ConvergenceError, ValidityWarning
 from ..films.contact_grid import ContactGrid
 from ..films.contact_loads import SineLoad, StepLoad
 from ..films.contact_scheme import ContactScheme, StaggeredScheme, UpwindScheme
@@ -126,9 +126,18 @@ def _curves(solutions: tuple[Solution, ...], settle: float, report: Report) -> d
         runs = []
         for k, solution in enumerate(solutions):
             report((number * len(solutions) + k) / count, f"{section}, {name}, {solution.name}")
-            runs.append(run(solution))
+            runs.append(_as_far_as_it_goes(run, solution))
         curves.setdefault(section, []).append(CaseRun(name, tuple(runs)))
     return curves
+
+
+def _as_far_as_it_goes(run: Callable[[Solution], ContactRun], solution: Solution) -> ContactRun:
+    """Return a run, or what there is of it where its steps fail."""
+    try:
+        return run(solution)
+    except ConvergenceError as error:
+        partial: ContactRun = error.partial
+        return partial
 
 
 def free_motion(solution: Solution, W: float, duration: float = 30.0) -> ContactRun:

@@ -47,7 +47,7 @@ def overshoot(run: ContactRun, rest: float, begin: float = 0.0, end: float = np.
 
 def unrest(run: ContactRun, period: float, end: float, name: str = "delta") -> float:
     """Return the change from the last period before `end` to the one before, / half the range."""
-    span = np.linspace(0.0, period, SAMPLES)
+    span, end = np.linspace(0.0, period, SAMPLES), min(end, float(run.time[-1]))
     spline = CubicSpline(run.time, getattr(run, name))
     last, before = spline(end - period + span), spline(end - 2.0 * period + span)
     return float(np.max(np.abs(last - before)) / (0.5 * np.ptp(last)))
