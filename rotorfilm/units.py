@@ -49,7 +49,18 @@ UNITS: dict[str, Unit] = {
     "Pa.s": Unit(1.0, {"kg": 1, "m": -1, "s": -1}),
     "kg.m": Unit(1.0, {"kg": 1, "m": 1}),
     "N.m": Unit(1.0, {"kg": 1, "m": 2, "s": -2}),
+    "N.m/rad": Unit(1.0, {"kg": 1, "m": 2, "s": -2, "rad": -1}),
+    "N.m.s/rad": Unit(1.0, {"kg": 1, "m": 2, "s": -1, "rad": -1}),
+    "kg.m2": Unit(1.0, {"kg": 1, "m": 2}),
+    "1/s": Unit(1.0, {"s": -1}),
+    "J/m3": Unit(1.0, {"kg": 1, "m": -1, "s": -2}),
+    "kg/m3": Unit(1.0, {"kg": 1, "m": -3}),
     "K": Unit(1.0, {"K": 1}),
+    "1/K": Unit(1.0, {"K": -1}),
+    "1/K2": Unit(1.0, {"K": -2}),
+    "J/(kg.K)": Unit(1.0, {"m": 2, "s": -2, "K": -1}),
+    "W/(m.K)": Unit(1.0, {"kg": 1, "m": 1, "s": -3, "K": -1}),
+    "W/(m2.K)": Unit(1.0, {"kg": 1, "s": -3, "K": -1}),
 }
 """The SI units of signals, by their FMI spelling."""
 
@@ -57,6 +68,16 @@ DISPLAY_UNITS: dict[str, Unit] = {
     **UNITS,
     "Pa s": UNITS["Pa.s"],
     "kg m": UNITS["kg.m"],
+    "kg m2": UNITS["kg.m2"],
+    "N m": UNITS["N.m"],
+    "N m/rad": UNITS["N.m/rad"],
+    "N m s/rad": UNITS["N.m.s/rad"],
+    "N s/m": UNITS["N.s/m"],
+    "kN m": Unit(1e3, {"kg": 1, "m": 2, "s": -2}),
+    "kN/m": Unit(1e3, {"kg": 1, "s": -2}),
+    "MN/m": Unit(1e6, {"kg": 1, "s": -2}),
+    "kN s/m": Unit(1e3, {"kg": 1, "s": -1}),
+    "GPa": Unit(1e9, {"kg": 1, "m": -1, "s": -2}),
     "mm": Unit(1e-3, {"m": 1}),
     "um": Unit(1e-6, {"m": 1}),
     "um2": Unit(1e-12, {"m": 2}),
@@ -74,6 +95,8 @@ DISPLAY_UNITS: dict[str, Unit] = {
     "psi": Unit(_POUND_FORCE / _INCH**2, {"kg": 1, "m": -1, "s": -2}),
     "deg": Unit(math.pi / 180.0, {"rad": 1}),
     "rpm": Unit(math.pi / 30.0, {"rad": 1, "s": -1}),
+    "Hz": Unit(2.0 * math.pi, {"rad": 1, "s": -1}),
+    "%": Unit(0.01),
 }
 """Units accepted in scene files and at the command line, besides plain SI numbers."""
 

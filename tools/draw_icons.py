@@ -35,11 +35,34 @@ def draw_grooved_journal(axes: Axes) -> None:
     axes.patches[2].set_zorder(0.5)
 
 
+def draw_bush(axes: Axes) -> None:
+    """Draw a shaft that has sunk into the liner of its bush."""
+    axes.add_patch(Circle((0, 0), 0.95, color=STEEL))
+    axes.add_patch(Circle((0, 0), 0.8, color=OIL))
+    axes.add_patch(Circle((0, 0), 0.6, color="white"))
+    axes.add_patch(Circle((0, -0.18), 0.52, facecolor="white", edgecolor=INK, lw=2))
+
+
+def draw_worn_bush(axes: Axes) -> None:
+    """Draw the same with the nodes of its worn profile."""
+    draw_bush(axes)
+    for angle in np.linspace(-2.3, -0.84, 6):
+        axes.add_patch(Circle((0.52 * np.cos(angle), -0.18 + 0.52 * np.sin(angle)), 0.07, color=INK))
+
+
 def draw_rotor(axes: Axes) -> None:
     """Draw a shaft with a disk and its unbalance."""
     axes.add_patch(Rectangle((-0.95, -0.1), 1.9, 0.2, color=STEEL))
     axes.add_patch(Rectangle((-0.18, -0.75), 0.36, 1.5, facecolor="white", edgecolor=INK, lw=2))
     axes.add_patch(Circle((0, 0.52), 0.12, color=OIL))
+
+
+def draw_rotor_system(axes: Axes) -> None:
+    """Draw the same in two films."""
+    for x in (-0.8, 0.52):
+        axes.add_patch(Rectangle((x, -0.42), 0.28, 0.84, color=INK))
+        axes.add_patch(Rectangle((x, -0.22), 0.28, 0.44, color=OIL))
+    draw_rotor(axes)
 
 
 def draw_linear(axes: Axes) -> None:
@@ -51,10 +74,13 @@ def draw_linear(axes: Axes) -> None:
 
 
 DRAWN = {
+    "bush_reaction": draw_worn_bush,
+    "bush_wear": draw_bush,
     "grooved_journal": draw_grooved_journal,
     "journal": draw_journal,
     "linear": draw_linear,
     "rigid_rotor": draw_rotor,
+    "rotor_system": draw_rotor_system,
 }
 
 

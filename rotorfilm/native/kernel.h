@@ -30,7 +30,7 @@ typedef struct rf_tables {
 const rf_table *rf_find_table(const rf_tables *tables, const char *name, uint32_t axes, rf_message *why);
 
 typedef struct rf_sizes {
-    size_t parameters, inputs, outputs, states;
+    size_t parameters, inputs, outputs, states, events;
 } rf_sizes;
 
 /* Time [s], states and inputs. */
@@ -61,8 +61,18 @@ typedef struct rf_kernel_type {
     /* Of kernels with states. At a kink in time the derivative is the one just after it. */
     int (*derivative)(const void *kernel, const rf_point *at, double *dx, rf_message *why);
 
+    /* Of stiff kernels, stepped by rodas.c in place of the method of integrate.c: prepare for solutions of
+       (shift I - df/dx) b' = b at a point, and the slope df/dt at fixed states. */
+    const struct rf_method *method;
+    int (*factorize)(void *kernel, const rf_point *at, double shift, rf_message *why);
+    void (*solve)(void *kernel, double *b);
+    void (*drift)(const void *kernel, const rf_point *at, double *slope);
+
     /* Advance x by dt under held inputs, where the kernel does that better than integrate.h. */
     int (*step)(void *kernel, const rf_point *at, double dt, double *x, rf_message *why);
+
+    /* The switching functions: the kernel is smooth while none of them changes its sign. */
+    int (*events)(const void *kernel, const rf_point *at, double *z, rf_message *why);
 
     /* The first time after t at which the derivative has a kink; HUGE_VAL if there is none. */
     double (*next_event)(const void *kernel, double t);
