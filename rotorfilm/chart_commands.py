@@ -137,7 +137,7 @@ def contact_cases(
         from .ladders import contact_cases as ladder
         from .results import write_csv
 
-        result = ladder(cells, settle=settle, report=report)
+        result = ladder(cells, tolerance, settle, report=report)
         files = _write(out, "chart_contact_cases", result, plot_contact_cases(result))
         curves = write_csv(out / "chart_contact_curves.csv", result.series())
         report(1.0, "done")

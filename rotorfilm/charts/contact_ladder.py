@@ -31,7 +31,7 @@ def plot_contact_precision(result: ContactPrecision) -> list[Axes]:
 def plot_contact_limits(result: ContactLimits) -> list[Axes]:
     """Draw where the published scheme fails under load steps, and the decay times it shows."""
     steps, decay = new_figure(size=(12.0, 4.8)).subplots(1, 2)
-    _cells(steps, result.reached, result.steps, result.amplitudes, _failure)
+    _cells(steps, result.reached, result.steps, result.load_steps, _failure)
     steps.set(title="load step at W = 1: time of failure", xlabel="amplitude A", ylabel="step dt")
     ratio = result.shown / result.physical
     _cells(decay, ratio, result.steps, result.inertias, _decay)

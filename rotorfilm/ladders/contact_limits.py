@@ -30,9 +30,9 @@ class ContactLimits(NamedTuple):
 
     Attributes
     ----------
-    steps, amplitudes, inertias : tuple of float
+    steps, load_steps, inertias : tuple of float
         Lengths of the steps; load steps at W = 1; inertias W.
-    reached : ndarray, shape (steps, amplitudes)
+    reached : ndarray, shape (steps, load_steps)
         Time after the load step at which the run failed, infinite if it did not.
     physical : ndarray, shape (inertias,)
         Decay time of small oscillations by the linearized equations.
@@ -41,7 +41,7 @@ class ContactLimits(NamedTuple):
     """
 
     steps: tuple[float, ...]
-    amplitudes: tuple[float, ...]
+    load_steps: tuple[float, ...]
     inertias: tuple[float, ...]
     reached: np.ndarray
     physical: np.ndarray
@@ -52,7 +52,7 @@ class ContactLimits(NamedTuple):
         rows = [
             ("load step", step, a, float(self.reached[i, j]) if np.isfinite(self.reached[i, j]) else None)
             for i, step in enumerate(self.steps)
-            for j, a in enumerate(self.amplitudes)
+            for j, a in enumerate(self.load_steps)
         ]
         rows += [
             ("decay time", step, W, float(self.shown[i, j]))
