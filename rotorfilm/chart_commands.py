@@ -124,6 +124,7 @@ def contact(
 @chart_app.command(epilog="Example: rotorfilm chart contact-cases --cells 40")
 def contact_cases(
     cells: Annotated[int, typer.Option(help="Cells along each side, converged runs.", min=8)] = 40,
+    tolerance: Annotated[float, typer.Option(help="Of the steps of converged runs.")] = 1e-4,
     settle: Annotated[
         float, typer.Option(help="Length of the runs of case 4.3 with W = 1.", min=30.0)
     ] = 60.0,
