@@ -4,6 +4,7 @@ from .bush import plot_contact_pressure, plot_critical_speed
 from .bush_tiers import plot_bush_tiers, plot_shaft_flux_error
 from .canvas import new_axes, new_figure, save
 from .contact_cases import plot_contact_cases
+from .contact_ladder import plot_contact_limits, plot_contact_precision
 from .coupling import plot_coupling_cost, plot_coupling_limits
 from .coupling_error import plot_coupling_error
 from .damper import plot_bistable, plot_eccentricity, plot_phase, plot_transmissibility, plot_transmitted
@@ -28,6 +29,8 @@ __all__ = [
     "plot_bush_tiers",
     "plot_campbell",
     "plot_contact_cases",
+    "plot_contact_limits",
+    "plot_contact_precision",
     "plot_contact_pressure",
     "plot_coupling_cost",
     "plot_coupling_error",

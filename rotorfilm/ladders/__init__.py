@@ -2,6 +2,8 @@
 
 from .bush_tiers import BushTier, BushTiers, ShaftFluxError, bush_tiers, shaft_flux_errors
 from .contact_cases import contact_cases
+from .contact_limits import contact_limits
+from .contact_precision import contact_precision
 from .coupling_cost import CostRow, CouplingCost, coupling_cost
 from .coupling_limits import CouplingLimits, LimitRow, coupling_limits
 from .damper_accuracy import DamperAccuracy, DamperRung, damper_accuracy, damper_rungs
@@ -36,6 +38,8 @@ __all__ = [
     "bush_tiers",
     "comparison_bearing",
     "contact_cases",
+    "contact_limits",
+    "contact_precision",
     "coupling_cost",
     "coupling_limits",
     "damper_accuracy",

@@ -3,9 +3,12 @@
 import control
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
+from scipy.interpolate import CubicSpline
 
 from rotorfilm import (
     ContactGrid,
+    ConvergenceError,
     FixedSteps,
     InputError,
     PointContact,
@@ -116,6 +119,47 @@ def test_forced_motion_is_that_of_the_full_model(law, resting):
     )
     error = np.interp(full.time, reduced.time, reduced["z"]) - full.delta
     assert np.sqrt(np.mean(error**2) / np.mean((full.delta - resting.delta) ** 2)) < 0.05
+
+
+@pytest.mark.parametrize("load", [SineLoad(amplitude=0.5, frequency=2.0), StepLoad(amplitude=0.7, start=1.3)])
+def test_ride_integrates_the_law(law, load):
+    # An independent integrator on the law's own output and derivative.
+    def rate(t, y):
+        force = law.output(t, y[2:], y[:1])[0]
+        return [y[1], (force - load(t)) / 0.4, *law.derivative(t, y[2:], y[:1])]
+
+    begin = np.array([law.operating, 0.0, *law.resting(law.operating)])
+    options = {"method": "DOP853", "rtol": 1e-10, "atol": 1e-12, "max_step": 0.02}
+    exact = solve_ivp(rate, (0.0, 6.0), begin, **options).y[:, -1]
+    for rtol in (1e-4, 1e-8):
+        motion = ride(law, mass=0.4, load=load, start=law.operating, duration=6.0, samples=333, rtol=rtol)
+        assert motion["z"][-1] == pytest.approx(exact[0], abs=2.0 * max(rtol, 1e-8))
+        assert motion["force_z"][-1] == pytest.approx(law.output(6.0, exact[2:], exact[:1])[0], rel=1e-3)
+    smooth = CubicSpline(motion.time, motion["z"])
+    assert motion["vz"][50:-50] == pytest.approx(smooth(motion.time, 1)[50:-50], abs=8e-3)
+    assert motion["z"][::2][:-1] == pytest.approx(
+        CubicSpline(motion.time[1::2], motion["z"][1::2])(motion.time[::2][:-1]), abs=1e-4
+    )
+
+
+@pytest.mark.closed_form
+def test_ball_that_has_left_falls_freely(law):
+    load = StepLoad(amplitude=-1.8, start=0.5)
+    motion = ride(law, mass=0.3, load=load, start=law.operating, duration=4.0, samples=401)
+    away = motion["z"] > law.offset + 1.0
+    assert away.sum() > 20
+    slope = np.polyfit(motion.time[away], motion["vz"][away], 1)[0]
+    assert slope == pytest.approx(0.8 / 0.3, rel=2e-2)
+    assert motion["force_z"].min() >= 0.0
+
+
+def test_ride_says_when_a_motion_does_not_settle(law):
+    rng = np.random.default_rng(0)
+    with pytest.raises(ConvergenceError, match=r"halving the steps must settle the motion to 1\.0e-12"):
+        ride(
+            law, mass=0.4, load=lambda t: rng.normal(), start=law.operating, duration=0.05, samples=5,
+            rtol=1e-12,
+        )  # fmt: skip
 
 
 @pytest.mark.closed_form
