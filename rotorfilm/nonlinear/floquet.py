@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..model import Array
 from . import kernels
 from .balance import film_forces, series_rows
 from .march import STAGES, new_tables, radau_scheme
-from .modal import Complex, ModalRotor
+from .modal import Complex, ModalRotor, journal_rows, modes
 
 STEPS_PER_HARMONIC = 2
-LEAST_STEPS = 24
+LEAST_STEPS = 64
 
 
 def monodromy(modal: ModalRotor, series: Array, frequency: float, steps: int | None = None) -> Array:
     """Return how a small change of the state is mapped over one period, shape (2 N, 2 N).
 
-    The scheme is that of `simulate_rotor` (order 7), linear here: the rotor is exact, and over a step only the
-    changes of the film forces at the nodes are unknown.
+    The scheme is that of `simulate_rotor` (order 7), linear here: the rotor on the mean slopes of its films is
+    exact, fast modes included, and over a step only what the films add to that is unknown.
 
     Parameters
     ----------
@@ -30,7 +32,9 @@ def monodromy(modal: ModalRotor, series: Array, frequency: float, steps: int | N
     """
     harmonics = series.shape[1] // 2
     steps = steps or max(LEAST_STEPS, STEPS_PER_HARMONIC * harmonics)
-    slopes, shape = _slopes(modal, series, frequency, steps)
+    slopes = _slopes(modal, series, frequency, steps)
+    mean = slopes.mean(axis=(0, 1))
+    modal, slopes = on_mean_films(modal, mean), slopes - mean
     rotor = tuple(np.ascontiguousarray(a) for a in (modal.values, modal.push, modal.sense))
     tables = [table[0] for table in new_tables(rotor, STAGES)[3:]]
     kernels.set_tables(2.0 * np.pi / (frequency * steps), rotor, radau_scheme(STAGES), *tables)
@@ -50,14 +54,34 @@ def monodromy(modal: ModalRotor, series: Array, frequency: float, steps: int | N
     return np.asarray((modal.shapes @ z).real)
 
 
-def _slopes(modal: ModalRotor, series: Array, frequency: float, steps: int) -> tuple[Array, int]:
+def _slopes(modal: ModalRotor, series: Array, frequency: float, steps: int) -> Array:
     """Return the films' slopes at the nodes of all steps, shape (steps, stages, 2 n_bearings, 4)."""
     nodes = radau_scheme(STAGES)[0]
     phase = (2.0 * np.pi / steps * (np.arange(steps)[:, None] + nodes)).ravel()
     values, rates = series_rows(series.shape[1] // 2, phase)
     _, stiffness, damping = film_forces(modal, series @ values.T, frequency * (series @ rates.T))
     both = np.moveaxis(np.concatenate([stiffness, damping], axis=1), 2, 0)
-    return both.reshape(steps, STAGES, len(series), 4), len(series)
+    return both.reshape(steps, STAGES, len(series), 4)
+
+
+def on_mean_films(modal: ModalRotor, slopes: Array) -> ModalRotor:
+    """Return a rotor on other springs and dampers at its journals: further slopes (2 n, 4)."""
+    rows = journal_rows(modal.parts).reshape(-1, 4, len(modal.shapes))
+    forced = np.einsum("bij,bjn->bin", slopes.reshape(-1, 2, 4), rows).reshape(len(slopes), -1)
+    A = ((modal.shapes * modal.values) @ modal.inverse).real
+    B = (modal.shapes @ modal.push).real
+    size = len(A) // 2
+    rate = float(np.sqrt(np.abs(A[size:, :size]).max())) or 1.0
+    values, shapes, inverse, condition = modes(A + B[:, : len(slopes)] @ forced, rate)
+    return replace(
+        modal,
+        values=values,
+        shapes=shapes,
+        inverse=inverse,
+        push=inverse @ B,
+        sense=journal_rows(modal.parts) @ shapes,
+        condition=condition,
+    )
 
 
 def multipliers(modal: ModalRotor, series: Array, frequency: float) -> Complex:

@@ -317,14 +317,17 @@ def local_error(u, start, scheme, defect, scales):  # type: ignore[no-untyped-de
 
 
 @njit(cache=True)
-def try_step(t, h, slot, z, u, start, rotor, scheme, tables, films, supports, profile, scales, rtol, limit, work):  # type: ignore[no-untyped-def]
-    """Solve one step for the forces u at its nodes; return (status, local error / rtol)."""
+def try_step(t, h, slot, z, u, start, rotor, scheme, tables, films, supports, profile, scales, limits, work):  # type: ignore[no-untyped-def]
+    """Solve one step for the forces u at its nodes; return (status, local error / rtol).
+
+    limits : latest time of a node, rtol, tolerance of Newton's method.
+    """
     nodes = scheme[0]
     move, gain, defect = tables[3][slot], tables[4][slot], tables[5][slot]
     s, channels, rows, modes = len(nodes), len(start), len(scales), len(z)
     times, pair, both = np.empty(s), np.empty(2), np.empty(2 * modes)
     for i in range(s):
-        times[i] = min(t + h * nodes[i], limit)
+        times[i] = min(t + h * nodes[i], limits[0])
         unbalance_pair(times[i], profile, pair)
         u[i, channels - 2] = pair[0]
         u[i, channels - 1] = pair[1]
@@ -336,11 +339,10 @@ def try_step(t, h, slot, z, u, start, rotor, scheme, tables, films, supports, pr
             for q in range(rows):
                 for c in range(channels - 2, channels):
                     free[i, q] += gain[i, j, q, c] * u[j, c]
-    tolerance = max(0.01 * rtol, 1e-12)
-    status = newton(times, films, supports, profile, gain, free, u, scales, tolerance, work)
+    status = newton(times, films, supports, profile, gain, free, u, scales, limits[2], work)
     if status >= CONTACT:
         return status, 0.0
-    return status, local_error(u, start, scheme, defect, scales) / rtol
+    return status, local_error(u, start, scheme, defect, scales) / limits[1]
 
 
 @njit(cache=True)
@@ -378,16 +380,16 @@ def march(z, clock, stop, rotor, scheme, tables, films, supports, profile, scale
     """Integrate to `stop`, or until the budget of steps is spent; return why it ended.
 
     clock : time, level of the step size, place in `grid`; changed.
-    options : longest step, rtol, shortest step, budget of steps.
+    options : longest step, rtol, shortest step, budget of steps, tolerance of Newton's method.
     work : film evaluations, jacobians, steps, rejected; changed. work[4] is set where a map was left.
     """
-    top, rtol, shortest, budget = options
+    top, rtol, shortest, budget, tolerance = options
     s, channels = len(scheme[0]), rotor[1].shape[1]
     u, start, guess = np.empty((s, channels)), np.empty(channels), np.empty((s, channels))
     level, place, last, steps = int(clock[1]), int(clock[2]), 0.0, 0
     if start_forces(clock[0], z, rotor, films, supports, profile, start) >= CONTACT:
         return WALL
-    limit = np.nextafter(stop, -np.inf)
+    limits = np.nextafter(stop, -np.inf), rtol, tolerance
     while clock[0] < stop and steps < budget:
         t = clock[0]
         h, slot = top * RATIO ** (-float(level)), SLOTS
@@ -402,7 +404,7 @@ def march(z, clock, stop, rotor, scheme, tables, films, supports, profile, scale
         else:
             for i in range(s):
                 guess[i] = start
-        status, error = try_step(t, h, slot, z, guess, start, rotor, scheme, tables, films, supports, profile, scales, rtol, limit, work)
+        status, error = try_step(t, h, slot, z, guess, start, rotor, scheme, tables, films, supports, profile, scales, limits, work)
         steps += 1
         if status >= CONTACT or error > 1.0:
             if h < shortest:

