@@ -170,7 +170,7 @@ def journal_scales(modal: ModalRotor) -> Array:
 
 
 def new_tables(rotor: tuple[Complex, Complex, Complex], stages: int) -> tuple[Array, ...]:
-    """Return empty tables of steps; the last slot is for steps that happen once.
+    """Return unfilled tables of steps; the last slot is for steps that happen once.
 
     They are the slot of each level, the level in each slot, the slot to be filled next; and per slot the motion
     of the journals at the nodes per modal coordinate (real, imaginary), per force at each node, per gap of the
@@ -182,9 +182,9 @@ def new_tables(rotor: tuple[Complex, Complex, Complex], stages: int) -> tuple[Ar
         np.full(kernels.LEVELS, -1, dtype=np.int64),
         np.full(slots, -1, dtype=np.int64),
         np.zeros(1, dtype=np.int64),
-        np.zeros((slots, stages * rows, 2 * modes)),
-        np.zeros((slots, stages, stages, rows, channels)),
-        np.zeros((slots, stages, rows, channels)),
-        np.zeros((slots, modes), dtype=complex),
-        np.zeros((slots, 2 * modes, stages * channels)),
+        np.empty((slots, stages * rows, 2 * modes)),
+        np.empty((slots, stages, stages, rows, channels)),
+        np.empty((slots, stages, rows, channels)),
+        np.empty((slots, modes), dtype=complex),
+        np.empty((slots, 2 * modes, stages * channels)),
     )

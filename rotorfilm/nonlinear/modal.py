@@ -247,10 +247,12 @@ def modes(A: Array, rate: float) -> tuple[Complex, Complex, Complex, float]:
     n = len(A) // 2
     scale = np.repeat([1.0, rate], n)
     values, vectors = np.linalg.eig(A * scale / scale[:, None])
-    condition = float(np.linalg.cond(vectors))
-    if not np.isfinite(condition):
+    try:
+        inverse = np.linalg.inv(vectors)
+    except np.linalg.LinAlgError:
         return values, vectors, vectors, np.inf
-    inverse = np.linalg.inv(vectors) / scale
+    condition = float(np.linalg.norm(vectors, 1) * np.linalg.norm(inverse, 1))
+    inverse = inverse / scale
     kept = values.imag >= 0.0
     weight = np.where(values.imag > 0.0, 2.0, 1.0)
     return values[kept].astype(complex), (scale[:, None] * vectors * weight)[:, kept], inverse[kept], condition

@@ -51,7 +51,7 @@ class PeriodicOrbit:
     state : ndarray, shape (n_states,)
         State of the whole rotor at t = 0.
     multipliers : ndarray of complex, shape (n_states,)
-        Floquet multipliers, the largest first; one of whirl is 1.
+        Floquet multipliers, the largest first; one of whirl is 1. Empty without `stability`.
     residual : float [1]
         Imbalance left / clearance.
     truncation : float [1]
@@ -108,7 +108,9 @@ class PeriodicOrbit:
 
     @property
     def stable(self) -> bool:
-        """Whether a small disturbance dies out."""
+        """Whether a small disturbance dies out; InputError where the multipliers were not computed."""
+        if not self.multipliers.size:
+            raise InputError("stability must be True for an orbit that knows whether it is stable")
         return bool(np.all(np.abs(self.free_multipliers) < 1.0))
 
 
@@ -128,6 +130,7 @@ def periodic_orbit(
     start: PeriodicOrbit | Trajectory | None = None,
     periods: int = 1,
     tolerance: float = TRUNCATION,
+    stability: bool = True,
 ) -> PeriodicOrbit:
     """Return a periodic orbit of a rotor on films, stable or not, and its Floquet multipliers.
 
@@ -145,6 +148,8 @@ def periodic_orbit(
         Turns of the shaft per orbit.
     tolerance : float [1]
         Harmonics are added until the last quarter of them is smaller, in clearances.
+    stability : bool
+        Whether to compute the Floquet multipliers; without them the orbit does not know whether it is stable.
 
     Raises
     ------
@@ -164,7 +169,7 @@ def periodic_orbit(
     else:
         series, frequency = _start_series(modal, start, None)
         found = solve(Balance(modal=modal, harmonics=HARMONICS, periods=0), resized(series, HARMONICS), frequency)
-    return finished(lengthened(found, tolerance))
+    return finished(lengthened(found, tolerance), stability=stability)
 
 
 def _driven(
@@ -311,8 +316,8 @@ def lengthened(solution: Solution, tolerance: float) -> Solution:
     return solution
 
 
-def finished(solution: Solution) -> PeriodicOrbit:
-    """Return the orbit of a solution, with its multipliers."""
+def finished(solution: Solution, *, stability: bool = True) -> PeriodicOrbit:
+    """Return the orbit of a solution, with its multipliers if asked for."""
     balance, series = solution.balance, solution.series
     modal = balance.modal
     parts = modal.parts
@@ -324,7 +329,7 @@ def finished(solution: Solution) -> PeriodicOrbit:
         lengths=parts.lengths,
         series=series.reshape(len(parts.names), 2, -1),
         state=state_at_start(modal, series, solution.frequency, balance.periods),
-        multipliers=multipliers(modal, series, solution.frequency),
+        multipliers=multipliers(modal, series, solution.frequency) if stability else np.zeros(0, dtype=complex),
         residual=solution.residual,
         truncation=truncation_of(solution),
         work={

@@ -129,9 +129,10 @@ def _trajectory(mounted: MountedRotor, grid: Array, kept: list[Array], march: Ma
     rotor = mounted
     while isinstance(rotor, MountedRotor):
         rotor = rotor.rotor  # type: ignore[assignment]
-    forces = np.zeros(len(rotor.inputs))
-    outputs = np.array([rotor.output(t, x, forces) for t, x in zip(time, states, strict=True)])
-    outputs = outputs.reshape(len(time), len(rotor.outputs)).T
+    # Displacements and rates are linear in the state, the last output is the speed.
+    rows = rotor.linearization(0.0, rotor.initial_state, np.zeros(len(rotor.inputs))).C
+    outputs = rows @ states.T
+    outputs[-1] = [march.modal.parts.profile.speed(t) for t in time]
     signals = dict(zip(names(rotor.outputs), outputs, strict=True))
     parts = march.modal.parts
     for name, bearing in zip(parts.names, parts.bearings, strict=True):
