@@ -28,6 +28,7 @@ from rotorfilm import (
     ElasticMaterial,
     JournalBearing,
     MountedRotor,
+    RotorfilmError,
     ShaftElement,
     ShaftRotor,
     Station,
@@ -67,30 +68,34 @@ def rotor() -> ShaftRotor:
     )
 
 
-def scipy_problem(mounted: MountedRotor) -> tuple[Callable, Callable]:
+def journal_rows(mounted: MountedRotor) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return rows of the journals' motion, the rotor's own matrix and the push of the films' forces."""
+    rotor = mounted.rotor
+    A, push, sense, _ = rotor.linearization(0.0, rotor.initial_state, np.zeros(len(rotor.inputs)))
+    return sense[: 4 * len(mounted.stations)], A, push
+
+
+def scipy_problem(mounted: MountedRotor, speed: float) -> tuple[Callable, Callable]:
     """Return right-hand side and Jacobian as a competent user writes them."""
-    shaft = mounted.rotor
-    A, push, sense, _ = shaft.linearization(0.0, shaft.initial_state, np.zeros(4))
-    motion = sense[[0, 1, 2, 3, 4, 5, 6, 7]]
-    still = np.zeros(len(A))
-    weight = shaft.derivative(math.pi / (2.0 * SPEED), still, np.zeros(4))
-    weight = 0.5 * (weight + shaft.derivative(1.5 * math.pi / SPEED, still, np.zeros(4)))
-    cosine = shaft.derivative(0.0, still, np.zeros(4)) - weight
-    sine = shaft.derivative(0.5 * math.pi / SPEED, still, np.zeros(4)) - weight
+    motion, A, push = journal_rows(mounted)
+    still, none = np.zeros(len(A)), np.zeros(push.shape[1])
+    quarters = [mounted.rotor.derivative(k * math.pi / (2.0 * speed), still, none) for k in range(4)]
+    weight = 0.5 * (quarters[0] + quarters[2])
+    cosine, sine = quarters[0] - weight, quarters[1] - weight
     calls = [bearing.prepare() for bearing in mounted.bearings]
     tangents = [bearing.prepare_tangent() for bearing in mounted.bearings]
 
     def derivative(t: float, x: np.ndarray) -> np.ndarray:
-        journals = (motion @ x).tolist()
-        force = [*calls[0](*journals[:4], SPEED), *calls[1](*journals[4:], SPEED)]
-        angle = SPEED * t
+        at = (motion @ x).tolist()
+        force = [f for k, call in enumerate(calls) for f in call(*at[4 * k : 4 * k + 4], speed)]
+        angle = speed * t
         return A @ x + push @ force + (weight + math.cos(angle) * cosine + math.sin(angle) * sine)
 
     def jacobian(t: float, x: np.ndarray) -> np.ndarray:
-        journals = (motion @ x).tolist()
+        at = (motion @ x).tolist()
         total = A.copy()
         for k, tangent in enumerate(tangents):
-            slopes = np.reshape(tangent(*journals[4 * k : 4 * k + 4], SPEED)[2], (2, 5))[:, :4]
+            slopes = np.reshape(tangent(*at[4 * k : 4 * k + 4], speed)[2], (2, 5))[:, :4]
             total += push[:, 2 * k : 2 * k + 2] @ (slopes @ motion[4 * k : 4 * k + 4])
         return total
 
@@ -121,8 +126,8 @@ def scipy_line(
     name: str, mounted: MountedRotor, start: np.ndarray, times: np.ndarray, exact: np.ndarray
 ) -> Line:
     """Return the line of one of scipy's methods."""
-    derivative, jacobian = scipy_problem(mounted)
-    sense = mounted.rotor.linearization(0.0, start, np.zeros(4)).C[[0, 1, 4, 5]]
+    derivative, jacobian = scipy_problem(mounted, SPEED)
+    sense = journal_rows(mounted)[0][[0, 1, 4, 5]]
     scale = np.array([signal.nominal for signal in mounted.states])
     errors, costs = [], []
     for rtol in 10.0 ** np.arange(-2.0, -7.0, -1.0):
@@ -148,6 +153,50 @@ def scipy_line(
     return Line(f"scipy {name}", errors, costs)
 
 
+def ross_line(mounted: MountedRotor, rest: np.ndarray, times: np.ndarray, exact: np.ndarray) -> Line | None:
+    """Return the line of ROSS's Newmark method on the same matrices; None where ROSS is not installed.
+
+    It takes the film forces of the last step, as ROSS does with `add_to_RHS`, and starts from zero: so
+    displacements are counted from the rest.
+    """
+    try:
+        from ross.utils import newmark
+    except ImportError:
+        print("  ROSS: not installed")
+        return None
+    s, size = mounted.rotor.structure, len(rest)
+    damping = s.damping + SPEED * s.gyroscopic
+    stiffness = s.stiffness + SPEED * s.circulation
+    calls = [bearing.prepare() for bearing in mounted.bearings]
+    held = s.journals @ rest
+    errors, costs = [], []
+    for parts in (512, 1024, 2048, 4096):
+        count = parts * TURNS
+        grid = np.linspace(0.0, times[-1], count + 1)
+        balance = stiffness @ rest - s.weight
+
+        def matrices(step, dt, y, ydot, y2dot, grid=grid, balance=balance):
+            p, v = (held + s.journals @ y).tolist(), (s.journals @ ydot).tolist()
+            force = [*calls[0](*p[:2], *v[:2], SPEED), *calls[1](*p[2:], *v[2:], SPEED)]
+            angle = SPEED * grid[step]
+            pull = SPEED**2 * np.array([math.cos(angle), math.sin(angle)])
+            return s.mass, damping, stiffness, s.journals.T @ force - balance + s.unbalance @ pull
+
+        begin = process_time()
+        try:
+            found = newmark(matrices, grid, size)
+        except RotorfilmError as failure:
+            print(f"  ROSS Newmark {parts} steps a turn: {failure}")
+            continue
+        costs.append(process_time() - begin)
+        motion = (held[:, None] + s.journals @ found.T)[:, :: count // (len(times) - 1)]
+        errors.append(float(np.abs(motion - exact).max()) / FILM.clearance)
+        print(f"  ROSS Newmark {parts} steps a turn: error {errors[-1]:.1e}, {costs[-1]:8.1f} s")
+        if costs[-1] > 40.0:
+            break
+    return Line("ROSS Newmark", errors, costs) if errors else None
+
+
 def time_at(line: Line, error: float) -> float:
     """Return the time of a method at an error, nan where its line does not reach it."""
     order = np.argsort(line.errors)
@@ -162,7 +211,7 @@ def chart(lines: list[Line], path: Path) -> None:
     """Save the work-precision lines."""
     figure = Figure(figsize=(7.0, 4.5), layout="constrained")
     axes = figure.subplots()
-    for line, marker in zip(lines, "osv^", strict=False):
+    for line, marker in zip(lines, "osv^D", strict=False):
         axes.loglog(line.times, line.errors, marker=marker, label=line.name)
     axes.set(
         xlabel="wall time [s]",
@@ -192,6 +241,11 @@ def main() -> None:
     print(f"orbit of {np.abs(exact - exact[:, :1]).max() / FILM.clearance:.2f} clearances")
     own = own_line(mounted, start, times, exact)
     others = [scipy_line(name, mounted, start, times, exact) for name in ("Radau", "BDF", "LSODA")]
+    extra = ross_line(mounted, rest.displacement, times, exact)
+    if extra is not None:
+        for error, cost in zip(extra.errors, extra.times, strict=True):
+            print(f"  ROSS / own at error {error:.1e}: {cost / time_at(own, error):.0f}")
+        others.append(extra)
     print("\n| error / clearance | simulate_rotor [ms] | " + " | ".join(o.name for o in others) + " | best of scipy / own |")
     print("|---|---|" + "---|" * (len(others) + 1))
     for target in TARGETS:

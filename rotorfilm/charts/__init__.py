@@ -7,12 +7,14 @@ from .coupling_error import plot_coupling_error
 from .damper import plot_bistable, plot_eccentricity, plot_phase, plot_transmissibility, plot_transmitted
 from .motion import plot_locus, plot_orbits
 from .rotor import plot_campbell, plot_critical_speed_map, plot_log_decrement, plot_unbalance_response
+from .whirl import plot_basin, plot_orbit_curves
 from .whirl_verdicts import plot_journal_stability, plot_thresholds
 from .work_precision import plot_force_error, plot_journal_accuracy
 
 __all__ = [
     "new_axes",
     "new_figure",
+    "plot_basin",
     "plot_bistable",
     "plot_campbell",
     "plot_contact_cases",
@@ -26,6 +28,7 @@ __all__ = [
     "plot_journal_stability",
     "plot_locus",
     "plot_log_decrement",
+    "plot_orbit_curves",
     "plot_orbits",
     "plot_phase",
     "plot_thresholds",

@@ -17,7 +17,7 @@ from ..rotors import MountedRotor
 from .balance import Balance, series_rows
 from .floquet import multipliers, state_at_start
 from .modal import Complex, ModalRotor, modal_rotor, take_apart
-from .rest import rest_of
+from .rest import first_guess
 
 HARMONICS = 8
 """Harmonics at first."""
@@ -182,7 +182,7 @@ def _driven(
         series, _ = _start_series(modal, start, frequency)
         return solve(balance, resized(series, harmonics), frequency)
     rest = np.zeros((len(balance.units), 2 * harmonics + 1))
-    rest[:, 0] = rest_of(mounted, modal).position
+    rest[:, 0] = first_guess(mounted, modal)
     try:
         return solve(balance, rest, frequency)
     except ConvergenceError:

@@ -44,13 +44,13 @@ def rest_of(mounted: MountedRotor, modal: ModalRotor, guess: Array | None = None
     EquilibriumError
         If it is not found.
     """
-    start = _first_guess(mounted, modal) if guess is None else guess
+    start = first_guess(mounted, modal) if guess is None else guess
     try:
         position = _newton(modal, start)
     except EquilibriumError:
         if guess is None:
             raise
-        position = _newton(modal, _first_guess(mounted, modal))
+        position = _newton(modal, first_guess(mounted, modal))
     _, stiffness, damping = film_forces(modal, position[:, None], np.zeros((len(position), 1)))
     stiffness, damping = stiffness[..., 0], damping[..., 0]
     rows = journal_rows(modal.parts).reshape(-1, 4, len(modal.shapes))
@@ -88,7 +88,8 @@ def _newton(modal: ModalRotor, start: Array) -> Array:
     raise EquilibriumError(f"no rest found: the last Newton step was {size:.3g} of the clearance")
 
 
-def _first_guess(mounted: MountedRotor, modal: ModalRotor) -> Array:
+def first_guess(mounted: MountedRotor, modal: ModalRotor) -> Array:
+    """Return the positions of the journals at rest by the search of `linear`; zeros without weight."""
     rotor = mounted.rotor
     while isinstance(rotor, MountedRotor):
         rotor = rotor.rotor
