@@ -1,11 +1,10 @@
 """A periodic orbit by harmonic balance beside a transient run to steady state: cost at equal error.
 
-Error: largest distance of a journal from the converged orbit, in clearances. The run starts at rest, as one does
-that does not know the orbit, and lasts until what is left of its start is as large as the error allows, to 19 %:
-a user would have to run longer, to know. Two runs: `simulate_rotor`, itself far cheaper than a general
-integrator, and scipy's Radau or LSODA, whichever is cheaper, with the right-hand side and Jacobian of
-rotor_transient.py. Times are of the processor, one thread; multipliers are not computed where only the orbit is
-asked for.
+Error: largest distance of a journal from the converged orbit, in clearances. The run starts from a straight
+shaft at rest and lasts until what is left of its start is as large as the error allows, to 19 %: a user would
+have to run longer, to know. Two runs: `simulate_rotor`, itself far cheaper than a general integrator, and
+scipy's Radau or LSODA, whichever is cheaper, with the right-hand side and Jacobian of rotor_transient.py.
+Times are of the processor, one thread; multipliers are not computed where only the orbit is asked for.
 
     python benchmarks/periodic_orbits.py [CHART.png]
 """
@@ -95,7 +94,9 @@ def scipy_cost(mounted: MountedRotor, turns: int, target: float) -> float:
     duration = turns * exact.period
     last = duration - exact.period * np.linspace(1.0, 0.0, 33)
     derivative, jacobian = scipy_problem(mounted, exact.speed)
-    rows = journal_rows(mounted)[0].reshape(-1, 4, len(mounted.states))[:, :2].reshape(-1, len(mounted.states))
+    rows = (
+        journal_rows(mounted)[0].reshape(-1, 4, len(mounted.states))[:, :2].reshape(-1, len(mounted.states))
+    )
     scale = np.array([signal.nominal for signal in mounted.states])
     best = math.inf
     for method in ("Radau", "LSODA"):
@@ -136,7 +137,10 @@ def orbit_cost(mounted: MountedRotor, target: float) -> tuple[float, int, float]
 
 def main() -> None:
     rows, labels = [], []
-    print("| rotor | error | orbit [ms] | film calls | run [ms] | turns | film calls | run / orbit: time, calls | scipy [ms] | scipy / orbit |")
+    print(
+        "| rotor | error | orbit [ms] | film calls | run [ms] | turns | film calls | run / orbit: time, "
+        "calls | scipy [ms] | scipy / orbit |"
+    )
     print("|---|---|---|---|---|---|---|---|---|---|")
     for name, mounted in (
         ("rigid, .7 of threshold", rigid(0.7)),
@@ -149,8 +153,9 @@ def main() -> None:
             cost, turns, run_calls = run_until(mounted, target)
             users = scipy_cost(mounted, turns, target) if target == TARGETS[0] else math.nan
             print(
-                f"| {name} | {target:g} ({error:.0e}) | {1e3 * own:.2f} | {calls} | {1e3 * cost:.1f} | {turns} | "
-                f"{run_calls} | {cost / own:.0f}, {run_calls / calls:.0f} | {1e3 * users:.0f} | {users / own:.0f} |"
+                f"| {name} | {target:g} ({error:.0e}) | {1e3 * own:.2f} | {calls} | {1e3 * cost:.1f} "
+                f"| {turns} | {run_calls} | {cost / own:.0f}, {run_calls / calls:.0f} "
+                f"| {1e3 * users:.0f} | {users / own:.0f} |"
             )
             rows.append((own, cost, users))
             labels.append(f"{name}\nerror {target:g}")

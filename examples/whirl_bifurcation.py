@@ -52,22 +52,24 @@ for eps, low in ((0.1, 0.94), (0.2, 0.98)):
     rotors = family(*threshold(eps))
     onset = hopf_point(rotors, (0.97, 1.03))
     kind = "super" if onset.supercritical else "sub"
-    print(f"eps {eps}: onset at {onset.parameter:.6f}, {kind}critical, Lyapunov coefficient {onset.lyapunov:.4f}")
+    print(f"eps {eps}: onset at {onset.parameter:.6f}, {kind}critical, Lyapunov {onset.lyapunov:.4f}")
     curve = continue_orbits(rotors, onset, bounds=(low, 1.03), tolerance=1e-6, most=60)
     for event in curve.events:
-        print(f"  {event.kind.value} at {event.parameter:.5f}, amplitude {event.orbit.amplitude:.3f} of the clearance")
+        print(f"  {event.kind.value} at {event.parameter:.5f}, amplitude {event.orbit.amplitude:.3f} C")
     curves[f"eccentricity ratio {eps} at the threshold"] = curve
 
 figure = new_figure(size=(11.0, 5.0))
 left, right = figure.subplots(1, 2)
-plot_orbit_curves(curves, axes=left).set(xlabel="speed / threshold of whirl", title="Whirl of a short bearing")
+plot_orbit_curves(curves, axes=left).set(
+    xlabel="speed / threshold of whirl", title="Whirl of a short bearing"
+)
 
 light = family(*threshold(0.1))(0.97)
-line = np.linspace(-0.97, 0.97, 41)
+line = np.linspace(-0.97, 0.97, 29)
 grid = C * np.stack(np.meshgrid(line, line))
 inside = np.hypot(*grid) < 0.97 * C
 rest = basin_scan(light, [[0.0], [0.0]], turns=1).rest
-scan = basin_scan(light, grid[:, inside] - rest[:, None], turns=150, rtol=1e-4)
+scan = basin_scan(light, grid[:, inside] - rest[:, None], turns=100, rtol=1e-4)
 print(f"{np.mean(scan.whirls):.0%} of the positions within .97 C lead into whirl, 3 % below the threshold")
 save(plot_basin(scan, clearance=C, axes=right), Path("whirl_bifurcation.png"))
 

@@ -51,7 +51,12 @@ def plot_orbit_curves(
             name = None if event.kind in marked else event.kind.value
             marked.add(event.kind)
             axes.plot(
-                event.parameter / scale, event.orbit.amplitude, MARKS[event.kind], color="k", markersize=5, label=name
+                event.parameter / scale,
+                event.orbit.amplitude,
+                MARKS[event.kind],
+                color="k",
+                markersize=5,
+                label=name,
             )
     axes.set(ylabel="largest distance of the journal from its mean / clearance")
     axes.legend(fontsize=8)

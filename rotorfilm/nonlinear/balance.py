@@ -1,8 +1,8 @@
 """Harmonic balance of the journals: the equations of a periodic orbit, with exact derivatives.
 
 Each journal's displacement is a Fourier series in the phase of the orbit, phi = nu t. The rotor answers the
-harmonics of the film forces exactly (its modes are divided by i k nu - lambda), so the unknowns are the journals'
-series alone, however many coordinates the rotor has:
+harmonics of the film forces exactly (its modes are divided by i k nu - lambda), so the unknowns are the
+journals' series alone, however many coordinates the rotor has:
 
     p_k - R_k(nu) F_k(p) - e_k = 0,    R_k = sense (i k nu - Lambda)^-1 push,
 
@@ -13,8 +13,7 @@ a_0, a_1 ... a_H of the cosines, b_1 ... b_H of the sines, shape (2 n_bearings, 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -70,11 +69,10 @@ class Residual(NamedTuple):
     by_frequency: Array
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Balance:
+class Balance(NamedTuple):
     """The equations of the periodic orbits of a rotor at one speed.
 
-    Parameters
+    Attributes
     ----------
     modal : ModalRotor
     harmonics : int
@@ -91,12 +89,12 @@ class Balance:
         """Samples over an orbit: a power of two, for the sake of symmetry."""
         return int(2 ** np.ceil(np.log2(OVERSAMPLING * (2 * self.harmonics + 1) / 2.0 + 8)))
 
-    @cached_property
+    @property
     def basis(self) -> Basis:
         """The series at the samples."""
         return basis(self.harmonics, self.samples)
 
-    @cached_property
+    @property
     def units(self) -> Array:
         """Clearance of each row of the series, shape (2 n_bearings,) [m]."""
         return np.repeat(self.modal.parts.lengths, 2)
@@ -136,7 +134,7 @@ class Balance:
         return np.asarray(((series - answered) / self.units[:, None]).ravel())
 
     def forces(self, series: Array, frequency: float) -> tuple[Array, Array, Array]:
-        """Return forces (2 n, samples) and their slopes by each bearing's own motion, (2 n, 2, samples) each."""
+        """Return forces (2 n, samples) and slopes by each bearing's own motion, (2 n, 2, samples) each."""
         modal = self.modal
         position = series @ self.basis.values.T
         velocity = frequency * (series @ self.basis.slopes.T)
@@ -167,7 +165,9 @@ class Balance:
         return value, slope
 
 
-def _answers(values: Complex, rows: Complex, push: Complex, order: Array, frequency: float) -> tuple[Complex, Complex]:
+def _answers(
+    values: Complex, rows: Complex, push: Complex, order: np.ndarray, frequency: float
+) -> tuple[Complex, Complex]:
     """Return the journals' answers to real forces cos, i.e. with both of each pair of modes, and its slope.
 
     The state is the real part of the modes kept, twice each: the answer to exp(i w t) has half of it from
@@ -177,14 +177,16 @@ def _answers(values: Complex, rows: Complex, push: Complex, order: Array, freque
     mirrored = 1.0 / (1j * frequency * order[:, None] - values.conj())
     answer = 0.5 * ((rows * pole[:, None]) @ push + (rows.conj() * mirrored[:, None]) @ push.conj())
     rate = -1j * order[:, None, None]
-    slope = 0.5 * rate * (
-        (rows * (pole**2)[:, None]) @ push + (rows.conj() * (mirrored**2)[:, None]) @ push.conj()
+    slope = (
+        0.5
+        * rate
+        * ((rows * (pole**2)[:, None]) @ push + (rows.conj() * (mirrored**2)[:, None]) @ push.conj())
     )
     return answer, slope
 
 
 def film_forces(modal: ModalRotor, position: Array, velocity: Array) -> tuple[Array, Array, Array]:
-    """Return the forces of films and springs, shape (2 n, samples), and their slopes by position and velocity.
+    """Return the forces of films and springs (2 n, samples), their slopes by position and velocity.
 
     Raises
     ------

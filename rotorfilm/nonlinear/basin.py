@@ -24,7 +24,7 @@ SAMPLES = 200
 """Samples of a block."""
 
 SETTLED = 0.01
-"""Amplitude / clearance below which a stable rest is taken to be reached, times the amplitude of the offset."""
+"""Amplitude, in that of the offset, below which a stable rest is taken to be reached."""
 
 STEADY = 1e-6
 """Relative change of the amplitude from block to block at which whirl is taken to be steady."""
@@ -39,7 +39,8 @@ class BasinScan:
     offsets : ndarray, shape (2, ...) [m]
         Initial displacement of all journals from their rest.
     amplitude : ndarray, shape (...) [1]
-        Largest distance of a journal from its rest / clearance over the last turns; nan where it hit the wall.
+        Largest distance of a journal from its rest / clearance over the last turns; nan where it hit
+        the wall.
     whirls : ndarray of bool, shape (...)
         Whether the rotor whirls in the end, or hit the wall.
     eccentricity : ndarray, shape (...) [1]

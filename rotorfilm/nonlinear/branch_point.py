@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -26,18 +25,17 @@ _BISECTIONS = 5
 
 
 class Point(NamedTuple):
-    """A solution, the parameter there, and the unit tangent in (series / clearance, ln frequency, parameter)."""
+    """A solution, its parameter, and the unit tangent in (series / clearance, ln frequency, parameter)."""
 
     solution: Solution
     parameter: float
     tangent: Array
 
 
-@dataclass(frozen=True, kw_only=True)
-class Curve:
+class Curve(NamedTuple):
     """A family of rotors over a parameter.
 
-    Parameters
+    Attributes
     ----------
     family : callable
         From the parameter to the rotor in its bearings.
@@ -101,7 +99,7 @@ class Curve:
     def resize(self, point: Point, harmonics: int) -> Point:
         """Return a point with another number of harmonics."""
         solution = point.solution
-        balance = replace(solution.balance, harmonics=harmonics)
+        balance = solution.balance._replace(harmonics=harmonics)
         found = solve(balance, resized(solution.series, harmonics), solution.frequency)
         rows = len(solution.series)
         size = solution.series.size

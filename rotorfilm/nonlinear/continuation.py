@@ -121,8 +121,8 @@ def continue_orbits(
 
     Notes
     -----
-    Bifurcations are located between two orbits to a millionth of the step: folds where the parameter turns, the
-    others where a Floquet multiplier leaves the unit circle at -1, in a pair, or at 1 without a fold.
+    Bifurcations are located between two orbits to a millionth of the step: folds where the parameter turns,
+    the others where a Floquet multiplier leaves the unit circle at -1, in a pair, or at 1 without a fold.
     """
     require_count("most", most)
     low, high = (float(value) for value in require_finite("bounds", bounds))
@@ -206,7 +206,10 @@ def _adapted(curve: Curve, point: Point, tolerance: float) -> Point:
         if harmonics > MOST_HARMONICS * periods:
             break
         point = curve.resize(point, harmonics)
-    if truncation_of(point.solution) < SPARE * tolerance and point.solution.balance.harmonics > HARMONICS * periods:
+    if (
+        truncation_of(point.solution) < SPARE * tolerance
+        and point.solution.balance.harmonics > HARMONICS * periods
+    ):
         return curve.resize(point, point.solution.balance.harmonics // 2)
     return point
 
@@ -214,12 +217,12 @@ def _adapted(curve: Curve, point: Point, tolerance: float) -> Point:
 def _events(
     curve: Curve, before: Point, first: PeriodicOrbit, after: Point, second: PeriodicOrbit, step: float
 ) -> list[OrbitEvent]:
-    found = []
+    found: list[tuple[Bifurcation, Callable[[Point, PeriodicOrbit], float]]] = []
     folded = before.tangent[-1] * after.tangent[-1] < 0.0
     if folded:
         found.append((Bifurcation.FOLD, lambda point, _: float(point.tangent[-1])))
-    for kind, count in _COUNTS.items():
-        one, two = count(first.free_multipliers), count(second.free_multipliers)
+    for kind in _SIZES:
+        one, two = _outside(kind, first.free_multipliers), _outside(kind, second.free_multipliers)
         if one != two and not (kind is Bifurcation.BRANCH and folded):
             # The multiplier that crosses is the least stable of its kind on the side with fewer outside.
             rank = min(one, two)
@@ -265,9 +268,10 @@ _SIZES: dict[Bifurcation, Callable[[np.ndarray], Array]] = {
 }
 """Of each kind, what passes 1 where it happens."""
 
-_COUNTS: dict[Bifurcation, Callable[[np.ndarray], int]] = {
-    kind: (lambda values, sizes=sizes: int(np.sum(sizes(values) > 1.0))) for kind, sizes in _SIZES.items()
-}
+
+def _outside(kind: Bifurcation, multipliers: np.ndarray) -> int:
+    """Return how many of a kind are beyond 1."""
+    return int(np.sum(_SIZES[kind](multipliers) > 1.0))
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,7 @@ from __future__ import annotations
 
 import ctypes
 from ctypes import CFUNCTYPE, POINTER, c_double, c_int, c_void_p
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from llvmlite import ir
@@ -23,9 +22,9 @@ from numba.extending import intrinsic
 
 from ..bearings import JournalBearing, LinearBearing
 from ..errors import FilmContactError, RotorfilmError, UndefinedDerivativeError
-from ..films import MapFilm, ShortFilm
+from ..films import ShortFilm
 from ..films.map import BoundMap
-from ..model import Array, Reaction
+from ..model import Reaction
 from ..native import Status
 from ..native.library import functions
 from .short_kernel import short_tangent
@@ -41,11 +40,10 @@ _SIGNATURE = types.int32(
 _CALLBACK = CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double))
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class FilmCall:
+class FilmCall(NamedTuple):
     """Where the compiled force of a bearing is.
 
-    Parameters
+    Attributes
     ----------
     address : int
         Of the function.

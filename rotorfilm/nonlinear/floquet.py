@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from ..model import Array
 from . import kernels
 from .balance import film_forces, series_rows
-from .march import STAGES, new_tables, radau_scheme
+from .march import STAGES, new_tables, radau_scheme, rotor_arrays
 from .modal import Complex, ModalRotor, journal_rows, modes
 
 STEPS_PER_HARMONIC = 2
@@ -19,8 +17,8 @@ LEAST_STEPS = 64
 def monodromy(modal: ModalRotor, series: Array, frequency: float, steps: int | None = None) -> Array:
     """Return how a small change of the state is mapped over one period, shape (2 N, 2 N).
 
-    The scheme is that of `simulate_rotor` (order 7), linear here: the rotor on the mean slopes of its films is
-    exact, fast modes included, and over a step only what the films add to that is unknown.
+    The scheme is that of `simulate_rotor` (order 7), linear here: the rotor on the mean slopes of its films
+    is exact, fast modes included, and over a step only what the films add to that is unknown.
 
     Parameters
     ----------
@@ -35,7 +33,7 @@ def monodromy(modal: ModalRotor, series: Array, frequency: float, steps: int | N
     slopes = _slopes(modal, series, frequency, steps)
     mean = slopes.mean(axis=(0, 1))
     modal, slopes = on_mean_films(modal, mean), slopes - mean
-    rotor = tuple(np.ascontiguousarray(a) for a in (modal.values, modal.push, modal.sense))
+    rotor = rotor_arrays(modal)
     tables = [table[0] for table in new_tables(rotor, STAGES)[3:]]
     kernels.set_tables(2.0 * np.pi / (frequency * steps), rotor, radau_scheme(STAGES), *tables)
     move, gain, _, advance_z, advance_u = tables
@@ -73,8 +71,7 @@ def on_mean_films(modal: ModalRotor, slopes: Array) -> ModalRotor:
     size = len(A) // 2
     rate = float(np.sqrt(np.abs(A[size:, :size]).max())) or 1.0
     values, shapes, inverse, condition = modes(A + B[:, : len(slopes)] @ forced, rate)
-    return replace(
-        modal,
+    return modal._replace(
         values=values,
         shapes=shapes,
         inverse=inverse,

@@ -1,4 +1,4 @@
-"""The onset of whirl: the Hopf bifurcation of a rotor at rest in its films, and which way the whirl branches."""
+"""The onset of whirl: the Hopf bifurcation of a rotor at rest in its films, and its criticality."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ def hopf_point(family: Callable[[float], MountedRotor], bounds: tuple[float, flo
     Notes
     -----
     The growth of small whirl follows from the second and third derivatives of the film forces (Kuznetsov,
-    Elements of applied bifurcation theory, the first Lyapunov coefficient by projection on the whirling mode).
+    Elements of applied bifurcation theory: the first Lyapunov coefficient by projection on the mode).
     These are differences of sixth order of the exact first derivatives.
     """
     low, high = (float(value) for value in require_finite("bounds", bounds))
@@ -160,7 +160,8 @@ def growth_curvature(modal: ModalRotor, rest: Rest, frequency: float) -> tuple[C
     real, imaginary = q.real, q.imag
     qq, q_star = form.second(q, q), form.second(q, q.conj())
     cubic = (
-        form.third(real, real) + form.third(imaginary, real)
+        form.third(real, real)
+        + form.third(imaginary, real)
         + 1j * (form.third(real, imaginary) + form.third(imaginary, imaginary))
     )
     eye = np.eye(len(A))

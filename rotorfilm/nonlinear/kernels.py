@@ -1,13 +1,15 @@
 """Compiled time integration of a rotor in modes on films: collocation of the film forces.
 
-Over a step h from t the forces are polynomials through s collocation nodes c_i, and the rotor's answer to them
-is exact (variation of constants): with l_j the Lagrange polynomials of the nodes,
+Over a step h from t the forces are polynomials through s collocation nodes c_i, and the rotor's answer to
+them is exact (variation of constants): with l_j the Lagrange polynomials of the nodes,
 
-    z(t + c h) = exp(Lambda c h) z(t) + sum_j W_j(c) B u_j,    W_j(c) = h int_0^c exp(Lambda h (c - s)) l_j(s) ds.
+    z(t + c h) = exp(Lambda c h) z(t) + sum_j W_j(c) B u_j,
+    W_j(c) = h int_0^c exp(Lambda h (c - s)) l_j(s) ds.
 
 The unknowns are the film forces at the nodes only, so Newton's method solves 2 n_bearings s equations for a
-rotor of any size. With Radau's nodes the method has order 2 s - 1 where the modes are not stiff and s + 1
-uniformly; its local error is read from the force at the start of the step, which the polynomial does not know.
+rotor of any size. With Radau's nodes the method has order 2 s - 1 where films and modes are slow and s + 1
+uniformly; its local error is read from the force at the start of the step, which the polynomial does not
+know.
 """
 
 from __future__ import annotations
@@ -119,7 +121,7 @@ def unbalance_pair(t, profile, out):  # type: ignore[no-untyped-def]
 
 @njit(cache=True)
 def film(films, rest, spring, damper, motion, speed, force, slope):  # type: ignore[no-untyped-def]
-    """Set the force of each film and its springs, (2 n,), and d force / d motion, (2 n, 4); return a status."""
+    """Set the force of each film and its springs (2 n,) and slopes by motion (2 n, 4); return a status."""
     address, lengths = films
     state, answer, jacobian = np.empty(5), np.empty(2), np.empty(10)
     worst = 0
@@ -181,7 +183,7 @@ def solve(matrix, right):  # type: ignore[no-untyped-def]
 
 @njit(cache=True)
 def newton(times, films, supports, profile, gain, free, u, scales, tolerance, work):  # type: ignore[no-untyped-def]
-    """Solve for the film forces at the nodes, in u (s, channels); return a status and set the unbalance there.
+    """Solve for the film forces at the nodes, in u (s, channels); return a status.
 
     `free` (s, 4 n) is the motion without films' forces, the unbalance included.
     """
@@ -189,7 +191,7 @@ def newton(times, films, supports, profile, gain, free, u, scales, tolerance, wo
     s, rows = free.shape
     count = 2 * len(lengths)
     size = s * count
-    motion, moved = np.empty((s, rows)), np.empty(rows)
+    motion = np.empty((s, rows))
     force, slope = np.empty((s, count)), np.empty((s, count, 4))
     matrix, right = np.empty((size, size)), np.empty(size)
     pair = np.empty(2)
@@ -244,7 +246,7 @@ def newton(times, films, supports, profile, gain, free, u, scales, tolerance, wo
 
 @njit(cache=True)
 def extrapolate(u, ratio, nodes, lagrange, out):  # type: ignore[no-untyped-def]
-    """Set out (s, channels) to the polynomial of the last step at the nodes of the next, `ratio` times as long."""
+    """Set out (s, channels) to the polynomial of the last step at the nodes of the next, `ratio` as long."""
     s, channels = u.shape
     for i in range(s):
         at = 1.0 + ratio * nodes[i]
@@ -300,7 +302,7 @@ def table_slot(level, top, rotor, scheme, tables):  # type: ignore[no-untyped-de
 @njit(cache=True)
 def local_error(u, start, scheme, defect, scales):  # type: ignore[no-untyped-def]
     """Return the largest error of the journals' motion at the nodes, relative to its scale."""
-    nodes, lagrange, _ = scheme
+    lagrange = scheme[1]
     s, channels = u.shape
     gap = start.copy()
     for j in range(s):
@@ -347,7 +349,7 @@ def try_step(t, h, slot, z, u, start, rotor, scheme, tables, films, supports, pr
 
 @njit(cache=True)
 def sample(t, h, z, u, rotor, scheme, grid, place, out):  # type: ignore[no-untyped-def]
-    """Set the rows of `out` to the modal coordinates at the times of `grid` within a step, from `place` on."""
+    """Set rows of `out` to the modal coordinates at the times of `grid` within a step, from `place` on."""
     values, push, _ = rotor
     lagrange = scheme[1]
     w = np.empty((len(lagrange), len(values)), np.complex128)
@@ -398,19 +400,32 @@ def march(z, clock, stop, rotor, scheme, tables, films, supports, profile, scale
             slot = table_slot(level, top, rotor, scheme, tables)
         else:
             h = stop - t
-            set_tables(h, rotor, scheme, tables[3][SLOTS], tables[4][SLOTS], tables[5][SLOTS], tables[6][SLOTS], tables[7][SLOTS])
+            set_tables(
+                h,
+                rotor,
+                scheme,
+                tables[3][SLOTS],
+                tables[4][SLOTS],
+                tables[5][SLOTS],
+                tables[6][SLOTS],
+                tables[7][SLOTS],
+            )
         if last > 0.0:
             extrapolate(u, h / last, scheme[0], scheme[1], guess)
         else:
             for i in range(s):
                 guess[i] = start
-        status, error = try_step(t, h, slot, z, guess, start, rotor, scheme, tables, films, supports, profile, scales, limits, work)
+        status, error = try_step(
+            t, h, slot, z, guess, start, rotor, scheme, tables, films, supports, profile, scales, limits, work
+        )
         steps += 1
         if status >= CONTACT or error > 1.0:
             if h < shortest:
                 return WALL if status == CONTACT else (BROKEN if status >= CONTACT else STUCK)
-            change = 8 if status >= CONTACT else 1 + int(4.0 * math.log2(error / 0.9**(s + 1.0)) / (s + 1.0))
-            level = min(LEVELS - 1, max(level, int(math.ceil(-4.0 * math.log2(h / top) - 1e-9))) + change)
+            change = (
+                8 if status >= CONTACT else 1 + int(4.0 * math.log2(error / 0.9 ** (s + 1.0)) / (s + 1.0))
+            )
+            level = min(LEVELS - 1, max(level, math.ceil(-4.0 * math.log2(h / top) - 1e-9)) + change)
             work[3] += 1
             last = 0.0 if status >= CONTACT else last
             continue
@@ -422,7 +437,7 @@ def march(z, clock, stop, rotor, scheme, tables, films, supports, profile, scale
         start[:] = u[s - 1]
         clock[0], clock[1], clock[2], last = (t + h if whole else stop), level, place, h
         if whole:
-            rise = int(math.floor(4.0 * math.log2(0.8 * (max(error, 1e-12)) ** (-1.0 / (s + 1.0)))))
+            rise = math.floor(4.0 * math.log2(0.8 * (max(error, 1e-12)) ** (-1.0 / (s + 1.0))))
             level = max(0, level - min(max(rise, 0), 4))
         clock[1] = level
     return DONE if clock[0] >= stop else BUSY

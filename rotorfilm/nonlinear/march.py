@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy as np
@@ -57,7 +56,6 @@ def profile_rows(profile: SpeedProfile) -> tuple[Array, Array, Array, Array]:
     return times, np.array(profile.speeds, dtype=float), slopes, angles
 
 
-@dataclass(eq=False)
 class March:
     """One run of a rotor, which goes on from stop to stop.
 
@@ -69,39 +67,42 @@ class March:
     rtol : float [1]
         Local error of the journals: displacement / clearance, velocity / (clearance speed).
     longest : float [s]
+        Longest step.
     duration : float [s]
+        Of the whole run, which says what step is too short.
     stages : int
+        Collocation nodes.
 
     Attributes
     ----------
     work : Counter
+        Film_evaluations, jacobians, steps, rejected.
     """
 
-    modal: ModalRotor
-    state: Complex
-    rtol: float
-    longest: float
-    duration: float
-    stages: int = STAGES
-    work: Counter[str] = field(default_factory=Counter)
-
-    def __post_init__(self) -> None:
-        modal, parts = self.modal, self.modal.parts
-        self._rotor = tuple(np.ascontiguousarray(a) for a in (modal.values, modal.push, modal.sense))
-        self._scheme = radau_scheme(self.stages)
-        self._tables = new_tables(self._rotor, self.stages)
-        films = np.array([(call.address, call.data) for call in modal.calls], dtype=np.int64)
-        self._films = films.astype(np.intp)
-        self._supports = (modal.journal_rest, modal.spring, modal.damper, parts.lengths)
-        self._profile = profile_rows(parts.profile)
+    def __init__(
+        self,
+        *,
+        modal: ModalRotor,
+        state: Complex,
+        rtol: float,
+        longest: float,
+        duration: float,
+        stages: int = STAGES,
+    ) -> None:
+        self.modal, self.state, self.work = modal, state, Counter[str]()
+        self._rtol, self._longest, self._duration = rtol, longest, duration
+        self._rotor = rotor_arrays(modal)
+        self._scheme = radau_scheme(stages)
+        self._tables = new_tables(self._rotor, stages)
+        self._films = np.array([(call.address, call.data) for call in modal.calls], dtype=np.intp)
+        self._supports = (modal.journal_rest, modal.spring, modal.damper, modal.parts.lengths)
+        self._profile = profile_rows(modal.parts.profile)
         self._scales = journal_scales(modal)
-        self._newton = max(NEWTON * self.rtol, 1e-12)
+        self._newton = max(NEWTON * rtol, 1e-12)
         self._counts = np.zeros(5, dtype=np.int64)
         # A first step that the error control need not believe in: a hundredth of a turn or less.
-        first = 0.01 * 2.0 * np.pi / max(rate_of(modal), 1.0 / self.duration)
-        level = np.ceil(4.0 * np.log2(max(1.0, self.longest / first)))
-        self._clock = np.array([0.0, level, 0.0])
-        self._out: Complex = np.empty((0, len(modal.values)), dtype=complex)
+        first = 0.01 * 2.0 * np.pi / max(rate_of(modal), 1.0 / duration)
+        self._clock = np.array([0.0, np.ceil(4.0 * np.log2(max(1.0, longest / first))), 0.0])
 
     @property
     def time(self) -> float:
@@ -118,7 +119,7 @@ class March:
         """
         self._clock[2] = 0.0
         out = np.empty((len(grid), len(self.state)), dtype=complex)
-        options = (self.longest, self.rtol, SHORTEST * self.duration, BUDGET, self._newton)
+        options = (self._longest, self._rtol, SHORTEST * self._duration, BUDGET, self._newton)
         reason = kernels.BUSY
         while reason == kernels.BUSY:
             reason = kernels.march(
@@ -153,8 +154,19 @@ class March:
         if reason == kernels.WALL:
             return ContactError(f"journal reached the wall {at}", kept)
         if reason == kernels.BROKEN:
-            return ConvergenceError(f"film force must be finite and the forces of a step solvable, {at}", kept)
+            return ConvergenceError(
+                f"film force must be finite and the forces of a step solvable, {at}", kept
+            )
         return ConvergenceError(f"integration needs steps below {SHORTEST:g} of the duration {at}", kept)
+
+
+def rotor_arrays(modal: ModalRotor) -> tuple[Complex, Complex, Complex]:
+    """Return values, push and sense as the kernels want them."""
+    return (
+        np.ascontiguousarray(modal.values),
+        np.ascontiguousarray(modal.push),
+        np.ascontiguousarray(modal.sense),
+    )
 
 
 def rate_of(modal: ModalRotor) -> float:
@@ -172,9 +184,9 @@ def journal_scales(modal: ModalRotor) -> Array:
 def new_tables(rotor: tuple[Complex, Complex, Complex], stages: int) -> tuple[Array, ...]:
     """Return unfilled tables of steps; the last slot is for steps that happen once.
 
-    They are the slot of each level, the level in each slot, the slot to be filled next; and per slot the motion
-    of the journals at the nodes per modal coordinate (real, imaginary), per force at each node, per gap of the
-    force at the start; and the modal coordinates at the end, per themselves and per force.
+    They are the slot of each level, the level in each slot, the slot to be filled next; and per slot the
+    motion of the journals at the nodes per modal coordinate (real, imaginary), per force at each node, per
+    gap of the force at the start; and the modal coordinates at the end, per themselves and per force.
     """
     modes, channels = rotor[1].shape
     rows, slots = len(rotor[2]), kernels.SLOTS + 1

@@ -12,7 +12,6 @@ a rotor that is free to move would have no complete set of modes. Of each conjug
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -69,8 +68,7 @@ class Parts(NamedTuple):
         return float(speeds.pop())
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class ModalRotor:
+class ModalRotor(NamedTuple):
     """The linear part of a mounted rotor in modes, at one speed.
 
     Attributes
@@ -177,7 +175,7 @@ def journal_rows(parts: Parts) -> Array:
 
 
 def state_matrices(parts: Parts, speed: float) -> tuple[Array, Array, Array]:
-    """Return A (2 N, 2 N) without films, B (2 N, 2 n_bearings + 2) and the acceleration under weight (2 N,)."""
+    """Return A (2 N, 2 N) without films, B (2 N, 2 n_bearings + 2), the acceleration under weight (2 N,)."""
     s, n = parts.structure, len(parts.structure.weight)
     right = np.hstack([parts.rows.T, s.unbalance, s.weight[:, None]])
     solved = np.linalg.solve(
@@ -198,7 +196,7 @@ def modal_rotor(parts: Parts, speed: float) -> ModalRotor:
     """
     A, B, weight = state_matrices(parts, speed)
     stiffness, rate = _natural_support(parts, speed)
-    best = None
+    best: tuple[tuple[Complex, Complex, Complex, float], Array, Array, Array] | None = None
     for spring, damper in SUPPORTS:
         K0 = spring * np.outer(stiffness, (1.0, 1.3)).ravel()
         C0 = damper / spring * K0 / rate
@@ -208,6 +206,7 @@ def modal_rotor(parts: Parts, speed: float) -> ModalRotor:
             best = found, K0, C0, shifted
         if found[3] < GOOD_CONDITION:
             break
+    assert best is not None
     (values, shapes, inverse, condition), K0, C0, shifted = best
     if not condition < LARGEST_CONDITION:
         raise ConvergenceError(f"modes of the rotor must be distinct, got a condition of {condition:.3g}")
@@ -218,7 +217,7 @@ def modal_rotor(parts: Parts, speed: float) -> ModalRotor:
         inverse=inverse,
         push=inverse @ B,
         sense=journal_rows(parts) @ shapes,
-        rest=-np.linalg.solve(shifted, weight),
+        rest=np.asarray(-np.linalg.solve(shifted, weight)),
         spring=K0,
         damper=C0,
         calls=tuple(film_call(bearing) for bearing in parts.bearings),
@@ -243,7 +242,7 @@ def _support_rows(parts: Parts, spring: Array, damper: Array) -> Array:
 
 
 def modes(A: Array, rate: float) -> tuple[Complex, Complex, Complex, float]:
-    """Return eigenvalues, shapes, their inverse and its condition; one of each pair, real parts to be added."""
+    """Return eigenvalues, shapes, their inverse and condition; one of each pair, real parts to be added."""
     n = len(A) // 2
     scale = np.repeat([1.0, rate], n)
     values, vectors = np.linalg.eig(A * scale / scale[:, None])
@@ -255,4 +254,9 @@ def modes(A: Array, rate: float) -> tuple[Complex, Complex, Complex, float]:
     inverse = inverse / scale
     kept = values.imag >= 0.0
     weight = np.where(values.imag > 0.0, 2.0, 1.0)
-    return values[kept].astype(complex), (scale[:, None] * vectors * weight)[:, kept], inverse[kept], condition
+    return (
+        values[kept].astype(complex),
+        (scale[:, None] * vectors * weight)[:, kept],
+        inverse[kept],
+        condition,
+    )

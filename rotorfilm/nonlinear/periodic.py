@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
@@ -168,7 +168,9 @@ def periodic_orbit(
         raise InputError("start must be an orbit or a run that ends in whirl for a rotor without unbalance")
     else:
         series, frequency = _start_series(modal, start, None)
-        found = solve(Balance(modal=modal, harmonics=HARMONICS, periods=0), resized(series, HARMONICS), frequency)
+        found = solve(
+            Balance(modal=modal, harmonics=HARMONICS, periods=0), resized(series, HARMONICS), frequency
+        )
     return finished(lengthened(found, tolerance), stability=stability)
 
 
@@ -198,7 +200,7 @@ def _ramped(balance: Balance, series: Array, frequency: float) -> Solution:
         push = modal.push.copy()
         push[:, -2:] *= after
         try:
-            found = solve(replace(balance, modal=replace(modal, push=push)), series, frequency)
+            found = solve(balance._replace(modal=modal._replace(push=push)), series, frequency)
         except ConvergenceError:
             step *= 0.5
             if step < 2.0**-_RAMPS:
@@ -224,7 +226,7 @@ def solve(balance: Balance, series: Array, frequency: float) -> Solution:
             size = float(np.abs(residual).max())
             if size < CONVERGED:
                 return Solution(series, frequency, balance, size, iteration)
-            step = np.linalg.solve(at, -residual)
+            step = np.asarray(np.linalg.solve(at, -residual), dtype=float)
             series, frequency, at, residual = _damped(
                 balance, series, frequency, step, reference, float(np.linalg.norm(residual)), whirl
             )
@@ -233,14 +235,14 @@ def solve(balance: Balance, series: Array, frequency: float) -> Solution:
     raise ConvergenceError(f"no periodic orbit found: {size:.3g} of the clearance left")
 
 
-def _system(
-    balance: Balance, series: Array, frequency: float, reference: Array
-) -> tuple[Array, Array]:
+def _system(balance: Balance, series: Array, frequency: float, reference: Array) -> tuple[Array, Array]:
     """Return matrix and values of the equations; of whirl with the phase condition and the frequency."""
     at = balance.residual(series, frequency)
     if balance.periods:
         return at.by_series, at.values
-    matrix = np.block([[at.by_series, frequency * at.by_frequency[:, None]], [reference[None], np.zeros((1, 1))]])
+    matrix = np.block(
+        [[at.by_series, frequency * at.by_frequency[:, None]], [reference[None], np.zeros((1, 1))]]
+    )
     return matrix, np.append(at.values, 0.0)
 
 
@@ -310,7 +312,7 @@ def lengthened(solution: Solution, tolerance: float) -> Solution:
         harmonics = min(2 * solution.balance.harmonics, MOST_HARMONICS * max(1, solution.balance.periods))
         if harmonics == solution.balance.harmonics:
             break
-        balance = replace(solution.balance, harmonics=harmonics)
+        balance = solution.balance._replace(harmonics=harmonics)
         found = solve(balance, resized(solution.series, harmonics), solution.frequency)
         solution = found._replace(iterations=found.iterations + solution.iterations)
     return solution
@@ -329,7 +331,9 @@ def finished(solution: Solution, *, stability: bool = True) -> PeriodicOrbit:
         lengths=parts.lengths,
         series=series.reshape(len(parts.names), 2, -1),
         state=state_at_start(modal, series, solution.frequency, balance.periods),
-        multipliers=multipliers(modal, series, solution.frequency) if stability else np.zeros(0, dtype=complex),
+        multipliers=multipliers(modal, series, solution.frequency)
+        if stability
+        else np.zeros(0, dtype=complex),
         residual=solution.residual,
         truncation=truncation_of(solution),
         work={
@@ -346,7 +350,9 @@ def _start_series(
     if isinstance(start, PeriodicOrbit):
         series = start.series.reshape(-1, start.series.shape[-1])
         if len(series) != 2 * len(modal.parts.names):
-            raise InputError(f"start must be an orbit of {len(modal.parts.names)} journals, got {len(series) // 2}")
+            raise InputError(
+                f"start must be an orbit of {len(modal.parts.names)} journals, got {len(series) // 2}"
+            )
         if frequency is None or start.periods * frequency == 0.0:
             return series, start.frequency
         ratio = start.frequency / frequency

@@ -13,7 +13,7 @@ from ..results import Trajectory
 from ..rotors import MountedRotor
 from ..signals import names
 from .march import March, rate_of
-from .modal import ModalRotor, Parts, modal_rotor, take_apart
+from .modal import Parts, modal_rotor, take_apart
 
 LONGEST_TURN = 1.0
 """Longest step in turns of the shaft."""
@@ -38,8 +38,8 @@ def simulate_rotor(
     ----------
     mounted : MountedRotor
         From `mount`, with a bearing without states in at least one station and no forces left free that
-        anybody would drive. Its speed is constant; it may be a profile if the shaft has neither gyroscopic effect
-        nor rotating damping.
+        anybody would drive. Its speed is constant; it may be a profile if the shaft has neither gyroscopic
+        effect nor rotating damping.
     duration : float [s]
     samples : int
         Number of samples at equal distance, from 0 to `duration` inclusive.

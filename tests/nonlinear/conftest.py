@@ -117,7 +117,7 @@ class ShortRotor:
         self.rest = scene.rest * CLEARANCE
 
     def __call__(self, ratio, unbalance=0.0):
-        """Return the rotor at a speed relative to the threshold: the bearing is fixed, so sigma changes too."""
+        """Return the rotor at a speed / threshold: the bearing is fixed, so sigma changes too."""
         rotor = RigidRotor(
             mass=self.mass,
             speed=ratio * self.speed,

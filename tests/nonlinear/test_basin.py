@@ -18,18 +18,19 @@ def test_border_of_the_basin_along_the_load(below):
     assert np.all(scan.amplitude[:2] < 0.01)
 
 
-def test_border_lies_on_the_unstable_cycle(short_rotor, below):
-    # Independent of the runs: the whirl of the scan is the stable orbit of the branch that begins at the onset.
+def test_whirl_of_the_scan_is_a_stable_orbit(short_rotor, below):
     run = simulate_rotor(
         below,
         duration=200 * 2.0 * np.pi / (0.97 * short_rotor(0.1).speed),
-        initial_state=[*(short_rotor(0.1).rest + [0.6e-4, 0.0]), 0.0, 0.0],
+        initial_state=[*(short_rotor(0.1).rest + np.array([0.6e-4, 0.0])), 0.0, 0.0],
         samples=20001,
         rtol=1e-8,
     )
     whirl = periodic_orbit(below, start=run)
     assert whirl.stable
-    assert np.ptp(whirl.position(np.linspace(0.0, whirl.period, 400))[0, 1]) / 2e-4 == pytest.approx(0.755, abs=1e-3)
+    assert np.ptp(whirl.position(np.linspace(0.0, whirl.period, 400))[0, 1]) / 2e-4 == pytest.approx(
+        0.755, abs=1e-3
+    )
     scan = basin_scan(below, 1e-4 * np.array([[0.6], [0.0]]), rtol=1e-8)
     assert scan.eccentricity[0] == pytest.approx(whirl.eccentricity_ratios.max(), abs=1e-4)
 

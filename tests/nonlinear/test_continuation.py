@@ -28,7 +28,9 @@ def test_folds_of_duffing(cubic_bearing):
     # Circles: ((k + h a^2 - m w^2)^2 + (c w)^2) a^2 = (U w^2)^2; each is on the curve.
     for w, orbit in zip(curve.parameters, curve.orbits, strict=True):
         a = 10.0 * orbit.amplitude
-        assert ((k + h * a**2 - mass * w**2) ** 2 + (c * w) ** 2) * a**2 == pytest.approx((unbalance * w**2) ** 2)
+        assert ((k + h * a**2 - mass * w**2) ** 2 + (c * w) ** 2) * a**2 == pytest.approx(
+            (unbalance * w**2) ** 2
+        )
     # Folds: the derivative by the squared amplitude A vanishes as well.
     found = [event for event in curve.events if event.kind is Bifurcation.FOLD]
     assert len(found) == 2
@@ -51,7 +53,7 @@ def test_large_whirl_of_the_short_bearing(short_rotor):
     assert [event.kind for event in curve.events] == [Bifurcation.FOLD] * 2
     assert folds[0].parameter == pytest.approx(1.01, abs=5e-4)
     assert folds[1].parameter == pytest.approx(0.995, abs=5e-4)
-    assert curve.stable[0] and curve.stable[-1]
+    assert curve.stable[[0, -1]].all()
     # The stable branches, and the one between them that is not, are where runs say.
     scan = basin_scan(family(0.999), 1e-4 * np.array([[0.02, 0.7], [0.0, 0.0]]), turns=3000)
     assert scan.whirls.tolist() == [False, True]
@@ -103,13 +105,16 @@ def test_unstable_cycle_separates_two_ends(short_rotor):
     onset = hopf_point(rotor, (0.97, 1.03))
     curve = continue_orbits(rotor, onset, bounds=(0.97, 1.0), most=30, tolerance=1e-6)
     cycle = curve.orbits[-1]
-    assert curve.parameters[-1] == pytest.approx(0.97) and not cycle.stable
+    assert curve.parameters[-1] == pytest.approx(0.97)
+    assert not cycle.stable
     mounted = rotor(0.97)
     ends = []
     for push in (-1e-3, 1e-3):
         mean = np.array([*cycle.series[0][:, 0], 0.0, 0.0])
         start = mean + (1.0 + push) * (cycle.state - mean)
-        run = simulate_rotor(mounted, duration=300 * 2.0 * np.pi / cycle.speed, initial_state=start, rtol=1e-7)
+        run = simulate_rotor(
+            mounted, duration=300 * 2.0 * np.pi / cycle.speed, initial_state=start, rtol=1e-7
+        )
         ends.append(np.ptp(run["y"][-20:]) / 2e-4)
     assert ends[0] < 0.4 < 0.6 < ends[1]
 

@@ -4,7 +4,15 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq, minimize_scalar
 
-from rotorfilm import ConvergenceError, InputError, LinearBearing, RigidRotor, continue_orbits, hopf_point, mount
+from rotorfilm import (
+    ConvergenceError,
+    InputError,
+    LinearBearing,
+    RigidRotor,
+    continue_orbits,
+    hopf_point,
+    mount,
+)
 
 
 @pytest.mark.closed_form
@@ -64,7 +72,7 @@ def test_onset_of_van_der_pol(van_der_pol):
     assert onset.parameter == pytest.approx(0.0, abs=1e-10)
     assert onset.frequency == pytest.approx(np.sqrt(stiffness / mass), rel=1e-12)
     assert onset.crossing == pytest.approx(0.5 / mass, rel=1e-7)
-    # Averaging: the mean of (limit x^2) over a cycle of amplitude a, weighted with the velocity, is limit a^2/4.
+    # Averaging: the mean of limit x^2 over a cycle, weighted with the squared velocity, is limit a^2/4.
     assert onset.growth_curvature == pytest.approx(-limit / (8.0 * mass), rel=1e-9)
     assert onset.supercritical
 

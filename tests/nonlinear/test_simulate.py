@@ -40,7 +40,10 @@ def shaft(speed=400.0, **changes):
         "elements": piece.split(6),
         "disks": (Disk.solid(2, outer_diameter=0.28, **disk), Disk.solid(4, outer_diameter=0.35, **disk)),
         "stations": (Station(node=0, name="left"), Station(node=6, name="right")),
-        "unbalances": (Unbalance(node=2, unbalance=2e-3), Unbalance(node=4, unbalance=1e-3, unbalance_angle=1.0)),
+        "unbalances": (
+            Unbalance(node=2, unbalance=2e-3),
+            Unbalance(node=4, unbalance=1e-3, unbalance_angle=1.0),
+        ),
         "beam": ClassicalBeam(),
         "speed": speed,
     }
