@@ -175,7 +175,7 @@ def ross_line(mounted: MountedRotor, rest: np.ndarray, times: np.ndarray, exact:
     errors, costs = [], []
     turns = 2
     kept = turns * (len(times) - 1) // TURNS + 1
-    for parts in (5120, 10240, 20480, 40960):
+    for parts in (20480, 40960, 81920, 163840):
         count = parts * turns
         grid = np.linspace(0.0, times[kept - 1], count + 1)
         balance = stiffness @ rest - s.weight

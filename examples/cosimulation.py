@@ -18,7 +18,7 @@ from rotorfilm.scenes.export import export_scene, resting_rotor
 from rotorfilm.transient import simulate
 
 scene = bundled_scene()
-bearing, rotor, speed = scene.bearing, resting_rotor(scene), scene.operation.speed
+bearing, rotor, speed = scene.bearing, resting_rotor(scene), scene.speed
 duration = scene.time_of(2.0 * 2.0 * math.pi)  # two turns of the shaft
 
 limit = critical_macro_step(rotor, bearing, state=rotor.initial_state).macro_step

@@ -13,7 +13,7 @@ from rotorfilm.scenes import bundled_scene
 scene = bundled_scene()
 bearing, rotor, load = scene.bearing, scene.rotor, scene.static_load
 
-loop = closed_loop(rotor, bearing, equilibrium(bearing, load, scene.operation.speed), name="shaft")
+loop = closed_loop(rotor, bearing, equilibrium(bearing, load, scene.speed), name="shaft")
 print("poles at 1500 rpm [1/s]:", np.round(loop.poles(), 1))
 
 speeds = np.linspace(50.0, 600.0, 12)

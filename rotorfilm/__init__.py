@@ -160,6 +160,7 @@ _HOMES = {
     ),
     "scenes": ("Answer", "RossRotor", "Scene", "bundled_scene", "read_ross"),
     "signals": ("Signal",),
+    "sweeps": ("sweep",),
     "transient": ("simulate",),
     "errors": (
         "ContactError",

@@ -16,12 +16,14 @@ import typer
 from . import console
 from .chart_commands import chart_app
 from .cli_damper import DAMPER_EXAMPLE, damper
+from .cli_sweep import SWEEP_EXAMPLE, sweep
 from .errors import InputError, RotorfilmError, SceneError
 
 if TYPE_CHECKING:
     from .bearings import JournalBearing
     from .films import Groove
     from .films.groove_table import GrooveMapTable
+    from .scenes import Scene
     from .scenes.film_tables import FilmTable
     from .scenes.schema import JournalTable
 
@@ -92,18 +94,45 @@ def options(
     """Bearing films for rotor dynamics: static and dynamic coefficients, FMUs, coupled simulation."""
 
 
-@app.command(epilog="Example: rotorfilm solve examples/friswell.toml --json")
-def solve(scene: SceneFile, json: Json = False) -> None:
-    """Find equilibrium, stiffness, damping and whirl threshold of a scene."""
+@app.command(epilog="Example: rotorfilm solve examples/question.toml --explain")
+def solve(
+    scene: SceneFile,
+    explain: Annotated[
+        bool, typer.Option("--explain", help="Show the whole ladder behind the answer to a question.")
+    ] = False,
+    json: Json = False,
+) -> None:
+    """Answer a scene: its question, or else equilibrium, stiffness, damping and whirl threshold.
+
+    Exits with 1 where no rung meets the tolerance of the question.
+    """
     from .scenes import Scene
 
     loaded = Scene.load(scene)
+    if loaded.question is not None:
+        _print_question(loaded, explain, json)
+        return
+    if explain:
+        raise InputError(f"--explain must be given with a scene that has a [question], got {str(scene)!r}")
     _make_map(loaded.bearing)
-    answer = loaded.solve()
+    answer = loaded.describe()
     if json:
         console.print_json(answer)
         return
     console.print_answer(loaded.title, answer)
+
+
+def _print_question(scene: Scene, explain: bool, json: bool) -> None:
+    from .console_ladder import print_question
+
+    answer = scene.ask()
+    if json:
+        console.print_json(answer)
+    else:
+        print_question(scene.title, answer, explain=explain)
+    if not answer.met:
+        console.complain("error", answer.message)
+        raise typer.Exit(FAILED)
 
 
 @app.command(
@@ -322,6 +351,7 @@ def demo(
 
 
 app.command(epilog=DAMPER_EXAMPLE)(damper)
+app.command(epilog=SWEEP_EXAMPLE)(sweep)
 
 
 def main(arguments: list[str] | None = None) -> None:

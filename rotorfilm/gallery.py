@@ -71,7 +71,7 @@ def _draw_orbits(result: DemoResult, axes: Axes | None = None) -> Axes:
         verdict = " (refused)" if run.refused else ""
         orbits[f"coupled, {math.degrees(run.macro_angle):.3g} deg{verdict}"] = run.trajectory
     center = result.answer.equilibrium.position
-    return plot_orbits(orbits, clearance=result.scene.journal.clearance, center=center, axes=axes)
+    return plot_orbits(orbits, clearance=result.scene.bearing.clearance, center=center, axes=axes)
 
 
 def _draw_locus(result: DemoResult) -> Axes:

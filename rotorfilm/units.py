@@ -50,6 +50,10 @@ UNITS: dict[str, Unit] = {
     "kg.m": Unit(1.0, {"kg": 1, "m": 1}),
     "N.m": Unit(1.0, {"kg": 1, "m": 2, "s": -2}),
     "K": Unit(1.0, {"K": 1}),
+    "kg/m3": Unit(1.0, {"kg": 1, "m": -3}),
+    "J/(kg.K)": Unit(1.0, {"m": 2, "s": -2, "K": -1}),
+    "W/(m.K)": Unit(1.0, {"kg": 1, "m": 1, "s": -3, "K": -1}),
+    "1/K": Unit(1.0, {"K": -1}),
 }
 """The SI units of signals, by their FMI spelling."""
 
@@ -74,6 +78,8 @@ DISPLAY_UNITS: dict[str, Unit] = {
     "psi": Unit(_POUND_FORCE / _INCH**2, {"kg": 1, "m": -1, "s": -2}),
     "deg": Unit(math.pi / 180.0, {"rad": 1}),
     "rpm": Unit(math.pi / 30.0, {"rad": 1, "s": -1}),
+    "Hz": Unit(2.0 * math.pi, {"rad": 1, "s": -1}),
+    "%": Unit(0.01),
 }
 """Units accepted in scene files and at the command line, besides plain SI numbers."""
 

@@ -18,8 +18,9 @@ LAYERS = [
     ["nonlinear"],
     ["ladders"],
     ["scenes", "charts"],
-    ["console", "gallery"],
-    ["chart_commands", "cli_damper"],
+    ["sweeps"],
+    ["console", "console_ladder", "gallery"],
+    ["chart_commands", "cli_damper", "cli_sweep"],
     ["cli"],
 ]
 RANK = {name: rank for rank, layer in enumerate(LAYERS) for name in layer}

@@ -145,7 +145,7 @@ def _compared(
         macro_angle=angle,
         macro_step=simulation.macro_step,
         spectral_radius=theory.spectral_radius,
-        orbit_error=float(distance.max()) / scene.journal.clearance,
+        orbit_error=float(distance.max()) / scene.bearing.clearance,
         wall_time=wall,
         refused=refused,
         trajectory=own,

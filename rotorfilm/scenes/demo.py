@@ -138,7 +138,7 @@ def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
     plain = comparison_bearing(slenderness)
     folder.mkdir(parents=True, exist_ok=True)
     report(0.0, "equilibrium, stiffness and damping, whirl threshold")
-    answer = scene.solve()
+    answer = scene.describe()
     report(0.02, "locus by every film")
     angles = attitude_angles(plain, rungs, np.array(ECCENTRICITY_RATIOS))
     stability = journal_stability(
@@ -164,8 +164,8 @@ def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
         scene=scene,
         answer=answer,
         speed_parameter=speed_parameter(
-            speed=scene.operation.speed,
-            clearance=scene.journal.clearance,
+            speed=scene.speed,
+            clearance=scene.bearing.clearance,
             mass=scene.rotor.mass,
             load=scene.static_load,
         ),
@@ -217,7 +217,7 @@ def _write_csv(path: Path, trajectory: Trajectory) -> None:
 def _critical_macro_angle(scene: Scene) -> float | None:
     rotor = resting_rotor(scene)
     limit = critical_macro_step(rotor, scene.bearing, state=rotor.initial_state).macro_step
-    return None if limit is None else limit * abs(scene.operation.speed)
+    return None if limit is None else limit * abs(scene.speed)
 
 
 def _macro_angles(scene: Scene, limit: float | None) -> list[float]:

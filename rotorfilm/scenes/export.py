@@ -35,7 +35,7 @@ def resting_rotor(scene: Scene) -> RigidRotor:
     EquilibriumError
         If the film cannot carry the load.
     """
-    at = equilibrium(scene.bearing, scene.static_load, scene.operation.speed)
+    at = equilibrium(scene.bearing, scene.static_load, scene.speed)
     return dataclasses.replace(scene.rotor, position=(float(at.position[0]), float(at.position[1])))
 
 
@@ -68,7 +68,7 @@ def export_scene(
         If a model cannot be exported.
     """
     rotor = resting_rotor(scene)
-    start = {"x": rotor.position[0], "y": rotor.position[1], "speed": scene.operation.speed}
+    start = {"x": rotor.position[0], "y": rotor.position[1], "speed": scene.speed}
 
     def write(model: Model, name: str, values: dict[str, float]) -> Path:
         return export_fmu(

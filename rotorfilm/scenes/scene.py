@@ -4,58 +4,91 @@ from __future__ import annotations
 
 import math
 import tomllib
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
 from importlib import resources
 from os import PathLike
 from pathlib import Path
 from typing import Annotated, Any
 
 from ..bearings.journal import JournalBearing
-from ..errors import InputError, SceneError
+from ..errors import InputError, SceneError, warn_user
 from ..rotors.rigid import RigidRotor
 from ..units import STANDARD_GRAVITY
+from .excitation_table import EXCITATIONS, ExcitationTable
+from .ladder import QuestionAnswer
+from .lubricant_table import LubricantTable
+from .question_table import QuestionTable
+from .questions import ask
 from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
 from .solve import Answer, solve
-from .tables import Table, read_table, text
+from .tables import Table, Variant, read_table, require_no_near_miss, text
 
 BUNDLED = "friswell_5_9_6.toml"
 """The scene file that ships with the package."""
 
 
+NOT_A_BEARING = ("title", "operation", "lubricant", "rigid_rotor", "excitation", "cosimulation", "question")
+"""Fields of a scene that do not make one by themselves; every other field is a bearing or has some."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Scene:
-    """A bearing, what it carries, and how it is run.
+    """Bearings, what they carry, how it is run, and what is asked.
 
-    The fields are the tables of schema 1, by their names in the file.
+    The fields are the tables of schema 1, by their names in the file; all may be left out, not all at once.
 
     Parameters
     ----------
     title : str
         One line for print-outs and charts.
-    journal : JournalTable
-        The bearing.
-    operation : OperationTable
+    journal : JournalTable or None
+        A journal bearing.
+    operation : OperationTable or None
         Speed and load.
+    lubricant : LubricantTable
+        Properties for the checks of what the films leave out.
     rigid_rotor : RigidRotorTable or None
         What the bearing carries; without it there is no whirl threshold and no transient.
+    excitation : UnbalanceTable, BladeLossTable, StepLoadTable, SineLoadTable or None
+        What shakes it besides the steady load.
     cosimulation : CosimulationTable
         Macro step and length of a coupled run.
+    question : QuestionTable or None
+        The quantity that is asked for, and its tolerance.
 
     Raises
     ------
     InputError
-        If a load is neither given nor follows from the weight of a rotor.
+        If there is no bearing, or a journal bearing without an operation, or with a load that is neither
+        given nor follows from the weight of a rotor.
     """
 
     title: Annotated[str, text] = "untitled scene"
-    journal: Annotated[JournalTable, Table(JournalTable)]
-    operation: Annotated[OperationTable, Table(OperationTable)]
+
+    # Bearings, and rotors with their own bearings. A family registers its table by one line here, as
+    #     damper: Annotated[DamperTable | None, Table(DamperTable)] = None
+    # and nowhere else. It checks what it needs of the other tables where it is solved.
+    journal: Annotated[JournalTable | None, Table(JournalTable)] = None
+
+    # What all families share.
+    operation: Annotated[OperationTable | None, Table(OperationTable)] = None
+    lubricant: Annotated[LubricantTable, Table(LubricantTable)] = field(default_factory=LubricantTable)
     rigid_rotor: Annotated[RigidRotorTable | None, Table(RigidRotorTable)] = None
+    excitation: Annotated[ExcitationTable | None, Variant("kind", EXCITATIONS)] = None
     cosimulation: Annotated[CosimulationTable, Table(CosimulationTable)] = field(
         default_factory=CosimulationTable
     )
+    question: Annotated[QuestionTable | None, Table(QuestionTable)] = None
 
     def __post_init__(self) -> None:
+        families = [each.name for each in fields(self) if each.name not in NOT_A_BEARING]
+        if all(getattr(self, name) is None for name in families):
+            raise InputError(f"{' or '.join(families)} is required and missing")
+        if self.journal is None:
+            return
+        if self.operation is None:
+            raise InputError("operation is required and missing: the journal has no speed and no load")
         if self.operation.load is None and self.rigid_rotor is None:
             raise InputError("operation.load is required where there is no [rigid_rotor], got neither")
 
@@ -81,22 +114,64 @@ class Scene:
             raise SceneError(f"{path}: scene file cannot be read: {reason}") from None
         return parse_scene(document, str(path))
 
-    def solve(self) -> Answer:
+    def solve(self) -> Answer | QuestionAnswer:
+        """Return the answer to the question, or `describe()` where none is asked."""
+        return self.describe() if self.question is None else self.ask()
+
+    def ask(self) -> QuestionAnswer:
+        """Return the answer to the question by the first rung that meets its tolerance.
+
+        Returns
+        -------
+        QuestionAnswer
+            With the whole ladder, also where no rung meets the tolerance: then `met` is false.
+
+        Raises
+        ------
+        InputError
+            If nothing is asked, or something that the scene's tables do not have.
+        RotorfilmError
+            If no rung has an answer.
+
+        Warns
+        -----
+        ValidityWarning
+            Where the physics of all rungs leaves out what matters in this scene.
+        """
+        answer = ask(self)
+        for remark in answer.remarks:
+            warn_user(f"left out: {remark}")
+        return answer
+
+    def describe(self) -> Answer:
         """Return equilibrium, coefficients and whirl threshold; see `rotorfilm.scenes.solve.solve`."""
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
-        return solve(self.bearing, load=self.static_load, speed=self.operation.speed, mass=mass)
+        return solve(self.bearing, load=self.static_load, speed=self.speed, mass=mass)
+
+    @property
+    def film_is_given(self) -> bool:
+        """Whether the file names the film, so that no other may answer."""
+        return self.journal is not None and self.journal.film is not None
+
+    @property
+    def speed(self) -> float:
+        """Angular speed about +z [rad/s]; raises InputError if the scene has no operation."""
+        return self._operation.speed
 
     @property
     def static_load(self) -> tuple[float, float]:
         """Whole static force on the journal, weight included [N]."""
-        if self.operation.load is not None:
-            return self.operation.load
-        assert self.rigid_rotor is not None  # checked in __post_init__
+        if self._operation.load is not None:
+            return self._operation.load
+        if self.rigid_rotor is None:
+            raise InputError("operation.load is required where there is no [rigid_rotor], got neither")
         return 0.0, -STANDARD_GRAVITY * self.rigid_rotor.mass
 
     @property
     def bearing(self) -> JournalBearing:
-        """The bearing with its film law."""
+        """The journal bearing with its film law; raises InputError if the scene has none."""
+        if self.journal is None:
+            raise InputError("journal is required for a film, got no such table")
         return self.journal.build()
 
     @property
@@ -104,7 +179,7 @@ class Scene:
         """The rotor under the static load; raises InputError if the scene has none."""
         if self.rigid_rotor is None:
             raise InputError("rigid_rotor is required for a transient and for a rotor FMU, got no such table")
-        return self.rigid_rotor.build(self.operation.speed, self.static_load)
+        return self.rigid_rotor.build(self.speed, self.static_load)
 
     @property
     def macro_step(self) -> float:
@@ -118,9 +193,15 @@ class Scene:
 
     def time_of(self, angle: float) -> float:
         """Return the time [s] in which the shaft turns by `angle` [rad]."""
-        if self.operation.speed == 0.0:
+        if self.speed == 0.0:
             raise InputError("operation.speed must not be zero for a run in turns of the shaft, got 0.0")
-        return angle / abs(self.operation.speed)
+        return angle / abs(self.speed)
+
+    @property
+    def _operation(self) -> OperationTable:
+        if self.operation is None:
+            raise InputError("operation is required for a speed and a load, got no such table")
+        return self.operation
 
 
 def parse_scene(document: str, source: str) -> Scene:
@@ -128,9 +209,16 @@ def parse_scene(document: str, source: str) -> Scene:
     try:
         data = tomllib.loads(document)
     except tomllib.TOMLDecodeError as error:
-        raise SceneError(f"{source}: not valid TOML: {error}") from None
-    _require_schema(source, data.pop("schema", None))
-    return read_table(Scene, f"{source}: ", data)
+        where = str(error).replace("end of document", f"line {len(document.splitlines())}, the last")
+        raise SceneError(f"{source}: not valid TOML: {where}") from None
+    return read_scene(data, source)
+
+
+def read_scene(data: Mapping[str, Any], source: str) -> Scene:
+    """Return the scene that the tables of a file describe; `source` names it in messages."""
+    tables = dict(data)
+    _require_schema(source, tables)
+    return read_table(Scene, f"{source}: ", tables)
 
 
 def bundled_scene() -> Scene:
@@ -139,7 +227,10 @@ def bundled_scene() -> Scene:
     return parse_scene(document, BUNDLED)
 
 
-def _require_schema(source: str, value: Any) -> None:
+def _require_schema(source: str, data: dict[str, Any]) -> None:
+    """Take the version out of the data; raise SceneError if it is not the one that is read here."""
+    value = data.pop("schema", None)
     if type(value) is not int or value != SCHEMA:
+        require_no_near_miss(f"{source}: ", "schema", data)
         found = "nothing" if value is None else repr(value)
         raise SceneError(f"{source}: schema must be {SCHEMA} (write `schema = {SCHEMA}`), got {found}")

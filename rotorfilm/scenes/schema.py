@@ -1,39 +1,24 @@
 """Schema 1 of scene files: the tables, their keys and their units.
 
-Each table checks its values by building what it describes. A later family adds a table to
-`rotorfilm.scenes.scene.Scene`, or a variant to a mapping of `film_tables`, and renames nothing.
+Each table checks its values by building what it describes. A later family has its table in a file of its own,
+registers it by one line in `rotorfilm.scenes.scene.Scene`, and renames nothing.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
-from typing import Annotated, Any
+from dataclasses import dataclass
+from typing import Annotated
 
 from ..bearings.journal import JournalBearing
-from ..errors import SceneError, require_finite, require_positive
-from ..linear.equilibrium import UNLOADED
+from ..errors import require_finite, require_positive
 from ..rotors.rigid import RigidRotor
 from .film_tables import FILMS, FilmTable, GrooveTable, MapFilmTable, PadTable
+from .readers import read_load
 from .tables import Quantity, TableList, Variant
 
 SCHEMA = 1
 """The version that a scene file states as `schema = 1`."""
-
-
-def read_load(where: str, value: Any) -> tuple[float, float]:
-    """Read a load [N]: one positive magnitude, which acts along -y, or the two components [x, y]."""
-    if isinstance(value, list):
-        if len(value) != 2:
-            raise SceneError(f"{where} must be one magnitude or two components [x, y], got {value!r}")
-        x, y = (Quantity("N")(f"{where}[{index}]", entry) for index, entry in enumerate(value))
-        return x, y
-    magnitude = Quantity("N")(where, value)
-    if magnitude == 0.0:
-        raise SceneError(f"{where} must not be zero, got {value!r}: {UNLOADED}")
-    if not magnitude > 0.0:
-        raise SceneError(f"{where} must be a positive magnitude or two components [x, y], got {value!r}")
-    return 0.0, -magnitude
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,8 +34,8 @@ class JournalTable:
     clearance : float [m]
         Radial clearance.
     viscosity : float [Pa s]
-    film : FilmTable
-        The film law; the map if the file does not say.
+    film : FilmTable or None
+        The film law; if the file does not say, the map, or what the question of the scene needs.
     pads : tuple of PadTable
         Where there is a bearing wall; empty for the full circumference.
     grooves : tuple of GrooveTable
@@ -63,7 +48,7 @@ class JournalTable:
     length: Annotated[float, Quantity("m")]
     clearance: Annotated[float, Quantity("m")]
     viscosity: Annotated[float, Quantity("Pa.s")]
-    film: Annotated[FilmTable, Variant("name", FILMS)] = field(default_factory=MapFilmTable)
+    film: Annotated[FilmTable | None, Variant("name", FILMS)] = None
     pads: Annotated[tuple[PadTable, ...], TableList(PadTable)] = ()
     grooves: Annotated[tuple[GrooveTable, ...], TableList(GrooveTable)] = ()
     supply_pressure: Annotated[float, Quantity("Pa")] = 0.0
@@ -78,7 +63,7 @@ class JournalTable:
             length=self.length,
             clearance=self.clearance,
             viscosity=self.viscosity,
-            film=self.film.build(),
+            film=(self.film or MapFilmTable()).build(),
             pads=tuple(pad.build() for pad in self.pads),
             grooves=tuple(groove.build() for groove in self.grooves),
             supply_pressure=self.supply_pressure,

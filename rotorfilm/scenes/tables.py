@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import difflib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NamedTuple, TypeVar, get_type_hints
 
 from ..errors import InputError, SceneError
@@ -14,6 +14,12 @@ Reader = Callable[[str, Any], Any]
 """Turns (where, value) into the value of a field; `where` is `FILE: dotted.key`, for the messages."""
 
 T = TypeVar("T")
+
+_SIMILAR = 0.4
+"""Similarity, of 1, from which a known key is worth a hint."""
+
+_SAME_WORD = 0.7
+"""Similarity from which an unknown key is the known one with a typo."""
 
 
 class Quantity(NamedTuple):
@@ -72,6 +78,7 @@ class Variant(NamedTuple):
         """Return the sub-table as the dataclass that its tag names."""
         data = dict(require_table(where, value))
         if self.tag not in data:
+            require_no_near_miss(f"{where}.", self.tag, data)
             raise SceneError(f"{where}.{self.tag} is required: one of {sorted(self.variants)}")
         variant = choose(f"{where}.{self.tag}", data.pop(self.tag), self.variants)
         return read_table(variant, f"{where}.", data)
@@ -106,10 +113,18 @@ def require_table(where: str, value: Any) -> Mapping[str, Any]:
     return value
 
 
-def nearest(name: object, known: Mapping[str, Any]) -> str:
+def nearest(name: object, known: Iterable[str]) -> str:
     """Return a hint with the known name nearest to `name`, or an empty string."""
-    close = difflib.get_close_matches(str(name), list(known), n=1)
-    return f"; did you mean {close[0]!r}?" if close else ""
+    by_small_letters = {key.lower(): key for key in known}
+    close = difflib.get_close_matches(str(name).lower(), by_small_letters, n=1, cutoff=_SIMILAR)
+    return f"; did you mean {by_small_letters[close[0]]!r}?" if close else ""
+
+
+def require_no_near_miss(where: str, tag: str, data: Mapping[str, Any]) -> None:
+    """Raise SceneError if a key looks like a misspelled tag."""
+    for key in data:
+        if difflib.SequenceMatcher(None, key.lower(), tag).ratio() >= _SAME_WORD:
+            raise SceneError(f"{where}{key} is no known key; did you mean {tag!r}?")
 
 
 def read_table(table: type[T], where: str, data: Any) -> T:

@@ -21,6 +21,7 @@ from rotorfilm.films import (
     SplittingFilm,
 )
 from rotorfilm.scenes import Scene, bundled_scene, parse_scene
+from rotorfilm.scenes.excitation_table import BladeLossTable, SineLoadTable, StepLoadTable, UnbalanceTable
 
 GOOD = """
 schema = 1
@@ -334,3 +335,76 @@ def test_binary_file_is_named(tmp_path):
     (tmp_path / "image.toml").write_bytes(b"\xff\xfe\x00")
     with pytest.raises(SceneError, match=r"image.toml: scene file cannot be read: it is not UTF-8 text"):
         Scene.load(tmp_path / "image.toml")
+
+
+@pytest.mark.parametrize(
+    ("lines", "expected"),
+    [
+        ('kind = "unbalance"\nunbalance = "2000 g mm"', UnbalanceTable(unbalance=2e-3)),
+        (
+            'kind = "blade_loss"\nunbalance = 1\nstart = "5 ms"\nrevolutions = 4',
+            BladeLossTable(unbalance=1.0, start=0.005, revolutions=4.0),
+        ),
+        ('kind = "step"\nload = "0.1 kN"\nend = 2', StepLoadTable(load=(0.0, -100.0), end=2.0)),
+        (
+            'kind = "sine"\nload = [1, 2]\nfrequency = "50 Hz"',
+            SineLoadTable(load=(1.0, 2.0), frequency=100.0 * math.pi),
+        ),
+    ],
+)
+def test_excitation_is_chosen_by_kind(lines, expected):
+    found = parse(f"{GOOD}[excitation]\n{lines}\n").excitation
+    assert type(found) is type(expected)
+    for name in vars(expected):
+        assert getattr(found, name) == pytest.approx(getattr(expected, name))
+
+
+def test_question_takes_a_tolerance_in_per_cent():
+    question = parse(f'{GOOD}[question]\nquantity = "stiffness"\ntolerance = "2 %"\n').question
+    assert (question.quantity, question.tolerance) == ("stiffness", pytest.approx(0.02))
+
+
+@pytest.mark.parametrize(
+    ("lines", "message"),
+    [
+        ('[excitation]\nkind = "stpe"', r"excitation.kind must be one of .*; did you mean 'step'\?"),
+        ('[excitation]\nkidn = "step"', r"excitation.kidn is no known key; did you mean 'kind'\?"),
+        ("[excitation]\nload = 1", r"excitation.kind is required: one of \['blade_loss'"),
+        (
+            '[excitation]\nkind = "step"\nload = 1\nstart = 2\nend = 1',
+            r"excitation.end must be after start, 2.0 s, got 1.0",
+        ),
+        (
+            '[excitation]\nkind = "sine"\nload = 1\nfrequency = 0',
+            "excitation.frequency must be finite and positive, got 0.0",
+        ),
+        (
+            '[excitation]\nkind = "unbalance"\nunbalance = 1\nnode = -1',
+            r"excitation.node must be a whole number, at least 0, got -1",
+        ),
+        (
+            '[question]\nquantity = "stifness"\ntolerance = 1',
+            r"question.quantity must be one of .*, got 'stifness'; did you mean 'stiffness'\?",
+        ),
+        (
+            '[question]\nquantity = "stiffness"\ntolerance = 0',
+            "question.tolerance must be finite and positive, got 0.0",
+        ),
+        ('[question]\nquantity = "stiffness"', "question.tolerance is required and missing"),
+    ],
+)
+def test_wrong_excitation_or_question_is_named(lines, message):
+    with pytest.raises(SceneError, match=f"case.toml: {message}"):
+        parse(f"{GOOD}{lines}\n")
+
+
+def test_scene_without_a_bearing_or_an_operation_is_refused():
+    with pytest.raises(SceneError, match=r"case.toml: .*journal.* is required and missing"):
+        parse("schema = 1\n[operation]\nspeed = 1\nload = 1\n")
+    with pytest.raises(SceneError, match=r"case.toml: operation is required and missing"):
+        parse(GOOD.partition("[operation]")[0])
+
+
+def test_typo_in_the_version_is_named():
+    with pytest.raises(SceneError, match=r"case.toml: shcema is no known key; did you mean 'schema'\?"):
+        parse(GOOD.replace("schema", "shcema"))

@@ -1,0 +1,68 @@
+"""A reaction that counts its evaluations: the work of a rung."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..bearings.reaction import StaticReaction
+from ..model import Array, Reaction, Tangent, prepared_tangent
+
+
+class Counted(StaticReaction):
+    """A static reaction, and how many forces and tangents it was asked for.
+
+    Parameters
+    ----------
+    reaction : Reaction
+        Without states.
+    """
+
+    def __init__(self, reaction: Reaction) -> None:
+        self._reaction = reaction
+        self.forces = 0
+        self.tangents = 0
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance [m]."""
+        return self._reaction.clearance
+
+    @property
+    def nominal_force(self) -> float:
+        """Nominal force [N]."""
+        return self._reaction.outputs[0].nominal
+
+    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+        """Return the force (2, ...) [N], one count for each state."""
+        result = self._reaction.force(position, velocity, speed)
+        self.forces += int(np.prod(result.shape[1:], dtype=int))
+        return result
+
+    def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
+        """Return d force/d(x, y, vx, vy, speed) (2, 5, ...), one count for each state."""
+        result = self._reaction.jacobian(position, velocity, speed)
+        self.tangents += int(np.prod(result.shape[2:], dtype=int))
+        return result
+
+    def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `force` for inner loops."""
+        return self.force(position, velocity, speed)
+
+    def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `jacobian` for inner loops."""
+        return self.jacobian(position, velocity, speed)
+
+    def prepare_tangent(self) -> Tangent:
+        """Return force and derivatives as a function of five numbers."""
+        call = prepared_tangent(self._reaction)
+
+        def tangent(
+            x: float, y: float, vx: float, vy: float, speed: float
+        ) -> tuple[float, float, Sequence[float]]:
+            self.tangents += 1
+            return call(x, y, vx, vy, speed)
+
+        return tangent

@@ -1,0 +1,380 @@
+"""The walk up a ladder: from the cheapest rung to the first whose estimated error meets the tolerance.
+
+A rung is any model, discretization or scheme that answers one question. It says what it did by counters of
+work; what a unit of work costs is measured in the same run.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from time import perf_counter
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+
+from ..errors import RotorfilmError, ValidityWarning, require_positive
+from ..model import Array
+
+SAFETY = 1.5
+"""An answer is accepted if so many times its estimated error is below the tolerance."""
+
+DISAGREEMENT = 0.3
+"""Largest relative difference of two propagations of a defect, beyond which neither is trusted."""
+
+REPEATS = 3
+"""Measurements of a unit of work, of which the shortest counts."""
+
+Work = Mapping[str, int]
+"""Units of work done, by name."""
+
+
+class Found(NamedTuple):
+    """What a rung answers.
+
+    Attributes
+    ----------
+    value : float or ndarray
+        In SI.
+    work : mapping of str to int
+    solution : object
+        What the rung's own error estimate starts from.
+    """
+
+    value: Any
+    work: Work
+    solution: Any = None
+
+
+class ErrorEstimate(NamedTuple):
+    """How far an answer is off, and how that is known.
+
+    Attributes
+    ----------
+    error : float [1]
+        In the unit of the tolerance.
+    method : str
+    work : mapping of str to int
+    bound : bool
+        Whether the error is at most this, rather than about this.
+    doubt : str
+        Why the estimate must not be trusted; empty if it may.
+    """
+
+    error: float
+    method: str
+    work: Work = {}  # noqa: RUF012  (never changed)
+    bound: bool = False
+    doubt: str = ""
+
+
+class Rung(Protocol):
+    """One way to answer a question."""
+
+    @property
+    def name(self) -> str:
+        """What it is called in print."""
+
+    @property
+    def prior(self) -> float:
+        """Order of magnitude of its error known beforehand [1]; 0 where nothing is known."""
+
+    def answer(self, before: Found | None) -> Found:
+        """Return its answer, from that of a lower rung or alone; raises RotorfilmError where it has none."""
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the error of its answer without running a richer model.
+
+        A verified bound is enough where it is below the tolerance. `before` is the answer of a lower rung.
+        """
+
+    def expected(self, done: Work) -> Work:
+        """Return the work of an answer, where a lower rung has done this much."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ladder:
+    """The rungs of one question, the cheapest first.
+
+    Attributes
+    ----------
+    rungs : tuple of Rung
+    units : mapping of str to callable
+        By the name of a unit of work, a call that does one; work without one is timed while it is done.
+    unit : str
+        Of the value.
+    nominal : mapping of str to float [s]
+        Costs of units that are too dear to be tried for a prediction.
+    remarks : tuple of str
+        What the physics of all rungs leaves out and should not.
+    """
+
+    rungs: tuple[Rung, ...]
+    unit: str
+    units: Mapping[str, Callable[[], object]] = field(default_factory=dict)
+    nominal: Mapping[str, float] = field(default_factory=dict)
+    remarks: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class RungReport:
+    """What became of one rung.
+
+    Attributes
+    ----------
+    name : str
+    verdict : str
+        "chosen", "refused", "skipped" or "not needed".
+    reason : str
+        Why.
+    value : object
+        None where it was not asked, or had no answer.
+    error_estimate : float or None [1]
+    bound : bool
+        Whether the error is at most the estimate, rather than about it.
+    doubtful : bool
+        Whether the estimate contradicts itself.
+    method : str
+        Of the estimate.
+    cost, estimate_cost : float or None [s]
+        Of the answer and of the estimate; work times the cost of its units.
+    work : dict of str to int
+        Of the answer.
+    """
+
+    name: str
+    verdict: str
+    reason: str = ""
+    value: Any = None
+    error_estimate: float | None = None
+    bound: bool = False
+    doubtful: bool = False
+    method: str = ""
+    cost: float | None = None
+    estimate_cost: float | None = None
+    work: dict[str, int] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, kw_only=True)
+class QuestionAnswer:
+    """The answer to the question of a scene.
+
+    Attributes
+    ----------
+    quantity : str
+    value : float or ndarray
+        In SI.
+    unit : str
+        Of the value.
+    error_estimate : float [1]
+        In the unit of the tolerance.
+    tolerance : float [1]
+    met : bool
+        Whether the estimate, with its margin, is below the tolerance.
+    model : str
+        The rung that answered; where none meets the tolerance, the one with the smallest estimate.
+    cost, estimate_cost : float [s]
+        Of its answer and of its estimate.
+    total_cost : float [s]
+        Of all that was tried.
+    next_model : str or None
+        The rung above it.
+    next_cost : float or None [s]
+        What that would have cost.
+    rungs : tuple of RungReport
+        The whole ladder, the cheapest first.
+    remarks : tuple of str
+        Limits of the physics of all rungs, in dimensionless numbers.
+    """
+
+    quantity: str
+    value: Any
+    unit: str
+    error_estimate: float
+    tolerance: float
+    met: bool
+    model: str
+    cost: float
+    estimate_cost: float
+    total_cost: float
+    next_model: str | None
+    next_cost: float | None
+    rungs: tuple[RungReport, ...]
+    remarks: tuple[str, ...]
+
+    @property
+    def message(self) -> str:
+        """One line that says whether the tolerance is met."""
+        about = f"{self.error_estimate:.2g}"
+        if self.met:
+            return f"{self.model} meets the tolerance {self.tolerance:.3g}: estimated error {about}"
+        return (
+            f"no rung meets the tolerance {self.tolerance:.3g}; the closest is {self.model}, off by {about}"
+        )
+
+
+class Meter:
+    """Costs of work: units are measured once, when they are first needed."""
+
+    def __init__(self, ladder: Ladder) -> None:
+        self._units = ladder.units
+        self._nominal = ladder.nominal
+        self._costs: dict[str, float] = {}
+
+    def timed(self, call: Callable[[], Any]) -> tuple[Any, float]:
+        """Return what a call returns, and how long it took [s]."""
+        begin = perf_counter()
+        result = call()
+        return result, perf_counter() - begin
+
+    def cost(self, work: Work, seconds: float) -> float:
+        """Return the cost of work [s] that took so long; units without a call share the time."""
+        unknown = sum(number for unit, number in work.items() if unit not in self._units)
+        for unit in work:
+            if unit not in self._units and unknown:
+                self._costs[unit] = seconds / unknown
+        return self.predict(work)
+
+    def predict(self, work: Work) -> float:
+        """Return the cost of work not done yet [s]; nan where a unit was never seen."""
+        return sum(number * self._unit(unit) for unit, number in work.items())
+
+    def _unit(self, unit: str) -> float:
+        if unit not in self._costs and unit in self._units:
+            call = self._units[unit]
+            self._costs[unit] = min(self.timed(call)[1] for _ in range(REPEATS))
+        return self._costs.get(unit, self._nominal.get(unit, math.nan))
+
+
+def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
+    """Return the answer of the first rung that meets the tolerance.
+
+    Parameters
+    ----------
+    quantity : str
+    ladder : Ladder
+    tolerance : float [1]
+
+    Raises
+    ------
+    InputError
+        If the tolerance is not positive.
+    RotorfilmError
+        What the last rung raised, if none has an answer.
+
+    Notes
+    -----
+    Which rung answers depends on the tolerance through one comparison per rung only, so that a tighter one
+    never chooses a rung with a larger estimate.
+    """
+    require_positive("tolerance", tolerance)
+    meter = Meter(ladder)
+    reports: list[RungReport] = []
+    failure: RotorfilmError | None = None
+    before: Found | None = None
+    for rung in ladder.rungs:
+        if reports and reports[-1].verdict == "chosen":
+            break
+        beaten = _refused_more_accurate(rung, reports)
+        if beaten is not None:
+            reports.append(RungReport(name=rung.name, verdict="skipped", reason=beaten))
+            continue
+        try:
+            report, before = _tried(rung, before, meter, tolerance)
+            reports.append(report)
+        except RotorfilmError as error:
+            failure = error
+            reports.append(RungReport(name=rung.name, verdict="refused", reason=str(error)))
+    return _answer(quantity, ladder, meter, reports, tolerance, failure)
+
+
+def _tried(rung: Rung, before: Found | None, meter: Meter, tolerance: float) -> tuple[RungReport, Found]:
+    with warnings.catch_warnings():
+        # A rung outside its range is judged by its error, not by its warnings.
+        warnings.simplefilter("ignore", ValidityWarning)
+        found, seconds = meter.timed(lambda: rung.answer(before))
+        cost = meter.cost(found.work, seconds)
+        about, seconds = meter.timed(lambda: rung.estimate(found, before, tolerance))
+        estimate_cost = meter.cost(about.work, seconds)
+    reason = _why_refused(about, tolerance)
+    report = RungReport(
+        name=rung.name,
+        verdict="refused" if reason else "chosen",
+        reason=reason,
+        value=found.value,
+        error_estimate=about.error,
+        bound=about.bound,
+        doubtful=bool(about.doubt),
+        method=about.method,
+        cost=cost,
+        estimate_cost=estimate_cost,
+        work=dict(found.work),
+    )
+    return report, found
+
+
+def _why_refused(about: ErrorEstimate, tolerance: float) -> str:
+    if about.doubt:
+        return about.doubt
+    if SAFETY * about.error < tolerance:
+        return ""
+    return f"{SAFETY:g} x {about.error:.2g} is above the tolerance {tolerance:.3g}"
+
+
+def _refused_more_accurate(rung: Rung, reports: Sequence[RungReport]) -> str | None:
+    """Return why a rung need not be tried: one that is known to be closer was refused."""
+    for report in reports:
+        if not report.doubtful and rung.prior >= (report.error_estimate or math.inf):
+            return f"known to be off by about {rung.prior:.0e}; {report.name} is closer and was refused"
+    return None
+
+
+def _answer(
+    quantity: str,
+    ladder: Ladder,
+    meter: Meter,
+    reports: list[RungReport],
+    tolerance: float,
+    failure: RotorfilmError | None,
+) -> QuestionAnswer:
+    tried = [report for report in reports if report.error_estimate is not None]
+    if not tried:
+        assert failure is not None  # a ladder has at least one rung, and that was asked
+        raise failure
+    best = tried[-1]
+    if best.verdict != "chosen":
+        best = min(reversed(tried), key=_trusted_error)
+    above = ladder.rungs[len(reports) :]
+    upper = above[0] if best.verdict == "chosen" and above else None
+    next_cost = meter.predict(upper.expected(best.work)) if upper is not None else math.nan
+    waiting = [RungReport(name=rung.name, verdict="not needed") for rung in above]
+    return QuestionAnswer(
+        quantity=quantity,
+        value=best.value,
+        unit=ladder.unit,
+        error_estimate=float(best.error_estimate or 0.0),
+        tolerance=tolerance,
+        met=best.verdict == "chosen",
+        model=best.name,
+        cost=float(best.cost or 0.0),
+        estimate_cost=float(best.estimate_cost or 0.0),
+        total_cost=float(np.nansum([[each.cost, each.estimate_cost] for each in tried])),
+        next_model=upper.name if upper is not None else None,
+        next_cost=next_cost if math.isfinite(next_cost) else None,
+        rungs=(*reports, *waiting),
+        remarks=ladder.remarks,
+    )
+
+
+def _trusted_error(report: RungReport) -> float:
+    """Return the error by which the closest of refused rungs is found: one in doubt comes last."""
+    error = report.error_estimate
+    return math.inf if error is None or report.doubtful or not math.isfinite(error) else error
+
+
+def largest_relative(value: Array | float, other: Array | float) -> float:
+    """Return the largest difference of two values relative to the largest entry of the first [1]."""
+    scale = float(np.max(np.abs(value)))
+    return float(np.max(np.abs(np.asarray(other) - np.asarray(value)))) / scale if scale else math.inf

@@ -1,0 +1,60 @@
+"""`[question]`: the quantity that is asked for, and how accurate it must be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from ..errors import SceneError, require_positive
+from .tables import Quantity, nearest
+
+QUANTITIES = {
+    "eccentricity_ratio": "static eccentricity / clearance",
+    "minimum_film": "smallest film thickness at rest, or in a contact [m]",
+    "attitude_angle": "from the load line to the journal [rad]",
+    "stiffness": "K of a film at its equilibrium [N/m]",
+    "damping": "C of a film at its equilibrium [N s/m]",
+    "whirl_threshold": "speed at which the rotor begins to whirl [rad/s]",
+    "critical_speed": "first critical speed of a rotor, or speed at which a bush melts [rad/s]",
+    "unbalance_amplitude": "largest semi-axis of the synchronous orbit [m]",
+    "unbalance_phase": "of the synchronous orbit after the unbalance [rad]",
+    "unbalance_force": "largest force on the bearing in the synchronous orbit [N]",
+    "blade_loss_peak": "largest distance from the bearing center after a blade is lost [m]",
+    "jump_up": "unbalance at which the orbit in a damper jumps to the larger one [kg m]",
+    "jump_down": "unbalance at which the orbit in a damper falls to the smaller one [kg m]",
+    "transmissibility": "force on the housing / centrifugal force of the unbalance",
+    "central_film": "film thickness in the middle of a contact, the smallest over time [m]",
+    "approach": "of a ball towards its plane, the largest over time [m]",
+    "wear": "settlement of a bush at the end of its run [m]",
+    "cosimulation_error": "largest distance of coupled and monolithic orbit / clearance",
+}
+"""What a scene may ask for; the families that answer are listed in docs/scenes.md."""
+
+
+def read_quantity(where: str, value: Any) -> str:
+    """Read the name of a quantity."""
+    if not isinstance(value, str) or value not in QUANTITIES:
+        raise SceneError(
+            f"{where} must be one of {', '.join(QUANTITIES)}, got {value!r}{nearest(value, QUANTITIES)}"
+        )
+    return value
+
+
+@dataclass(frozen=True, kw_only=True)
+class QuestionTable:
+    """`[question]`: what is asked.
+
+    Parameters
+    ----------
+    quantity : str
+        A key of `QUANTITIES`.
+    tolerance : float [1]
+        Largest error allowed, relative to the quantity; of a matrix to its largest entry, of the error of a
+        co-simulation to the clearance, of an angle to 1 rad.
+    """
+
+    quantity: Annotated[str, read_quantity]
+    tolerance: Annotated[float, Quantity("1")]
+
+    def __post_init__(self) -> None:
+        require_positive("tolerance", self.tolerance)

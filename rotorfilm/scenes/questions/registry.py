@@ -1,0 +1,51 @@
+"""Which family answers which quantity: a family adds one line per quantity."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from ...errors import InputError
+from ..ladder import Ladder, QuestionAnswer, walk
+from .statics import UNITS, static_ladder
+from .whirl import whirl_ladder
+
+if TYPE_CHECKING:
+    from ..scene import Scene
+
+LadderOf = Callable[["Scene", str], Ladder]
+
+LADDERS: dict[tuple[str, str], LadderOf] = {
+    **{("journal", quantity): static_ladder for quantity in UNITS},
+    ("journal", "whirl_threshold"): whirl_ladder,
+}
+"""Builders of ladders by table of the scene and quantity, in the order in which they are tried."""
+
+
+def ladder_of(scene: Scene) -> Ladder:
+    """Return the ladder of a scene's question.
+
+    Raises
+    ------
+    InputError
+        If the scene asks nothing, or no table of it has the quantity.
+    """
+    if scene.question is None:
+        raise InputError("question is required for a ladder, got no such table")
+    quantity = scene.question.quantity
+    for (table, name), build in LADDERS.items():
+        if name == quantity and getattr(scene, table, None) is not None:
+            return build(scene, quantity)
+    tables = sorted({table for table, name in LADDERS if name == quantity})
+    known = sorted({name for table, name in LADDERS if getattr(scene, table, None) is not None})
+    raise InputError(
+        f"question.quantity must be one that this scene has ({', '.join(known)}), got {quantity!r}, "
+        f"which needs [{'] or ['.join(tables)}]"
+    )
+
+
+def ask(scene: Scene) -> QuestionAnswer:
+    """Return the answer to a scene's question; see `rotorfilm.scenes.ladder.walk`."""
+    ladder = ladder_of(scene)
+    assert scene.question is not None  # checked above
+    return walk(scene.question.quantity, ladder, scene.question.tolerance)
