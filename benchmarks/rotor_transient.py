@@ -3,7 +3,7 @@
 A blade is lost at t = 0: the rotor rests in its films and its unbalance begins to act. Error: largest
 distance of a journal from the converged motion over 20 turns, in clearances; reference: `simulate_rotor` at
 rtol 1e-12, which scipy's Radau at its tightest confirms. The right-hand side for scipy is what a competent
-user writes: one matrix product, the unbalance, and the C force of each film called with numbers; with the exact
+user writes: one matrix product, the unbalance, the C force of each film called with numbers; with the exact
 Jacobian. Ratios are taken at equal error, by interpolation of the work-precision line of each method. ROSS's
 Newmark method, where installed, has the same matrices and runs over 2 turns. Times are of the processor.
 

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from llvmlite import ir
-from numba import carray, cfunc, types
+from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
@@ -27,16 +27,13 @@ from ..films.map import BoundMap
 from ..model import Reaction
 from ..native import Status
 from ..native.library import functions
-from .short_kernel import short_tangent
+from .short_kernel import linear_bearing, short_bearing
 
 CONTACT = int(Status.CONTACT)
 UNDEFINED = int(Status.UNDEFINED)
 OUTSIDE = int(Status.OUTSIDE)
 NOT_FINITE = int(Status.NOT_FINITE)
 
-_SIGNATURE = types.int32(
-    types.voidptr, types.CPointer(types.float64), types.CPointer(types.float64), types.CPointer(types.float64)
-)
 _CALLBACK = CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double))
 
 
@@ -68,10 +65,10 @@ def film_call(reaction: Reaction) -> FilmCall:
             return FilmCall(address=address, data=ctypes.addressof(struct), owner=bound)
         if type(reaction.fitted_film) is ShortFilm:
             values = np.array([reaction.clearance, 4.0 * reaction.slenderness**2 * reaction.force_scale])
-            return FilmCall(address=_short.address, data=values.ctypes.data, owner=values)
+            return FilmCall(address=short_bearing.address, data=values.ctypes.data, owner=values)
     if type(reaction) is LinearBearing:
         values = np.concatenate([np.ravel(reaction.stiffness), np.ravel(reaction.damping)])
-        return FilmCall(address=_linear.address, data=values.ctypes.data, owner=values)
+        return FilmCall(address=linear_bearing.address, data=values.ctypes.data, owner=values)
     return _called_back(reaction)
 
 
@@ -94,26 +91,6 @@ def _called_back(reaction: Reaction) -> FilmCall:
 
     function = _CALLBACK(answer)
     return FilmCall(address=ctypes.cast(function, c_void_p).value or 0, data=0, owner=(function, reaction))
-
-
-@cfunc(_SIGNATURE, cache=True)
-def _short(data, state, force, jacobian):  # type: ignore[no-untyped-def]
-    of = carray(data, (2,), np.float64)
-    return short_tangent(of[0], of[1], state, force, jacobian)
-
-
-@cfunc(_SIGNATURE, cache=True)
-def _linear(data, state, force, jacobian):  # type: ignore[no-untyped-def]
-    of = carray(data, (8,), np.float64)
-    for i in range(2):
-        k0, k1, c0, c1 = of[2 * i], of[2 * i + 1], of[4 + 2 * i], of[5 + 2 * i]
-        force[i] = -k0 * state[0] - k1 * state[1] - c0 * state[2] - c1 * state[3]
-        jacobian[5 * i] = -k0
-        jacobian[5 * i + 1] = -k1
-        jacobian[5 * i + 2] = -c0
-        jacobian[5 * i + 3] = -c1
-        jacobian[5 * i + 4] = 0.0
-    return 0
 
 
 @intrinsic

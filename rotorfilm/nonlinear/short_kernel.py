@@ -1,4 +1,6 @@
-"""The short-bearing film in closed form, compiled: force and exact derivatives of one state.
+"""The short-bearing film in closed form, compiled, and springs: force and exact derivatives of one state.
+
+Everything is in one file, because numba compiles anew only what lies in a file that changed.
 
 With n = w/|w|, m = z^ x n, a = e.n, b = e.m the film on the half circle that turns with the source w has the
 potential J = -(k/2) |w|^2 I(a, b), and its force is dJ/dw = -(k/2) |w| (2 I n + I' m), where a prime turns n:
@@ -14,11 +16,16 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
+from numba import carray, cfunc, njit, types
 
 CONTACT = 3
 UNDEFINED = 2
 ROUNDOFF = 1e-14
+
+SIGNATURE = types.int32(
+    types.voidptr, types.CPointer(types.float64), types.CPointer(types.float64), types.CPointer(types.float64)
+)
+"""Of every film behind an address: bearing, state, force, jacobian."""
 
 
 @njit(cache=True)
@@ -87,8 +94,23 @@ def _turned(along, across, nx, ny):  # type: ignore[no-untyped-def]
     return along * nx - across * ny, along * ny + across * nx
 
 
-def short_force(clearance: float, scale: float, state: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:
-    """Return force (2,), jacobian (2, 5) and status of one state (5,)."""
-    force, jacobian = np.zeros(2), np.zeros(10)
-    status = short_tangent(clearance, scale, state, force, jacobian)
-    return force, jacobian.reshape(2, 5), int(status)
+@cfunc(SIGNATURE, cache=True)
+def short_bearing(data, state, force, jacobian):  # type: ignore[no-untyped-def]
+    """Answer as a film behind an address; the bearing is its clearance and scale."""
+    of = carray(data, (2,), np.float64)
+    return short_tangent(of[0], of[1], state, force, jacobian)
+
+
+@cfunc(SIGNATURE, cache=True)
+def linear_bearing(data, state, force, jacobian):  # type: ignore[no-untyped-def]
+    """Answer as springs and dampers behind an address; the bearing is K and C row by row."""
+    of = carray(data, (8,), np.float64)
+    for i in range(2):
+        k0, k1, c0, c1 = of[2 * i], of[2 * i + 1], of[4 + 2 * i], of[5 + 2 * i]
+        force[i] = -k0 * state[0] - k1 * state[1] - c0 * state[2] - c1 * state[3]
+        jacobian[5 * i] = -k0
+        jacobian[5 * i + 1] = -k1
+        jacobian[5 * i + 2] = -c0
+        jacobian[5 * i + 3] = -c1
+        jacobian[5 * i + 4] = 0.0
+    return 0
