@@ -158,7 +158,7 @@ def main() -> None:
                 f"| {1e3 * users:.0f} | {users / own:.0f} |"
             )
             rows.append((own, cost, users))
-            labels.append(f"{name}\nerror {target:g}")
+            labels.append(f"{name}\nerror {target:g}".replace(", ", "\n"))
         print(f"  largest multiplier {abs(orbit.multipliers[0]):.4f}, amplitude {orbit.amplitude:.3f}")
     if len(sys.argv) > 1:
         chart(rows, labels, Path(sys.argv[1]))
@@ -176,7 +176,7 @@ def chart(rows: list[tuple[float, float]], labels: list[str], path: Path) -> Non
     ):
         axes.bar(at + offset, [1e3 * row[k] for row in rows], 0.25, label=label)
     axes.set_yscale("log")
-    axes.set_xticks(at, labels)
+    axes.set_xticks(at, labels, fontsize=8)
     axes.set_ylabel("processor time [ms]")
     axes.legend()
     figure.savefig(path, dpi=150)

@@ -57,7 +57,7 @@ class FilmCall(NamedTuple):
 
 def film_call(reaction: Reaction) -> FilmCall:
     """Return the compiled force of a reaction without states."""
-    if isinstance(reaction, JournalBearing):
+    if type(reaction) is JournalBearing:
         bound = reaction._bound
         if isinstance(bound, BoundMap):
             struct = bound.kernel._struct
