@@ -23,7 +23,7 @@ from rotorfilm.fmu import CheckItem, check_fmu, export_fmu
 from rotorfilm.signals import to_fmi_name
 
 HERE = Path(__file__).parent
-RECIPES = ("journal", "rotor")
+RECIPES = ("journal", "rotor", "flexible_rotor", "bush", "worn_bush")
 VERSIONS = ("2.0", "3.0")
 
 TOLERANCE = 1e-8
