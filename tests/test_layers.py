@@ -15,6 +15,7 @@ LAYERS = [
     ["films"],
     ["bearings", "rotors"],
     ["linear", "reduce", "transient", "orbits", "cosim", "fmu"],
+    ["nonlinear"],
     ["ladders"],
     ["scenes", "charts"],
     ["sweeps"],

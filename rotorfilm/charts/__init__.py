@@ -19,12 +19,14 @@ from .rotor import (
     plot_mode_shape,
     plot_unbalance_response,
 )
+from .whirl import plot_basin, plot_orbit_curves
 from .whirl_verdicts import plot_journal_stability, plot_thresholds
 from .work_precision import plot_force_error, plot_journal_accuracy
 
 __all__ = [
     "new_axes",
     "new_figure",
+    "plot_basin",
     "plot_bistable",
     "plot_bush_tiers",
     "plot_campbell",
@@ -46,6 +48,7 @@ __all__ = [
     "plot_locus",
     "plot_log_decrement",
     "plot_mode_shape",
+    "plot_orbit_curves",
     "plot_orbits",
     "plot_phase",
     "plot_shaft_flux_error",
