@@ -17,6 +17,7 @@ from . import console
 from .chart_commands import chart_app
 from .cli_cosim import COSIM_EXAMPLE, cosim
 from .cli_damper import DAMPER_EXAMPLE, damper
+from .cli_rotor import ROTOR_EXAMPLE, rotor
 from .cli_sweep import SWEEP_EXAMPLE, sweep
 from .errors import InputError, RotorfilmError, SceneError
 
@@ -115,6 +116,13 @@ def solve(
         return
     if explain:
         raise InputError(f"--explain must be given with a scene that has a [question], got {str(scene)!r}")
+    if loaded.bush is not None and loaded.journal is None:
+        melting = loaded.melting()
+        if json:
+            console.print_json(melting)
+            return
+        console.print_bush(melting)
+        return
     _make_map(loaded.bearing)
     answer = loaded.describe()
     if json:
@@ -205,7 +213,8 @@ def build(
     from .scenes.export import export_scene
 
     loaded = Scene.load(scene)
-    _make_map(loaded.bearing)
+    if loaded.damper is None:
+        _make_map(loaded.bearing)
     made = export_scene(
         loaded,
         out,
@@ -275,7 +284,7 @@ def groove_map(
     json: Json = False,
 ) -> None:
     """Make the map of a bearing with grooves or pads; all of its shape and resolution find it on disk."""
-    from .films.groove_cache import cache_folder
+    from .films.table_cache import cache_folder
 
     options = {"--slenderness": slenderness, "--groove": groove, "--cells": cells, "--nodes": nodes}
     if scene is None:
@@ -353,6 +362,7 @@ def demo(
 
 app.command(epilog=COSIM_EXAMPLE)(cosim)
 app.command(epilog=DAMPER_EXAMPLE)(damper)
+app.command(epilog=ROTOR_EXAMPLE)(rotor)
 app.command(epilog=SWEEP_EXAMPLE)(sweep)
 
 

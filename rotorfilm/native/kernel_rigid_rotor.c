@@ -50,7 +50,7 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
         return NULL;
     }
     self->inputs = rf_find_table(tables, "law", 1, why) ? LAW_INPUTS : 2;
-    const rf_sizes mine = {self->profile.points == 1 ? PARAMETERS : SPEED, self->inputs, 5, 4};
+    const rf_sizes mine = {self->profile.points == 1 ? PARAMETERS : SPEED, self->inputs, 5, 4, 0};
     *sizes = mine;
     return self;
 }

@@ -14,6 +14,7 @@ from .parts import (
     ShaftElement,
     Station,
     Support,
+    TiltSpring,
     Unbalance,
 )
 from .profile import SpeedProfile
@@ -47,6 +48,7 @@ __all__ = [
     "Station",
     "SteadyRotor",
     "Support",
+    "TiltSpring",
     "Unbalance",
     "cowper_coefficient",
     "mount",

@@ -11,6 +11,7 @@ from ..linear import equilibrium
 from ..model import Model
 from ..rotors.law_rotor import LawRotor
 from ..rotors.rigid import RigidRotor
+from .damper_runs import export_damper
 from .scene import Scene
 
 
@@ -50,6 +51,8 @@ def export_scene(
 ) -> ExportedScene:
     """Write `film.fmu` and `rotor.fmu`, both starting at the static equilibrium.
 
+    Of a scene with a damper these are `damper.fmu`, springs included, and `rotor.fmu`, at rest in the center.
+
     Parameters
     ----------
     scene : Scene
@@ -68,6 +71,9 @@ def export_scene(
     FmuError
         If a model cannot be exported.
     """
+    if scene.damper is not None:
+        turning, damper = export_damper(scene, folder, version, backend=backend, platforms=platforms)
+        return ExportedScene(film=damper, rotor=turning)
     rotor = resting_rotor(scene)
     start = {"x": rotor.position[0], "y": rotor.position[1], "speed": scene.speed}
 

@@ -11,12 +11,9 @@ from rotorfilm.fmu.described import knowns_of, references_of, unknowns_of
 from rotorfilm.fmu.instance import extracted, instantiated
 from rotorfilm.rotors import (
     ForceLaw,
-    JeffcottRotor,
     LawRotor,
     RigidRotor,
     RigidShaft,
-    SpeedProfile,
-    SteadyRotor,
 )
 from rotorfilm.rotors.force_law import held_law, law_inputs
 
@@ -29,7 +26,6 @@ SHAFT = RigidShaft(
     unbalances=((0.1, 1.5e-3, 0.3),),
     stations=(("left", -0.4), ("right", 0.3)),
 )
-JEFFCOTT = JeffcottRotor(mass=40.0, journal_mass=1.0, stiffness=5e6, speed=-120.0, unbalance=1e-3)
 
 
 def random_inputs(model, seed=3):
@@ -145,20 +141,3 @@ def test_a_law_is_evaluated_by_its_definition():
 def test_a_rotor_without_the_stations_is_refused():
     with pytest.raises(InputError, match="rotor must have the inputs"):
         LawRotor(rotor=RIGID, stations=("left",))
-
-
-@pytest.mark.parametrize("rotor", [RIGID, SHAFT, JEFFCOTT], ids=["rigid", "shaft", "jeffcott"])
-def test_a_steady_rotor_is_the_rotor(rotor):
-    steady = SteadyRotor(rotor=rotor)
-    n, u = len(rotor.states), random_inputs(rotor)
-    turned = 0.037 * rotor.speed
-    x = np.concatenate([random_state(rotor), [1.0, np.cos(turned), np.sin(turned)]])
-    assert_allclose(steady.derivative(0.0, x, u)[:n], rotor.derivative(0.037, x[:n], u), rtol=1e-9, atol=1e-9)
-    assert_allclose(steady.output(0.0, x, u), rotor.output(0.037, x[:n], u), rtol=1e-12)
-    assert_allclose(steady.initial_state[:n], rotor.initial_state)
-    assert steady.native().kernel == "linear"
-
-
-def test_a_rotor_that_runs_up_is_not_steady():
-    with pytest.raises(InputError, match="rotor must have a constant speed"):
-        SteadyRotor(rotor=RigidRotor(mass=1.0, speed=SpeedProfile(times=(0.0, 1.0), speeds=(1.0, 2.0))))
