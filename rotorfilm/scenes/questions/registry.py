@@ -7,7 +7,10 @@ from typing import TYPE_CHECKING
 
 from ...errors import InputError
 from ..ladder import Ladder, QuestionAnswer, walk
-from .statics import UNITS, static_ladder
+from .orbits import UNITS as ORBITS
+from .orbits import orbit_ladder
+from .statics import UNITS as STATICS
+from .statics import static_ladder
 from .whirl import whirl_ladder
 
 if TYPE_CHECKING:
@@ -16,7 +19,8 @@ if TYPE_CHECKING:
 LadderOf = Callable[["Scene", str], Ladder]
 
 LADDERS: dict[tuple[str, str], LadderOf] = {
-    **{("journal", quantity): static_ladder for quantity in UNITS},
+    **{("journal", quantity): static_ladder for quantity in STATICS},
+    **{("journal", quantity): orbit_ladder for quantity in ORBITS},
     ("journal", "whirl_threshold"): whirl_ladder,
 }
 """Builders of ladders by table of the scene and quantity, in the order in which they are tried."""
