@@ -42,6 +42,14 @@ def draw_rotor(axes: Axes) -> None:
     axes.add_patch(Circle((0, 0.52), 0.12, color=OIL))
 
 
+def draw_rotor_system(axes: Axes) -> None:
+    """Draw the same in two films."""
+    for x in (-0.8, 0.52):
+        axes.add_patch(Rectangle((x, -0.42), 0.28, 0.84, color=INK))
+        axes.add_patch(Rectangle((x, -0.22), 0.28, 0.44, color=OIL))
+    draw_rotor(axes)
+
+
 def draw_linear(axes: Axes) -> None:
     """Draw a block with a step response."""
     axes.add_patch(Rectangle((-0.9, -0.75), 1.8, 1.5, facecolor="white", edgecolor=INK, lw=2))
@@ -55,6 +63,7 @@ DRAWN = {
     "journal": draw_journal,
     "linear": draw_linear,
     "rigid_rotor": draw_rotor,
+    "rotor_system": draw_rotor_system,
 }
 
 

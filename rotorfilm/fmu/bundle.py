@@ -23,7 +23,7 @@ API = f"{PACKAGE}.fmu.pythonfmu_api"
 LIBRARY = f"{PACKAGE}.native"
 """What a module imports that calls the compiled library."""
 
-COMPANIONS = ("films/data/*", "native/*.so", "native/*.dylib", "native/*.dll")
+COMPANIONS = ("films/data/*", "native/rotorfilm.so", "native/rotorfilm.dylib", "native/rotorfilm.dll")
 """Files, below the package, that such a module reads at run time.
 
 They go along where the model, or a user's module, names such a module, not wherever the import closure holds

@@ -116,6 +116,24 @@ KERNELS = {
             "wall: the bearing's film ends the motion there."
         ),
     },
+    "rotor_system": {
+        "Model": (
+            "A rotor and the film bearings it runs in, as one system. x and y are Cartesian, rotation is "
+            "positive about +z (from x to y); a film force acts on the journal. With the angular speed w, "
+            "the angle p(t) turned, w = dp/dt, a = dw/dt, and the motion of the journals in their housings:"
+        ),
+        "Equations": (
+            "q'' = (steady + w spin) (q, q') + push u + carry f + weight\n"
+            "      + unbalance (w^2 cos p + a sin p, w^2 sin p - a cos p)\n"
+            "f = film force of each bearing at (motion (q, q'), w)"
+        ),
+        "Validity": (
+            "Small displacements of the rotor, a speed given over time (piecewise linear); each film as the "
+            "FMU of that bearing says. q are the coordinates of the rotor, reduced or not. Co-Simulation "
+            "integrates rotor and films together by RODAS, of order 4, L-stable, with the exact Jacobian: no "
+            "macro step is too long for stability. A step that ends at the wall is discarded."
+        ),
+    },
     "linear": {
         "Model": "Linear time-invariant system, exported from python-control.",
         "Equations": "dx/dt = A x + B u\ny = C x + D u",

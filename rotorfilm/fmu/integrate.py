@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.integrate import DOP853
+from scipy.integrate import DOP853, OdeSolver, Radau
 
-from ..errors import ConvergenceError
+from ..errors import ConvergenceError, FilmContactError
 from ..model import Array, Dynamic, stops
 
 RELATIVE_TOLERANCE = 1e-10
@@ -14,6 +14,15 @@ RELATIVE_TOLERANCE = 1e-10
 MAX_STEPS = 10_000
 """Substeps within one macro step beyond which the model counts as not integrable."""
 
+MOST_EXPLICIT = 200
+"""Substeps of the explicit method after which the model counts as stiff."""
+
+FINEST_IMPLICIT = 1e-9
+"""Tolerance of the implicit method, whose order is lower."""
+
+RETREAT = 0.25
+"""Part of a step that is tried next, after one that went to the wall."""
+
 
 def advance(
     model: Dynamic, t: float, x: Array, u: Array, step: float, tolerance: float = RELATIVE_TOLERANCE
@@ -21,7 +30,8 @@ def advance(
     """Return the state at t + step under the constant input u.
 
     Dormand and Prince's method of order 8 with error control (Hairer, Norsett & Wanner 1993, II.10), started
-    with the whole step and stopped at the kinks of a `Kinked` model.
+    with the whole step and stopped at the kinks of a `Kinked` model; Radau's implicit method of order 5
+    where that one fails, as on a rotor in a stiff film.
 
     Parameters
     ----------
@@ -47,6 +57,37 @@ def advance(
 
 
 def _integrate(model: Dynamic, t: float, x: Array, u: Array, end: float, tolerance: float) -> Array:
+    try:
+        return _explicit(model, t, x, u, end, tolerance)
+    except (FilmContactError, ConvergenceError):
+        # A stiff film throws a step of the explicit method at the wall, or holds it up.
+        return _implicit(model, t, x, u, end, max(tolerance, FINEST_IMPLICIT))
+
+
+def _implicit(model: Dynamic, t: float, x: Array, u: Array, end: float, tolerance: float) -> Array:
+    """Return the state at `end` by Radau's method of order 5, with a smaller step after one to the wall."""
+    nominal, first_step = np.array([signal.nominal for signal in model.states]), end - t
+    while True:
+        solver = Radau(
+            lambda time, state: model.derivative(time, state, u),
+            t,
+            x,
+            end,
+            rtol=tolerance,
+            atol=tolerance * nominal,  # type: ignore[arg-type]  # as above
+            first_step=min(first_step, end - t),
+            jac=lambda time, state: model.linearization(time, state, u).A,
+        )
+        try:
+            return _run(solver, MAX_STEPS)
+        except FilmContactError:
+            first_step = RETREAT * (first_step if solver.t == t else solver.h_abs)
+            t, x = solver.t, solver.y
+            if first_step <= 10.0 * np.spacing(end):
+                raise
+
+
+def _explicit(model: Dynamic, t: float, x: Array, u: Array, end: float, tolerance: float) -> Array:
     nominal = np.array([signal.nominal for signal in model.states])
     solver = DOP853(
         lambda time, state: model.derivative(time, state, u),
@@ -57,10 +98,17 @@ def _integrate(model: Dynamic, t: float, x: Array, u: Array, end: float, toleran
         atol=tolerance * nominal,  # type: ignore[arg-type]  # an array is fine, says scipy's manual
         first_step=end - t,
     )
-    for _ in range(MAX_STEPS):
+    return _run(solver, MOST_EXPLICIT)
+
+
+def _run(solver: OdeSolver, most: int) -> Array:
+    """Return the state at the end; ConvergenceError with the state reached after `most` steps."""
+    for _ in range(most):
         solver.step()
         if solver.status == "finished":
             return solver.y
         if solver.status == "failed":
             break
-    raise ConvergenceError(f"the integration must reach t = {end!r} s, got stuck at {solver.t!r} s", solver.y)
+    raise ConvergenceError(
+        f"the integration must reach t = {solver.t_bound!r} s, got stuck at {solver.t!r} s", solver.y
+    )

@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import FmuError
 from ..model import Array, Dynamic, Model
 from ..native.resource import FILE_NAME, NativeVariable, Role, pack
-from ..native.spec import NativeSpec
+from ..native.spec import NativeSpec, library_of
 from .archive import licenses
 from .bundle import PACKAGE
 from .documentation import KERNELS, NATIVE, to_html
@@ -192,7 +192,7 @@ def native_files(export: Export, variables: tuple[Variable, ...]) -> dict[str, b
     fill = all_binaries if export.platforms == "all" else host_binary
     sources = native_sources()
     return {
-        **fill(export.component, export.version),
+        **fill(export.component, export.version, library_of(export.spec.kernel)),
         **{f"sources/{name}": content for name, content in sources.items()},
         **licenses((PACKAGE,)),
         **foreign_licenses(),

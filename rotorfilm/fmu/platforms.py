@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 from ..errors import FmuError
 from ..native.library import SUFFIXES
+from ..native.spec import LIBRARIES
 from .macho import universal
 
 NATIVE = f"{__name__.partition('.')[0]}.native"
@@ -56,7 +57,12 @@ SYSTEMS = {"linux": "linux", "win32": "windows", "darwin": "darwin"}
 MACHINES = {"x86_64": "x86_64", "amd64": "x86_64", "aarch64": "aarch64", "arm64": "aarch64"}
 
 # As in CMakeLists.txt: the same digits on every machine.
-OPTIONS = ("-std=c99", "-O2", "-ffp-contract=off", "-fno-math-errno", "-fvisibility=hidden", "-shared", "-s")
+OPTIONS = (
+    *("-std=c99", "-O2", "-ffp-contract=off", "-fno-math-errno", "-fvisibility=hidden", "-shared", "-s"),
+    *("-ffunction-sections", "-fdata-sections"),
+)
+_TRIMMED = {"dylib": ("-Wl,-dead_strip",), "so": ("-Wl,--gc-sections",), "dll": ("-Wl,--gc-sections",)}
+"""What the linker leaves out: kernels of other libraries."""
 
 
 def native_sources() -> dict[str, bytes]:
@@ -81,8 +87,8 @@ def foreign_licenses() -> dict[str, bytes]:
     return {f"documentation/licenses/{path.parent.name}.txt": path.read_bytes() for path in found}
 
 
-def host_binary(identifier: str, fmi_version: str) -> dict[str, bytes]:
-    """Return the library of this machine by its path in the FMU.
+def host_binary(identifier: str, fmi_version: str, library: str) -> dict[str, bytes]:
+    """Return a library (`native.spec.LIBRARIES`) of this machine by its path in the FMU.
 
     Raises
     ------
@@ -92,18 +98,16 @@ def host_binary(identifier: str, fmi_version: str) -> dict[str, bytes]:
     machine = MACHINES.get(platform.machine().lower())
     folder = f"{machine}-{SYSTEMS.get(sys.platform)}"
     target = next((target for target in TARGETS if target.folder == folder), None)
-    library = files(NATIVE).joinpath("rotorfilm" + SUFFIXES.get(sys.platform, ".so"))
+    built = files(NATIVE).joinpath(library + SUFFIXES.get(sys.platform, ".so"))
     if target is None:
         raise FmuError(f"machine must be one of {[t.folder for t in TARGETS]}, got {folder}")
-    if not library.is_file():
-        raise FmuError(
-            f"the compiled library must lie at {library}, got no such file; install rotorfilm again"
-        )
-    return {_path(target, identifier, fmi_version): library.read_bytes()}
+    if not built.is_file():
+        raise FmuError(f"the compiled library must lie at {built}, got no such file; install rotorfilm again")
+    return {_path(target, identifier, fmi_version): built.read_bytes()}
 
 
-def all_binaries(identifier: str, fmi_version: str) -> dict[str, bytes]:
-    """Return the libraries of all `TARGETS` by their paths in the FMU, compiled where not in the cache.
+def all_binaries(identifier: str, fmi_version: str, library: str) -> dict[str, bytes]:
+    """Return a library for all `TARGETS` by their paths in the FMU, compiled where not in the cache.
 
     FMI 2.0 has one folder for both kinds of Macs: they share a universal file there.
 
@@ -115,12 +119,14 @@ def all_binaries(identifier: str, fmi_version: str) -> dict[str, bytes]:
     sources = native_sources()
     slices: dict[str, list[bytes]] = {}
     for target in TARGETS:
-        slices.setdefault(_path(target, identifier, fmi_version), []).append(compiled(target, sources))
+        slices.setdefault(_path(target, identifier, fmi_version), []).append(
+            compiled(target, sources, library)
+        )
     return {path: parts[0] if len(parts) == 1 else universal(parts) for path, parts in slices.items()}
 
 
-def compiled(target: Target, sources: Mapping[str, bytes]) -> bytes:
-    """Return the library for one platform, from the cache if it was compiled before.
+def compiled(target: Target, sources: Mapping[str, bytes], library: str) -> bytes:
+    """Return a library for one platform, from the cache if it was compiled before.
 
     Raises
     ------
@@ -132,14 +138,14 @@ def compiled(target: Target, sources: Mapping[str, bytes]) -> bytes:
             "platforms must be 'host' unless the zig compiler is installed: "
             "python -m pip install 'rotorfilm[platforms]'"
         )
-    kept = _cache_folder() / _key(sources) / f"{target.folder}.{target.suffix}"
+    kept = _cache_folder() / _key(sources) / library / f"{target.folder}.{target.suffix}"
     if not kept.is_file():
         kept.parent.mkdir(parents=True, exist_ok=True)
-        _compile(target, sources, kept)
+        _compile(target, sources, library, kept)
     return kept.read_bytes()
 
 
-def _compile(target: Target, sources: Mapping[str, bytes], result: Path) -> None:
+def _compile(target: Target, sources: Mapping[str, bytes], library: str, result: Path) -> None:
     with tempfile.TemporaryDirectory(prefix="rotorfilm-", dir=result.parent) as name:
         folder = Path(name)
         for path, content in sources.items():
@@ -148,6 +154,7 @@ def _compile(target: Target, sources: Mapping[str, bytes], result: Path) -> None
         units = [path for path in sources if path.endswith(".c")]
         output = f"rotorfilm.{target.suffix}"
         command = [sys.executable, "-m", "ziglang", "cc", "-target", target.triple, *OPTIONS, "-I."]
+        command += [f"-DRF_SUBSET={LIBRARIES.index(library) + 1}", *_TRIMMED.get(target.suffix, ())]
         command += ["-fPIC"] if target.suffix == "so" else []
         command += [*units, "-o", output, "-lm"]
         ran = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "dense.h"
+
 #define DEGREE 8 /* error below 1e-20 where the norm is 1/2 at most */
 #define ROUNDS 20
 
@@ -70,37 +72,6 @@ static void balance(size_t n, double *a, double *d)
     }
 }
 
-static void swap_rows(size_t n, double *a, size_t i, size_t j)
-{
-    for (size_t k = 0; k < n; ++k) {
-        const double kept = a[i * n + k];
-        a[i * n + k] = a[j * n + k];
-        a[j * n + k] = kept;
-    }
-}
-
-/* Solve q x = p in place, by elimination with pivoting; the Pade denominator is well conditioned. */
-static void solve(size_t n, double *q, double *p)
-{
-    for (size_t k = 0; k < n; ++k) {
-        size_t pivot = k;
-        for (size_t i = k + 1; i < n; ++i)
-            pivot = fabs(q[i * n + k]) > fabs(q[pivot * n + k]) ? i : pivot;
-        swap_rows(n, q, k, pivot);
-        swap_rows(n, p, k, pivot);
-        for (size_t i = 0; i < n; ++i) {
-            const double factor = i == k ? 0.0 : q[i * n + k] / q[k * n + k];
-            for (size_t j = k; factor != 0.0 && j < n; ++j)
-                q[i * n + j] -= factor * q[k * n + j];
-            for (size_t j = 0; factor != 0.0 && j < n; ++j)
-                p[i * n + j] -= factor * p[k * n + j];
-        }
-    }
-    for (size_t i = 0; i < n; ++i)
-        for (size_t j = 0; j < n; ++j)
-            p[i * n + j] /= q[i * n + i];
-}
-
 /* p = N(a), q = N(-a) of the Pade approximant N(a)/N(-a), by rising powers of a. */
 static void pade(size_t n, const double *a, double *p, double *q, double *power, double *next)
 {
@@ -134,7 +105,7 @@ int rf_exponential(size_t n, double *a, double *work)
     for (size_t i = 0; i < n * n; ++i)
         a[i] = ldexp(a[i], -squarings);
     pade(n, a, p, q, power, next);
-    solve(n, q, p);
+    rf_eliminate(n, q, n, p); /* the denominator is well conditioned */
     for (int k = 0; k < squarings; ++k) {
         multiply(n, p, p, next);
         memcpy(p, next, n * n * sizeof *p);

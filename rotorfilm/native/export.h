@@ -1,8 +1,10 @@
-/* What leaves the library: everything else is hidden. */
+/* What Python calls leaves the library of films: everything else is hidden, in other libraries this too. */
 #ifndef ROTORFILM_EXPORT_H
 #define ROTORFILM_EXPORT_H
 
-#if defined(_WIN32)
+#if defined(RF_SUBSET) && RF_SUBSET != 1
+#define RF_EXPORT
+#elif defined(_WIN32)
 #define RF_EXPORT __declspec(dllexport)
 #elif defined(__GNUC__)
 #define RF_EXPORT __attribute__((visibility("default")))

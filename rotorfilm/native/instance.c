@@ -6,8 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define TOLERANCE 1e-10 /* of the time integration, unless the simulator asks for another */
-#define FINEST 1e-13
+#define FINEST 1e-13 /* tolerance of the time integration */
 #define COARSEST 1e-3
 
 static const char *const CATEGORIES[RF_CATEGORIES] = {"logStatusWarning", "logStatusDiscard",
@@ -81,7 +80,7 @@ static void forget(rf_instance *c)
 static void start(rf_instance *c)
 {
     const rf_resource *r = c->resource;
-    const rf_condition initial = {0.0, HUGE_VAL, RF_INSTANTIATED, 0};
+    const rf_condition initial = {0.0, HUGE_VAL, 0.0, RF_INSTANTIATED, 0};
     for (size_t i = 0; i < r->variable_count; ++i) {
         const rf_variable *v = r->variables + i;
         if (v->role != RF_TIME)
@@ -90,7 +89,7 @@ static void start(rf_instance *c)
             c->nominal[v->index] = v->nominal;
     }
     c->now = initial;
-    c->tolerance = TOLERANCE;
+    c->tolerance = rf_default_tolerance(c->type);
     c->stop_defined = c->terminated = 0;
     c->last_good_time = 0.0;
     c->parameters_changed = 1;
@@ -271,7 +270,8 @@ rf_answer rf_set_experiment(rf_instance *c, int tolerance_defined, double tolera
     if (tolerance_defined && !(tolerance > 0.0 && tolerance < HUGE_VAL))
         return rf_log(c, RF_ERROR, RF_LOG_ERROR, "tolerance must be finite and positive, got %.9g",
                       tolerance);
-    c->tolerance = tolerance_defined ? fmin(fmax(tolerance, FINEST), COARSEST) : TOLERANCE;
+    c->tolerance = tolerance_defined ? fmin(fmax(tolerance, FINEST), COARSEST)
+                                     : rf_default_tolerance(c->type);
     c->now.time = c->last_good_time = begin;
     c->stop_defined = stop_defined;
     c->stop_time = stop;
@@ -505,7 +505,8 @@ static int move(rf_instance *c, double *t, double end, rf_message *why)
         return status;
     }
     if (c->sizes.states) {
-        const rf_integration job = {c->type, c->kernel, c->sizes.states, c->nominal, c->tolerance, c->work};
+        const rf_integration job = {c->type,      c->kernel,       c->sizes.states, c->nominal,
+                                    c->tolerance, &c->now.stride, c->work};
         return rf_integrate(&job, t, x, c->values[RF_INPUT], end, why);
     }
     *t = end;

@@ -46,6 +46,7 @@ typedef struct rf_host {
 typedef struct rf_condition {
     double time;
     double kink;    /* next time event, as told to the simulator */
+    double stride;  /* step size of a stiff integration; it belongs to the state, as results depend on it */
     uint32_t phase; /* rf_phase */
     uint32_t warned;
 } rf_condition;

@@ -9,6 +9,7 @@
 #define SAFETY 0.9
 #define LEAST 0.2
 #define MOST 10.0
+#define WORTHWHILE 1.25 /* a smaller gain does not pay for a new factorization */
 
 static const double C[STAGES] = {0.0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1.0, 1.0};
 static const double A[STAGES][STAGES - 1] = {
@@ -23,66 +24,84 @@ static const double A[STAGES][STAGES - 1] = {
 static const double E[STAGES] = {-71.0 / 57600,    0.0,         71.0 / 16695, -71.0 / 1920,
                                  17253.0 / 339200, -22.0 / 525, 1.0 / 40};
 
-/* One piece between two kinks; its end belongs to it with the derivative from before. */
-typedef struct piece {
-    const rf_integration *job;
-    const double *u;
-    double end;
-    double *k[STAGES], *trial;
-} piece;
-
 size_t rf_integration_work(size_t states)
 {
-    return (STAGES + 1) * states;
+    return (STAGES + 3) * states; /* and the next state, the error, the slope */
 }
 
-static int derive(const piece *p, double t, const double *x, double *dx, rf_message *why)
+static rf_point point_in(const rf_piece *p, double t, const double *x)
 {
     const rf_point at = {t < p->end ? t : nextafter(p->end, -HUGE_VAL), x, p->u};
+    return at;
+}
+
+int rf_derive(const rf_piece *p, double t, const double *x, double *dx, rf_message *why)
+{
+    const rf_point at = point_in(p, t, x);
     return p->job->type->derivative(p->job->kernel, &at, dx, why);
 }
 
-/* Stages 1 to 6 after stage 0; the last one is the new state's, left in `trial`. */
-static int stages(const piece *p, double t, double h, const double *x, rf_message *why)
+/* The last stage is the first one of the step after this. */
+static int dormand_prince(const rf_piece *p, double t, double h, const double *x, rf_message *why)
 {
     const size_t n = p->job->states;
-    for (int s = 1; s < STAGES; ++s) {
+    double *const *k = p->stages;
+    int status = RF_OK;
+    if (p->last == RF_ACCEPTED)
+        memcpy(k[0], k[STAGES - 1], n * sizeof *x);
+    if (p->last == RF_FIRST)
+        status = rf_derive(p, t, x, k[0], why);
+    for (int s = 1; s < STAGES && status <= RF_OUTSIDE; ++s) {
         for (size_t i = 0; i < n; ++i) {
             double sum = 0.0;
             for (int r = 0; r < s; ++r)
-                sum += A[s][r] * p->k[r][i];
-            p->trial[i] = x[i] + h * sum;
+                sum += A[s][r] * k[r][i];
+            p->next[i] = x[i] + h * sum;
         }
-        const int status = derive(p, t + C[s] * h, p->trial, p->k[s], why);
-        if (status > RF_OUTSIDE)
-            return status;
+        status = rf_derive(p, t + C[s] * h, p->next, k[s], why);
     }
-    return RF_OK;
+    for (size_t i = 0; i < n && status <= RF_OUTSIDE; ++i) {
+        p->error[i] = 0.0;
+        for (int s = 0; s < STAGES; ++s)
+            p->error[i] += h * E[s] * k[s][i];
+    }
+    return status;
+}
+
+static const rf_method DORMAND_PRINCE = {5.0, 1e-10, 0, dormand_prince};
+
+static const rf_method *method_of(const rf_kernel_type *type)
+{
+    return type->method ? type->method : &DORMAND_PRINCE;
+}
+
+double rf_default_tolerance(const rf_kernel_type *type)
+{
+    return method_of(type)->tolerance;
 }
 
 /* Root mean square of the local error in tolerances; not a number where the state is none. */
-static double error_of(const piece *p, double h, const double *x)
+static double error_of(const rf_piece *p, const double *x)
 {
     const rf_integration *job = p->job;
     double sum = 0.0;
     for (size_t i = 0; i < job->states; ++i) {
-        double error = 0.0;
-        for (int s = 0; s < STAGES; ++s)
-            error += E[s] * p->k[s][i];
-        const double size = fabs(x[i]) > fabs(p->trial[i]) ? fabs(x[i]) : fabs(p->trial[i]);
-        const double share = h * error / (job->tolerance * (job->nominal[i] + size));
-        sum += share * share + 0.0 * p->trial[i];
+        const double size = fabs(x[i]) > fabs(p->next[i]) ? fabs(x[i]) : fabs(p->next[i]);
+        const double share = p->error[i] / (job->tolerance * (job->nominal[i] + size));
+        sum += share * share + 0.0 * p->next[i];
     }
     return sqrt(sum / (double)job->states);
 }
 
 /* Factor of the step size after a step with this error. */
-static double adapt(double error, int rejected)
+static double adapt(double error, const rf_method *method, int rejected)
 {
     if (!(error < HUGE_VAL))
         return LEAST;
-    const double factor = error > 0.0 ? SAFETY * pow(error, -0.2) : MOST;
+    const double factor = error > 0.0 ? SAFETY * pow(error, -1.0 / method->order) : MOST;
     const double most = rejected ? 1.0 : MOST;
+    if (method->costly && factor >= 1.0 && factor < WORTHWHILE)
+        return 1.0;
     return factor < LEAST ? LEAST : factor > most ? most : factor;
 }
 
@@ -93,28 +112,39 @@ static int stuck(double t, double end, double h, const rf_message *cause, rf_mes
                   h, cause->text[0] ? cause->text : "the tolerance cannot be met");
 }
 
-static int run_piece(const piece *p, double *t, double *x, rf_message *why)
+/* The step size, no longer than the rest; where a new one is costly, the rest in equal parts. */
+static double fitted(double h, double rest, int costly)
 {
-    const size_t n = p->job->states;
+    const double parts = rest / h;
+    if (!(parts > 1.0))
+        return rest;
+    return costly && parts < 1e6 ? rest / ceil(parts * (1.0 - 1e-9)) : h;
+}
+
+static int run_piece(rf_piece *p, double *t, double *x, rf_message *why)
+{
+    const rf_method *method = method_of(p->job->type);
     rf_message cause = {""};
-    double h = p->end - *t;
-    int rejected = 0, status = derive(p, *t, x, p->k[0], &cause);
-    if (status > RF_OUTSIDE)
-        return stuck(*t, p->end, h, &cause, why);
+    const double kept = method->costly ? *p->job->stride : 0.0;
+    double h = kept > 0.0 && kept < p->end - *t ? kept : p->end - *t;
+    p->last = RF_FIRST;
     for (int count = 0; count < MOST_STEPS; ++count) {
-        const int last = *t + h >= p->end;
-        h = last ? p->end - *t : h;
-        status = stages(p, *t, h, x, &cause);
-        const double error = status == RF_OK ? error_of(p, h, x) : HUGE_VAL;
-        if (error <= 1.0) {
+        h = fitted(h, p->end - *t, method->costly);
+        const int last = *t + h >= p->end || h >= p->end - *t;
+        const int status = method->attempt(p, *t, h, x, &cause);
+        const double error = status <= RF_OUTSIDE ? error_of(p, x) : HUGE_VAL;
+        const int accepted = error <= 1.0, before = p->last;
+        if (accepted) {
             *t = last ? p->end : *t + h;
-            memcpy(x, p->trial, n * sizeof *x);
-            memcpy(p->k[0], p->k[STAGES - 1], n * sizeof *x);
-            if (last)
+            memcpy(x, p->next, p->job->states * sizeof *x);
+            if (last) {
+                if (method->costly)
+                    *p->job->stride = h * adapt(error, method, before == RF_REJECTED);
                 return RF_OK;
+            }
         }
-        h *= adapt(error, rejected || !(error <= 1.0));
-        rejected = !(error <= 1.0);
+        p->last = accepted ? RF_ACCEPTED : before == RF_FIRST && status > RF_OUTSIDE ? RF_FIRST : RF_REJECTED;
+        h *= adapt(error, method, before == RF_REJECTED || !accepted);
         if (h < 10.0 * (nextafter(fabs(*t), HUGE_VAL) - fabs(*t)))
             break;
     }
@@ -124,9 +154,10 @@ static int run_piece(const piece *p, double *t, double *x, rf_message *why)
 int rf_integrate(const rf_integration *job, double *t, double *x, const double *u, double end,
                  rf_message *why)
 {
-    piece p = {job, u, end, {NULL}, job->work + STAGES * job->states};
-    for (int s = 0; s < STAGES; ++s)
-        p.k[s] = job->work + (size_t)s * job->states;
+    const size_t n = job->states;
+    rf_piece p = {job, u, end, RF_FIRST, job->work, job->work + n, {NULL}, job->work + 2 * n};
+    for (size_t s = 0; s < STAGES; ++s)
+        p.stages[s] = p.slope + (s + 1) * n;
     while (*t < end) {
         const double kink = job->type->next_event ? job->type->next_event(job->kernel, *t) : HUGE_VAL;
         p.end = kink < end ? kink : end;

@@ -61,6 +61,13 @@ typedef struct rf_kernel_type {
     /* Of kernels with states. At a kink in time the derivative is the one just after it. */
     int (*derivative)(const void *kernel, const rf_point *at, double *dx, rf_message *why);
 
+    /* Of stiff kernels, stepped by rodas.c in place of the method of integrate.c: prepare for solutions of
+       (shift I - df/dx) b' = b at a point, and the slope df/dt at fixed states. */
+    const struct rf_method *method;
+    int (*factorize)(void *kernel, const rf_point *at, double shift, rf_message *why);
+    void (*solve)(void *kernel, double *b);
+    void (*drift)(const void *kernel, const rf_point *at, double *slope);
+
     /* Advance x by dt under held inputs, where the kernel does that better than integrate.h. */
     int (*step)(void *kernel, const rf_point *at, double dt, double *x, rf_message *why);
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dense.h"
 #include "exponential.h"
 #include "kernel.h"
 
@@ -67,13 +68,6 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
     return self;
 }
 
-static void add_product(size_t rows, size_t columns, const double *a, const double *v, double *sum)
-{
-    for (size_t i = 0; i < rows; ++i)
-        for (size_t j = 0; j < columns; ++j)
-            sum[i] += a[i * columns + j] * v[j];
-}
-
 static int require_finite(size_t count, const double *values, const char *what, double t, rf_message *why)
 {
     for (size_t i = 0; i < count; ++i)
@@ -87,8 +81,8 @@ static int output(const void *kernel, const rf_point *at, double *y, rf_message 
 {
     const model *self = kernel;
     memset(y, 0, self->p * sizeof *y);
-    add_product(self->p, self->n, self->C, at->x, y);
-    add_product(self->p, self->m, self->D, at->u, y);
+    rf_add_product(self->p, self->n, 1.0, self->C, at->x, y);
+    rf_add_product(self->p, self->m, 1.0, self->D, at->u, y);
     return require_finite(self->p, y, "output", at->t, why);
 }
 
@@ -96,8 +90,8 @@ static int derivative(const void *kernel, const rf_point *at, double *dx, rf_mes
 {
     const model *self = kernel;
     memset(dx, 0, self->n * sizeof *dx);
-    add_product(self->n, self->n, self->A, at->x, dx);
-    add_product(self->n, self->m, self->B, at->u, dx);
+    rf_add_product(self->n, self->n, 1.0, self->A, at->x, dx);
+    rf_add_product(self->n, self->m, 1.0, self->B, at->u, dx);
     return require_finite(self->n, dx, "derivative", at->t, why);
 }
 
@@ -141,8 +135,8 @@ static int step(void *kernel, const rf_point *at, double dt, double *x, rf_messa
         return RF_STUCK;
     memset(self->next, 0, n * sizeof(double));
     for (size_t i = 0; i < n; ++i) {
-        add_product(1, n, self->transition + i * size, at->x, self->next + i);
-        add_product(1, m, self->transition + i * size + n, at->u, self->next + i);
+        rf_add_product(1, n, 1.0, self->transition + i * size, at->x, self->next + i);
+        rf_add_product(1, m, 1.0, self->transition + i * size + n, at->u, self->next + i);
     }
     if (require_finite(n, self->next, "state", at->t + dt, why) != RF_OK)
         return RF_NOT_FINITE;

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kernel.h"
+#include "profile.h"
 
 enum {
     MASS,
@@ -23,103 +23,36 @@ enum {
 typedef struct model {
     double p[PARAMETERS];
     double load[2];
-    size_t points;
-    double *times, *speeds, *angles; /* the angle turned since the first point, at each point */
+    rf_profile profile;
 } model;
-
-/* Points of the profile not after t. */
-static size_t passed(const model *self, double t)
-{
-    size_t low = 0, high = self->points;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (self->times[middle] <= t)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-static double slope(const model *self, size_t k)
-{
-    return (self->speeds[k] - self->speeds[k - 1]) / (self->times[k] - self->times[k - 1]);
-}
-
-/* Angular speed, the acceleration just after t, and the angle turned since the first point. */
-static void motion(const model *self, double t, double *speed, double *acceleration, double *angle)
-{
-    const size_t k = passed(self, t), from = k ? k - 1 : 0;
-    const double elapsed = t - self->times[from];
-    *acceleration = k == 0 || k == self->points ? 0.0 : slope(self, k);
-    *speed = self->speeds[from] + *acceleration * (k ? elapsed : 0.0);
-    *angle = self->angles[from] + elapsed * (self->speeds[from] + 0.5 * *acceleration * elapsed);
-}
-
-static void integrate_profile(model *self)
-{
-    self->angles[0] = 0.0;
-    for (size_t k = 1; k < self->points; ++k)
-        self->angles[k] =
-            self->angles[k - 1]
-            + 0.5 * (self->speeds[k] + self->speeds[k - 1]) * (self->times[k] - self->times[k - 1]);
-}
 
 static void destroy(void *kernel)
 {
     model *self = kernel;
-    free(self->times);
+    rf_free_profile(&self->profile);
     free(self);
-}
-
-static model *with_profile(const rf_table *times, const rf_table *speeds, rf_message *why)
-{
-    const size_t n = times->extent[0];
-    model *self = calloc(1, sizeof *self);
-    double *numbers = malloc(3 * n * sizeof *numbers);
-    if (!self || !numbers) {
-        rf_say(why, RF_MEMORY, "no memory for a rotor");
-        free(self);
-        free(numbers);
-        return NULL;
-    }
-    self->points = n;
-    self->times = numbers;
-    self->speeds = numbers + n;
-    self->angles = numbers + 2 * n;
-    memcpy(self->times, times->numbers, n * sizeof *numbers);
-    memcpy(self->speeds, speeds->numbers, n * sizeof *numbers);
-    integrate_profile(self);
-    return self;
 }
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    const rf_table *times = rf_find_table(tables, "times", 1, why);
-    const rf_table *speeds = times ? rf_find_table(tables, "speeds", 1, why) : NULL;
-    if (!speeds)
-        return NULL;
-    const size_t n = times->extent[0];
-    if (n == 0 || speeds->extent[0] != n) {
-        rf_say(why, RF_INVALID, "speeds must be as many as times, one at least, got %u and %u",
-               (unsigned)speeds->extent[0], (unsigned)n);
+    model *self = calloc(1, sizeof *self);
+    if (!self) {
+        rf_say(why, RF_MEMORY, "no memory for a rotor");
         return NULL;
     }
-    for (size_t k = 1; k < n; ++k)
-        if (!(times->numbers[k] > times->numbers[k - 1])) {
-            rf_say(why, RF_INVALID, "times must increase strictly, got %.9g after %.9g", times->numbers[k],
-                   times->numbers[k - 1]);
-            return NULL;
-        }
-    const rf_sizes mine = {n == 1 ? PARAMETERS : SPEED, 2, 5, 4};
+    if (rf_take_profile(&self->profile, tables, why) != RF_OK) {
+        destroy(self);
+        return NULL;
+    }
+    const rf_sizes mine = {self->profile.points == 1 ? PARAMETERS : SPEED, 2, 5, 4};
     *sizes = mine;
-    return with_profile(times, speeds, why);
+    return self;
 }
 
 static int set_parameters(void *kernel, const double *p, rf_message *why)
 {
     model *self = kernel;
-    const size_t count = self->points == 1 ? PARAMETERS : SPEED;
+    const size_t count = self->profile.points == 1 ? PARAMETERS : SPEED;
     if (!(p[MASS] > 0.0))
         return rf_say(why, RF_INVALID, "mass must be finite and positive, got %.9g", p[MASS]);
     if (!(p[UNBALANCE] >= 0.0))
@@ -130,23 +63,21 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     memcpy(self->p, p, count * sizeof *p);
     for (int i = 0; i < 2; ++i)
         self->load[i] = p[MASS] * p[GRAVITY + i] + p[STATIC_FORCE + i];
-    if (self->points == 1)
-        self->speeds[0] = p[SPEED];
+    if (self->profile.points == 1)
+        self->profile.speeds[0] = p[SPEED];
     return RF_OK;
 }
 
 static int derivative(const void *kernel, const rf_point *at, double *dx, rf_message *why)
 {
     const model *self = kernel;
-    double w, alpha, angle, now, then, start;
-    motion(self, at->t, &w, &alpha, &angle);
-    motion(self, 0.0, &now, &then, &start);
-    const double phase = angle - start + self->p[UNBALANCE_ANGLE], c = cos(phase), s = sin(phase);
-    const double shake[2] = {self->p[UNBALANCE] * (w * w * c + alpha * s),
-                             self->p[UNBALANCE] * (w * w * s - alpha * c)};
+    rf_spin spin = rf_spin_at(&self->profile, at->t);
+    double shake[2];
+    spin.angle += self->p[UNBALANCE_ANGLE];
+    rf_shake(&spin, shake);
     for (int i = 0; i < 2; ++i) {
         dx[i] = at->x[2 + i];
-        dx[2 + i] = (at->u[i] + self->load[i] + shake[i]) / self->p[MASS];
+        dx[2 + i] = (at->u[i] + self->load[i] + self->p[UNBALANCE] * shake[i]) / self->p[MASS];
     }
     if (!isfinite(dx[0]) || !isfinite(dx[1]) || !isfinite(dx[2]) || !isfinite(dx[3]))
         return rf_say(why, RF_NOT_FINITE,
@@ -157,10 +88,10 @@ static int derivative(const void *kernel, const rf_point *at, double *dx, rf_mes
 
 static int output(const void *kernel, const rf_point *at, double *y, rf_message *why)
 {
-    double acceleration, angle;
+    const model *self = kernel;
     (void)why;
     memcpy(y, at->x, 4 * sizeof *y);
-    motion(kernel, at->t, y + 4, &acceleration, &angle);
+    y[4] = rf_spin_at(&self->profile, at->t).speed;
     return RF_OK;
 }
 
@@ -184,9 +115,7 @@ static int jacobian(const void *kernel, const rf_point *at, rf_jacobian *answer,
 
 static double next_event(const void *kernel, double t)
 {
-    const model *self = kernel;
-    const size_t k = passed(self, t);
-    return self->points > 1 && k < self->points ? self->times[k] : HUGE_VAL;
+    return rf_next_point(&((const model *)kernel)->profile, t);
 }
 
 extern const rf_kernel_type rf_rigid_rotor_type;

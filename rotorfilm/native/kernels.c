@@ -4,21 +4,31 @@
 #include <stdio.h>
 #include <string.h>
 
-extern const rf_kernel_type rf_grooved_journal_type, rf_journal_type, rf_linear_type, rf_rigid_rotor_type;
+/* The kernels of this library. Compiled without RF_SUBSET, as from the sources in an FMU, it has all. */
+extern const rf_kernel_type rf_grooved_journal_type, rf_journal_type, rf_linear_type, rf_rigid_rotor_type,
+    rf_rotor_system_type;
 
 static const rf_kernel_type *const KERNELS[] = {
-    &rf_grooved_journal_type,
-    &rf_journal_type,
+#if !defined(RF_SUBSET) || RF_SUBSET == 2
     &rf_linear_type,
     &rf_rigid_rotor_type,
+#endif
+#if !defined(RF_SUBSET) || RF_SUBSET != 2
+    &rf_grooved_journal_type,
+    &rf_journal_type,
+#endif
+#if !defined(RF_SUBSET) || RF_SUBSET == 3
+    &rf_rotor_system_type,
+#endif
+    NULL,
 };
 
 const rf_kernel_type *rf_find_kernel(const char *name)
 {
-    for (size_t i = 0; i < sizeof KERNELS / sizeof *KERNELS; ++i)
-        if (strcmp(KERNELS[i]->name, name) == 0)
-            return KERNELS[i];
-    return NULL;
+    const rf_kernel_type *const *kernel = KERNELS;
+    while (*kernel && strcmp((*kernel)->name, name) != 0)
+        ++kernel;
+    return *kernel;
 }
 
 const rf_table *rf_find_table(const rf_tables *tables, const char *name, uint32_t axes, rf_message *why)

@@ -13,6 +13,18 @@ from ..errors import InputError, require_positive
 from ..model import Array
 from ..units import UNITS
 
+LIBRARIES = ("rotorfilm", "rotorfilm_states", "rotorfilm_systems")
+"""The compiled libraries, in the order of RF_SUBSET in `native/kernels.c`; an FMU carries one of them."""
+
+_IN_STATES = {"linear", "rigid_rotor"}
+_IN_SYSTEMS = {"rotor_system"}
+
+
+def library_of(kernel: str) -> str:
+    """Return which of `LIBRARIES` holds a kernel."""
+    films, states, systems = LIBRARIES
+    return states if kernel in _IN_STATES else systems if kernel in _IN_SYSTEMS else films
+
 
 @dataclass(frozen=True, kw_only=True)
 class NativeParameter:

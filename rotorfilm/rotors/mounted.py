@@ -11,8 +11,10 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError
 from ..model import Array, Dynamic, Kinked, Linearization, Reaction, indices
+from ..native.spec import NativeSpec
 from ..signals import Signal, names
 from .structure import station_names
+from .system_kernel import system_kernel
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,6 +102,18 @@ class MountedRotor:
         none = np.zeros((len(forced), len(free)))
         return Linearization(
             A + push, B[:, free], np.vstack([C + through, forced]), np.vstack([D[:, free], none])
+        )
+
+    def native(self) -> NativeSpec | None:
+        """Return rotor and bearings as one kernel of the C library; None if a part of them has none."""
+        if type(self) is not MountedRotor:
+            return None
+        return system_kernel(
+            self.rotor,
+            dict(zip(self.stations, self.bearings, strict=True)),
+            carried=np.ravel(self._force).astype(int).tolist(),
+            free=self._free,
+            motion=[row for rows in self._motion for row in rows[:4]],
         )
 
     def _forces(self, t: float, x: ArrayLike) -> Array:

@@ -15,6 +15,7 @@ from ..native.spec import NativeParameter, NativeSpec
 from ..signals import Signal
 from ..units import STANDARD_GRAVITY
 from .profile import SpeedProfile
+from .structure import Operators, unbalance_columns
 
 NOMINAL_LENGTH = 1e-4
 """Typical journal displacement [m], a radial clearance; the rotor does not know its bearing's."""
@@ -87,11 +88,6 @@ class RigidRotor:
             object.__setattr__(self, name, tuple(pair.tolist()))
 
     @property
-    def profile(self) -> SpeedProfile:
-        """The speed as a profile, also where it was given as a number."""
-        return self._profile
-
-    @property
     def static_load(self) -> Array:
         """External static force on the journal, mass * gravity + static_force, shape (2,) [N]."""
         return self.mass * np.array(self.gravity) + np.array(self.static_force)
@@ -99,7 +95,7 @@ class RigidRotor:
     @property
     def breakpoints(self) -> tuple[float, ...]:
         """Times [s] at which the angular acceleration jumps, where an integrator should stop."""
-        return self._profile.times if len(self._profile.times) > 1 else ()
+        return self.profile.times if len(self.profile.times) > 1 else ()
 
     @property
     def inputs(self) -> tuple[Signal, ...]:
@@ -123,8 +119,8 @@ class RigidRotor:
 
     def unbalance_force(self, t: float) -> Array:
         """Return the force of the unbalance on the journal at the time t [s], shape (2,) [N]."""
-        p = self._profile.angle(t) + self.unbalance_angle
-        w, alpha = self._profile.speed(t), self._profile.acceleration(t)
+        p = self.profile.angle(t) + self.unbalance_angle
+        w, alpha = self.profile.speed(t), self.profile.acceleration(t)
         cos, sin = math.cos(p), math.sin(p)
         return self.unbalance * np.array([w * w * cos + alpha * sin, w * w * sin - alpha * cos])
 
@@ -136,7 +132,7 @@ class RigidRotor:
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return (x, y, vx, vy, speed) at the time t [s]; the input u is not used."""
-        return np.append(np.asarray(x, dtype=float), self._profile.speed(t))
+        return np.append(np.asarray(x, dtype=float), self.profile.speed(t))
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives, the same at every (t, x, u)."""
@@ -155,18 +151,32 @@ class RigidRotor:
         values = {name: getattr(self, name) for name in ("mass", "unbalance", "unbalance_angle")}
         for name in ("gravity", "static_force"):
             values |= {f"{name}_{axis}": value for axis, value in zip("xy", getattr(self, name), strict=True)}
-        if len(self._profile.times) == 1:
-            values["constant_speed"] = self._profile.speeds[0]
+        if len(self.profile.times) == 1:
+            values["constant_speed"] = self.profile.speeds[0]
         return NativeSpec(
             kernel="rigid_rotor",
             parameters=tuple(_native_parameter(name, float(value)) for name, value in values.items()),
-            tables={"times": np.array(self._profile.times), "speeds": np.array(self._profile.speeds)},
+            tables={"times": np.array(self.profile.times), "speeds": np.array(self.profile.speeds)},
         )
 
     # Cached because they are the inner loop of every integrator; a frozen dataclass cannot go stale.
     @cached_property
-    def _profile(self) -> SpeedProfile:
+    def profile(self) -> SpeedProfile:
+        """The speed as a profile, also where it was given as a number."""
         return self.speed if isinstance(self.speed, SpeedProfile) else SpeedProfile.constant(self.speed)
+
+    @cached_property
+    def operators(self) -> Operators:
+        """The equations of motion of the states."""
+        A, B, C, _ = self.linearization(0.0, self.initial_state, np.zeros(2))
+        return Operators(
+            steady=A,
+            spin=np.zeros_like(A),
+            push=B,
+            weight=B @ self._static_load,
+            unbalance=B @ unbalance_columns(self.unbalance, self.unbalance_angle),
+            sense=C[:4],
+        )
 
     @cached_property
     def _static_load(self) -> Array:
@@ -174,7 +184,7 @@ class RigidRotor:
 
     @cached_property
     def _nominal_speed(self) -> float:
-        return max(abs(speed) for speed in self._profile.speeds) or 1.0
+        return max(abs(speed) for speed in self.profile.speeds) or 1.0
 
 
 def _native_parameter(name: str, value: float) -> NativeParameter:

@@ -86,8 +86,8 @@ class Structure(NamedTuple):
     hysteresis: Array | None = None
 
 
-class _Operators(NamedTuple):
-    """x' = (steady + w spin) x + push u + weight + unbalance r(t);  y = (sense x, w)."""
+class Operators(NamedTuple):
+    """x' = (steady + w spin) x + push u + weight + unbalance r(t);  y = (sense x, w), r as in `Structure`."""
 
     steady: Array
     spin: Array
@@ -176,18 +176,18 @@ class FlexibleRotor:
 
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return dx/dt at the time t [s] for the forces u [N] at the stations."""
-        state, force, model = np.asarray(x, dtype=float), np.asarray(u, dtype=float), self._operators
+        state, force, model = np.asarray(x, dtype=float), np.asarray(u, dtype=float), self.operators
         rate = model.steady @ state + self.profile.speed(t) * (model.spin @ state) + model.push @ force
         total: Array = rate + model.weight + model.unbalance @ self._rotating(t)
         return total
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the outputs; the input u is not used."""
-        return np.append(self._operators.sense @ np.asarray(x, dtype=float), self.profile.speed(t))
+        return np.append(self.operators.sense @ np.asarray(x, dtype=float), self.profile.speed(t))
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives, which depend on the speed only."""
-        model = self._operators
+        model = self.operators
         sense = np.vstack([model.sense, np.zeros(model.sense.shape[1])])
         A = model.steady + self.profile.speed(t) * model.spin
         return Linearization(A, model.push.copy(), sense, np.zeros((len(sense), model.push.shape[1])))
@@ -200,7 +200,8 @@ class FlexibleRotor:
 
     # Cached because they are the inner loop of every integrator; a frozen dataclass cannot go stale.
     @cached_property
-    def _operators(self) -> _Operators:
+    def operators(self) -> Operators:
+        """The equations of motion of the states."""
         s = self.structure
         if s.hysteresis is not None:
             raise InputError(
@@ -215,7 +216,7 @@ class FlexibleRotor:
 
         steady = -accelerations(np.hstack([s.stiffness, s.damping]))
         steady[:n, n:] = np.eye(n)
-        return _Operators(
+        return Operators(
             steady=steady,
             spin=-accelerations(np.hstack([s.circulation, s.gyroscopic])),
             push=accelerations(s.journals.T),

@@ -10,12 +10,13 @@ import pytest
 from rotorfilm.bearings.journal import JournalBearing
 from rotorfilm.films import MapFilm
 from rotorfilm.fmu import export_fmu
-from rotorfilm.rotors import RigidRotor
+from rotorfilm.rotors import RigidRotor, mount
+from rotorfilm.transient import simulate
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm())
 ROTOR = RigidRotor(mass=50.0, speed=157.0, gravity=(0.0, 0.0), position=(2e-5, -4e-5))
 PLANT = control.ss([[0.0, 1.0], [-400.0, -2.0]], [[0.0], [1.0]], [[1.0, 0.0]], [[0.0]])
-MODELS = {"film": BEARING, "rotor": ROTOR, "plant": PLANT}
+MODELS = {"film": BEARING, "rotor": ROTOR, "plant": PLANT, "system": mount(ROTOR, {"": BEARING})}
 
 
 def references(path):
@@ -61,6 +62,28 @@ def test_libcosim_moves_a_rotor_as_its_closed_form(cosim, tmp_path):
     assert execution.step(50)
     x, vx = observer.last_real_values(index, [known["rotor.x"], known["rotor.vx"]])
     np.testing.assert_allclose([x, vx], [2e-5 + 0.5 * 0.4 * 0.05**2, 0.4 * 0.05], rtol=1e-11)
+
+
+def test_libcosim_takes_a_rotor_with_its_film_at_a_step_that_breaks_their_coupling(cosim, tmp_path):
+    # Explicit coupling fails here: the step is longer than twice the decay of the journal's squeeze damping.
+    execution_of, slave_of, observer_of = cosim
+    light = RigidRotor(mass=0.5, speed=157.0, static_force=(0.0, -525.0), unbalance=1e-4)
+    system = mount(light, {"": BEARING})
+    path = export_fmu(system, tmp_path / "system.fmu", component="system")
+    known = references(path)
+    step = round(np.radians(10.0) / 157.0 * 1e9)
+    execution = execution_of.from_step_size(step_size=step)
+    index = execution.add_local_slave(slave_of(fmu_path=str(path), instance_name="system"))
+    observer = observer_of.create_last_value()
+    execution.add_observer(observer)
+    assert execution.step(180)
+    names = [known[f"system.{name}"] for name in ("x", "y")]
+    found = np.array(observer.last_real_values(index, names))
+    exact = simulate(light, BEARING, duration=180 * step * 1e-9, rtol=1e-10).position[:, -1]
+    assert np.linalg.eigvals(system.linearization(0.0, [*exact, 0.0, 0.0], []).A).real.min() < -2.0 / (
+        step * 1e-9
+    )
+    np.testing.assert_allclose(found, exact, atol=1e-6 * BEARING.clearance)
 
 
 @pytest.mark.parametrize("version", ["2.0", "3.0"])

@@ -25,13 +25,13 @@ FOLDERS = {
 def test_each_library_has_the_folder_of_its_fmi_version(version, monkeypatch):
     made = {}
 
-    def compiled(target, sources):
+    def compiled(target, sources, library):
         made[target.folder] = sources
         processor = 7 if target.folder.startswith("x86_64") else 12
         return bytes.fromhex("cffaedfe") + processor.to_bytes(4, "little") + bytes(4)
 
     monkeypatch.setattr(platforms, "compiled", compiled)
-    found = platforms.all_binaries("part", version)
+    found = platforms.all_binaries("part", version, "rotorfilm_states")
     assert set(found) == {f"binaries/{folder}" for folder in FOLDERS[version]}
     assert len(made) == 5
     fat = {path for path, content in found.items() if content.startswith(bytes.fromhex("cafebabe"))}
@@ -58,11 +58,13 @@ def test_a_library_is_compiled_once_for_each_source(monkeypatch, tmp_path):
     monkeypatch.setattr(platforms, "_cache_folder", lambda: tmp_path)
     monkeypatch.setattr(platforms.subprocess, "run", run)
     target, sources = platforms.TARGETS[0], {"a.c": b"int a;", "sub/b.h": b""}
-    assert [platforms.compiled(target, sources) for _ in range(2)] == [b"library"] * 2
+    assert [platforms.compiled(target, sources, "rotorfilm") for _ in range(2)] == [b"library"] * 2
     assert len(runs) == 1
     assert runs[0][:4] == [sys.executable, "-m", "ziglang", "cc"]
-    platforms.compiled(target, {**sources, "a.c": b"int b;"})
-    assert len(runs) == 2
+    platforms.compiled(target, {**sources, "a.c": b"int b;"}, "rotorfilm")
+    platforms.compiled(target, sources, "rotorfilm_systems")
+    assert len(runs) == 3
+    assert ["-DRF_SUBSET=3" in command for command in runs] == [False, False, True]
     assert all("a.c" in command and "sub/b.h" not in command for command in runs)
 
 
@@ -73,7 +75,7 @@ def test_what_the_compiler_says_is_told(monkeypatch, tmp_path):
     monkeypatch.setattr(platforms, "_cache_folder", lambda: tmp_path)
     monkeypatch.setattr(platforms.subprocess, "run", lambda *arguments, **options: failed)
     with pytest.raises(FmuError, match=r"zig must compile the library for x86_64-linux, got: a\.c:1: error"):
-        platforms.compiled(platforms.TARGETS[0], {"a.c": b""})
+        platforms.compiled(platforms.TARGETS[0], {"a.c": b""}, "rotorfilm")
 
 
 def test_sources_are_complete():
@@ -91,4 +93,4 @@ def test_sources_are_complete():
 def test_an_unknown_machine_is_named(monkeypatch):
     monkeypatch.setattr(platforms.platform, "machine", lambda: "riscv64")
     with pytest.raises(FmuError, match=r"machine must be one of .*got None-"):
-        platforms.host_binary("part", "2.0")
+        platforms.host_binary("part", "2.0", "rotorfilm")

@@ -12,6 +12,7 @@ import pytest
 from fmpy.fmi3 import FMU3Model, FMU3Slave
 
 from rotorfilm.native.resource import FILE_NAME, NativeVariable, Role, pack
+from rotorfilm.native.spec import library_of
 
 TOKEN = "{8c4e810f-3df3-4a00-8276-176fa3c9f000}"
 NATIVE = Path(__file__).parents[2] / "rotorfilm" / "native"
@@ -87,8 +88,9 @@ class Folder(NamedTuple):
         return self.clients[-1]
 
 
-def library_path():
-    return next(path for path in files("rotorfilm.native").iterdir() if path.name.startswith("rotorfilm."))
+def library_path(kernel):
+    start = f"{library_of(kernel)}."
+    return next(path for path in files("rotorfilm.native").iterdir() if path.name.startswith(start))
 
 
 def native_variables(model, spec, start):
@@ -123,7 +125,7 @@ def unzipped(tmp_path):
         for name in FOLDERS:
             (root / name).mkdir(parents=True, exist_ok=True)
         for name in FOLDERS[:2]:
-            shutil.copy(library_path(), root / name / "m.so")
+            shutil.copy(library_path(spec.kernel), root / name / "m.so")
         (root / "resources" / FILE_NAME).write_bytes(pack(spec, token, variables))
         references = {variable.name: reference for reference, variable in enumerate(variables)}
         return Folder(root, references, clients)

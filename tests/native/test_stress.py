@@ -14,6 +14,7 @@ from rotorfilm import JournalBearing, MapFilm, MapTable, RigidRotor, SpeedProfil
 from rotorfilm.fmu.linear_system import LinearSystem
 from rotorfilm.native import GrooveMapKernel
 from rotorfilm.native.resource import FILE_NAME
+from rotorfilm.rotors import mount
 
 SANITIZERS = ["-g", "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
 
@@ -42,6 +43,11 @@ class RoughGrooves(JournalBearing):
         return replace(JournalBearing.native(small_bearing()), kernel="grooved_journal", tables=tables)
 
 
+def system():
+    """Return the bearing with a rotor in it, one system."""
+    return mount(run_up(), {"": small_bearing()})
+
+
 def run_up():
     return RigidRotor(mass=5.0, speed=SpeedProfile((0.0, 0.002, 0.01), (1.0, 200.0, 100.0)), unbalance=1e-3)
 
@@ -68,7 +74,9 @@ def damaged(good):
     yield from (good[:length] for length in (0, 7, 23, 24, 100, 200, 300, len(good) - 8, len(good) - 1))
     yield from (sealed(good[:length]) for length in (200, 300, 500, len(good) - 8))
     yield from (good + b"\0", version, b"RFILMMAP" + good[8:], good[:-1] + bytes([good[-1] ^ 1]))
-    yield sealed(good.replace(b"journal\0", b"journey\0"))
+    for name, wrong in ((b"journal\0", b"journey\0"), (b"rotor_system\0", b"motor_system\0")):
+        if name in good:
+            yield sealed(good.replace(name, wrong))
     yield sealed(good[:-8] + struct.pack("<d", np.nan))
     yield sealed(good.replace(b"coefficients\0", b"coefficienty\0"))
 
@@ -119,15 +127,17 @@ def run(program, *arguments):
 def test_no_misuse_and_no_damaged_file_breaks_an_instance(unzipped, stress, tmp_path):
     token = "a token"
     grooved = RoughGrooves(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
-    models = (small_bearing(), grooved, run_up(), state_space())
+    models = (small_bearing(), grooved, system(), run_up(), state_space())
     good = [unzipped(m, folder=str(k), token=token) for k, m in enumerate(models)]
-    plain, openings = (folder.resource.read_bytes() for folder in good[:2])
-    contents = (*damaged(plain), *damaged(openings), *impossible(openings))
+    plain, openings, whole = (folder.resource.read_bytes() for folder in good[:3])
+    contents = (*damaged(plain), *damaged(openings), *damaged(whole), *impossible(openings))
     bad = list(resources(tmp_path, contents))
     missing = tmp_path / "missing"
     shutil.rmtree(missing, ignore_errors=True)
     (tmp_path / "maybe").mkdir()
-    maybe = resources(tmp_path / "maybe", (*mutated(plain, 300), *mutated(openings, 300)))
+    maybe = resources(
+        tmp_path / "maybe", (*mutated(plain, 300), *mutated(openings, 300), *mutated(whole, 300))
+    )
     folders = [str(folder.resource.parent) for folder in good]
     assert "messages" in run(stress, token, "60000", *folders, "--", *bad, str(missing))
     run(stress, token, "200", "--", "--", *maybe)

@@ -1,0 +1,43 @@
+#include "dense.h"
+
+#include <math.h>
+
+static void swap_rows(size_t columns, double *a, size_t i, size_t j)
+{
+    for (size_t k = 0; i != j && k < columns; ++k) {
+        const double kept = a[i * columns + k];
+        a[i * columns + k] = a[j * columns + k];
+        a[j * columns + k] = kept;
+    }
+}
+
+void rf_eliminate(size_t n, double *q, size_t m, double *p)
+{
+    for (size_t k = 0; k < n; ++k) {
+        size_t pivot = k;
+        for (size_t i = k + 1; i < n; ++i)
+            pivot = fabs(q[i * n + k]) > fabs(q[pivot * n + k]) ? i : pivot;
+        swap_rows(n, q, k, pivot);
+        swap_rows(m, p, k, pivot);
+        for (size_t i = 0; i < n; ++i) {
+            const double factor = i == k ? 0.0 : q[i * n + k] / q[k * n + k];
+            for (size_t j = k; factor != 0.0 && j < n; ++j)
+                q[i * n + j] -= factor * q[k * n + j];
+            for (size_t j = 0; factor != 0.0 && j < m; ++j)
+                p[i * m + j] -= factor * p[k * m + j];
+        }
+    }
+    for (size_t i = 0; i < n; ++i)
+        for (size_t j = 0; j < m; ++j)
+            p[i * m + j] /= q[i * n + i];
+}
+
+void rf_add_product(size_t rows, size_t columns, double scale, const double *a, const double *v, double *sum)
+{
+    for (size_t i = 0; i < rows; ++i) {
+        double product = 0.0;
+        for (size_t j = 0; j < columns; ++j)
+            product += a[i * columns + j] * v[j];
+        sum[i] += scale * product;
+    }
+}
