@@ -1,4 +1,4 @@
-"""The synchronous orbit of a rigid rotor on one journal film, by collocation at equal distance over a turn."""
+"""The synchronous orbit of a rigid rotor on one journal film, by collocation over a turn."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class SampledOrbit:
 
 @lru_cache(maxsize=16)
 def rate_matrix(n: int) -> Array:
-    """Return the derivative by the angle of the series through n samples, n even; the highest cosine has none."""
+    """Return the derivative by the angle of the series through n samples, n even."""
     order = np.fft.fftfreq(n, 1.0 / n)
     order[n // 2] = 0.0
     waves = np.fft.fft(np.eye(n), axis=0)
@@ -75,7 +75,7 @@ def _resampled(series: Array, n: int) -> Array:
 def defect(
     rotor: RigidRotor, orbit: SampledOrbit, reaction: Reaction, sloped: Reaction
 ) -> tuple[Array, Array, Array]:
-    """Return what is missing in m a = F + load at the samples (2, n) [N], and K and C (2, 2, n) of `sloped`."""
+    """Return what m a = F + load lacks at the samples (2, n) [N], and K and C (2, 2, n) of `sloped`."""
     n, signed = orbit.position.shape[1], rotor.profile.speeds[0]
     speeds = np.full(n, signed)
     force = reaction.force(orbit.position, orbit.velocity, speeds)

@@ -94,7 +94,7 @@ class OrbitRung:
         return linear_orbit(self.rotor, at.position, found.stiffness, found.damping, samples)
 
     def _nonlinear(self, start: SampledOrbit) -> tuple[SampledOrbit, int]:
-        """Return the orbit; where the start leaves the clearance, from the rest up in steps of the unbalance."""
+        """Return the orbit; where its start is too far out, from the rest up in steps of the unbalance."""
         clearance = self.film.bearing.clearance
         if np.hypot(*start.position).max() < 0.98 * clearance:
             try:
@@ -153,7 +153,7 @@ class OrbitRung:
         if self.quantity == PHASE:
             change = math.remainder(change, 2.0 * math.pi)
         scale = 1.0 if self.quantity == PHASE else abs(value)
-        apart = float(np.linalg.norm(step - other) / max(np.linalg.norm(step), 1e-300))
+        apart = float(np.linalg.norm(step - other)) / max(float(np.linalg.norm(step)), 1e-300)
         doubt = ""
         if apart > DISAGREEMENT:
             doubt = f"the slopes of both films disagree on the error by {apart:.0%}: not linear"
@@ -163,10 +163,12 @@ class OrbitRung:
         """Return K and C of this rung along an orbit (2, 2, n): constant for the linear one."""
         n = orbit.position.shape[1]
         if self.samples:
-            return defect(self.rotor, orbit, self.film.bearing, self.film.bearing)[1:]
+            _, stiffness, damping = defect(self.rotor, orbit, self.film.bearing, self.film.bearing)
+            return stiffness, damping
         at = equilibrium(self.film.bearing, self.rotor.static_load, self.speed)
         found = coefficients(self.film.bearing, at.position, self.speed)
-        return tuple(np.repeat(part[:, :, None], n, axis=2) for part in (found.stiffness, found.damping))
+        stiffness, damping = (part[:, :, None].repeat(n, axis=2) for part in (found.stiffness, found.damping))
+        return stiffness, damping
 
     def expected(self, done: Work) -> Work:
         """Return five Newton steps at these samples."""
