@@ -96,7 +96,7 @@ def shift(rotor: RigidRotor, missing: Array, stiffness: Array, damping: Array) -
         ]
         for i in range(2)
     ]
-    return np.linalg.solve(np.block(blocks), missing.ravel()).reshape(2, n)
+    return np.asarray(np.linalg.solve(np.block(blocks), missing.ravel()).reshape(2, n))
 
 
 def nonlinear_orbit(rotor: RigidRotor, reaction: Reaction, start: SampledOrbit) -> tuple[SampledOrbit, int]:

@@ -215,7 +215,7 @@ def orbit_ladder(scene: Scene, quantity: str) -> Ladder:
     return Ladder(
         rungs=tuple(rungs),
         unit=UNITS[quantity],
-        units=_units(films, rotor),
+        units=film_batch_units(films, scene.speed),
         nominal=NOMINAL,
         remarks=journal_remarks(scene),
     )
@@ -243,20 +243,19 @@ def _effort(rung: OrbitRung, films: tuple[FilmRung, ...]) -> float:
     return one * (6 if rung.samples == 0 else 5 * rung.samples)
 
 
-def _units(films: tuple[FilmRung, ...], rotor: RigidRotor) -> dict[str, Callable[[], object]]:
-    """Return one force with derivatives of each film, in batches as orbits take them."""
+def film_batch_units(films: tuple[FilmRung, ...], speed: float) -> dict[str, Callable[[], object]]:
+    """Return one force with derivatives of each film and of its richer one."""
     units: dict[str, Callable[[], object]] = {}
     for film in films:
-        units[film.tangents] = _sampled(film.bearing, rotor)
-        units[film.defects(smooth=False)] = _sampled(film.rich, rotor)
+        units[film.tangents] = _sampled(film.bearing, speed)
+        units[film.defects(smooth=False)] = _sampled(film.rich, speed)
     return units
 
 
-def _sampled(reaction: Reaction, rotor: RigidRotor) -> Callable[[], object]:
+def _sampled(reaction: Reaction, speed: float) -> Callable[[], object]:
     position, velocity = np.array([0.3, 0.4]) * reaction.clearance, np.zeros(2)
 
     def one() -> object:
-        speed = rotor.profile.speeds[0]
         return reaction.force(position, velocity, speed), reaction.jacobian(position, velocity, speed)
 
     return one

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 from ...errors import InputError
 from ..ladder import Ladder, QuestionAnswer, walk
+from .blade_loss import blade_loss_ladder
+from .coupling import coupling_ladder
 from .orbits import UNITS as ORBITS
 from .orbits import orbit_ladder
 from .statics import UNITS as STATICS
@@ -22,6 +24,8 @@ LADDERS: dict[tuple[str, str], LadderOf] = {
     **{("journal", quantity): static_ladder for quantity in STATICS},
     **{("journal", quantity): orbit_ladder for quantity in ORBITS},
     ("journal", "whirl_threshold"): whirl_ladder,
+    ("journal", "blade_loss_peak"): blade_loss_ladder,
+    ("journal", "cosimulation_error"): coupling_ladder,
 }
 """Builders of ladders by table of the scene and quantity, in the order in which they are tried."""
 
