@@ -1,10 +1,11 @@
-"""A battery of random scenes: is the estimated error right, is the tolerance met, what does it cost?
+"""A battery of random scenes: whether estimates are right and tolerances met, and what it costs.
 
     python benchmarks/scene_battery.py --count 200 --seed 1 --out battery.csv
 
-Ranges and the default seed were fixed before any tuning. Every scene is answered by `Scene.ask()`; then a reference that no
-rung is, or that is far finer than the rung, is run for real, and every rung that was tried is judged by it. By hindsight all
-rungs of the ladder are answered, and the cheapest one that would have met the tolerance is found.
+Ranges and the default seed were fixed before any tuning. Every scene is answered by `Scene.ask()`; then a
+reference that no rung is, or that is far finer than the rung, is run for real, and every rung that was tried
+is judged by it. By hindsight all rungs of the ladder are answered, and the cheapest one that would have met
+the tolerance is found.
 """
 
 from __future__ import annotations
@@ -54,7 +55,7 @@ class Judged:
 
     @property
     def resolved(self) -> bool:
-        """Whether the reference is good enough to see the error, and the error is an estimate, not a bound."""
+        """Whether there is an estimate, no bound, and the reference is good enough to see the error."""
         return not self.bound and not self.doubtful and max(self.true_error, self.estimate) > 3.0 * self.floor
 
     @property
@@ -140,10 +141,12 @@ def run(seed: int, count: int, report: Callable[[str], None]) -> list[list[Judge
             found.append([])
             continue
         first = rows[0]
+        remark = "(in doubt)" if first.doubtful else "" if first.right else "OFF"
+        missed = "MISSED" if first.verdict == "chosen" and not first.met else ""
         report(
-            f"{number:4d} {first.family:12s} {first.quantity:20s} {first.rung:32s} tol {first.tolerance:.1e} "
-            f"estimate {'<=' if first.bound else '  '}{first.estimate:.1e} true {first.true_error:.1e} "
-            f"{'(in doubt) ' if first.doubtful else '' if first.right else 'OFF '}{'' if first.met or first.verdict == 'closest' else 'MISSED'}"
+            f"{number:4d} {first.family:12s} {first.quantity:20s} {first.rung[:32]:32s} "
+            f"tol {first.tolerance:.1e} estimate {'<=' if first.bound else '  '}{first.estimate:.1e} "
+            f"true {first.true_error:.1e} {remark} {missed}"
         )
         found.append(rows)
     return found
@@ -159,7 +162,7 @@ def summary(found: list[list[Judged]]) -> str:
     bounds = [row for row in chosen if not row.resolved]
     lines = [
         f"scenes answered: {len(chosen)} of {len(found)}; tolerance claimed to be met in {len(accepted)}",
-        f"estimate within a factor {FACTOR:g} of the true error: {share(resolved)} of the answers with an estimate",
+        f"estimate within a factor {FACTOR:g} of the true error: {share(resolved)} of {len(resolved)}",
         f"answers with a bound, or an error below the reference's own, where it holds: {share(bounds)}",
         f"both together: {share(chosen)}; all rungs tried: {share([row for row in every if row.resolved])}",
         f"true error below the tolerance where claimed: {sum(r.met for r in accepted)} of {len(accepted)}",
@@ -182,8 +185,8 @@ def summary(found: list[list[Judged]]) -> str:
     failures = [row for row in chosen if not row.right or (row.verdict == "chosen" and not row.met)]
     lines += ["", f"failures: {len(failures)}"]
     lines += [
-        f"  scene {r.scene}: {r.family}, {r.quantity} by {r.rung}: estimate {r.estimate:.2g}, true {r.true_error:.2g}, "
-        f"tolerance {r.tolerance:.2g}{'' if r.met or r.verdict != 'chosen' else ' MISSED'}"
+        f"  scene {r.scene}: {r.family}, {r.quantity} by {r.rung}: estimate {r.estimate:.2g}, "
+        f"true {r.true_error:.2g}, tolerance {r.tolerance:.2g}, {r.verdict}{'' if r.met else ', not met'}"
         for r in failures
     ]
     return "\n".join(lines)

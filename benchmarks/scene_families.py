@@ -1,4 +1,4 @@
-"""The families of the scene battery: where scenes are drawn from, and the reference that each is judged by."""
+"""The families of the scene battery: where scenes are drawn from, and what each is judged by."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rotorfilm.films import MapFilm
+from rotorfilm.bearings import JournalBearing
+from rotorfilm.films import MapFilm, ShortFilm
 from rotorfilm.linear import equilibrium, whirl_threshold
 from rotorfilm.scenes import Scene
 from rotorfilm.scenes.questions.blade_loss import blade_loss_ladder
@@ -83,12 +84,9 @@ def scene_of(
     tolerance: tuple[float, float],
     eccentricity: tuple[float, float] = (0.05, 0.95),
 ) -> dict[str, Any]:
-    """Return a scene whose journal would rest at a random eccentricity ratio in a plain bearing with the map."""
+    """Return a scene whose journal would rest at a random eccentricity ratio in a plain bearing."""
     speed = log_uniform(random, 30.0, 600.0)
     target = float(random.uniform(*eccentricity))
-    from rotorfilm import JournalBearing
-    from rotorfilm.films import ShortFilm
-
     plain = {key: table[key] for key in ("radius", "length", "clearance", "viscosity")}
     ratio = plain["length"] / (2.0 * plain["radius"])
     film = MapFilm() if 0.1 <= ratio <= 4.0 else ShortFilm()

@@ -1,4 +1,4 @@
-"""How far a co-simulation of rotor and film is from the motion of both as one system: rungs are macro steps."""
+"""How far a co-simulation of rotor and film is from both as one system: rungs are macro steps."""
 
 from __future__ import annotations
 
@@ -72,15 +72,16 @@ class CouplingRung:
         return Found(error, {STEP: run.trajectory.time.size - 1}, (error, doubt))
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the error: half of the jump of the force at each exchange, propagated by the film's K and C."""
+        """Return the error: half of each jump of the held force, propagated by the film's K and C."""
         error, doubt = found.solution
         return ErrorEstimate(error, "jumps of the held force, propagated", doubt=doubt)
 
     def _error(self, run: CoSimulation) -> tuple[float, str]:
         """Return the largest distance / clearance to the motion without held forces, and why not to trust it.
 
-        Held from t_n on, the force F_n misses F(t) - F_n, on average over the step half of F_(n+1) - F_n. That
-        is propagated by m d'' + C d' + K d = defect along the run; again with the K and C of the corrected one.
+        Held from t_n on, the force F_n misses F(t) - F_n, on average over the step half of F_(n+1) - F_n.
+        That is propagated by m d'' + C d' + K d = defect along the run, and again with the K and C of the
+        corrected one.
         """
         trajectory, step = run.trajectory, run.macro_step
         uniform = np.append(True, np.isclose(np.diff(trajectory.time), step, rtol=1e-6))

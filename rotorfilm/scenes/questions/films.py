@@ -92,7 +92,7 @@ class FilmRung:
         return f"tangents of {self.name}"
 
     def defects(self, *, smooth: bool) -> str:
-        """Return the name of one force with derivatives of the richer film."""
+        """Return the name of the defects that correct one state, with exact or with smooth slopes."""
         return f"defects{' and slopes' if smooth else ''} of {self.rich_name}"
 
     def bound(self, eccentricity_ratio: float, *, slopes: bool) -> float:
