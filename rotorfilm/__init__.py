@@ -147,6 +147,7 @@ _HOMES = {
     ),
     "scenes": ("Answer", "RossRotor", "Scene", "bundled_scene", "read_ross"),
     "signals": ("Signal",),
+    "sweeps": ("sweep",),
     "transient": ("simulate",),
     "errors": (
         "ContactError",

@@ -16,6 +16,7 @@ import typer
 from . import console
 from .chart_commands import chart_app
 from .cli_damper import DAMPER_EXAMPLE, damper
+from .cli_sweep import SWEEP_EXAMPLE, sweep
 from .errors import InputError, RotorfilmError, SceneError
 
 if TYPE_CHECKING:
@@ -350,6 +351,7 @@ def demo(
 
 
 app.command(epilog=DAMPER_EXAMPLE)(damper)
+app.command(epilog=SWEEP_EXAMPLE)(sweep)
 
 
 def main(arguments: list[str] | None = None) -> None:

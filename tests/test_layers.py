@@ -17,8 +17,9 @@ LAYERS = [
     ["linear", "reduce", "transient", "orbits", "cosim", "fmu"],
     ["ladders"],
     ["scenes", "charts"],
+    ["sweeps"],
     ["console", "console_ladder", "gallery"],
-    ["chart_commands", "cli_damper"],
+    ["chart_commands", "cli_damper", "cli_sweep"],
     ["cli"],
 ]
 RANK = {name: rank for rank, layer in enumerate(LAYERS) for name in layer}

@@ -1,0 +1,5 @@
+"""Many variants of a scene: a grid or samples of its keys, into one dataset."""
+
+from .run import sweep
+
+__all__ = ["sweep"]

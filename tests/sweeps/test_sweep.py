@@ -1,0 +1,181 @@
+"""Sweeps: each point is the scene solved there, interruptions lose nothing, clusters change nothing."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+from rotorfilm import JournalBearing, ShortFilm, equilibrium, sweep
+from rotorfilm.errors import InputError, SceneError
+from rotorfilm.sweeps.store import Store
+
+xarray = pytest.importorskip("xarray")
+pytest.importorskip("h5netcdf")
+
+SCENE = {
+    "schema": 1,
+    "journal": {
+        "radius": 0.05,
+        "length": 0.03,
+        "clearance": 1e-4,
+        "viscosity": 0.1,
+        "film": {"name": "short"},
+    },
+    "operation": {"speed": "1500 rpm", "load": "525 N"},
+}
+CLEARANCES = ["90 um", "100 um", "110 um"]
+SPEEDS = ["1000 rpm", "1500 rpm"]
+
+
+def test_a_point_is_the_scene_solved_there():
+    found = sweep(SCENE, {"journal.clearance": CLEARANCES, "operation.speed": SPEEDS}, workers=1)
+    assert found.sizes == {
+        "journal_clearance": 3,
+        "operation_speed": 2,
+        **{f"{name}_{inner}": 2 for name in ("stiffness", "damping") for inner in ("row", "column")},
+    }
+    for i, clearance in enumerate((90e-6, 100e-6, 110e-6)):
+        for k, rpm in enumerate((1000.0, 1500.0)):
+            bearing = JournalBearing(
+                radius=0.05, length=0.03, clearance=clearance, viscosity=0.1, film=ShortFilm()
+            )
+            at = equilibrium(bearing, [0.0, -525.0], rpm * np.pi / 30.0)
+            point = found.isel(journal_clearance=i, operation_speed=k)
+            assert float(point["eccentricity_ratio"]) == pytest.approx(at.eccentricity_ratio, rel=1e-13)
+            assert float(point["attitude_angle"]) == pytest.approx(at.attitude_angle, rel=1e-13)
+    np.testing.assert_allclose(found["journal_clearance"], [90e-6, 100e-6, 110e-6], rtol=1e-14)
+    assert found["journal_clearance"].attrs == {"key": "journal.clearance", "units": "m"}
+    np.testing.assert_allclose(found["operation_speed"], np.array([1000.0, 1500.0]) * np.pi / 30.0)
+    assert found["stiffness"].attrs["units"] == "N/m"
+    assert (found["failure"] == "").all()
+
+
+@pytest.mark.closed_form
+def test_samples_share_a_dimension():
+    # A short bearing depends on mu length^3 radius speed / (clearance^2 load) only.
+    clearances = [8e-5, 1e-4, 1.25e-4]
+    viscosities = [0.1 * (c / 1e-4) ** 2 for c in clearances]
+    found = sweep(
+        SCENE,
+        {"journal.clearance": ("sample", clearances), "journal.viscosity": ("sample", viscosities)},
+        workers=1,
+    )
+    assert found["eccentricity_ratio"].dims == ("sample",)
+    np.testing.assert_allclose(found["eccentricity_ratio"], found["eccentricity_ratio"][0], rtol=1e-10)
+
+
+def test_a_question_gives_its_value_and_estimate():
+    scene = {
+        **SCENE,
+        "journal": {**SCENE["journal"], "length": 0.008},
+        "question": {"quantity": "eccentricity_ratio", "tolerance": "1 %"},
+    }
+    found = sweep(scene, {"operation.load": ["50 N", "100 N"]}, workers=1)
+    assert set(found.data_vars) >= {"value", "error_estimate", "met", "model"}
+    assert found["operation_load"].attrs["units"] == "N"
+    assert float(found["value"][1]) > float(found["value"][0]) > 0.0
+
+
+def test_a_point_without_an_answer_says_why():
+    scene = {**SCENE, "operation": {"speed": 0.0, "load": "525 N"}}
+    with pytest.warns(UserWarning, match="1 of 2 points have no answer"):
+        found = sweep(scene, {"operation.speed": [0.0, 157.0]}, workers=1)
+    assert "Error: " in str(found["failure"][0].item())
+    assert np.isnan(found["eccentricity_ratio"][0])
+    assert found["failure"][1] == ""
+    assert 0.0 < found["eccentricity_ratio"][1] < 1.0
+
+
+def test_netcdf_holds_the_dataset(tmp_path):
+    axes = {"journal.clearance": CLEARANCES}
+    found = sweep(SCENE, axes, path=tmp_path / "out.nc", workers=1)
+    again = sweep(SCENE, axes, path=tmp_path / "out.nc", workers=1)
+    xarray.testing.assert_identical(found, again)
+    assert [path.name for path in tmp_path.iterdir()] == ["out.nc"]
+    with pytest.raises(InputError, match="path must be that of the same sweep"):
+        sweep(SCENE, {"journal.clearance": CLEARANCES[:2]}, path=tmp_path / "out.nc", workers=1)
+
+
+def test_processes_change_nothing():
+    axes = {"journal.clearance": CLEARANCES, "operation.speed": SPEEDS}
+    xarray.testing.assert_identical(sweep(SCENE, axes, workers=1), sweep(SCENE, axes, workers=2))
+
+
+def test_a_dask_cluster_of_two_workers_changes_nothing():
+    distributed = pytest.importorskip("distributed")
+    axes = {"journal.clearance": CLEARANCES, "operation.speed": SPEEDS}
+    options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": None}
+    with distributed.LocalCluster(**options) as cluster:
+        found = sweep(SCENE, axes, dask=cluster.scheduler_address)
+    xarray.testing.assert_identical(sweep(SCENE, axes, workers=1), found)
+
+
+SLOW = """
+import json, sys, time
+import rotorfilm.sweeps.workers as workers
+from rotorfilm import sweep
+solve = workers.solve_point
+def slow(*arguments):
+    time.sleep(0.2)
+    return solve(*arguments)
+workers.solve_point = slow
+sweep(json.loads(sys.argv[1]), json.loads(sys.argv[2]), path=sys.argv[3], workers=1)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL")
+def test_a_killed_sweep_goes_on_where_it_was(tmp_path):
+    axes = {"journal.clearance": [f"{c} um" for c in range(80, 120)]}
+    out, waiting = tmp_path / "out.nc", tmp_path / "out.nc.rows"
+    arguments = [json.dumps(SCENE), json.dumps(axes), str(out)]
+    running = subprocess.Popen([sys.executable, "-c", SLOW, *arguments])
+    deadline = time.monotonic() + 120.0
+    while not (waiting.is_file() and waiting.read_bytes().count(b"\n") > 10):
+        assert running.poll() is None, "the sweep ended before it could be killed"
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    os.kill(running.pid, signal.SIGKILL)
+    running.wait()
+    with waiting.open("ab") as rows:
+        rows.write(b'{"point": 39, "row": {"eccen')  # a line that the kill cut off
+    assert not out.exists()
+    done = []
+    found = sweep(SCENE, axes, path=out, workers=1, report=lambda fraction, text: done.append(fraction))
+    assert 0 < len(done) < 31
+    assert not waiting.exists()
+    xarray.testing.assert_identical(found, sweep(SCENE, axes, workers=1))
+
+
+def test_rows_of_another_sweep_are_refused(tmp_path):
+    store = Store(tmp_path / "rows", "one")
+    store.add(0, {"value": 1.0})
+    store.close()
+    with pytest.raises(InputError, match="same sweep"):
+        Store(tmp_path / "rows", "other")
+
+
+@pytest.mark.parametrize(
+    ("parameters", "message"),
+    [
+        ({}, "at least one key"),
+        ({"journal.clearance": []}, r"parameters\['journal.clearance'\] must have at least one value"),
+        ({"journal.clearance": "50 um"}, "must be a sequence"),
+        ({"journal.clearanse": ["50 um"]}, "clearanse is no known key.*did you mean 'clearance'"),
+        ({"journal.clearance": ["50 um", "-1 um"]}, "clearance must be finite and positive"),
+        ({"title.deep": [1.0]}, "must lead through tables"),
+        ({"journal.clearance": ("n", [1e-4, 2e-4]), "journal.viscosity": ("n", [0.1])}, "must have 2 values"),
+    ],
+)
+def test_bad_parameters_are_named_before_the_work(parameters, message):
+    with pytest.raises((InputError, SceneError), match=message):
+        sweep({**SCENE, "title": "a title"}, parameters, workers=1)
+
+
+def test_bad_workers_are_named():
+    with pytest.raises(InputError, match="workers must be an integer, at least 1, got 0"):
+        sweep(SCENE, {"journal.clearance": CLEARANCES}, workers=0)
