@@ -15,6 +15,7 @@ from ..bearings.journal import JournalBearing
 from ..errors import InputError, SceneError, warn_user
 from ..rotors.rigid import RigidRotor
 from ..units import STANDARD_GRAVITY
+from .damper_table import DamperTable
 from .excitation_table import EXCITATIONS, ExcitationTable
 from .ladder import QuestionAnswer
 from .lubricant_table import LubricantTable
@@ -44,6 +45,8 @@ class Scene:
         One line for print-outs and charts.
     journal : JournalTable or None
         A journal bearing.
+    damper : DamperTable or None
+        A squeeze-film damper with its retainer springs.
     operation : OperationTable or None
         Speed and load.
     lubricant : LubricantTable
@@ -70,6 +73,7 @@ class Scene:
     #     damper: Annotated[DamperTable | None, Table(DamperTable)] = None
     # and nowhere else. It checks what it needs of the other tables where it is solved.
     journal: Annotated[JournalTable | None, Table(JournalTable)] = None
+    damper: Annotated[DamperTable | None, Table(DamperTable)] = None
 
     # What all families share.
     operation: Annotated[OperationTable | None, Table(OperationTable)] = None

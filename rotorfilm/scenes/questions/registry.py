@@ -9,6 +9,8 @@ from ...errors import InputError
 from ..ladder import Ladder, QuestionAnswer, walk
 from .blade_loss import blade_loss_ladder
 from .coupling import coupling_ladder
+from .dampers import UNITS as DAMPERS
+from .dampers import damper_ladder
 from .orbits import UNITS as ORBITS
 from .orbits import orbit_ladder
 from .statics import UNITS as STATICS
@@ -26,6 +28,7 @@ LADDERS: dict[tuple[str, str], LadderOf] = {
     ("journal", "whirl_threshold"): whirl_ladder,
     ("journal", "blade_loss_peak"): blade_loss_ladder,
     ("journal", "cosimulation_error"): coupling_ladder,
+    **{("damper", quantity): damper_ladder for quantity in DAMPERS},
 }
 """Builders of ladders by table of the scene and quantity, in the order in which they are tried."""
 
