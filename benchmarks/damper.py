@@ -10,12 +10,16 @@ beside that of the layer.
 
 from __future__ import annotations
 
+import subprocess
 import sys
+import tempfile
 from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 
+import fmpy
 import numpy as np
+from fmu import compile_c
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
@@ -29,6 +33,7 @@ from rotorfilm import (
     RigidRotor,
     ShortSqueeze,
     Sprung,
+    export_fmu,
     synchronous_orbits,
 )
 from rotorfilm.films import FullFilm
@@ -104,6 +109,40 @@ def orbits() -> None:
         print(f"orbits of a {name} damper at 200 unbalances, with folds and stability: {1e3 * cost:.0f} ms")
 
 
+def native() -> None:
+    """Print the cost of a force in C: the map's kernel, and a step of the FMU that carries it."""
+    film = replace(damper(0.25, 0.001), film=MapSqueeze())
+    rng = np.random.default_rng(1)
+    chi, phi = rng.uniform(0.0, 0.95, 2000), rng.uniform(-np.pi, np.pi, 2000)
+    rest = np.column_stack([0.05 * rng.normal(size=(2000, 2)), np.zeros(2000)])
+    rows = np.column_stack([C * chi * np.cos(phi), C * chi * np.sin(phi), rest])
+    tables = film.native().tables
+    cells = [count - 5 for count in tables["coefficients"].shape]
+    head = [*cells, tables["reach"][0], tables["center"][0], C, film.force_scale]
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        path = export_fmu(film, folder / "film.fmu", component="film")
+        np.array([*head, *tables["coefficients"].ravel()]).tofile(folder / "kernel.bin")
+        rows.tofile(folder / "states.bin")
+        description = fmpy.read_model_description(str(path))
+        files = Path(fmpy.extract(str(path), unzipdir=str(folder / "files")))
+        first = next(v.valueReference for v in description.modelVariables if v.name == "film.x")
+        arguments = [
+            compile_c("fmu_host.c", folder / "host"),
+            next((files / "binaries").rglob("film.*")),
+            (files / "resources").as_uri(),
+            description.guid,
+            first,
+            folder / "kernel.bin",
+            folder / "states.bin",
+            400,
+            4,
+        ]
+        ran = subprocess.run(list(map(str, arguments)), capture_output=True, text=True, check=True)
+    bare, whole, error = map(float, ran.stdout.split())
+    print(f"force in C: kernel {bare:.0f} ns, FMU (set, step, get) {whole:.0f} ns, difference {error:.0e}")
+
+
 def centered_damping(damper: PorousDamper) -> float:
     """Return the damping in small motion per that of a solid cage."""
     solid = replace(damper, cage=None, film=ShortSqueeze())
@@ -145,5 +184,6 @@ if __name__ == "__main__":
     warnings.simplefilter("ignore")  # rungs outside their range are the point
     results = [ladder(slenderness, phi) for slenderness in (0.25, 0.5) for phi in (0.001, 0.1)]
     orbits()
+    native()
     if len(sys.argv) > 1:
         draw(results[0], Path(sys.argv[1]))

@@ -1,7 +1,7 @@
-/* What a step of a journal bearing costs in C:  host LIBRARY RESOURCES GUID FIRST KERNEL STATES ROUNDS
+/* What a step of a journal bearing costs in C:  host LIBRARY RESOURCES GUID FIRST KERNEL STATES ROUNDS [INPUTS]
 
-   LIBRARY is that of the FMU, FIRST the value reference of its first of five inputs, which its two outputs
-   follow. KERNEL holds the bearing's map for the bare kernel, STATES numbers of five each; both are binary.
+   LIBRARY is that of the FMU, FIRST the value reference of its first of INPUTS (5) inputs, which its two
+   outputs follow. KERNEL holds the bearing's map for the bare kernel, STATES numbers of five each; both are binary.
    Prints the shortest time of a call [ns] of the bare kernel and of the FMU (set, doStep, get), taken in turn,
    and the largest difference of their forces relative to the largest force. */
 #define _POSIX_C_SOURCE 199309L
@@ -59,8 +59,9 @@ static void ignore(fmi2ComponentEnvironment e, fmi2String n, fmi2Status s, fmi2S
 
 int main(int argc, char **argv)
 {
-    if (argc != 8)
+    if (argc != 8 && argc != 9)
         return 2;
+    const unsigned width = argc == 9 ? (unsigned)atoi(argv[8]) : 5;
     void *library = dlopen(argv[1], RTLD_NOW | RTLD_LOCAL);
     if (!library) {
         fprintf(stderr, "%s\n", dlerror());
@@ -83,10 +84,10 @@ int main(int argc, char **argv)
     *(void **)&journal.film = function(library, "rf_map_film");
     const unsigned first = (unsigned)atoi(argv[4]);
     const fmi2ValueReference inputs[5] = {first, first + 1, first + 2, first + 3, first + 4};
-    const fmi2ValueReference outputs[2] = {first + 5, first + 6};
+    const fmi2ValueReference outputs[2] = {first + width, first + width + 1};
     const fmi2CallbackFunctions callbacks = {ignore, calloc, free, NULL, NULL};
     fmi2Component c = instantiate("bearing", fmi2CoSimulation, argv[3], argv[2], &callbacks, 0, 0);
-    if (!c || setup(c, 0, 0.0, 0.0, 0, 0.0) || enter(c) || set(c, inputs, 5, states) || leave(c))
+    if (!c || setup(c, 0, 0.0, 0.0, 0, 0.0) || enter(c) || set(c, inputs, width, states) || leave(c))
         return 3;
 
     const size_t n = count / 5;
@@ -105,7 +106,7 @@ int main(int argc, char **argv)
         begin = now();
         for (size_t i = 0; i < n; ++i) {
             double f[2];
-            int status = set(c, inputs, 5, states + 5 * i) | step(c, t, 1e-4, 1) | get(c, outputs, 2, f);
+            int status = set(c, inputs, width, states + 5 * i) | step(c, t, 1e-4, 1) | get(c, outputs, 2, f);
             t += 1e-4;
             sum += status;
             difference = fmax(difference, fmax(fabs(f[0] - forces[2 * i]), fabs(f[1] - forces[2 * i + 1])));

@@ -20,10 +20,11 @@ from scipy.integrate import solve_ivp
 
 from rotorfilm.cosim import open_fmu
 from rotorfilm.fmu import CheckItem, check_fmu, export_fmu
+from rotorfilm.fmu.narrow import as_exported
 from rotorfilm.signals import to_fmi_name
 
 HERE = Path(__file__).parent
-RECIPES = ("journal", "rotor")
+RECIPES = ("damper", "journal", "rotor")
 VERSIONS = ("2.0", "3.0")
 
 TOLERANCE = 1e-8
@@ -40,14 +41,14 @@ def load_recipe(name: str) -> Any:
 
 def columns(recipe: Any) -> list[str]:
     """Return the column names of a reference CSV."""
-    model = recipe.model()
+    model = as_exported(recipe.model())
     signals = [*model.inputs, *model.outputs]
     return ["time", *(to_fmi_name(recipe.COMPONENT, signal.name) for signal in signals)]
 
 
 def compute_reference(recipe: Any) -> NDArray:
     """Return the reference table, computed by calling the model itself."""
-    model = recipe.model()
+    model = as_exported(recipe.model())
     time, inputs = recipe.stimulus()
     states = _states(model, time, inputs)
     outputs = [model.output(t, x, u) for t, x, u in zip(time, states, inputs, strict=True)]

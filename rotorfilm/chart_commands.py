@@ -122,6 +122,42 @@ def contact(
     console.print_rows("", files)
 
 
+@chart_app.command(epilog="Example: rotorfilm chart damper --ld 0.25 --permeability 0.001")
+def damper(
+    ld: Slenderness = 0.25,
+    permeability: Annotated[float, typer.Option(help="Phi = A H/C^3 of the cage.")] = 1e-3,
+    states: Annotated[int, typer.Option(help="Random states.", min=1)] = 200,
+    out: Folder = OUT,
+    json: Json = False,
+) -> None:
+    """Error of the force against its cost, for every squeeze film: chart_damper.png, .csv and .json."""
+    with console.progress_display() as report:
+        report(0.0, "packages")
+        from .charts import plot_damper_accuracy
+        from .ladders import damper_accuracy
+
+        result = damper_accuracy(ld, permeability, states=states, report=report)
+        files = _write(out, "chart_damper", result, plot_damper_accuracy(result))
+        files.append(("data", str(console.write_json(out / "chart_damper.json", result))))
+        report(1.0, "done")
+    if json:
+        console.print_json(result)
+        return
+    rows = [
+        (
+            f"{rung.name}, {'cavitated' if rung.cavitated else 'full'}",
+            f"{rung.median_error:.2e}",
+            f"{rung.high_error:.2e}",
+            f"{rung.series_error:.2e}",
+            *_costs(rung.cost),
+        )
+        for rung in result.rungs
+    ]
+    headings = ("film", "median error", "99 % error", "against the short film", "batch", "alone")
+    console.print_columns(headings, rows)
+    console.print_rows("", files)
+
+
 def _write(out: Path, name: str, result: Tabular, axes: Sequence[Axes]) -> list[tuple[str, str]]:
     """Write chart and table; return the rows that name them."""
     from .charts import save

@@ -204,7 +204,8 @@ def build(
     from .scenes.export import export_scene
 
     loaded = Scene.load(scene)
-    _make_map(loaded.bearing)
+    if loaded.damper is None:
+        _make_map(loaded.bearing)
     made = export_scene(
         loaded,
         out,
@@ -274,7 +275,7 @@ def groove_map(
     json: Json = False,
 ) -> None:
     """Make the map of a bearing with grooves or pads; all of its shape and resolution find it on disk."""
-    from .films.groove_cache import cache_folder
+    from .films.table_cache import cache_folder
 
     options = {"--slenderness": slenderness, "--groove": groove, "--cells": cells, "--nodes": nodes}
     if scene is None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -20,6 +21,16 @@ DAMPER_EXAMPLE = (
     '--viscosity "4.1e-4 Pa s" --mass "10 kg" --speed "400 rad/s" --stiffness "2.56e5 N/m" '
     '--unbalance "400 g mm" --thickness "2.5 mm" --permeability "0.4 um2"'
 )
+
+
+class Squeeze(StrEnum):
+    """Film laws by their names in scene files."""
+
+    SHORT = "short"
+    MAP = "map"
+    FINITE = "finite"
+    FINITE_MAP = "finite_map"
+    PUBLISHED = "published"
 
 
 def damper(
@@ -41,6 +52,7 @@ def damper(
     anisotropy: Annotated[float, typer.Option(help="Permeability along the cage / through it.")] = 1.0,
     vented: Annotated[bool, typer.Option("--vented", help="Open back of the cage.")] = False,
     full: Annotated[bool, typer.Option("--full", help="Full film, tension included.")] = False,
+    film: Annotated[Squeeze, typer.Option(help="Film law.")] = Squeeze.SHORT,
     chart: Annotated[Path | None, typer.Option(help="Draw the transmissibility into this PNG.")] = None,
     json: Annotated[bool, typer.Option("--json", help="Print JSON on stdout instead of tables.")] = False,
 ) -> None:
@@ -48,6 +60,7 @@ def damper(
     from .bearings import PorousDamper
     from .films import FullFilm, HalfSommerfeld
     from .scenes.damper import solve_damper
+    from .scenes.damper_table import SQUEEZES
     from .scenes.tables import Quantity
 
     support = PorousDamper(
@@ -57,6 +70,7 @@ def damper(
         viscosity=Quantity("Pa.s")("--viscosity", viscosity),
         extent=FullFilm() if full else HalfSommerfeld(),
         cage=_cage(thickness, permeability, grading, anisotropy, vented),
+        film=SQUEEZES[film.value]().build(),
     )
     kilograms = Quantity("kg")("--mass", mass)
     answer = solve_damper(

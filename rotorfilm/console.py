@@ -6,6 +6,7 @@ import json
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -33,6 +34,12 @@ def complain(kind: str, message: object) -> None:
 def print_json(value: Any) -> None:
     """Print a result as JSON, alone on stdout."""
     Console(soft_wrap=True, highlight=False).out(json.dumps(to_plain(value), indent=2, allow_nan=False))
+
+
+def write_json(path: Path, value: Any) -> Path:
+    """Write a result as JSON; return where it is."""
+    path.write_text(json.dumps(to_plain(value), indent=2, allow_nan=False) + "\n", encoding="utf-8")
+    return path
 
 
 def print_rows(title: str, rows: list[tuple[str, str]]) -> None:

@@ -229,6 +229,7 @@ def test_unknown_key_in_a_scene_is_named(run, scene):
         "fmu info",
         "groove-map",
         "demo",
+        "chart damper",
         "chart journal",
         "chart stability",
     ],
@@ -378,6 +379,33 @@ def test_chart_of_accuracy_writes_picture_and_table(run, tmp_path, monkeypatch):
     code, out, _ = run("chart", "journal", *options)
     assert code == 0
     assert "2-D 48 x 4" in out
+
+
+def test_chart_of_dampers_writes_picture_and_tables(run, tmp_path, monkeypatch):
+    monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path))
+    module = sys.modules["rotorfilm.ladders.damper_accuracy"]  # the package shows the function of this name
+    monkeypatch.setattr(module, "SERIES", (1, 3))
+    monkeypatch.setattr(module, "FiniteMapSqueeze", partial(rotorfilm.FiniteMapSqueeze, (6, 8)))
+    monkeypatch.setattr(ladders, "damper_accuracy", partial(ladders.damper_accuracy, rounds=1))
+    options = ("--ld", "0.2", "--permeability", "0.01", "--states", "5", "--out", tmp_path)
+    code, out, _ = run("chart", "damper", *options, "--json")
+    assert code == 0
+    result = json.loads(out)
+    assert result == json.loads((tmp_path / "chart_damper.json").read_text(encoding="utf-8"))
+    assert (result["slenderness"], result["permeability_number"], result["states"]) == (0.2, 0.01, 5)
+    rungs = {(rung["name"], rung["cavitated"]): rung for rung in result["rungs"]}
+    for cavitated in (True, False):
+        one, three = (rungs[f"series, {count}", cavitated]["series_error"] for count in (1, 3))
+        assert one > 3.0 * three > 0.0
+        assert rungs["series, whole", cavitated]["series_error"] == 0.0
+        assert rungs["map", cavitated]["series_error"] < 1e-4
+    assert rungs["finite length", False]["high_error"] == 0.0
+    assert (tmp_path / "chart_damper.png").read_bytes().startswith(b"\x89PNG")
+    table = (tmp_path / "chart_damper.csv").read_text(encoding="utf-8").splitlines()
+    assert len(table) == 1 + len(rungs)
+    code, out, err = run("chart", "damper", "--permeability", "0", "--out", tmp_path)
+    assert (code, out) == (2, "")
+    assert "permeability_number must be finite and positive, got 0.0" in err
 
 
 def test_chart_of_stability_writes_picture_and_table(run, tmp_path, monkeypatch):

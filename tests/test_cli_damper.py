@@ -4,7 +4,8 @@ import json
 
 import pytest
 
-from rotorfilm import PorousCage, PorousDamper, RigidRotor, Sprung, cli, synchronous_orbits
+from rotorfilm import PorousCage, PorousDamper, RigidRotor, Sprung, cli, cli_damper, synchronous_orbits
+from rotorfilm.scenes.damper_table import SQUEEZES
 
 OPTIONS = {
     "--radius": "50 mm",
@@ -52,6 +53,17 @@ def test_numbers_are_those_of_the_library(run):
     assert answer["groups"]["squeeze_number"] == pytest.approx(0.08)
     # the fold of the notes: U = .4079 of mass * clearance
     assert answer["folds"][0]["unbalance"] == pytest.approx(0.4079e-3, abs=5e-8)
+
+
+def test_film_is_chosen_by_its_name(run):
+    found = [json.loads(run(damper((), "--film", name, "--json"))[1]) for name in ("short", "map")]
+    fold, mapped = (answer["folds"][0]["unbalance"] for answer in found)
+    assert fold != mapped == pytest.approx(fold, rel=1e-5)
+    assert found[1]["contact_unbalance"] is None
+    code, _, err = run(damper((), "--film", "finite"))
+    assert code == 2
+    assert "extent must be FullFilm()" in err
+    assert sorted(cli_damper.Squeeze) == sorted(SQUEEZES)
 
 
 def test_people_read_jumps_and_contact(run, tmp_path):

@@ -35,6 +35,17 @@ def draw_grooved_journal(axes: Axes) -> None:
     axes.patches[2].set_zorder(0.5)
 
 
+def draw_damper(axes: Axes) -> None:
+    """Draw a ring of film in a porous cage, a race that does not turn, and springs."""
+    axes.add_patch(Circle((0, 0), 0.95, color=STEEL))
+    for angle in np.linspace(0, 2 * np.pi, 20, endpoint=False):
+        axes.add_patch(Circle((0.83 * np.cos(angle), 0.83 * np.sin(angle)), 0.05, color="white"))
+    axes.add_patch(Circle((0, 0), 0.72, color=OIL))
+    axes.add_patch(Circle((0.05, -0.07), 0.6, facecolor="white", edgecolor=INK, lw=2))
+    x = np.linspace(-0.42, 0.52, 9)
+    axes.plot(x, -0.07 + 0.16 * np.array([0, 0, 1, -1, 1, -1, 1, 0, 0]), color=INK, lw=2)
+
+
 def draw_rotor(axes: Axes) -> None:
     """Draw a shaft with a disk and its unbalance."""
     axes.add_patch(Rectangle((-0.95, -0.1), 1.9, 0.2, color=STEEL))
@@ -59,6 +70,7 @@ def draw_linear(axes: Axes) -> None:
 
 
 DRAWN = {
+    "damper": draw_damper,
     "grooved_journal": draw_grooved_journal,
     "journal": draw_journal,
     "linear": draw_linear,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -20,8 +20,10 @@ from ..films.cavitation import FullFilm, HalfSommerfeld
 from ..films.porous_layer import LayerModes, PorousLayer, layer_modes
 from ..films.squeeze import SqueezeFilm
 from ..films.squeeze_laws import ShortSqueeze, SqueezeCase, SqueezeLaw, parabola_mean
-from ..films.squeeze_map import MappedSqueezeFilm
+from ..films.squeeze_map import MappedSqueezeFilm, TabulatedSqueeze
 from ..model import Array
+from ..native.spec import NativeSpec
+from .damper_kernel import damper_spec
 from .reaction import NOMINAL_SPEED, StaticReaction
 
 LARGEST_RATIO = 0.5
@@ -75,10 +77,10 @@ class PorousCage:
 
 @dataclass(frozen=True, kw_only=True)
 class RadialFeed:
-    """Lubricant pressed through the layer: a given velocity at the back of a sealed layer.
+    """Lubricant pressed through the layer: a given velocity at the back of a sealed layer, or at the film.
 
-    What the layer passes to the film, the rest leaving by the layer's ends, follows from Darcy's law; through
-    a thin layer or a solid cage (jets) it is all.
+    What the layer passes from its back to the film, the rest leaving by the layer's ends, follows from
+    Darcy's law (95 % at H/L = 0.1); through a thin layer or a solid cage (jets) it is all.
 
     Parameters
     ----------
@@ -86,10 +88,14 @@ class RadialFeed:
         Velocity towards the film, its largest along the axis; negative for suction.
     cosine : bool
         Whether the velocity falls as cos(pi z/length) from the middle to the ends; otherwise it is uniform.
+    at_film : bool
+        Whether it is what enters a film without pressure; otherwise what enters the back of the layer, as in
+        Akhverdiev et al. (11).
     """
 
     inflow: float
     cosine: bool = False
+    at_film: bool = False
 
     def __post_init__(self) -> None:
         require_number("inflow", self.inflow)
@@ -131,7 +137,8 @@ class PorousDamper(StaticReaction):
     feed : RadialFeed or AxialFeed, optional
         Besides a supply pressure at a vented back of the cage.
     film : SqueezeLaw
-        `ShortSqueeze()`, `FiniteSqueeze()` or, for history, `PublishedSqueeze()`.
+        `ShortSqueeze()`, `FiniteSqueeze()`, their maps `MapSqueeze()` and `FiniteMapSqueeze()`, which also
+        run in C inside an FMU, or, for history, `PublishedSqueeze()`.
 
     Raises
     ------
@@ -213,20 +220,34 @@ class PorousDamper(StaticReaction):
     @cached_property
     def bound_film(self) -> SqueezeFilm:
         """The film law in this damper's dimensions."""
+        return self.film.bind(self._case)
+
+    def native(self) -> NativeSpec | None:
+        """Return the kernel of the C library that is this damper; None if its film is no map.
+
+        Nor has a subclass, which may differ from it.
+        """
+        return damper_spec(self) if type(self) is PorousDamper else None
+
+    def portable(self) -> PorousDamper:
+        """Return this damper with a film that carries the table it needs; see `model.Portable`."""
+        film = self.film
+        return replace(self, film=film.tabulated(self._case)) if isinstance(film, TabulatedSqueeze) else self
+
+    @property
+    def _case(self) -> SqueezeCase:
         modes = layer_modes(self.layer)
         ends = (
             self.feed if isinstance(self.feed, AxialFeed) else AxialFeed(start_pressure=0.0, end_pressure=0.0)
         )
         rate = self.clearance**2 / (3.0 * self.viscosity * self.length**2)
-        return self.film.bind(
-            SqueezeCase(
-                slenderness=self.slenderness,
-                layer=self.layer,
-                modes=modes,
-                feed=self._feed(modes),
-                ends=(ends.start_pressure * rate, ends.end_pressure * rate),
-                cavitated=isinstance(self.extent, HalfSommerfeld),
-            )
+        return SqueezeCase(
+            slenderness=self.slenderness,
+            layer=self.layer,
+            modes=modes,
+            feed=self._feed(modes),
+            ends=(ends.start_pressure * rate, ends.end_pressure * rate),
+            cavitated=isinstance(self.extent, HalfSommerfeld),
         )
 
     def prepare(self) -> Callable[[float, float, float, float, float], tuple[float, float]]:
@@ -253,7 +274,8 @@ class PorousDamper(StaticReaction):
     def _feed(self, modes: LayerModes) -> Array:
         """Return the feed of each group of modes, shape (N,) [1/s]."""
         if isinstance(self.feed, RadialFeed):
-            through = modes.weight * modes.passage * self.feed.inflow / self.clearance
+            passage = np.ones_like(modes.weight) if self.feed.at_film else modes.passage
+            through = modes.weight * passage * self.feed.inflow / self.clearance
             if not self.feed.cosine:
                 return through
             if through.size == 1:
@@ -276,7 +298,7 @@ class PorousDamper(StaticReaction):
             warn_user(
                 f"length / diameter must not exceed {limit} for {self.film!r}, got {self.slenderness:.6g}: "
                 f"the damping of a solid cage is too large by {100.0 * excess:.2g} % in small motion; "
-                "FiniteSqueeze() covers it for a full film",
+                "FiniteMapSqueeze() covers it",
             )
         if self.cage is not None and self.cage.thickness > LARGEST_RATIO * self.radius:
             warn_user(

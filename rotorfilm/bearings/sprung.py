@@ -8,6 +8,8 @@ import numpy as np
 
 from ..errors import InputError, require_positive
 from ..model import Array, Reaction
+from ..native.spec import HasKernel, NativeSpec
+from .damper_kernel import sprung_spec
 from .reaction import StaticReaction
 
 
@@ -53,6 +55,12 @@ class Sprung(StaticReaction):
     def nominal_force(self) -> float:
         """Nominal force of the reaction [N]."""
         return self.reaction.outputs[0].nominal
+
+    def native(self) -> NativeSpec | None:
+        """Return the kernel of a damper with these springs; None for other reactions."""
+        if type(self) is not Sprung or not isinstance(self.reaction, HasKernel):
+            return None
+        return sprung_spec(self.reaction.native(), self.stiffness)
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape, inside the clearance."""

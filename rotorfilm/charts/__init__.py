@@ -5,6 +5,7 @@ from .canvas import new_axes, new_figure, save
 from .contact_cases import plot_contact_cases
 from .coupling_error import plot_coupling_error
 from .damper import plot_bistable, plot_eccentricity, plot_phase, plot_transmissibility, plot_transmitted
+from .damper_ladder import plot_damper_accuracy
 from .motion import plot_locus, plot_orbits
 from .rotor import plot_campbell, plot_critical_speed_map, plot_log_decrement, plot_unbalance_response
 from .whirl_verdicts import plot_journal_stability, plot_thresholds
@@ -20,6 +21,7 @@ __all__ = [
     "plot_coupling_error",
     "plot_critical_speed",
     "plot_critical_speed_map",
+    "plot_damper_accuracy",
     "plot_eccentricity",
     "plot_force_error",
     "plot_journal_accuracy",

@@ -1,23 +1,16 @@
-"""Maps of bearings with openings on disk: made once, found again by what they depend on."""
+"""Maps of bearings with openings on disk: found again by what they depend on."""
 
 from __future__ import annotations
 
-import contextlib
 import hashlib
-import os
-from collections.abc import Callable
 from pathlib import Path
-from uuid import uuid4
 
-from ..errors import RotorfilmError, warn_user
 from .geometry import TURN
 from .groove_axis import STEPS, AlignedOpenings
 from .groove_build import Resolution
-from .groove_table import VERSION, GrooveMapTable
+from .groove_table import VERSION
 from .solver_digest import solver_digest
-
-FOLDER_VARIABLE = "ROTORFILM_CACHE"
-"""Environment variable that names the folder of the cache."""
+from .table_cache import cache_folder
 
 SOURCES = (
     "geometry.py",
@@ -31,67 +24,9 @@ SOURCES = (
 """Besides the solver, what decides the content of a map."""
 
 
-def cache_folder() -> Path:
-    """Return the folder of the cache: $ROTORFILM_CACHE, or the platform's ($XDG_CACHE_HOME/rotorfilm)."""
-    chosen = os.environ.get(FOLDER_VARIABLE)
-    if chosen:
-        return Path(chosen)
-    # Imported here so that an FMU with another film needs no more than numpy and scipy.
-    from platformdirs import user_cache_path
-
-    return user_cache_path("rotorfilm", appauthor=False)
-
-
 def cache_path(openings: AlignedOpenings, slenderness: float, resolution: Resolution) -> Path:
     """Return where the map of a bearing lies; the name is a digest of all that decides its content."""
     angles = [angle for groove in openings.grooves for angle in (groove.center, groove.width)]
     steps = [round(angle / TURN * STEPS) for angle in angles]
     key = repr((VERSION, solver_digest(*SOURCES), steps, f"{slenderness:.9g}", resolution))
     return cache_folder() / f"groove-{hashlib.sha256(key.encode()).hexdigest()[:24]}.bin"
-
-
-def cached_table(
-    path: Path, build: Callable[[], GrooveMapTable], require: Callable[[GrooveMapTable], None]
-) -> GrooveMapTable:
-    """Return the table at a path, built and written where it is missing, damaged or not as required.
-
-    Parameters
-    ----------
-    path : Path
-    build : callable
-        Returns the table.
-    require : callable
-        Raises an InputError if a table is not the right one.
-
-    Warns
-    -----
-    RuntimeWarning
-        If the table cannot be written: it will be built again next time.
-    """
-    # A file that another process is replacing, or that is damaged, is no reason to fail.
-    with contextlib.suppress(OSError, RotorfilmError):
-        table = GrooveMapTable.load(path)
-        require(table)
-        return table
-    table = build()
-    try:
-        _write(path, table.to_bytes())
-    except OSError as error:
-        warn_user(
-            f"the map of the film could not be kept in {path.parent} ({error}); "
-            f"{FOLDER_VARIABLE} names another folder",
-            RuntimeWarning,
-        )
-    return table
-
-
-def _write(path: Path, content: bytes) -> None:
-    """Write a file that is either whole or not there, whoever else writes it."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    # Not by tempfile, whose files are for one user alone: the mode of this one follows the umask.
-    part = path.with_name(f"{path.stem}-{uuid4().hex}.part")
-    try:
-        part.write_bytes(content)
-        os.replace(part, path)
-    finally:
-        part.unlink(missing_ok=True)

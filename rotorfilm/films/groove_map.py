@@ -17,10 +17,11 @@ from ..progress import Report, silent
 from .geometry import FilmGeometry
 from .groove_axis import AlignedOpenings, aligned_openings, require_mappable
 from .groove_build import Resolution, build_groove_table
-from .groove_cache import cache_path, cached_table
+from .groove_cache import cache_path
 from .groove_table import GrooveMapTable
 from .map import KernelFilm, MapFilm
 from .ring import are_counts, require_cells
+from .table_cache import cached_table
 
 SAME = 2e-9
 """Angle [rad], and relative difference of length/diameter, below which a table is that of a bearing."""
@@ -162,7 +163,7 @@ class GroovedMapFilm(KernelFilm):
                 )
             return build_groove_table(openings, rounded, resolution, report)
 
-        return cached_table(path, build, lambda table: require_same_openings(table, openings))
+        return cached_table(GrooveMapTable, path, build, lambda table: require_same_openings(table, openings))
 
     def _kernel(self, slenderness: float) -> GrooveMapKernel:
         return _kernel(self, float(slenderness))

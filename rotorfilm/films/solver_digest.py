@@ -11,5 +11,11 @@ from pathlib import Path
 def solver_digest(*others: str) -> str:
     """Return a digest of the sources of the solver, `ring*.py`, and of `others` beside them."""
     folder = Path(__file__).parent
-    sources = [*sorted(folder.glob("ring*.py")), *(folder / name for name in others)]
-    return hashlib.sha256(b"".join(path.read_bytes() for path in sources)).hexdigest()[:12]
+    return source_digest(*sorted(path.name for path in folder.glob("ring*.py")), *others)
+
+
+@cache
+def source_digest(*names: str) -> str:
+    """Return a digest of modules of this folder."""
+    folder = Path(__file__).parent
+    return hashlib.sha256(b"".join((folder / name).read_bytes() for name in names)).hexdigest()[:12]

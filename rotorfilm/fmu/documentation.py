@@ -101,6 +101,26 @@ KERNELS = {
             "derivative."
         ),
     },
+    "damper": {
+        "Model": (
+            "Force of a squeeze-film damper with a solid or porous cage, and of its retainer springs, on the "
+            "rotor. The race does not spin: there is no speed. x and y are Cartesian from the bearing "
+            "center. With the eccentricity e = (x, y)/clearance and its rate w = (vx, vy)/clearance, the "
+            "film minimizes a quadratic functional, so that its force is a gradient:"
+        ),
+        "Equations": (
+            "F = viscosity radius length^3 / clearance^2  dJ/dw - stiffness (x, y)\n"
+            "J(e, w) = -|w|^2 exp(L0 + chi M(X, T)),  chi = |e|\n"
+            "X = chi / (1 - chi^2)^(1/4),  T = (1 + cos(e, w)) / 2"
+        ),
+        "Validity": (
+            "M is a spline over X and T, made for this damper. Fixed is what it holds for: length and "
+            "clearance where the cage is porous, radius and length where the film is of finite length. The "
+            "springs are preloaded so that they carry the static load. Beyond the last X, the table reach, "
+            "the force is extrapolated, with a warning. Laminar, isothermal, aligned, without oil inertia. "
+            "Where the rotor is at rest off the center the film force is zero and has no derivative."
+        ),
+    },
     "rigid_rotor": {
         "Model": (
             "One journal's share of a rigid rotor that moves without tilting. x and y are Cartesian, "

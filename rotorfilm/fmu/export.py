@@ -17,6 +17,7 @@ from .archive import to_zip
 from .bundle import content_hash
 from .description import Description
 from .linear_system import from_state_space
+from .narrow import as_exported
 from .native_backend import (
     CATEGORIES,
     INTERFACES,
@@ -114,10 +115,12 @@ def export_fmu(
     _require_supported(target, version, native, platforms)
     name = _component(model) if component is None else component
     _require_component(name)
+    title = _title(subject)
+    subject = as_exported(subject) if native else subject
     inputs = np.array(list(_start_values(subject, start or {}).values()))
     _require_output(subject, inputs)
     if native and spec is not None:
-        export = Export(subject, spec, name, _title(subject), inputs, stop_time, version, platforms)
+        export = Export(subject, spec, name, title, inputs, stop_time, version, platforms)
         contents = _native_contents(export, step_size)
     else:
         contents = _python_contents(subject, name, inputs, stop_time, step_size)

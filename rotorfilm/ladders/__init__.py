@@ -1,6 +1,7 @@
 """Ladders: every model of one physics from the cheapest law to the reference, measured side by side."""
 
 from .contact_cases import contact_cases
+from .damper_accuracy import DamperAccuracy, DamperRung, damper_accuracy, damper_rungs
 from .journal_accuracy import JournalAccuracy, RungAccuracy, journal_accuracy, pareto_front
 from .journal_rungs import Rung, comparison_bearing, fitted_bearing, journal_rungs
 from .journal_stability import journal_stability
@@ -10,6 +11,8 @@ from .journal_thresholds import JournalStability, RungStability
 __all__ = [
     "LARGE",
     "SMALL",
+    "DamperAccuracy",
+    "DamperRung",
     "JournalAccuracy",
     "JournalStability",
     "Rung",
@@ -18,6 +21,8 @@ __all__ = [
     "StateRange",
     "comparison_bearing",
     "contact_cases",
+    "damper_accuracy",
+    "damper_rungs",
     "fitted_bearing",
     "journal_accuracy",
     "journal_rungs",

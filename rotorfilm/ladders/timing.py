@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from time import perf_counter
+from typing import Protocol
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from ..bearings.journal import JournalBearing
+from ..model import Array
 from ..progress import Report, silent
 from .journal_states import States
 
@@ -22,6 +24,16 @@ STILL_FALLING = 0.9
 """A batch is doubled while that lowers the cost of a state below this part of it."""
 
 
+class Timed(Protocol):
+    """A bearing whose forces are timed."""
+
+    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+        """Return the force, shape (2, ...)."""
+
+    def prepare(self) -> Callable[[float, float, float, float, float], tuple[float, float]]:
+        """Return the force as a function of five numbers."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class FilmCost:
     """Cost of one force.
@@ -31,7 +43,7 @@ class FilmCost:
     force_time : float [s]
         In a batch.
     call_time : float [s]
-        One state at a time from Python, through `JournalBearing.prepare()`.
+        One state at a time from Python, through `prepare()` of the bearing.
     batch : int
         States of the batch.
     """
@@ -42,7 +54,7 @@ class FilmCost:
 
 
 def film_costs(
-    bearings: Mapping[str, JournalBearing],
+    bearings: Mapping[str, Timed],
     states: States,
     *,
     rounds: int,
@@ -84,7 +96,7 @@ def shortest_time(call: Callable[[], object], repeats: int = 7, loops: int = 1) 
     return min(times) / loops
 
 
-def _batch_run(bearing: JournalBearing, states: States) -> tuple[Callable[[], object], int]:
+def _batch_run(bearing: Timed, states: States) -> tuple[Callable[[], object], int]:
     """Return a call long enough to be measured, and how many states it evaluates."""
     (size, largest), each = BATCH, np.inf
     while True:
@@ -101,7 +113,7 @@ def _batch_run(bearing: JournalBearing, states: States) -> tuple[Callable[[], ob
         size *= 2
 
 
-def _call_run(bearing: JournalBearing, states: States) -> tuple[Callable[[], object], int]:
+def _call_run(bearing: Timed, states: States) -> tuple[Callable[[], object], int]:
     """Return a loop over states long enough to be measured, and how many states it visits."""
     call = bearing.prepare()
     columns = np.concatenate([states.position, states.velocity, states.speed[None]]).T.tolist()

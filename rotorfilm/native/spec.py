@@ -87,6 +87,8 @@ class NativeSpec:
         In the order of the kernel.
     tables : mapping of str to ndarray
         Finite numbers of at most four axes, by the name that the kernel asks for.
+    inputs : tuple of str or None
+        Inputs of the model that the kernel takes, in its order; the others have no effect. None for all.
 
     Raises
     ------
@@ -97,6 +99,7 @@ class NativeSpec:
     kernel: str
     parameters: tuple[NativeParameter, ...] = ()
     tables: Mapping[str, Array] = field(default_factory=dict)
+    inputs: tuple[str, ...] | None = None
 
     def __post_init__(self) -> None:
         names = [parameter.name for parameter in self.parameters]

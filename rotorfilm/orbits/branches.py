@@ -174,7 +174,7 @@ def _radii(reach: float) -> Array:
 
 
 def _folds(system: OrbitRotor, nodes: Array) -> tuple[Fold, ...]:
-    slopes = orbit_slope(system, nodes)[0]
+    slopes = orbit_slope(system, nodes).slope
     folds = []
     for k in np.nonzero(np.diff(np.sign(slopes)))[0]:
         at = brentq(_slope_at, nodes[k], nodes[k + 1], args=(system,), xtol=1e-14, rtol=1e-14)
@@ -189,7 +189,7 @@ def _folds(system: OrbitRotor, nodes: Array) -> tuple[Fold, ...]:
 
 
 def _slope_at(eccentricity_ratio: float, system: OrbitRotor) -> float:
-    return float(orbit_slope(system, np.array([eccentricity_ratio]))[0][0])
+    return float(orbit_slope(system, np.array([eccentricity_ratio])).slope[0])
 
 
 def _unbalances(system: OrbitRotor, eccentricity_ratio: Array) -> Array:
@@ -202,7 +202,7 @@ def _branch(system: OrbitRotor, low: float, high: float, wanted: Array) -> Orbit
     unbalance = wanted[(wanted >= ends.min()) & (wanted <= ends.max())]
     eps = _inverted(system, low, high, unbalance, rising=bool(ends[1] > ends[0]))
     points = orbit_points(system, eps)
-    film = orbit_slope(system, eps)[1]
+    film = orbit_slope(system, eps).film
     return OrbitBranch(
         unbalance=unbalance,
         eccentricity_ratio=eps,
@@ -221,8 +221,8 @@ def _inverted(system: OrbitRotor, low: float, high: float, unbalance: Array, *, 
     order = slice(None) if rising else slice(None, None, -1)
     eps = np.interp(unbalance, _unbalances(system, table)[order], table[order])
     for _ in range(NEWTON_STEPS):
-        slope = orbit_slope(system, eps)[0] * system.clearance
-        excess = np.abs(orbit_points(system, eps).pull) ** 2 - target
+        here = orbit_slope(system, eps)
+        slope, excess = here.slope * system.clearance, np.abs(here.pull) ** 2 - target
         above = (excess > 0.0) == rising
         lower, upper = np.where(above, lower, eps), np.where(above, eps, upper)
         step = eps - excess / np.where(slope == 0.0, 1.0, slope)

@@ -50,6 +50,24 @@ class OrbitPoints(NamedTuple):
     force: np.ndarray
 
 
+class OrbitSlope(NamedTuple):
+    """Derivatives along the orbits.
+
+    Attributes
+    ----------
+    slope : ndarray, shape (n,) [N2/m]
+        d(u w^2)^2/de over the radius.
+    film : ndarray, shape (2, 5, n)
+        Jacobian of the film.
+    pull : ndarray of complex, shape (n,) [N]
+        u w^2 exp(i b).
+    """
+
+    slope: Array
+    film: np.ndarray
+    pull: np.ndarray
+
+
 def orbit_rotor(rotor: RigidRotor, reaction: Reaction) -> OrbitRotor:
     """Return the constants of a rotor whose orbits are circular; raise InputError where they are not."""
     if not isinstance(rotor, RigidRotor):
@@ -78,15 +96,15 @@ def orbit_points(system: OrbitRotor, eccentricity_ratio: Array) -> OrbitPoints:
     return OrbitPoints(eccentricity_ratio, -(inertia + radial) + 1j * tangential, radial + 1j * tangential)
 
 
-def orbit_slope(system: OrbitRotor, eccentricity_ratio: Array) -> tuple[Array, np.ndarray]:
-    """Return d(u w^2)^2/de [N2/m] over the radius, shape (n,), and the film's Jacobian there (2, 5, n)."""
+def orbit_slope(system: OrbitRotor, eccentricity_ratio: Array) -> OrbitSlope:
+    """Return d(u w^2)^2/de and what it is made of."""
     position, velocity = _motion(system, eccentricity_ratio)
     speed = np.full(eccentricity_ratio.shape, system.speed)
     film = system.reaction.jacobian(position, velocity, speed)
     along = film[:, 0] + system.speed * film[:, 3]
     pull_slope = -(system.mass * system.speed**2 + along[0]) + 1j * along[1]
     pull = orbit_points(system, eccentricity_ratio).pull
-    return 2.0 * (pull.conj() * pull_slope).real, film
+    return OrbitSlope(2.0 * (pull.conj() * pull_slope).real, film, pull)
 
 
 def growth_rates(system: OrbitRotor, film: np.ndarray) -> Array:

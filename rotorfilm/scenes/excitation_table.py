@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from ..errors import InputError, require_count, require_non_negative, require_number, require_positive
+from ..rotors.profile import SpeedProfile
 from .readers import read_count, read_load
-from .tables import Quantity
+from .tables import Quantity, flag
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,6 +58,35 @@ class BladeLossTable(UnbalanceTable):
 
 
 @dataclass(frozen=True, kw_only=True)
+class RunUpTable(UnbalanceTable):
+    """`[excitation] kind = "run_up"`: an unbalance while the speed changes steadily from `operation.speed`.
+
+    Parameters
+    ----------
+    end_speed : float [rad/s]
+    duration : float [s]
+        Of the way there.
+    back : bool
+        Whether the speed returns in the same time.
+    """
+
+    end_speed: Annotated[float, Quantity("rad/s")]
+    duration: Annotated[float, Quantity("s")]
+    back: Annotated[bool, flag] = False
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        require_number("end_speed", self.end_speed)
+        require_positive("duration", self.duration)
+
+    def profile(self, speed: float) -> SpeedProfile:
+        """Return the speed over time, from `speed` [rad/s] on."""
+        returned = ((2.0 * self.duration, speed),) if self.back else ()
+        times, speeds = zip((0.0, speed), (self.duration, self.end_speed), *returned, strict=True)
+        return SpeedProfile(times=times, speeds=speeds)
+
+
+@dataclass(frozen=True, kw_only=True)
 class StepLoadTable:
     """`[excitation] kind = "step"`: a force beside the static load, between two moments.
 
@@ -97,10 +127,11 @@ class SineLoadTable:
         require_positive("frequency", self.frequency)
 
 
-ExcitationTable = UnbalanceTable | BladeLossTable | StepLoadTable | SineLoadTable
+ExcitationTable = UnbalanceTable | BladeLossTable | RunUpTable | StepLoadTable | SineLoadTable
 EXCITATIONS = {
     "unbalance": UnbalanceTable,
     "blade_loss": BladeLossTable,
+    "run_up": RunUpTable,
     "step": StepLoadTable,
     "sine": SineLoadTable,
 }

@@ -10,6 +10,7 @@ from ..fmu import export_fmu
 from ..linear import equilibrium
 from ..model import Model
 from ..rotors.rigid import RigidRotor
+from .damper_runs import export_damper
 from .scene import Scene
 
 
@@ -49,6 +50,8 @@ def export_scene(
 ) -> ExportedScene:
     """Write `film.fmu` and `rotor.fmu`, both starting at the static equilibrium.
 
+    Of a scene with a damper these are `damper.fmu`, springs included, and `rotor.fmu`, at rest in the center.
+
     Parameters
     ----------
     scene : Scene
@@ -67,6 +70,9 @@ def export_scene(
     FmuError
         If a model cannot be exported.
     """
+    if scene.damper is not None:
+        turning, damper = export_damper(scene, folder, version, backend=backend, platforms=platforms)
+        return ExportedScene(film=damper, rotor=turning)
     rotor = resting_rotor(scene)
     start = {"x": rotor.position[0], "y": rotor.position[1], "speed": scene.speed}
 

@@ -53,7 +53,7 @@ class Scene:
         Properties for the checks of what the films leave out.
     rigid_rotor : RigidRotorTable or None
         What the bearing carries; without it there is no whirl threshold and no transient.
-    excitation : UnbalanceTable, BladeLossTable, StepLoadTable, SineLoadTable or None
+    excitation : UnbalanceTable, BladeLossTable, RunUpTable, StepLoadTable, SineLoadTable or None
         What shakes it besides the steady load.
     cosimulation : CosimulationTable
         Macro step and length of a coupled run.

@@ -129,6 +129,31 @@ def test_cosine_feed_through_darcys_layer_is_its_first_mode():
     assert -fed.jacobian([0.0, 0.0], [0.0, 0.0])[0, 0] == pytest.approx(expected, rel=1e-9)
 
 
+@pytest.mark.closed_form
+@pytest.mark.parametrize("grading", [0.0, 0.8])
+def test_feed_stiffness_by_where_the_velocity_is_given(grading):
+    # Into the film: 3 pi Bs v sum of w_n/(1 + c_n)^2, modes by hand. At the back each mode has less: 1/cosh
+    # of its wave number without grading, from the two exponentials of Darcy's equation with it.
+    cage, count = replace(CAGE, grading=grading), 400
+    a = 0.5 * np.pi * (2.0 * np.arange(1, count + 1) - 1.0)
+    q = 2.0 * 0.1 * a
+    d = np.sqrt(grading**2 + 4.0 * q**2)
+    up, down = 0.5 * (d - grading), 0.5 * (d + grading)  # P = exp(up Y), exp(-down Y)
+    sealed = (np.exp(-d) * up * down - up * down) / (
+        -down - up * np.exp(-d)
+    )  # P'/P at the film, P' = 0 behind
+    weight, leak = 6.0 / a**4, 12.0 * 1e-3 * sealed / q**2
+    passed = np.exp(-up) * d / (down + up * np.exp(-d))
+    unit = 3.0 * np.pi * 0.02 / 1e-4 * POROUS.force_scale / 1e-4
+    for at_film, share in ((True, np.ones(count)), (False, passed)):
+        fed = replace(POROUS, cage=cage, feed=RadialFeed(inflow=0.02, at_film=at_film))
+        stiffness = -fed.jacobian([0.0, 0.0], [0.0, 0.0])[0, 0]
+        assert stiffness == pytest.approx(unit * np.sum(weight * share / (1.0 + leak) ** 2), rel=1e-7)
+    if not grading:
+        assert passed == pytest.approx(1.0 / np.cosh(q), rel=1e-12)
+        assert passed[0] == pytest.approx(0.9526, abs=5e-5)
+
+
 def test_axial_feed_leaves_a_full_film_alone_and_fills_a_cavitated_one():
     feed = AxialFeed(start_pressure=2e5, end_pressure=1.5e5)
     q, v = [4e-5, 1e-5], [0.01, -0.03]
@@ -150,10 +175,25 @@ def test_supply_behind_a_vented_back_is_a_feed():
 
 @settings(deadline=None, max_examples=40)
 @given(
-    x=unit, y=unit, vx=unit, vy=unit, grading=st.floats(-3.0, 3.0), vented=st.booleans(), thin=st.booleans()
+    x=unit,
+    y=unit,
+    vx=unit,
+    vy=unit,
+    grading=st.floats(-3.0, 3.0),
+    anisotropy=st.floats(0.01, 100.0),
+    permeability=st.floats(1e-14, 1e-8),
+    vented=st.booleans(),
+    thin=st.booleans(),
 )
-def test_every_cage_without_feed_dissipates(x, y, vx, vy, grading, vented, thin):
-    cage = replace(CAGE, grading=grading, vented=vented, thin=thin, permeability=1e-10)
+def test_every_cage_without_feed_dissipates(x, y, vx, vy, grading, anisotropy, permeability, vented, thin):
+    cage = PorousCage(
+        thickness=2.5e-3,
+        permeability=permeability,
+        grading=grading,
+        anisotropy=anisotropy,
+        vented=vented,
+        thin=thin,
+    )
     q, v = 0.69e-4 * np.array([x, y]), np.array([vx, vy])
     for damper in (replace(PI, cage=cage), replace(POROUS, cage=cage)):
         force = damper.force(q, v)

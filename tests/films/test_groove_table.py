@@ -12,9 +12,10 @@ from rotorfilm.errors import InputError, RotorfilmError
 from rotorfilm.films import FilmGeometry, Groove, GrooveMapTable, groove_cache
 from rotorfilm.films.groove_axis import aligned_openings
 from rotorfilm.films.groove_build import Resolution
-from rotorfilm.films.groove_cache import cache_folder, cache_path, cached_table
+from rotorfilm.films.groove_cache import cache_path
 from rotorfilm.films.groove_table import DIRECTIONS
 from rotorfilm.films.quintic import periodic_quintic, periodic_quintic_coefficients
+from rotorfilm.films.table_cache import cache_folder, cached_table
 
 GROOVES = (Groove(center=0.1, width=0.2), Groove(center=2.0, width=0.3))
 FINE = Resolution((96, 8), (8, 24, 24), 0.9)
@@ -87,12 +88,16 @@ def test_table_is_built_once_and_again_after_damage(tmp_path):
         built.append(1)
         return some_table()
 
-    assert cached_table(path, build, any_table) == cached_table(path, build, any_table) == some_table()
+    assert (
+        cached_table(GrooveMapTable, path, build, any_table)
+        == cached_table(GrooveMapTable, path, build, any_table)
+        == some_table()
+    )
     assert len(built) == 1
     path.write_bytes(path.read_bytes()[:-9] + b"damaged!!")
-    assert cached_table(path, build, any_table) == some_table()
+    assert cached_table(GrooveMapTable, path, build, any_table) == some_table()
     assert len(built) == 2
-    assert cached_table(path, build, any_table) == some_table()
+    assert cached_table(GrooveMapTable, path, build, any_table) == some_table()
     assert len(built) == 2
     assert [entry.name for entry in path.parent.iterdir()] == ["map.bin"]
 
@@ -100,7 +105,9 @@ def test_table_is_built_once_and_again_after_damage(tmp_path):
 def test_folder_that_cannot_be_written_costs_a_warning_only(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.warns(RuntimeWarning, match="ROTORFILM_CACHE names another folder"):
-        assert cached_table(tmp_path / "file" / "map.bin", some_table, any_table) == some_table()
+        assert (
+            cached_table(GrooveMapTable, tmp_path / "file" / "map.bin", some_table, any_table) == some_table()
+        )
 
 
 def test_failed_writing_leaves_nothing_behind(tmp_path, monkeypatch):
@@ -109,7 +116,7 @@ def test_failed_writing_leaves_nothing_behind(tmp_path, monkeypatch):
 
     monkeypatch.setattr(os, "replace", refuse)
     with pytest.warns(RuntimeWarning, match="could not be kept"):
-        cached_table(tmp_path / "map.bin", some_table, any_table)
+        cached_table(GrooveMapTable, tmp_path / "map.bin", some_table, any_table)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -119,7 +126,7 @@ def test_interrupted_writing_leaves_nothing_behind(tmp_path, monkeypatch):
 
     monkeypatch.setattr(os, "replace", interrupt)
     with pytest.raises(KeyboardInterrupt):
-        cached_table(tmp_path / "map.bin", some_table, any_table)
+        cached_table(GrooveMapTable, tmp_path / "map.bin", some_table, any_table)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -127,7 +134,7 @@ def test_interrupted_writing_leaves_nothing_behind(tmp_path, monkeypatch):
 def test_file_has_the_mode_of_the_umask(tmp_path):
     before = os.umask(0o027)
     try:
-        cached_table(tmp_path / "map.bin", some_table, any_table)
+        cached_table(GrooveMapTable, tmp_path / "map.bin", some_table, any_table)
     finally:
         os.umask(before)
     assert (tmp_path / "map.bin").stat().st_mode & 0o777 == 0o640
@@ -139,7 +146,7 @@ def test_table_that_is_not_as_required_is_built_anew(tmp_path):
             raise InputError("no")
 
     some_table(1).save(tmp_path / "map.bin")
-    assert cached_table(tmp_path / "map.bin", some_table, require) == some_table()
+    assert cached_table(GrooveMapTable, tmp_path / "map.bin", some_table, require) == some_table()
 
 
 def test_sources_that_decide_the_content_are_there():

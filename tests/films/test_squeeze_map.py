@@ -1,15 +1,17 @@
 """Cavitated squeeze films as maps: against the law they tabulate, the journal's map, and the short limit."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from rotorfilm import (
     FiniteMapSqueeze,
+    FiniteSqueeze,
     JournalBearing,
     MapFilm,
     MapSqueeze,
@@ -17,11 +19,12 @@ from rotorfilm import (
     PorousDamper,
     RadialFeed,
     RigidRotor,
+    ShortSqueeze,
     Sprung,
     synchronous_orbits,
 )
 from rotorfilm.errors import ConvergenceError, InputError, UndefinedDerivativeError, ValidityWarning
-from rotorfilm.films import FullFilm, squeeze_potential
+from rotorfilm.films import FullFilm, HalfSommerfeld, squeeze_potential, squeeze_table
 from rotorfilm.films.porous_layer import PorousLayer, layer_modes
 from rotorfilm.films.squeeze_arc import CavitatedSqueezeFilm
 from rotorfilm.films.squeeze_potential import CavitatedPotential
@@ -32,7 +35,22 @@ LAYER = PorousLayer(
 CAGE = PorousCage(thickness=2.5e-3, permeability=4e-13, grading=0.1)
 SHORT = PorousDamper(radius=0.05, length=0.025, clearance=1e-4, viscosity=0.01, cage=CAGE)
 MAPPED = replace(SHORT, film=MapSqueeze())
-FINITE = replace(SHORT, film=FiniteMapSqueeze(cells=(8, 16)))
+COARSE = FiniteMapSqueeze(cells=(8, 16))
+
+
+@pytest.fixture(scope="module", autouse=True)
+def kept(tmp_path_factory):
+    """Return the folder of the maps of this module."""
+    folder = tmp_path_factory.mktemp("maps")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROTORFILM_CACHE", str(folder))
+        yield folder
+
+
+@pytest.fixture
+def finite(kept):
+    """Return a damper of finite length on a coarse map."""
+    return replace(SHORT, film=COARSE)
 
 
 def states(count, largest):
@@ -71,6 +89,56 @@ def test_solid_potential_is_that_of_the_journals_map(slenderness, tolerance):
             w = np.array([np.cos(heading), np.sin(heading)])
             expected = 0.5 * journal.force(np.array([eps, 0.0]), w, slenderness) @ w / (4.0 * slenderness**2)
             assert potential(eps, heading) == pytest.approx(expected, rel=tolerance)
+
+
+@pytest.mark.parametrize("cage", [None, CAGE, replace(CAGE, permeability=1e-11, vented=True)], ids=str)
+@pytest.mark.parametrize(
+    "laws", [(ShortSqueeze(), MapSqueeze()), (FiniteSqueeze(), FiniteMapSqueeze())], ids=str
+)
+def test_map_of_a_full_film_is_the_film(laws, cage):
+    # The film by another code: closed forms, or harmonics around the circumference.
+    film, law = (replace(SHORT, cage=cage, extent=FullFilm(), film=each) for each in laws)
+    q, v = states(15, 0.98)
+    expected = film.force(q, v)
+    errors = np.linalg.norm(law.force(q, v) - expected, axis=0) / np.linalg.norm(expected, axis=0)
+    assert errors.max() < 3e-5
+    slopes = film.jacobian(q, v)
+    apart = np.abs(law.jacobian(q, v) - slopes)
+    for block in (slice(0, 2), slice(2, 4)):
+        scale = np.abs(slopes[:, block]).max(axis=(0, 1))
+        assert np.all(apart[:, block].max(axis=(0, 1)) < 1e-3 * scale)
+
+
+def test_map_of_finite_length_is_made_once(kept, monkeypatch):
+    cage = replace(CAGE, permeability=7e-13)
+    one = replace(SHORT, cage=cage, film=FiniteMapSqueeze(cells=(6, 8)))
+    path = squeeze_table.table_path(one.slenderness, one.layer, True, (6, 8))
+    assert path.parent == kept
+    assert path.is_file()
+    squeeze_table.finite_table.cache_clear()
+    monkeypatch.setattr(squeeze_table, "_cavitated_table", None)  # making it again would fail
+    q, v = states(5, 0.9)
+    np.testing.assert_array_equal(replace(one, viscosity=0.01).force(q, v), one.force(q, v))
+    monkeypatch.undo()
+    others = {
+        squeeze_table.table_path(0.3, one.layer, True, (6, 8)),
+        squeeze_table.table_path(one.slenderness, None, True, (6, 8)),
+        squeeze_table.table_path(one.slenderness, one.layer, False, (6, 8)),
+        squeeze_table.table_path(one.slenderness, one.layer, True, (6, 12)),
+    }
+    assert len(others | {path}) == 5
+    assert all((Path(squeeze_table.__file__).parent / name).is_file() for name in squeeze_table.SOURCES)
+
+
+def test_damaged_map_on_disk_is_made_again(kept):
+    law = FiniteMapSqueeze(cells=(6, 8))
+    one = replace(SHORT, cage=None, film=law)
+    path = squeeze_table.table_path(one.slenderness, None, True, (6, 8))
+    whole = path.read_bytes()
+    path.write_bytes(whole[:-3])
+    squeeze_table.finite_table.cache_clear()
+    assert replace(one, viscosity=0.02).force([3e-5, 0.0], [0.1, 0.0])[0] < 0.0
+    assert path.read_bytes() == whole
 
 
 @pytest.mark.convergence
@@ -113,24 +181,25 @@ def test_potential_does_not_hang_on_its_resolution(monkeypatch):
     assert_allclose(coarse, fine, rtol=3e-4)
 
 
-@settings(deadline=None, max_examples=30)
+@settings(deadline=None, max_examples=30, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(chi=st.floats(0.0, 0.95), phi=st.floats(-3.1, 3.1), vx=st.floats(-1, 1), vy=st.floats(-1, 1))
-def test_maps_dissipate(chi, phi, vx, vy):
+def test_maps_dissipate(finite, chi, phi, vx, vy):
     q, v = 1e-4 * chi * np.array([np.cos(phi), np.sin(phi)]), np.array([vx, vy])
-    for damper in (MAPPED, FINITE):
+    full = (replace(damper, extent=FullFilm()) for damper in (MAPPED, finite))
+    for damper in (MAPPED, finite, *full):
         force = damper.force(q, v)
         assert force @ v <= 1e-12 * np.linalg.norm(force) * np.linalg.norm(v)
 
 
-def test_finite_length_takes_from_the_short_film():
+def test_finite_length_takes_from_the_short_film(finite):
     q, v = states(100, 0.9)
-    power, short = (np.sum(damper.force(q, v) * v, axis=0) for damper in (FINITE, SHORT))
+    power, short = (np.sum(damper.force(q, v) * v, axis=0) for damper in (finite, SHORT))
     assert np.all(power / short < 1.0)
     assert 0.9 < np.median(power / short) < 1.0
 
 
-def test_long_dampers_need_no_warning_with_a_finite_map():
-    long = replace(FINITE, length=0.08, cage=None)
+def test_long_dampers_need_no_warning_with_a_finite_map(finite):
+    long = replace(finite, length=0.08, cage=None, film=FiniteMapSqueeze(cells=(6, 8)))
     assert long.slenderness == pytest.approx(0.8)
 
 
@@ -150,10 +219,9 @@ def test_orbits_on_a_map_are_those_of_the_film():
 
 def test_what_has_no_map_is_refused():
     for law in (MapSqueeze(), FiniteMapSqueeze()):
-        with pytest.raises(InputError, match=r"extent must be HalfSommerfeld\(\)"):
-            replace(SHORT, film=law, extent=FullFilm())
-        with pytest.raises(InputError, match="feed must be None"):
-            replace(SHORT, film=law, feed=RadialFeed(inflow=0.1))
+        for extent in (HalfSommerfeld(), FullFilm()):
+            with pytest.raises(InputError, match="feed must be None"):
+                replace(SHORT, film=law, extent=extent, feed=RadialFeed(inflow=0.1))
     with pytest.raises(UndefinedDerivativeError):
         MAPPED.jacobian([3e-5, 0.0], [0.0, 0.0])
     with pytest.warns(ValidityWarning, match="beyond the map of the film"):
@@ -169,7 +237,7 @@ def test_ends_that_are_not_found_are_an_error(monkeypatch):
 @pytest.mark.closed_form
 def test_force_of_a_finite_map_is_that_of_the_journals_map():
     journal = JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.01, film=MapFilm())
-    damper = replace(FINITE, length=0.05, cage=None, film=FiniteMapSqueeze(cells=(12, 24)))
+    damper = replace(SHORT, length=0.05, cage=None, film=FiniteMapSqueeze(cells=(12, 24)))
     q, v = states(200, 0.95)
     expected = journal.force(q, v, 0.0)
     errors = np.linalg.norm(damper.force(q, v) - expected, axis=0) / np.linalg.norm(expected, axis=0)

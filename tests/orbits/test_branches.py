@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import quad
+from scipy.optimize import brentq
 
 from rotorfilm import (
     AxialFeed,
@@ -65,12 +66,25 @@ def test_solid_folds_are_the_roots_of_the_polynomial(support, rotor, unit):
     assert_allclose(found, values[turns], rtol=1e-11)
 
 
+def limit_of_the_closed_form(spring):
+    """Return Bs/Omega at which U^2(eps^2) of the solid film is level; slope by a complex step."""
+
+    def least(b):
+        E = np.linspace(0.1, 0.9, 40_001) + 1e-30j
+        along = (spring**2 - 1.0) + 2.0 * b * np.sqrt(E) / (1.0 - E) ** 2
+        across = 0.5 * np.pi * b / (1.0 - E) ** 1.5
+        return np.min((E * (along**2 + across**2)).imag) / 1e-30
+
+    return brentq(least, 0.05, 0.3, xtol=1e-9)
+
+
 @pytest.mark.closed_form
 @pytest.mark.parametrize(("spring", "limit"), [(0.0, 0.1377), (0.4, 0.1156)])
 def test_bistability_ends_where_the_notes_say(support, rotor, spring, limit):
     damper = support(0.05, 0.0)
     found = bistability_limit(damper, spring)
     assert found == pytest.approx(limit, abs=1.1e-4)
+    assert found == pytest.approx(limit_of_the_closed_form(spring), rel=1e-6)
     assert len(synchronous_orbits(rotor(0.1), support(0.999 * found, spring)).folds) == 2
     assert not synchronous_orbits(rotor(0.1), support(1.001 * found, spring)).folds
 

@@ -87,8 +87,9 @@ class DamperRung:
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the change that one orbit of the richest film, of the same radius, would make.
 
-        At a fold u(e) is level, so that the fold's unbalance changes by what u does at the same radius, and to
-        second order by the shift of the fold; at a given unbalance the radius shifts by the defect of u over u'.
+        At a fold u(e) is level, so that the fold's unbalance changes by what u does at the same radius, and
+        to second order by the shift of the fold; at a given unbalance the radius shifts by the defect of u
+        over u'.
         """
         if self.rich is None:
             return ErrorEstimate(self.bound, "verified bound of the film", bound=True)
@@ -103,7 +104,7 @@ class DamperRung:
         )
 
     def _fold(self, own: OrbitRotor, rich: OrbitRotor, radius: float) -> tuple[float, str]:
-        """Return the unbalance of the rich film's fold by a parabola through three orbits about the cheap one."""
+        """Return the unbalance of the rich film's fold by a parabola through three orbits about the other."""
         near = radius + np.array([-1.0, 0.0, 1.0]) * 0.02 * min(radius, 1.0 - radius)
         low, middle, high = _unbalance(rich, near)
         bend, slope = low - 2.0 * middle + high, 0.5 * (high - low)
