@@ -26,7 +26,7 @@ from scene_families import FAMILIES, Drawn
 
 from rotorfilm.errors import RotorfilmError
 from rotorfilm.scenes import read_scene
-from rotorfilm.scenes.ladder import Meter
+from rotorfilm.scenes.ladder import Meter, QuestionAnswer
 from rotorfilm.scenes.questions import ladder_of
 
 SEED, COUNT = 20261, 200
@@ -76,7 +76,7 @@ def judge(number: int, drawn: Drawn) -> list[Judged]:
     scene = read_scene(drawn.data, f"scene {number}")
     answer = scene.ask()
     truth, floor = drawn.reference(scene)
-    best = hindsight(scene, drawn, truth, answer.tolerance)
+    best = hindsight(scene, drawn, truth, answer)
     rows = []
     tried = [report for report in answer.rungs if report.error_estimate is not None]
     tried = [report for report in tried if report.name == answer.model or not report.doubtful]
@@ -92,7 +92,7 @@ def judge(number: int, drawn: Drawn) -> list[Judged]:
                 doubtful=report.doubtful,
                 tolerance=answer.tolerance,
                 estimate=float(report.error_estimate or 0.0),
-                true_error=drawn.distance(report.value, truth),
+                true_error=true_error(scene, drawn, report.name, report.value, truth),
                 floor=floor,
                 cost=float(report.cost or 0.0),
                 estimate_cost=float(report.estimate_cost or 0.0),
@@ -103,10 +103,19 @@ def judge(number: int, drawn: Drawn) -> list[Judged]:
     return rows
 
 
-def hindsight(scene: Any, drawn: Drawn, truth: Any, tolerance: float) -> tuple[str, float]:
-    """Return the cheapest rung whose true error is below the tolerance, and its cost [s]."""
+def true_error(scene: Any, drawn: Drawn, rung: str, value: Any, truth: Any) -> float:
+    """Return the error of a rung in the unit of the tolerance."""
+    return drawn.distance(value, truth) if drawn.judge is None else drawn.judge(scene, rung)
+
+
+def hindsight(scene: Any, drawn: Drawn, truth: Any, answer: QuestionAnswer) -> tuple[str, float]:
+    """Return the first rung, so the cheapest, whose true error is below the tolerance, and its cost [s]."""
+    if drawn.judge is not None:
+        tried = [report for report in answer.rungs if report.value is not None]
+        near = [r for r in tried if drawn.judge(scene, r.name) < answer.tolerance]
+        return (near[0].name, float(near[0].cost or 0.0)) if near else ("none", math.nan)
     ladder = ladder_of(scene)
-    meter, before, best = Meter(ladder), None, ("none", math.nan)
+    meter, before = Meter(ladder), None
     for rung in ladder.rungs:
         if "map" in rung.name and getattr(getattr(rung, "film", None), "makes_map", False):
             continue  # minutes for one number; the other rungs show what is cheap
@@ -115,9 +124,11 @@ def hindsight(scene: Any, drawn: Drawn, truth: Any, tolerance: float) -> tuple[s
         except RotorfilmError:
             continue
         before, cost = found, meter.cost(found.work, seconds)
-        if drawn.distance(found.value, truth) < tolerance and not cost >= best[1]:
-            best = (rung.name, cost)
-    return best
+        if drawn.distance(found.value, truth) < answer.tolerance:
+            return rung.name, cost
+        if rung.name == answer.model:
+            break
+    return "none", math.nan
 
 
 def draw_all(seed: int, count: int) -> list[Drawn]:

@@ -8,15 +8,20 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.optimize import brentq
 
 from rotorfilm.bearings import JournalBearing
 from rotorfilm.films import MapFilm, ShortFilm
 from rotorfilm.linear import equilibrium, whirl_threshold
+from rotorfilm.orbits.curve import orbit_points, orbit_rotor
 from rotorfilm.scenes import Scene
 from rotorfilm.scenes.questions.blade_loss import blade_loss_ladder
+from rotorfilm.scenes.questions.coupling import coupling_ladder
+from rotorfilm.scenes.questions.dampers import damper_ladder
 from rotorfilm.scenes.questions.films import FilmRung, extrapolated, tangent
 from rotorfilm.scenes.questions.orbits import OrbitRung, rotor_of
 from rotorfilm.scenes.questions.statics import StaticRung
+from rotorfilm.transient import simulate
 
 POSITIONS = ("eccentricity_ratio", "minimum_film", "attitude_angle")
 SLOPES = ("stiffness", "damping")
@@ -46,6 +51,8 @@ class Drawn:
     family: str
     data: dict[str, Any]
     reference: Callable[[Scene], Truth]
+    judge: Callable[[Scene, str], float] | None = None
+    """Of a rung whose value is its own error: the true error by the name of the rung."""
 
     def distance(self, value: Any, truth: Any) -> float:
         """Return the error in the unit of the tolerance."""
@@ -53,8 +60,6 @@ class Drawn:
         quantity = self.data["question"]["quantity"]
         if quantity == "unbalance_phase":
             return abs(math.remainder(float(gap), 2.0 * math.pi))
-        if quantity == "cosimulation_error":
-            return float(abs(gap))
         scale = 1.0 if quantity == "attitude_angle" else float(np.max(np.abs(truth)))
         return float(np.max(np.abs(gap))) / scale
 
@@ -172,6 +177,74 @@ def blade(random: np.random.Generator) -> Drawn:
     return Drawn("blade loss", data, blade_by_map)
 
 
+def coupling(random: np.random.Generator) -> Drawn:
+    """Return the error of a co-simulation over two turns, in a plain bearing."""
+    table, _ = journal(random, (0.12, 1.5))
+    data = with_rotor(random, scene_of(random, table, "cosimulation_error", (1e-3, 3e-2), (0.2, 0.7)))
+    data["rigid_rotor"]["unbalance"] = unbalance(random, data, 0.05, 0.5)
+    data["cosimulation"] = {"revolutions": 2.0}
+    return Drawn("coupling", data, lambda scene: Truth(0.0, 1e-7), coupled_error)
+
+
+def damper(random: np.random.Generator) -> Drawn:
+    """Return an orbit in a damper with a full film, a third of them with a porous cage."""
+    radius = log_uniform(random, 0.02, 0.1)
+    table: dict[str, Any] = {
+        "radius": radius,
+        "length": 2.0 * radius * log_uniform(random, 0.1, 0.4),
+        "clearance": radius * log_uniform(random, 1e-3, 3e-3),
+        "viscosity": log_uniform(random, 3e-3, 0.05),
+        "extent": {"kind": "full"},
+    }
+    if random.random() < 1.0 / 3.0:
+        permeability = log_uniform(random, 1e-16, 1e-12)
+        table["cage"] = {"thickness": 0.05 * radius, "permeability": permeability}
+    mass, speed = log_uniform(random, 5.0, 50.0), log_uniform(random, 100.0, 800.0)
+    table["stiffness"] = mass * (speed / float(random.uniform(0.5, 3.0))) ** 2
+    size = float(random.uniform(0.05, 0.6)) * mass * table["clearance"]
+    return Drawn(
+        "damper",
+        {
+            "schema": 1,
+            "damper": table,
+            "operation": {"speed": speed},
+            "rigid_rotor": {"mass": mass, "unbalance": size},
+            "question": {
+                "quantity": str(random.choice(["transmissibility", "unbalance_amplitude"])),
+                "tolerance": log_uniform(random, 3e-3, 0.1),
+            },
+        },
+        damper_by_finite_film,
+    )
+
+
+def coupled_error(scene: Scene, name: str) -> float:
+    """Return the largest distance / clearance between a coupled run and both partners as one system."""
+    rung = next(rung for rung in coupling_ladder(scene, "cosimulation_error").rungs if rung.name == name)
+    coupled = rung.run().trajectory
+    whole = simulate(
+        rung.rotor, rung.bearing, duration=float(coupled.time[-1]), times=coupled.time, rtol=1e-9
+    )
+    return float(np.hypot(*(coupled.position - whole.position)).max()) / rung.bearing.clearance
+
+
+def damper_by_finite_film(scene: Scene) -> Truth:
+    """Return a quantity of the smallest orbit in the film of finite length, by bisection in its radius."""
+    ladder = damper_ladder(scene, scene.question.quantity)
+    top, short = ladder.rungs[-1], ladder.rungs[0]
+    system = orbit_rotor(top.rotor, top.support)
+    near = float(short.answer(None).solution)
+
+    def excess(radius: float) -> float:
+        pull = orbit_points(system, np.array([radius])).pull[0]
+        return abs(pull) / system.speed**2 - top.rotor.unbalance
+
+    radius = brentq(excess, 0.7 * near, min(1.3 * near, 0.5 * (1.0 + near)), xtol=1e-9)
+    points = orbit_points(system, np.array([radius]))
+    ratio = float(np.abs(points.force[0]) / np.abs(points.pull[0]))
+    return Truth(ratio if scene.question.quantity == "transmissibility" else radius * system.clearance, 1e-6)
+
+
 def by_map(scene: Scene) -> Truth:
     """Return a static quantity by the map, which no rung of these scenes is."""
     return static_truth(scene, MapFilm(), 2e-5, 1e-3)
@@ -229,5 +302,7 @@ FAMILIES: dict[str, tuple[int, Draw]] = {
     "whirl": (2, whirl),
     "orbit": (3, orbit),
     "blade loss": (1, blade),
+    "coupling": (1, coupling),
+    "damper": (2, damper),
 }
 """Weight of each family in a round of the battery, and how one scene of it is drawn."""

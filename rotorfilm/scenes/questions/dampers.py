@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.optimize import brentq
 
 from ...bearings import PorousDamper, Sprung
 from ...errors import InputError, RotorfilmError, ValidityWarning
@@ -69,6 +70,10 @@ class DamperRung:
         """Return the quantity; raises RotorfilmError where there is no such jump, or contact."""
         made = _made(self.support)
         counted = Counted(self.support)
+        if before is not None:
+            near = self._from(counted, float(before.solution))
+            if near is not None:
+                return Found(near[0], {self.unit: counted.forces + counted.tangents, **made}, near[1])
         orbits = synchronous_orbits(self.rotor, counted)
         if self.quantity in (UP, DOWN):
             folds = [fold for fold in orbits.folds if fold.upward == (self.quantity == UP)]
@@ -83,6 +88,28 @@ class DamperRung:
             amplitude = radius * self.support.clearance
             value = found[0].transmissibility if self.quantity == "transmissibility" else amplitude
         return Found(value, {self.unit: counted.forces + counted.tangents, **made}, radius)
+
+    def _from(self, counted: Counted, radius: float) -> tuple[float, float] | None:
+        """Return quantity and radius of the orbit next to that of a lower rung, if there is one."""
+        system = _system(self.rotor, counted)
+        near = (0.8 * radius, min(1.2 * radius, 0.5 * (1.0 + radius)))
+        target = 0.0 if self.quantity in (UP, DOWN) else self.rotor.unbalance
+
+        def excess(at: float) -> float:
+            if self.quantity in (UP, DOWN):
+                return float(orbit_slope(system, np.array([at]))[0][0])
+            return float(_unbalance(system, np.array([at]))[0]) - target
+
+        ends = [excess(end) for end in near]
+        if ends[0] * ends[1] > 0.0:
+            return None
+        found = np.array([brentq(excess, *near, xtol=1e-12)])
+        points = orbit_points(system, found)
+        if self.quantity == "transmissibility":
+            return float(np.abs(points.force[0]) / np.abs(points.pull[0])), float(found[0])
+        if self.quantity in (UP, DOWN):
+            return float(_unbalance(system, found)[0]), float(found[0])
+        return float(found[0]) * system.clearance, float(found[0])
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the change that one orbit of the richest film, of the same radius, would make.
