@@ -279,11 +279,11 @@ def whirl_by_map(scene: Scene) -> Truth:
 
 
 def orbit_by_map(scene: Scene) -> Truth:
-    """Return a quantity of the orbit by the map at 256 samples over a turn."""
+    """Return a quantity of the orbit by the map at 255 samples over a turn."""
     assert scene.question is not None
     bearing = replace(scene.bearing, film=MapFilm())
     film = FilmRung(name="", bearing=bearing, rich=bearing, rich_name="", position_prior=0.0, slope_prior=0.0)
-    rung = OrbitRung(film=film, quantity=scene.question.quantity, rotor=rotor_of(scene), samples=256)
+    rung = OrbitRung(film=film, quantity=scene.question.quantity, rotor=rotor_of(scene), samples=255)
     return Truth(rung.answer(None).value, 1e-6)
 
 

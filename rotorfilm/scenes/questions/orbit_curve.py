@@ -33,9 +33,11 @@ class SampledOrbit:
 
 @lru_cache(maxsize=16)
 def rate_matrix(n: int) -> Array:
-    """Return the derivative by the angle of the series through n samples, n even."""
+    """Return the derivative by the angle of the series through n samples, n odd.
+
+    Of an even number the highest cosine has no derivative, hence no inertia, and answers like a spring.
+    """
     order = np.fft.fftfreq(n, 1.0 / n)
-    order[n // 2] = 0.0
     waves = np.fft.fft(np.eye(n), axis=0)
     return np.real(np.fft.ifft(1j * order[:, None] * waves, axis=0))
 
@@ -67,7 +69,7 @@ def _resampled(series: Array, n: int) -> Array:
     old = series.shape[1]
     waves = np.fft.rfft(series, axis=1)
     kept = np.zeros((2, n // 2 + 1), dtype=complex)
-    low = min(old, n) // 2
+    low = (min(old, n) + 1) // 2
     kept[:, :low] = waves[:, :low]
     return np.asarray(np.fft.irfft(kept, n, axis=1) * (n / old))
 

@@ -36,10 +36,10 @@ AMPLITUDE, PHASE, FORCE = "unbalance_amplitude", "unbalance_phase", "unbalance_f
 UNITS = {AMPLITUDE: "m", PHASE: "rad", FORCE: "N"}
 """Quantities of an orbit and their units."""
 
-SAMPLES = (16, 32, 64)
-"""Samples over a turn of the nonlinear rungs."""
+SAMPLES = (15, 31, 63)
+"""Samples over a turn of the nonlinear rungs; odd, see `rate_matrix`."""
 
-LINEAR = 32
+LINEAR = 31
 """Samples over a turn at which a linear orbit's defect is taken."""
 
 
@@ -131,7 +131,7 @@ class OrbitRung:
         reach = float(np.hypot(*orbit.position).max()) / self.film.bearing.clearance
         if reach >= 0.999:
             return ErrorEstimate(math.inf, "defect", doubt="the orbit leaves the clearance: not linear")
-        doubled = resampled(orbit, 2 * orbit.position.shape[1])
+        doubled = resampled(orbit, 2 * orbit.position.shape[1] + 1)
         calls = doubled.position.shape[1]
         bound = MAP_BOUNDS[0][2] if self.film.bounded and reach <= MAP_BOUNDS[0][0] else math.inf
         if SAFETY * bound < tolerance:
