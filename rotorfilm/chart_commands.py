@@ -158,6 +158,61 @@ def damper(
     console.print_rows("", files)
 
 
+@chart_app.command(epilog="Example: rotorfilm chart limits --json")
+def limits(out: Folder = OUT, json: Json = False) -> None:
+    """Atlas of where methods fail: film extent, order, length, grid, linearization, macro step."""
+    with console.progress_display() as report:
+        report(0.0, "packages")
+        from .charts import plot_limits
+        from .ladders import failures, journal_limits
+
+        result = journal_limits(report=report)
+        files = _write(out, "chart_limits", result, plot_limits(result))
+        report(1.0, "done")
+    if json:
+        console.print_json(result)
+        return
+    rows = [(panel, name, "nowhere" if at is None else f"{at:.3g}") for panel, name, at in failures(result)]
+    console.print_columns(("simplification", "variant", "fails from"), rows)
+    console.print_rows("", files)
+
+
+@chart_app.command(epilog="Example: rotorfilm chart page --out rotorfilm-charts")
+def page(out: Folder = OUT, json: Json = False) -> None:
+    """Gather all charts of a folder, and the tables behind them, in one HTML page that needs nothing else."""
+    from .charts import write_page
+
+    path = write_page(out)
+    if json:
+        console.print_json({"page": str(path)})
+        return
+    console.print_rows("", [("page", str(path))])
+
+
+@chart_app.command(epilog="Example: rotorfilm chart bush --json")
+def bush(out: Folder = OUT, json: Json = False) -> None:
+    """Tiers of the polymer bush: error against cost, as published too, and the closed form of its shaft."""
+    with console.progress_display() as report:
+        report(0.0, "packages")
+        from .charts import plot_bush_tiers
+        from .ladders import bush_tiers
+        from .results import write_csv
+
+        result = bush_tiers(report=report)
+        files = _write(out, "chart_bush", result, plot_bush_tiers(result))
+        shaft = write_csv(out / "chart_bush_shaft.csv", result.shaft_columns())
+        report(1.0, "done")
+    if json:
+        console.print_json(result)
+        return
+    rows = [(tier.name, f"{tier.error:.1e}", f"{1e3 * tier.cost:.3g} ms") for tier in result.tiers]
+    console.print_columns(("tier", "error of the angle", "time of the run"), rows)
+    errors = [100.0 * row.error for row in result.shaft]
+    closed = f"{min(errors):.2f} to {max(errors):.2f} % high"
+    last = [("closed form of the shaft", closed), ("its table", str(shaft))]
+    console.print_rows("", [("reference", result.reference), *files, *last])
+
+
 def _write(out: Path, name: str, result: Tabular, axes: Sequence[Axes]) -> list[tuple[str, str]]:
     """Write chart and table; return the rows that name them."""
     from .charts import save

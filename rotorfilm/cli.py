@@ -16,6 +16,7 @@ import typer
 from . import console
 from .chart_commands import chart_app
 from .cli_damper import DAMPER_EXAMPLE, damper
+from .cli_rotor import ROTOR_EXAMPLE, rotor
 from .cli_sweep import SWEEP_EXAMPLE, sweep
 from .errors import InputError, RotorfilmError, SceneError
 
@@ -114,6 +115,13 @@ def solve(
         return
     if explain:
         raise InputError(f"--explain must be given with a scene that has a [question], got {str(scene)!r}")
+    if loaded.bush is not None and loaded.journal is None:
+        melting = loaded.melting()
+        if json:
+            console.print_json(melting)
+            return
+        console.print_bush(melting)
+        return
     _make_map(loaded.bearing)
     answer = loaded.describe()
     if json:
@@ -352,6 +360,7 @@ def demo(
 
 
 app.command(epilog=DAMPER_EXAMPLE)(damper)
+app.command(epilog=ROTOR_EXAMPLE)(rotor)
 app.command(epilog=SWEEP_EXAMPLE)(sweep)
 
 

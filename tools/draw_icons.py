@@ -46,6 +46,21 @@ def draw_damper(axes: Axes) -> None:
     axes.plot(x, -0.07 + 0.16 * np.array([0, 0, 1, -1, 1, -1, 1, 0, 0]), color=INK, lw=2)
 
 
+def draw_bush(axes: Axes) -> None:
+    """Draw a shaft that has sunk into the liner of its bush."""
+    axes.add_patch(Circle((0, 0), 0.95, color=STEEL))
+    axes.add_patch(Circle((0, 0), 0.8, color=OIL))
+    axes.add_patch(Circle((0, 0), 0.6, color="white"))
+    axes.add_patch(Circle((0, -0.18), 0.52, facecolor="white", edgecolor=INK, lw=2))
+
+
+def draw_worn_bush(axes: Axes) -> None:
+    """Draw the same with the nodes of its worn profile."""
+    draw_bush(axes)
+    for angle in np.linspace(-2.3, -0.84, 6):
+        axes.add_patch(Circle((0.52 * np.cos(angle), -0.18 + 0.52 * np.sin(angle)), 0.07, color=INK))
+
+
 def draw_rotor(axes: Axes) -> None:
     """Draw a shaft with a disk and its unbalance."""
     axes.add_patch(Rectangle((-0.95, -0.1), 1.9, 0.2, color=STEEL))
@@ -71,6 +86,8 @@ def draw_linear(axes: Axes) -> None:
 
 DRAWN = {
     "damper": draw_damper,
+    "bush_reaction": draw_worn_bush,
+    "bush_wear": draw_bush,
     "grooved_journal": draw_grooved_journal,
     "journal": draw_journal,
     "linear": draw_linear,

@@ -20,11 +20,13 @@ from ..errors import (
     require_vector,
 )
 from ..films import bush_profile as profile
-from ..films.bush_profile import HeatState, MeltingRule, Nodes, Pressed, SharedMelting
+from ..films.bush_profile import HeatState, LocalMelting, MeltingRule, Nodes, Pressed, SharedMelting
 from ..films.bush_settle import settle, stiffness
 from ..model import Array, Linearization, force_outputs, journal_inputs
+from ..native.spec import NativeParameter, NativeSpec
 from ..signals import Signal
 from .bush import MeltingBush
+from .bush_native import bush_parameters, bush_table, has_kernel
 
 NOMINAL_LOAD = 1e-2
 """Typical load in units of `MeltingBush.force_unit`."""
@@ -149,6 +151,30 @@ class BushReaction:
     def angles(self) -> Array:
         """Angles of the nodes, bearing frame, shape (nodes,) [rad]."""
         return np.arctan2(self._nodes.normal[1], self._nodes.normal[0])
+
+    def native(self) -> NativeSpec | None:
+        """Return the kernel of the C library that is this model; None for a subclass or a rule of others."""
+        known = type(self.melting) in (SharedMelting, LocalMelting) and has_kernel(self.bush)
+        if type(self) is not BushReaction or not known:
+            return None
+        retardation = NativeParameter(
+            name="retardation",
+            unit="s",
+            value=float(self.retardation),
+            tunable=True,
+            minimum=0.0,
+            nominal=1e-3,
+            description="retardation time of the liner as a Kelvin-Voigt solid",
+        )
+        local = float(isinstance(self.melting, LocalMelting))
+        return NativeSpec(
+            kernel="bush_reaction",
+            parameters=(*bush_parameters(self.bush, self.melting_heat), retardation),
+            tables={
+                "bush": bush_table(self.bush),
+                "profile": np.array([self.nodes, self.center, self.extent, local]),
+            },
+        )
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the force on the journal, with the wear at t = 0.

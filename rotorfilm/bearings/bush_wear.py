@@ -13,8 +13,10 @@ from ..errors import FilmContactError, InputError, require_finite, require_non_n
 from ..films import bush_contact as arc
 from ..films.bush_melting import Contact, MeltingLaw
 from ..model import Array, Linearization
+from ..native.spec import NativeSpec
 from ..signals import Signal
 from .bush import MeltingBush
+from .bush_native import bush_parameters, bush_table, has_kernel
 
 NOMINAL_LOAD = 1e-2
 """Typical load in units of `MeltingBush.force_unit`."""
@@ -102,6 +104,13 @@ class BushWear:
     def initial_state(self) -> Array:
         """W at t = 0, shape (1,)."""
         return np.array([self.wear])
+
+    def native(self) -> NativeSpec | None:
+        """Return the kernel of the C library that is this model; None for a subclass or a foreign balance."""
+        if type(self) is not BushWear or not has_kernel(self.bush):
+            return None
+        parameters = bush_parameters(self.bush, self.melting_heat)
+        return NativeSpec(kernel="bush_wear", parameters=parameters, tables={"bush": bush_table(self.bush)})
 
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return dW/dt [1/s], shape (1,), at the state (wear,) and the input (load [N], speed [rad/s]).

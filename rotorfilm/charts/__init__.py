@@ -1,13 +1,22 @@
 """Charts: functions from results to matplotlib Axes; nothing here computes physics."""
 
 from .bush import plot_contact_pressure, plot_critical_speed
+from .bush_tiers import plot_bush_tiers, plot_shaft_flux_error
 from .canvas import new_axes, new_figure, save
 from .contact_cases import plot_contact_cases
 from .coupling_error import plot_coupling_error
 from .damper import plot_bistable, plot_eccentricity, plot_phase, plot_transmissibility, plot_transmitted
 from .damper_ladder import plot_damper_accuracy
+from .limits import plot_limits
 from .motion import plot_locus, plot_orbits
-from .rotor import plot_campbell, plot_critical_speed_map, plot_log_decrement, plot_unbalance_response
+from .page import write_page
+from .rotor import (
+    plot_campbell,
+    plot_critical_speed_map,
+    plot_log_decrement,
+    plot_mode_shape,
+    plot_unbalance_response,
+)
 from .whirl_verdicts import plot_journal_stability, plot_thresholds
 from .work_precision import plot_force_error, plot_journal_accuracy
 
@@ -15,6 +24,7 @@ __all__ = [
     "new_axes",
     "new_figure",
     "plot_bistable",
+    "plot_bush_tiers",
     "plot_campbell",
     "plot_contact_cases",
     "plot_contact_pressure",
@@ -26,13 +36,17 @@ __all__ = [
     "plot_force_error",
     "plot_journal_accuracy",
     "plot_journal_stability",
+    "plot_limits",
     "plot_locus",
     "plot_log_decrement",
+    "plot_mode_shape",
     "plot_orbits",
     "plot_phase",
+    "plot_shaft_flux_error",
     "plot_thresholds",
     "plot_transmissibility",
     "plot_transmitted",
     "plot_unbalance_response",
     "save",
+    "write_page",
 ]

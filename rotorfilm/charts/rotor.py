@@ -9,8 +9,10 @@ import control
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..linear import Campbell, CriticalSpeed
+from ..errors import InputError
+from ..linear import Campbell, CriticalSpeed, RotorModes
 from ..model import Array
+from ..rotors import ShaftRotor
 from .canvas import new_axes, new_figure
 
 RPM = math.pi / 30.0
@@ -18,6 +20,9 @@ HERTZ = 2.0 * math.pi
 
 FORWARD, BACKWARD, MIXED, UNSTABLE = "#1f4fb4", "#d62728", "#7f7f7f", "#ffb000"
 """Colors of whirl with the rotation, against it, neither, and of whirl that grows (behind the others)."""
+
+_CIRCLE = 1e-6
+"""Share of an orbit that is no circle, below which it has no longest direction."""
 
 CIRCULAR = 0.1
 """Direction beyond which a whirl counts as forward or, negative, backward."""
@@ -59,12 +64,16 @@ def plot_campbell(
 
 
 def plot_log_decrement(chart: Campbell, *, axes: Axes | None = None) -> Axes:
-    """Draw the logarithmic decrement of each mode over speed [rpm]; below zero the whirl grows."""
+    """Draw the logarithmic decrement of each mode over speed [rpm]; below zero the whirl grows.
+
+    The axis is linear from -0.1 to 0.1, where shafts live, and logarithmic beyond, where films do.
+    """
     axes = axes or new_axes("Stability")
     for decrement, frequency in zip(chart.log_decrement, chart.frequency, strict=True):
         first = frequency[np.isfinite(frequency)][0] / HERTZ
         axes.plot(chart.speeds / RPM, decrement, label=f"from {first:.3g} Hz")
     axes.axhline(0.0, color="k", linewidth=0.8)
+    axes.set_yscale("symlog", linthresh=0.1)
     axes.set(xlabel="speed [rpm]", ylabel="logarithmic decrement")
     axes.legend(fontsize=8)
     return axes
@@ -127,6 +136,59 @@ def plot_unbalance_response(
     for part in (above, below):
         part.grid(visible=True, alpha=0.3)
     return above, below
+
+
+def plot_mode_shape(rotor: ShaftRotor, modes: RotorModes, number: int, *, axes: Axes | None = None) -> Axes:
+    """Draw one whirl mode along a shaft at the moment of its largest deflection, in both planes.
+
+    Parameters
+    ----------
+    rotor : ShaftRotor
+    modes : RotorModes
+        Of this rotor.
+    number : int
+        Place of the mode in `modes`, from 0.
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+
+    Raises
+    ------
+    InputError
+        If there is no such mode.
+    """
+    if not 0 <= number < len(modes.eigenvalues):
+        raise InputError(f"number must be from 0 to {len(modes.eigenvalues) - 1}, got {number!r}")
+    x, y = (_deflection(rotor, plane) for plane in np.split(modes.shapes[:, number], 2))
+    size = np.sqrt(np.abs(x) ** 2 + np.abs(y) ** 2).max()
+    turn = _turn(x, y) / size
+    axes = axes or new_axes("Mode shape")
+    along = rotor.positions
+    axes.plot(along, (x * turn).real, "o-", markersize=3, color=FORWARD, label="x")
+    axes.plot(along, (y * turn).real, "s--", markersize=3, color=BACKWARD, label="y")
+    axes.plot(along[[s.node for s in rotor.stations]], np.zeros(len(rotor.stations)), "k^", label="bearing")
+    axes.axhline(0.0, color="k", linewidth=0.8)
+    frequency, decrement = modes.frequency[number] / HERTZ, modes.log_decrement[number]
+    axes.set(
+        xlabel="along the shaft [m]",
+        ylabel="deflection / the largest",
+        title=f"{frequency:.4g} Hz at {modes.speed / RPM:.0f} rpm, decrement {decrement:.3g}, "
+        f"direction {modes.direction[number]:+.2f}",
+    )
+    axes.legend(fontsize=8)
+    return axes
+
+
+def _deflection(rotor: ShaftRotor, plane: np.ndarray) -> np.ndarray:
+    return plane[0 : 2 * (len(rotor.elements) + 1) : 2]
+
+
+def _turn(x: np.ndarray, y: np.ndarray) -> complex:
+    """Return the phase, exp(i p), at which the node that moves most is farthest out; on a circle along x."""
+    k = int(np.argmax(np.abs(x) ** 2 + np.abs(y) ** 2))
+    # |Re(x e)|^2 + |Re(y e)|^2 is largest where x^2 + y^2 is turned to the real axis
+    squares = x[k] ** 2 + y[k] ** 2
+    circle = abs(squares) < _CIRCLE * (abs(x[k]) ** 2 + abs(y[k]) ** 2)
+    return complex(np.exp(-1j * (np.angle(x[k]) if circle else 0.5 * np.angle(squares))))
 
 
 def _where(mask: np.ndarray, values: Array) -> Array:

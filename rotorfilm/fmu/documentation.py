@@ -136,6 +136,47 @@ KERNELS = {
             "wall: the bearing's film ends the motion there."
         ),
     },
+    "bush_wear": {
+        "Model": (
+            "A rigid shaft that rubs in a thin polymer liner and wears it by melting, under a load that does "
+            "not fall. Temperatures are above the ambient one. Half the contact angle alpha and the contact "
+            "temperature T follow from load, speed and the wear moment W; q_m is what friction heat has left "
+            "over at the melting point. In Co-Simulation W is advanced by an implicit step of fourth order "
+            "with error control; beginning and end of melting and the change of the sense of rotation are "
+            "event indicators."
+        ),
+        "Equations": (
+            "c(T) F(alpha) = a_1 N + W,  F = (alpha - sin(2 alpha)/2)/cos(alpha),  N = load/force unit\n"
+            "T = min(melting point, temperature at which losses equal friction heat)\n"
+            "dW/dt = q_m N/(melting_heat radius qbar),  q_m = max(0, omega R_1 f qbar - Q_1 - Q_2)"
+        ),
+        "Validity": (
+            "Evtushenko & Kovalenko (1993), re-derived. Contact pressure of the shape cos(phi) - cos(alpha). "
+            "The table `bush` holds what is fixed: clearance, thermal closing, a_1, G R_1, conductances of "
+            "shaft and liner, melting point, whether heat leaves the whole shaft, radii, thickness, force "
+            "unit, shear modulus. No abrasive wear, no heat stored."
+        ),
+    },
+    "bush_reaction": {
+        "Model": (
+            "Force and friction torque of a polymer bush on the shaft in it, with wear depths at nodes of "
+            "the liner: loads may fall and turn, the shaft may leave the liner and come back. The contact is "
+            "held at the melting point. Where the depth d of the shaft in the liner is positive it carries "
+            "pressure q; what friction heat leaves over melts the liner. In Co-Simulation the wear is "
+            "advanced by extrapolated implicit Euler steps with error control under held inputs; nodes that "
+            "enter or leave the contact, melting, and the sense of rotation are event indicators."
+        ),
+        "Equations": (
+            "q = (G/a_1) max(0, d),  d = (e.n - Delta)/R + ln(R_2/R) B T_* - v/R\n"
+            "e = (x, y) + retardation (vx, vy)\n"
+            "dv/dt = q f omega R_1 (1 - omega_c/omega)/melting_heat where the contact melts"
+        ),
+        "Validity": (
+            "Evtushenko & Kovalenko (1993), re-derived. Second order in the distance of the nodes. Below the "
+            "critical speed a real contact is colder and carries less. The tables `bush` and `profile` hold "
+            "what is fixed. No abrasive wear, no heat stored."
+        ),
+    },
     "rotor_system": {
         "Model": (
             "A rotor and the film bearings it runs in, as one system. x and y are Cartesian, rotation is "
@@ -218,6 +259,8 @@ def _table(variables: tuple[Variable, ...]) -> str:
 
 
 def _kind(variable: Variable) -> str:
+    if variable.switch:
+        return "event indicator (local)"
     if variable.causality == "local":
         return "state (local)" if variable.state is None else "derivative (local)"
     return f"{variable.variability} parameter" if variable.causality == "parameter" else variable.causality

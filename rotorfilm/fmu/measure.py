@@ -19,6 +19,8 @@ def derivative_error(description: Any, instance: Instance, inputs: Array) -> flo
     """Return the largest deviation of directional derivatives from differences, relative to its row."""
     unknowns, knowns, nominal = unknowns_of(description), knowns_of(description), known_nominals(description)
     instance.set(references_of(description, "input"), inputs.tolist())
+    if description.modelExchange is not None:
+        instance.move(0.0, _states(description))
     exact, values = _columns(instance, unknowns, knowns), np.abs(instance.get(unknowns))
     moved = np.stack(
         [
@@ -53,10 +55,16 @@ def _columns(instance: Instance, unknowns: Sequence[int], knowns: Sequence[int])
     return np.stack([instance.directional(unknowns, [known], [1.0]) for known in knowns], axis=1)
 
 
+def _states(description: Any) -> Array:
+    """Return the states for differences: beyond the start values, which may be the end of a range."""
+    nominal = known_nominals(description)[len(references_of(description, "input")) :]
+    return starts_of(description, "local") + 4.0 * DIFFERENCE_STEP * nominal
+
+
 def _difference(description: Any, instance: Instance, known: int, step: float, inputs: Array) -> Array:
     """Return the derivative by one known from central differences of fourth order."""
     weights = {-2.0: 1.0, -1.0: -8.0, 1.0: 8.0, 2.0: -1.0}
-    states = starts_of(description, "local")
+    states = _states(description)
     total = np.zeros(len(unknowns_of(description)))
     for shift, weight in weights.items():
         shifted = np.concatenate([inputs, states])

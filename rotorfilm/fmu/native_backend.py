@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import FmuError
-from ..model import Array, Dynamic, Model
+from ..model import Array, Dynamic, Model, Switched
 from ..native.resource import FILE_NAME, NativeVariable, Role, pack
 from ..native.spec import NativeSpec, library_of
 from .archive import licenses
@@ -73,7 +73,7 @@ CATEGORIES = {
 ICON = "icon.png"
 REFERENCE = "documentation/reference.csv"
 
-RATES = {"m": "m/s", "m/s": "m/s2", "rad": "rad/s", "rad/s": "rad/s2"}
+RATES = {"1": "1/s", "m": "m/s", "m/s": "m/s2", "rad": "rad/s", "rad/s": "rad/s2"}
 """Units of derivatives in time, by the unit of the state."""
 
 _ROLES = {
@@ -128,7 +128,7 @@ def copyright_line() -> str:
 
 
 def native_model_variables(export: Export) -> tuple[Variable, ...]:
-    """Return time, parameters, inputs, outputs, states and their derivatives, in this order.
+    """Return time, parameters, inputs, outputs, states, their derivatives, event indicators, in this order.
 
     Raises
     ------
@@ -157,7 +157,7 @@ def native_model_variables(export: Export) -> tuple[Variable, ...]:
     ]
     outputs = [labelled(component, "output", s) for s in model.outputs]
     before = [time, *parameters, *inputs, *outputs]
-    variables = (*before, *_state_variables(model, component, len(before)))
+    variables = (*before, *_state_variables(model, component, len(before)), *_switches(export))
     require_unique(variables)
     return variables
 
@@ -179,6 +179,18 @@ def _state_variables(model: Model, component: str, first: int) -> list[Variable]
         for k, s in enumerate(states)
     ]
     return [*states, *slopes]
+
+
+def _switches(export: Export) -> list[Variable]:
+    """Return the event indicators of a model that has switching functions."""
+    if not (isinstance(export.model, Switched) and isinstance(export.model, Dynamic)):
+        return []
+    count = len(export.model.events(0.0, export.model.initial_state, export.inputs))
+    text = "event indicator: the model is smooth while it keeps its sign"
+    return [
+        Variable(structured_name(export.component, f"event_{k}"), "local", None, None, text, switch=True)
+        for k in range(count)
+    ]
 
 
 def native_files(export: Export, variables: tuple[Variable, ...]) -> dict[str, bytes]:
@@ -215,6 +227,7 @@ def resource(export: Export, variables: tuple[Variable, ...], token: str) -> dic
 
 def _native(variable: Variable) -> NativeVariable:
     local = Role.STATE if variable.state is None else Role.DERIVATIVE
+    local = Role.SWITCH if variable.switch else local
     return NativeVariable(
         role=_ROLES.get(variable.causality, local),
         name=variable.name,

@@ -25,8 +25,8 @@ class Variable(NamedTuple):
     name : str
         Structured name, `component.signal`; states are `component.state_signal`.
     causality : str
-        "input", "output", "local" (a state or its derivative), "parameter" or "independent" (the time), as
-        FMI spells them.
+        "input", "output", "local" (a state, its derivative, an event indicator), "parameter" or
+        "independent" (the time), as FMI spells them.
     unit : str or None
         SI unit, None where it is not known.
     nominal : float or None
@@ -40,6 +40,8 @@ class Variable(NamedTuple):
         Bounds of a parameter.
     state : int or None
         Of the derivative of a state, the index of the state in the list.
+    switch : bool
+        Whether it is the value of a switching function, an event indicator.
     """
 
     name: str
@@ -52,6 +54,7 @@ class Variable(NamedTuple):
     minimum: float | None = None
     maximum: float | None = None
     state: int | None = None
+    switch: bool = False
 
 
 class Labelled(Protocol):
@@ -145,9 +148,16 @@ def require_unique(variables: Sequence[Variable]) -> None:
 
 def references(variables: Sequence[Variable], causality: str) -> list[int]:
     """Return the value references of a causality; of "local" those of the states."""
-    return [k for k, v in enumerate(variables) if v.causality == causality and v.state is None]
+    return [
+        k for k, v in enumerate(variables) if v.causality == causality and v.state is None and not v.switch
+    ]
 
 
 def derivative_references(variables: Sequence[Variable]) -> list[int]:
     """Return the value references of the derivatives of the states."""
     return [k for k, v in enumerate(variables) if v.state is not None]
+
+
+def switch_references(variables: Sequence[Variable]) -> list[int]:
+    """Return the value references of the event indicators."""
+    return [k for k, v in enumerate(variables) if v.switch]

@@ -17,12 +17,15 @@ from .description import (
     value_attributes,
 )
 from .structure import Unknown, initial_unknowns, running_unknowns
-from .variables import Variable, derivative_references
+from .variables import Variable, derivative_references, switch_references
 
 
 def to_xml2(description: Description, guid: str) -> bytes:
     """Return modelDescription.xml; equal arguments give equal bytes."""
     root = header(description, "2.0", guid)
+    switches = switch_references(description.variables)
+    if switches:
+        root.set("numberOfEventIndicators", str(len(switches)))
     for name, attributes in description.interfaces.items():
         interface = SubElement(root, name, {"modelIdentifier": description.identifier, **attributes})
         _add_sources(interface, description.sources)

@@ -16,7 +16,7 @@ from .description import (
     value_attributes,
 )
 from .structure import Unknown, initial_unknowns, running_unknowns
-from .variables import Variable, derivative_references
+from .variables import Variable, derivative_references, switch_references
 
 VERSION = "3.0"
 
@@ -86,6 +86,8 @@ def _add_structure(root: Element, description: Description) -> None:
         _add(structure, "ContinuousStateDerivative" if unknown.reference in slopes else "Output", unknown)
     for unknown in initial_unknowns(variables, description.dependencies):
         _add(structure, "InitialUnknown", unknown)
+    for reference in switch_references(variables):
+        SubElement(structure, "EventIndicator", valueReference=str(reference))
 
 
 def _add(structure: Element, name: str, unknown: Unknown) -> None:

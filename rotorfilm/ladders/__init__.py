@@ -1,5 +1,6 @@
 """Ladders: every model of one physics from the cheapest law to the reference, measured side by side."""
 
+from .bush_tiers import BushTier, BushTiers, ShaftFluxError, bush_tiers, shaft_flux_errors
 from .contact_cases import contact_cases
 from .damper_accuracy import DamperAccuracy, DamperRung, damper_accuracy, damper_rungs
 from .journal_accuracy import JournalAccuracy, RungAccuracy, journal_accuracy, pareto_front
@@ -7,26 +8,37 @@ from .journal_rungs import Rung, comparison_bearing, fitted_bearing, journal_run
 from .journal_stability import journal_stability
 from .journal_states import LARGE, SMALL, StateRange, random_states
 from .journal_thresholds import JournalStability, RungStability
+from .limits import Limit, LimitAtlas, Panel, failures, journal_limits
 
 __all__ = [
     "LARGE",
     "SMALL",
+    "BushTier",
+    "BushTiers",
     "DamperAccuracy",
     "DamperRung",
     "JournalAccuracy",
     "JournalStability",
+    "Limit",
+    "LimitAtlas",
+    "Panel",
     "Rung",
     "RungAccuracy",
     "RungStability",
+    "ShaftFluxError",
     "StateRange",
+    "bush_tiers",
     "comparison_bearing",
     "contact_cases",
     "damper_accuracy",
     "damper_rungs",
+    "failures",
     "fitted_bearing",
     "journal_accuracy",
+    "journal_limits",
     "journal_rungs",
     "journal_stability",
     "pareto_front",
     "random_states",
+    "shaft_flux_errors",
 ]

@@ -20,7 +20,7 @@ from .rotor_modes import (
     rotor_threshold,
 )
 from .rotor_rest import RotorEquilibrium, rotor_equilibrium
-from .rotor_system import rotor_system, unbalance_response
+from .rotor_system import rotor_system, rotor_transmissibility, unbalance_response
 from .whirl import speed_parameter, whirl_threshold
 
 __all__ = [
@@ -49,6 +49,7 @@ __all__ = [
     "rotor_modes",
     "rotor_system",
     "rotor_threshold",
+    "rotor_transmissibility",
     "small_motion_transmissibility",
     "speed_parameter",
     "to_nlsys",

@@ -275,7 +275,7 @@ def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 
     result = np.full((count, len(grid)), math.nan)
     for column, spring in enumerate(grid):
         whole = s.stiffness + spring * s.journals.T @ s.journals
-        held = (forward.conj().T @ (0.5 * (whole + whole.T)) @ forward).real
+        held = forward.conj().T @ (0.5 * (whole + whole.T)) @ forward
         # K is positive, M - i G need not be: a thin disk has no forward critical speed of tilt
         inverse = eigh(inertia, held, eigvals_only=True)[::-1]
         speeds = 1.0 / np.sqrt(inverse[inverse > 1e-12 * np.abs(inverse).max()][:count])

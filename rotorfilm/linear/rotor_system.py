@@ -17,6 +17,9 @@ from ..signals import names
 from .closed_loop import HOUSING
 from .rotor_rest import RotorEquilibrium, rotor_equilibrium
 
+FORCES = (*HOUSING, "ground_force_x", "ground_force_y")
+"""How the names of forces on housings and on the ground end."""
+
 
 class SecondOrder(NamedTuple):
     """mass q'' + damping q' + stiffness q = force, bearings, gyroscopic effect and all, shape (N, N) each."""
@@ -144,6 +147,54 @@ def unbalance_response(
     data = np.stack(responses, axis=-1)[:, None, :]
     return control.FrequencyResponseData(
         data, grid, inputs=["unbalance"], outputs=labels, name="unbalance_response"
+    )
+
+
+def rotor_transmissibility(
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
+) -> control.FrequencyResponseData:
+    """Return the forces on all housings per force on each journal that turns with the shaft.
+
+    Parameters
+    ----------
+    rotor : FlexibleRotor
+    bearings : mapping of str to Reaction
+        By the name of the station; each is linearized at the equilibrium of every speed.
+    speeds : array_like, shape (n,) [rad/s]
+        Angular speeds, positive and rising; the response is taken at the frequency of each.
+
+    Returns
+    -------
+    control.FrequencyResponseData
+        Inputs: `left_force_x` and so on, forces on the journals only. Outputs: `left_housing_force_x` and so
+        on for each bearing, and for each support `left_ground_force_x`, its force on the ground [1].
+
+    Raises
+    ------
+    InputError
+        If the speeds break their rule, or there is no bearing.
+    EquilibriumError
+        If there is no equilibrium at one of the speeds.
+    """
+    grid, s = checked_speeds(speeds), rotor.structure
+    # A bearing pushes its housing back; an unbalance does not.
+    push = s.journals if s.housings is None else s.journals + s.housings
+    responses, wanted = [], []
+    for speed in grid:
+        at = rotor_equilibrium(rotor, bearings, float(speed))
+        system = with_hysteresis(s, second_order(s, at), speed, speed)
+        motion = np.linalg.solve(system.dynamic_stiffness(speed), push.T)
+        sense, labels = _outputs(rotor, at)
+        wanted = [k for k, label in enumerate(labels) if label.endswith(FORCES)]
+        responses.append(sense[wanted] @ np.vstack([motion, 1j * speed * motion]))
+    if not wanted:
+        raise InputError(f"bearings must hold at least one of the stations {list(s.stations)}, got none")
+    return control.FrequencyResponseData(
+        np.stack(responses, axis=-1),
+        grid,
+        inputs=names(rotor.inputs),
+        outputs=[labels[k] for k in wanted],
+        name="transmissibility",
     )
 
 

@@ -259,9 +259,7 @@ fmi2Status fmi2GetDerivatives(fmi2Component component, fmi2Real derivatives[], s
 fmi2Status fmi2GetEventIndicators(fmi2Component component, fmi2Real indicators[], size_t count)
 {
     CALL(fmi2GetEventIndicators, AFTER_START);
-    (void)indicators;
-    return count == 0 ? fmi2OK
-                      : (fmi2Status)rf_log(c, RF_ERROR, RF_LOG_ERROR, "there are no event indicators");
+    return (fmi2Status)rf_get_switches(c, indicators, count);
 }
 
 fmi2Status fmi2GetContinuousStates(fmi2Component component, fmi2Real x[], size_t count)

@@ -452,8 +452,8 @@ fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 
 
 fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 indicators[], size_t count)
 {
-    (void)indicators;
-    return refuse(instance, "fmi3GetEventIndicators", count, "there are no event indicators");
+    CALL(fmi3GetEventIndicators, RF_INITIALIZING | RF_EVENT | RF_CONTINUOUS);
+    return (fmi3Status)rf_get_switches(c, indicators, count);
 }
 
 fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 x[], size_t count)
@@ -471,7 +471,7 @@ fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, fmi3Float64 
 fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *count)
 {
     CALL(fmi3GetNumberOfEventIndicators, ANY);
-    *count = 0;
+    *count = c->sizes.events;
     return fmi3OK;
 }
 

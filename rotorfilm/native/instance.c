@@ -73,7 +73,7 @@ rf_answer rf_allow(rf_instance *c, const char *function, unsigned phases)
 
 static void forget(rf_instance *c)
 {
-    c->outputs_known = c->derivatives_known = 0;
+    c->known = 0;
 }
 
 /* Start values of all variables, and the phase after instantiation. */
@@ -100,7 +100,7 @@ static void start(rf_instance *c)
 static int allocate(rf_instance *c)
 {
     const size_t p = c->sizes.parameters, m = c->sizes.inputs, q = c->sizes.outputs, n = c->sizes.states;
-    const size_t total = p + m + n + q + n + n + n * n + n * m + q * n + q * m + rf_integration_work(n) + n;
+    const size_t z = c->sizes.events, total = p + m + n + q + n + z + n + n * n + n * m + q * n + q * m + rf_integration_work(n) + n;
     double *at = calloc(total + 1, sizeof *at);
     if (!at)
         return 0;
@@ -110,6 +110,7 @@ static int allocate(rf_instance *c)
     c->values[RF_STATE] = at, at += n;
     c->values[RF_OUTPUT] = at, at += q;
     c->values[RF_DERIVATIVE] = at, at += n;
+    c->values[RF_SWITCH] = at, at += z;
     c->nominal = at, at += n;
     c->jacobian.A = at, at += n * n;
     c->jacobian.B = at, at += n * m;
@@ -124,7 +125,8 @@ static int fits(const rf_instance *c, rf_message *why)
     const size_t *count = c->resource->count;
     if (count[RF_TIME] == 1 && count[RF_PARAMETER] == c->sizes.parameters
         && count[RF_INPUT] == c->sizes.inputs && count[RF_OUTPUT] == c->sizes.outputs
-        && count[RF_STATE] == c->sizes.states && count[RF_DERIVATIVE] == c->sizes.states)
+        && count[RF_STATE] == c->sizes.states && count[RF_DERIVATIVE] == c->sizes.states
+        && count[RF_SWITCH] == c->sizes.events)
         return 1;
     rf_say(why, RF_INVALID,
            "the variables must be those of the kernel %s: %zu parameters, %zu inputs, %zu outputs, "
@@ -237,27 +239,23 @@ static rf_point point(const rf_instance *c)
     return at;
 }
 
-static int evaluate_outputs(rf_instance *c, rf_message *why)
+/* Compute the values of this role unless they are known. */
+static int evaluate(rf_instance *c, rf_role role, rf_message *why)
 {
-    if (c->outputs_known)
+    const rf_kernel_type *type = c->type;
+    int (*const function)(const void *, const rf_point *, double *, rf_message *) =
+        role == RF_OUTPUT ? type->output : role == RF_DERIVATIVE ? type->derivative : type->events;
+    if (c->known & 1u << role || !function)
         return RF_OK;
     int status = apply_parameters(c, why);
     const rf_point at = point(c);
     if (status == RF_OK)
-        status = c->type->output(c->kernel, &at, c->values[RF_OUTPUT], why);
-    c->outputs_known = status <= RF_OUTSIDE;
-    return status;
-}
-
-static int evaluate_derivatives(rf_instance *c, rf_message *why)
-{
-    if (c->derivatives_known || c->sizes.states == 0)
-        return RF_OK;
-    int status = apply_parameters(c, why);
-    const rf_point at = point(c);
-    if (status == RF_OK)
-        status = c->type->derivative(c->kernel, &at, c->values[RF_DERIVATIVE], why);
-    c->derivatives_known = status <= RF_OUTSIDE;
+        status = function(c->kernel, &at, c->values[role], why);
+    for (size_t i = 0; status <= RF_OUTSIDE && i < c->resource->count[role]; ++i)
+        if (!isfinite(c->values[role][i]))
+            status = rf_say(why, RF_NOT_FINITE, "value %zu is not finite", i);
+    if (status <= RF_OUTSIDE)
+        c->known |= 1u << role;
     return status;
 }
 
@@ -284,7 +282,7 @@ rf_answer rf_exit_initialization(rf_instance *c)
     rf_message why;
     if (apply_parameters(c, &why) != RF_OK)
         return failed(c, RF_INVALID, "parameters", &why);
-    const rf_answer answer = judged(c, evaluate_outputs(c, &why), "outputs", &why);
+    const rf_answer answer = judged(c, evaluate(c, RF_OUTPUT, &why), "outputs", &why);
     if (answer <= RF_WARNING)
         rf_pass_event(c);
     return answer;
@@ -309,11 +307,13 @@ static const rf_variable *find(rf_instance *c, unsigned reference, const char *f
 static rf_answer refresh(rf_instance *c, rf_role role)
 {
     rf_message why;
-    if (role == RF_OUTPUT)
-        return judged(c, evaluate_outputs(c, &why), "outputs", &why);
-    if (role == RF_DERIVATIVE)
-        return judged(c, evaluate_derivatives(c, &why), "derivatives", &why);
-    return RF_FINE;
+    if (role != RF_OUTPUT && role != RF_DERIVATIVE && role != RF_SWITCH)
+        return RF_FINE;
+    return judged(c, evaluate(c, role, &why),
+                  role == RF_OUTPUT       ? "outputs"
+                  : role == RF_DERIVATIVE ? "derivatives"
+                                          : "switching functions",
+                  &why);
 }
 
 rf_answer rf_get(rf_instance *c, const unsigned *references, size_t count, double *values)
@@ -420,6 +420,17 @@ rf_answer rf_get_derivatives(rf_instance *c, double *dx, size_t count)
     if (answer > RF_WARNING)
         return answer;
     return copy_states(c, c->values[RF_DERIVATIVE], dx, count) == RF_FINE ? answer : RF_ERROR;
+}
+
+rf_answer rf_get_switches(rf_instance *c, double *z, size_t count)
+{
+    if (count != c->sizes.events)
+        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "the number of event indicators must be %zu, got %zu",
+                      c->sizes.events, count);
+    const rf_answer answer = refresh(c, RF_SWITCH);
+    if (answer <= RF_WARNING && count)
+        memcpy(z, c->values[RF_SWITCH], count * sizeof *z);
+    return answer;
 }
 
 /* The entry of the Jacobian; NULL if these are no unknown and known. */
@@ -559,7 +570,7 @@ rf_answer rf_step(rf_instance *c, double from, double step)
         return give_up(c, t, &why);
     c->now.time = t;
     forget(c);
-    status = evaluate_outputs(c, &why);
+    status = evaluate(c, RF_OUTPUT, &why);
     if (status > RF_OUTSIDE) {
         memcpy(c->values[RF_STATE], before, c->sizes.states * sizeof *before);
         return give_up(c, from, &why);
@@ -567,7 +578,7 @@ rf_answer rf_step(rf_instance *c, double from, double step)
     c->last_good_time = t;
     if (!c->event_mode || t != c->now.kink) {
         rf_pass_event(c);
-        c->outputs_known = 1;
+        c->known |= 1u << RF_OUTPUT;
     }
     return judged(c, status, "outputs", &why);
 }

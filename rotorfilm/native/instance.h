@@ -64,7 +64,8 @@ struct rf_instance {
     rf_phase resume; /* phase after reconfiguration */
     double stop_time, tolerance, last_good_time;
     int stop_defined, terminated;
-    int parameters_changed, outputs_known, derivatives_known;
+    int parameters_changed;
+    unsigned known; /* bits of the roles whose values are those of the present state */
     size_t value_count;
     double *values[RF_ROLES]; /* one block: parameters, inputs, states first, these are saved */
     rf_jacobian jacobian;
@@ -97,6 +98,7 @@ rf_answer rf_set_time(rf_instance *c, double time);
 rf_answer rf_set_states(rf_instance *c, const double *x, size_t count);
 rf_answer rf_get_states(rf_instance *c, double *x, size_t count);
 rf_answer rf_get_derivatives(rf_instance *c, double *dx, size_t count);
+rf_answer rf_get_switches(rf_instance *c, double *z, size_t count);
 rf_answer rf_get_nominals(rf_instance *c, double *nominal, size_t count);
 
 /* Derivatives of the unknowns along a seed of the knowns; transposed, of the seeded sum of the unknowns by

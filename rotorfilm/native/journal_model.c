@@ -4,7 +4,7 @@
 
 enum { RADIUS, LENGTH, CLEARANCE, VISCOSITY, PARAMETERS };
 
-const rf_sizes RF_JOURNAL_SIZES = {PARAMETERS, 5, 2, 0};
+const rf_sizes RF_JOURNAL_SIZES = {PARAMETERS, 5, 2, 0, 0};
 
 double rf_slenderness(const double *p)
 {

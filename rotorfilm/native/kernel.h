@@ -30,7 +30,7 @@ typedef struct rf_tables {
 const rf_table *rf_find_table(const rf_tables *tables, const char *name, uint32_t axes, rf_message *why);
 
 typedef struct rf_sizes {
-    size_t parameters, inputs, outputs, states;
+    size_t parameters, inputs, outputs, states, events;
 } rf_sizes;
 
 /* Time [s], states and inputs. */
@@ -70,6 +70,9 @@ typedef struct rf_kernel_type {
 
     /* Advance x by dt under held inputs, where the kernel does that better than integrate.h. */
     int (*step)(void *kernel, const rf_point *at, double dt, double *x, rf_message *why);
+
+    /* The switching functions: the kernel is smooth while none of them changes its sign. */
+    int (*events)(const void *kernel, const rf_point *at, double *z, rf_message *why);
 
     /* The first time after t at which the derivative has a kink; HUGE_VAL if there is none. */
     double (*next_event)(const void *kernel, double t);

@@ -63,7 +63,7 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
     }
     self->next = self->transition + size * size;
     self->work = self->next + self->n;
-    const rf_sizes mine = {0, self->m, self->p, self->n};
+    const rf_sizes mine = {0, self->m, self->p, self->n, 0};
     *sizes = mine;
     return self;
 }

@@ -44,7 +44,7 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
         destroy(self);
         return NULL;
     }
-    const rf_sizes mine = {self->profile.points == 1 ? PARAMETERS : SPEED, 2, 5, 4};
+    const rf_sizes mine = {self->profile.points == 1 ? PARAMETERS : SPEED, 2, 5, 4, 0};
     *sizes = mine;
     return self;
 }

@@ -11,6 +11,7 @@ typedef enum rf_role {
     RF_OUTPUT,
     RF_STATE,
     RF_DERIVATIVE,
+    RF_SWITCH, /* value of a switching function */
     RF_ROLES
 } rf_role;
 

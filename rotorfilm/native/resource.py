@@ -36,6 +36,7 @@ class Role(IntEnum):
     OUTPUT = 3
     STATE = 4
     DERIVATIVE = 5
+    SWITCH = 6
 
 
 class NativeVariable(NamedTuple):

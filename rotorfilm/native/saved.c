@@ -84,7 +84,7 @@ rf_answer rf_restore(rf_instance *c, const void *saved)
     c->terminated = h.terminated;
     c->resume = (rf_phase)h.resume;
     c->parameters_changed = 1;
-    c->outputs_known = c->derivatives_known = 0;
+    c->known = 0;
     return RF_FINE;
 }
 

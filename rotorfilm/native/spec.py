@@ -13,17 +13,18 @@ from ..errors import InputError, require_positive
 from ..model import Array
 from ..units import UNITS
 
-LIBRARIES = ("rotorfilm", "rotorfilm_states", "rotorfilm_systems")
+LIBRARIES = ("rotorfilm", "rotorfilm_states", "rotorfilm_systems", "rotorfilm_bushes")
 """The compiled libraries, in the order of RF_SUBSET in `native/kernels.c`; an FMU carries one of them."""
 
 _IN_STATES = {"linear", "rigid_rotor"}
 _IN_SYSTEMS = {"rotor_system"}
+_IN_BUSHES = {"bush_reaction", "bush_wear"}
 
 
 def library_of(kernel: str) -> str:
     """Return which of `LIBRARIES` holds a kernel."""
-    films, states, systems = LIBRARIES
-    return states if kernel in _IN_STATES else systems if kernel in _IN_SYSTEMS else films
+    groups = zip(LIBRARIES[1:], (_IN_STATES, _IN_SYSTEMS, _IN_BUSHES), strict=True)
+    return next((library for library, kernels in groups if kernel in kernels), LIBRARIES[0])
 
 
 @dataclass(frozen=True, kw_only=True)

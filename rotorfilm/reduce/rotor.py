@@ -60,7 +60,8 @@ def reduce_rotor(rotor: FlexibleRotor, *, frequency: float, tolerance: float = 1
     """
     require_positive("frequency", frequency)
     require_positive("tolerance", tolerance)
-    most = len(rotor.structure.coordinates) - len(rotor.structure.stations)
+    s = rotor.structure
+    most = len(s.coordinates) - len(s.stations) - len(s.supports)
     for modes in range(most + 1):
         small = ReducedRotor(rotor=rotor, modes=modes, speed=rotor.speed, gravity=rotor.gravity)
         error = reduction_error(rotor.structure, small.structure, frequency)

@@ -12,6 +12,7 @@ from .parts import (
     ShaftElement,
     Station,
     Support,
+    TiltSpring,
     Unbalance,
 )
 from .profile import SpeedProfile
@@ -19,6 +20,7 @@ from .reduced import ReducedRotor
 from .rigid import RigidRotor
 from .rigid_shaft import RigidShaft
 from .shaft import ShaftRotor
+from .steady import SteadyRotor
 from .structure import FlexibleRotor
 
 __all__ = [
@@ -40,7 +42,9 @@ __all__ = [
     "ShaftRotor",
     "SpeedProfile",
     "Station",
+    "SteadyRotor",
     "Support",
+    "TiltSpring",
     "Unbalance",
     "cowper_coefficient",
     "mount",

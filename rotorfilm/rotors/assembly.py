@@ -10,7 +10,7 @@ from ..errors import InputError
 from ..model import Array
 from ..signals import Signal
 from .beam import Beam
-from .parts import Coupling, Disk, LayeredElement, Probe, ShaftElement, Station, Unbalance
+from .parts import Coupling, Disk, LayeredElement, Probe, ShaftElement, Station, TiltSpring, Unbalance
 from .structure import (
     NOMINAL_LENGTH,
     Coordinate,
@@ -33,6 +33,7 @@ def assemble(
     elements: Sequence[ShaftPiece],
     disks: Sequence[Disk],
     stations: Sequence[Station],
+    tilt_springs: Sequence[TiltSpring],
     probes: Sequence[Probe],
     unbalances: Sequence[Unbalance],
     internal_damping: float,
@@ -51,11 +52,17 @@ def assemble(
         *(Coordinate(station_name(s.name, "support_{}"), "m", NOMINAL_LENGTH) for s in stations if s.support),
     ]
     size = len(coordinates)
-    mass, polar, stiffness = _chain(elements, beam, size)
+    mass, polar, stiffness, geometric, twist = _chain(elements, beam, size)
     _add_disks(mass, polar, disks)
     bending, damping = both_planes(stiffness), np.zeros((2 * size, 2 * size))
-    held = both_planes(stiffness)
+    held = bending + both_planes(geometric) + across_planes(twist)
+    for spring in tilt_springs:
+        places = [2 * spring.node + 1, 2 * spring.node + 1 + size]
+        tilts = np.ix_(places, places)
+        held[tilts] += spring.stiffness
+        damping[tilts] += spring.damping
     supported = [s for s in stations if s.support]
+    housings = _housings(stations, size)
     for place, station in enumerate(supported, start=size - len(supported)):
         assert station.support is not None
         pair = np.ix_([place, place + size], [place, place + size])
@@ -69,7 +76,7 @@ def assemble(
         stiffness=held,
         circulation=internal_damping * across_planes(stiffness),
         stations=checked_stations([station.name for station in stations]),
-        journals=_journals(stations, size),
+        journals=_journals(stations, size) - housings,
         weight=both_planes(mass) @ _translation(elements, len(supported), size, gravity),
         unbalance=_unbalance(unbalances, size),
         coordinates=tuple(coordinates),
@@ -78,6 +85,7 @@ def assemble(
             *_support_readouts(supported, size),
         ),
         supports=tuple(range(size - len(supported), size)),
+        housings=housings if supported else None,
         hysteresis=loss_factor * stiffness if loss_factor else None,
     )
 
@@ -100,19 +108,19 @@ def _inner(element: ShaftPiece, beam: Beam) -> int:
     return 0 if isinstance(element, Coupling) else beam.internal
 
 
-def _chain(elements: Sequence[ShaftPiece], beam: Beam, size: int) -> tuple[Array, Array, Array]:
-    """Return mass, polar and stiffness matrix of one plane."""
-    total = np.zeros((3, size, size))
+def _chain(elements: Sequence[ShaftPiece], beam: Beam, size: int) -> Array:
+    """Return mass, polar, stiffness, geometric stiffness and twist of one plane, shape (5, size, size)."""
+    total = np.zeros((5, size, size))
     inside = 2 * (len(elements) + 1)
     for number, element in enumerate(elements):
         ends = list(range(2 * number, 2 * number + 4))
         inner = _inner(element, beam)
         places = ends + list(range(inside, inside + inner))
         inside += inner
-        for matrix, part in zip(total, element.matrices(beam), strict=True):
-            matrix[np.ix_(places, places)] += part
-    mass, polar, stiffness = total
-    return mass, polar, stiffness
+        scales = (1.0, 1.0, 1.0, element.axial_force, element.torque)
+        for matrix, scale, part in zip(total, scales, element.matrices(beam), strict=True):
+            matrix[np.ix_(places, places)] += scale * part
+    return total
 
 
 def _add_disks(mass: Array, polar: Array, disks: Sequence[Disk]) -> None:
@@ -124,14 +132,23 @@ def _add_disks(mass: Array, polar: Array, disks: Sequence[Disk]) -> None:
 
 
 def _journals(stations: Sequence[Station], size: int) -> Array:
+    """Return the displacement of each journal, shape (2 n_stations, 2 size)."""
     rows = np.zeros((2 * len(stations), 2 * size))
-    support = size - sum(station.support is not None for station in stations)
     for k, station in enumerate(stations):
         for axis in range(2):
             rows[2 * k + axis, axis * size + 2 * station.node] = 1.0
-            if station.support:
-                rows[2 * k + axis, axis * size + support] = -1.0
-        support += station.support is not None
+    return rows
+
+
+def _housings(stations: Sequence[Station], size: int) -> Array:
+    """Return the displacement of each housing, shape (2 n_stations, 2 size); 0 where it is rigid."""
+    rows = np.zeros((2 * len(stations), 2 * size))
+    place = size - sum(station.support is not None for station in stations)
+    for k, station in enumerate(stations):
+        if station.support:
+            for axis in range(2):
+                rows[2 * k + axis, axis * size + place] = 1.0
+            place += 1
     return rows
 
 
@@ -172,7 +189,9 @@ def _support_readouts(supported: Sequence[Station], size: int) -> Iterator[Reado
             )
 
 
-def check_nodes(count: int, parts: Mapping[str, Sequence[Disk | Station | Probe | Unbalance]]) -> None:
+def check_nodes(
+    count: int, parts: Mapping[str, Sequence[Disk | Station | TiltSpring | Probe | Unbalance]]
+) -> None:
     """Raise InputError unless every part sits on one of `count` nodes."""
     for name, items in parts.items():
         for item in items:

@@ -14,11 +14,14 @@ import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.polynomial.legendre import leggauss
 
-from ..errors import InputError, require_number, require_positive
+from ..errors import InputError, require_number
 from ..model import Array
 
-_NODES, _WEIGHTS = leggauss(5)
-"""Exact to degree 9: the mass of the fourth-order element has degree 8."""
+_NODES, _WEIGHTS = leggauss(7)
+"""Exact to degree 13: the mass of the fourth-order element has degree 8, on a cone 10. One is the middle."""
+
+POINTS = 0.5 * (_NODES + 1.0)
+"""Places z / length at which a section that varies along an element is given."""
 
 
 class BeamMatrices(NamedTuple):
@@ -29,15 +32,21 @@ class BeamMatrices(NamedTuple):
     mass, polar, stiffness : ndarray
         Of translation and of rotation about a diameter; of rotation about the axis, as it acts on the tilt;
         of bending and shear. Entries are per w [m] and theta [rad].
+    geometric : ndarray
+        Stiffness per axial tension [1/N of the above].
+    twist : ndarray
+        Stiffness of x per torque and displacement along y; of y against x it is the opposite.
     """
 
     mass: Array
     polar: Array
     stiffness: Array
+    geometric: Array
+    twist: Array
 
 
 class Section(NamedTuple):
-    """What a beam needs to know about its cross section.
+    """What a beam needs to know about its cross section: numbers, or arrays at the places `POINTS`.
 
     Attributes
     ----------
@@ -51,10 +60,10 @@ class Section(NamedTuple):
         rho I, rotary inertia about a diameter per length; the polar one is twice as large.
     """
 
-    bending: float
-    shear: float
-    mass: float
-    inertia: float
+    bending: float | Array
+    shear: float | Array
+    mass: float | Array
+    inertia: float | Array
 
 
 class Beam(Protocol):
@@ -145,7 +154,8 @@ class FourthOrderBeam:
 def beam_matrices(beam: Beam, section: Section, length: float) -> BeamMatrices:
     """Return the matrices of an element.
 
-    The energies are integrated by Gauss's rule, which is exact here.
+    The energies are integrated by Gauss's rule, which is exact here. Where the section varies, the shapes are
+    those of the section in the middle, as in most codes.
 
     Parameters
     ----------
@@ -157,21 +167,40 @@ def beam_matrices(beam: Beam, section: Section, length: float) -> BeamMatrices:
     ------
     InputError
         If the section does not shear, but the element has shear among its degrees of freedom.
+
+    Notes
+    -----
+    With the virtual displacements dw, dtheta, axial tension P adds P int dw' w', and a torque T that follows
+    the shaft adds T int (dtheta_x theta_y' - dw_x' theta_y' + dtheta_x' w_y') to the plane of x and the
+    opposite to that of y (Friswell et al. 2010, section 5.4); without shear that is T int dtheta_x' theta_y.
     """
-    if beam.internal and not math.isfinite(section.shear):
+    bending, shear, mass, inertia = np.broadcast_arrays(*section, POINTS)[:4]
+    middle, sheared = len(POINTS) // 2, bool(np.isfinite(shear).all())
+    if beam.internal and not sheared:
         raise InputError(f"shear_coefficient must be finite for {beam!r}, got inf; ClassicalBeam() allows it")
-    ratio = 12.0 * section.bending / (section.shear * length**2)
-    xi, weights = 0.5 * (_NODES + 1.0), 0.5 * length * _WEIGHTS
-    shapes = beam.shapes(length, ratio)
-    w = np.array([shape(xi) for shape, _ in shapes])
-    theta = np.array([tilt(xi) for _, tilt in shapes])
-    curvature = np.array([tilt.deriv()(xi) for _, tilt in shapes]) / length
-    strain = np.array([shape.deriv()(xi) for shape, _ in shapes]) / length - theta
-    stiffness = section.bending * _product(curvature, weights)
-    if math.isfinite(section.shear):
-        stiffness += section.shear * _product(strain, weights)
-    rotary = section.inertia * _product(theta, weights)
-    return BeamMatrices(section.mass * _product(w, weights) + rotary, 2.0 * rotary, stiffness)
+    shapes = beam.shapes(length, float(12.0 * bending[middle] / (shear[middle] * length**2)))
+    weights = 0.5 * length * _WEIGHTS
+    w, slope, theta, curvature = (
+        np.array(rows)
+        for rows in (
+            [shape(POINTS) for shape, _ in shapes],
+            [shape.deriv()(POINTS) / length for shape, _ in shapes],
+            [tilt(POINTS) for _, tilt in shapes],
+            [tilt.deriv()(POINTS) / length for _, tilt in shapes],
+        )
+    )
+    stiffness = _product(curvature, curvature, bending * weights)
+    if sheared:
+        stiffness += _product(slope - theta, slope - theta, shear * weights)
+    rotary = _product(theta, theta, inertia * weights)
+    mixed = _product(slope, curvature, weights)
+    return BeamMatrices(
+        mass=_product(w, w, mass * weights) + rotary,
+        polar=2.0 * rotary,
+        stiffness=stiffness,
+        geometric=_product(slope, slope, weights),
+        twist=_product(theta, curvature, weights) - mixed + mixed.T,
+    )
 
 
 def cowper_coefficient(poisson_ratio: float, bore_ratio: float = 0.0) -> float:
@@ -191,14 +220,18 @@ def cowper_coefficient(poisson_ratio: float, bore_ratio: float = 0.0) -> float:
 
 
 def round_section(
-    *, outer_diameter: float, inner_diameter: float, young_modulus: float, shear: float, density: float
+    *,
+    outer_diameter: float | Array,
+    inner_diameter: float | Array,
+    young_modulus: float,
+    shear: float,
+    density: float,
 ) -> Section:
     """Return the section of a round shaft; `shear` is kappa G [Pa], the other units are SI."""
-    require_positive("outer_diameter", outer_diameter)
     area = 0.25 * math.pi * (outer_diameter**2 - inner_diameter**2)
     second_moment = area * (outer_diameter**2 + inner_diameter**2) / 16.0
     return Section(young_modulus * second_moment, shear * area, density * area, density * second_moment)
 
 
-def _product(values: Array, weights: Array) -> Array:
-    return (values * weights) @ values.T
+def _product(left: Array, right: Array, weights: Array) -> Array:
+    return (left * weights) @ right.T

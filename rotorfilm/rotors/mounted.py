@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
-from ..model import Array, Dynamic, Kinked, Linearization, Reaction, indices
+from ..model import JOURNAL_INPUTS, Array, Dynamic, Kinked, Linearization, Reaction, indices
 from ..native.spec import NativeSpec
 from ..signals import Signal, names
-from .structure import station_names
+from .structure import prefixed, station_names
 from .system_kernel import system_kernel
 
 
@@ -21,7 +23,8 @@ from .system_kernel import system_kernel
 class MountedRotor:
     """A rotor whose stations of the given names rest in bearings; `mount` makes it.
 
-    The forces of these bearings are no longer inputs, but outputs, of the same names.
+    The forces of these bearings are no longer inputs, but outputs, of the same names. States and further
+    outputs of a bearing get the name of its station in front, as `left_wear_0`.
 
     Parameters
     ----------
@@ -29,12 +32,13 @@ class MountedRotor:
         With inputs and outputs of each station by name, as `ShaftRotor`.
     stations : tuple of str
     bearings : tuple of Reaction
-        One for each of the stations, without states.
+        One for each of the stations; one with states is a Dynamic too, as `BushReaction`.
 
     Raises
     ------
     InputError
-        If the rotor has no such station, a bearing has states, or there are not as many of both.
+        If the rotor has no such station, a bearing with states is not Dynamic or takes other inputs than the
+        motion of the journal and the speed, or there are not as many of both.
     """
 
     rotor: Dynamic
@@ -47,8 +51,12 @@ class MountedRotor:
                 f"bearings must be one for each of the stations {self.stations!r}, got {len(self.bearings)}"
             )
         for bearing in self.bearings:
-            if bearing.states:
-                raise InputError(f"bearings must have no states, got {bearing!r}")
+            if bearing.states and not isinstance(bearing, Dynamic):
+                raise InputError(f"bearings with states must be Dynamic, got {bearing!r}")
+            if names(bearing.inputs) != list(JOURNAL_INPUTS):
+                raise InputError(
+                    f"bearings must have the inputs {list(JOURNAL_INPUTS)}, got {names(bearing.inputs)}"
+                )
         _ = self._motion, self._force
 
     @property
@@ -58,19 +66,30 @@ class MountedRotor:
 
     @property
     def outputs(self) -> tuple[Signal, ...]:
-        """The outputs of the rotor, then force_x, force_y of each bearing on its journal."""
+        """The outputs of the rotor, force_x, force_y of each bearing, and the further outputs of bearings."""
         taken = np.ravel(self._force).astype(int)
-        return (*self.rotor.outputs, *(self.rotor.inputs[k] for k in taken))
+        further = [
+            prefixed(name, signal)
+            for name, bearing in zip(self.stations, self.bearings, strict=True)
+            for signal in bearing.outputs[2:]
+        ]
+        return (*self.rotor.outputs, *(self.rotor.inputs[k] for k in taken), *further)
 
     @property
     def states(self) -> tuple[Signal, ...]:
-        """The states of the rotor."""
-        return self.rotor.states
+        """The states of the rotor, and those of each bearing."""
+        of_bearings = [
+            prefixed(name, signal)
+            for name, bearing in zip(self.stations, self.bearings, strict=True)
+            for signal in bearing.states
+        ]
+        return (*self.rotor.states, *of_bearings)
 
     @property
     def initial_state(self) -> Array:
-        """The state of the rotor at t = 0."""
-        return self.rotor.initial_state
+        """The states of rotor and bearings at t = 0."""
+        of_bearings = [b.initial_state for b in self.bearings if isinstance(b, Dynamic)]
+        return np.concatenate([self.rotor.initial_state, *of_bearings])
 
     @property
     def breakpoints(self) -> tuple[float, ...]:
@@ -79,29 +98,39 @@ class MountedRotor:
 
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return dx/dt with the bearings' forces at this state; FilmContactError as the bearings raise it."""
-        return self.rotor.derivative(t, x, self._inputs(self._forces(t, x), u))
+        own, inner, motion = self._split(t, x)
+        forces = [b.output(t, z, m)[:2] for b, z, m in zip(self.bearings, inner, motion, strict=True)]
+        rates = [
+            b.derivative(t, z, m)
+            for b, z, m in zip(self.bearings, inner, motion, strict=True)
+            if isinstance(b, Dynamic)
+        ]
+        return np.concatenate([self.rotor.derivative(t, own, self._inputs(forces, u)), *rates])
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return the outputs of the rotor, and the bearings' forces."""
-        forces = self._forces(t, x)
-        return np.concatenate([self.rotor.output(t, x, self._inputs(forces, u)), forces])
+        """Return the outputs of the rotor, the bearings' forces, and their further outputs."""
+        own, inner, motion = self._split(t, x)
+        values = [b.output(t, z, m) for b, z, m in zip(self.bearings, inner, motion, strict=True)]
+        forces = [value[:2] for value in values]
+        whole = self.rotor.output(t, own, self._inputs(forces, u))
+        return np.concatenate([whole, *forces, *(value[2:] for value in values)])
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives of rotor and bearings; the speed is held."""
-        forces = self._forces(t, x)
-        A, B, C, D = self.rotor.linearization(t, x, self._inputs(forces, u))
-        sensed = self.rotor.output(t, x, np.zeros(len(self.rotor.inputs)))
-        by_state = [
-            bearing.jacobian(*_journal(sensed[rows]))[:, :5] @ C[rows]
-            for bearing, rows in zip(self.bearings, self._motion, strict=True)
-        ]
-        forced = np.concatenate([np.zeros((0, C.shape[1])), *by_state])
+        own, inner, motion = self._split(t, x)
+        parts = [b.linearization(t, z, m) for b, z, m in zip(self.bearings, inner, motion, strict=True)]
+        values = [b.output(t, z, m)[:2] for b, z, m in zip(self.bearings, inner, motion, strict=True)]
+        rotor = self.rotor.linearization(t, own, self._inputs(values, u))
+        slopes = _joined(parts, [rotor.C[rows] for rows in self._motion], rotor.C.shape[1])
         taken, free = np.ravel(self._force).astype(int), list(self._free)
-        push = B[:, taken] @ forced
-        through = D[:, taken] @ forced
-        none = np.zeros((len(forced), len(free)))
+        states = len(slopes.A) - len(rotor.A)
+        push = np.hstack([rotor.A, np.zeros((len(rotor.A), states))]) + rotor.B[:, taken] @ slopes.forces
+        seen = np.hstack([rotor.C, np.zeros((len(rotor.C), states))]) + rotor.D[:, taken] @ slopes.forces
         return Linearization(
-            A + push, B[:, free], np.vstack([C + through, forced]), np.vstack([D[:, free], none])
+            np.vstack([push, slopes.A[len(rotor.A) :]]),
+            np.vstack([rotor.B[:, free], np.zeros((states, len(free)))]),
+            np.vstack([seen, slopes.forces, slopes.further]),
+            np.vstack([rotor.D[:, free], np.zeros((len(slopes.forces) + len(slopes.further), len(free)))]),
         )
 
     def native(self) -> NativeSpec | None:
@@ -116,18 +145,20 @@ class MountedRotor:
             motion=[row for rows in self._motion for row in rows[:4]],
         )
 
-    def _forces(self, t: float, x: ArrayLike) -> Array:
-        sensed = self.rotor.output(t, x, np.zeros(len(self.rotor.inputs)))
-        forces = [
-            np.asarray(bearing.force(*_journal(sensed[rows])))
-            for bearing, rows in zip(self.bearings, self._motion, strict=True)
-        ]
-        return np.concatenate(forces) if forces else np.zeros(0)
+    def _split(self, t: float, x: ArrayLike) -> tuple[Array, list[Array], list[Array]]:
+        """Return the state of the rotor, those of the bearings, and what the bearings feel."""
+        whole = np.asarray(x, dtype=float)
+        ends = np.cumsum([len(self.rotor.states), *(len(b.states) for b in self.bearings)])
+        own = whole[: ends[0]]
+        sensed = self.rotor.output(t, own, np.zeros(len(self.rotor.inputs)))
+        inner = [whole[a:b] for a, b in pairwise(ends)]
+        return own, inner, [sensed[rows] for rows in self._motion]
 
-    def _inputs(self, forces: Array, u: ArrayLike) -> Array:
+    def _inputs(self, forces: Sequence[Array], u: ArrayLike) -> Array:
         whole = np.empty(len(self.rotor.inputs))
         whole[list(self._free)] = np.asarray(u, dtype=float)
-        whole[np.ravel(self._force).astype(int)] = forces
+        for rows, force in zip(self._force, forces, strict=True):
+            whole[rows] = force
         return whole
 
     @cached_property
@@ -151,6 +182,30 @@ class MountedRotor:
         return tuple(k for k in range(len(self.rotor.inputs)) if k not in taken)
 
 
+class _Slopes(NamedTuple):
+    """Derivatives by the whole state: of it, where bearings have states; of forces and further outputs."""
+
+    A: Array
+    forces: Array
+    further: Array
+
+
+def _joined(parts: Sequence[Linearization], motion: Sequence[Array], size: int) -> _Slopes:
+    """Return the derivatives of all bearings by the states of the rotor, `size`, and their own."""
+    total = size + sum(len(part.A) for part in parts)
+    A, forces, further = np.zeros((total, total)), [np.zeros((0, total))], [np.zeros((0, total))]
+    first = size
+    for part, sensed in zip(parts, motion, strict=True):
+        inner = slice(first, first + len(part.A))
+        A[inner, :size], A[inner, inner] = part.B @ sensed, part.A
+        seen = np.zeros((len(part.C), total))
+        seen[:, :size], seen[:, inner] = part.D @ sensed, part.C
+        forces.append(seen[:2])
+        further.append(seen[2:])
+        first = inner.stop
+    return _Slopes(A, np.concatenate(forces), np.concatenate(further))
+
+
 def mount(rotor: Dynamic, bearings: Mapping[str, Reaction]) -> MountedRotor:
     """Return a rotor with bearings in some of its stations.
 
@@ -167,10 +222,6 @@ def mount(rotor: Dynamic, bearings: Mapping[str, Reaction]) -> MountedRotor:
     Raises
     ------
     InputError
-        If the rotor has no such station, or a bearing has states.
+        If the rotor has no such station, or a bearing does not fit.
     """
     return MountedRotor(rotor=rotor, stations=tuple(bearings), bearings=tuple(bearings.values()))
-
-
-def _journal(sensed: Array) -> tuple[Array, Array, float]:
-    return sensed[:2], sensed[2:4], float(sensed[4])

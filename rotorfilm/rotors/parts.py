@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_non_negative, require_number, require_positive
 from ..model import Array
-from .beam import Beam, BeamMatrices, Section, beam_matrices, cowper_coefficient, round_section
+from .beam import POINTS, Beam, BeamMatrices, Section, beam_matrices, cowper_coefficient, round_section
 
 Pair = tuple[tuple[float, float], tuple[float, float]]
 
@@ -41,14 +41,22 @@ class ElasticMaterial:
 
 @dataclass(frozen=True, kw_only=True)
 class ShaftElement:
-    """A cylindrical piece of shaft between two nodes.
+    """A piece of shaft between two nodes: a cylinder, or a cone where a diameter changes along it.
 
     Parameters
     ----------
     length, outer_diameter, inner_diameter : float [m]
+        Diameters at the first node, and along the whole element unless it is a cone.
     material : ElasticMaterial
     shear_coefficient : float or None [1]
-        kappa; by default that of Cowper for a round section, infinite for a section that does not shear.
+        kappa; by default that of Cowper for a round section (in the middle of a cone), infinite for a section
+        that does not shear.
+    end_outer_diameter, end_inner_diameter : float or None [m]
+        Diameters at the second node of a cone; None for the same as at the first.
+    axial_force : float [N]
+        Static tension; negative for compression.
+    torque : float [N m]
+        Static torque, which follows the tilt of the shaft.
 
     Raises
     ------
@@ -61,33 +69,70 @@ class ShaftElement:
     inner_diameter: float = 0.0
     material: ElasticMaterial
     shear_coefficient: float | None = None
+    end_outer_diameter: float | None = None
+    end_inner_diameter: float | None = None
+    axial_force: float = 0.0
+    torque: float = 0.0
 
     def __post_init__(self) -> None:
         require_positive("length", self.length)
-        require_positive("outer_diameter", self.outer_diameter)
-        require_non_negative("inner_diameter", self.inner_diameter)
-        if self.inner_diameter >= self.outer_diameter:
-            raise InputError(
-                f"inner_diameter must be below outer_diameter {self.outer_diameter!r}, "
-                f"got {self.inner_diameter!r}"
-            )
+        require_number("axial_force", self.axial_force)
+        require_number("torque", self.torque)
+        outer, inner = self._ends
+        for prefix, out, bore in zip(("", "end_"), outer, inner, strict=True):
+            require_positive(f"{prefix}outer_diameter", out)
+            require_non_negative(f"{prefix}inner_diameter", bore)
+            if bore >= out:
+                raise InputError(
+                    f"{prefix}inner_diameter must be below {prefix}outer_diameter {out!r}, got {bore!r}"
+                )
         if self.shear_coefficient is not None and not self.shear_coefficient > 0.0:
             raise InputError(f"shear_coefficient must be positive, got {self.shear_coefficient!r}")
 
+    @property
+    def _ends(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Outer and inner diameter at both nodes [m]."""
+        out, bore = self.end_outer_diameter, self.end_inner_diameter
+        return (
+            (self.outer_diameter, self.outer_diameter if out is None else out),
+            (self.inner_diameter, self.inner_diameter if bore is None else bore),
+        )
+
+    @property
+    def tapered(self) -> bool:
+        """Whether a diameter changes along the element."""
+        return any(start != end for start, end in self._ends)
+
     def split(self, pieces: int) -> tuple[ShaftElement, ...]:
-        """Return this piece of shaft as so many equal elements."""
+        """Return this piece of shaft as so many equally long elements."""
         if pieces < 1:
             raise InputError(f"pieces must be at least 1, got {pieces!r}")
-        return (replace(self, length=self.length / pieces),) * pieces
+        short = replace(self, length=self.length / pieces)
+        if not self.tapered:
+            return (short,) * pieces
+        outer, inner = (np.linspace(*ends, pieces + 1).tolist() for ends in self._ends)
+        return tuple(
+            replace(
+                short,
+                outer_diameter=outer[k],
+                inner_diameter=inner[k],
+                end_outer_diameter=outer[k + 1],
+                end_inner_diameter=inner[k + 1],
+            )
+            for k in range(pieces)
+        )
 
     def section(self) -> Section:
-        """Return the stiffness and inertia of the cross section."""
+        """Return stiffness and inertia of the cross section: of a cone, along it."""
+        places = POINTS if self.tapered else 0.0
+        outer, inner = (start + (end - start) * places for start, end in self._ends)
         kappa = self.shear_coefficient
         if kappa is None:
-            kappa = cowper_coefficient(self.material.poisson_ratio, self.inner_diameter / self.outer_diameter)
+            (a, b), (c, d) = self._ends
+            kappa = cowper_coefficient(self.material.poisson_ratio, (c + d) / (a + b))
         return round_section(
-            outer_diameter=self.outer_diameter,
-            inner_diameter=self.inner_diameter,
+            outer_diameter=outer,
+            inner_diameter=inner,
             young_modulus=self.material.young_modulus,
             shear=kappa * self.material.shear_modulus,
             density=self.material.density,
@@ -120,10 +165,22 @@ class LayeredElement:
         """Length [m]."""
         return self.layers[0].length
 
+    @property
+    def axial_force(self) -> float:
+        """Static tension of all layers [N]."""
+        return sum(layer.axial_force for layer in self.layers)
+
+    @property
+    def torque(self) -> float:
+        """Static torque of all layers [N m]."""
+        return sum(layer.torque for layer in self.layers)
+
     def matrices(self, beam: Beam) -> BeamMatrices:
         """Return the matrices of one plane."""
-        sections = np.array([layer.section() for layer in self.layers])
-        return beam_matrices(beam, Section(*sections.sum(axis=0).tolist()), self.length)
+        sections = [layer.section() for layer in self.layers]
+        return beam_matrices(
+            beam, Section(*(sum(parts) for parts in zip(*sections, strict=True))), self.length
+        )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -142,6 +199,8 @@ class Coupling:
     tilt_stiffness: float
 
     length = 0.0
+    axial_force = 0.0
+    torque = 0.0
 
     def __post_init__(self) -> None:
         require_positive("stiffness", self.stiffness)
@@ -151,7 +210,8 @@ class Coupling:
         """Return the matrices of one plane."""
         springs = np.diag((self.stiffness, self.tilt_stiffness))
         none = np.zeros((4, 4))
-        return BeamMatrices(none, none, np.asarray(np.kron([[1.0, -1.0], [-1.0, 1.0]], springs), dtype=float))
+        elastic = np.asarray(np.kron([[1.0, -1.0], [-1.0, 1.0]], springs), dtype=float)
+        return BeamMatrices(none, none, elastic, none, none)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -212,6 +272,33 @@ class Support:
 
     def __post_init__(self) -> None:
         require_positive("mass", self.mass)
+        for name in ("stiffness", "damping"):
+            object.__setattr__(self, name, square_pair(name, getattr(self, name)))
+
+
+@dataclass(frozen=True, kw_only=True)
+class TiltSpring:
+    """Springs and dampers from the ground against the tilt of a node, as of a long bearing or a clamp.
+
+    Parameters
+    ----------
+    node : int
+    stiffness : float [N m/rad] or 2 x 2 numbers
+        Moment against tilt_x (rotation of the shaft in the x-z plane) and tilt_y; one number is the same in
+        both planes.
+    damping : float [N m s/rad] or 2 x 2 numbers
+
+    Raises
+    ------
+    InputError
+        If a matrix is neither a number nor 2 x 2.
+    """
+
+    node: int
+    stiffness: float | Pair
+    damping: float | Pair = 0.0
+
+    def __post_init__(self) -> None:
         for name in ("stiffness", "damping"):
             object.__setattr__(self, name, square_pair(name, getattr(self, name)))
 

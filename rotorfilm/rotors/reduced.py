@@ -86,6 +86,7 @@ class ReducedRotor(FlexibleRotor):
                 Coordinate(f"shape_{{}}_{k}", "m", NOMINAL_LENGTH) for k in range(self.basis.shape[1])
             ),
             readouts=tuple(Readout(readout.signal, readout.row @ twice) for readout in full.readouts),
+            housings=None if full.housings is None else full.housings @ basis,
             hysteresis=None if full.hysteresis is None else self.basis.T @ full.hysteresis @ self.basis,
         )
 

@@ -11,7 +11,7 @@ from ..model import Array
 from ..units import STANDARD_GRAVITY
 from .assembly import ShaftPiece, assemble, check_nodes
 from .beam import Beam, FourthOrderBeam
-from .parts import Coupling, Disk, Probe, Station, Unbalance
+from .parts import Coupling, Disk, Probe, Station, TiltSpring, Unbalance
 from .profile import SpeedProfile
 from .structure import FlexibleRotor, Structure, check_motion
 
@@ -32,6 +32,8 @@ class ShaftRotor(FlexibleRotor):
     stations : tuple of Station
         Where bearings act; each is an input force_x, force_y and an output x, y, vx, vy.
     disks : tuple of Disk
+    tilt_springs : tuple of TiltSpring
+        Springs against the tilt of nodes, besides what acts at the stations.
     unbalances : tuple of Unbalance
     probes : tuple of Probe
         Nodes whose displacement is an output.
@@ -68,6 +70,7 @@ class ShaftRotor(FlexibleRotor):
     speed: float | SpeedProfile
     stations: tuple[Station, ...] = ()
     disks: tuple[Disk, ...] = ()
+    tilt_springs: tuple[TiltSpring, ...] = ()
     unbalances: tuple[Unbalance, ...] = ()
     probes: tuple[Probe, ...] = ()
     internal_damping: float = 0.0
@@ -86,6 +89,7 @@ class ShaftRotor(FlexibleRotor):
             {
                 "stations": self.stations,
                 "disks": self.disks,
+                "tilt_springs": self.tilt_springs,
                 "unbalances": self.unbalances,
                 "probes": self.probes,
             },
@@ -111,6 +115,7 @@ class ShaftRotor(FlexibleRotor):
             elements=self.elements,
             disks=self.disks,
             stations=self.stations,
+            tilt_springs=self.tilt_springs,
             probes=self.probes,
             unbalances=self.unbalances,
             internal_damping=self.internal_damping,

@@ -67,6 +67,8 @@ class Structure(NamedTuple):
     readouts : tuple of Readout
     supports : tuple of int
         Places of the housings among the coordinates of a plane.
+    housings : ndarray, shape (2 n_stations, N), or None
+        Displacement of each housing, x and y in turn; None if all are rigid.
     hysteresis : ndarray, shape (N / 2, N / 2), or None
         Loss factor times stiffness of the rotating shaft in one plane [N/m].
     """
@@ -83,6 +85,7 @@ class Structure(NamedTuple):
     coordinates: tuple[Coordinate, ...]
     readouts: tuple[Readout, ...]
     supports: tuple[int, ...] = ()
+    housings: Array | None = None
     hysteresis: Array | None = None
 
 
@@ -201,7 +204,7 @@ class FlexibleRotor:
     # Cached because they are the inner loop of every integrator; a frozen dataclass cannot go stale.
     @cached_property
     def operators(self) -> Operators:
-        """The equations of motion of the states."""
+        """The equations solved for the rates; InputError if the rotor has a loss factor."""
         s = self.structure
         if s.hysteresis is not None:
             raise InputError(

@@ -15,12 +15,15 @@ from ..bearings.journal import JournalBearing
 from ..errors import InputError, SceneError, warn_user
 from ..rotors.rigid import RigidRotor
 from ..units import STANDARD_GRAVITY
+from .bush import BushAnswer, solve_bush
+from .bush_table import BushTable
 from .damper_table import DamperTable
 from .excitation_table import EXCITATIONS, ExcitationTable
 from .ladder import QuestionAnswer
 from .lubricant_table import LubricantTable
 from .question_table import QuestionTable
 from .questions import ask
+from .rotor_table import ShaftTable
 from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
 from .solve import Answer, solve
 from .tables import Table, Variant, read_table, require_no_near_miss, text
@@ -47,6 +50,10 @@ class Scene:
         A journal bearing.
     damper : DamperTable or None
         A squeeze-film damper with its retainer springs.
+    shaft : ShaftTable or None
+        A flexible rotor in its own bearings.
+    bush : BushTable or None
+        A polymer bush that wears by melting.
     operation : OperationTable or None
         Speed and load.
     lubricant : LubricantTable
@@ -74,6 +81,9 @@ class Scene:
     # and nowhere else. It checks what it needs of the other tables where it is solved.
     journal: Annotated[JournalTable | None, Table(JournalTable)] = None
     damper: Annotated[DamperTable | None, Table(DamperTable)] = None
+    bush: Annotated[BushTable | None, Table(BushTable)] = None
+
+    shaft: Annotated[ShaftTable | None, Table(ShaftTable)] = None
 
     # What all families share.
     operation: Annotated[OperationTable | None, Table(OperationTable)] = None
@@ -151,6 +161,12 @@ class Scene:
         """Return equilibrium, coefficients and whirl threshold; see `rotorfilm.scenes.solve.solve`."""
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
         return solve(self.bearing, load=self.static_load, speed=self.speed, mass=mass)
+
+    def melting(self) -> BushAnswer:
+        """Return contact and critical speeds of the unworn bush; raises InputError if the scene has none."""
+        if self.bush is None:
+            raise InputError("bush is required for a critical speed of melting, got no such table")
+        return solve_bush(self.bush.build(), math.hypot(*self.static_load), self.speed, 0.0)
 
     @property
     def film_is_given(self) -> bool:

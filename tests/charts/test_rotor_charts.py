@@ -2,15 +2,20 @@
 
 import control
 import numpy as np
+import pytest
 
+from rotorfilm.bearings import LinearBearing
 from rotorfilm.charts import (
     plot_campbell,
     plot_critical_speed_map,
     plot_log_decrement,
+    plot_mode_shape,
     plot_unbalance_response,
     save,
 )
-from rotorfilm.linear import Campbell, CriticalSpeed
+from rotorfilm.errors import InputError
+from rotorfilm.linear import Campbell, CriticalSpeed, rotor_modes
+from rotorfilm.rotors import ElasticMaterial, ShaftElement, ShaftRotor, Station
 
 SPEEDS = np.array([100.0, 200.0, 300.0]) * np.pi / 30.0
 CHART = Campbell(
@@ -57,3 +62,33 @@ def test_unbalance_response_as_amplitude_and_phase():
     above, below = plot_unbalance_response(response, ["x"])
     np.testing.assert_allclose(above.get_lines()[0].get_ydata(), [1.0, 2.0])
     np.testing.assert_allclose(below.get_lines()[0].get_ydata(), [0.0, -90.0])
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("speed", [0.0, 400.0])
+def test_mode_shapes_of_a_simply_supported_shaft_are_sines(speed):
+    """Plane motion along x where x is softer; circles at speed on equal springs, drawn along x."""
+    steel = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
+    rotor = ShaftRotor(
+        elements=ShaftElement(length=1.2, outer_diameter=0.05, material=steel).split(6),
+        stations=(Station(node=0, name="left"), Station(node=6, name="right")),
+        speed=0.0,
+    )
+    hard = LinearBearing(stiffness=((1e12, 0.0), (0.0, 1.1e12 if speed == 0.0 else 1e12)))
+    modes = rotor_modes(rotor, {"left": hard, "right": hard}, speed)
+    for half_waves, number in ((1, 0), (2, 2)):
+        axes = plot_mode_shape(rotor, modes, number)
+        drawn = lines(axes)
+        wanted = np.sin(half_waves * np.pi * rotor.positions / 1.2)
+        sign = np.sign(drawn["x"].get_ydata()[1])
+        np.testing.assert_allclose(
+            sign * drawn["x"].get_ydata(), wanted / np.abs(wanted).max() * size(speed), atol=2e-3
+        )
+        np.testing.assert_allclose(drawn["bearing"].get_xdata(), [0.0, 1.2])
+    with pytest.raises(InputError, match="number must be from 0 to"):
+        plot_mode_shape(rotor, modes, -1)
+
+
+def size(speed):
+    """Largest deflection along x: of a circle, x and y are as large, and x^2 + y^2 of both phases is 1."""
+    return 1.0 if speed == 0.0 else np.sqrt(0.5)

@@ -7,6 +7,7 @@ import pytest
 
 from rotorfilm.errors import ConvergenceError
 from rotorfilm.fmu.integrate import advance
+from rotorfilm.model import Linearization
 from rotorfilm.rotors.rigid import RigidRotor
 from rotorfilm.signals import Signal
 
@@ -21,6 +22,9 @@ class BlowUp:
 
     def derivative(self, t, x, u):
         return x * x
+
+    def linearization(self, t, x, u):
+        return Linearization(np.diag(2.0 * x), np.zeros((1, 0)), np.zeros((0, 1)), np.zeros((0, 0)))
 
 
 @dataclass(frozen=True)

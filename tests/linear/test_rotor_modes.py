@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 
 from rotorfilm.bearings import JournalBearing, LinearBearing
 from rotorfilm.cosim import critical_macro_step
-from rotorfilm.errors import InputError
+from rotorfilm.errors import EquilibriumError, InputError
 from rotorfilm.films import ShortFilm
 from rotorfilm.linear import (
     campbell,
@@ -22,11 +22,13 @@ from rotorfilm.linear import (
     rotor_modes,
     rotor_system,
     rotor_threshold,
+    rotor_transmissibility,
     to_nlsys,
     unbalance_response,
     whirl_threshold,
 )
 from rotorfilm.linear.rotor_modes import log_decrement
+from rotorfilm.reduce import reduce_rotor
 from rotorfilm.rotors import (
     ClassicalBeam,
     Disk,
@@ -38,6 +40,7 @@ from rotorfilm.rotors import (
     ShaftElement,
     ShaftRotor,
     Station,
+    Support,
     Unbalance,
     mount,
 )
@@ -391,3 +394,57 @@ def test_the_coupling_of_a_mounted_rotor_has_a_longest_stable_step():
     model = mount(replace(shaft, initial=rest), {"left": FILM})
     limit = critical_macro_step(model, FILM, state=model.initial_state).macro_step
     assert 1e-5 < limit < 1e-2
+
+
+@pytest.mark.closed_form
+def test_transmissibility_of_two_bearings_is_that_of_the_textbook():
+    """sqrt((1 + (2 z s)^2) / ((1 - s^2)^2 + (2 z s)^2)) for a force on both journals, 1 at s = sqrt 2."""
+    rotor = rigid_shaft(stations=(("left", -0.4), ("right", 0.4)), gravity=(0.0, 0.0))
+    k, c = 2e6, 800.0
+    natural, z = np.sqrt(2 * k / rotor.mass), c / np.sqrt(2 * k * rotor.mass)
+    ratios = np.array([0.3, 0.9, np.sqrt(2.0), 3.0])
+    found = rotor_transmissibility(rotor, both(LinearBearing(stiffness=k, damping=c)), ratios * natural)
+    assert found.input_labels == ["left_force_x", "left_force_y", "right_force_x", "right_force_y"]
+    assert found.output_labels == [f"{n}_housing_force_{a}" for n in ("left", "right") for a in "xy"]
+    together = found.complex[0, 0] + found.complex[0, 2]
+    wanted = np.sqrt((1 + (2 * z * ratios) ** 2) / ((1 - ratios**2) ** 2 + (2 * z * ratios) ** 2))
+    assert_allclose(np.abs(together), wanted, rtol=1e-9)
+    assert abs(together[2]) == pytest.approx(1.0, rel=1e-9)
+    assert_allclose(found.complex[1, 0] + found.complex[1, 2], 0.0, atol=1e-12)
+
+
+@pytest.mark.closed_form
+def test_transmissibility_through_a_support_in_series():
+    """m u'' + k (u - v) = 1, m_h v'' + k (v - u) + K v = 0: k (u - v) on the housing, K v on the ground."""
+    stiff = ElasticMaterial(young_modulus=211e15, shear_modulus=81.2e15, density=7810.0)
+    support = Support(mass=30.0, stiffness=4e6)
+    rotor = ShaftRotor(
+        elements=ShaftElement(length=0.6, outer_diameter=0.05, material=stiff).split(2),
+        stations=tuple(
+            Station(node=n, name=name, support=support) for n, name in ((0, "left"), (2, "right"))
+        ),
+        speed=0.0,
+        gravity=(0.0, 0.0),
+    )
+    k, half = 3e6, 0.5 * rotor.mass
+    speeds = np.array([50.0, 300.0, 700.0])
+    for model in (rotor, reduce_rotor(rotor, frequency=1000.0, tolerance=1e-4).rotor):
+        found = rotor_transmissibility(model, both(LinearBearing(stiffness=k)), speeds)
+        assert {"right_ground_force_x", "right_ground_force_y"} <= set(found.output_labels)
+        for column, w in enumerate(speeds):
+            matrix = [[k - half * w**2, -k], [-k, k + 4e6 - 30.0 * w**2]]
+            u, v = np.linalg.solve(matrix, [1.0, 0.0])
+            by_both = found.complex[:, 0, column] + found.complex[:, 2, column]
+            labels = found.output_labels
+            assert by_both[labels.index("left_housing_force_x")] == pytest.approx(k * (u - v), rel=1e-4)
+            assert by_both[labels.index("left_ground_force_x")] == pytest.approx(4e6 * v, rel=1e-4)
+
+
+@pytest.mark.closed_form
+def test_slow_forces_pass_to_the_housings():
+    """Far below all modes the housings feel what acts on the journals; without bearings there is none."""
+    films = both(FILM)
+    found = rotor_transmissibility(friswell(speed=1.0), films, [1.0])
+    assert_allclose(np.abs(found.complex[:, :, 0]), np.eye(4), atol=0.05)
+    with pytest.raises((InputError, EquilibriumError)):
+        rotor_transmissibility(friswell(), {}, [1.0])

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from fmpy.fmi3 import FMU3Model, FMU3Slave
 
+from rotorfilm.model import Switched
 from rotorfilm.native.resource import FILE_NAME, NativeVariable, Role, pack
 from rotorfilm.native.spec import library_of
 
@@ -100,6 +101,8 @@ def native_variables(model, spec, start):
         NativeVariable(Role.STATE, f"m.state_{s.name}", float(value), s.nominal)
         for s, value in zip(model.states, initial, strict=True)
     ]
+    u = [float(start.get(s.name, 0.0)) for s in model.inputs]
+    events = len(model.events(0.0, initial, u)) if isinstance(model, Switched) else 0
     return (
         NativeVariable(Role.TIME, "time"),
         *(
@@ -110,6 +113,7 @@ def native_variables(model, spec, start):
         *(NativeVariable(Role.OUTPUT, f"m.{s.name}") for s in model.outputs),
         *states,
         *(NativeVariable(Role.DERIVATIVE, f"der({state.name})") for state in states),
+        *(NativeVariable(Role.SWITCH, f"m.event_{k}") for k in range(events)),
     )
 
 

@@ -10,7 +10,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotorfilm import JournalBearing, MapFilm, MapTable, RigidRotor, SpeedProfile
+from rotorfilm import (
+    BushReaction,
+    BushWear,
+    JournalBearing,
+    MapFilm,
+    MapTable,
+    RigidRotor,
+    SpeedProfile,
+    f4k20_bush,
+)
+from rotorfilm.films.bush_profile import LocalMelting
 from rotorfilm.fmu.linear_system import LinearSystem
 from rotorfilm.native import GrooveMapKernel
 from rotorfilm.native.resource import FILE_NAME
@@ -46,6 +56,14 @@ class RoughGrooves(JournalBearing):
 def system():
     """Return the bearing with a rotor in it, one system."""
     return mount(run_up(), {"": small_bearing()})
+
+
+def bushes():
+    """Return a bush under a load and bushes with a worn profile, on an arc and all around."""
+    bush = f4k20_bush()
+    arc = BushReaction(bush=bush, melting_heat=1e8, nodes=8, extent=1.4)
+    ring = replace(arc, nodes=12, extent=2.0 * np.pi, melting=LocalMelting(), retardation=1e-3)
+    return BushWear(bush=bush, melting_heat=1e8), arc, ring
 
 
 def run_up():
@@ -127,16 +145,23 @@ def run(program, *arguments):
 def test_no_misuse_and_no_damaged_file_breaks_an_instance(unzipped, stress, tmp_path):
     token = "a token"
     grooved = RoughGrooves(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
-    models = (small_bearing(), grooved, system(), run_up(), state_space())
+    models = (small_bearing(), grooved, system(), run_up(), state_space(), *bushes())
     good = [unzipped(m, folder=str(k), token=token) for k, m in enumerate(models)]
     plain, openings, whole = (folder.resource.read_bytes() for folder in good[:3])
+    worn = [folder.resource.read_bytes() for folder in good[5:]]
     contents = (*damaged(plain), *damaged(openings), *damaged(whole), *impossible(openings))
     bad = list(resources(tmp_path, contents))
     missing = tmp_path / "missing"
     shutil.rmtree(missing, ignore_errors=True)
     (tmp_path / "maybe").mkdir()
     maybe = resources(
-        tmp_path / "maybe", (*mutated(plain, 300), *mutated(openings, 300), *mutated(whole, 300))
+        tmp_path / "maybe",
+        (
+            *mutated(plain, 300),
+            *mutated(openings, 300),
+            *mutated(whole, 300),
+            *(content for bush in worn for content in mutated(bush, 30)),
+        ),
     )
     folders = [str(folder.resource.parent) for folder in good]
     assert "messages" in run(stress, token, "60000", *folders, "--", *bad, str(missing))

@@ -1,6 +1,7 @@
 """Bearings in some stations of a rotor, and constant bearings."""
 
 import dataclasses
+from dataclasses import replace
 
 import fmpy
 import numpy as np
@@ -8,11 +9,11 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from rotorfilm.bearings import JournalBearing, LinearBearing
+from rotorfilm.bearings import BushReaction, JournalBearing, LinearBearing, f4k20_bush
 from rotorfilm.errors import InputError
 from rotorfilm.films import ShortFilm
 from rotorfilm.fmu import export_fmu
-from rotorfilm.model import Reaction
+from rotorfilm.model import Dynamic, Reaction
 from rotorfilm.rotors import ClassicalBeam, RigidShaft, SpeedProfile, mount
 from rotorfilm.signals import names
 from rotorfilm.transient import simulate
@@ -119,3 +120,82 @@ def test_it_exports_as_an_fmu(tmp_path):
 def test_unknown_station_is_refused(friswell_591, stations, match):
     with pytest.raises(InputError, match=match):
         mount(friswell_591(), stations)
+
+
+BUSH = BushReaction(bush=f4k20_bush(), melting_heat=1e8, nodes=16, extent=1.4, retardation=2e-4)
+
+
+def on_a_bush(speed=12.0, swapped=False):
+    """A rigid shaft that rests on a worn bush and a spring; which of them is mounted first may be swapped."""
+    names_of = ("", "left") if swapped else ("left", "")
+    worn = replace(BUSH, wear_depth=tuple(np.random.default_rng(0).uniform(0.0, 5e-6, 16)))
+    rotor = RigidShaft(
+        mass=400.0,
+        diametral_inertia=9.0,
+        polar_inertia=11.0,
+        stations=((names_of[0], -0.5), (names_of[1], 0.5)),
+        speed=speed,
+        gravity=(0.0, -9.0),
+    )
+    spring = LinearBearing(stiffness=5e7, damping=1e4)
+    journal = worn.position([0.0, -1800.0], speed)
+    there, here = np.asarray(journal), np.array([0.0, -1800.0 / 5e7])
+    center, tilt = 0.5 * (there + here), here - there
+    start = np.array([center[0], tilt[0], center[1], tilt[1], 0.0, 0.0, 0.0, 0.0])
+    return replace(rotor, initial=tuple(start.tolist())), worn, spring
+
+
+def test_a_bearing_with_states_brings_them_along():
+    rotor, worn, spring = on_a_bush()
+    model = mount(rotor, {"left": worn, "": spring})
+    assert isinstance(model, Dynamic)
+    assert names(model.states)[8:11] == ["left_wear_0", "left_wear_1", "left_wear_2"]
+    assert names(model.outputs)[-3:] == [f"left_{signal.name}" for signal in worn.outputs[-3:]]
+    assert "left_force_y" in names(model.outputs)
+    assert_allclose(model.initial_state[8:], worn.wear_depth)
+    y = dict(zip(names(model.outputs), model.output(0.0, model.initial_state, []), strict=True))
+    assert y["left_force_y"] == pytest.approx(1800.0, rel=1e-6)
+    assert y["left_contact_angle"] > 0.1
+
+
+def test_linearization_with_states_against_differences_of_fourth_order():
+    rotor, worn, spring = on_a_bush()
+    model = mount(rotor, {"left": worn, "": spring})
+    x = model.initial_state + np.concatenate(
+        [[1e-7, 2e-7, -1e-7, 1e-7, 1e-4, 2e-4, -1e-4, 3e-4], np.zeros(16)]
+    )
+    A, B, C, D = model.linearization(0.0, x, [])
+    assert B.shape == (24, 0)
+    assert D.shape == (len(model.outputs), 0)
+    steps = np.concatenate([np.full(4, 1e-9), np.full(4, 1e-5), np.full(16, 1e-9)])
+    for function, slope in ((model.derivative, A), (model.output, C)):
+        columns = []
+        for h, e in zip(steps, np.eye(24), strict=True):
+            f = [function(0.0, x + k * h * e, []) for k in (-2, -1, 1, 2)]
+            columns.append((f[0] - 8 * f[1] + 8 * f[2] - f[3]) / 12)
+        change = np.array(columns).T
+        scale = np.maximum(np.abs(change).max(axis=1, keepdims=True), 1e-15)
+        assert np.abs((change - slope * steps) / scale).max() < 1e-6
+
+
+def test_a_bush_moves_the_same_whether_it_is_mounted_or_coupled():
+    """`simulate` has its own way of coupling a film with states: the other bearing is mounted then."""
+    rotor, worn, spring = on_a_bush()
+    one = simulate(mount(rotor, {"left": worn}), spring, duration=0.02, samples=5, rtol=1e-7)
+    rotor, worn, spring = on_a_bush(swapped=True)
+    other = simulate(mount(rotor, {"left": spring}), worn, duration=0.02, samples=5, rtol=1e-7)
+    assert_allclose(one["left_y"], other["y"], atol=1e-10)
+    assert_allclose(one["y"], other["left_y"], atol=1e-10)
+    assert_allclose(one["left_contact_angle"], other["contact_angle"], rtol=1e-5)
+
+
+def test_a_bearing_that_needs_more_than_the_motion_is_refused(friswell_591):
+    @dataclasses.dataclass(frozen=True)
+    class Driven:
+        clearance = 1.0
+        inputs = (*SPRING.inputs, SPRING.inputs[0])
+        outputs = SPRING.outputs
+        states = ()
+
+    with pytest.raises(InputError, match="bearings must have the inputs"):
+        mount(friswell_591(), {"left": Driven()})

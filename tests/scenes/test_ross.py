@@ -1,6 +1,7 @@
 """Rotors saved by ROSS."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -41,6 +42,23 @@ def written(folder, *parts):
     return path
 
 
+COUPLING = """["CouplingElement_C"]
+n = 1
+kt_x = 1.0
+kt_y = 1.0
+kr_x = 1.0
+kr_y = 1.0
+m_l = 1.0
+m_r = 1.0
+Id_l = 0.1
+Id_r = 0.1
+Ip_l = 0.1
+Ip_r = 0.1
+"""
+LINKED = bearing(0, 0, "kxx = 1.0\ncxx = 0\nn_link = 7\n")
+MASS = '["PointMass_M"]\nn = 7\nmx = 1.0\nmy = 1.0\n'
+
+
 def friswell():
     shaft = [element(k, k) for k in range(6)]
     return [*shaft, disk(0, 2, 0.28), disk(1, 4, 0.35), bearing(0, 0), bearing(1, 6)]
@@ -54,6 +72,43 @@ def test_friswell_example_591_from_a_file(tmp_path):
     assert found.rotor.speed == 10.0
     modes = rotor_modes(found.rotor, found.bearings, 4000 * math.pi / 30)
     assert_allclose(modes.frequency[:5], [85.39, 87.80, 251.78, 294.71, 600.18], atol=0.007)
+
+
+# Written by ROSS 2.3.0 (`Rotor.save`) for this test, with the eigenvalues of its `Rotor.run_modal(450.0)`.
+SAVED = {
+    "ross_supports.toml": (
+        [-7.328202 + 119.003329j, 5.275425 + 119.403441j, -65.755401 + 386.434139j, 16.018744 + 430.432194j],
+        55.59207636354309,
+    ),
+    "ross_cone.json": (
+        [
+            -32.939808 + 243.477938j,
+            14.324041 + 243.836372j,
+            -157.438225 + 647.743471j,
+            -3.508521 + 743.963729j,
+        ],
+        34.227494881228125,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SAVED)
+def test_files_that_ross_wrote(name):
+    """A bearing on a pedestal; cones under tension and torque in bearings with a table over speed."""
+    found = read_ross(Path(__file__).parent / "data" / name)
+    eigenvalues, mass = SAVED[name]
+    modes = rotor_modes(found.rotor, found.bearings, 450.0)
+    wanted = np.array(eigenvalues)
+    found_values = np.array([modes.eigenvalues[np.argmin(np.abs(modes.eigenvalues - w))] for w in wanted])
+    assert_allclose(found_values, wanted, atol=1.5e-6)
+    assert found.rotor.mass == pytest.approx(mass, rel=1e-12)
+
+
+def test_json_that_is_none(tmp_path):
+    path = tmp_path / "rotor.json"
+    path.write_text("{")
+    with pytest.raises(InputError, match="must be JSON, got Expecting"):
+        read_ross(path)
 
 
 @pytest.mark.closed_form
@@ -87,15 +142,36 @@ def test_shaft_without_shear(tmp_path):
 @pytest.mark.parametrize(
     ("parts", "match"),
     [
-        ([element(0, 0, odr=0.06)], "idl, odl must be idr, odr: a cylinder, got a taper"),
-        ([element(0, 0, "axial_force = 5.0\n")], "axial_force must be 0, got 5.0"),
+        ([element(0, 0, "beta = 5.0\n")], "beta must be 0, got 5.0"),
+        (
+            [element(0, 0).replace("cowper", "hutchinson")],
+            "shear_method_calc must be 'cowper', got 'hutchinson'",
+        ),
+        ([element(0, 0), COUPLING.replace("kt_y = 1", "kt_y = 2")], "kt_x must be kt_y, got 1.0"),
+        ([element(0, 0), COUPLING + "cr_y = 3.0\n"], "cr_y must be 0, got 3.0"),
+        (
+            [element(0, 0), element(1, 1), COUPLING],
+            "must have a coupling alone between its nodes, got more at node 1",
+        ),
+        (
+            [element(0, 0), LINKED, '["PointMass_M"]\nn = 1\nmx = 1.0\nmy = 1.0\n'],
+            "n must be beyond the shaft's nodes",
+        ),
+        ([element(0, 0), LINKED, MASS.replace("my = 1", "my = 2")], "mx must be my, got 1.0 and 2.0"),
+        (
+            [element(0, 0), LINKED, MASS],
+            "n of one bearing to the ground must be that of 'PointMass_M', got 0",
+        ),
         ([element(0, 0, "gyroscopic = false\n")], "gyroscopic must be true, got False"),
         ([element(0, 0), element(1, 2)], "must have a ShaftElement at every node, got none at node 1"),
         ([disk(0, 0, 0.3)], "must have a ShaftElement, got none"),
-        ([element(0, 0), bearing(0, 0, "kxx = 1.0\ncxx = 0\nn_link = 7\n")], "n_link must be absent, got 7"),
+        ([element(0, 0), LINKED], r"n_link must be the node of a point mass \[\], got 7"),
         ([element(0, 0), bearing(0, 0, "kxx = 1.0\ncxx = 0\nmyy = 3.0\n")], "mxx, mxy, myx, myy must be 0"),
         ([element(0, 0), bearing(0, 0, "kxx = [1.0, 2.0]\ncxx = 0\n")], "frequency must go with"),
-        ([element(0, 0), '["PointMass_Mass"]\nn = 0\n'], "'PointMass_Mass' must be a shaft element, a disk"),
+        (
+            [element(0, 0), '["GearElement_Gear"]\nn = 0\n'],
+            "'GearElement_Gear' must be a shaft element, a disk",
+        ),
         ([element(0, 0), '["DiskElement_Disk"]\nn = 0\n'], "must have the key 'm' in each of its elements"),
         (["]"], "must be TOML"),
     ],

@@ -21,8 +21,8 @@ def typos(key):
     """Return a letter left out, one doubled, two exchanged."""
     middle = len(key) // 2
     swapped = key[: middle - 1] + key[middle] + key[middle - 1] + key[middle + 1 :]
-    doubled = key[:middle] + key[middle] + key[middle:]
-    return [typo for typo in (key[:middle] + key[middle + 1 :], doubled, swapped) if typo != key]
+    wrong = [key[:middle] + key[middle + 1 :], key[:middle] + key[middle] + key[middle:], swapped]
+    return [typo for typo in wrong if typo != key]  # two equal letters cannot be exchanged
 
 
 def keys(data, path=()):

@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING
 from ...errors import InputError
 from ..ladder import Ladder, QuestionAnswer, walk
 from .blade_loss import blade_loss_ladder
+from .bushes import bush_ladder
 from .coupling import coupling_ladder
 from .dampers import UNITS as DAMPERS
 from .dampers import damper_ladder
 from .orbits import UNITS as ORBITS
 from .orbits import orbit_ladder
+from .shafts import shaft_ladder
 from .statics import UNITS as STATICS
 from .statics import static_ladder
 from .whirl import whirl_ladder
@@ -28,6 +30,8 @@ LADDERS: dict[tuple[str, str], LadderOf] = {
     ("journal", "whirl_threshold"): whirl_ladder,
     ("journal", "blade_loss_peak"): blade_loss_ladder,
     ("journal", "cosimulation_error"): coupling_ladder,
+    ("shaft", "critical_speed"): shaft_ladder,
+    ("bush", "critical_speed"): bush_ladder,
     **{("damper", quantity): damper_ladder for quantity in DAMPERS},
 }
 """Builders of ladders by table of the scene and quantity, in the order in which they are tried."""

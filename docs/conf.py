@@ -1,0 +1,93 @@
+"""The documentation site: `sphinx-build docs docs/_build`, with every example executed."""
+
+import re
+import shutil
+import sys
+from importlib import metadata
+from pathlib import Path
+
+import rotorfilm
+
+sys.path.insert(0, str(Path(__file__).parent))
+from pictures import Pictures
+
+HERE = Path(__file__).parent
+EXAMPLES = HERE.parent / "examples"
+
+project = "rotorfilm"
+version = release = metadata.version("rotorfilm")
+copyright = "the rotorfilm developers"
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.mathjax",
+    "numpydoc",
+    "sphinx_gallery.gen_gallery",
+]
+html_theme = "furo"
+exclude_patterns = ["_build", "_examples"]
+myst_heading_anchors = 3
+autosummary_generate = True
+numpydoc_show_class_members = False
+# The pages are read on the forge too, where links go to folders and scripts.
+suppress_warnings = ["myst.xref_missing", "myst.header", "config.cache"]
+
+
+def titled(source: str) -> str:
+    """Return an example whose docstring begins with a title, as the gallery wants it."""
+    docstring = re.match(r'"""(.*?)"""', source, re.S)
+    assert docstring is not None
+    first, _, rest = docstring.group(1).partition("\n")
+    title, colon, more = first.rstrip(".").partition(":")
+    text = f"{more.strip()}.\n" if colon else ""
+    heading = f"{title}\n{'=' * len(title)}\n\n{text}{rest}"
+    # The gallery executes a script in its folder, without the name of its file.
+    body = source[docstring.end() :].replace("Path(__file__)", 'Path("example.py").resolve()')
+    return f'"""\n{heading}\n"""{body}'
+
+
+def write_examples(folder: Path) -> Path:
+    """Write what the gallery executes: the examples under titles, and their scene files."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    (folder / "GALLERY_HEADER.rst").write_text(
+        "Examples\n========\n\nEach was executed when this page was built.\n"
+    )
+    for path in EXAMPLES.iterdir():
+        if path.suffix == ".py":
+            (folder / path.name).write_text(titled(path.read_text(encoding="utf-8")), encoding="utf-8")
+        elif path.suffix == ".toml":
+            shutil.copy(path, folder)
+    return folder
+
+
+def write_interface(path: Path) -> None:
+    """Write the page of all public names, by the package that they live in."""
+    lines = ["Interface", "=========", ""]
+    for home, names in rotorfilm._HOMES.items():
+        lines += [home, "-" * len(home), "", ".. autosummary::", "   :toctree: _interface", ""]
+        lines += [f"   rotorfilm.{name}" for name in sorted(names)] + [""]
+    path.write_text("\n".join(lines))
+
+
+sphinx_gallery_conf = {
+    "examples_dirs": str(write_examples(HERE / "_examples")),
+    "gallery_dirs": "gallery",
+    "filename_pattern": r"\.py",
+    "image_scrapers": (Pictures(),),
+    "abort_on_example_error": True,
+    "download_all_examples": False,
+    "remove_config_comments": True,
+    "show_memory": False,
+}
+write_interface(HERE / "interface.rst")
+
+
+def setup(app) -> None:
+    """Let bars in docstrings be magnitudes, not substitutions."""
+
+    def escape(app, what, name, obj, options, lines) -> None:
+        lines[:] = [line.replace("|", r"\|") for line in lines]
+
+    app.connect("autodoc-process-docstring", escape, priority=1000)

@@ -1,0 +1,234 @@
+"""Scenes with a flexible rotor: every key of [shaft], its units, and what it answers."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from rotorfilm.bearings import JournalBearing, LinearBearing
+from rotorfilm.errors import InputError, SceneError
+from rotorfilm.linear import critical_speeds, rotor_threshold, unbalance_response
+from rotorfilm.rotors import (
+    ClassicalBeam,
+    Coupling,
+    Disk,
+    ElasticMaterial,
+    FourthOrderBeam,
+    Probe,
+    ShaftElement,
+    ShaftRotor,
+    Station,
+    Support,
+    TiltSpring,
+    Unbalance,
+)
+from rotorfilm.scenes import bundled_scene, parse_scene
+from rotorfilm.scenes.rotor import campbell_columns, response_columns, solve_rotor
+
+RPM = math.pi / 30.0
+HEAD = """schema = 1
+[shaft]
+material = { young_modulus = "211 GPa", shear_modulus = "81.2 GPa", density = 7810 }
+"""
+SPEEDS = 'speeds = { first = "200 rpm", last = "4600 rpm", count = 12 }\n'
+SPRINGS = """
+[[shaft.bearings]]
+name = "left"
+node = 0
+stiffness = "1 MN/m"
+damping = "0.3 kN s/m"
+[[shaft.bearings]]
+name = "right"
+node = 6
+stiffness = [["1 MN/m", 1e5], [-1e5, "800 kN/m"]]
+damping = [[300, 0], [0, 300]]
+"""
+SHAFT = 'elements = [{ length = "1.5 m", outer_diameter = "50 mm", pieces = 6 }]\n'
+DISKS = """disks = [
+    { node = 2, width = "70 mm", outer_diameter = "280 mm", inner_diameter = "50 mm" },
+    { node = 4, mass = "50 kg", polar_inertia = "0.8 kg m2", diametral_inertia = 0.42 },
+]
+"""
+STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
+
+
+def scene(*parts):
+    return parse_scene("".join(parts), "test.toml")
+
+
+def plain(**changes):
+    parts = {
+        "elements": ShaftElement(length=1.5, outer_diameter=0.05, material=STEEL).split(6),
+        "disks": (
+            Disk.solid(2, density=7810.0, width=0.07, outer_diameter=0.28, inner_diameter=0.05),
+            Disk(node=4, mass=50.0, polar_inertia=0.8, diametral_inertia=0.42),
+        ),
+        "stations": (Station(node=0, name="left"), Station(node=6, name="right")),
+        "speed": 0.0,
+    }
+    return ShaftRotor(**(parts | changes))
+
+
+def test_a_scene_is_the_rotor_of_the_library():
+    shaft = scene(HEAD, SHAFT, DISKS, SPEEDS, SPRINGS).shaft
+    assert shaft.build() == plain()
+    assert shaft.build_bearings() == {
+        "left": LinearBearing(stiffness=1e6, damping=300.0),
+        "right": LinearBearing(stiffness=((1e6, 1e5), (-1e5, 8e5)), damping=300.0),
+    }
+    assert_allclose(shaft.speeds.build(), np.linspace(200.0, 4600.0, 12) * RPM)
+
+
+def test_every_key_arrives_in_its_unit():
+    text = """
+elements = [
+    { length = "0.5 m", outer_diameter = "50 mm", inner_diameter = "10 mm", end_outer_diameter = "60 mm", \
+      end_inner_diameter = "20 mm", pieces = 2, axial_force = "5 kN", torque = "2 kN m" },
+    { stiffness = "10 MN/m", tilt_stiffness = "40 N m/rad" },
+    { length = "0.5 m", outer_diameter = "50 mm", \
+      material = { young_modulus = 1e11, shear_modulus = 4e10, density = "4500 kg/m3" } },
+]
+disks = [{ node = 1, width = "70 mm", outer_diameter = "280 mm", density = 1000 }]
+probes = [{ node = 1, name = "middle" }]
+unbalances = [{ node = 1, unbalance = "1000 g mm", unbalance_angle = "90 deg" }]
+tilt_springs = [{ node = 4, stiffness = [["4e4 N m/rad", 0], [0, 3e4]], damping = 5 }]
+internal_damping = "0.01 ms"
+beam = "classical"
+"""
+    bearing = """
+[[shaft.bearings]]
+name = "only"
+node = 0
+journal = { diameter = "100 mm", length = "30 mm", clearance = "0.1 mm", viscosity = "0.1 Pa s" }
+support = { mass = "12 kg", stiffness = "20 MN/m", damping = [[1, 2], [3, 4]] }
+"""
+    shaft = scene(HEAD, text, SPEEDS, bearing).shaft
+    cone = ShaftElement(
+        length=0.5,
+        outer_diameter=0.05,
+        inner_diameter=0.01,
+        end_outer_diameter=0.06,
+        end_inner_diameter=0.02,
+        axial_force=5000.0,
+        torque=2000.0,
+        material=STEEL,
+    )
+    light = ElasticMaterial(young_modulus=1e11, shear_modulus=4e10, density=4500.0)
+    wanted = ShaftRotor(
+        elements=(
+            *cone.split(2),
+            Coupling(stiffness=1e7, tilt_stiffness=40.0),
+            ShaftElement(length=0.5, outer_diameter=0.05, material=light),
+        ),
+        disks=(Disk.solid(1, density=1000.0, width=0.07, outer_diameter=0.28),),
+        stations=(
+            Station(
+                node=0,
+                name="only",
+                support=Support(mass=12.0, stiffness=2e7, damping=((1.0, 2.0), (3.0, 4.0))),
+            ),
+        ),
+        probes=(Probe(node=1, name="middle"),),
+        unbalances=(Unbalance(node=1, unbalance=1e-3, unbalance_angle=math.pi / 2),),
+        tilt_springs=(TiltSpring(node=4, stiffness=((4e4, 0.0), (0.0, 3e4)), damping=5.0),),
+        internal_damping=1e-5,
+        beam=ClassicalBeam(),
+        speed=7.0,
+    )
+    found = shaft.build(speed=7.0)
+    assert_allclose(found.unbalances[0].unbalance_angle, math.pi / 2)
+    assert replace(found, unbalances=wanted.unbalances) == wanted
+    film = shaft.build_bearings()["only"]
+    assert film == JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
+
+
+def test_the_answer_is_that_of_the_library():
+    excitation = '[excitation]\nkind = "unbalance"\nunbalance = "500 g mm"\nnode = 2\n'
+    asked = scene(HEAD, SHAFT, DISKS, SPEEDS, SPRINGS, excitation)
+    reports = []
+    answer = solve_rotor(asked, lambda fraction, text: reports.append((fraction, text)))
+    rotor = plain(unbalances=(Unbalance(node=2, unbalance=5e-4),))
+    bearings, speeds = asked.shaft.build_bearings(), asked.shaft.speeds.build()
+    assert answer.critical_speeds == critical_speeds(rotor, bearings, speeds)
+    assert answer.threshold == rotor_threshold(rotor, bearings, speeds)
+    wanted = unbalance_response(rotor, bearings, speeds)
+    k = wanted.output_labels.index("left_x")
+    assert_allclose(answer.amplitudes["left_x"], np.abs(wanted.complex[k, 0]), rtol=1e-12)
+    assert "left_vx" not in answer.amplitudes
+    assert answer.mass == pytest.approx(rotor.mass)
+    assert answer.loads["left"] + answer.loads["right"] == pytest.approx(
+        [0.0, -9.80665 * rotor.mass], abs=1e-6
+    )
+    assert answer.residual < 1e-9
+    assert [fraction for fraction, _ in reports] == sorted(fraction for fraction, _ in reports)
+    columns = response_columns(answer)
+    assert_allclose(columns["right_housing_force_y [N]"], answer.amplitudes["right_housing_force_y"])
+    table = campbell_columns(answer)
+    assert len(table) == 1 + 3 * len(answer.campbell.eigenvalues)
+    assert table["speed [rad/s]"] == speeds.tolist()
+
+
+def test_without_unbalance_there_is_no_response():
+    answer = solve_rotor(scene(HEAD, SHAFT, DISKS, SPEEDS, SPRINGS))
+    assert answer.response is None
+    assert answer.amplitudes == {}
+    with pytest.raises(InputError, match="unbalance is required for a response"):
+        response_columns(answer)
+
+
+def test_what_a_shaft_cannot_be_asked():
+    loss = '[excitation]\nkind = "blade_loss"\nunbalance = "500 g mm"\n'
+    with pytest.raises(InputError, match=r"excitation.kind must be 'unbalance' for a shaft"):
+        solve_rotor(scene(HEAD, SHAFT, DISKS, SPEEDS, SPRINGS, loss))
+    with pytest.raises(InputError, match="shaft is required for the analyses of a flexible rotor"):
+        solve_rotor(bundled_scene())
+
+
+@pytest.mark.parametrize(
+    ("parts", "match"),
+    [
+        ([SHAFT, SPRINGS], "shaft.speeds is required"),
+        ([SPEEDS, SPRINGS], "shaft.elements is required"),
+        (["elements = []\n", SPEEDS, SPRINGS], "shaft.elements must be a list of tables"),
+        ([SHAFT, SPEEDS, "bearings = []\n"], "bearings must be at least one"),
+        (
+            [SHAFT, "disks = [{ node = 1, width = 1 }]\n", SPEEDS, SPRINGS],
+            "mass, or else width and outer_diameter",
+        ),
+        (
+            [SHAFT, "disks = [{ node = 9, mass = 1 }]\n", SPEEDS, SPRINGS],
+            "disks must be on a node 0 to 6, got node 9",
+        ),
+        (
+            [SHAFT, SPEEDS, SPRINGS.replace('"1 MN/m"\n', '"1 N"\n', 1)],
+            r"bearings\[0\].stiffness: .*measured in N/m",
+        ),
+        (
+            [SHAFT, SPEEDS, SPRINGS.replace("[300, 0]", "[300]")],
+            r"bearings\[1\].damping must be one quantity or 2 x 2",
+        ),
+        (
+            [SHAFT, SPEEDS, SPRINGS.replace('stiffness = "1 MN/m"\n', "")],
+            "journal, or else stiffness, is required",
+        ),
+        (
+            [SHAFT, 'beam = "clasical"\n', SPEEDS, SPRINGS],
+            "shaft.beam must be one of .* did you mean 'classical'",
+        ),
+        ([SHAFT, SPEEDS.replace("4600", "100"), SPRINGS], "last must be above first"),
+        ([SHAFT, SPEEDS.replace("12", "1"), SPRINGS], "count must be at least 2, got 1"),
+        (
+            ["elements = [{ lenght = 1 }]\n", SPEEDS, SPRINGS],
+            r"elements\[0\].lenght is no known key.*'length'",
+        ),
+    ],
+)
+def test_mistakes_are_named(parts, match):
+    with pytest.raises(SceneError, match=match):
+        scene(HEAD, *parts)
+
+
+def test_the_default_element_is_the_fourth_order_one():
+    assert scene(HEAD, SHAFT, SPEEDS, SPRINGS).shaft.beam == FourthOrderBeam()
