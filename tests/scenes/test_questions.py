@@ -11,8 +11,8 @@ import pytest
 from rotorfilm.errors import InputError, ValidityWarning
 from rotorfilm.scenes import Scene, bundled_scene, parse_scene
 from rotorfilm.scenes.film_tables import ShortFilmTable
-from rotorfilm.scenes.question_table import QUANTITIES, QuestionTable
 from rotorfilm.scenes.ladder import Found
+from rotorfilm.scenes.question_table import QUANTITIES, QuestionTable
 from rotorfilm.scenes.questions import ladder_of
 from rotorfilm.scenes.questions.march import ORDER, linear_march, march, peak
 from rotorfilm.scenes.questions.orbit_curve import SampledOrbit, nonlinear_orbit, rate_matrix
