@@ -24,7 +24,7 @@ from rotorfilm.fmu.narrow import as_exported
 from rotorfilm.signals import to_fmi_name
 
 HERE = Path(__file__).parent
-RECIPES = ("damper", "journal", "rotor", "flexible_rotor", "bush", "worn_bush")
+RECIPES = ("journal", "rotor", "flexible_rotor", "damper", "bush", "worn_bush", "contact")
 VERSIONS = ("2.0", "3.0")
 
 TOLERANCE = 1e-8

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from enum import StrEnum
 from pathlib import Path
@@ -98,63 +99,79 @@ def stability(ld: Slenderness = 0.5, out: Folder = OUT, json: Json = False) -> N
     console.print_rows("", [("reference", result.reference), *files])
 
 
-@chart_app.command(epilog="Example: rotorfilm chart contact --cells 48")
+@chart_app.command(epilog="Example: rotorfilm chart contact --cells 48 --json")
 def contact(
-    cells: Annotated[int, typer.Option(help="Cells along each side, converged runs.", min=8)] = 48,
+    cells: Annotated[int, typer.Option(help="Cells along each side of the reference.", min=24)] = 64,
     out: Folder = OUT,
     json: Json = False,
 ) -> None:
-    """Compare published cases of a rolling ball, by the published scheme and converged: takes minutes."""
+    """Error of a rolling ball's motion against its cost: time scheme, step, grid, reduced laws. Minutes."""
+    with console.progress_display() as report:
+        report(0.0, "packages")
+        from .charts import plot_contact_precision
+        from .ladders import contact_precision
+
+        result = contact_precision(cells, report=report)
+        files = _write(out, "chart_contact", result, plot_contact_precision(result))
+        report(1.0, "done")
+    if json:
+        console.print_json(result.columns())
+        return
+    rows = [(rung.family, rung.label, f"{rung.error:.2e}", f"{rung.cost:.3g} s") for rung in result.rungs]
+    console.print_columns(("model", "", "rms error", "cost"), rows)
+    console.print_rows("", [("reference", result.reference), *files])
+
+
+@chart_app.command(epilog="Example: rotorfilm chart contact-cases --cells 40")
+def contact_cases(
+    cells: Annotated[int, typer.Option(help="Cells along each side, converged runs.", min=8)] = 40,
+    tolerance: Annotated[float, typer.Option(help="Of the steps of converged runs.")] = 1e-4,
+    settle: Annotated[
+        float, typer.Option(help="Length of the runs of case 4.3 with W = 1.", min=30.0)
+    ] = 60.0,
+    out: Folder = OUT,
+    json: Json = False,
+) -> None:
+    """Compare published cases of a rolling ball, by the published scheme and converged. Some ten minutes."""
     with console.progress_display() as report:
         report(0.0, "packages")
         from .charts import plot_contact_cases
-        from .ladders import contact_cases
+        from .ladders import contact_cases as ladder
+        from .results import write_csv
 
-        result = contact_cases(cells, report=report)
-        files = _write(out, "chart_contact", result, plot_contact_cases(result))
+        result = ladder(cells, tolerance, settle, report=report)
+        files = _write(out, "chart_contact_cases", result, plot_contact_cases(result))
+        curves = write_csv(out / "chart_contact_curves.csv", result.series())
         report(1.0, "done")
     if json:
         console.print_json([row._asdict() for row in result.statements])
         return
-    headings = ("statement", "section", "published scheme", "converged", "verdict")
-    rows = [(row.text, row.section, row.published, row.converged, row.verdict) for row in result.statements]
+    headings = ("statement", "section", "published scheme", "same grid", "converged", "verdict")
+    rows = [
+        (row.text, row.section, row.published, row.same_grid, row.converged, row.verdict)
+        for row in result.statements
+    ]
     console.print_columns(headings, rows)
-    console.print_rows("", files)
+    console.print_rows("", [*files, ("curves", str(curves))])
 
 
-@chart_app.command(epilog="Example: rotorfilm chart damper --ld 0.25 --permeability 0.001")
-def damper(
-    ld: Slenderness = 0.25,
-    permeability: Annotated[float, typer.Option(help="Phi = A H/C^3 of the cage.")] = 1e-3,
-    states: Annotated[int, typer.Option(help="Random states.", min=1)] = 200,
-    out: Folder = OUT,
-    json: Json = False,
-) -> None:
-    """Error of the force against its cost, for every squeeze film: chart_damper.png, .csv and .json."""
+@chart_app.command(epilog="Example: rotorfilm chart contact-limits --json")
+def contact_limits(out: Folder = OUT, json: Json = False) -> None:
+    """Where the published scheme of a rolling ball fails, and how it decays by itself. A minute."""
     with console.progress_display() as report:
         report(0.0, "packages")
-        from .charts import plot_damper_accuracy
-        from .ladders import damper_accuracy
+        from .charts import plot_contact_limits
+        from .ladders import contact_limits as ladder
 
-        result = damper_accuracy(ld, permeability, states=states, report=report)
-        files = _write(out, "chart_damper", result, plot_damper_accuracy(result))
-        files.append(("data", str(console.write_json(out / "chart_damper.json", result))))
+        result = ladder(report=report)
+        files = _write(out, "chart_contact_limits", result, plot_contact_limits(result))
         report(1.0, "done")
+    table = result.columns()
     if json:
-        console.print_json(result)
+        console.print_json(table)
         return
-    rows = [
-        (
-            f"{rung.name}, {'cavitated' if rung.cavitated else 'full'}",
-            f"{rung.median_error:.2e}",
-            f"{rung.high_error:.2e}",
-            f"{rung.series_error:.2e}",
-            *_costs(rung.cost),
-        )
-        for rung in result.rungs
-    ]
-    headings = ("film", "median error", "99 % error", "against the short film", "batch", "alone")
-    console.print_columns(headings, rows)
+    rows = [[_number(entry) for entry in row] for row in zip(*table.values(), strict=True)]
+    console.print_columns(tuple(table), rows)
     console.print_rows("", files)
 
 
@@ -211,6 +228,71 @@ def bush(out: Folder = OUT, json: Json = False) -> None:
     closed = f"{min(errors):.2f} to {max(errors):.2f} % high"
     last = [("closed form of the shaft", closed), ("its table", str(shaft))]
     console.print_rows("", [("reference", result.reference), *files, *last])
+
+
+@chart_app.command(epilog="Example: rotorfilm chart damper --ld 0.25 --permeability 0.001")
+def damper(
+    ld: Slenderness = 0.25,
+    permeability: Annotated[float, typer.Option(help="Phi = A H/C^3 of the cage.")] = 1e-3,
+    states: Annotated[int, typer.Option(help="Random states.", min=1)] = 200,
+    out: Folder = OUT,
+    json: Json = False,
+) -> None:
+    """Error of the force against its cost, for every squeeze film: chart_damper.png, .csv and .json."""
+    with console.progress_display() as report:
+        report(0.0, "packages")
+        from .charts import plot_damper_accuracy
+        from .ladders import damper_accuracy
+
+        result = damper_accuracy(ld, permeability, states=states, report=report)
+        files = _write(out, "chart_damper", result, plot_damper_accuracy(result))
+        files.append(("data", str(console.write_json(out / "chart_damper.json", result))))
+        report(1.0, "done")
+    if json:
+        console.print_json(result)
+        return
+    rows = [
+        (
+            f"{rung.name}, {'cavitated' if rung.cavitated else 'full'}",
+            f"{rung.median_error:.2e}",
+            f"{rung.high_error:.2e}",
+            f"{rung.series_error:.2e}",
+            *_costs(rung.cost),
+        )
+        for rung in result.rungs
+    ]
+    headings = ("film", "median error", "99 % error", "against the short film", "batch", "alone")
+    console.print_columns(headings, rows)
+    console.print_rows("", files)
+
+
+@chart_app.command(epilog="Example: rotorfilm chart cosim --json")
+def cosim(out: Folder = OUT, json: Json = False) -> None:
+    """Stability limits of the coupling schemes, and their error against film calls: takes minutes."""
+    with console.progress_display() as report:
+        report(0.0, "packages")
+        from .charts import plot_coupling_cost, plot_coupling_limits
+        from .ladders import coupling_cost, coupling_limits
+        from .progress import part_of
+
+        limits = coupling_limits(report=part_of(report, 0.0, 0.6))
+        cost = coupling_cost(report=part_of(report, 0.6, 1.0))
+        files = _write(out, "chart_cosim_limits", limits, plot_coupling_limits(limits))
+        files += _write(out, "chart_cosim_cost", cost, plot_coupling_cost(cost))
+        report(1.0, "done")
+    if json:
+        console.print_json({"limits": limits, "cost": cost})
+        return
+    best = [row for row in cost.rows if row.orbit_error is not None]
+    rows = [
+        (row.scheme, f"{math.degrees(row.macro_angle):.3g} deg", f"{row.orbit_error:.1e}") for row in best
+    ]
+    console.print_columns(("scheme", "macro step", "orbit error / clearance"), rows)
+    console.print_rows("", files)
+
+
+def _number(entry: object) -> str:
+    return f"{entry:.4g}" if isinstance(entry, float) else "" if entry is None else str(entry)
 
 
 def _write(out: Path, name: str, result: Tabular, axes: Sequence[Axes]) -> list[tuple[str, str]]:

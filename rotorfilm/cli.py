@@ -15,6 +15,8 @@ import typer
 
 from . import console
 from .chart_commands import chart_app
+from .cli_contact import CONTACT_EXAMPLE, contact
+from .cli_cosim import COSIM_EXAMPLE, cosim
 from .cli_damper import DAMPER_EXAMPLE, damper
 from .cli_rotor import ROTOR_EXAMPLE, rotor
 from .cli_sweep import SWEEP_EXAMPLE, sweep
@@ -359,7 +361,9 @@ def demo(
     console.print_rows("files", [(path.name, notes.get(path.name, "")) for path in sorted(out.iterdir())])
 
 
+app.command(epilog=COSIM_EXAMPLE)(cosim)
 app.command(epilog=DAMPER_EXAMPLE)(damper)
+app.command(epilog=CONTACT_EXAMPLE)(contact)
 app.command(epilog=ROTOR_EXAMPLE)(rotor)
 app.command(epilog=SWEEP_EXAMPLE)(sweep)
 

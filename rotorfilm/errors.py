@@ -78,6 +78,10 @@ class ValidityWarning(UserWarning):
     """A model is used outside the range in which it was verified."""
 
 
+class CouplingWarning(ValidityWarning):
+    """A co-simulation is near its stability limit, or past it."""
+
+
 def require_positive(name: str, value: float) -> None:
     """Raise InputError unless `value` is a finite positive number."""
     if not _is_number(value) or not np.isfinite(value) or value <= 0.0:

@@ -113,7 +113,10 @@ class Switched(Protocol):
 
 @runtime_checkable
 class Stepped(Protocol):
-    """A model with a time integrator of its own; it exports to Co-Simulation only."""
+    """A model with a time integrator of its own; it exports to Co-Simulation only.
+
+    Its outputs belong to its state, not to the present inputs: these act in the next step.
+    """
 
     @property
     def inputs(self) -> tuple[Signal, ...]:
@@ -127,7 +130,19 @@ class Stepped(Protocol):
         """Return the state that is stationary under the input u; the state copies by copy.deepcopy."""
 
     def step(self, state: Any, t: float, u: ArrayLike, dt: float) -> tuple[Any, Array, Any]:
-        """Advance from t by dt under u; return the new state, the output and a report."""
+        """Advance from t by dt under u; return the new state, the output and a report.
+
+        Where it raises, the old state is still good.
+        """
+
+    def answer(self, state: Any) -> Array:
+        """Return the output of a state, shape (n_outputs,)."""
+
+    def pack(self, state: Any) -> bytes:
+        """Return a state as bytes, to the last bit."""
+
+    def unpack(self, content: bytes) -> Any:
+        """Return the state in bytes that `pack` made."""
 
 
 @runtime_checkable

@@ -15,11 +15,12 @@ LAYERS = [
     ["films"],
     ["bearings", "rotors"],
     ["linear", "reduce", "transient", "orbits", "cosim", "fmu"],
+    ["nonlinear"],
     ["ladders"],
     ["scenes", "charts"],
     ["sweeps"],
     ["console", "console_ladder", "gallery"],
-    ["chart_commands", "cli_damper", "cli_rotor", "cli_sweep"],
+    ["chart_commands", "cli_contact", "cli_cosim", "cli_damper", "cli_rotor", "cli_sweep"],
     ["cli"],
 ]
 RANK = {name: rank for rank, layer in enumerate(LAYERS) for name in layer}

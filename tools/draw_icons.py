@@ -35,15 +35,12 @@ def draw_grooved_journal(axes: Axes) -> None:
     axes.patches[2].set_zorder(0.5)
 
 
-def draw_damper(axes: Axes) -> None:
-    """Draw a ring of film in a porous cage, a race that does not turn, and springs."""
-    axes.add_patch(Circle((0, 0), 0.95, color=STEEL))
-    for angle in np.linspace(0, 2 * np.pi, 20, endpoint=False):
-        axes.add_patch(Circle((0.83 * np.cos(angle), 0.83 * np.sin(angle)), 0.05, color="white"))
-    axes.add_patch(Circle((0, 0), 0.72, color=OIL))
-    axes.add_patch(Circle((0.05, -0.07), 0.6, facecolor="white", edgecolor=INK, lw=2))
-    x = np.linspace(-0.42, 0.52, 9)
-    axes.plot(x, -0.07 + 0.16 * np.array([0, 0, 1, -1, 1, -1, 1, 0, 0]), color=INK, lw=2)
+def draw_contact(axes: Axes) -> None:
+    """Draw a ball on a plane with the film between them."""
+    axes.add_patch(Rectangle((-0.95, -0.85), 1.9, 0.3, color=STEEL))
+    axes.add_patch(Rectangle((-0.95, -0.55), 1.9, 0.16, color=OIL))
+    axes.add_patch(Circle((0, 0.2), 0.66, facecolor="white", edgecolor=INK, lw=2))
+    axes.add_patch(FancyArrow(-0.35, 0.2, 0.5, 0.0, head_width=0.2, head_length=0.2, color=INK, lw=0))
 
 
 def draw_bush(axes: Axes) -> None:
@@ -59,6 +56,17 @@ def draw_worn_bush(axes: Axes) -> None:
     draw_bush(axes)
     for angle in np.linspace(-2.3, -0.84, 6):
         axes.add_patch(Circle((0.52 * np.cos(angle), -0.18 + 0.52 * np.sin(angle)), 0.07, color=INK))
+
+
+def draw_damper(axes: Axes) -> None:
+    """Draw a ring of film in a porous cage, a race that does not turn, and springs."""
+    axes.add_patch(Circle((0, 0), 0.95, color=STEEL))
+    for angle in np.linspace(0, 2 * np.pi, 20, endpoint=False):
+        axes.add_patch(Circle((0.83 * np.cos(angle), 0.83 * np.sin(angle)), 0.05, color="white"))
+    axes.add_patch(Circle((0, 0), 0.72, color=OIL))
+    axes.add_patch(Circle((0.05, -0.07), 0.6, facecolor="white", edgecolor=INK, lw=2))
+    x = np.linspace(-0.42, 0.52, 9)
+    axes.plot(x, -0.07 + 0.16 * np.array([0, 0, 1, -1, 1, -1, 1, 0, 0]), color=INK, lw=2)
 
 
 def draw_rotor(axes: Axes) -> None:
@@ -85,9 +93,10 @@ def draw_linear(axes: Axes) -> None:
 
 
 DRAWN = {
-    "damper": draw_damper,
+    "contact": draw_contact,
     "bush_reaction": draw_worn_bush,
     "bush_wear": draw_bush,
+    "damper": draw_damper,
     "grooved_journal": draw_grooved_journal,
     "journal": draw_journal,
     "linear": draw_linear,

@@ -1,17 +1,20 @@
 """Public bearing models: geometry, parameters and validation over a film law."""
 
+from .ball_support import BallSupport
 from .bush import BushContact, MeltingBush, f4k20_bush
 from .bush_materials import BushGeometry, Friction, LinerMaterial, ShaftMaterial
 from .bush_published import PublishedStage, published_stage
 from .bush_reaction import BushReaction
 from .bush_wear import BushWear
 from .contact import PointContact, perturbed
-from .contact_law import ContactLaw, reduce_ball, reduce_contact
+from .contact_law import ContactLaw
+from .contact_reduction import interpolate_contact, reduce_ball, reduce_contact
 from .damper import AxialFeed, DamperGroups, PorousCage, PorousDamper, RadialFeed, damper_groups
 from .film_state import FilmState, film_state
 from .groove_map import build_groove_map
 from .journal import JournalBearing
 from .linear import LinearBearing
+from .moving_contact import MovingContact, moving_contact
 from .ride import ride
 from .rolling_ball import RollingBall
 from .sprung import Sprung
@@ -19,6 +22,7 @@ from .tabulated import TabulatedBearing
 
 __all__ = [
     "AxialFeed",
+    "BallSupport",
     "BushContact",
     "BushGeometry",
     "BushReaction",
@@ -31,6 +35,7 @@ __all__ = [
     "LinearBearing",
     "LinerMaterial",
     "MeltingBush",
+    "MovingContact",
     "PointContact",
     "PorousCage",
     "PorousDamper",
@@ -44,6 +49,8 @@ __all__ = [
     "damper_groups",
     "f4k20_bush",
     "film_state",
+    "interpolate_contact",
+    "moving_contact",
     "perturbed",
     "published_stage",
     "reduce_ball",

@@ -2,34 +2,24 @@
 
 from __future__ import annotations
 
-import warnings
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, ValidityWarning, require_finite, require_positive
-from ..films.contact_linear import SmallMotion
-from ..films.contact_static import StaticLaw, fit_static_law
-from ..films.contact_stationary import HERTZ_LOAD
-from ..films.rational_fit import fit_transfer
+from ..errors import InputError, require_finite, require_positive
+from ..films.contact_static import StaticLaw
 from ..model import Array, Linearization
+from ..native.spec import NativeSpec
 from ..signals import Signal
-from .contact import PointContact
+from .contact_native import contact_spec
 
-if TYPE_CHECKING:
-    from .rolling_ball import RollingBall
+LOAD_RANGE = (0.2, 3.0)
+"""Smallest and largest load of the fits, in Hertzian loads."""
 
-LOADS = (0.2, 0.35, 0.6, 1.0, 1.5, 2.2, 3.0)
-"""Loads f of the stationary contacts that the static law is fitted to."""
-
-FREQUENCIES = np.geomspace(0.05, 6.0, 32)
-"""Frequencies of the dynamic stiffness that the state space is fitted to."""
-
-SLOWEST = 0.3
-"""Frequency below which a misfit of the damping counts less."""
+HIGHEST_FREQUENCY = 6.0
+"""Highest angular frequency of the fits."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,8 +27,13 @@ class ContactLaw:
     """Force of a lubricated point contact over the approach z of the ball, a Model with `order` states.
 
     F = F_s(z) - [Z(s) - Z(0)] (z - z_1): the static law, and what the dynamic stiffness at the load f = 1
-    adds to it. The state space is stable and has no static part. Built by `reduce_contact` or `reduce_ball`;
-    the errors of both fits are kept, that of a motion is to be asked from the full model.
+    adds to it. The state space is stable and has no static part. A film does not pull: F is at least 0, and
+    a ball beyond the offset of the static law no longer drives the state space. Built by `reduce_contact`,
+    `reduce_ball` or `interpolate_contact`; the errors of both fits, and of an interpolation, are kept, that
+    of a motion is to be asked from the full model.
+
+    Valid for loads within `load_range` and motions up to `highest_frequency`. `linearize(law,
+    OperatingPoint(x=..., u=[z]))` makes it a control.StateSpace, `BallSupport` a Reaction under a rotor.
 
     Parameters
     ----------
@@ -113,110 +108,95 @@ class ContactLaw:
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return (force_z,) [N] for u = (z,) [m]; t is not used."""
         delta = float(np.asarray(u)[0]) / self.film_scale
-        dynamic = self.C @ np.asarray(x, dtype=float) + self.D[:, 0] * (delta - self.operating)
-        return self.force_scale * (self._static.load(delta) + dynamic)
+        return self.force_scale * np.maximum(self._load(delta, np.asarray(x, dtype=float)), 0.0)
 
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return dx/dt [1/s]."""
         delta = float(np.asarray(u)[0]) / self.film_scale
-        return (
-            self.A @ np.asarray(x, dtype=float) + self.B[:, 0] * (delta - self.operating)
-        ) / self.time_scale
+        return (self.A @ np.asarray(x, dtype=float) + self.B[:, 0] * self._drive(delta)) / self.time_scale
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
-        """Return the exact derivatives, in SI."""
-        slope = self._static.slope(float(np.asarray(u)[0]) / self.film_scale)
+        """Return the exact derivatives, in SI; at a kink those of the side in contact."""
+        delta = float(np.asarray(u)[0]) / self.film_scale
+        near = float(delta <= self.offset)
+        pressed = float(self._load(delta, np.asarray(x, dtype=float))[0] >= 0.0)
         per_length = self.force_scale / self.film_scale
         return Linearization(
             self.A / self.time_scale,
-            self.B / (self.time_scale * self.film_scale),
-            self.force_scale * self.C,
-            per_length * (slope + self.D),
+            near * self.B / (self.time_scale * self.film_scale),
+            pressed * self.force_scale * self.C,
+            pressed * per_length * (self._static.slope(delta) + near * self.D),
         )
+
+    def events(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return what changes sign where the ball leaves the film, and where the force vanishes."""
+        delta = float(np.asarray(u)[0]) / self.film_scale
+        return np.array([(delta - self.offset) / self.span, self._load(delta, np.asarray(x, dtype=float))[0]])
+
+    @property
+    def load_range(self) -> tuple[float, float]:
+        """Smallest and largest load of the static law's fit [N]."""
+        return LOAD_RANGE[0] * self.force_scale, LOAD_RANGE[1] * self.force_scale
+
+    @property
+    def highest_frequency(self) -> float:
+        """Angular frequency to which the dynamic stiffness was fitted [rad/s]."""
+        return HIGHEST_FREQUENCY / self.time_scale
+
+    @property
+    def stiffness(self) -> float:
+        """Static stiffness under the load f = 1, -dF/dz [N/m]."""
+        return -self.force_scale / self.film_scale * self._static.slope(self.operating)
+
+    @property
+    def damping(self) -> float:
+        """Damping of slow motions under the load f = 1, -dF/d(dz/dt) [N s/m]."""
+        if not self.order:
+            return 0.0
+        slow = self.C @ np.linalg.solve(self.A, np.linalg.solve(self.A, self.B))
+        return float(slow[0, 0]) * self.force_scale * self.time_scale / self.film_scale
+
+    def static_force(self, z: ArrayLike) -> Array:
+        """Return the force [N] of a contact that has long rested at the approaches z (...) [m]."""
+        depth = np.maximum(self.offset - np.asarray(z, dtype=float) / self.film_scale, 0.0) / self.span
+        return np.asarray(self.force_scale * depth**self.exponent)
+
+    def static_slope(self, z: ArrayLike) -> Array:
+        """Return its derivative by z [N/m], shape (...)."""
+        depth = np.maximum(self.offset - np.asarray(z, dtype=float) / self.film_scale, 0.0) / self.span
+        factor = -self.exponent / self.span * self.force_scale / self.film_scale
+        return np.asarray(factor * depth ** (self.exponent - 1.0))
+
+    def approach(self, load: ArrayLike) -> Array:
+        """Return the approach z (...) [m] under static loads (...) [N], none negative."""
+        share = np.asarray(load, dtype=float) / self.force_scale
+        if not np.all(share >= 0.0):
+            raise InputError(f"load must not be negative, got {load!r}")
+        return np.asarray(self.film_scale * (self.offset - self.span * share ** (1.0 / self.exponent)))
+
+    def native(self) -> NativeSpec:
+        """Return the kernel `contact`."""
+        return contact_spec(self, np.ones((1, 1)), np.ones((1, 1)), 0.0)
 
     def resting(self, delta: float) -> Array:
         """Return the state in which the contact has long rested at an approach delta [1]."""
         if not self.order:
             return np.zeros(0)
-        return np.asarray(-np.linalg.solve(self.A, self.B[:, 0]) * (delta - self.operating), dtype=float)
+        return np.asarray(-np.linalg.solve(self.A, self.B[:, 0]) * self._drive(delta), dtype=float)
+
+    def _drive(self, delta: float) -> float:
+        """Return what drives the state space: a ball that has left does so no longer."""
+        return min(delta, self.offset) - self.operating
+
+    def _load(self, delta: float, x: Array) -> Array:
+        return self._static.load(delta) + self.C @ x + self.D[:, 0] * self._drive(delta)
 
     @property
     def _static(self) -> StaticLaw:
         return StaticLaw(self.offset, self.span, self.exponent, self.static_error)
 
 
-def reduce_contact(contact: PointContact, order: int = 5) -> ContactLaw:
-    """Return the dimensionless law of a contact: z = delta, force in Hertzian loads, time in its unit.
-
-    Takes stationary solutions under the loads `LOADS` and dense linear solutions at the frequencies
-    `FREQUENCIES`: some seconds on 40 x 40 cells, a minute on 64 x 64.
-
-    Parameters
-    ----------
-    contact : PointContact
-    order : int
-        States of the dynamic part.
-
-    Warns
-    -----
-    ValidityWarning
-        If the fitted damping is negative at some frequency.
-    """
-    states = [contact.stationary(LOADS[0])]
-    for load in LOADS[1:]:
-        states.append(contact.stationary(load, near=states[-1]))
-    static = fit_static_law(np.array([s.delta for s in states]), np.array(LOADS))
-    at = states[LOADS.index(1.0)]
-    small = SmallMotion(contact.equations, at.levels[0].pressure, at.delta)
-    stiffness = np.array([small.stiffness(1j * w) for w in (1e-6, *FREQUENCIES)])
-    change = -(stiffness[1:] - stiffness[0].real) / HERTZ_LOAD
-    fit = fit_transfer(FREQUENCIES, change, order, 1.0 / np.maximum(FREQUENCIES, SLOWEST))
-    law = ContactLaw(
-        offset=static.offset,
-        span=static.span,
-        exponent=static.exponent,
-        operating=at.delta,
-        **fit.system._asdict(),
-        static_error=static.error,
-        damping_error=_damping_error(fit.system, change),
-    )
-    _require_damping(law)
-    return law
-
-
-def reduce_ball(ball: RollingBall, contact: PointContact, order: int = 5) -> ContactLaw:
-    """Return the law of a rolling ball in SI, from its contact (`ball.contact(...)`)."""
-    if (contact.V, contact.Q0) != (ball.V, ball.Q0):
-        raise InputError(
-            f"contact must be of the ball, with V = {ball.V!r} and Q0 = {ball.Q0!r}, got {contact!r}"
-        )
-    return replace(
-        reduce_contact(contact, order),
-        film_scale=ball.film_scale,
-        time_scale=ball.time_scale,
-        force_scale=ball.load,
-    )
-
-
 def transfer(system: Linearization, s: np.ndarray) -> np.ndarray:
     """Return C (s - A)^-1 B + D of a system with one input and output, shape (n,)."""
     A, B, C, D = system
     return np.array([(C @ np.linalg.solve(v * np.eye(len(A)) - A, B.astype(complex)) + D)[0, 0] for v in s])
-
-
-def _damping_error(system: Linearization, change: np.ndarray) -> float:
-    damping = -change.imag / FREQUENCIES
-    fitted = -transfer(system, 1j * FREQUENCIES).imag / FREQUENCIES
-    return float(np.max(abs(fitted - damping)) / np.max(abs(damping)))
-
-
-def _require_damping(law: ContactLaw) -> None:
-    frequency = np.geomspace(1e-2, 1e3, 400)
-    damping = -transfer(Linearization(law.A, law.B, law.C, law.D), 1j * frequency).imag / frequency
-    if damping.min() < -1e-3 * damping.max():
-        warnings.warn(
-            "the law must damp at every frequency, got negative damping at "
-            f"{frequency[damping.argmin()]:.3g}: take another order",
-            ValidityWarning,
-            stacklevel=3,
-        )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from ..errors import InputError, require_non_negative, require_number, require_positive
 from ..films.contact_fluid import (
@@ -22,6 +23,22 @@ ROELANDS_PRESSURE = 1.96e8
 
 ROELANDS_SHIFT = 9.67
 """Shift in ln(mu_0) + shift of that law, mu_0 in Pa s."""
+
+
+class PublishedFilms(NamedTuple):
+    """Film thicknesses of a ball by published formulas [m].
+
+    Attributes
+    ----------
+    nijenbanning_venner_moes : float [m]
+        Central film (1994).
+    hamrock_dowson, hamrock_dowson_minimum : float [m]
+        Central and smallest film (1977).
+    """
+
+    nijenbanning_venner_moes: float
+    hamrock_dowson: float
+    hamrock_dowson_minimum: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -136,6 +153,16 @@ class RollingBall:
             self.viscosity * self.speed / (self.combined_modulus * self.radius),
             self.pressure_coefficient * self.combined_modulus,
             self.load / (self.combined_modulus * self.radius**2),
+        )
+
+    @property
+    def published_films(self) -> PublishedFilms:
+        """Film thicknesses by published formulas [m]."""
+        speed = 2.0 * self.hamrock_dowson.U
+        return PublishedFilms(
+            self.moes.central_film * math.sqrt(speed) * self.radius,
+            self.hamrock_dowson.central_film * self.radius,
+            self.hamrock_dowson.minimum_film * self.radius,
         )
 
     def contact(

@@ -4,6 +4,8 @@ from .bush import plot_contact_pressure, plot_critical_speed
 from .bush_tiers import plot_bush_tiers, plot_shaft_flux_error
 from .canvas import new_axes, new_figure, save
 from .contact_cases import plot_contact_cases
+from .contact_ladder import plot_contact_limits, plot_contact_precision
+from .coupling import plot_coupling_cost, plot_coupling_limits
 from .coupling_error import plot_coupling_error
 from .damper import plot_bistable, plot_eccentricity, plot_phase, plot_transmissibility, plot_transmitted
 from .damper_ladder import plot_damper_accuracy
@@ -17,18 +19,24 @@ from .rotor import (
     plot_mode_shape,
     plot_unbalance_response,
 )
+from .whirl import plot_basin, plot_orbit_curves
 from .whirl_verdicts import plot_journal_stability, plot_thresholds
 from .work_precision import plot_force_error, plot_journal_accuracy
 
 __all__ = [
     "new_axes",
     "new_figure",
+    "plot_basin",
     "plot_bistable",
     "plot_bush_tiers",
     "plot_campbell",
     "plot_contact_cases",
+    "plot_contact_limits",
+    "plot_contact_precision",
     "plot_contact_pressure",
+    "plot_coupling_cost",
     "plot_coupling_error",
+    "plot_coupling_limits",
     "plot_critical_speed",
     "plot_critical_speed_map",
     "plot_damper_accuracy",
@@ -40,6 +48,7 @@ __all__ = [
     "plot_locus",
     "plot_log_decrement",
     "plot_mode_shape",
+    "plot_orbit_curves",
     "plot_orbits",
     "plot_phase",
     "plot_shaft_flux_error",

@@ -1,4 +1,8 @@
-"""A Co-Simulation FMU of FMI 2.0 or 3.0 as a partner in a co-simulation, run by fmpy."""
+"""FMUs of FMI 2.0 or 3.0 as partners in a co-simulation, run by fmpy.
+
+A film, and a rotor that takes force laws as inputs (or held forces only), is one for Co-Simulation. A rotor
+for Model Exchange is integrated by the master.
+"""
 
 from __future__ import annotations
 
@@ -11,33 +15,49 @@ import numpy as np
 from fmpy.fmi1 import FMICallException
 
 from ..errors import FilmContactError, FmuError, InputError
-from ..fmu.instance import extracted, instantiated
-from ..model import Array
+from ..fmu.described import common_capabilities, nominal_of
+from ..fmu.instance import EventInfo, extracted, instantiated
+from ..model import Array, Linearization
+from ..rotors.force_law import BASE_TIME, ForceLaw, law_inputs
 from ..signals import from_fmi_name
+from .exponential import LawIntegrator, Wiring
 
 CONTACT = (FilmContactError.__name__, "inside the clearance")
 """What the log of a film FMU contains when its journal touched the wall, in Python and in C."""
 
 REAL = ("Real", "Float64")
 
+DERIVATIVES = {"providesDirectionalDerivative", "providesDirectionalDerivatives"}
+STATES = {"canGetAndSetFMUstate", "canGetAndSetFMUState"}
+"""Capabilities, as FMI 2.0 and 3.0 spell them."""
+
 
 class FmuSlave:
-    """An instantiated FMU; `open_fmu` makes one and frees it.
+    """An instantiated FMU for Co-Simulation; `open_fmu` makes one and frees it.
 
     Parameters
     ----------
     description : fmpy.model_description.ModelDescription
     folder : str
         Where the FMU was extracted.
+    exchange : bool
+        Whether to instantiate it for Model Exchange.
     """
 
-    def __init__(self, description: Any, folder: str) -> None:
+    def __init__(self, description: Any, folder: str, exchange: bool = False) -> None:
         self._name = description.modelName
         self._failed = False
         self._references = {
             causality: _references(description, causality) for causality in ("input", "output")
         }
-        self._instance = instantiated(description, folder, exchange=False)
+        capable = common_capabilities(folder)
+        self.differentiates = bool(capable & DERIVATIVES)
+        self.restores = bool(capable & STATES)
+        slopes = [unknown.variable for unknown in description.derivatives or ()]
+        self._slopes = [slope.valueReference for slope in slopes]
+        self._states = [slope.derivative.valueReference for slope in slopes]
+        self._nominals = np.array([nominal_of(slope.derivative) for slope in slopes])
+        self._instance = instantiated(description, folder, exchange)
 
     @property
     def inputs(self) -> tuple[str, ...]:
@@ -78,6 +98,50 @@ class FmuSlave:
             columns = [self._instance.directional(unknowns, [known], [1.0]) for known in knowns]
         return np.array(columns).reshape(len(inputs), len(outputs)).T
 
+    def save(self) -> Any:
+        """Return the FMU state."""
+        with self._reported("saving its state"):
+            return self._instance.save()
+
+    def restore(self, state: Any) -> None:
+        """Return to an FMU state."""
+        with self._reported("restoring its state"):
+            self._instance.restore(state)
+
+    def release(self, state: Any) -> None:
+        """Free an FMU state."""
+        with self._reported("freeing a state"):
+            self._instance.release(state)
+
+    def takes_laws(self, wiring: Wiring) -> bool:
+        """Whether it has the inputs of force laws."""
+        wanted = [BASE_TIME, *(name for station in wiring.stations for name in law_inputs(station))]
+        return set(wanted) <= set(self.inputs)
+
+    def drive(self, t: float, dt: float, law: ForceLaw, wiring: Wiring) -> None:
+        """Advance from t to t + dt [s] under a force law; without its inputs, under a held force."""
+        if self.takes_laws(wiring):
+            values = {BASE_TIME: law.start}
+            for number, station in enumerate(wiring.stations):
+                values |= dict(zip(law_inputs(station), law.station(number), strict=True))
+        elif law.held:
+            values = dict(zip(wiring.force, law.force.tolist(), strict=True))
+        else:
+            raise InputError(f"rotor must have the inputs of a force law, got {list(self.inputs)}")
+        self.set(values)
+        self.step(t, dt)
+
+    def linear(self, t: float) -> Linearization | None:
+        """Return the exact derivatives at present, if the FMU tells them of its states."""
+        if not (self.differentiates and self._states):
+            return None
+        inputs, outputs = (list(self._references[which].values()) for which in ("input", "output"))
+        unknowns, knowns = [*self._slopes, *outputs], [*self._states, *inputs]
+        with self._reported("reading derivatives"):
+            columns = [self._instance.directional(unknowns, [known], [1.0]) for known in knowns]
+        whole, n = np.array(columns).T, len(self._states)
+        return Linearization(whole[:n, :n], whole[:n, n:], whole[n:, :n], whole[n:, n:])
+
     def close(self) -> None:
         """Terminate, free the instance and unload its library, whatever happened before."""
         # FMI forbids freeing after fmi2Fatal, but PythonFMU calls every exception fatal and its
@@ -100,6 +164,93 @@ class FmuSlave:
             raise (FilmContactError if touched else FmuError)(text) from error
 
 
+class ExchangeRotor(FmuSlave):
+    """An instantiated rotor FMU for Model Exchange, integrated by the exponential; see `FmuSlave`.
+
+    The FMU tells its directional derivatives. It is a `System`, whose calls go to the FMU.
+    """
+
+    def __init__(self, description: Any, folder: str) -> None:
+        super().__init__(description, folder, exchange=True)
+        self._t, self._kink = 0.0, np.inf
+        self._x = np.zeros(len(self._states))
+        self._base = np.zeros(len(self.inputs))
+        self._integrator: LawIntegrator | None = None
+
+    @property
+    def nominals(self) -> Array:
+        """Nominal values of the states."""
+        return self._nominals
+
+    def start(self, values: Mapping[str, float]) -> None:
+        """Initialize at t = 0 with these inputs."""
+        if not self.differentiates:
+            raise InputError(f"rotor must provide directional derivatives, got {self._name!r} without")
+        with self._reported("initialization"):
+            event = self._instance.initialize(self._inputs(values), list(values.values()))
+            self._x = self._instance.states(len(self._states))
+            self._base = np.array(self._instance.get(list(self._references["input"].values())))
+        self._scheduled(event)
+
+    def drive(self, t: float, dt: float, law: ForceLaw, wiring: Wiring) -> None:
+        """Advance from t to t + dt [s] under a force law."""
+        if self._integrator is None:
+            self._integrator = LawIntegrator(self, wiring, self._base)
+        with self._reported(f"the step from t = {t:.9g} s"):
+            self._x = self._integrator.advance(t, self._x, dt, law)
+            self._t = t + dt
+            self._instance.move(self._t, self._x)
+
+    def takes_laws(self, wiring: Wiring) -> bool:
+        """Return True."""
+        return True
+
+    def save(self) -> Any:
+        """Return time and state."""
+        return self._t, self._x.copy()
+
+    def restore(self, state: Any) -> None:
+        """Return to time and state."""
+        self._t, self._x = state
+        self._instance.move(self._t, self._x)
+
+    def release(self, state: Any) -> None:
+        """Do nothing."""
+
+    def rates(self, t: float, x: Array, u: Array) -> Array:
+        """Return dx/dt."""
+        self._move(t, x, u)
+        return self._instance.derivatives(len(x))
+
+    def outcome(self, t: float, x: Array, u: Array) -> Array:
+        """Return the outputs."""
+        self._move(t, x, u)
+        return np.array(self._instance.get(list(self._references["output"].values())))
+
+    def matrices(self, t: float, x: Array, u: Array) -> Linearization:
+        """Return the exact derivatives."""
+        self._move(t, x, u)
+        found = self.linear(t)
+        assert found is not None  # checked by `start`
+        return found
+
+    def next_kink(self, t: float) -> float:
+        """Return the next time event [s]."""
+        return self._kink
+
+    def pass_kink(self, t: float, x: Array) -> None:
+        """Pass through event mode at a time event."""
+        self._move(t, x, self._base)
+        self._scheduled(self._instance.event())
+
+    def _scheduled(self, event: EventInfo) -> None:
+        self._kink = np.inf if event.next_time is None else event.next_time
+
+    def _move(self, t: float, x: Array, u: Array) -> None:
+        self._instance.move(t, x)
+        self._instance.set(list(self._references["input"].values()), u.tolist())
+
+
 @contextmanager
 def open_fmu(path: str | PathLike[str]) -> Iterator[FmuSlave]:
     """Extract and instantiate an FMU; free it and delete the files at the end, in any case.
@@ -115,6 +266,30 @@ def open_fmu(path: str | PathLike[str]) -> Iterator[FmuSlave]:
     """
     with extracted(path) as (description, folder):
         slave = FmuSlave(description, folder)
+        try:
+            yield slave
+        finally:
+            slave.close()
+
+
+@contextmanager
+def open_rotor(path: str | PathLike[str], *, held: bool) -> Iterator[FmuSlave]:
+    """Extract and instantiate a rotor FMU; see `open_fmu`.
+
+    It is opened for Co-Simulation where that will do, otherwise for Model Exchange.
+
+    Parameters
+    ----------
+    path : path of the .fmu file
+    held : bool
+        Whether it need not take more than held forces.
+    """
+    with extracted(path) as (description, folder):
+        taken = any(_local_name(v.name) == BASE_TIME for v in description.modelVariables)
+        exchange = description.modelExchange is not None and not (
+            description.coSimulation is not None and (held or taken)
+        )
+        slave = ExchangeRotor(description, folder) if exchange else FmuSlave(description, folder)
         try:
             yield slave
         finally:

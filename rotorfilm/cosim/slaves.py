@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Protocol
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
 from ..errors import InputError
 from ..fmu.integrate import advance
-from ..model import Array, Dynamic, Model
+from ..model import Array, Dynamic, Kinked, Linearization, Model
+from ..rotors.force_law import ForceLaw
 from ..signals import names
+from .exponential import LawIntegrator, Wiring
 
 
 class Slave(Protocol):
@@ -40,6 +42,69 @@ class Slave(Protocol):
         """Return the outputs at the present time."""
 
 
+@runtime_checkable
+class Differentiable(Protocol):
+    """What a film may add: its exact derivatives."""
+
+    @property
+    def differentiates(self) -> bool:
+        """Whether it knows them."""
+
+    def jacobian(self, outputs: Sequence[str], inputs: Sequence[str]) -> Array:
+        """Return d(outputs)/d(inputs) at present, shape (n_outputs, n_inputs)."""
+
+
+@runtime_checkable
+class Restorable(Protocol):
+    """What a partner may add: a way back."""
+
+    @property
+    def restores(self) -> bool:
+        """Whether it has one."""
+
+    def save(self) -> Any:
+        """Return the state at present."""
+
+    def restore(self, state: Any) -> None:
+        """Return to a state."""
+
+    def release(self, state: Any) -> None:
+        """Forget a state."""
+
+
+@runtime_checkable
+class Driven(Protocol):
+    """What a rotor may add: steps under a force law in place of a held force."""
+
+    def takes_laws(self, wiring: Wiring) -> bool:
+        """Whether it takes any force law; otherwise held forces only."""
+
+    def drive(self, t: float, dt: float, law: ForceLaw, wiring: Wiring) -> None:
+        """Advance from t to t + dt [s] under a force law."""
+
+    def linear(self, t: float) -> Linearization | None:
+        """Return the exact derivatives of the rotor at present, if it knows them."""
+
+
+class ModelSystem:
+    """A Dynamic model as the system that the exponential integrates; see `exponential.System`."""
+
+    def __init__(self, model: Dynamic) -> None:
+        self._model = model
+        self.inputs, self.outputs = tuple(names(model.inputs)), tuple(names(model.outputs))
+        self.nominals = np.array([signal.nominal for signal in model.states])
+        self.rates, self.outcome, self.matrices = model.derivative, model.output, model.linearization
+        self._kinks = np.array(sorted(model.breakpoints if isinstance(model, Kinked) else ()))
+
+    def next_kink(self, t: float) -> float:
+        """Return the first kink after t [s]."""
+        later = self._kinks[self._kinks > t]
+        return float(later[0]) if later.size else np.inf
+
+    def pass_kink(self, t: float, x: Array) -> None:
+        """Do nothing: the model knows by the time."""
+
+
 class InProcessSlave:
     """A model in this process, stepped as its own FMU would step it.
 
@@ -49,21 +114,26 @@ class InProcessSlave:
         With or without states.
     """
 
+    restores = True
+
     def __init__(self, model: Model) -> None:
         self._model = model
+        self.differentiates = hasattr(model, "linearization")
+        self._inputs, self._outputs = tuple(names(model.inputs)), tuple(names(model.outputs))
         self._u = np.zeros(len(model.inputs))
         self._x: Array = model.initial_state if isinstance(model, Dynamic) else np.zeros(0)
         self._t = 0.0
+        self._integrator: LawIntegrator | None = None
 
     @property
     def inputs(self) -> tuple[str, ...]:
         """Names of the inputs."""
-        return tuple(names(self._model.inputs))
+        return self._inputs
 
     @property
     def outputs(self) -> tuple[str, ...]:
         """Names of the outputs."""
-        return tuple(names(self._model.outputs))
+        return self._outputs
 
     def start(self, values: Mapping[str, float]) -> None:
         """Set the inputs at t = 0."""
@@ -72,9 +142,9 @@ class InProcessSlave:
     def set(self, values: Mapping[str, float]) -> None:
         """Set inputs by name; raise InputError for a name that is none."""
         for name, value in values.items():
-            if name not in self.inputs:
-                raise InputError(f"input must be one of {list(self.inputs)}, got {name!r}")
-            self._u[self.inputs.index(name)] = value
+            if name not in self._inputs:
+                raise InputError(f"input must be one of {list(self._inputs)}, got {name!r}")
+            self._u[self._inputs.index(name)] = value
 
     def step(self, t: float, dt: float) -> None:
         """Advance the states from t to t + dt [s] under the inputs held."""
@@ -84,4 +154,40 @@ class InProcessSlave:
 
     def get(self) -> dict[str, float]:
         """Return the outputs at the present time, state and inputs."""
-        return dict(zip(self.outputs, self._model.output(self._t, self._x, self._u).tolist(), strict=True))
+        return dict(zip(self._outputs, self._model.output(self._t, self._x, self._u).tolist(), strict=True))
+
+    def jacobian(self, outputs: Sequence[str], inputs: Sequence[str]) -> Array:
+        """Return d(outputs)/d(inputs) at present, shape (n_outputs, n_inputs)."""
+        rows, columns = ([self._outputs.index(n) for n in outputs], [self._inputs.index(n) for n in inputs])
+        found: Array = self._model.linearization(self._t, self._x, self._u).D[np.ix_(rows, columns)]
+        return found
+
+    def save(self) -> tuple[float, Array, Array]:
+        """Return time, states and inputs."""
+        return self._t, self._x.copy(), self._u.copy()
+
+    def restore(self, state: tuple[float, Array, Array]) -> None:
+        """Return to time, states and inputs."""
+        self._t, self._x, self._u = state[0], state[1].copy(), state[2].copy()
+
+    def release(self, state: tuple[float, Array, Array]) -> None:
+        """Do nothing."""
+
+    def takes_laws(self, wiring: Wiring) -> bool:
+        """Whether it is a rotor, that is, has states."""
+        return isinstance(self._model, Dynamic)
+
+    def drive(self, t: float, dt: float, law: ForceLaw, wiring: Wiring) -> None:
+        """Advance the states from t to t + dt [s] under a force law."""
+        if self._integrator is None:
+            self._integrator = LawIntegrator(ModelSystem(self._dynamic()), wiring, self._u.copy())
+        self._x, self._t = self._integrator.advance(t, self._x, dt, law), t + dt
+
+    def linear(self, t: float) -> Linearization | None:
+        """Return the exact derivatives at present."""
+        return self._dynamic().linearization(t, self._x, self._u)
+
+    def _dynamic(self) -> Dynamic:
+        if not isinstance(self._model, Dynamic):
+            raise InputError(f"rotor must have states, got {self._model!r}")
+        return self._model

@@ -19,6 +19,7 @@ import numpy as np
 from scipy import sparse
 
 from ..model import Array
+from .contact_assembly import Assembly
 from .contact_fluid import DowsonHigginsonDensity, Piezoviscosity
 from .contact_grid import ContactGrid
 from .contact_scheme import SLACK, ContactScheme, Sampling, opening, product
@@ -47,6 +48,7 @@ class _Flow(NamedTuple):
     outside: tuple[Array, Array]
     divergence: tuple[Any, Any]
     mean: tuple[Any, Any]
+    assembly: Assembly
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -109,23 +111,32 @@ class ContactEquations:
 
     def derivatives(self, pressure: Array, film: Array, rate: complex) -> Derivatives:
         """Return the exact derivatives of the residual; `rate` may be complex, for harmonic motion."""
-        mobility = sparse.diags(self.viscosity.mobility(pressure, self.Q0))
-        density = self._face_density(pressure)
-        carried = self._flow.divergence[0] @ self._carrying(self._density(pressure) * film)
-        transport = (carried + rate * self.sampling.stored) * -self.V
-        by_pressure: Any = 0.0
-        by_film: Any = transport @ sparse.diags(self._density(pressure))
-        parts = zip(
-            self._flow.divergence, self._flow.gradient, self._faces(film), self._gradients(pressure),
-            (self.sampling.along, self.sampling.across), density, strict=True,
-        )  # fmt: skip
-        for divergence, gradient, h, slope, faces, rho in parts:
-            by_pressure = by_pressure + _scaled(divergence, rho * h**3) @ gradient
-            by_film = by_film + _scaled(divergence, 3.0 * rho * h**2 * slope) @ faces
-        by_pressure = by_pressure @ mobility
+        rho = self._face_density(pressure)
+        heights, slopes = self._faces(film), self._gradients(pressure)
+        flow, bend = self._flow.assembly, self._bending
+        mobile = self.viscosity.mobility(pressure, self.Q0)[flow.columns]
+        conductance = [d * h**3 for d, h in zip(rho, heights, strict=True)]
+        by_pressure = flow.matrix(flow.entries(*conductance) * mobile)
+        density = self._density(pressure)
+        transport = self._transport(density * film, rate)
+        driven = [3.0 * d * h**2 * g for d, h, g in zip(rho, heights, slopes, strict=True)]
+        still = [self._unlimited] * (0 if self.sampling.upstream is None else 2)
+        by_film = bend.matrix(transport * density[bend.columns] + bend.entries(*driven, *still))
         if self.density is not None:
-            by_pressure = by_pressure + self._by_density(pressure, film, transport)
-        return Derivatives(by_pressure.tocsr(), by_film.tocsr())
+            by_pressure = by_pressure + self._by_density(pressure, film, bend.matrix(transport))
+        return Derivatives(by_pressure, by_film)
+
+    def _transport(self, content: Array, rate: complex) -> Array:
+        """Return the entries of the derivative by rho H of what surfaces carry off and cells store."""
+        bend = self._bending
+        carried, stored = bend.fixed
+        if self.sampling.upstream is not None:
+            excess, slope = opening(*(part @ content for part in self.sampling.upstream))
+            unmoved = np.zeros(self._flow.divergence[1].shape[1])
+            acts = (excess > 0.0).astype(float)
+            limited = bend.entries(np.zeros_like(acts), unmoved, slope, acts)
+            return np.asarray(-self.V * (carried - limited + rate * stored))
+        return np.asarray(-self.V * (carried + rate * stored))
 
     def _by_density(self, pressure: Array, film: Array, transport: Any) -> Any:
         assert self.density is not None
@@ -143,16 +154,6 @@ class ContactEquations:
         if self.sampling.upstream is not None:
             flux -= opening(*(part @ content for part in self.sampling.upstream))[0]
         return flux
-
-    def _carrying(self, content: Array) -> Any:
-        """Return the derivative of `_carried`."""
-        if self.sampling.upstream is None:
-            return self.sampling.carried
-        here, before, after = self.sampling.upstream
-        excess, slope = opening(here @ content, before @ content, after @ content)
-        acts = sparse.diags((excess > 0.0).astype(float))
-        limited = sparse.diags(slope) @ before + acts @ (after / 3.0 - SLACK * here)
-        return self.sampling.carried - limited
 
     def _faces(self, film: Array) -> tuple[Array, Array]:
         return self.sampling.along @ film, self.sampling.across @ film
@@ -186,12 +187,28 @@ class ContactEquations:
         on_x, on_y = sparse.identity(nx), sparse.identity(m)
         along = product(_differences(nx, wall=True) / dx, on_y)
         across = product(on_x, _differences(m, wall=False) / dy)
+        divergence = product(_divergence(nx) / dx, on_y), product(on_x, _divergence(m) / dy)
         return _Flow(
             (along, across),
             (along @ np.ones(nx * m), across @ np.ones(nx * m)),
-            (product(_divergence(nx) / dx, on_y), product(on_x, _divergence(m) / dy)),
+            divergence,
             (product(_means(nx, wall=True), on_y), product(on_x, _means(m, wall=False))),
+            Assembly([(divergence[0], along), (divergence[1], across)]),
         )
+
+    @cached_property
+    def _bending(self) -> Assembly:
+        """Derivatives by the film: of the flow along and across, and of what limits the carried film."""
+        along, across = self._flow.divergence
+        pairs = [(along, self.sampling.along), (across, self.sampling.across)]
+        if self.sampling.upstream is not None:
+            here, before, after = self.sampling.upstream
+            pairs += [(along, before), (along, after / 3.0 - SLACK * here)]
+        return Assembly(pairs, [along @ self.sampling.carried, self.sampling.stored])
+
+    @cached_property
+    def _unlimited(self) -> Array:
+        return np.zeros(self._flow.divergence[0].shape[1])
 
 
 def _scaled(matrix: Any, columns: Array) -> Any:

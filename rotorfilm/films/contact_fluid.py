@@ -50,7 +50,8 @@ class RoelandsViscosity:
     """Roelands' law mu = exp(Q0/(s z) ((1 + s p)^z - 1)).
 
     In SI, ln(mu/mu_0) = (ln mu_0 + 9.67)((1 + p/p_r)^z - 1) with p_r = 196 MPa: s = p_H/p_r, and the factor
-    in front is fixed by the initial slope Q0. `RollingBall` does this conversion.
+    in front is fixed by the initial slope Q0. `RollingBall` does this conversion. Negative pressures, which
+    no solution has but a search may try, continue it by exp(Q0 p).
 
     Parameters
     ----------
@@ -72,15 +73,17 @@ class RoelandsViscosity:
     def mobility(self, pressure: Array, coefficient: float) -> Array:
         """Return 1/mu."""
         factor = coefficient / (self.pressure_ratio * self.exponent)
-        return np.exp(factor * (1.0 - (1.0 + self.pressure_ratio * pressure) ** self.exponent))
+        positive = 1.0 + self.pressure_ratio * np.maximum(pressure, 0.0)
+        return np.exp(factor * (1.0 - positive**self.exponent) - coefficient * np.minimum(pressure, 0.0))
 
     def potential(self, pressure: Array, coefficient: float) -> Array:
         """Return the integral by the upper incomplete gamma function of u = A (1 + s p)^z, A = Q0/(s z)."""
         z, s = self.exponent, self.pressure_ratio
         factor = coefficient / (s * z)
-        u = factor * (1.0 + s * pressure) ** z
+        u = factor * (1.0 + s * np.maximum(pressure, 0.0)) ** z
         scale = np.exp(factor) * factor ** (-1.0 / z) * gamma(1.0 / z) / (s * z)
-        return -scale * gammaincc(1.0 / z, u)
+        below = np.expm1(-coefficient * np.minimum(pressure, 0.0)) / coefficient
+        return -scale * gammaincc(1.0 / z, u) - below
 
 
 @dataclass(frozen=True, kw_only=True)

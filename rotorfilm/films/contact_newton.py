@@ -10,12 +10,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import linalg
 
 from ..errors import ConvergenceError
 from ..model import Array
 from .contact_equations import ContactEquations, Derivatives, TimeDerivative
 from .contact_preconditioner import Closure, Distribution, Factors, distribution, factorize
+from .krylov import gmres
 
 MAX_STEPS = 30
 """Newton steps tried."""
@@ -26,7 +26,7 @@ FORCING = (1e-4, 1e-2)
 KRYLOV = 80
 """Most iterations of GMRES in a step."""
 
-STALE = 0.125
+STALE = 0.06
 """Cells that may gain or lose film before the preconditioner is renewed, per cells along x.
 
 Each costs an iteration more, and factors cost more iterations on finer grids. Old coefficients cost nothing.
@@ -57,6 +57,7 @@ class _Linear(NamedTuple):
     by_delta: Array
     wet: np.ndarray
     closure: Closure
+    rate: float
 
 
 class NewtonKrylov:
@@ -126,7 +127,7 @@ class NewtonKrylov:
     ) -> _Linear:
         derivatives = self.equations.derivatives(pressure, film, rate)
         by_delta = derivatives.by_film @ np.ones(derivatives.by_film.shape[1])
-        return _Linear(derivatives, np.where(wet, by_delta, 0.0), wet, closure)
+        return _Linear(derivatives, np.where(wet, by_delta, 0.0), wet, closure, rate)
 
     def _step(
         self, linear: _Linear, residual: Array, miss: float, forcing: float
@@ -149,7 +150,9 @@ class NewtonKrylov:
     def _factorized(self, linear: _Linear) -> Factors:
         if self._change is None:
             self._change = distribution(self.equations)
-        return factorize(self.equations, self._change, linear.derivatives, linear.wet, linear.closure)
+        return factorize(
+            self.equations, self._change, linear.derivatives, linear.wet, linear.closure, linear.rate
+        )
 
     def _krylov(
         self, linear: _Linear, factors: Factors, residual: Array, miss: float, forcing: float
@@ -158,21 +161,11 @@ class NewtonKrylov:
         # The two residuals count alike: film equations per V, the closure per its coefficients.
         scales = np.full(len(residual) + 1, 1.0 / self.equations.V)
         scales[-1] = 1.0 / (abs(linear.closure.approach) + 2.0 * linear.closure.load)
-        count = 0
 
         def product(y: Array) -> Array:
             return scales * self._product(linear, self._preconditioned(linear, factors, y / scales))
 
-        def tally(_: float) -> None:
-            nonlocal count
-            count += 1
-
-        size = len(scales)
-        operator = linalg.LinearOperator((size, size), matvec=product, dtype=np.float64)
-        y, _ = linalg.gmres(
-            operator, scales * np.append(residual, miss), rtol=forcing, restart=KRYLOV, maxiter=1,
-            callback=tally, callback_type="pr_norm",
-        )  # fmt: skip
+        y, count = gmres(product, scales * np.append(residual, miss), tolerance=forcing, most=KRYLOV)
         return self._preconditioned(linear, factors, y / scales), count
 
     def _product(self, linear: _Linear, x: Array) -> Array:

@@ -22,6 +22,12 @@ COARSEST = 32
 EASY = (0.1, 5.0)
 """V and Q0 from which harder contacts are reached: solvable from the dry contact on any grid."""
 
+LIFTED, LIGHTEST = 0.3, 0.05
+"""Approach at which a contact has hardly any load, and the load from which lifted contacts are sought."""
+
+FARTHEST, CLOSE, SEARCHES = 1.0, 1e-4, 30
+"""Of the search for an approach: largest change of ln(load), error of ln(load) to end it, and its steps."""
+
 SMALLEST_MOVE = 1.0 / 64.0
 """Share of the way from easy to hard below which the search is given up."""
 
@@ -58,6 +64,32 @@ def follow(equations: ContactEquations, start: Contact, load: float, tolerance: 
         return _solved(equations, start.pressure, start.delta, load, tolerance)
     except ConvergenceError:
         return stationary(equations, load, tolerance)
+
+
+def stationary_at(equations: ContactEquations, delta: float, tolerance: float = 1e-7) -> Contact:
+    """Return the stationary solution at an approach, from contacts under loads that come close to it.
+
+    Raises
+    ------
+    ConvergenceError
+        If Newton's method fails.
+    """
+    level = math.log(max((0.5 * (LIFTED - delta)) ** 1.5, LIGHTEST) if delta < LIFTED else LIGHTEST)
+    found = stationary(equations, math.exp(level), tolerance)
+    slope = -(max(LIFTED - found.delta, 0.1)) / 1.5
+    for _ in range(SEARCHES):
+        miss = delta - found.delta
+        if abs(miss) < CLOSE * abs(slope):
+            closure = Closure(1.0, 0.0, delta)
+            solver = NewtonKrylov(equations, tolerance)
+            return solver.solve(found.pressure, delta, closure, TimeDerivative())
+        move = min(max(miss / slope, -FARTHEST), FARTHEST)
+        before, level = found.delta, level + move
+        found = follow(equations, found, math.exp(level), tolerance)
+        slope = min((found.delta - before) / move, 0.1 * slope)
+    raise ConvergenceError(
+        f"delta must be reached by some load, got {found.delta:.6g} instead of {delta:.6g}"
+    )
 
 
 def _solved(

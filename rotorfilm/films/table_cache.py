@@ -54,7 +54,7 @@ def cached_table(kind: type[T], path: Path, build: Callable[[], T], require: Cal
         return table
     table = build()
     try:
-        _write(path, table.to_bytes())
+        write_whole(path, table.to_bytes())
     except OSError as error:
         warn_user(
             f"the map of the film could not be kept in {path.parent} ({error}); "
@@ -64,7 +64,7 @@ def cached_table(kind: type[T], path: Path, build: Callable[[], T], require: Cal
     return table
 
 
-def _write(path: Path, content: bytes) -> None:
+def write_whole(path: Path, content: bytes) -> None:
     """Write a file that is either whole or not there, whoever else writes it."""
     path.parent.mkdir(parents=True, exist_ok=True)
     # Not by tempfile, whose files are for one user alone: the mode of this one follows the umask.

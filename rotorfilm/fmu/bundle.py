@@ -18,6 +18,7 @@ SHELVES = {PACKAGE, f"{PACKAGE}.fmu"}
 """Packages whose __init__ only gathers names, from far more than an FMU needs: they go empty."""
 
 SLAVE = f"{PACKAGE}.fmu.slave"
+STEPPED_SLAVE = f"{PACKAGE}.fmu.stepped_slave"
 API = f"{PACKAGE}.fmu.pythonfmu_api"
 
 LIBRARY = f"{PACKAGE}.native"
@@ -46,10 +47,11 @@ class Bundle(NamedTuple):
     modules: dict[str, str]
 
 
-def bundle_source(modules: Iterable[str]) -> Bundle:
+def bundle_source(modules: Iterable[str], slave: str = SLAVE) -> Bundle:
     """Return the source that a model with classes from `modules` needs.
 
-    Of this package that is what those modules, and the slave, import; a user's module goes along by itself.
+    Of this package that is what those modules, and the module `slave` of the slave, import; a user's module
+    goes along by itself.
 
     Raises
     ------
@@ -59,7 +61,7 @@ def bundle_source(modules: Iterable[str]) -> Bundle:
     own = {name for name in modules if name.partition(".")[0] == PACKAGE}
     users = sorted(set(modules) - own)
     read = {name: read_user_module(name, users, PACKAGE) for name in users}
-    sources = _closure({SLAVE, *own}.union(*(module.needs for module in read.values())))
+    sources = _closure({slave, *own}.union(*(module.needs for module in read.values())))
     companions = _companions(own.union(*(module.needs for module in read.values())))
     # Two FMUs in one process share modules of one name, hence also what those read from their folder.
     package = f"{PACKAGE}_{content_hash({**sources, **companions})}"

@@ -30,6 +30,24 @@ PYTHON = {
 }
 """What holds for every FMU that runs in Python."""
 
+PYTHON_STEPPED = {
+    **PYTHON,
+    "Conventions": (
+        "All values are in SI units. The model integrates in time by itself. When initialization ends it "
+        "goes to the state that is stationary under the start values of the inputs. Outputs belong to the "
+        "end of the last step; inputs set after it act in the next one. The state of the model is no list of "
+        "variables: it goes through FMI as one block of bytes, to the last bit."
+    ),
+    "Statuses": (
+        "A value that is not finite, an attempt to set an output, or start values without a stationary state "
+        "end in fmi2Fatal with the values in the log, because PythonFMU has no way to fmi2Error. A step that "
+        "cannot be made is answered by fmi2Discard with fmi2Terminated true; state, time and outputs stay "
+        "those at the start of the step, which may be tried again with other inputs or a shorter step. The "
+        "log needs loggingOn."
+    ),
+}
+"""What holds for an FMU of a model with its own integrator."""
+
 NATIVE = {
     "Conventions": (
         "Values are in SI units where a unit is given. Outputs are valid from the end of initialization and "
@@ -134,6 +152,26 @@ KERNELS = {
         "Validity": (
             "Small displacements, no tilting, a speed given over time (piecewise linear). The rotor knows no "
             "wall: the bearing's film ends the motion there."
+        ),
+    },
+    "contact": {
+        "Model": (
+            "Lubricated rolling contacts of balls by their reduced law. The approach d of a contact is gap + "
+            "(motion u): the distance of the ball's center beyond first touch, negative in contact. The "
+            "force of a contact is that of the stationary contact, and what the dynamic stiffness of the "
+            "film adds to it; a film does not pull, and a ball beyond `offset` no longer drives the states. "
+            "The outputs are push times the forces:"
+        ),
+        "Equations": (
+            "dx/dt = A x + B (min(d, offset) - operating)\n"
+            "force = max(0, scale ((offset - d)/span)^exponent + C x + D (min(d, offset) - operating))\n"
+            "output = push force,  d = gap + motion u"
+        ),
+        "Validity": (
+            "The table `law` is offset, span [m], exponent, scale [N], operating [m], and the smallest and "
+            "largest load [N] of the fit; beyond these loads there is a warning. The state space is the "
+            "linearized film under the load `scale`, fitted to six radians per transit time; its errors are "
+            "those of the model that was exported. Isothermal, smooth surfaces, one rolling speed."
         ),
     },
     "bush_wear": {

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import FmuError, InputError, require_finite, require_positive
-from ..model import Array, Dynamic, Model
+from ..model import Array, Dynamic, Model, Stepped
 from ..native.spec import HasKernel, NativeSpec
 from .archive import to_zip
 from .bundle import content_hash
@@ -32,7 +32,7 @@ from .native_backend import (
 from .python_backend import CATEGORIES as PYTHON_CATEGORIES
 from .python_backend import INTERFACES as PYTHON_INTERFACES
 from .python_backend import python_files, python_tool
-from .structure import dependencies
+from .structure import delayed_dependencies, dependencies
 from .variables import fmi_variables
 from .xml2 import to_xml2
 from .xml3 import to_xml3
@@ -49,7 +49,7 @@ PLATFORMS = ("host", "all")
 
 
 def export_fmu(
-    model: Model | control.StateSpace,
+    model: Model | Stepped | control.StateSpace,
     path: str | Path,
     version: str = "2.0",
     backend: str | None = None,
@@ -64,14 +64,15 @@ def export_fmu(
 
     A model with a kernel in the C library becomes a native FMU: Model Exchange and Co-Simulation in one,
     with exact directional derivatives, its own sources, tunable parameters and a reference trajectory, and
-    without need of Python. Any other becomes an FMI 2.0 Co-Simulation FMU that carries its Python source.
+    without need of Python. Any other becomes an FMI 2.0 Co-Simulation FMU that carries its Python source;
+    a Stepped model one whose outputs belong to the end of the last step.
 
     Equal models give byte-identical files. Each signal is a structured variable `component.signal`, each
     state a local `component.state_signal`, settable before the simulation starts.
 
     Parameters
     ----------
-    model : Model or control.StateSpace
+    model : Model, Stepped or control.StateSpace
         A continuous python-control system is a model whose signals are its labels. For the python backend
         a dataclass (of this package or from a module of the user) whose fields are numbers, bools, strings,
         None, tuples, lists, numpy arrays or such dataclasses.
@@ -116,10 +117,10 @@ def export_fmu(
     name = _component(model) if component is None else component
     _require_component(name)
     title = _title(subject)
-    subject = as_exported(subject) if native else subject
+    subject = as_exported(subject) if native and isinstance(subject, Model) else subject
     inputs = np.array(list(_start_values(subject, start or {}).values()))
     _require_output(subject, inputs)
-    if native and spec is not None:
+    if native and spec is not None and isinstance(subject, Model):
         export = Export(subject, spec, name, title, inputs, stop_time, version, platforms)
         contents = _native_contents(export, step_size)
     else:
@@ -154,7 +155,7 @@ def _native_contents(export: Export, step_size: float) -> dict[str, bytes]:
 
 
 def _python_contents(
-    model: Model, component: str, inputs: Array, stop_time: float, step_size: float
+    model: Model | Stepped, component: str, inputs: Array, stop_time: float, step_size: float
 ) -> dict[str, bytes]:
     """Return all files of an FMU of the python backend by path."""
     start = {signal.name: float(value) for signal, value in zip(model.inputs, inputs, strict=True)}
@@ -168,7 +169,7 @@ def _python_contents(
         interfaces=PYTHON_INTERFACES,
         categories=PYTHON_CATEGORIES,
         variables=variables,
-        dependencies=dependencies(model, inputs),
+        dependencies=dependencies(model, inputs) if isinstance(model, Model) else delayed_dependencies(model),
         stop_time=float(stop_time),
         step_size=float(step_size),
     )
@@ -176,11 +177,13 @@ def _python_contents(
     return {**contents, "modelDescription.xml": to_xml2(description, guid)}
 
 
-def _subject(model: Any) -> Model:
+def _subject(model: Any) -> Model | Stepped:
     """Return the model; a python-control system as one."""
     from control import StateSpace
 
     subject = from_state_space(model) if isinstance(model, StateSpace) else model
+    if isinstance(subject, Stepped):
+        return subject
     if not isinstance(subject, Model):
         raise FmuError(
             "model must have inputs, outputs, states, output and linearization (a Model) or be a "
@@ -191,7 +194,7 @@ def _subject(model: Any) -> Model:
     return subject
 
 
-def _is_native(model: Model, spec: NativeSpec | None, backend: str | None) -> bool:
+def _is_native(model: Model | Stepped, spec: NativeSpec | None, backend: str | None) -> bool:
     if backend is None:
         return spec is not None
     if backend not in BACKENDS:
@@ -217,7 +220,7 @@ def _require_supported(path: Path, version: str, native: bool, platforms: str) -
         raise FmuError("platforms must be 'host' for the python backend, which brings its own, got 'all'")
 
 
-def _title(model: Model) -> str:
+def _title(model: Model | Stepped) -> str:
     return (type(model).__doc__ or type(model).__name__).strip().splitlines()[0]
 
 
@@ -230,11 +233,10 @@ def _require_component(component: str) -> None:
         raise InputError(f"component must be an ASCII identifier without dots, got {component!r}")
 
 
-def _require_output(model: Model, inputs: Array) -> None:
+def _require_output(model: Model | Stepped, inputs: Array) -> None:
     """Raise unless the model has an output at its start values."""
-    state = model.initial_state if isinstance(model, Dynamic) else np.zeros(0)
     try:
-        output = require_finite("output", model.output(0.0, state, inputs))
+        output = require_finite("output", _first_output(model, inputs))
     except Exception as error:
         raise InputError(
             f"start must be values at which the model has an output, got {inputs.tolist()}: {error}"
@@ -243,7 +245,14 @@ def _require_output(model: Model, inputs: Array) -> None:
         raise FmuError(f"output must have shape ({len(model.outputs)},), got {output.shape}")
 
 
-def _start_values(model: Model, start: Mapping[str, float]) -> dict[str, float]:
+def _first_output(model: Model | Stepped, inputs: Array) -> Array:
+    if isinstance(model, Stepped):
+        return model.answer(model.start(inputs))
+    state = model.initial_state if isinstance(model, Dynamic) else np.zeros(0)
+    return model.output(0.0, state, inputs)
+
+
+def _start_values(model: Model | Stepped, start: Mapping[str, float]) -> dict[str, float]:
     names = [signal.name for signal in model.inputs]
     for name, value in start.items():
         if name not in names:

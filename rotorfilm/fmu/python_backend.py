@@ -6,14 +6,14 @@ import json
 import warnings
 from collections.abc import Mapping
 from importlib.metadata import version as installed_version
-from typing import Any
+from typing import Any, NamedTuple
 
 from ..errors import FmuError
-from ..model import Model
+from ..model import Model, Stepped
 from .archive import binaries, licenses, require_verified_version
-from .bundle import API, PACKAGE, SLAVE, Bundle, bundle_source, content_hash
+from .bundle import API, PACKAGE, SLAVE, STEPPED_SLAVE, Bundle, bundle_source, content_hash
 from .codec import class_modules, decode, encode, shortened
-from .documentation import PYTHON, to_html
+from .documentation import PYTHON, PYTHON_STEPPED, to_html
 from .variables import Variable
 
 INTERFACES = {
@@ -40,7 +40,7 @@ ENTRY = '''"""Entry point of the FMU: PythonFMU loads the class Slave."""
 import importlib
 
 from {api} import keep
-from {slave} import ModelSlave
+from {slave} import {base}
 
 # PythonFMU runs this file for each instance and then releases its globals, which it only borrowed.
 keep(globals())
@@ -50,11 +50,21 @@ for name in {modules}:
     importlib.import_module(name)
 
 
-class Slave(ModelSlave):
+class Slave({base}):
     """{title}"""
 
     tag = "{tag}"
 '''
+
+
+class SlaveClass(NamedTuple):
+    """The class that runs a model, and the module it is in."""
+
+    module: str
+    name: str
+
+
+STEPPED = SlaveClass(STEPPED_SLAVE, "SteppedSlave")
 
 
 def python_tool() -> str:
@@ -63,7 +73,11 @@ def python_tool() -> str:
 
 
 def python_files(
-    model: Model, component: str, title: str, start: Mapping[str, float], variables: tuple[Variable, ...]
+    model: Model | Stepped,
+    component: str,
+    title: str,
+    start: Mapping[str, float],
+    variables: tuple[Variable, ...],
 ) -> dict[str, bytes]:
     """Return all files of the FMU but the XML, by path.
 
@@ -74,11 +88,13 @@ def python_files(
     """
     require_verified_version()
     data = encode(model)
-    bundle = bundle_source(class_modules(data))
+    slave = SlaveClass(SLAVE, "ModelSlave") if isinstance(model, Model) else STEPPED
+    bundle = bundle_source(class_modules(data), slave.module)
     _require_rebuilt(data)
-    page = to_html(title, variables, PYTHON, json.dumps(shortened(data), indent=2))
+    texts = PYTHON if isinstance(model, Model) else PYTHON_STEPPED
+    page = to_html(title, variables, texts, json.dumps(shortened(data), indent=2))
     return {
-        **_resources(data, component, start, bundle),
+        **_resources(data, component, start, bundle, slave),
         **binaries(component, bundle.files),
         **licenses((PACKAGE, "pythonfmu")),
         "documentation/index.html": page,
@@ -97,7 +113,9 @@ def _require_rebuilt(data: Any) -> None:
         raise FmuError(f"model must keep the fields it is built by, got {again!r} from {data!r}")
 
 
-def _resources(data: Any, component: str, start: Mapping[str, float], bundle: Bundle) -> dict[str, bytes]:
+def _resources(
+    data: Any, component: str, start: Mapping[str, float], bundle: Bundle, slave: SlaveClass
+) -> dict[str, bytes]:
     """Return the files that PythonFMU reads: the entry module, the model as data, and the source."""
     settings = {"component": component, "start": dict(start), "modules": bundle.modules, "model": data}
     text = (json.dumps(settings, indent=2, sort_keys=True) + "\n").encode()
@@ -106,7 +124,8 @@ def _resources(data: Any, component: str, start: Mapping[str, float], bundle: Bu
     modules = "".join(f"\n    {name!r}," for name in sorted(bundle.modules.values()))
     source = ENTRY.format(
         api=bundle.modules[API],
-        slave=bundle.modules[SLAVE],
+        slave=bundle.modules[slave.module],
+        base=slave.name,
         modules=f"({modules}\n)",
         title=component,
         tag=tag,

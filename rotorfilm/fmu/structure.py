@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model import Array, Dynamic, Model
+from ..model import Array, Dynamic, Model, Stepped
 from .variables import Variable, derivative_references, references
 
 SAMPLES = 8
@@ -27,12 +27,15 @@ class Dependencies(NamedTuple):
     on_time : ndarray of bool, shape (n_unknowns,)
     bent : ndarray of bool, shape (n_unknowns, n_inputs + n_states)
         Where the dependence is not linear.
+    delayed : bool
+        Whether inputs act in the next step only: outputs follow from them during initialization alone.
     """
 
     on_inputs: Flags
     on_states: Flags
     on_time: Flags
     bent: Flags
+    delayed: bool = False
 
 
 class Unknown(NamedTuple):
@@ -82,6 +85,15 @@ def dependencies(model: Model, start: Array, times: Sequence[float] = (0.0,)) ->
     return Dependencies(nonzero[:, :count], nonzero[:, count:], _on_time(model, points[-1], times), bent)
 
 
+def delayed_dependencies(model: Stepped) -> Dependencies:
+    """Return the dependencies of a model with its own integrator: all outputs follow from all inputs."""
+    shape = len(model.outputs), len(model.inputs)
+    every = np.ones(shape, dtype=bool)
+    return Dependencies(
+        every, np.zeros((shape[0], 0), dtype=bool), np.zeros(shape[0], dtype=bool), every, True
+    )
+
+
 def running_unknowns(variables: Sequence[Variable], found: Dependencies, tunable: bool) -> list[Unknown]:
     """Return outputs and derivatives with what they depend on while the simulation runs.
 
@@ -94,6 +106,8 @@ def running_unknowns(variables: Sequence[Variable], found: Dependencies, tunable
     tunable : bool
         Whether the model has tunable parameters, which then may be in every linear factor.
     """
+    if found.delayed:
+        found = found._replace(on_inputs=np.zeros_like(found.on_inputs))
     linear = "tunable" if tunable else "constant"
     hidden = set() if derivative_references(variables) else set(references(variables, "local"))
     unknowns = [

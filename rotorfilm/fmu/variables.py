@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple, Protocol
 
 from ..errors import FmuError
-from ..model import Dynamic, Model
+from ..model import Dynamic, Model, Stepped
 from ..signals import to_fmi_name
 
 ELEMENT = re.compile(r"[A-Za-z_]\w*\[\d+\]", re.ASCII)
@@ -77,12 +77,13 @@ class Labelled(Protocol):
         """What it is."""
 
 
-def fmi_variables(model: Model, component: str, start: Mapping[str, float]) -> tuple[Variable, ...]:
+def fmi_variables(model: Model | Stepped, component: str, start: Mapping[str, float]) -> tuple[Variable, ...]:
     """Return the inputs, outputs and states of `model` as FMI variables, in this order.
 
     Parameters
     ----------
-    model : Model
+    model : Model or Stepped
+        A Stepped model shows no states.
     component : str
         Identifier in front of the dot of every name.
     start : mapping of str to float
@@ -94,13 +95,11 @@ def fmi_variables(model: Model, component: str, start: Mapping[str, float]) -> t
         If two variables would have the same name.
     """
     initial = model.initial_state if isinstance(model, Dynamic) else ()
+    states = model.states if isinstance(model, Model) else ()
     variables = (
         *(labelled(component, "input", s, float(start.get(s.name, 0.0))) for s in model.inputs),
         *(labelled(component, "output", s) for s in model.outputs),
-        *(
-            labelled(component, "local", s, float(value))
-            for s, value in zip(model.states, initial, strict=True)
-        ),
+        *(labelled(component, "local", s, float(value)) for s, value in zip(states, initial, strict=True)),
     )
     require_unique(variables)
     return variables

@@ -2,6 +2,10 @@
 
 from .bush_tiers import BushTier, BushTiers, ShaftFluxError, bush_tiers, shaft_flux_errors
 from .contact_cases import contact_cases
+from .contact_limits import contact_limits
+from .contact_precision import contact_precision
+from .coupling_cost import CostRow, CouplingCost, coupling_cost
+from .coupling_limits import CouplingLimits, LimitRow, coupling_limits
 from .damper_accuracy import DamperAccuracy, DamperRung, damper_accuracy, damper_rungs
 from .journal_accuracy import JournalAccuracy, RungAccuracy, journal_accuracy, pareto_front
 from .journal_rungs import Rung, comparison_bearing, fitted_bearing, journal_rungs
@@ -15,12 +19,16 @@ __all__ = [
     "SMALL",
     "BushTier",
     "BushTiers",
+    "CostRow",
+    "CouplingCost",
+    "CouplingLimits",
     "DamperAccuracy",
     "DamperRung",
     "JournalAccuracy",
     "JournalStability",
     "Limit",
     "LimitAtlas",
+    "LimitRow",
     "Panel",
     "Rung",
     "RungAccuracy",
@@ -30,6 +38,10 @@ __all__ = [
     "bush_tiers",
     "comparison_bearing",
     "contact_cases",
+    "contact_limits",
+    "contact_precision",
+    "coupling_cost",
+    "coupling_limits",
     "damper_accuracy",
     "damper_rungs",
     "failures",

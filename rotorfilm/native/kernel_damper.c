@@ -47,7 +47,7 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
     }
     self->journal.film = rf_map_film;
     self->journal.map = &self->map;
-    const rf_sizes own = {PARAMETERS, INPUTS, 2, 0};
+    const rf_sizes own = {PARAMETERS, INPUTS, 2, 0, 0};
     *sizes = own;
     return self;
 }

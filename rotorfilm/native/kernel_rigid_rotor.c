@@ -3,7 +3,9 @@
    Parameters mass [kg], unbalance [kg m], unbalance_angle [rad], gravity_x, gravity_y [m/s2], static_force_x,
    static_force_y [N] and, where the speed profile has one point only, speed [rad/s]. Tables times [s], speeds
    [rad/s]: the profile, linear between its points and constant outside. Inputs force_x, force_y [N]; states
-   x, y [m], vx, vy [m/s]; outputs x, y, vx, vy, speed. */
+   x, y [m], vx, vy [m/s]; outputs x, y, vx, vy, speed. With a table law (any number) the force is
+   force + slope T + curvature T^2 - K (q - q0) - C (v - v0), T = t - t0, and slope_x, slope_y, curvature_x,
+   curvature_y, K and C (row by row), q0, v0, t0 are inputs too (rotors/force_law.py). */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,9 +22,12 @@ enum {
     PARAMETERS
 };
 
+enum { SLOPE = 2, CURVATURE = 4, STIFFNESS = 6, DAMPING = 10, BASE = 14, BASE_TIME = 18, LAW_INPUTS };
+
 typedef struct model {
     double p[PARAMETERS];
     double load[2];
+    size_t inputs;
     rf_profile profile;
 } model;
 
@@ -44,7 +49,8 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
         destroy(self);
         return NULL;
     }
-    const rf_sizes mine = {self->profile.points == 1 ? PARAMETERS : SPEED, 2, 5, 4, 0};
+    self->inputs = rf_find_table(tables, "law", 1, why) ? LAW_INPUTS : 2;
+    const rf_sizes mine = {self->profile.points == 1 ? PARAMETERS : SPEED, self->inputs, 5, 4, 0};
     *sizes = mine;
     return self;
 }
@@ -68,6 +74,19 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     return RF_OK;
 }
 
+/* Component i of the film force. */
+static double film_force(const model *self, const rf_point *at, int i)
+{
+    const double *u = at->u;
+    if (self->inputs == 2)
+        return u[i];
+    const double elapsed = at->t - u[BASE_TIME];
+    double sum = u[i] + elapsed * (u[SLOPE + i] + elapsed * u[CURVATURE + i]);
+    for (int j = 0; j < 4; ++j)
+        sum -= u[STIFFNESS + 2 * i + j + (j & 2)] * (at->x[j] - u[BASE + j]);
+    return sum;
+}
+
 static int derivative(const void *kernel, const rf_point *at, double *dx, rf_message *why)
 {
     const model *self = kernel;
@@ -77,7 +96,7 @@ static int derivative(const void *kernel, const rf_point *at, double *dx, rf_mes
     rf_shake(&spin, shake);
     for (int i = 0; i < 2; ++i) {
         dx[i] = at->x[2 + i];
-        dx[2 + i] = (at->u[i] + self->load[i] + self->p[UNBALANCE] * shake[i]) / self->p[MASS];
+        dx[2 + i] = (film_force(self, at, i) + self->load[i] + self->p[UNBALANCE] * shake[i]) / self->p[MASS];
     }
     if (!isfinite(dx[0]) || !isfinite(dx[1]) || !isfinite(dx[2]) || !isfinite(dx[3]))
         return rf_say(why, RF_NOT_FINITE,
@@ -95,18 +114,36 @@ static int output(const void *kernel, const rf_point *at, double *y, rf_message 
     return RF_OK;
 }
 
+/* The row of a film force in A and B, in forces per mass. */
+static void differentiate_law(const model *self, const rf_point *at, int i, double *A, double *B)
+{
+    const double *u = at->u, elapsed = at->t - u[BASE_TIME], share = 1.0 / self->p[MASS];
+    B[SLOPE + i] = share * elapsed;
+    B[CURVATURE + i] = share * elapsed * elapsed;
+    B[BASE_TIME] = -share * (u[SLOPE + i] + 2.0 * elapsed * u[CURVATURE + i]);
+    for (int j = 0; j < 4; ++j) {
+        const int k = STIFFNESS + 2 * i + j + (j & 2);
+        B[k] = -share * (at->x[j] - u[BASE + j]);
+        A[j] = -share * u[k];
+        B[BASE + j] = -A[j];
+    }
+}
+
 static int jacobian(const void *kernel, const rf_point *at, rf_jacobian *answer, rf_message *why)
 {
     const model *self = kernel;
-    (void)at;
+    const size_t m = self->inputs;
     (void)why;
     memset(answer->A, 0, 16 * sizeof(double));
-    memset(answer->B, 0, 8 * sizeof(double));
+    memset(answer->B, 0, 4 * m * sizeof(double));
     memset(answer->C, 0, 20 * sizeof(double));
-    memset(answer->D, 0, 10 * sizeof(double));
+    memset(answer->D, 0, 5 * m * sizeof(double));
     for (int i = 0; i < 2; ++i) {
+        double *row = answer->B + (size_t)(2 + i) * m;
         answer->A[4 * i + 2 + i] = 1.0;
-        answer->B[2 * (2 + i) + i] = 1.0 / self->p[MASS];
+        row[i] = 1.0 / self->p[MASS];
+        if (m > 2)
+            differentiate_law(self, at, i, answer->A + 4 * (2 + i), row);
     }
     for (int i = 0; i < 4; ++i)
         answer->C[4 * i + i] = 1.0;

@@ -5,8 +5,8 @@
 #include <string.h>
 
 /* The kernels of this library. Compiled without RF_SUBSET, as from the sources in an FMU, it has all. */
-extern const rf_kernel_type rf_bush_reaction_type, rf_bush_wear_type;
-extern const rf_kernel_type rf_damper_type, rf_grooved_journal_type, rf_journal_type, rf_linear_type, rf_rigid_rotor_type,
+extern const rf_kernel_type rf_bush_reaction_type, rf_bush_wear_type, rf_contact_type, rf_damper_type;
+extern const rf_kernel_type rf_grooved_journal_type, rf_journal_type, rf_linear_type, rf_rigid_rotor_type,
     rf_rotor_system_type;
 
 static const rf_kernel_type *const KERNELS[] = {
@@ -14,6 +14,7 @@ static const rf_kernel_type *const KERNELS[] = {
     &rf_damper_type,
 #endif
 #if !defined(RF_SUBSET) || RF_SUBSET == 2
+    &rf_contact_type,
     &rf_linear_type,
     &rf_rigid_rotor_type,
 #endif

@@ -16,7 +16,7 @@ from ..units import UNITS
 LIBRARIES = ("rotorfilm", "rotorfilm_states", "rotorfilm_systems", "rotorfilm_bushes")
 """The compiled libraries, in the order of RF_SUBSET in `native/kernels.c`; an FMU carries one of them."""
 
-_IN_STATES = {"linear", "rigid_rotor"}
+_IN_STATES = {"contact", "linear", "rigid_rotor"}
 _IN_SYSTEMS = {"rotor_system"}
 _IN_BUSHES = {"bush_reaction", "bush_wear"}
 

@@ -1,7 +1,9 @@
 """Rotors: what a bearing carries, as Dynamic models."""
 
 from .beam import Beam, ClassicalBeam, FourthOrderBeam, cowper_coefficient
+from .force_law import ForceLaw
 from .jeffcott import JeffcottRotor
+from .law_rotor import LawRotor
 from .mounted import MountedRotor, mount
 from .parts import (
     Coupling,
@@ -30,8 +32,10 @@ __all__ = [
     "Disk",
     "ElasticMaterial",
     "FlexibleRotor",
+    "ForceLaw",
     "FourthOrderBeam",
     "JeffcottRotor",
+    "LawRotor",
     "LayeredElement",
     "MountedRotor",
     "Probe",

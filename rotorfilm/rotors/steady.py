@@ -13,6 +13,7 @@ from ..model import Array, Linearization
 from ..native.spec import NativeSpec
 from ..signals import Signal
 from .profile import SpeedProfile
+from .rigid import RigidRotor
 from .structure import FlexibleRotor
 
 TURNING = (
@@ -25,7 +26,7 @@ TURNING = (
 
 @dataclass(frozen=True, kw_only=True)
 class SteadyRotor:
-    """A flexible rotor at constant speed: a Dynamic model with a kernel in the C library.
+    """A rotor at constant speed: a Dynamic model with a kernel in the C library.
 
     x' = A x + B u, y = C x with the states of the rotor, the direction of its unbalance and a state that
     stays at 1. The kernel steps by the exact solution under held forces, however stiff the shaft; its cost
@@ -33,7 +34,7 @@ class SteadyRotor:
 
     Parameters
     ----------
-    rotor : FlexibleRotor
+    rotor : FlexibleRotor or RigidRotor
         With a constant speed; inputs, outputs and initial state are its own.
 
     Raises
@@ -42,7 +43,7 @@ class SteadyRotor:
         If the speed is a profile, or the rotor has a loss factor.
     """
 
-    rotor: FlexibleRotor
+    rotor: FlexibleRotor | RigidRotor
 
     def __post_init__(self) -> None:
         if isinstance(self.rotor.speed, SpeedProfile):

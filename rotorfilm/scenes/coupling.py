@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from time import perf_counter
@@ -10,7 +11,7 @@ from time import perf_counter
 import numpy as np
 
 from ..cosim import CoSimulation, cosimulate, coupling_stability
-from ..errors import PartialResultError
+from ..errors import CouplingWarning, PartialResultError
 from ..model import Array
 from ..progress import Report
 from ..results import Trajectory
@@ -109,13 +110,16 @@ def _run(
     """Return a coupled run, its wall time, and why it is no answer if it is none."""
     begin = perf_counter()
     try:
-        result = cosimulate(
-            fmus.rotor,
-            fmus.film,
-            macro_step=scene.time_of(angle),
-            duration=scene.duration,
-            progress=progress,
-        )
+        with warnings.catch_warnings():
+            # One of the runs is past the limit on purpose.
+            warnings.simplefilter("ignore", CouplingWarning)
+            result = cosimulate(
+                fmus.rotor,
+                fmus.film,
+                macro_step=scene.time_of(angle),
+                duration=scene.duration,
+                progress=progress,
+            )
     except PartialResultError as error:
         if not isinstance(error.partial, CoSimulation) or error.partial.trajectory.time.size == 0:
             raise

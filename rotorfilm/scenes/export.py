@@ -9,6 +9,7 @@ from typing import NamedTuple
 from ..fmu import export_fmu
 from ..linear import equilibrium
 from ..model import Model
+from ..rotors.law_rotor import LawRotor
 from ..rotors.rigid import RigidRotor
 from .damper_runs import export_damper
 from .scene import Scene
@@ -89,4 +90,6 @@ def export_scene(
             stop_time=scene.duration,
         )
 
-    return ExportedScene(film=write(scene.bearing, "film", start), rotor=write(rotor, "rotor", {}))
+    return ExportedScene(
+        film=write(scene.bearing, "film", start), rotor=write(LawRotor(rotor=rotor), "rotor", {})
+    )

@@ -17,6 +17,7 @@ from ..rotors.rigid import RigidRotor
 from ..units import STANDARD_GRAVITY
 from .bush import BushAnswer, solve_bush
 from .bush_table import BushTable
+from .contact_table import ContactTable
 from .damper_table import DamperTable
 from .excitation_table import EXCITATIONS, ExcitationTable
 from .ladder import QuestionAnswer
@@ -48,12 +49,14 @@ class Scene:
         One line for print-outs and charts.
     journal : JournalTable or None
         A journal bearing.
-    damper : DamperTable or None
-        A squeeze-film damper with its retainer springs.
+    contact : ContactTable or None
+        Rolling balls in lubricated contact, alone or as a support of the rotor.
     shaft : ShaftTable or None
         A flexible rotor in its own bearings.
     bush : BushTable or None
         A polymer bush that wears by melting.
+    damper : DamperTable or None
+        A squeeze-film damper.
     operation : OperationTable or None
         Speed and load.
     lubricant : LubricantTable
@@ -77,13 +80,13 @@ class Scene:
     title: Annotated[str, text] = "untitled scene"
 
     # Bearings, and rotors with their own bearings. A family registers its table by one line here, as
-    #     damper: Annotated[DamperTable | None, Table(DamperTable)] = None
+    #     bush: Annotated[BushTable | None, Table(BushTable)] = None
     # and nowhere else. It checks what it needs of the other tables where it is solved.
     journal: Annotated[JournalTable | None, Table(JournalTable)] = None
-    damper: Annotated[DamperTable | None, Table(DamperTable)] = None
     bush: Annotated[BushTable | None, Table(BushTable)] = None
-
+    contact: Annotated[ContactTable | None, Table(ContactTable)] = None
     shaft: Annotated[ShaftTable | None, Table(ShaftTable)] = None
+    damper: Annotated[DamperTable | None, Table(DamperTable)] = None
 
     # What all families share.
     operation: Annotated[OperationTable | None, Table(OperationTable)] = None

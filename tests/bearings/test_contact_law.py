@@ -3,14 +3,18 @@
 import control
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
+from scipy.interpolate import CubicSpline
 
 from rotorfilm import (
     ContactGrid,
+    ConvergenceError,
     FixedSteps,
     InputError,
     PointContact,
     RollingBall,
     SineLoad,
+    StepLoad,
     linearize,
     reduce_ball,
     reduce_contact,
@@ -23,6 +27,14 @@ from rotorfilm.films.contact_stationary import HERTZ_LOAD
 from rotorfilm.films.rational_fit import fit_transfer
 from rotorfilm.linear import OperatingPoint
 from rotorfilm.model import Dynamic, Linearization
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _cache(tmp_path_factory):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROTORFILM_CACHE", str(tmp_path_factory.mktemp("cache")))
+        yield
+
 
 CONTACT = PointContact(V=0.1, Q0=5.0, grid=ContactGrid(cells=(28, 28)))
 
@@ -109,6 +121,47 @@ def test_forced_motion_is_that_of_the_full_model(law, resting):
     assert np.sqrt(np.mean(error**2) / np.mean((full.delta - resting.delta) ** 2)) < 0.05
 
 
+@pytest.mark.parametrize("load", [SineLoad(amplitude=0.5, frequency=2.0), StepLoad(amplitude=0.7, start=1.3)])
+def test_ride_integrates_the_law(law, load):
+    # An independent integrator on the law's own output and derivative.
+    def rate(t, y):
+        force = law.output(t, y[2:], y[:1])[0]
+        return [y[1], (force - load(t)) / 0.4, *law.derivative(t, y[2:], y[:1])]
+
+    begin = np.array([law.operating, 0.0, *law.resting(law.operating)])
+    options = {"method": "DOP853", "rtol": 1e-10, "atol": 1e-12, "max_step": 0.02}
+    exact = solve_ivp(rate, (0.0, 6.0), begin, **options).y[:, -1]
+    for rtol in (1e-4, 1e-8):
+        motion = ride(law, mass=0.4, load=load, start=law.operating, duration=6.0, samples=333, rtol=rtol)
+        assert motion["z"][-1] == pytest.approx(exact[0], abs=2.0 * max(rtol, 1e-8))
+        assert motion["force_z"][-1] == pytest.approx(law.output(6.0, exact[2:], exact[:1])[0], rel=1e-3)
+    smooth = CubicSpline(motion.time, motion["z"])
+    assert motion["vz"][50:-50] == pytest.approx(smooth(motion.time, 1)[50:-50], abs=8e-3)
+    assert motion["z"][::2][:-1] == pytest.approx(
+        CubicSpline(motion.time[1::2], motion["z"][1::2])(motion.time[::2][:-1]), abs=1e-4
+    )
+
+
+@pytest.mark.closed_form
+def test_ball_that_has_left_falls_freely(law):
+    load = StepLoad(amplitude=-1.8, start=0.5)
+    motion = ride(law, mass=0.3, load=load, start=law.operating, duration=4.0, samples=401)
+    away = motion["z"] > law.offset + 1.0
+    assert away.sum() > 20
+    slope = np.polyfit(motion.time[away], motion["vz"][away], 1)[0]
+    assert slope == pytest.approx(0.8 / 0.3, rel=2e-2)
+    assert motion["force_z"].min() >= 0.0
+
+
+def test_ride_says_when_a_motion_does_not_settle(law):
+    rng = np.random.default_rng(0)
+    with pytest.raises(ConvergenceError, match=r"halving the steps must settle the motion to 1\.0e-12"):
+        ride(
+            law, mass=0.4, load=lambda t: rng.normal(), start=law.operating, duration=0.05, samples=5,
+            rtol=1e-12,
+        )  # fmt: skip
+
+
 @pytest.mark.closed_form
 def test_law_of_a_ball_is_the_dimensionless_one_in_si():
     ball = RollingBall(
@@ -136,3 +189,52 @@ def test_law_of_a_ball_is_the_dimensionless_one_in_si():
     assert scaled == pytest.approx(motions[0]["z"], abs=1e-5)
     with pytest.raises(InputError, match="contact must be of the ball, with V = "):
         reduce_ball(ball, CONTACT)
+
+
+def test_a_ball_that_leaves_is_neither_pulled_nor_felt(law):
+    away = law.offset + np.array([0.01, 1.0, 5.0])
+    rates = [law.derivative(0.0, np.zeros(5), [delta]) for delta in away]
+    assert np.array_equal(rates[0], rates[1])
+    assert np.array_equal(rates[0], rates[2])
+    x = -10.0 * np.linalg.pinv(law.C)[:, 0]
+    assert law.output(0.0, x, [away[0]]) == 0.0
+    assert not law.linearization(0.0, x, [away[0]]).C.any()
+    assert law.events(0.0, x, [away[1]])[0] == pytest.approx(1.0 / law.span)
+
+
+def test_a_bounce_is_that_of_the_full_film(law, resting):
+    load = StepLoad(amplitude=-1.2, start=1.0, end=2.5)
+    full = CONTACT.simulate(resting, duration=8.0, W=1.0, load=load, control=FixedSteps(step=0.05))
+    assert full.delta.max() > 1.0  # it leaves
+    reduced = ride(
+        law, mass=1.0 / HERTZ_LOAD, load=load, start=resting.delta, duration=8.0, samples=full.time.size
+    )
+    error = np.interp(full.time, reduced.time, reduced["z"]) - full.delta
+    assert np.sqrt(np.mean(error**2) / np.mean((full.delta - resting.delta) ** 2)) < 0.06
+    assert reduced["force_z"].min() == 0.0
+
+
+def test_a_law_about_another_load():
+    heavy = reduce_contact(CONTACT, load=1.6)
+    state = CONTACT.stationary(1.6)
+    # The rectangles differ: that of the law is in the Hertzian radii of its load.
+    assert float(heavy.approach(1.6)) == pytest.approx(state.delta, rel=0.01)
+    assert heavy.load_range == pytest.approx((0.32, 4.8))
+    small = SmallMotion(CONTACT.equations, state.levels[0].pressure, state.delta)
+    answer = small.stiffness(1.0j) / HERTZ_LOAD
+    assert heavy.stiffness == pytest.approx(small.stiffness(1e-6j).real / HERTZ_LOAD, rel=0.02)
+    s = 1.0j * heavy.time_scale  # its own unit of time
+    fitted = transfer(Linearization(heavy.A, heavy.B, heavy.C, heavy.D), np.array([s]))[0]
+    damping = -fitted.imag * heavy.force_scale / heavy.film_scale
+    assert damping == pytest.approx(answer.imag, rel=0.05)
+
+
+@pytest.mark.closed_form
+def test_approach_and_static_force_are_inverse(law):
+    loads = np.array([[0.3, 1.0], [2.0, 0.0]])
+    assert law.static_force(law.approach(loads)) == pytest.approx(loads, abs=1e-12)
+    z, step = law.approach(1.3), 1e-6
+    slope = (law.static_force(z + step) - law.static_force(z - step)) / (2.0 * step)
+    assert float(law.static_slope(z)) == pytest.approx(float(slope), rel=1e-7)
+    with pytest.raises(InputError, match="load must not be negative"):
+        law.approach(-1.0)

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from rotorfilm import ContactGrid, InputError, RollingBall
-from rotorfilm.films.film_formulas import hamrock_dowson, moes_parameters
+from rotorfilm.films.film_formulas import Moes, hamrock_dowson, moes_parameters
 
 BALL = RollingBall(
     radius=0.01,
@@ -66,6 +66,39 @@ def test_film_thickness_beside_hamrock_and_dowson(roelands):
     assert film == pytest.approx(BALL.hamrock_dowson.central_film * BALL.radius, rel=0.15)
     lowest = state.minimum_film * BALL.film_scale
     assert lowest == pytest.approx(BALL.hamrock_dowson.minimum_film * BALL.radius, rel=0.3)
+
+
+@pytest.mark.closed_form
+def test_formula_of_nijenbanning_tends_to_its_four_limits():
+    soft, hard = Moes(1e12, 1e-9), Moes(1e9, 1e4)
+    assert soft.central_film == pytest.approx(soft.asymptotes.elastic_isoviscous, rel=1e-3)
+    assert hard.central_film == pytest.approx(hard.asymptotes.elastic_piezoviscous, rel=1e-3)
+    # A rigid ball in oil of constant viscosity, with the largest film of an elastic one beside it.
+    light = Moes(0.01, 1e-9)
+    rigid = light.asymptotes.rigid_isoviscous
+    assert light.central_film == pytest.approx((rigid**1.5 + 1.8**1.5) ** (2.0 / 3.0), rel=0.02)
+    # Rigid in oil that thickens: the two rigid limits together, neither less than the other alone.
+    thick = Moes(10.0, 1e4)
+    assert thick.central_film == pytest.approx(thick.asymptotes.rigid_piezoviscous, rel=0.1)
+
+
+@pytest.mark.literature
+def test_formula_of_nijenbanning_at_the_published_case():
+    # With that of Hamrock and Dowson at speeds U of 1e-12 to 1e-10: .152 to .162 in units of a^2/(2R).
+    moes = moes_parameters(0.1, 5.0)
+    unit = 2.0 / (1.5 * moes.M) ** (2.0 / 3.0)
+    assert moes.central_film * unit == pytest.approx(0.1527, abs=2e-4)
+    others = [hamrock_dowson(moes, U).central_film / math.sqrt(2.0 * U) * unit for U in (1e-12, 1e-11, 1e-10)]
+    assert 0.152 < min(others) < max(others) < 0.162
+
+
+@pytest.mark.literature
+def test_film_thickness_beside_nijenbanning_venner_and_moes():
+    # Like for like is Roelands' viscosity; this rectangle and these cells take two per cent.
+    state = BALL.contact(ContactGrid(cells=(64, 64)), roelands=True).stationary()
+    film = state.central_film * BALL.film_scale
+    assert film == pytest.approx(BALL.published_films.nijenbanning_venner_moes, rel=0.06)
+    assert BALL.published_films.hamrock_dowson == BALL.hamrock_dowson.central_film * BALL.radius
 
 
 def test_compression_thins_the_film():

@@ -28,9 +28,9 @@ class QuadratureFilm:
     states = ()
 
     def _arc(self, u):
-        x, y, vx, vy, speed = u
-        if np.hypot(x, y) >= 1.0:
-            raise FilmContactError(f"outside at {np.hypot(x, y)}")
+        x, y, vx, vy, speed = (np.asarray(value)[..., None] for value in u)
+        if np.any(np.hypot(x, y) >= 1.0):
+            raise FilmContactError(f"outside at {np.max(np.hypot(x, y))}")
         start = np.arctan2(speed * y + 2.0 * vx, speed * x - 2.0 * vy) + np.pi
         angle = start + np.pi / 2.0 * (GAUSS + 1.0)
         cos, sin = np.cos(angle), np.sin(angle)
@@ -39,7 +39,7 @@ class QuadratureFilm:
 
     def output(self, t, x, u):
         cos, sin, source, h = self._arc(u)
-        return np.pi * self.sigma * np.stack([cos, sin]) @ (WEIGHTS * source / h**3)
+        return np.pi * self.sigma * np.sum(np.stack([cos, sin]) * (WEIGHTS * source / h**3), axis=-1)
 
     def force(self, position, velocity, speed):
         return self.output(0.0, (), [*position, *velocity, speed])

@@ -5,11 +5,12 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotorfilm.bearings.journal import JournalBearing
-from rotorfilm.cosim import InProcessSlave, couple
-from rotorfilm.cosim.master import ORDER
+from rotorfilm.cosim import GaussSeidel, InProcessSlave, couple
 from rotorfilm.errors import ContactError, CouplingError, FilmContactError, FmuError, FmuRunError, InputError
 from rotorfilm.rotors import RigidRotor, SpeedProfile
 from rotorfilm.transient import simulate
+
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 ROTOR = RigidRotor(
@@ -45,7 +46,7 @@ def test_error_against_the_monolithic_solution_falls_with_the_declared_order():
         found = run(ROTOR, BEARING, TURN / count, TURN).trajectory
         errors.append(np.abs(found.position[:, :: count // 400] - exact.position).max() / BEARING.clearance)
     orders = np.log2(np.divide(errors[:-1], errors[1:]))
-    assert_allclose(orders, ORDER, atol=0.1)
+    assert_allclose(orders, GaussSeidel().order, atol=0.1)
     assert errors[-1] < 1e-3
 
 
@@ -64,7 +65,8 @@ def test_communication_points_are_multiples_and_end_at_the_duration():
     assert result.trajectory.time.size == 8
     assert result.trajectory.time[-1] == 5e-4
     assert result.macro_step == 5e-4 / 7
-    assert result.trajectory.work == {"steps": 7, "film_evaluations": 8}
+    assert result.trajectory.work["steps"] == result.trajectory.work["rotor_steps"] == 7
+    assert result.trajectory.work["film_evaluations"] == 8
     assert run(ROTOR, BEARING, 1.0, 1e-4).trajectory.time.tolist() == [0.0, 1e-4]
 
 
@@ -98,11 +100,11 @@ def test_contact_carries_what_was_computed(nondimensional):
     assert caught.value.partial.trajectory.time.size == 0
 
 
-def test_contact_after_chatter_is_blamed_on_the_macro_step(make_spring_damper):
+def test_chatter_is_stopped_before_it_throws_the_journal_at_the_wall(make_spring_damper):
     """The damper doubles its alternation in each step until it throws the journal at the wall."""
     film = WalledFilm(make_spring_damper(0.0, 3.0))
     rotor = RigidRotor(mass=1.0, speed=1.0, gravity=(0.0, 0.0), velocity=(1e-6, 0.0))
-    with pytest.raises(CouplingError, match="without decaying; it ended with: outside") as caught:
+    with pytest.raises(CouplingError, match="without decaying") as caught:
         run(rotor, film, 1.0, 300.0)
     assert caught.value.partial.coupling.chatter
     assert caught.value.partial.trajectory.time[-1] < 30.0

@@ -11,6 +11,8 @@ from rotorfilm.errors import FilmContactError, InputError, PartialResultError
 from rotorfilm.films import ShortFilm
 from rotorfilm.rotors import RigidRotor
 
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")
+
 # Gauss-Seidel with held force, short bearing, w = 1: critical macro step in degrees of rotation, to be met
 # within 2 %: reference figures of an independent study of this coupling.
 CRITICAL = {0.7: 14.75, 0.9: 10.1}

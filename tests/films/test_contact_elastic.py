@@ -157,3 +157,12 @@ def test_fluids_name_the_broken_rule():
         RoelandsViscosity(exponent=1.5, pressure_ratio=3.0)
     with pytest.raises(InputError, match=r"pressure_ratio must be finite and positive, got -1\.0"):
         DowsonHigginsonDensity(pressure_ratio=-1.0)
+
+
+@pytest.mark.closed_form
+def test_roelands_viscosity_goes_on_smoothly_below_zero_pressure():
+    law = RoelandsViscosity(exponent=0.6, pressure_ratio=4.0)
+    p, step = np.linspace(-1.5, 1.5, 31) + 0.01, 1e-5
+    slope = (law.potential(p + step, 5.0) - law.potential(p - step, 5.0)) / (2.0 * step)
+    assert slope == pytest.approx(law.mobility(p, 5.0), rel=1e-6)
+    assert law.mobility(np.array([-0.5]), 5.0) == pytest.approx(np.exp(2.5))

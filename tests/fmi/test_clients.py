@@ -1,6 +1,7 @@
 """Other clients than fmpy: libcosim runs native FMUs, the FMU Manipulation Toolbox finds nothing wrong."""
 
 import logging
+from dataclasses import replace
 
 import control
 import fmpy
@@ -8,6 +9,7 @@ import numpy as np
 import pytest
 
 from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.cosim import Jacobi, critical_macro_step
 from rotorfilm.films import MapFilm
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import RigidRotor, mount
@@ -62,6 +64,67 @@ def test_libcosim_moves_a_rotor_as_its_closed_form(cosim, tmp_path):
     assert execution.step(50)
     x, vx = observer.last_real_values(index, [known["rotor.x"], known["rotor.vx"]])
     np.testing.assert_allclose([x, vx], [2e-5 + 0.5 * 0.4 * 0.05**2, 0.4 * 0.05], rtol=1e-11)
+
+
+def resting(eccentricity):
+    """Return a rotor with speed parameter 1 at rest on the film."""
+    x = eccentricity * BEARING.clearance
+    load = -BEARING.force((x, 0.0), (0.0, 0.0), ROTOR.speed)
+    mass = float(np.hypot(*load)) / (BEARING.clearance * ROTOR.speed**2)
+    return RigidRotor(
+        mass=mass, speed=ROTOR.speed, gravity=(0.0, 0.0), static_force=tuple(load), position=(x, 0.0)
+    )
+
+
+def swing_in_libcosim(cosim, folder, rotor, step, count):
+    """Return the swing of the force from step to step, coupled by libcosim with all FMUs in parallel."""
+    execution_of, slave_of, observer_of = cosim
+    execution = execution_of.from_step_size(step_size=round(step * 1e9))
+    x, _ = rotor.position
+    start = {"x": x, "y": 0.0, "speed": rotor.speed}
+    models = {
+        "film": (BEARING, start),
+        # A trace off its place, and under the film's force from the start.
+        "rotor": (
+            replace(rotor, position=(x + 1e-6 * BEARING.clearance, 0.0)),
+            {"force_x": -rotor.static_force[0], "force_y": -rotor.static_force[1]},
+        ),
+    }
+    places, known = {}, {}
+    for name, (model, values) in models.items():
+        path = export_fmu(model, folder / f"{name}.fmu", component=name, start=values)
+        places[name] = execution.add_local_slave(slave_of(fmu_path=str(path), instance_name=name))
+        known |= references(path)
+    wires = [("rotor", signal, "film") for signal in ("x", "y", "vx", "vy", "speed")]
+    wires += [("film", signal, "rotor") for signal in ("force_x", "force_y")]
+    for source, signal, target in wires:
+        failed = execution.connect_real_variables(
+            places[source], known[f"{source}.{signal}"], places[target], known[f"{target}.{signal}"]
+        )
+        assert failed == 0
+    observer = observer_of.create_last_value()
+    execution.add_observer(observer)
+    forces = []
+    for _ in range(count):
+        assert execution.step(1)
+        forces.append(observer.last_real_values(places["film"], [known["film.force_x"]])[0])
+    return np.abs(np.diff(forces, n=2))
+
+
+@pytest.mark.parametrize("eccentricity", [0.5, 0.8])
+def test_a_foreign_explicit_master_fails_where_theory_says(cosim, tmp_path, eccentricity):
+    """Its parallel steps with held signals are Jacobi's: stable 5 % below that limit, not 5 % above."""
+    rotor = resting(eccentricity)
+    limit = critical_macro_step(rotor, BEARING, state=rotor.initial_state, scheme=Jacobi()).macro_step
+    growth = {}
+    for factor in (0.95, 1.05):
+        (tmp_path / str(factor)).mkdir()
+        swing = swing_in_libcosim(cosim, tmp_path / str(factor), rotor, factor * limit, 120)
+        growth[factor] = np.linalg.norm(swing[80:]) / np.linalg.norm(swing[40:80])
+    assert growth[0.95] < 0.8
+    assert growth[1.05] > 1.25
+    held = critical_macro_step(rotor, BEARING, state=rotor.initial_state).macro_step
+    assert held > 1.5 * limit  # the same step is still stable in a Gauss-Seidel master
 
 
 def test_libcosim_takes_a_rotor_with_its_film_at_a_step_that_breaks_their_coupling(cosim, tmp_path):

@@ -26,7 +26,7 @@ def shipped():
     return module
 
 
-NAMES = ["damper", "journal", "rotor", "flexible_rotor", "bush", "worn_bush"]
+NAMES = ["journal", "rotor", "flexible_rotor", "damper", "bush", "worn_bush", "contact"]
 
 
 def test_all_recipes_are_tested(shipped):

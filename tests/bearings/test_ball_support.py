@@ -1,0 +1,133 @@
+"""A journal on lubricated balls: statics, derivatives, symmetry, motion."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rotorfilm import BallSupport, ContactLaw, InputError, RigidRotor, coefficients, equilibrium, simulate
+from rotorfilm.model import Dynamic, Reaction, Switched
+
+ANGLES = (math.radians(-135), math.radians(-90), math.radians(-45), math.radians(90))
+
+
+def law(order=2):
+    """Return a law with round numbers: offset 0.3, span 2.1, exponent 1.5, one pair of poles."""
+    A, B = np.array([[-2.0, 3.0], [-3.0, -2.0]]), np.array([[2.0], [0.0]])
+    C = np.array([[-0.2, 0.1]])
+    return ContactLaw(
+        offset=0.3, span=2.1, exponent=1.5, operating=-1.8, A=A, B=B, C=C, D=C @ np.linalg.solve(A, B),
+        static_error=0.0, damping_error=0.0, film_scale=1e-6, time_scale=1e-4, force_scale=50.0,
+    )  # fmt: skip
+
+
+SUPPORT = BallSupport(law=law(), angles=ANGLES, gap=-1e-6)
+
+
+def test_is_a_reaction_with_states():
+    assert isinstance(SUPPORT, Reaction)
+    assert isinstance(SUPPORT, Dynamic)
+    assert isinstance(SUPPORT, Switched)
+    assert len(SUPPORT.states) == 8
+
+
+@pytest.mark.closed_form
+def test_one_ball_pushes_along_its_line():
+    one = BallSupport(law=law(), angles=(math.radians(-90),), gap=0.0)
+    # Under 50 N the approach is 0.3 - 2.1 film scales; the ball below pushes up.
+    z = float(law().approach(50.0))
+    assert z == pytest.approx((0.3 - 2.1) * 1e-6)
+    force = one.force([0.0, z], [0.0, 0.0])
+    assert force == pytest.approx([0.0, 50.0], abs=1e-9)
+    assert one.force([0.0, 1e-6], [0.0, 0.0]) == pytest.approx([0.0, 0.0], abs=1e-12)
+    slope = one.jacobian([0.0, z], [0.0, 0.0])
+    assert -slope[1, 1] == pytest.approx(1.5 * 50.0 / 2.1e-6)
+    assert -slope[1, 3] == pytest.approx(law().damping)
+
+
+@pytest.mark.closed_form
+def test_damping_of_slow_motions_is_the_limit_of_the_dynamic_stiffness():
+    own = law()
+    s = 1e-4j
+    answer = (own.C @ np.linalg.solve(s * np.eye(2) - own.A, own.B.astype(complex)) + own.D)[0, 0]
+    assert own.damping == pytest.approx(-answer.imag / 1e-4 * 50.0 * 1e-4 / 1e-6, rel=1e-6)
+
+
+def test_at_rest_the_states_add_nothing():
+    position = np.array([2e-7, -5e-7])
+    u = [*position, 0.0, 0.0, 100.0]
+    x = SUPPORT.resting(position)
+    assert SUPPORT.derivative(0.0, x, u) == pytest.approx(np.zeros(8), abs=1e-6)
+    assert SUPPORT.output(0.0, x, u) == pytest.approx(SUPPORT.force(position, [0.0, 0.0]))
+
+
+@given(st.tuples(*[st.floats(-1.5e-6, 1.5e-6)] * 2), st.lists(st.floats(-0.3, 0.3), min_size=8, max_size=8))
+def test_linearization_is_exact(position, x):
+    u = np.array([*position, 0.0, 0.0, 10.0])
+    at = SUPPORT.linearization(0.0, x, u)
+    if np.min(np.abs(SUPPORT.events(0.0, x, u))) < 1e-3:
+        return  # at a kink
+    step = 1e-12
+    for k in range(2):
+        ends = [u + sign * step * np.eye(5)[k] for sign in (-1.0, 1.0)]
+        slope = np.subtract(*[SUPPORT.output(0.0, x, end) for end in ends[::-1]]) / (2.0 * step)
+        assert at.D[:, k] == pytest.approx(slope, rel=1e-4, abs=1e3)
+        rate = np.subtract(*[SUPPORT.derivative(0.0, x, end) for end in ends[::-1]]) / (2.0 * step)
+        assert at.B[:, k] == pytest.approx(rate, rel=1e-4, abs=1e3)
+    x = np.array(x)
+    forces = [SUPPORT.output(0.0, x + d, u) for d in (1e-6 * np.eye(8))]
+    slope = (np.array(forces) - SUPPORT.output(0.0, x, u)).T / 1e-6
+    assert pytest.approx(slope, abs=1e-3) == at.C
+
+
+@given(
+    st.floats(0.0, 6.3), st.tuples(*[st.floats(-1e-6, 1e-6)] * 2), st.tuples(*[st.floats(-1e-4, 1e-4)] * 2)
+)
+def test_turned_balls_turn_the_force(angle, position, velocity):
+    turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+    turned = BallSupport(law=law(), angles=tuple(a + angle for a in ANGLES), gap=-1e-6)
+    expected = turn @ SUPPORT.force(position, velocity)
+    assert turned.force(turn @ position, turn @ velocity) == pytest.approx(expected, abs=1e-6)
+
+
+def test_force_takes_batches():
+    position = np.random.default_rng(1).uniform(-1e-6, 1e-6, (2, 5, 3))
+    velocity = 1e-3 * position[::-1]
+    forces, slopes = SUPPORT.force(position, velocity), SUPPORT.jacobian(position, velocity)
+    assert (forces.shape, slopes.shape) == ((2, 5, 3), (2, 5, 5, 3))
+    assert forces[:, 2, 1] == pytest.approx(SUPPORT.force(position[:, 2, 1], velocity[:, 2, 1]))
+    assert slopes[..., 2, 1] == pytest.approx(SUPPORT.jacobian(position[:, 2, 1], velocity[:, 2, 1]))
+
+
+@pytest.mark.closed_form
+def test_a_rotor_swings_with_the_stiffness_of_the_balls():
+    at = equilibrium(SUPPORT, [0.0, -80.0], 0.0)
+    assert SUPPORT.force(at.position, [0.0, 0.0]) == pytest.approx([0.0, 80.0], abs=1e-6)
+    stiffness = coefficients(SUPPORT, at.position, 0.0).stiffness
+    mass = 1.0
+    rotor = RigidRotor(
+        mass=mass, speed=0.0, gravity=(0.0, 0.0), static_force=(0.0, -80.0),
+        position=(at.position[0], at.position[1] - 1e-9),
+    )  # fmt: skip
+    start = np.concatenate([rotor.initial_state, SUPPORT.resting(at.position)])
+    period = 2.0 * math.pi / math.sqrt(stiffness[1, 1] / mass)
+    motion = simulate(rotor, SUPPORT, duration=4.0 * period, samples=2001, initial_state=start)
+    swing = motion["y"] - at.position[1]
+    crossings = motion.time[1:][np.diff(np.sign(swing)) > 0]
+    assert np.diff(crossings).mean() == pytest.approx(period, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"law": 1.0}, r"law must be a ContactLaw, got 1\.0"),
+        ({"angles": ()}, r"angles must be a list of at least one angle, got \(\)"),
+        ({"gap": math.nan}, "gap must be"),
+        ({"gap": -5e-6}, r"gap must leave the balls below 150 N, to which their law was fitted, got -5e-06"),
+    ],
+)
+def test_names_the_broken_rule(change, message):
+    with pytest.raises(InputError, match=message):
+        BallSupport(**{"law": law(), "angles": ANGLES, **change})

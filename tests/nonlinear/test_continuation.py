@@ -1,0 +1,128 @@
+"""Curves of orbits: folds in closed form, those of the short bearing, and where tori are born."""
+
+import numpy as np
+import pytest
+
+from rotorfilm import (
+    Bifurcation,
+    InputError,
+    RigidRotor,
+    basin_scan,
+    continue_orbits,
+    hopf_point,
+    mount,
+    periodic_orbit,
+    simulate_rotor,
+)
+
+
+@pytest.mark.closed_form
+def test_folds_of_duffing(cubic_bearing):
+    mass, k, h, c, unbalance = 1.0, 1.0, 1.0, 0.16, 0.12
+
+    def family(speed):
+        rotor = RigidRotor(mass=mass, speed=speed, unbalance=unbalance, gravity=(0.0, 0.0))
+        return mount(rotor, {"": cubic_bearing(stiffness=k, hardening=h, damping=c, clearance=10.0)})
+
+    curve = continue_orbits(family, periodic_orbit(family(0.3)), parameter=0.3, bounds=(0.25, 3.0))
+    # Circles: ((k + h a^2 - m w^2)^2 + (c w)^2) a^2 = (U w^2)^2; each is on the curve.
+    for w, orbit in zip(curve.parameters, curve.orbits, strict=True):
+        a = 10.0 * orbit.amplitude
+        assert ((k + h * a**2 - mass * w**2) ** 2 + (c * w) ** 2) * a**2 == pytest.approx(
+            (unbalance * w**2) ** 2
+        )
+    # Folds: the derivative by the squared amplitude A vanishes as well.
+    found = [event for event in curve.events if event.kind is Bifurcation.FOLD]
+    assert len(found) == 2
+    for event in found:
+        d = k - mass * event.parameter**2
+        A = (10.0 * event.orbit.amplitude) ** 2
+        slope = (d + h * A) * (d + 3.0 * h * A) + (c * event.parameter) ** 2
+        assert slope == pytest.approx(0.0, abs=1e-5)
+    between = (curve.parameters > min(e.parameter for e in found)) & ~curve.stable
+    assert between.any()
+    unstable = [o for o in curve.orbits if not o.stable]
+    assert all(np.abs(o.multipliers[0].imag) < 1e-9 and o.multipliers[0].real > 1.0 for o in unstable)
+
+
+def test_large_whirl_of_the_short_bearing(short_rotor):
+    family = short_rotor(0.2)
+    onset = hopf_point(family, (0.97, 1.03))
+    curve = continue_orbits(family, onset, bounds=(0.98, 1.02), most=40, tolerance=1e-6)
+    folds = [event for event in curve.events if event.kind is Bifurcation.FOLD]
+    assert [event.kind for event in curve.events] == [Bifurcation.FOLD] * 2
+    assert folds[0].parameter == pytest.approx(1.01, abs=5e-4)
+    assert folds[1].parameter == pytest.approx(0.995, abs=5e-4)
+    assert curve.stable[[0, -1]].all()
+    # The stable branches, and the one between them that is not, are where runs say.
+    scan = basin_scan(family(0.999), 1e-4 * np.array([[0.02, 0.7], [0.0, 0.0]]), turns=3000)
+    assert scan.whirls.tolist() == [False, True]
+
+
+def test_torus_is_born_at_the_threshold_of_whirl(short_rotor):
+    rotor = short_rotor(0.3)
+
+    def family(ratio):
+        return rotor(ratio, unbalance=1e-3)
+
+    curve = continue_orbits(family, periodic_orbit(family(0.9)), parameter=0.9, bounds=(0.85, 1.1), most=40)
+    kinds = [event.kind for event in curve.events]
+    assert kinds == [Bifurcation.NEIMARK_SACKER]
+    # With little unbalance the orbit loses its stability where the rest does.
+    assert curve.events[0].parameter == pytest.approx(1.0, abs=1e-4)
+    assert np.abs(curve.events[0].orbit.multipliers[0]) == pytest.approx(1.0, abs=1e-6)
+
+
+def test_period_doubling_of_a_heavier_unbalance(short_rotor):
+    rotor = short_rotor(0.3)
+
+    def family(unbalance):
+        return rotor(0.985, unbalance=unbalance)
+
+    curve = continue_orbits(family, periodic_orbit(family(0.02)), parameter=0.02, bounds=(0.01, 0.6), most=40)
+    doubled = [event for event in curve.events if event.kind is Bifurcation.PERIOD_DOUBLING]
+    assert doubled
+    at = doubled[0]
+    assert np.min(np.abs(at.orbit.multipliers + 1.0)) < 1e-5
+
+
+def test_over_any_parameter(short_rotor):
+    rotor = short_rotor(0.3)
+    curve = continue_orbits(
+        lambda unbalance: rotor(0.8, unbalance=unbalance),
+        periodic_orbit(rotor(0.8, unbalance=0.01)),
+        parameter=0.01,
+        bounds=(0.0, 0.2),
+    )
+    assert curve.parameters[-1] == pytest.approx(0.2, abs=1e-12)
+    direct = periodic_orbit(rotor(0.8, unbalance=0.2))
+    assert curve.orbits[-1].amplitude == pytest.approx(direct.amplitude, rel=1e-6)
+    assert "bounds" in curve.reason
+
+
+def test_unstable_cycle_separates_two_ends(short_rotor):
+    rotor = short_rotor(0.1)
+    onset = hopf_point(rotor, (0.97, 1.03))
+    curve = continue_orbits(rotor, onset, bounds=(0.97, 1.0), most=30, tolerance=1e-6)
+    cycle = curve.orbits[-1]
+    assert curve.parameters[-1] == pytest.approx(0.97)
+    assert not cycle.stable
+    mounted = rotor(0.97)
+    ends = []
+    for push in (-1e-3, 1e-3):
+        mean = np.array([*cycle.series[0][:, 0], 0.0, 0.0])
+        start = mean + (1.0 + push) * (cycle.state - mean)
+        run = simulate_rotor(
+            mounted, duration=300 * 2.0 * np.pi / cycle.speed, initial_state=start, rtol=1e-7
+        )
+        ends.append(np.ptp(run["y"][-20:]) / 2e-4)
+    assert ends[0] < 0.4 < 0.6 < ends[1]
+
+
+def test_arguments_are_checked(short_rotor):
+    rotor = short_rotor(0.3)
+    orbit = periodic_orbit(rotor(0.8, unbalance=0.01))
+    with pytest.raises(InputError, match="parameter must be given"):
+        continue_orbits(rotor, orbit, bounds=(0.0, 1.0))
+    with pytest.raises(InputError, match="bounds must rise"):
+        continue_orbits(rotor, orbit, parameter=0.8, bounds=(1.0, 0.5))

@@ -1,0 +1,64 @@
+"""The contact in scene files: the ball, the balls around a journal, mistakes."""
+
+import math
+
+import pytest
+
+from rotorfilm import SceneError
+from rotorfilm.scenes.scene import parse_scene
+
+TEXT = """
+schema = 1
+
+[contact]
+diameter = "20 mm"
+modulus = "206 GPa"
+poisson_ratio = 0.3
+viscosity = "8 mPa s"
+pressure_coefficient = "5 1/GPa"
+speed = "0.9 m/s"
+load = "10 N"
+cells = 20
+order = 3
+angles = ["-90 deg", "30 deg", "150 deg"]
+preload = "6 N"
+"""
+
+
+@pytest.fixture(autouse=True)
+def _cache(tmp_path, monkeypatch):
+    monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path / "cache"))
+
+
+def test_a_table_makes_the_ball_and_its_contact():
+    table = parse_scene(TEXT, "x.toml").contact
+    assert table is not None
+    ball = table.build()
+    assert (ball.radius, ball.modulus, ball.plane_modulus) == pytest.approx((0.01, 206e9, math.inf))
+    assert ball.pressure_coefficient == pytest.approx(5e-9)
+    assert (table.contact().V, table.contact().grid.cells) == (ball.V, (20, 20))
+
+
+@pytest.mark.closed_form
+def test_the_support_is_preloaded():
+    support = parse_scene(TEXT, "x.toml").contact.support()
+    assert support.law.order == 3
+    assert support.angles == pytest.approx([-math.pi / 2.0, math.pi / 6.0, 5.0 * math.pi / 6.0])
+    assert float(support.law.static_force(support.gap)) == pytest.approx(6.0)
+    assert support.force([0.0, 0.0], [0.0, 0.0]) == pytest.approx([0.0, 0.0], abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('"206 GPa"', '"-206 GPa"', r"x\.toml: contact\.modulus must be finite and positive"),
+        ('"8 mPa s"', '"8 mm"', r"x\.toml: contact\.viscosity: quantity must be measured in Pa\.s"),
+        ('["-90 deg", "30 deg", "150 deg"]', '"-90 deg"', r"contact\.angles must be a list of angles"),
+        ('"30 deg"', '"30 mm"', r"contact\.angles\[1\]: quantity must be measured in rad"),
+        ("cells = 20", "cells = 3", r"cells must be two integers of at least 8"),
+        ('preload = "6 N"', 'preload = "-6 N"', "contact.preload must be finite and not negative"),
+    ],
+)
+def test_a_mistake_is_named(old, new, message):
+    with pytest.raises(SceneError, match=message):
+        parse_scene(TEXT.replace(old, new), "x.toml")
