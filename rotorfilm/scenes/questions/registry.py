@@ -9,6 +9,8 @@ from ...errors import InputError
 from ..ladder import Ladder, QuestionAnswer, walk
 from .blade_loss import blade_loss_ladder
 from .bushes import bush_ladder
+from .contacts import QUANTITIES as CONTACTS
+from .contacts import contact_ladder
 from .coupling import coupling_ladder
 from .dampers import UNITS as DAMPERS
 from .dampers import damper_ladder
@@ -31,6 +33,7 @@ LADDERS: dict[tuple[str, str], LadderOf] = {
     ("journal", "blade_loss_peak"): blade_loss_ladder,
     ("journal", "cosimulation_error"): coupling_ladder,
     ("shaft", "critical_speed"): shaft_ladder,
+    **{("contact", quantity): contact_ladder for quantity in CONTACTS},
     ("bush", "critical_speed"): bush_ladder,
     **{("damper", quantity): damper_ladder for quantity in DAMPERS},
 }
