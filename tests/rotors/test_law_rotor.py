@@ -11,9 +11,12 @@ from rotorfilm.fmu.described import knowns_of, references_of, unknowns_of
 from rotorfilm.fmu.instance import extracted, instantiated
 from rotorfilm.rotors import (
     ForceLaw,
+    JeffcottRotor,
     LawRotor,
     RigidRotor,
     RigidShaft,
+    SpeedProfile,
+    SteadyRotor,
 )
 from rotorfilm.rotors.force_law import held_law, law_inputs
 
@@ -26,6 +29,7 @@ SHAFT = RigidShaft(
     unbalances=((0.1, 1.5e-3, 0.3),),
     stations=(("left", -0.4), ("right", 0.3)),
 )
+JEFFCOTT = JeffcottRotor(mass=40.0, journal_mass=1.0, stiffness=5e6, speed=-120.0, unbalance=1e-3)
 
 
 def random_inputs(model, seed=3):
