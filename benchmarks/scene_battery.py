@@ -203,6 +203,14 @@ def summary(found: list[list[Judged]]) -> str:
     return "\n".join(lines)
 
 
+def passed(found: list[list[Judged]]) -> bool:
+    """Return whether 90 % of the estimates are within the factor and 98 % of the tolerances met."""
+    chosen = [rows[0] for rows in found if rows and not rows[0].doubtful]
+    resolved = [row.right for row in chosen if row.resolved]
+    met = [row.met for row in chosen if row.verdict == "chosen"]
+    return sum(resolved) >= 0.9 * len(resolved) and sum(met) >= 0.98 * len(met)
+
+
 def share(rows: list[Judged]) -> str:
     """Return how many rows are right, in per cent."""
     return f"{100.0 * sum(row.right for row in rows) / len(rows):.1f} %" if rows else "-"
@@ -231,7 +239,7 @@ def main() -> None:
             writer = csv.DictWriter(file, list(rows[0]))
             writer.writeheader()
             writer.writerows(rows)
-    sys.exit(0)
+    sys.exit(0 if passed(found) else 1)
 
 
 if __name__ == "__main__":

@@ -273,3 +273,29 @@ def test_film_of_a_contact_takes_the_grid_that_the_tolerance_needs():
     shaken = document.format("approach", 0.02) + '[excitation]\nkind = "step"\nload = 1\n'
     with pytest.raises(InputError, match="excitation must be none for approach"):
         parse_scene(shaken, "contact.toml").ask()
+
+
+def test_command_line_shows_the_ladder_and_fails_where_no_rung_will_do(tmp_path, capsys):
+    from rotorfilm.cli import main
+
+    def run(*arguments):
+        with pytest.raises(SystemExit) as end:
+            main(["solve", *arguments])
+        return end.value.code, capsys.readouterr()
+
+    path = ROOT / "examples" / "question.toml"
+    code, shown = run(str(path), "--explain")
+    assert code in (0, None)
+    for word in ("the ladder, the cheapest rung first", "short film", "refused", "chosen", "why not"):
+        assert word in shown.out
+    strict = tmp_path / "strict.toml"
+    text = (ROOT / "examples" / "friswell.toml").read_text(encoding="utf-8")
+    question = '[question]\nquantity = "eccentricity_ratio"\ntolerance = 1e-9\n'
+    strict.write_text(f"{text}\n{question}", encoding="utf-8")
+    code, shown = run(str(strict))
+    assert code == 1
+    assert "no rung meets the tolerance 1e-09" in shown.err
+    assert "NOT met by any rung" in shown.out
+    code, shown = run(str(ROOT / "examples" / "friswell.toml"), "--explain")
+    assert code == 2
+    assert "--explain must be given with a scene that has a [question]" in shown.err
