@@ -187,8 +187,8 @@ class DamperTable:
     extent : FullFilm or HalfSommerfeld
         Whether the film carries tension.
     feed : FeedTable or None
-    film : SqueezeTable
-        The film law.
+    film : SqueezeTable or None
+        The film law; if the file does not say, the short film, or what the question of the scene needs.
     """
 
     radius: Annotated[float, Quantity("m", twice="diameter")]
@@ -201,7 +201,7 @@ class DamperTable:
         default_factory=HalfSommerfeld
     )
     feed: Annotated[FeedTable | None, Variant("kind", FEEDS)] = None
-    film: Annotated[SqueezeTable, Variant("name", SQUEEZES)] = field(default_factory=ShortSqueezeTable)
+    film: Annotated[SqueezeTable | None, Variant("name", SQUEEZES)] = None
 
     def __post_init__(self) -> None:
         require_non_negative("stiffness", self.stiffness)
@@ -217,7 +217,7 @@ class DamperTable:
             cage=None if self.cage is None else self.cage.build(),
             extent=self.extent,
             feed=None if self.feed is None else self.feed.build(),
-            film=self.film.build(),
+            film=(self.film or ShortSqueezeTable()).build(),
         )
 
     def support(self) -> PorousDamper | Sprung:

@@ -92,7 +92,7 @@ class FilmRung:
         return f"tangents of {self.name}"
 
     def defects(self, *, smooth: bool) -> str:
-        """Return the name of one force with derivatives of the richer film."""
+        """Return the name of the defects that correct one state, with exact or with smooth slopes."""
         return f"defects{' and slopes' if smooth else ''} of {self.rich_name}"
 
     def bound(self, eccentricity_ratio: float, *, slopes: bool) -> float:
@@ -195,7 +195,7 @@ def _plain_films(bearing: JournalBearing, tabulated: bool) -> list[FilmRung]:
         ("splitting (2, all)", SplittingFilm(order=(2, None), rupture=RotatingArc()), 2e-3, 5e-3),
         ("splitting (6, all)", SplittingFilm(order=(6, None), rupture=RotatingArc()), 1e-3, 3e-3),
     )
-    rich = _rich(tabulated, MEDIUM)
+    rich = _rich(tabulated, FINE)
     return [_rung(name, bearing, film, rich, *priors) for name, film, *priors in films]
 
 
@@ -203,7 +203,7 @@ def _grids(bearing: JournalBearing, tabulated: bool) -> list[FilmRung]:
     rich = _rich(tabulated, MEDIUM)
     coarse = _rung("2-D 48 x 4", bearing, ReynoldsFilm(cells=(48, 4)), rich, 1e-3, 1e-3)
     levels = (
-        ((48, 8), MEDIUM, 3e-5, 1e-3),
+        ((48, 8), FINE, 3e-5, 1e-3),
         ((96, 8), FINE, 5e-6, 3e-4),
         ((192, 16), FINEST, 1e-6, 1e-4),
         ((384, 16), FINEST, 5e-7, 5e-5),

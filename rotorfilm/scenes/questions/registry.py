@@ -7,7 +7,18 @@ from typing import TYPE_CHECKING
 
 from ...errors import InputError
 from ..ladder import Ladder, QuestionAnswer, walk
-from .statics import UNITS, static_ladder
+from .blade_loss import blade_loss_ladder
+from .bushes import bush_ladder
+from .contacts import QUANTITIES as CONTACTS
+from .contacts import contact_ladder
+from .coupling import coupling_ladder
+from .dampers import UNITS as DAMPERS
+from .dampers import damper_ladder
+from .orbits import UNITS as ORBITS
+from .orbits import orbit_ladder
+from .shafts import shaft_ladder
+from .statics import UNITS as STATICS
+from .statics import static_ladder
 from .whirl import whirl_ladder
 
 if TYPE_CHECKING:
@@ -16,8 +27,15 @@ if TYPE_CHECKING:
 LadderOf = Callable[["Scene", str], Ladder]
 
 LADDERS: dict[tuple[str, str], LadderOf] = {
-    **{("journal", quantity): static_ladder for quantity in UNITS},
+    **{("journal", quantity): static_ladder for quantity in STATICS},
+    **{("journal", quantity): orbit_ladder for quantity in ORBITS},
     ("journal", "whirl_threshold"): whirl_ladder,
+    ("journal", "blade_loss_peak"): blade_loss_ladder,
+    ("journal", "cosimulation_error"): coupling_ladder,
+    ("shaft", "critical_speed"): shaft_ladder,
+    **{("contact", quantity): contact_ladder for quantity in CONTACTS},
+    ("bush", "critical_speed"): bush_ladder,
+    **{("damper", quantity): damper_ladder for quantity in DAMPERS},
 }
 """Builders of ladders by table of the scene and quantity, in the order in which they are tried."""
 

@@ -150,25 +150,26 @@ class Corrected:
 def corrected(film: FilmRung, at: Equilibrium, load: Array, *, smooth: bool) -> Corrected:
     """Return the equilibrium of the richer film as far as its defect tells.
 
-    With the defect d = F_rich + W at the equilibrium of the cheap film the position moves by K^-1 d. Both
-    films' K are tried: where the results disagree by more than 30 % the step is too long to be linear. The
-    slopes are those of the richer film at the old position, moved along by the change of the cheap one's.
+    With the defect d = F_rich + W at the equilibrium of the cheap film the position moves by K^-1 d; a second
+    defect there, with the same K, takes out what is of second order. The first step is tried with both films'
+    K: where the results disagree by more than 30 % it is too long to be linear. The slopes are those of the
+    richer film where that ends.
     """
-    rest = np.zeros(2)
-    force, rich = tangent(film.rich, at.position, at.speed, smooth=smooth)
-    cheap = film.bearing.jacobian(at.position, rest, at.speed)[:, :4]
-    defect = force + load
-    step, other = (np.linalg.solve(-slopes[:, :2], defect) for slopes in (rich, cheap))
+    force, rich = tangent(film.rich, at.position, at.speed, smooth=False)
+    cheap = film.bearing.jacobian(at.position, np.zeros(2), at.speed)[:, :4]
+    step, other = (np.linalg.solve(-slopes[:, :2], force + load) for slopes in (rich, cheap))
     doubt = ""
     gap, longest = float(np.hypot(*(step - other))), float(max(np.hypot(*step), np.hypot(*other)))
     if gap > DISAGREEMENT * longest:
         doubt = f"the stiffnesses of both films disagree on the error by {gap / longest:.0%}: not linear"
-    position = at.position + step
-    distance = float(np.hypot(*position)) / film.bearing.clearance
-    if distance >= MAXIMUM_ECCENTRICITY:
-        return Corrected(position=at.position, slopes=rich, doubt="the error is larger than the gap")
-    moved = film.bearing.jacobian(position, rest, at.speed)[:, :4]
-    return Corrected(position=position, slopes=rich + moved - cheap, doubt=doubt)
+    position = at.position
+    for _ in range(2):
+        position = position + step
+        if float(np.hypot(*position)) >= MAXIMUM_ECCENTRICITY * film.bearing.clearance:
+            return Corrected(position=at.position, slopes=rich, doubt="the error is larger than the gap")
+        step = np.linalg.solve(-rich[:, :2], film.rich.force(position, np.zeros(2), at.speed) + load)
+    slopes = tangent(film.rich, position, at.speed, smooth=smooth)[1] if smooth else rich
+    return Corrected(position=position, slopes=slopes, doubt=doubt)
 
 
 def film_units(films: tuple[FilmRung, ...], speed: float) -> dict[str, Callable[[], object]]:
@@ -189,7 +190,15 @@ def _one_tangent(bearing: JournalBearing, speed: float) -> Callable[[], object]:
 
 def _one_defect(bearing: JournalBearing, speed: float, *, smooth: bool) -> Callable[[], object]:
     position = np.array([0.3, 0.4]) * bearing.clearance
-    return lambda: tangent(bearing, position, speed, smooth=smooth)
+
+    def one() -> None:
+        tangent(bearing, position, speed, smooth=False)
+        for _ in range(2):
+            bearing.force(position, np.zeros(2), speed)
+        if smooth:
+            tangent(bearing, position, speed, smooth=True)
+
+    return one
 
 
 def static_ladder(scene: Scene, quantity: str) -> Ladder:

@@ -1,0 +1,271 @@
+"""Questions about a rotor on a squeeze-film damper: jumps, width of the orbit, what it transmits."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.optimize import brentq
+
+from ...bearings import PorousDamper, Sprung
+from ...errors import InputError, RotorfilmError, ValidityWarning
+from ...films import FiniteMapSqueeze, FiniteSqueeze, FullFilm, ShortSqueeze
+from ...model import Array, Reaction
+from ...orbits.branches import synchronous_orbits
+from ...orbits.curve import OrbitRotor, orbit_points, orbit_rotor, orbit_slope
+from ...rotors import RigidRotor
+from ..counted import Counted
+from ..ladder import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work
+from .films import MAP_MADE, NOMINAL
+
+if TYPE_CHECKING:
+    from ..scene import Scene
+
+UP, DOWN = "jump_up", "jump_down"
+UNITS = {UP: "kg m", DOWN: "kg m", "transmissibility": "1", "unbalance_amplitude": "m"}
+"""Quantities of a damper and their units."""
+
+TOP_BOUNDS = {FiniteSqueeze: 1e-6, FiniteMapSqueeze: 3e-4}
+"""Verified errors of the force of the richest films: docs/accuracy.md."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class DamperRung:
+    """One film and one model of its cage.
+
+    Attributes
+    ----------
+    name : str
+    rotor : RigidRotor
+        Centered by its springs.
+    support : Reaction
+        Film and springs.
+    rich : Reaction or None
+        The richest film with the same springs; None for this one.
+    quantity : str
+    prior : float [1]
+        Order of magnitude of the error of the film.
+    bound : float [1]
+        Verified error of the richest film; infinite for others.
+    """
+
+    name: str
+    rotor: RigidRotor
+    support: Reaction
+    rich: Reaction | None
+    quantity: str
+    prior: float
+    bound: float
+
+    @property
+    def unit(self) -> str:
+        """Name of one force of this film."""
+        return f"forces of {self.name}"
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the quantity; raises RotorfilmError where there is no such jump, or contact."""
+        made = _made(self.support)
+        counted = Counted(self.support)
+        if before is not None:
+            near = self._from(counted, float(before.solution))
+            if near is not None:
+                return Found(near[0], {self.unit: counted.forces + counted.tangents, **made}, near[1])
+        orbits = synchronous_orbits(self.rotor, counted)
+        if self.quantity in (UP, DOWN):
+            folds = [fold for fold in orbits.folds if fold.upward == (self.quantity == UP)]
+            if not folds:
+                raise RotorfilmError(f"no {self.quantity.replace('_', ' ')}: one orbit at every unbalance")
+            value, radius = folds[0].unbalance, folds[0].eccentricity_ratio
+        else:
+            found = orbits.at(self.rotor.unbalance)
+            if not found:
+                raise RotorfilmError("no orbit at this unbalance: the rotor reaches the wall")
+            radius = found[0].eccentricity_ratio
+            amplitude = radius * self.support.clearance
+            value = found[0].transmissibility if self.quantity == "transmissibility" else amplitude
+        return Found(value, {self.unit: counted.forces + counted.tangents, **made}, radius)
+
+    def _from(self, counted: Counted, radius: float) -> tuple[float, float] | None:
+        """Return quantity and radius of the orbit next to that of a lower rung, if there is one."""
+        system = _system(self.rotor, counted)
+        near = (0.8 * radius, min(1.2 * radius, 0.5 * (1.0 + radius)))
+        target = 0.0 if self.quantity in (UP, DOWN) else self.rotor.unbalance
+
+        def excess(at: float) -> float:
+            if self.quantity in (UP, DOWN):
+                return float(orbit_slope(system, np.array([at]))[0][0])
+            return float(_unbalance(system, np.array([at]))[0]) - target
+
+        ends = [excess(end) for end in near]
+        if ends[0] * ends[1] > 0.0:
+            return None
+        found = np.array([brentq(excess, *near, xtol=1e-12)])
+        points = orbit_points(system, found)
+        if self.quantity == "transmissibility":
+            return float(np.abs(points.force[0]) / np.abs(points.pull[0])), float(found[0])
+        if self.quantity in (UP, DOWN):
+            return float(_unbalance(system, found)[0]), float(found[0])
+        return float(found[0]) * system.clearance, float(found[0])
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the change that one orbit of the richest film, of the same radius, would make.
+
+        At a fold u(e) is level, so that the fold's unbalance changes by what u does at the same radius, and
+        to second order by the shift of the fold; at a given unbalance the radius shifts by the defect of u
+        over u'.
+        """
+        if self.rich is None:
+            return ErrorEstimate(self.bound, "verified bound of the film", bound=True)
+        made = _made(self.rich)
+        radius = float(found.solution)
+        fold = self.quantity in (UP, DOWN)
+        change = self._fold if fold else self._orbit
+        value, doubt = change(orbit_rotor(self.rotor, self.support), _system(self.rotor, self.rich), radius)
+        error = abs(value - found.value) / abs(value)
+        return ErrorEstimate(
+            error, "orbits of the richest film", {RICH: 4 if fold else 3, **made}, doubt=doubt
+        )
+
+    def _fold(self, own: OrbitRotor, rich: OrbitRotor, radius: float) -> tuple[float, str]:
+        """Return the unbalance of the rich film's fold by a parabola through three orbits about the other."""
+        near = radius + np.array([-1.0, 0.0, 1.0]) * 0.02 * min(radius, 1.0 - radius)
+        low, middle, high = _unbalance(rich, near)
+        bend, slope = low - 2.0 * middle + high, 0.5 * (high - low)
+        cheap = _unbalance(own, near)
+        own_bend = float(cheap[0] - 2.0 * cheap[1] + cheap[2])
+        moved = float(np.clip(-slope / own_bend, -10.0, 10.0)) if own_bend else 0.0
+        value = float(middle + slope * moved + 0.5 * bend * moved**2)
+        doubt = "the curvatures of both films disagree on the error: not linear"
+        matters = abs(value - middle) > DISAGREEMENT * abs(value - cheap[1])
+        return value, doubt if matters and abs(bend - own_bend) > DISAGREEMENT * abs(own_bend) else ""
+
+    def _orbit(self, own: OrbitRotor, rich: OrbitRotor, radius: float) -> tuple[float, str]:
+        """Return the quantity at the rotor's unbalance by two secant steps with the richest film."""
+        at = np.array([radius])
+        target = self.rotor.unbalance
+        slopes = [_slope(system, at) for system in (rich, own)]
+        steps = [(target - float(_unbalance(rich, at)[0])) / slope for slope in slopes]
+        apart = abs(steps[0] - steps[1]) / max(abs(step) for step in steps)
+        new = float(np.clip(radius + steps[0], 1e-9, 1.0 - 1e-9))
+        points = orbit_points(rich, np.array([new]))
+        again = (target - float(_unbalance(rich, np.array([new]))[0])) / slopes[0]
+        doubt = f"the slopes of both films disagree on the error by {apart:.0%}: not linear"
+        final = new + again
+        ratio = float(np.abs(points.force[0]) / np.abs(points.pull[0]))
+        value = ratio if self.quantity == "transmissibility" else final * own.clearance
+        return value, doubt if apart > DISAGREEMENT else ""
+
+    def expected(self, done: Work) -> Work:
+        """Return as many forces as a lower rung took."""
+        return {self.unit: sum(number for unit, number in done.items() if unit != MAP_MADE)}
+
+
+RICH = "forces of the richest film"
+
+
+def _made(support: Reaction) -> dict[str, int]:
+    """Make the map of a support that has one by its first force, and return the work of that."""
+    film = getattr(getattr(support, "reaction", support), "film", None)
+    if not isinstance(film, FiniteMapSqueeze):
+        return {}
+    support.force([0.5 * support.clearance, 0.0], [0.0, support.clearance], 1.0)
+    return {MAP_MADE: 1}
+
+
+def _system(rotor: RigidRotor, reaction: Reaction) -> OrbitRotor:
+    """Return the constants of a rotor on the richest film, which is isotropic as the cheap one is."""
+    reach = getattr(reaction, "largest_eccentricity_ratio", 1.0)
+    return OrbitRotor(rotor.mass, abs(rotor.profile.speeds[0]), reaction.clearance, reaction, reach)
+
+
+def _unbalance(system: OrbitRotor, radius: Array) -> Array:
+    return np.asarray(np.abs(orbit_points(system, radius).pull) / system.speed**2)
+
+
+def _slope(system: OrbitRotor, radius: Array) -> float:
+    """Return du/de [kg m] at a radius, from d(u w^2)^2/de."""
+    squared = float(orbit_slope(system, radius)[0][0]) * system.clearance
+    return squared / (2.0 * float(_unbalance(system, radius)[0]) * system.speed**4)
+
+
+def damper_ladder(scene: Scene, quantity: str) -> Ladder:
+    """Return the ladder of a quantity of a rotor on a damper.
+
+    Raises
+    ------
+    InputError
+        If the scene has no rotor, no unbalance, no speed or no operation.
+    """
+    if scene.damper is None or scene.rigid_rotor is None:
+        raise InputError(f"rigid_rotor is required for {quantity}, got no such table")
+    unbalance = scene.rigid_rotor.unbalance or 1e-9 * scene.rigid_rotor.mass * scene.damper.clearance
+    if quantity not in (UP, DOWN) and scene.rigid_rotor.unbalance <= 0.0:
+        raise InputError(f"rigid_rotor.unbalance must be positive for {quantity}, got 0.0")
+    rotor = RigidRotor(
+        mass=scene.rigid_rotor.mass, speed=scene.speed, unbalance=unbalance, gravity=(0.0, 0.0)
+    )
+    dampers = _dampers(scene.damper.build(), fixed=scene.damper.film is not None)
+    stiffness = scene.damper.stiffness
+    top = dampers[-1][1] if scene.damper.film is None else _richest(scene.damper.build())
+    rungs = [
+        DamperRung(
+            name=name,
+            rotor=rotor,
+            support=_sprung(damper, stiffness),
+            rich=None if damper == top else _sprung(top, stiffness),
+            quantity=quantity,
+            prior=prior,
+            bound=TOP_BOUNDS.get(type(damper.film), math.inf),
+        )
+        for name, damper, prior in dampers
+    ]
+    units: dict[str, Callable[[], object]] = {rung.unit: _one(rung.support, scene.speed) for rung in rungs}
+    units[RICH] = _one(_sprung(top, stiffness), scene.speed)
+    return Ladder(rungs=tuple(rungs), unit=UNITS[quantity], units=units, nominal=NOMINAL)
+
+
+def _dampers(damper: PorousDamper, *, fixed: bool) -> list[tuple[str, PorousDamper, float]]:
+    """Return name, damper and prior error of the rungs: solid cage, thin layer, Darcy's; short, finite."""
+    if fixed:
+        return [(type(damper.film).__name__, damper, 0.0)]
+    short = _with(damper, film=ShortSqueeze())
+    slim = 0.02 * min((damper.length / (2.0 * damper.radius)) ** 2, 1.0)
+    rungs = []
+    if damper.cage is not None:
+        rungs.append(("short film, solid cage", _with(short, cage=None), slim))
+        if not damper.cage.thin:
+            try:
+                thin = _with(short, cage=replace(damper.cage, thin=True))
+                rungs.append(("short film, thin layer", thin, slim))
+            except RotorfilmError:  # an anisotropic or vented layer is never thin
+                pass
+    own = "" if damper.cage is None else ", thin layer" if damper.cage.thin else ", Darcy's layer"
+    rungs.append((f"short film{own}", short, slim))
+    richest = _richest(damper)
+    return rungs if richest == short else [*rungs, (f"finite film{own}", richest, 0.0)]
+
+
+def _richest(damper: PorousDamper) -> PorousDamper:
+    """Return the damper with a film of finite length; a fed one keeps its short film, its only one."""
+    if damper.feed is not None:
+        return _with(damper, film=ShortSqueeze())
+    return _with(damper, film=FiniteSqueeze() if isinstance(damper.extent, FullFilm) else FiniteMapSqueeze())
+
+
+def _with(damper: PorousDamper, **changes: object) -> PorousDamper:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ValidityWarning)
+        return replace(damper, **changes)  # type: ignore[arg-type]
+
+
+def _sprung(damper: PorousDamper, stiffness: float) -> Reaction:
+    return Sprung(reaction=damper, stiffness=stiffness) if stiffness else damper
+
+
+def _one(reaction: Reaction, speed: float) -> Callable[[], object]:
+    radius = 0.5 * reaction.clearance
+    return lambda: reaction.force([radius, 0.0], [0.0, speed * radius], speed)

@@ -1,0 +1,74 @@
+"""Dimensionless numbers of what films leave out."""
+
+import math
+
+import numpy as np
+import pytest
+
+from rotorfilm.bearings import JournalBearing
+from rotorfilm.scenes import bundled_scene
+from rotorfilm.scenes.lubricant_table import LubricantTable
+from rotorfilm.scenes.validity import TAYLOR, journal_numbers, journal_remarks
+
+BEARING = JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.02)
+OIL = LubricantTable(density=900.0, heat_capacity=2000.0, conductivity=0.15, thinning=0.04)
+
+
+def critical_taylor_number(wavenumber, nodes=24):
+    """Return T of (D^2 - a^2)^2 u = (1 - x) v, (D^2 - a^2) v = -T a^2 u between walls at 0 and 1.
+
+    The equations of a narrow gap whose outer wall rests: the mean flow falls linearly.
+    """
+    k = np.arange(nodes + 1)
+    x = np.cos(np.pi * k / nodes)
+    c = np.where((k == 0) | (k == nodes), 2.0, 1.0) * (-1.0) ** k
+    gap = x[:, None] - x[None, :] + np.eye(nodes + 1)
+    D = np.outer(c, 1.0 / c) / gap
+    D -= np.diag(D.sum(axis=1))
+    D *= 2.0  # from [-1, 1] to [0, 1]
+    at = 0.5 * (x + 1.0)
+    L = D @ D - wavenumber**2 * np.eye(nodes + 1)
+    # clamped u: u = u' = 0 at both walls, imposed in the four outer rows of the fourth-order operator
+    fourth = L @ L
+    fourth[[0, -1]] = np.eye(nodes + 1)[[0, -1]]
+    fourth[[1, -2]] = D[[0, -1]]
+    source = np.diag(1.0 - at)
+    source[[0, 1, -2, -1]] = 0.0
+    second = L.copy()
+    second[[0, -1]] = np.eye(nodes + 1)[[0, -1]]
+    back = np.eye(nodes + 1)
+    back[[0, -1]] = 0.0
+    # v = -T a^2 second^-1 back u, u = fourth^-1 source v
+    product = -(wavenumber**2) * np.linalg.solve(fourth, source @ np.linalg.solve(second, back))
+    values = np.linalg.eigvals(product)
+    real = values[np.abs(values.imag) < 1e-9 * np.abs(values)].real
+    return 1.0 / real.max()
+
+
+@pytest.mark.closed_form
+def test_taylor_limit_is_that_of_the_narrow_gap():
+    # T = 2 (speed R c/nu)^2 c/R where the inner wall turns alone
+    lowest = min(critical_taylor_number(a) for a in np.linspace(2.9, 3.4, 11))
+    assert lowest == pytest.approx(3390.0, rel=2e-3)
+    assert math.sqrt(0.5 * lowest) == pytest.approx(TAYLOR, rel=2e-3)
+
+
+def test_numbers_by_hand():
+    n = journal_numbers(BEARING, OIL, 100.0, (0.0, -5000.0))
+    assert n.taylor == pytest.approx(100.0 * 0.05 * 1e-4 * 900.0 / 0.02 * math.sqrt(1e-4 / 0.05))
+    assert n.inertia == pytest.approx(100.0 * 1e-8 * 900.0 / 0.02)
+    assert n.peclet == pytest.approx(100.0 * 1e-8 * 1.8e6 / 0.15)
+    # power 2 pi mu w^2 R^3 L/c over the heat of the flow w R c L/2
+    power, flow = 2.0 * math.pi * 0.02 * 1e4 * 0.05**3 * 0.05 / 1e-4, 100.0 * 0.05 * 1e-4 * 0.05 / 2.0
+    assert n.warming == pytest.approx(power / (1.8e6 * flow))
+    assert n.tension == pytest.approx(1e5 / (5000.0 / (0.1 * 0.05)))
+
+
+def test_warming_is_that_between_cold_walls_where_heat_is_conducted_away():
+    slow = journal_numbers(BEARING, OIL, 1.0, (0.0, -5000.0))
+    assert slow.peclet < 1.0
+    assert slow.warming == pytest.approx(0.02 * 0.05**2 / (8.0 * 0.15))
+
+
+def test_remarks_name_what_is_left_out():
+    assert [remark.partition(":")[0] for remark in journal_remarks(bundled_scene())] == ["heat"]
