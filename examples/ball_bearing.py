@@ -4,40 +4,13 @@ Each ball's film is solved in full, reduced to a law with three states, and runs
 """
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
-from rotorfilm import coefficients, cosimulate, equilibrium, export_fmu, simulate
-from rotorfilm.scenes.scene import parse_scene
+from rotorfilm import Scene, coefficients, cosimulate, equilibrium, export_fmu, simulate
 
-SCENE = """
-schema = 1
-title = "rotor on six preloaded balls"
-
-[contact]
-diameter = "10 mm"
-modulus = "206 GPa"
-poisson_ratio = 0.3
-plane_modulus = "206 GPa"
-viscosity = "20 mPa s"
-pressure_coefficient = "12 1/GPa"
-speed = "4 m/s"
-load = "30 N"
-cells = 32
-order = 3
-angles = ["-90 deg", "-30 deg", "30 deg", "90 deg", "150 deg", "210 deg"]
-preload = "20 N"
-
-[operation]
-speed = "8000 rpm"
-load = "25 N"
-
-[rigid_rotor]
-mass = "2.5 kg"
-unbalance = "10 g mm"
-"""
-
-scene = parse_scene(SCENE, "ball_bearing.toml")
+scene = Scene.load(Path(__file__).parent / "ball_bearing.toml")
 support = scene.contact.support()
 law = support.law
 print(
