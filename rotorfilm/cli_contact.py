@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 CONTACT_EXAMPLE = (
     'Example: rotorfilm contact --radius "10 mm" --mass "33 g" --modulus "206 GPa" --poisson-ratio 0.3 '
     '--viscosity "8 mPa s" --pressure-coefficient "5 1/GPa" --speed "0.9 m/s" --load "10 N" --sine 0.3 '
-    '--frequency "2 kHz"; without dimensions: rotorfilm contact --v 0.1 --q0 5 --w 1 --step 0.7'
-).replace("2 kHz", "12000 rad/s")
+    '--frequency "12000 rad/s"; without dimensions: rotorfilm contact --v 0.1 --q0 5 --w 1 --step 0.7'
+)
 
 BALL = (
     "radius", "modulus", "poisson_ratio", "viscosity", "pressure_coefficient", "speed", "load",

@@ -21,7 +21,7 @@ RPM = 30.0 / math.pi
 
 
 def rotor(
-    scene: Annotated[Path, typer.Argument(help="Scene file with a [shaft].", metavar="SCENE.toml")],
+    scene: Annotated[Path, typer.Argument(help="Scene file with a table shaft.", metavar="SCENE.toml")],
     out: Annotated[
         Path | None, typer.Option(help="Folder for pictures (PNG), tables (CSV) and the answer (JSON).")
     ] = None,
@@ -44,7 +44,7 @@ def rotor(
 
 def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
     """Return the rows that describe an answer."""
-    chart, found = answer.campbell, answer.threshold
+    found = answer.threshold
     rows = [("rotor", f"{answer.mass:.6g} kg, {answer.states} states")]
     rows += [(f"load on {name}", f"{np.hypot(*load):.6g} N") for name, load in answer.loads.items()]
     rows += [
@@ -65,9 +65,13 @@ def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
             )
         )
     for name, amplitude in answer.amplitudes.items():
+        assert answer.response is not None  # or there are no amplitudes
         k = int(np.argmax(amplitude))
         size = f"{amplitude[k]:.4g} N" if "_force_" in name else f"{amplitude[k] * 1e6:.4g} um"
-        rows.append((f"largest {name}", f"{size} at {chart.speeds[k] * RPM:.6g} rpm"))
+        turned = float(np.asarray(answer.response.frequency)[k])
+        beyond = found.speed is not None and turned > found.speed
+        remark = ", beyond the threshold" if beyond else ""
+        rows.append((f"largest {name}", f"{size} at {turned * RPM:.6g} rpm{remark}"))
     return rows
 
 
@@ -90,6 +94,7 @@ def plain_rotor(answer: RotorAnswer) -> dict[str, Any]:
             "log_decrement": _without_nan(chart.log_decrement),
             "direction": _without_nan(chart.direction),
         },
+        "response_speeds": [] if answer.response is None else np.asarray(answer.response.frequency).tolist(),
         "amplitudes": to_plain(dict(answer.amplitudes)),
     }
 

@@ -13,7 +13,7 @@ from ..model import Array, Linearization, force_outputs, journal_inputs
 from ..native.spec import NativeSpec
 from ..signals import Signal
 from .contact_law import ContactLaw
-from .contact_native import contact_spec
+from .contact_native import MOST_CONTACTS, contact_spec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -149,8 +149,10 @@ class BallSupport:
         """Return what changes sign where a ball leaves its film, and where its force vanishes."""
         return np.concatenate([self.law.events(t, part, [z]) for part, z in self._balls(x, u)])
 
-    def native(self) -> NativeSpec:
-        """Return the kernel `contact`."""
+    def native(self) -> NativeSpec | None:
+        """Return the kernel `contact`; None for more balls than it takes."""
+        if len(self.angles) > MOST_CONTACTS:
+            return None
         return contact_spec(self.law, self._motion, self._push, self.gap)
 
     @cached_property

@@ -13,6 +13,9 @@ from ..native.spec import NativeParameter, NativeSpec
 if TYPE_CHECKING:
     from .contact_law import ContactLaw
 
+MOST_CONTACTS = 64
+"""Contacts that the kernel takes (`native/kernel_contact.c`)."""
+
 
 def contact_spec(law: ContactLaw, motion: Array, push: Array, gap: float) -> NativeSpec:
     """Return the kernel `contact` for contacts of one law.

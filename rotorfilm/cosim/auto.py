@@ -9,6 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from ..errors import (
+    ContactError,
     ConvergenceError,
     CouplingError,
     CouplingWarning,
@@ -110,7 +111,7 @@ def _reference(attempt: Attempt, macro_step: float, length: float) -> Trajectory
     for scheme, times in REFERENCES[:-1]:
         try:
             return attempt(scheme, macro_step / times, length).trajectory
-        except (InputError, ConvergenceError, CouplingError):
+        except (ContactError, InputError, ConvergenceError, CouplingError):
             continue
     scheme, times = REFERENCES[-1]
     return attempt(scheme, macro_step / times, length).trajectory

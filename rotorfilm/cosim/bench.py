@@ -284,7 +284,7 @@ class Partners:
         }
 
     def _trial(self, t: float, dt: float, force: Array) -> Array:
-        """Return the motion after a step under a held force [kN], per kN, and go back."""
+        """Return the motion after a step under a held force [kN], per N, and go back."""
         state = self.save()
         motion = self.drive(t, dt, held_law(t, PROBE * force))
         self.restore(state)

@@ -8,7 +8,6 @@ from scipy.interpolate import BSpline
 from ..model import Array
 
 DEGREE = 5
-LEAST_CELLS = 5
 
 _AT_NODE = np.array([1.0, 26.0, 66.0, 26.0, 1.0]) / 120.0
 _SIXTH_DIFFERENCE = np.array([1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0])

@@ -8,7 +8,6 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Mapping
-from functools import cache
 from importlib.metadata import version
 from importlib.resources import files
 from importlib.util import find_spec
@@ -16,6 +15,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ..errors import FmuError
+from ..films.table_cache import cache_folder
 from ..native.library import SUFFIXES
 from ..native.spec import LIBRARIES
 from .macho import universal
@@ -136,7 +136,7 @@ def compiled(target: Target, sources: Mapping[str, bytes], library: str) -> byte
     if find_spec("ziglang") is None:
         raise FmuError(
             "platforms must be 'host' unless the zig compiler is installed: "
-            "python -m pip install 'rotorfilm[platforms]'"
+            "python -m pip install '.[platforms]' in the source of rotorfilm"
         )
     kept = _cache_folder() / _key(sources) / library / f"{target.folder}.{target.suffix}"
     if not kept.is_file():
@@ -164,11 +164,8 @@ def _compile(target: Target, sources: Mapping[str, bytes], library: str, result:
         (folder / output).replace(result)
 
 
-@cache
 def _cache_folder() -> Path:
-    from platformdirs import user_cache_path
-
-    return user_cache_path("rotorfilm") / "platforms"
+    return cache_folder() / "platforms"
 
 
 def _key(sources: Mapping[str, bytes]) -> str:

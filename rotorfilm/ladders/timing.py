@@ -58,7 +58,6 @@ def film_costs(
     states: States,
     *,
     rounds: int,
-    smallest: int = BATCH[0],
     report: Report = silent,
 ) -> dict[str, FilmCost]:
     """Return the cost of each film at the given states, which repeat as often as the batch needs.

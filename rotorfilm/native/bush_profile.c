@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-void rf_profile_nodes(rf_profile *p, double center, double extent)
+void rf_bush_profile_nodes(rf_bush_profile *p, double center, double extent)
 {
     p->step = extent / (double)(p->closed ? p->n : p->n - 1);
     for (size_t i = 0; i < p->n; ++i) {
@@ -14,7 +14,7 @@ void rf_profile_nodes(rf_profile *p, double center, double extent)
     }
 }
 
-void rf_profile_press(rf_profile *p)
+void rf_bush_profile_press(rf_bush_profile *p)
 {
     const size_t n = p->n, bytes = n * sizeof(double);
     memset(p->load, 0, bytes);
@@ -50,7 +50,7 @@ void rf_profile_press(rf_profile *p)
         p->total += p->load[i];
 }
 
-double rf_profile_stiffness(const rf_profile *p, const double *change, double *load)
+double rf_bush_profile_stiffness(const rf_bush_profile *p, const double *change, double *load)
 {
     double sum = 0.0;
     for (size_t i = 0; i < p->n; ++i)

@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 /* All arrays have n numbers; an element lies between a node and the next one. */
-typedef struct rf_profile {
+typedef struct rf_bush_profile {
     size_t n;
     int closed;  /* all around: the last node is next to the first */
     double step; /* angle between neighbors */
@@ -14,13 +14,13 @@ typedef struct rf_profile {
        diagonal and the entries of each element, half the angle in contact and its derivatives. */
     double *depth, *load, *diagonal, *beside, *angle_slope;
     double angle, total; /* total = sum of the loads */
-} rf_profile;
+} rf_bush_profile;
 
 /* Set out the nodes on an arc of width `extent` about `center`. */
-void rf_profile_nodes(rf_profile *p, double center, double extent);
+void rf_bush_profile_nodes(rf_bush_profile *p, double center, double extent);
 /* Press the shaft into the liner to the depths p->depth. */
-void rf_profile_press(rf_profile *p);
+void rf_bush_profile_press(rf_bush_profile *p);
 /* d(load)/d(depth) times a change of depth; the sum of it over the nodes is returned. */
-double rf_profile_stiffness(const rf_profile *p, const double *change, double *load);
+double rf_bush_profile_stiffness(const rf_bush_profile *p, const double *change, double *load);
 
 #endif

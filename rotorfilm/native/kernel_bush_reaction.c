@@ -23,7 +23,7 @@ enum { ARRAYS = 8, WORK = 9 + ROWS };
 
 typedef struct model {
     rf_bush bush;
-    rf_profile profile; /* scratch, as are the arrays behind it */
+    rf_bush_profile profile; /* scratch, as are the arrays behind it */
     int local;
     double center, extent, retardation;
     double unit, friction; /* force of a unit of load; friction with its sign */
@@ -45,12 +45,12 @@ static double pressure(const model *m, size_t i)
 /* Depths, loads and heat at wear depths x under the input u. */
 static void press(model *m, const double *x, const double *u)
 {
-    rf_profile *p = &m->profile;
+    rf_bush_profile *p = &m->profile;
     const rf_bush *b = &m->bush;
     const double mx = u[0] + m->retardation * u[2], my = u[1] + m->retardation * u[3];
     for (size_t i = 0; i < p->n; ++i)
         p->depth[i] = (p->cosine[i] * mx + p->sine[i] * my - x[i]) / b->is.radius - b->gap;
-    rf_profile_press(p);
+    rf_bush_profile_press(p);
     const double a = fmax(p->angle, LEAST_ANGLE), s = sin(a);
     m->friction = u[4] > 0.0 ? b->grip : u[4] < 0.0 ? -b->grip : 0.0;
     m->work = b->is.pressure_work * b->grip * fabs(u[4]);
@@ -65,7 +65,7 @@ static void press(model *m, const double *x, const double *u)
 /* Raise unless the shaft is within the housing and its contact on the arc of nodes. */
 static int require_place(const model *m, const double *u, rf_message *why)
 {
-    const rf_profile *p = &m->profile;
+    const rf_bush_profile *p = &m->profile;
     const double housing = m->bush.is.radius + m->bush.is.thickness - m->bush.is.shaft_radius;
     const double moved = hypot(u[0], u[1]), mx = u[0] + m->retardation * u[2], my = u[1] + m->retardation * u[3];
     if (!(moved < housing))
@@ -120,7 +120,7 @@ static void add_force(const model *m, const double *load, double *y, size_t stri
     y[2 * stride] = m->friction * m->unit * m->bush.is.shaft_radius * sum;
 }
 
-static size_t deepest(const rf_profile *p)
+static size_t deepest(const rf_bush_profile *p)
 {
     size_t top = 0;
     for (size_t i = 1; i < p->n; ++i)
@@ -131,7 +131,7 @@ static size_t deepest(const rf_profile *p)
 static int output(const void *kernel, const rf_point *at, double *y, rf_message *why)
 {
     model *m = writable(kernel);
-    const rf_profile *p = &m->profile;
+    const rf_bush_profile *p = &m->profile;
     const int status = enter(m, at, why);
     if (status != RF_OK)
         return status;
@@ -182,9 +182,9 @@ static double whole_change(const model *m, double total, double angle)
 static void column(const model *m, const double *change, double *rates, size_t stride, double *outputs,
                    size_t output_stride)
 {
-    const rf_profile *p = &m->profile;
+    const rf_bush_profile *p = &m->profile;
     double *load = m->scratch[1], angle = 0.0, own, whole;
-    const double total = rf_profile_stiffness(p, change, load);
+    const double total = rf_bush_profile_stiffness(p, change, load);
     for (size_t i = 0; i < p->n; ++i)
         angle += p->angle_slope[i] * change[i];
     const double all = p->total > 0.0 ? whole_change(m, total, angle) : 0.0;
@@ -202,7 +202,7 @@ static void column(const model *m, const double *change, double *rates, size_t s
 static int jacobian(const void *kernel, const rf_point *at, rf_jacobian *answer, rf_message *why)
 {
     model *m = writable(kernel);
-    const rf_profile *p = &m->profile;
+    const rf_bush_profile *p = &m->profile;
     const size_t n = p->n;
     double *change = m->scratch[0], own, whole;
     const int status = enter(m, at, why);
@@ -258,7 +258,7 @@ static double dot(size_t n, const double *a, const double *b)
 /* g and r of the last contact; lower and upper are the entries of h D K for h = 1 afterwards. */
 static void take_slopes(const model *m, matrix *a)
 {
-    const rf_profile *p = &m->profile;
+    const rf_bush_profile *p = &m->profile;
     const double per = -1.0 / m->bush.is.radius;
     for (size_t i = 0; i < p->n; ++i) {
         const size_t before = i ? i - 1 : p->n - 1;
@@ -270,7 +270,7 @@ static void take_slopes(const model *m, matrix *a)
 
 static void factor(const model *m, double h, matrix *a)
 {
-    const rf_profile *p = &m->profile;
+    const rf_bush_profile *p = &m->profile;
     for (size_t i = 0; i < p->n; ++i) {
         double own;
         rate_slopes(m, i, &own, a->g + i);
@@ -405,7 +405,7 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
         free(m);
         return NULL;
     }
-    rf_profile *p = &m->profile;
+    rf_bush_profile *p = &m->profile;
     double *block = malloc((ARRAYS + WORK) * p->n * sizeof *block);
     double **const arrays[ARRAYS] = {&p->cosine, &p->sine,     &p->weight, &p->depth,
                                      &p->load,   &p->diagonal, &p->beside, &p->angle_slope};
@@ -418,7 +418,7 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
         *arrays[k] = block + k * p->n;
     for (size_t k = 0; k < WORK; ++k)
         m->scratch[k] = block + (ARRAYS + k) * p->n;
-    rf_profile_nodes(p, m->center, m->extent);
+    rf_bush_profile_nodes(p, m->center, m->extent);
     m->unit = m->bush.is.force_unit / m->bush.is.compliance;
     const rf_sizes mine = {RF_BUSH_PARAMETERS + 1, 5, 5, p->n, p->n + (m->local ? p->n : 1) + 1};
     *sizes = mine;

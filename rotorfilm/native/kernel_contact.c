@@ -49,10 +49,12 @@ static int take_tables(model *self, const rf_tables *tables, rf_message *why)
     rf_sizes sizes = {0, 0, 0, 0, 0};
     if (!law || !(self->linear = rf_linear_type.create(tables, &sizes, why)))
         return RF_INVALID;
+    if (motion->extent[0] > MOST)
+        return rf_say(why, RF_INVALID, "contacts must be %d at most, got %u", MOST, (unsigned)motion->extent[0]);
     self->contacts = motion->extent[0], self->inputs = motion->extent[1];
     self->outputs = push->extent[0], self->states = sizes.states;
     if (push->extent[1] != self->contacts || sizes.inputs != self->contacts
-        || sizes.outputs != self->contacts || law->extent[0] != LAW || self->contacts > MOST)
+        || sizes.outputs != self->contacts || law->extent[0] != LAW)
         return rf_say(why, RF_INVALID, "the tables of contacts must fit each other, got %zu and %u contacts",
                       self->contacts, (unsigned)push->extent[1]);
     self->motion = motion->numbers, self->push = push->numbers, self->law = law->numbers;

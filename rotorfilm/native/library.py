@@ -5,14 +5,13 @@ from __future__ import annotations
 import ctypes
 import sys
 from collections.abc import Sequence
-from ctypes import POINTER, c_double, c_int, c_int32, c_size_t, c_void_p
+from ctypes import c_double, c_int, c_int32, c_size_t, c_void_p
 from functools import cache
 from importlib.resources import as_file, files
 from typing import Any, ClassVar
 
 from ..errors import RotorfilmError
 
-NUMBERS = POINTER(c_double)
 SUFFIXES = {"win32": ".dll", "darwin": ".dylib"}
 REMEDY = (
     "install rotorfilm with a C compiler present, "

@@ -9,7 +9,7 @@ from enum import Enum
 import numpy as np
 from scipy.optimize import brentq
 
-from ..errors import ConvergenceError, InputError, require_count, require_finite
+from ..errors import ConvergenceError, InputError, require_count, require_finite, require_positive
 from ..model import Array
 from .branch_point import Curve, Family, Point
 from .hopf import HopfPoint
@@ -124,6 +124,10 @@ def continue_orbits(
     Bifurcations are located between two orbits to a millionth of the step: folds where the parameter turns,
     the others where a Floquet multiplier leaves the unit circle at -1, in a pair, or at 1 without a fold.
     """
+    require_positive("largest_step", largest_step)
+    require_positive("tolerance", tolerance)
+    if direction not in (1, -1):
+        raise InputError(f"direction must be 1 or -1, got {direction!r}")
     require_count("most", most)
     low, high = (float(value) for value in require_finite("bounds", bounds))
     if not low < high:

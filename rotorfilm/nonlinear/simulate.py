@@ -12,6 +12,7 @@ from ..model import Array
 from ..results import Trajectory
 from ..rotors import MountedRotor
 from ..signals import names
+from ..transient.times import require_longest_step, sample_times
 from .march import March, rate_of
 from .modal import Parts, modal_rotor, take_apart
 
@@ -74,7 +75,7 @@ def simulate_rotor(
     """
     require_positive("duration", duration)
     require_positive("rtol", rtol)
-    require_positive("max_step", max_step if math.isfinite(max_step) else 1.0)
+    require_longest_step(max_step)
     parts = take_apart(mounted)
     modal = modal_rotor(parts, _speed(parts))
     state = np.asarray(mounted.initial_state if initial_state is None else initial_state, dtype=float)
@@ -107,20 +108,6 @@ def _speed(parts: Parts) -> float:
             "take simulate(mount(rotor, ...), bearing)"
         )
     return float(max(profile.speeds, key=abs))
-
-
-def sample_times(duration: float, samples: int, times: ArrayLike | None) -> Array:
-    """Return increasing times within [0, duration]."""
-    if times is None:
-        if not isinstance(samples, int) or samples < 2:
-            raise InputError(f"samples must be an integer of at least 2, got {samples!r}")
-        return np.linspace(0.0, duration, samples)
-    grid = np.atleast_1d(require_finite("times", times))
-    if grid.ndim != 1 or np.any(np.diff(grid) <= 0.0):
-        raise InputError(f"times must increase strictly, got {times!r}")
-    if grid.size and (grid[0] < 0.0 or grid[-1] > duration):
-        raise InputError(f"times must lie within [0, {duration!r}] s, got {grid[0]!r} to {grid[-1]!r}")
-    return grid
 
 
 def _trajectory(mounted: MountedRotor, grid: Array, kept: list[Array], march: March) -> Trajectory:

@@ -37,6 +37,10 @@ NOT_A_BEARING = ("title", "operation", "lubricant", "rigid_rotor", "excitation",
 """Fields of a scene that do not make one by themselves; every other field is a bearing or has some."""
 
 
+COMMANDS = {"shaft": "rotorfilm rotor", "damper": "rotorfilm damper", "contact": "rotorfilm contact"}
+"""Where to turn with a scene that has no journal and asks no question."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Scene:
     """Bearings, what they carry, how it is run, and what is asked.
@@ -131,9 +135,11 @@ class Scene:
             raise SceneError(f"{path}: scene file cannot be read: {reason}") from None
         return parse_scene(document, str(path))
 
-    def solve(self) -> Answer | QuestionAnswer:
-        """Return the answer to the question, or `describe()` where none is asked."""
-        return self.describe() if self.question is None else self.ask()
+    def solve(self) -> Answer | BushAnswer | QuestionAnswer:
+        """Return the answer to the question; where none is asked `describe()`, of a bush `melting()`."""
+        if self.question is not None:
+            return self.ask()
+        return self.melting() if self.bush is not None and self.journal is None else self.describe()
 
     def ask(self) -> QuestionAnswer:
         """Return the answer to the question by the first rung that meets its tolerance.
@@ -194,7 +200,10 @@ class Scene:
     def bearing(self) -> JournalBearing:
         """The journal bearing with its film law; raises InputError if the scene has none."""
         if self.journal is None:
-            raise InputError("journal is required for a film, got no such table")
+            hints = (
+                f"; `{command}` is for [{name}]" for name, command in COMMANDS.items() if getattr(self, name)
+            )
+            raise InputError(f"journal is required for a film, got no such table{''.join(hints)}")
         return self.journal.build()
 
     @property

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import RotorfilmError, ValidityWarning
+from ..scenes.bush import BushAnswer
 from ..scenes.ladder import QuestionAnswer
 from ..scenes.scene import read_scene
 from ..scenes.solve import Answer
@@ -27,6 +28,11 @@ UNITS = {
     "threshold_speed": "rad/s",
     "whirl_ratio": "1",
     "error_estimate": "1",
+    "contact_angle": "rad",
+    "settlement": "m",
+    "maximum_pressure": "Pa",
+    "critical_speed": "rad/s",
+    "onset_speed": "rad/s",
 }
 """Units of what a scene without a question answers, and of the estimate of one with it."""
 
@@ -46,7 +52,16 @@ def solve_point(scene: Mapping[str, Any], values: Mapping[str, Any], source: str
     return {**row, "remarks": "; ".join(told)}
 
 
-def _kept(answer: Answer | QuestionAnswer) -> Row:
+def _kept(answer: Answer | BushAnswer | QuestionAnswer) -> Row:
+    if isinstance(answer, BushAnswer):
+        contact = answer.contact
+        return {
+            "contact_angle": contact.contact_angle,
+            "settlement": contact.settlement,
+            "maximum_pressure": contact.maximum_pressure,
+            "critical_speed": contact.critical_speed,
+            "onset_speed": answer.onset_speed,
+        }
     if isinstance(answer, QuestionAnswer):
         return {
             "value": np.asarray(answer.value, dtype=float).tolist(),

@@ -97,7 +97,7 @@ def _require_xarray() -> None:
         import xarray
     except ImportError:
         raise InputError(
-            "a sweep needs the extra `sweep`: python -m pip install 'rotorfilm[sweep]'"
+            "a sweep needs the extra `sweep`: python -m pip install '.[sweep]' in its source"
         ) from None
     assert xarray is not None
     assert h5netcdf is not None

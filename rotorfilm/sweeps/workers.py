@@ -49,7 +49,9 @@ def solved_by_dask(
         from distributed import Client
         from distributed import as_completed as completed
     except ImportError:
-        raise InputError("dask needs the extra `sweep`: python -m pip install 'rotorfilm[sweep]'") from None
+        raise InputError(
+            "dask needs the extra `sweep`: python -m pip install '.[sweep]' in its source"
+        ) from None
     try:
         client = Client(address, timeout=10)
     except OSError as error:

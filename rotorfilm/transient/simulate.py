@@ -14,6 +14,7 @@ from ..results import Trajectory
 from ..signals import names
 from .coupled import Coupled
 from .integrate import CONTACT_GAP, Integration, integrate
+from .times import require_longest_step, sample_times
 
 
 def simulate(
@@ -72,8 +73,9 @@ def simulate(
     require_positive("duration", duration)
     require_positive("rtol", rtol)
     system = Coupled(rotor, reaction)
-    grid = _grid(duration, samples, times)
+    grid = sample_times(duration, samples, times)
     state = _initial(system, system.initial_state if initial_state is None else initial_state)
+    require_longest_step(max_step)
     settings = Integration(method=method, rtol=rtol, max_step=max_step)
     kept: list[tuple[float, Array]] = [(0.0, state)] if grid.size and grid[0] == 0.0 else []
     try:
@@ -87,19 +89,6 @@ def simulate(
     except ConvergenceError as failure:
         raise ConvergenceError(str(failure), _trajectory(system, kept)) from failure
     return _trajectory(system, kept)
-
-
-def _grid(duration: float, samples: int, times: ArrayLike | None) -> Array:
-    if times is None:
-        if not isinstance(samples, int) or samples < 2:
-            raise InputError(f"samples must be an integer of at least 2, got {samples!r}")
-        return np.linspace(0.0, duration, samples)
-    grid = np.atleast_1d(require_finite("times", times))
-    if grid.ndim != 1 or np.any(np.diff(grid) <= 0.0):
-        raise InputError(f"times must increase strictly, got {times!r}")
-    if grid.size and (grid[0] < 0.0 or grid[-1] > duration):
-        raise InputError(f"times must lie within [0, {duration!r}] s, got {grid[0]!r} to {grid[-1]!r}")
-    return grid
 
 
 def _initial(system: Coupled, initial_state: ArrayLike) -> Array:

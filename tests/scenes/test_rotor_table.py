@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -24,7 +25,7 @@ from rotorfilm.rotors import (
     TiltSpring,
     Unbalance,
 )
-from rotorfilm.scenes import bundled_scene, parse_scene
+from rotorfilm.scenes import Scene, bundled_scene, parse_scene
 from rotorfilm.scenes.rotor import campbell_columns, response_columns, solve_rotor
 
 RPM = math.pi / 30.0
@@ -153,7 +154,9 @@ def test_the_answer_is_that_of_the_library():
     bearings, speeds = asked.shaft.build_bearings(), asked.shaft.speeds.build()
     assert answer.critical_speeds == critical_speeds(rotor, bearings, speeds)
     assert answer.threshold == rotor_threshold(rotor, bearings, speeds)
-    wanted = unbalance_response(rotor, bearings, speeds)
+    turned = np.asarray(answer.response.frequency)
+    assert set(speeds.tolist()) <= set(turned.tolist())
+    wanted = unbalance_response(rotor, bearings, turned)
     k = wanted.output_labels.index("left_x")
     assert_allclose(answer.amplitudes["left_x"], np.abs(wanted.complex[k, 0]), rtol=1e-12)
     assert "left_vx" not in answer.amplitudes
@@ -232,3 +235,16 @@ def test_mistakes_are_named(parts, match):
 
 def test_the_default_element_is_the_fourth_order_one():
     assert scene(HEAD, SHAFT, SPEEDS, SPRINGS).shaft.beam == FourthOrderBeam()
+
+
+@pytest.mark.closed_form
+def test_a_peak_between_the_speeds_is_not_missed():
+    # Each resonance is as high as on a grid a hundred times finer.
+    shown = Path(__file__).parents[2] / "examples" / "flexible_rotor.toml"
+    asked = Scene.load(shown)
+    coarse = replace(asked.shaft.speeds, first=40.0, last=200.0, count=5)
+    answer = solve_rotor(replace(asked, shaft=replace(asked.shaft, speeds=coarse)))
+    rotor, bearings = asked.shaft.build(), asked.shaft.build_bearings()
+    fine = unbalance_response(rotor, bearings, np.linspace(100.0, 120.0, 401))
+    k = fine.output_labels.index("large_y")
+    assert answer.amplitudes["large_y"].max() == pytest.approx(np.abs(fine.complex[k, 0]).max(), rel=0.02)

@@ -179,3 +179,14 @@ def test_bad_parameters_are_named_before_the_work(parameters, message):
 def test_bad_workers_are_named():
     with pytest.raises(InputError, match="workers must be an integer, at least 1, got 0"):
         sweep(SCENE, {"journal.clearance": CLEARANCES}, workers=0)
+
+
+def test_a_bush_answers_with_its_contact():
+    scene = {
+        "schema": 1,
+        "bush": {"material": "f4k20", "melting_heat": "1e8 J/m3"},
+        "operation": {"speed": "3 rad/s", "load": "3750 N"},
+    }
+    found = sweep(scene, {"operation.load": ["2 kN", "4 kN"]}, workers=1)
+    assert float(found["contact_angle"][1]) > float(found["contact_angle"][0]) > 0.0
+    assert found["critical_speed"].attrs["units"] == "rad/s"

@@ -56,9 +56,9 @@ def ladder_of(scene: Scene) -> Ladder:
             return build(scene, quantity)
     tables = sorted({table for table, name in LADDERS if name == quantity})
     known = sorted({name for table, name in LADDERS if getattr(scene, table, None) is not None})
+    needs = f", which needs [{'] or ['.join(tables)}]" if tables else ""
     raise InputError(
-        f"question.quantity must be one that this scene has ({', '.join(known)}), got {quantity!r}, "
-        f"which needs [{'] or ['.join(tables)}]"
+        f"question.quantity must be one that this scene has ({', '.join(known)}), got {quantity!r}{needs}"
     )
 
 
