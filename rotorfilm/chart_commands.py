@@ -175,6 +175,42 @@ def contact_limits(out: Folder = OUT, json: Json = False) -> None:
     console.print_rows("", files)
 
 
+@chart_app.command(epilog="Example: rotorfilm chart scene examples/question.toml")
+def scene(
+    file: Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file with a question.")],
+    out: Folder = OUT,
+    json: Json = False,
+) -> None:
+    """Estimated error against cost of all models that could answer a scene, and the one that does."""
+    with console.progress_display() as report:
+        report(0.0, "packages")
+        from .charts import RungPoint, plot_scene_ladder
+        from .scenes import Scene
+        from .scenes.questions.whole import whole_ladder
+
+        loaded = Scene.load(file)
+        report(0.1, "every model of the ladder")
+        result = whole_ladder(loaded)
+        points = [
+            RungPoint(name=r.name, error_estimate=r.error_estimate, cost=r.cost, chosen=r.chosen)
+            for r in result.rungs
+            if r.error_estimate is not None and r.cost is not None and r.error_estimate > 0.0
+        ]
+        title = f"{loaded.title}: {result.quantity}"
+        axes = plot_scene_ladder(points, title=title, tolerance=result.tolerance)
+        files = _write(out, f"chart_{file.stem}", result, [axes])
+        report(1.0, "done")
+    if json:
+        console.print_json(result)
+        return
+    rows = [
+        (("* " if r.chosen else "  ") + r.name, _number(r.error_estimate), _milliseconds(r.cost), r.reason)
+        for r in result.rungs
+    ]
+    console.print_columns(("model", "estimated error", "cost", "why not"), rows)
+    console.print_rows("", files)
+
+
 @chart_app.command(epilog="Example: rotorfilm chart limits --json")
 def limits(out: Folder = OUT, json: Json = False) -> None:
     """Atlas of where methods fail: film extent, order, length, grid, linearization, macro step."""
@@ -308,3 +344,7 @@ def _write(out: Path, name: str, result: Tabular, axes: Sequence[Axes]) -> list[
 
 def _costs(cost: FilmCost) -> tuple[str, str]:
     return f"{1e6 * cost.force_time:.3g} us", f"{1e6 * cost.call_time:.3g} us"
+
+
+def _milliseconds(cost: float | None) -> str:
+    return "" if cost is None else f"{1e3 * cost:.3g} ms"

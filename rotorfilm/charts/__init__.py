@@ -19,11 +19,13 @@ from .rotor import (
     plot_mode_shape,
     plot_unbalance_response,
 )
+from .scene_ladder import RungPoint, plot_scene_ladder
 from .whirl import plot_basin, plot_orbit_curves
 from .whirl_verdicts import plot_journal_stability, plot_thresholds
 from .work_precision import plot_force_error, plot_journal_accuracy
 
 __all__ = [
+    "RungPoint",
     "new_axes",
     "new_figure",
     "plot_basin",
@@ -51,6 +53,7 @@ __all__ = [
     "plot_orbit_curves",
     "plot_orbits",
     "plot_phase",
+    "plot_scene_ladder",
     "plot_shaft_flux_error",
     "plot_thresholds",
     "plot_transmissibility",
