@@ -32,12 +32,21 @@ void rf_eliminate(size_t n, double *q, size_t m, double *p)
             p[i * m + j] /= q[i * n + i];
 }
 
+/* Four sums at once: one alone would wait for each of its additions. */
+static double product(size_t n, const double *a, const double *v)
+{
+    double sum[4] = {0.0, 0.0, 0.0, 0.0};
+    size_t j = 0;
+    for (; j + 4 <= n; j += 4)
+        for (size_t k = 0; k < 4; ++k)
+            sum[k] += a[j + k] * v[j + k];
+    for (; j < n; ++j)
+        sum[0] += a[j] * v[j];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
 void rf_add_product(size_t rows, size_t columns, double scale, const double *a, const double *v, double *sum)
 {
-    for (size_t i = 0; i < rows; ++i) {
-        double product = 0.0;
-        for (size_t j = 0; j < columns; ++j)
-            product += a[i * columns + j] * v[j];
-        sum[i] += scale * product;
-    }
+    for (size_t i = 0; i < rows; ++i)
+        sum[i] += scale * product(columns, a + i * columns, v);
 }
