@@ -132,8 +132,8 @@ def print_decay():
         small = SmallMotion(c.equations, rest.levels[0].pressure, rest.delta)
         for W in (0.5, 1.0):
             s = small.natural_motion(W, 1j * np.sqrt(1.57 / W))
-            pushed = c.state(rest.pressure, rest.delta, velocity=0.1)
-            control = AdaptiveSteps(tolerance=2e-5, largest=0.1)
+            pushed = c.state(rest.pressure, rest.delta, velocity=0.05)
+            control = AdaptiveSteps(tolerance=5e-6, largest=0.05)
             run = c.simulate(pushed, duration=26.0, W=W, control=control)
             period = 2.0 * np.pi / s.imag
             given = c.drive(
