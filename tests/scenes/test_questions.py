@@ -235,8 +235,9 @@ def test_critical_speed_of_a_shaft_converges_as_the_order_increment_says():
     assert answer.met
     assert answer.model == rungs[1].name
     assert answer.rungs[0].doubtful  # the mesh of the file has no coarser one beside it
-    # what the next mesh changes is what was estimated, but for the error of that
-    assert answer.error_estimate == pytest.approx(abs(answer.value / finer.value - 1.0), rel=0.3)
+    # what the next mesh changes is what was estimated, but for the error of that and roundoff of the modes
+    change = abs(answer.value / finer.value - 1.0)
+    assert answer.error_estimate == pytest.approx(change, rel=0.3, abs=1.5e-10)
 
 
 @pytest.mark.parametrize(("tolerance", "model"), [(0.5, "closed form of the flux"), (1e-3, "exact")])
