@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
 from matplotlib.axes import Axes
 
 from ..ladders.limits import PANELS, LimitAtlas, Panel
@@ -35,7 +34,7 @@ def plot_limits(atlas: LimitAtlas) -> list[Axes]:
 
 def _finish(axes: Axes, panel: Panel) -> None:
     axes.set(title=panel.title, xlabel=panel.x_label, ylabel=panel.y_label, yscale="log")
-    if np.isfinite(axes.dataLim.x0) and axes.dataLim.x0 > 0.0 and panel.x_label.endswith("diameter"):
+    if panel.logarithmic:
         axes.set_xscale("log")
     if panel.level is not None:
         axes.axhline(panel.level, color="k", linewidth=1.0, linestyle="--", label=f"failed: {panel.level:g}")

@@ -12,7 +12,27 @@ from .scheme import extrapolated_law, extrapolation, require_degree, started
 
 
 @dataclass(frozen=True, kw_only=True)
-class GaussSeidel:
+class _Extrapolating:
+    """What the explicit schemes share: a polynomial in time through the latest forces."""
+
+    degree: int = 0
+
+    def __post_init__(self) -> None:
+        require_degree(self.degree)
+
+    @property
+    def order(self) -> int:
+        """Order of convergence in the macro step."""
+        return self.degree + 1
+
+    @property
+    def needs(self) -> Needs:
+        """A rotor that takes laws, unless the force is held."""
+        return Needs(laws=self.degree > 0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class GaussSeidel(_Extrapolating):
     """Rotor first, under extrapolated forces, then the films at the rotor's new state.
 
     Parameters
@@ -26,25 +46,10 @@ class GaussSeidel:
         If the degree is none of these.
     """
 
-    degree: int = 0
-
-    def __post_init__(self) -> None:
-        require_degree(self.degree)
-
-    @property
-    def order(self) -> int:
-        """Order of convergence in the macro step."""
-        return self.degree + 1
-
     @property
     def label(self) -> str:
         """Its name in print."""
         return f"Gauss-Seidel {self.degree}"
-
-    @property
-    def needs(self) -> Needs:
-        """A rotor that takes laws, unless the force is held."""
-        return Needs(laws=self.degree > 0)
 
     def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
         """Advance by one macro step, at the start by a part of it; see `Scheme`."""
@@ -54,7 +59,7 @@ class GaussSeidel:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Jacobi:
+class Jacobi(_Extrapolating):
     """Rotor and films in parallel: forces extrapolated for the rotor, its motion for the films.
 
     Parameters
@@ -68,25 +73,10 @@ class Jacobi:
         If the degree is none of these.
     """
 
-    degree: int = 0
-
-    def __post_init__(self) -> None:
-        require_degree(self.degree)
-
-    @property
-    def order(self) -> int:
-        """Order of convergence in the macro step."""
-        return self.degree + 1
-
     @property
     def label(self) -> str:
         """Its name in print."""
         return f"Jacobi {self.degree}"
-
-    @property
-    def needs(self) -> Needs:
-        """A rotor that takes laws, unless the force is held."""
-        return Needs(laws=self.degree > 0)
 
     def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
         """Advance by one macro step, at the start by a part of it; see `Scheme`."""

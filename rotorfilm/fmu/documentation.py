@@ -230,7 +230,7 @@ KERNELS = {
             "Small displacements of the rotor, a speed given over time (piecewise linear); each film as the "
             "FMU of that bearing says. q are the coordinates of the rotor, reduced or not. Co-Simulation "
             "integrates rotor and films together by RODAS, of order 4, L-stable, with the exact Jacobian: no "
-            "macro step is too long for stability. A step that ends at the wall is discarded."
+            "macro step is too long for stability."
         ),
     },
     "linear": {

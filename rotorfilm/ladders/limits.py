@@ -66,6 +66,8 @@ class Panel:
     ----------
     title : str
     x_label, y_label : str
+    logarithmic : bool
+        Whether the abscissa is drawn so.
     level : float or None
         Error from which a curve counts as failed; None where the ordinate itself is the limit.
     """
@@ -74,6 +76,7 @@ class Panel:
     x_label: str
     y_label: str
     level: float | None = FAILED
+    logarithmic: bool = False
 
 
 PANELS = {
@@ -87,7 +90,12 @@ PANELS = {
         x_label="eccentricity ratio",
         y_label="error of the force, same arc",
     ),
-    "length": Panel(title="short bearing", x_label="length / diameter", y_label="error of the static force"),
+    "length": Panel(
+        title="short bearing",
+        x_label="length / diameter",
+        y_label="error of the static force",
+        logarithmic=True,
+    ),
     "grid": Panel(title="grid of the Reynolds film", x_label="eccentricity ratio", y_label="error of K"),
     "linearization": Panel(
         title="linearization",

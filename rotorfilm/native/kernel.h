@@ -52,7 +52,7 @@ typedef struct rf_kernel_type {
     void *(*create)(const rf_tables *tables, rf_sizes *sizes, rf_message *why);
     void (*destroy)(void *kernel);
 
-    /* Take all parameters, or none of them and answer RF_INVALID. */
+    /* Take all parameters, or answer RF_INVALID: then nothing is asked before a call that succeeds. */
     int (*set_parameters)(void *kernel, const double *parameters, rf_message *why);
 
     int (*output)(const void *kernel, const rf_point *at, double *y, rf_message *why);

@@ -183,7 +183,6 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
     return self;
 }
 
-/* A bearing that refuses leaves those before it changed: all are checked by the simulator's next try. */
 static int set_parameters(void *kernel, const double *p, rf_message *why)
 {
     model *self = kernel;

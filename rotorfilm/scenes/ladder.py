@@ -16,7 +16,6 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from ..errors import RotorfilmError, ValidityWarning, require_positive
-from ..model import Array
 
 SAFETY = 1.5
 """An answer is accepted if so many times its estimated error is below the tolerance."""
@@ -372,9 +371,3 @@ def _trusted_error(report: RungReport) -> float:
     """Return the error by which the closest of refused rungs is found: one in doubt comes last."""
     error = report.error_estimate
     return math.inf if error is None or report.doubtful or not math.isfinite(error) else error
-
-
-def largest_relative(value: Array | float, other: Array | float) -> float:
-    """Return the largest difference of two values relative to the largest entry of the first [1]."""
-    scale = float(np.max(np.abs(value)))
-    return float(np.max(np.abs(np.asarray(other) - np.asarray(value)))) / scale if scale else math.inf

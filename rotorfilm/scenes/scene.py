@@ -128,12 +128,7 @@ class Scene:
             If the file cannot be read, is no TOML, or breaks the schema; the message names the file, the
             dotted key, the rule and the value.
         """
-        try:
-            document = Path(path).read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as error:
-            reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
-            raise SceneError(f"{path}: scene file cannot be read: {reason}") from None
-        return parse_scene(document, str(path))
+        return read_scene(read_tables(path), str(path))
 
     def solve(self) -> Answer | BushAnswer | QuestionAnswer:
         """Return the answer to the question; where none is asked `describe()`, of a bush `melting()`."""
@@ -238,12 +233,25 @@ class Scene:
 
 def parse_scene(document: str, source: str) -> Scene:
     """Return the scene that a TOML text describes; `source` names it in messages."""
+    return read_scene(_parsed(document, source), source)
+
+
+def read_tables(path: str | PathLike[str]) -> dict[str, Any]:
+    """Return the tables of a scene file as they are; raise SceneError if it cannot be read or is no TOML."""
     try:
-        data = tomllib.loads(document)
+        document = Path(path).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
+        raise SceneError(f"{path}: scene file cannot be read: {reason}") from None
+    return _parsed(document, str(path))
+
+
+def _parsed(document: str, source: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(document)
     except tomllib.TOMLDecodeError as error:
         where = str(error).replace("end of document", f"line {len(document.splitlines())}, the last")
         raise SceneError(f"{source}: not valid TOML: {where}") from None
-    return read_scene(data, source)
 
 
 def read_scene(data: Mapping[str, Any], source: str) -> Scene:

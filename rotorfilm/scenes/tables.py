@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import difflib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple, TypeVar, get_type_hints
 
 from ..errors import InputError, SceneError
@@ -155,6 +155,21 @@ def read_table(table: type[T], where: str, data: Any) -> T:
         return table(**found)
     except InputError as error:  # its message begins with the name of the key
         raise SceneError(f"{where}{error}") from None
+
+
+def unit_of(table: type, path: Sequence[str]) -> str | None:
+    """Return the SI unit of a key, given by its parts; None where its reader is none of a `Quantity`."""
+    if not dataclasses.is_dataclass(table) or not path:
+        return None
+    first, *rest = path
+    readers = {name: hint.__metadata__[0] for name, hint in _annotated_fields(table).items()}
+    doubled = {_twice(reader): reader for reader in readers.values()}
+    reader = readers.get(first) or doubled.get(first)
+    if isinstance(reader, Quantity):
+        return None if rest else reader.unit
+    if isinstance(reader, Table):
+        return unit_of(reader.table, rest)
+    return unit_of(reader.table, rest[1:]) if isinstance(reader, TableList) else None
 
 
 def _annotated_fields(table: type) -> dict[str, Any]:

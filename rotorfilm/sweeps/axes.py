@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import copy
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -12,7 +13,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, SceneError
-from ..scenes.scene import read_scene
+from ..scenes.scene import Scene, read_scene
+from ..scenes.tables import unit_of
 from ..units import UNITS, parse_quantity
 
 Values = Sequence[Any] | tuple[str, Sequence[Any]]
@@ -43,15 +45,13 @@ class Axis:
 
     def coordinate(self) -> tuple[list[Any], str]:
         """Return the values as numbers in SI with their unit, or as text where they are no quantities."""
-        if not all(isinstance(value, str) for value in self.values):
-            numbers = all(_is_number(value) for value in self.values)
-            return (list(self.values) if numbers else [str(value) for value in self.values]), ""
-        for unit in UNITS:
-            try:
+        known = unit_of(Scene, self.key.split("."))
+        if known is None and all(_is_number(value) for value in self.values):
+            return list(self.values), ""
+        for unit in UNITS if known is None else (known,):
+            with contextlib.suppress(InputError):
                 return [parse_quantity(value, unit) for value in self.values], unit
-            except InputError:
-                continue
-        return list(self.values), ""
+        return [str(value) for value in self.values], ""
 
 
 def read_axes(parameters: Mapping[str, Values]) -> tuple[Axis, ...]:

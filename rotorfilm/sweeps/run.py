@@ -5,14 +5,15 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import tomllib
 from collections.abc import Iterator, Mapping
 from importlib.metadata import version
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..errors import InputError, SceneError, require_count, warn_user
+from ..errors import InputError, require_count, warn_user
 from ..progress import Report, silent
+from ..scenes.scene import read_tables
 from .axes import Axis, Values, check, points, read_axes
 from .dataset import load, save, to_dataset
 from .point import Row
@@ -92,26 +93,14 @@ def sweep(
 
 
 def _require_xarray() -> None:
-    try:
-        import h5netcdf
-        import xarray
-    except ImportError:
-        raise InputError(
-            "a sweep needs the extra `sweep`: python -m pip install '.[sweep]' in its source"
-        ) from None
-    assert xarray is not None
-    assert h5netcdf is not None
+    if any(find_spec(name) is None for name in ("xarray", "h5netcdf", "h5py")):
+        raise InputError("a sweep needs the extra `sweep`: python -m pip install '.[sweep]' in its source")
 
 
 def _tables(scene: str | os.PathLike[str] | Mapping[str, Any]) -> tuple[Mapping[str, Any], str]:
     if isinstance(scene, Mapping):
         return scene, "scene"
-    try:
-        return tomllib.loads(Path(scene).read_text(encoding="utf-8")), str(scene)
-    except (OSError, UnicodeDecodeError) as error:
-        raise SceneError(f"{scene}: scene file cannot be read: {error}") from None
-    except tomllib.TOMLDecodeError as error:
-        raise SceneError(f"{scene}: not valid TOML: {error}") from None
+    return read_tables(scene), str(scene)
 
 
 def _name(tables: Mapping[str, Any], axes: tuple[Axis, ...]) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 from collections.abc import Iterator
@@ -45,11 +46,18 @@ class Store:
         if kept < len(content):
             os.truncate(self.path, kept)
         for number, line in enumerate(whole.splitlines()):
-            entry = json.loads(line)
+            entry = self._entry(line)
             if number == 0:
                 self._require_same(entry)
             else:
                 yield entry["point"], entry["row"]
+
+    def _entry(self, line: bytes) -> dict[str, Any]:
+        with contextlib.suppress(ValueError):
+            entry = json.loads(line)
+            if isinstance(entry, dict):
+                return entry
+        raise InputError(f"path must leave {str(self.path)!r} to the rows of a sweep, got another file there")
 
     def _require_same(self, entry: dict[str, Any]) -> None:
         if entry.get("sweep") != self.name:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from rotorfilm.errors import ConvergenceError
+from rotorfilm.errors import ConvergenceError, FilmContactError
 from rotorfilm.fmu.integrate import advance
 from rotorfilm.model import Linearization
 from rotorfilm.rotors.rigid import RigidRotor
@@ -70,3 +70,35 @@ def test_breakpoints_are_stopped_at():
 
 def test_a_step_of_zero_changes_nothing():
     assert advance(BlowUp(), 0.3, np.array([2.0]), np.zeros(0), 0.0).tolist() == [2.0]
+
+
+@dataclass(frozen=True)
+class Stiff:
+    """dz/dt = -rate (z - cos t) - sin t, z(0) = 1: z = cos t, whatever the rate."""
+
+    rate: float
+    states = STATE
+
+    def derivative(self, t, x, u):
+        return -self.rate * (x - np.cos(t)) - np.sin(t)
+
+    def linearization(self, t, x, u):
+        return Linearization(np.array([[-self.rate]]), np.zeros((1, 0)), np.zeros((0, 1)), np.zeros((0, 0)))
+
+
+@dataclass(frozen=True)
+class Walled(Stiff):
+    """The same behind a wall, which an explicit step of the whole length would pass."""
+
+    def derivative(self, t, x, u):
+        if abs(x[0]) > 1.01:
+            raise FilmContactError(f"beyond the wall at {x[0]!r}")
+        return super().derivative(t, x, u)
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("kind", [Stiff, Walled])
+@pytest.mark.parametrize("rate", [1e4, 1e7])
+def test_a_stiff_model_is_integrated_implicitly(kind, rate):
+    end = advance(kind(rate=rate), 0.0, np.array([1.0]), np.zeros(0), 1.0)
+    assert end[0] == pytest.approx(np.cos(1.0), abs=1e-8)

@@ -2,13 +2,12 @@
 
 import math
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from rotorfilm.errors import InputError, RotorfilmError
-from rotorfilm.scenes.ladder import ErrorEstimate, Found, Ladder, Meter, largest_relative, walk
+from rotorfilm.scenes.ladder import ErrorEstimate, Found, Ladder, Meter, walk
 
 
 class Made:
@@ -125,7 +124,3 @@ def test_tighter_tolerance_never_chooses_a_less_accurate_rung(errors, factors, t
 def test_tolerance_must_be_positive():
     with pytest.raises(InputError, match=r"tolerance must be finite and positive, got 0.0"):
         walk("wear", ladder(Made("a", 1.0)), 0.0)
-
-
-def test_largest_relative_difference_is_by_the_largest_entry():
-    assert largest_relative(np.array([2.0, -4.0]), np.array([2.0, -3.0])) == 0.25

@@ -12,6 +12,8 @@ import pytest
 
 from rotorfilm import JournalBearing, ShortFilm, equilibrium, sweep
 from rotorfilm.errors import InputError, SceneError
+from rotorfilm.scenes import Scene
+from rotorfilm.scenes.tables import unit_of
 from rotorfilm.sweeps.store import Store
 
 xarray = pytest.importorskip("xarray")
@@ -149,6 +151,38 @@ def test_a_killed_sweep_goes_on_where_it_was(tmp_path):
     assert 0 < len(done) < 31
     assert not waiting.exists()
     xarray.testing.assert_identical(found, sweep(SCENE, axes, workers=1))
+
+
+def test_units_are_those_of_the_schema_where_numbers_have_none():
+    found = sweep(SCENE, {"journal.clearance": [9e-5, "100 um"], "operation.speed": [157.0]}, workers=1)
+    assert found["journal_clearance"].attrs["units"] == "m"
+    np.testing.assert_allclose(found["journal_clearance"], [9e-5, 1e-4])
+    assert found["operation_speed"].attrs["units"] == "rad/s"
+
+
+@pytest.mark.parametrize(
+    ("key", "unit"),
+    [
+        ("journal.radius", "m"),
+        ("journal.diameter", "m"),
+        ("journal.grooves.0.width", "rad"),
+        ("shaft.speeds.first", "rad/s"),
+        ("journal.film.name", None),
+        ("journal", None),
+        ("journal.radius.deep", None),
+        ("absent", None),
+    ],
+)
+def test_unit_of_a_key(key, unit):
+    assert unit_of(Scene, key.split(".")) == unit
+
+
+@pytest.mark.parametrize("content", [b"no JSON\n", b"[1, 2]\n", b"\xff\xfe\n"])
+def test_a_file_in_place_of_the_rows_is_named(tmp_path, content):
+    (tmp_path / "rows").write_bytes(content)
+    with pytest.raises(InputError, match=r"path must leave .* to the rows of a sweep"):
+        Store(tmp_path / "rows", "one")
+    assert (tmp_path / "rows").read_bytes() == content
 
 
 def test_rows_of_another_sweep_are_refused(tmp_path):
