@@ -22,7 +22,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scene_families import FAMILIES, Drawn
+from families import FAMILIES
+from families.drawn import Drawn
 
 from rotorfilm.errors import RotorfilmError
 from rotorfilm.scenes import read_scene
@@ -109,26 +110,28 @@ def true_error(scene: Any, drawn: Drawn, rung: str, value: Any, truth: Any) -> f
 
 
 def hindsight(scene: Any, drawn: Drawn, truth: Any, answer: QuestionAnswer) -> tuple[str, float]:
-    """Return the first rung, so the cheapest, whose true error is below the tolerance, and its cost [s]."""
+    """Return the rung of least cost whose true error is below the tolerance, and its cost [s]."""
     if drawn.judge is not None:
         tried = [report for report in answer.rungs if report.value is not None]
-        near = [r for r in tried if drawn.judge(scene, r.name) < answer.tolerance]
-        return (near[0].name, float(near[0].cost or 0.0)) if near else ("none", math.nan)
+        near = [(r.cost or 0.0, r.name) for r in tried if drawn.judge(scene, r.name) < answer.tolerance]
+        cost, name = min(near, default=(math.nan, "none"))
+        return name, cost
     ladder = ladder_of(scene)
     meter, before = Meter(ladder), None
+    best, least = "none", math.inf
     for rung in ladder.rungs:
         if "map" in rung.name and getattr(getattr(rung, "film", None), "makes_map", False):
             continue  # minutes for one number; the other rungs show what is cheap
+        if before is not None and meter.predict(rung.expected(before.work)) > least:
+            continue
         try:
             found, seconds = meter.timed(lambda rung=rung, before=before: rung.answer(before))
         except RotorfilmError:
             continue
         before, cost = found, meter.cost(found.work, seconds)
-        if drawn.distance(found.value, truth) < answer.tolerance:
-            return rung.name, cost
-        if rung.name == answer.model:
-            break
-    return "none", math.nan
+        if cost < least and drawn.distance(found.value, truth) < answer.tolerance:
+            best, least = rung.name, cost
+    return best, least if best != "none" else math.nan
 
 
 def draw_all(seed: int, count: int) -> list[Drawn]:

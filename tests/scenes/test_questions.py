@@ -23,7 +23,8 @@ ROOT = Path(__file__).parents[2]
 sys.path.append(str(ROOT / "benchmarks"))
 
 import scene_battery  # noqa: E402
-import scene_families  # noqa: E402
+from families import FAMILIES  # noqa: E402
+from families.journals import coupled_error  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
 
@@ -52,7 +53,7 @@ def asked(quantity, tolerance, scene=None):
 
 @pytest.mark.parametrize(("family", "seed"), SUBSET)
 def test_estimate_is_within_a_factor_of_two_and_the_tolerance_is_met(family, seed):
-    drawn = scene_families.FAMILIES[family][1](np.random.default_rng(seed))
+    drawn = FAMILIES[family][1](np.random.default_rng(seed))
     first, *_ = scene_battery.judge(seed, drawn)
     if first.doubtful:
         assert first.verdict == "closest"
@@ -210,7 +211,7 @@ def test_cosimulation_error_is_that_of_the_monolithic_solution():
     scene = bundled_scene()
     scene = replace(scene, cosimulation=replace(scene.cosimulation, revolutions=1.0))
     answer = asked("cosimulation_error", 2e-3, scene).ask()
-    true = scene_families.coupled_error(asked("cosimulation_error", 2e-3, scene), answer.model)
+    true = coupled_error(asked("cosimulation_error", 2e-3, scene), answer.model)
     assert answer.met
     assert answer.error_estimate == pytest.approx(true, rel=0.5)
     refused = [report for report in answer.rungs if report.verdict == "refused" and report.value is None]

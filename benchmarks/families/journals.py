@@ -1,27 +1,25 @@
-"""The families of the scene battery: where scenes are drawn from, and what each is judged by."""
+"""Scenes with a journal bearing: static questions, whirl thresholds, orbits, lost blades, co-simulation."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
-from scipy.optimize import brentq
 
 from rotorfilm.bearings import JournalBearing
 from rotorfilm.films import MapFilm, ShortFilm
 from rotorfilm.linear import equilibrium, whirl_threshold
-from rotorfilm.orbits.curve import orbit_points, orbit_rotor
 from rotorfilm.scenes import Scene
 from rotorfilm.scenes.questions.blade_loss import blade_loss_ladder
 from rotorfilm.scenes.questions.coupling import coupling_ladder
-from rotorfilm.scenes.questions.dampers import damper_ladder
 from rotorfilm.scenes.questions.films import FilmRung, extrapolated, tangent
 from rotorfilm.scenes.questions.orbits import OrbitRung, rotor_of
 from rotorfilm.scenes.questions.statics import StaticRung
 from rotorfilm.transient import simulate
+
+from .drawn import Drawn, Truth, log_uniform
 
 POSITIONS = ("eccentricity_ratio", "minimum_film", "attitude_angle")
 SLOPES = ("stiffness", "damping")
@@ -35,38 +33,6 @@ FIXED_FILMS: tuple[dict[str, Any], ...] = (
     {"name": "reynolds", "cells": [96, 8]},
 )
 REFERENCE = (768, 32)
-
-
-class Truth(NamedTuple):
-    """The reference value, and the relative error it may have itself."""
-
-    value: Any
-    floor: float
-
-
-@dataclass(frozen=True)
-class Drawn:
-    """A scene as data, and how it is judged."""
-
-    family: str
-    data: dict[str, Any]
-    reference: Callable[[Scene], Truth]
-    judge: Callable[[Scene, str], float] | None = None
-    """Of a rung whose value is its own error: the true error by the name of the rung."""
-
-    def distance(self, value: Any, truth: Any) -> float:
-        """Return the error in the unit of the tolerance."""
-        gap = np.asarray(value, dtype=float) - np.asarray(truth, dtype=float)
-        quantity = self.data["question"]["quantity"]
-        if quantity == "unbalance_phase":
-            return abs(math.remainder(float(gap), 2.0 * math.pi))
-        scale = 1.0 if quantity == "attitude_angle" else float(np.max(np.abs(truth)))
-        return float(np.max(np.abs(gap))) / scale
-
-
-def log_uniform(random: np.random.Generator, low: float, high: float) -> float:
-    """Return a number whose logarithm is uniform."""
-    return float(math.exp(random.uniform(math.log(low), math.log(high))))
 
 
 def journal(random: np.random.Generator, slenderness: tuple[float, float]) -> tuple[dict[str, Any], float]:
@@ -121,7 +87,7 @@ def slim(random: np.random.Generator) -> Drawn:
 
 
 def grooved(random: np.random.Generator) -> Drawn:
-    """Return a static question about a bearing with one or two grooves, fed or not."""
+    """Return a static question about a bearing with one or two grooves at ambient pressure."""
     table, _ = journal(random, (0.2, 1.2))
     first, width = float(random.uniform(0.0, 2.0 * math.pi)), math.radians(float(random.uniform(10.0, 40.0)))
     count = int(random.integers(1, 3))
@@ -186,38 +152,6 @@ def coupling(random: np.random.Generator) -> Drawn:
     return Drawn("coupling", data, lambda scene: Truth(0.0, 1e-7), coupled_error)
 
 
-def damper(random: np.random.Generator) -> Drawn:
-    """Return an orbit in a damper with a full film, a third of them with a porous cage."""
-    radius = log_uniform(random, 0.02, 0.1)
-    table: dict[str, Any] = {
-        "radius": radius,
-        "length": 2.0 * radius * log_uniform(random, 0.1, 0.4),
-        "clearance": radius * log_uniform(random, 1e-3, 3e-3),
-        "viscosity": log_uniform(random, 3e-3, 0.05),
-        "extent": {"kind": "full"},
-    }
-    if random.random() < 1.0 / 3.0:
-        permeability = log_uniform(random, 1e-16, 1e-12)
-        table["cage"] = {"thickness": 0.05 * radius, "permeability": permeability}
-    mass, speed = log_uniform(random, 5.0, 50.0), log_uniform(random, 100.0, 800.0)
-    table["stiffness"] = mass * (speed / float(random.uniform(0.5, 3.0))) ** 2
-    size = float(random.uniform(0.05, 0.6)) * mass * table["clearance"]
-    return Drawn(
-        "damper",
-        {
-            "schema": 1,
-            "damper": table,
-            "operation": {"speed": speed},
-            "rigid_rotor": {"mass": mass, "unbalance": size},
-            "question": {
-                "quantity": str(random.choice(["transmissibility", "unbalance_amplitude"])),
-                "tolerance": log_uniform(random, 3e-3, 0.1),
-            },
-        },
-        damper_by_finite_film,
-    )
-
-
 def coupled_error(scene: Scene, name: str) -> float:
     """Return the largest distance / clearance between a coupled run and both partners as one system."""
     rung = next(rung for rung in coupling_ladder(scene, "cosimulation_error").rungs if rung.name == name)
@@ -226,23 +160,6 @@ def coupled_error(scene: Scene, name: str) -> float:
         rung.rotor, rung.bearing, duration=float(coupled.time[-1]), times=coupled.time, rtol=1e-9
     )
     return float(np.hypot(*(coupled.position - whole.position)).max()) / rung.bearing.clearance
-
-
-def damper_by_finite_film(scene: Scene) -> Truth:
-    """Return a quantity of the smallest orbit in the film of finite length, by bisection in its radius."""
-    ladder = damper_ladder(scene, scene.question.quantity)
-    top, short = ladder.rungs[-1], ladder.rungs[0]
-    system = orbit_rotor(top.rotor, top.support)
-    near = float(short.answer(None).solution)
-
-    def excess(radius: float) -> float:
-        pull = orbit_points(system, np.array([radius])).pull[0]
-        return abs(pull) / system.speed**2 - top.rotor.unbalance
-
-    radius = brentq(excess, 0.7 * near, min(1.3 * near, 0.5 * (1.0 + near)), xtol=1e-9)
-    points = orbit_points(system, np.array([radius]))
-    ratio = float(np.abs(points.force[0]) / np.abs(points.pull[0]))
-    return Truth(ratio if scene.question.quantity == "transmissibility" else radius * system.clearance, 1e-6)
 
 
 def by_map(scene: Scene) -> Truth:
@@ -291,18 +208,3 @@ def blade_by_map(scene: Scene) -> Truth:
     """Return the peak by the map in 3072 steps over a turn."""
     rung = blade_loss_ladder(scene, "blade_loss_peak").rungs[0]
     return Truth(replace(rung, steps=3072).answer(None).value, 1e-6)
-
-
-Draw = Callable[[np.random.Generator], Drawn]
-FAMILIES: dict[str, tuple[int, Draw]] = {
-    "named film": (6, fixed_film),
-    "slim": (4, slim),
-    "grooved": (2, grooved),
-    "free film": (2, plain_map),
-    "whirl": (2, whirl),
-    "orbit": (3, orbit),
-    "blade loss": (1, blade),
-    "coupling": (1, coupling),
-    "damper": (2, damper),
-}
-"""Weight of each family in a round of the battery, and how one scene of it is drawn."""

@@ -1,0 +1,24 @@
+"""The families of the scene battery: where scenes are drawn from, and what each is judged by."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from . import dampers, journals
+from .drawn import Drawn
+
+Draw = Callable[[np.random.Generator], Drawn]
+FAMILIES: dict[str, tuple[int, Draw]] = {
+    "named film": (6, journals.fixed_film),
+    "slim": (4, journals.slim),
+    "grooved": (2, journals.grooved),
+    "free film": (2, journals.plain_map),
+    "whirl": (2, journals.whirl),
+    "orbit": (3, journals.orbit),
+    "blade loss": (1, journals.blade),
+    "coupling": (1, journals.coupling),
+    "damper": (2, dampers.damper),
+}
+"""Weight of each family in a round of the battery, and how one scene of it is drawn."""
