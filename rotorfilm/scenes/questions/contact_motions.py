@@ -1,0 +1,210 @@
+"""Film and approach of a rolling ball under a load that jumps or swings: at rest, reduced, in full."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ...errors import ConvergenceError, InputError
+from ...films.contact_steps import AdaptiveSteps
+from ..contact_motion import ShakenBall, contact_motion
+from ..ladder import ErrorEstimate, Found, Rung, Work
+from .contact_law_rung import LawRung
+from .contact_rest import RestingFilms
+from .contact_slow import SlowRung
+
+if TYPE_CHECKING:
+    from ..scene import Scene
+
+CELLS = (24, 32, 48)
+"""Cells along each side of the films that are followed."""
+
+FINE = {24: 64, 32: 64, 48: 96}
+"""Cells of the stationary film that tells what a motion's cells cost."""
+
+STEP_TOLERANCE, COARSER_STEPS, STEP_ORDER = 1e-3, 10.0, 2.0 / 3.0
+"""Tolerance of the steps, that of the companion / it, and the power of it with which the motion errs.
+
+An error of h^3 in one step of second order makes one of h^2 at the end.
+"""
+
+LONGEST = 250.0
+"""Transit times beyond which no film is followed."""
+
+LARGEST_LOAD = 2.8
+"""Load under which the dry contact nearly fills the rectangle, whose outlet is at 1.5 radii."""
+
+LEFT = 0.4
+"""Share of an extrapolation that may be wrong."""
+
+
+class Followed(NamedTuple):
+    """The extreme of a motion and its relative errors by steps, cells and rectangle."""
+
+    value: float
+    steps: float
+    cells: float
+    rectangle: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class FollowedFilm:
+    """The full film over time, each run made once.
+
+    Attributes
+    ----------
+    films : RestingFilms
+    shaken : ShakenBall
+    runs : dict
+        Extremes of the quantity and the approach [1], by cells and tolerance.
+    """
+
+    films: RestingFilms
+    shaken: ShakenBall
+    runs: dict[tuple[int, float], tuple[float, float]] = field(default_factory=dict, compare=False)
+
+    def extreme(self, cells: int, tolerance: float, work: dict[str, int]) -> tuple[float, float]:
+        """Return the smallest value of the quantity and of the approach over the motion [1].
+
+        Raises
+        ------
+        ConvergenceError
+            If the film breaks down.
+        """
+        key = (cells, tolerance)
+        if key not in self.runs:
+            self.runs[key] = (math.nan, math.nan)
+            contact = self.films.contact(cells)
+            run = contact.simulate(
+                contact.stationary(),
+                duration=self.shaken.duration,
+                W=self.films.ball.W,
+                load=self.shaken.load,
+                control=AdaptiveSteps(tolerance=tolerance),
+            )
+            work[newton(cells)] = work.get(newton(cells), 0) + run.work["newton"]
+            smallest = float(np.min(getattr(run, self.films.field)))
+            self.runs[key] = smallest, float(run.delta.min())
+        if math.isnan(self.runs[key][0]):
+            raise ConvergenceError(f"a motion must be solvable on {cells} x {cells} cells, got none before")
+        return self.runs[key]
+
+    def step_error(self, work: dict[str, int]) -> float:
+        """Return the relative error by the steps, from longer ones on the coarsest grid that has a motion."""
+        for cells in CELLS:
+            try:
+                fine, rough = (
+                    self.extreme(cells, tolerance, work)[0]
+                    for tolerance in (STEP_TOLERANCE, COARSER_STEPS * STEP_TOLERANCE)
+                )
+            except ConvergenceError:
+                continue
+            return (fine - rough) / (COARSER_STEPS**STEP_ORDER - 1.0) / fine
+        raise ConvergenceError("steps ten times as coarse must have a motion, got none on any grid")
+
+    def parts(self, cells: int, work: dict[str, int]) -> Followed:
+        """Return the extreme on so many cells, and what it lacks; the cells and the rectangle cost at rest.
+
+        Raises
+        ------
+        ConvergenceError
+            If the film breaks down, or has no stationary companion.
+        """
+        value, deepest = self.extreme(cells, STEP_TOLERANCE, work)
+        load = self.equivalent_load(cells, deepest, work)
+        fine = FINE[cells]
+        rest, better = (self.films.value(n, work, load=load) for n in (cells, fine))
+        lacking = (better - rest) / (1.0 - (cells / fine) ** 2)
+        return Followed(value, self.step_error(work), lacking / rest, self.films.beyond(work, load) / rest)
+
+    def equivalent_load(self, cells: int, deepest: float, work: dict[str, int]) -> float:
+        """Return the load whose contact at rest is as deep, as of a dry contact."""
+        rest = RestingFilms(table=self.films.table, quantity="approach").value(cells, work)
+        return min(max((deepest / rest) ** 1.5, 1.0), LARGEST_LOAD)
+
+    @cached_property
+    def too_long(self) -> bool:
+        """Whether the motion takes more than the film can be followed for."""
+        return self.shaken.duration > LONGEST
+
+
+@dataclass(frozen=True, kw_only=True)
+class FilmMotionRung:
+    """The full film over time on one grid.
+
+    Attributes
+    ----------
+    followed : FollowedFilm
+    cells : int
+        Along each side.
+    extrapolated : bool
+        Whether the errors that are known are taken off.
+    """
+
+    followed: FollowedFilm
+    cells: int
+    extrapolated: bool = False
+
+    @property
+    def name(self) -> str:
+        """Cells of the grid."""
+        return f"film {self.cells} x {self.cells} over time{', extr.' if self.extrapolated else ''}"
+
+    @property
+    def prior(self) -> float:
+        """Nothing is known beforehand."""
+        return 0.0
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the smallest value over the motion [m]."""
+        if self.followed.too_long:
+            raise InputError(
+                f"excitation must be over within {LONGEST:g} transit times for a film over time, "
+                f"got {self.followed.shaken.duration:.4g}"
+            )
+        work: dict[str, int] = {}
+        scale = self.followed.films.ball.film_scale
+        if not self.extrapolated:
+            value, _ = self.followed.extreme(self.cells, STEP_TOLERANCE, work)
+            return Found(value * scale, work)
+        parts = self.followed.parts(self.cells, work)
+        value = parts.value * (1.0 + sum(parts[1:]))
+        return Found(value * scale, work, parts)
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the increments of steps, cells and rectangle; of an extrapolation a share of them."""
+        work: dict[str, int] = {}
+        try:
+            parts = self.followed.parts(self.cells, work)
+        except ConvergenceError as error:
+            return ErrorEstimate(1.0, "order increments", work, doubt=f"no companion: {error}")
+        known = sum(abs(part) for part in parts[1:])
+        method = "order increments of steps; of cells and rectangle at rest"
+        deep = self.followed.extreme(self.cells, STEP_TOLERANCE, work)[1] < -2.0 * LARGEST_LOAD ** (2.0 / 3.0)
+        doubt = "the contact grows beyond the rectangle" if deep else ""
+        if self.extrapolated:
+            return ErrorEstimate(LEFT * known, f"share of the {method}", work, bound=True, doubt=doubt)
+        return ErrorEstimate(known, method, work, doubt=doubt)
+
+    def expected(self, done: Work) -> Work:
+        """Return some Newton steps: two or three for each of ten steps over a transit time."""
+        return {newton(self.cells): 25 * round(self.followed.shaken.duration)}
+
+
+def newton(cells: int) -> str:
+    """Return the name of a Newton step."""
+    return f"Newton steps on {cells} x {cells} cells"
+
+
+def motion_rungs(scene: Scene, films: RestingFilms) -> tuple[Rung, ...]:
+    """Return the rungs of a ball whose load jumps or swings."""
+    shaken = contact_motion(scene)
+    followed = FollowedFilm(films=films, shaken=shaken)
+    slow = SlowRung(films=films, shaken=shaken)
+    law = () if films.quantity != "approach" else (LawRung(films=films, shaken=shaken),)
+    grids = tuple(FilmMotionRung(followed=followed, cells=cells) for cells in CELLS)
+    return (slow, *law, *grids, FilmMotionRung(followed=followed, cells=CELLS[-1], extrapolated=True))
