@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from ..bearings.rolling_ball import RollingBall
     from .scene import Scene
 
-TRANSITS = 20.0
-"""Transit times t0 that a ball is followed after the last jump of its load."""
+AFTER_JUMP, UNDER_SINE = 10.0, 20.0
+"""Transit times t0 that a ball is followed after the last jump of its load, and under a sine."""
 
 DRY_STIFFNESS = math.pi / 2.0
 """-d(integral of p)/d(delta) of the dry contact under the unit load (Hertz): of (2 pi/3) (-delta/2)^(3/2)."""
@@ -30,10 +30,13 @@ class ShakenBall:
     load : StepLoad or SineLoad
         f(t); the ball has rested until t = 0.
     duration : float [1]
+    shortest_period : float [1]
+        Of what the ball does: of its natural motion, or of the load; 0 for a ball without mass under a step.
     """
 
     load: StepLoad | SineLoad
     duration: float
+    shortest_period: float
 
     @property
     def extremes(self) -> tuple[float, float]:
@@ -52,7 +55,7 @@ def natural_frequency(W: float) -> float:
 def contact_motion(scene: Scene) -> ShakenBall:
     """Return the load of a scene's ball over time, and how long the question follows it.
 
-    A ball under a step is followed from rest until 20 transit times t0 = a/speed after the last jump, under
+    A ball under a step is followed from rest until 10 transit times t0 = a/speed after the last jump, under
     a sine for 20 transit times; for one natural period or one of the sine where that is longer. A jump
     begins at t = 0 whenever it is: until then the ball rests.
 
@@ -73,16 +76,17 @@ def contact_motion(scene: Scene) -> ShakenBall:
     period = 2.0 * math.pi / natural_frequency(ball.W)
     if isinstance(shaken, SineLoadTable):
         frequency = shaken.frequency * ball.time_scale
-        return _followed(
-            SineLoad(amplitude=amplitude, frequency=frequency), 2.0 * math.pi / frequency, period
+        return ShakenBall(
+            load=SineLoad(amplitude=amplitude, frequency=frequency),
+            duration=max(UNDER_SINE, 2.0 * math.pi / frequency, period),
+            shortest_period=min(2.0 * math.pi / frequency, period or math.inf),
         )
     end = (shaken.end - shaken.start) / ball.time_scale
-    load = StepLoad(amplitude=amplitude, end=end)
-    return _followed(load, 0.0, period, end if math.isfinite(end) else 0.0)
-
-
-def _followed(load: StepLoad | SineLoad, period: float, natural: float, last_jump: float = 0.0) -> ShakenBall:
-    return ShakenBall(load=load, duration=last_jump + max(TRANSITS, period, natural))
+    return ShakenBall(
+        load=StepLoad(amplitude=amplitude, end=end),
+        duration=max(AFTER_JUMP, period) + (end if math.isfinite(end) else 0.0),
+        shortest_period=period,
+    )
 
 
 def _amplitude(shaken: StepLoadTable | SineLoadTable, ball: RollingBall) -> float:

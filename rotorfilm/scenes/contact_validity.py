@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from .scene import Scene
 
 FORMED = 2.0
-"""Pressure in units of 1/(pressure coefficient) at which a film is formed: its flow is down to exp(-2)."""
+"""Pressure times pressure coefficient at which a film is formed: its flow by pressure is down to exp(-2)."""
 
 DENSER = 0.1
 """Growth of the density under the contact that is worth a word."""
@@ -85,8 +85,8 @@ def contact_remarks(scene: Scene) -> tuple[str, ...]:
     assert scene.contact is not None  # checked by the ladder
     n = contact_numbers(scene.contact, scene.lubricant)
     lines = {
-        f"heat: the oil that flows back before the contact warms by about {n.inlet_warming:.2g} K, which takes "
-        f"{n.inlet_thinning:.0%} of its viscosity": n.inlet_thinning > NOTABLE,
+        f"heat: the oil that flows back before the contact warms by about {n.inlet_warming:.2g} K, which "
+        f"takes {n.inlet_thinning:.0%} of its viscosity": n.inlet_thinning > NOTABLE,
         f"viscosity: where the film is formed the exponential law gives {math.exp(n.piezoviscosity):.2g} "
         "times that of Roelands; `roelands = true` takes that": n.piezoviscosity > NOTABLE,
         f"compressibility: {n.densification:.0%} under the contact, which thins its film about as much; "

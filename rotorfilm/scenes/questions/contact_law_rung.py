@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-
 from ...bearings.contact_law import ContactLaw
 from ...bearings.contact_reduction import reduce_contact
 from ...bearings.ride import ride

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ...errors import ConvergenceError, InputError
-from ...films.contact_steps import AdaptiveSteps
+from ...films.contact_steps import FixedSteps
+from ...model import Array
 from ..contact_motion import ShakenBall, contact_motion
 from ..ladder import ErrorEstimate, Found, Rung, Work
 from .contact_law_rung import LawRung
@@ -20,20 +21,25 @@ from .contact_slow import SlowRung
 if TYPE_CHECKING:
     from ..scene import Scene
 
-CELLS = (24, 32, 48)
-"""Cells along each side of the films that are followed."""
+CELLS = (24, 32)
+"""Cells along each side of the films that are followed; the smallest film takes the finer grid only."""
 
-FINE = {24: 64, 32: 64, 48: 96}
+FINE = {24: 64, 32: 64}
 """Cells of the stationary film that tells what a motion's cells cost."""
 
-STEP_TOLERANCE, COARSER_STEPS, STEP_ORDER = 1e-3, 10.0, 2.0 / 3.0
-"""Tolerance of the steps, that of the companion / it, and the power of it with which the motion errs.
+STEPS, FINER = 24, 36
+"""Steps over the shortest period on the coarsest grid, where their error is found, and on all others."""
 
-An error of h^3 in one step of second order makes one of h^2 at the end.
-"""
+SHORTEST, LONGEST_STEP = 0.02, 0.25
+"""Range of a step in transit times: the film smooths what is faster, and forgets what is older."""
 
-LONGEST = 250.0
-"""Transit times beyond which no film is followed."""
+STEP_ORDER = 2
+
+MOST_STEPS = 4000
+"""Steps beyond which no film is followed."""
+
+NEWTON_TOLERANCE = 1e-5
+"""To which the equations of a step are solved [1]."""
 
 LARGEST_LOAD = 2.8
 """Load under which the dry contact nearly fills the rectangle, whose outlet is at 1.5 radii."""
@@ -60,14 +66,18 @@ class FollowedFilm:
     films : RestingFilms
     shaken : ShakenBall
     runs : dict
-        Extremes of the quantity and the approach [1], by cells and tolerance.
+        Extremes of the quantity and the approach [1], by cells and steps over a period.
     """
 
     films: RestingFilms
     shaken: ShakenBall
     runs: dict[tuple[int, float], tuple[float, float]] = field(default_factory=dict, compare=False)
 
-    def extreme(self, cells: int, tolerance: float, work: dict[str, int]) -> tuple[float, float]:
+    def step(self, steps: int) -> float:
+        """Return a step [1], so many over the shortest period."""
+        return float(np.clip(self.shaken.shortest_period / steps, SHORTEST * STEPS / steps, LONGEST_STEP))
+
+    def extreme(self, cells: int, steps: int, work: dict[str, int]) -> tuple[float, float]:
         """Return the smallest value of the quantity and of the approach over the motion [1].
 
         Raises
@@ -75,7 +85,7 @@ class FollowedFilm:
         ConvergenceError
             If the film breaks down.
         """
-        key = (cells, tolerance)
+        key = (cells, steps)
         if key not in self.runs:
             self.runs[key] = (math.nan, math.nan)
             contact = self.films.contact(cells)
@@ -84,27 +94,25 @@ class FollowedFilm:
                 duration=self.shaken.duration,
                 W=self.films.ball.W,
                 load=self.shaken.load,
-                control=AdaptiveSteps(tolerance=tolerance),
+                control=FixedSteps(step=self.step(steps), tolerance=NEWTON_TOLERANCE),
             )
             work[newton(cells)] = work.get(newton(cells), 0) + run.work["newton"]
-            smallest = float(np.min(getattr(run, self.films.field)))
-            self.runs[key] = smallest, float(run.delta.min())
+            smallest = lowest(run.time, getattr(run, self.films.field))
+            self.runs[key] = smallest, lowest(run.time, run.delta)
         if math.isnan(self.runs[key][0]):
             raise ConvergenceError(f"a motion must be solvable on {cells} x {cells} cells, got none before")
         return self.runs[key]
 
-    def step_error(self, work: dict[str, int]) -> float:
-        """Return the relative error by the steps, from longer ones on the coarsest grid that has a motion."""
+    def step_error(self, steps: int, work: dict[str, int]) -> float:
+        """Return the relative error by the steps, from twice as long ones on the coarsest grid that can."""
         for cells in CELLS:
             try:
-                fine, rough = (
-                    self.extreme(cells, tolerance, work)[0]
-                    for tolerance in (STEP_TOLERANCE, COARSER_STEPS * STEP_TOLERANCE)
-                )
+                fine, rough = (self.extreme(cells, n, work)[0] for n in (STEPS, STEPS // 2))
             except ConvergenceError:
                 continue
-            return (fine - rough) / (COARSER_STEPS**STEP_ORDER - 1.0) / fine
-        raise ConvergenceError("steps ten times as coarse must have a motion, got none on any grid")
+            ratio = (self.step(steps) / self.step(STEPS)) ** STEP_ORDER
+            return ratio * (fine - rough) / (2.0**STEP_ORDER - 1.0) / fine
+        raise ConvergenceError("steps twice as long must have a motion, got none on any grid")
 
     def parts(self, cells: int, work: dict[str, int]) -> Followed:
         """Return the extreme on so many cells, and what it lacks; the cells and the rectangle cost at rest.
@@ -114,12 +122,15 @@ class FollowedFilm:
         ConvergenceError
             If the film breaks down, or has no stationary companion.
         """
-        value, deepest = self.extreme(cells, STEP_TOLERANCE, work)
+        steps = steps_on(cells)
+        value, deepest = self.extreme(cells, steps, work)
         load = self.equivalent_load(cells, deepest, work)
         fine = FINE[cells]
         rest, better = (self.films.value(n, work, load=load) for n in (cells, fine))
         lacking = (better - rest) / (1.0 - (cells / fine) ** 2)
-        return Followed(value, self.step_error(work), lacking / rest, self.films.beyond(work, load) / rest)
+        return Followed(
+            value, self.step_error(steps, work), lacking / rest, self.films.beyond(work, load) / rest
+        )
 
     def equivalent_load(self, cells: int, deepest: float, work: dict[str, int]) -> float:
         """Return the load whose contact at rest is as deep, as of a dry contact."""
@@ -129,7 +140,7 @@ class FollowedFilm:
     @cached_property
     def too_long(self) -> bool:
         """Whether the motion takes more than the film can be followed for."""
-        return self.shaken.duration > LONGEST
+        return self.shaken.duration / self.step(FINER) > MOST_STEPS
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -163,20 +174,23 @@ class FilmMotionRung:
         """Return the smallest value over the motion [m]."""
         if self.followed.too_long:
             raise InputError(
-                f"excitation must be over within {LONGEST:g} transit times for a film over time, "
-                f"got {self.followed.shaken.duration:.4g}"
+                f"excitation must take at most {MOST_STEPS} steps of a film over time, got "
+                f"{self.followed.shaken.duration / self.followed.step(FINER):.4g}"
             )
         work: dict[str, int] = {}
         scale = self.followed.films.ball.film_scale
         if not self.extrapolated:
-            value, _ = self.followed.extreme(self.cells, STEP_TOLERANCE, work)
+            value, _ = self.followed.extreme(self.cells, steps_on(self.cells), work)
             return Found(value * scale, work)
         parts = self.followed.parts(self.cells, work)
         value = parts.value * (1.0 + sum(parts[1:]))
         return Found(value * scale, work, parts)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the increments of steps, cells and rectangle; of an extrapolation a share of them."""
+        """Return the increments of steps, cells and rectangle; of an extrapolation a share of them.
+
+        That of the smallest film, which jumps from cell to cell, is a bound.
+        """
         work: dict[str, int] = {}
         try:
             parts = self.followed.parts(self.cells, work)
@@ -184,15 +198,36 @@ class FilmMotionRung:
             return ErrorEstimate(1.0, "order increments", work, doubt=f"no companion: {error}")
         known = sum(abs(part) for part in parts[1:])
         method = "order increments of steps; of cells and rectangle at rest"
-        deep = self.followed.extreme(self.cells, STEP_TOLERANCE, work)[1] < -2.0 * LARGEST_LOAD ** (2.0 / 3.0)
+        deep = self.followed.extreme(self.cells, steps_on(self.cells), work)[1] < -2.0 * LARGEST_LOAD ** (
+            2.0 / 3.0
+        )
         doubt = "the contact grows beyond the rectangle" if deep else ""
         if self.extrapolated:
             return ErrorEstimate(LEFT * known, f"share of the {method}", work, bound=True, doubt=doubt)
-        return ErrorEstimate(known, method, work, doubt=doubt)
+        bound = self.followed.films.quantity == "minimum_film"
+        return ErrorEstimate(known, method, work, bound, doubt)
 
     def expected(self, done: Work) -> Work:
-        """Return some Newton steps: two or three for each of ten steps over a transit time."""
-        return {newton(self.cells): 25 * round(self.followed.shaken.duration)}
+        """Return some Newton steps: about three for each step."""
+        steps = self.followed.shaken.duration / self.followed.step(steps_on(self.cells))
+        return {newton(self.cells): 3 * math.ceil(steps)}
+
+
+def steps_on(cells: int) -> int:
+    """Return the steps over a period on a grid."""
+    return STEPS if cells == CELLS[0] else FINER
+
+
+def lowest(time: Array, values: Array) -> float:
+    """Return the smallest value of a series, by the parabola through the smallest sample and its neighbors."""
+    k = int(np.argmin(values))
+    if k in (0, len(values) - 1):
+        return float(values[k])
+    (before, after), value = time[[k - 1, k + 1]] - time[k], values[k]
+    slopes = (values[[k - 1, k + 1]] - value) / np.array([before, after])
+    curvature = (slopes[1] - slopes[0]) / (after - before)
+    slope = slopes[0] - curvature * before
+    return float(value - 0.25 * slope**2 / curvature) if curvature > 0.0 else float(value)
 
 
 def newton(cells: int) -> str:
@@ -206,5 +241,6 @@ def motion_rungs(scene: Scene, films: RestingFilms) -> tuple[Rung, ...]:
     followed = FollowedFilm(films=films, shaken=shaken)
     slow = SlowRung(films=films, shaken=shaken)
     law = () if films.quantity != "approach" else (LawRung(films=films, shaken=shaken),)
-    grids = tuple(FilmMotionRung(followed=followed, cells=cells) for cells in CELLS)
+    first = 1 if films.quantity == "minimum_film" else 0
+    grids = tuple(FilmMotionRung(followed=followed, cells=cells) for cells in CELLS[first:])
     return (slow, *law, *grids, FilmMotionRung(followed=followed, cells=CELLS[-1], extrapolated=True))

@@ -109,7 +109,7 @@ class SlowRung:
         forced = abs(per_load(w)[0])
         ratio = w / natural
         started = rings * ratio / max(abs(1.0 - ratio**2), 0.1)
-        return amplitude * (abs(forced - abs(still)) + started)
+        return amplitude * abs(forced + started - abs(still))
 
     def expected(self, done: Work) -> Work:
         """Return the number of unknowns."""
