@@ -110,26 +110,27 @@ def at_rest(scene: Scene) -> Truth:
 
 
 def in_motion(scene: Scene) -> Truth:
-    """Return a motion of the full film, extrapolated to no cells, no steps and an infinite rectangle."""
+    """Return a motion of the full film, extrapolated to no cells, no steps and an infinite rectangle.
+
+    The last two on coarse grids, where there is a motion.
+    """
+    value = _moving(scene, 2.5, 32, 24)
+    cells = (_moving(scene, 2.5, 56, 24) - value) / (1.0 - (32.0 / 56.0) ** 2)
     try:
-        return _in_motion(scene, 24)
+        steps, reach = _steps_and_reach(scene, 24)
     except ConvergenceError:
-        return _in_motion(scene, 32)
-
-
-def _in_motion(scene: Scene, coarse: int) -> Truth:
-    plain = _moving(scene, 2.5, coarse, 24)
-    power = FAR[scene.question.quantity]
-    cells = _moving(scene, 2.5, 48, 24) - plain
-    steps = _moving(scene, 2.5, coarse, 72) - plain
-    reach = _moving(scene, 4.5, 3 * coarse // 2, 24) - plain
-    parts = (
-        cells / (1.0 - (coarse / 48.0) ** 2),
-        steps / (1.0 - (24.0 / 72.0) ** 2),
-        reach / (1.0 - (2.5 / 4.5) ** power),
-    )
-    value = plain + sum(parts)
+        steps, reach = _steps_and_reach(scene, 32)
+    parts = cells, steps, reach
+    value += sum(parts)
     return Truth(value, 0.1 * sum(abs(part) for part in parts) / abs(value))
+
+
+def _steps_and_reach(scene: Scene, cells: int) -> tuple[float, float]:
+    plain = _moving(scene, 2.5, cells, 24)
+    steps = _moving(scene, 2.5, cells, 72) - plain
+    reach = _moving(scene, 4.5, 3 * cells // 2, 24) - plain
+    power = FAR[scene.question.quantity]
+    return steps / (1.0 - (24.0 / 72.0) ** 2), reach / (1.0 - (2.5 / 4.5) ** power)
 
 
 def _grid(inlet: float, cells: int) -> ContactGrid:

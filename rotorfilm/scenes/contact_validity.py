@@ -18,13 +18,13 @@ if TYPE_CHECKING:
     from .scene import Scene
 
 FORMED = 2.0
-"""Pressure times pressure coefficient at which a film is formed: its flow by pressure is down to exp(-2)."""
+"""Pressure times pressure coefficient at which a film is formed: flow by pressure is down to exp(-2)."""
 
 DENSER = 0.1
 """Growth of the density under the contact that is worth a word."""
 
 FLAT = 0.1
-"""Contact radius / ball radius from which the ball is no paraboloid: the gap errs by a quarter of its square."""
+"""Contact radius / ball radius from which the ball is no paraboloid; the gap errs by its square / 4."""
 
 
 class ContactNumbers(NamedTuple):

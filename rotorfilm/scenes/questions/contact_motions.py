@@ -27,7 +27,7 @@ CELLS = (24, 32)
 FINE = {24: 64, 32: 64}
 """Cells of the stationary film that tells what a motion's cells cost."""
 
-STEPS, FINER = 24, 36
+STEPS, FINER = 36, 54
 """Steps over the shortest period on the coarsest grid, where their error is found, and on all others."""
 
 SHORTEST, LONGEST_STEP = 0.02, 0.25
@@ -48,13 +48,37 @@ LEFT = 0.4
 """Share of an extrapolation that may be wrong."""
 
 
+SMALLEST_SUM = 0.35
+"""Share of the errors' sizes below which their sum, with signs, is not trusted to fall."""
+
+
 class Followed(NamedTuple):
-    """The extreme of a motion and its relative errors by steps, cells and rectangle."""
+    """The extreme of a motion and what it lacks by steps, cells and rectangle, relative to it.
+
+    The last is the change of the smallest film from the coarser grid, a bound; 0 for other quantities.
+    """
 
     value: float
     steps: float
     cells: float
     rectangle: float
+    jump: float
+
+    @property
+    def lacking(self) -> float:
+        """All that it lacks."""
+        return self.steps + self.cells + self.rectangle
+
+    @property
+    def error(self) -> float:
+        """Relative error."""
+        sizes = abs(self.steps) + abs(self.cells) + abs(self.rectangle)
+        return max(abs(self.lacking), SMALLEST_SUM * sizes, self.jump)
+
+    @property
+    def left(self) -> float:
+        """Bound of the relative error where what lacks is added."""
+        return LEFT * (abs(self.steps) + abs(self.cells) + abs(self.rectangle)) + 0.5 * self.jump
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -128,9 +152,19 @@ class FollowedFilm:
         fine = FINE[cells]
         rest, better = (self.films.value(n, work, load=load) for n in (cells, fine))
         lacking = (better - rest) / (1.0 - (cells / fine) ** 2)
-        return Followed(
-            value, self.step_error(steps, work), lacking / rest, self.films.beyond(work, load) / rest
-        )
+        far = load if self.films.quantity == "approach" else 0.5 * (1.0 + load)
+        reach = self.films.beyond(work, far) / self.films.value(cells, work, load=far)
+        jump = self._jump(value, cells, work)
+        return Followed(value, self.step_error(steps, work), lacking / rest, reach, jump)
+
+    def _jump(self, value: float, cells: int, work: dict[str, int]) -> float:
+        """Return the relative change of the smallest film from the coarsest grid, where it has one."""
+        if self.films.quantity != "minimum_film" or cells == CELLS[0]:
+            return 0.0
+        try:
+            return abs(self.extreme(CELLS[0], STEPS, work)[0] / value - 1.0)
+        except ConvergenceError:
+            return 1.0
 
     def equivalent_load(self, cells: int, deepest: float, work: dict[str, int]) -> float:
         """Return the load whose contact at rest is as deep, as of a dry contact."""
@@ -183,11 +217,11 @@ class FilmMotionRung:
             value, _ = self.followed.extreme(self.cells, steps_on(self.cells), work)
             return Found(value * scale, work)
         parts = self.followed.parts(self.cells, work)
-        value = parts.value * (1.0 + sum(parts[1:]))
+        value = parts.value * (1.0 + parts.lacking)
         return Found(value * scale, work, parts)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the increments of steps, cells and rectangle; of an extrapolation a share of them.
+        """Return the increments of steps, cells and rectangle; of an extrapolation a share.
 
         That of the smallest film, which jumps from cell to cell, is a bound.
         """
@@ -196,16 +230,15 @@ class FilmMotionRung:
             parts = self.followed.parts(self.cells, work)
         except ConvergenceError as error:
             return ErrorEstimate(1.0, "order increments", work, doubt=f"no companion: {error}")
-        known = sum(abs(part) for part in parts[1:])
         method = "order increments of steps; of cells and rectangle at rest"
         deep = self.followed.extreme(self.cells, steps_on(self.cells), work)[1] < -2.0 * LARGEST_LOAD ** (
             2.0 / 3.0
         )
         doubt = "the contact grows beyond the rectangle" if deep else ""
         if self.extrapolated:
-            return ErrorEstimate(LEFT * known, f"share of the {method}", work, bound=True, doubt=doubt)
+            return ErrorEstimate(parts.left, f"share of the {method}", work, bound=True, doubt=doubt)
         bound = self.followed.films.quantity == "minimum_film"
-        return ErrorEstimate(known, method, work, bound, doubt)
+        return ErrorEstimate(parts.error, method, work, bound, doubt)
 
     def expected(self, done: Work) -> Work:
         """Return some Newton steps: about three for each step."""
@@ -219,7 +252,7 @@ def steps_on(cells: int) -> int:
 
 
 def lowest(time: Array, values: Array) -> float:
-    """Return the smallest value of a series, by the parabola through the smallest sample and its neighbors."""
+    """Return the smallest value of a series, by the parabola through three samples around it."""
     k = int(np.argmin(values))
     if k in (0, len(values) - 1):
         return float(values[k])

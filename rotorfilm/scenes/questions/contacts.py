@@ -30,7 +30,7 @@ Falls with the square of the cells; that of the approach is ten times smaller. M
 """
 
 FORMULA_BOUNDS = {"central_film": 0.16, "approach": 0.08}
-"""Largest error of the formulas within `FORMULA_RANGE`, measured on 40 random balls (docs/contact.md)."""
+"""Largest error of the formulas in `FORMULA_RANGE`, measured on random balls (docs/contact.md)."""
 
 FORMULA_RANGE = ((0.008, 0.4), (2.0, 18.0))
 """V and Q0 in which that was measured."""
@@ -41,7 +41,7 @@ LEFT = 0.3
 
 @dataclass(frozen=True, kw_only=True)
 class FormulaRung:
-    """The film of Nijenbanning, Venner and Moes (1994); the approach of the dry contact with that film between.
+    """The film of Nijenbanning, Venner and Moes (1994); the dry contact's approach with it between.
 
     Attributes
     ----------
