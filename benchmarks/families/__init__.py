@@ -20,5 +20,7 @@ FAMILIES: dict[str, tuple[int, Draw]] = {
     "blade loss": (1, journals.blade),
     "coupling": (1, journals.coupling),
     "damper": (2, dampers.damper),
+    "orbit, film": (1, journals.orbit_by_film),
+    "blade, film": (1, journals.blade_by_film),
 }
 """Weight of each family in a round of the battery, and how one scene of it is drawn."""
