@@ -167,7 +167,8 @@ def test_slow_sine_is_answered_at_rest_and_agrees_with_the_film_over_time():
     contact = films.contact(24)
     run = contact.simulate(
         contact.stationary(), duration=60.0, W=0.1,
-        load=SineLoad(amplitude=0.25, frequency=2.0 * math.pi / 60.0), control=FixedSteps(step=0.5, tolerance=1e-5),
+        load=SineLoad(amplitude=0.25, frequency=2.0 * math.pi / 60.0),
+        control=FixedSteps(step=0.5, tolerance=1e-5),
     )  # fmt: skip
     slow = SlowRung(films=films, shaken=replace(shaken, duration=60.0)).answer(None)
     still = films.value(24, {})

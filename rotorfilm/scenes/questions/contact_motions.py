@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -128,15 +129,16 @@ class FollowedFilm:
         return self.runs[key]
 
     def step_error(self, steps: int, work: dict[str, int]) -> float:
-        """Return the relative error by the steps, from twice as long ones on the coarsest grid that can."""
-        for cells in CELLS:
+        """Return what the value lacks by the steps, from longer ones on the coarsest grid that can."""
+        for cells, (fine, rough) in product(CELLS, ((STEPS, STEPS // 2), (FINER, STEPS))):
             try:
-                fine, rough = (self.extreme(cells, n, work)[0] for n in (STEPS, STEPS // 2))
+                value, other = (self.extreme(cells, n, work)[0] for n in (fine, rough))
             except ConvergenceError:
                 continue
-            ratio = (self.step(steps) / self.step(STEPS)) ** STEP_ORDER
-            return ratio * (fine - rough) / (2.0**STEP_ORDER - 1.0) / fine
-        raise ConvergenceError("steps twice as long must have a motion, got none on any grid")
+            ratio = (self.step(steps) / self.step(fine)) ** STEP_ORDER
+            longer = (self.step(rough) / self.step(fine)) ** STEP_ORDER
+            return ratio * (value - other) / max(longer - 1.0, 1.0) / value
+        raise ConvergenceError("longer steps must have a motion, got none on any grid")
 
     def parts(self, cells: int, work: dict[str, int]) -> Followed:
         """Return the extreme on so many cells, and what it lacks; the cells and the rectangle cost at rest.
