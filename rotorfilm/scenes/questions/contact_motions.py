@@ -32,7 +32,7 @@ STEPS, FINER = 36, 54
 """Steps over the shortest period on the coarsest grid, where their error is found, and on all others."""
 
 SHORTEST, LONGEST_STEP = 0.02, 0.25
-"""Range of a step in transit times: the film smooths what is faster, and forgets what is older."""
+"""Range of the step of the coarsest grid [1]: the film smooths what is faster, and passes by in 2."""
 
 STEP_ORDER = 2
 
@@ -100,7 +100,8 @@ class FollowedFilm:
 
     def step(self, steps: int) -> float:
         """Return a step [1], so many over the shortest period."""
-        return float(np.clip(self.shaken.shortest_period / steps, SHORTEST * STEPS / steps, LONGEST_STEP))
+        period = np.clip(self.shaken.shortest_period, SHORTEST * STEPS, LONGEST_STEP * STEPS)
+        return float(period / steps)
 
     def extreme(self, cells: int, steps: int, work: dict[str, int]) -> tuple[float, float]:
         """Return the smallest value of the quantity and of the approach over the motion [1].
