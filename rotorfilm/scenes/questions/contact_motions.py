@@ -45,7 +45,7 @@ NEWTON_TOLERANCE = 1e-5
 LARGEST_LOAD = 2.8
 """Load under which the dry contact nearly fills the rectangle, whose outlet is at 1.5 radii."""
 
-LEFT = 0.4
+LEFT = 0.5
 """Share of an extrapolation that may be wrong."""
 
 

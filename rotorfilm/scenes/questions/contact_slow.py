@@ -75,9 +75,9 @@ class SlowRung:
         doubt = "the ball swings: no small motion about rest" if moved > DISAGREEMENT else ""
         if least < SLACKEST:
             doubt = "the ball leaves the film"
-        return ErrorEstimate(
-            lacking + moved, "order increments; linearized film over frequency", work, doubt=doubt
-        )
+        bound = self.films.quantity == "minimum_film"
+        method = "order increments; linearized film over frequency"
+        return ErrorEstimate(lacking + moved, method, work, bound, doubt)
 
     def _motion(self) -> float:
         """Return how far the quantity goes beyond that at rest, by the linearized film [1]."""
