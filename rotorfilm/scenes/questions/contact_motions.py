@@ -34,7 +34,7 @@ STEPS, FINER = 36, 54
 SHORTEST, LONGEST_STEP = 0.02, 0.25
 """Range of the step of the coarsest grid [1]: the film smooths what is faster, and passes by in 2."""
 
-STEP_ORDER = 2
+STEP_ORDER = SPACE_ORDER = 2
 
 MOST_STEPS = 4000
 """Steps beyond which no film is followed."""
@@ -49,6 +49,9 @@ LEFT = 0.5
 """Share of an extrapolation that may be wrong."""
 
 
+RESOLVED = 0.03
+"""Relative error of the film at rest by its cells from which a motion loses far more of it."""
+
 SMALLEST_SUM = 0.35
 """Share of the errors' sizes below which their sum, with signs, is not trusted to fall."""
 
@@ -56,7 +59,8 @@ SMALLEST_SUM = 0.35
 class Followed(NamedTuple):
     """The extreme of a motion and what it lacks by steps, cells and rectangle, relative to it.
 
-    The last is the change of the smallest film from the coarser grid, a bound; 0 for other quantities.
+    The last is the change of the smallest film from the coarser grid, a bound; 0 for other quantities. Films
+    are `resolved` if the cells matter little at rest, or can be told from two motions.
     """
 
     value: float
@@ -64,6 +68,7 @@ class Followed(NamedTuple):
     cells: float
     rectangle: float
     jump: float
+    resolved: bool
 
     @property
     def lacking(self) -> float:
@@ -157,17 +162,27 @@ class FollowedFilm:
         lacking = (better - rest) / (1.0 - (cells / fine) ** 2)
         far = load if self.films.quantity == "approach" else 0.5 * (1.0 + load)
         reach = self.films.beyond(work, far) / self.films.value(cells, work, load=far)
-        jump = self._jump(value, cells, work)
-        return Followed(value, self.step_error(steps, work), lacking / rest, reach, jump)
+        by_steps, by_cells = self.step_error(steps, work), lacking / rest
+        resolved, jump = abs(by_cells) < RESOLVED, 0.0
+        change = self._change(cells, work)
+        if change is not None:
+            ratio = (cells / CELLS[0]) ** SPACE_ORDER - 1.0
+            by_cells = max(by_cells, change / ratio, key=abs)
+            resolved, jump = True, abs(change) if self.films.quantity == "minimum_film" else 0.0
+        return Followed(value, by_steps, by_cells, reach, jump, resolved)
 
-    def _jump(self, value: float, cells: int, work: dict[str, int]) -> float:
-        """Return the relative change of the smallest film from the coarsest grid, where it has one."""
-        if self.films.quantity != "minimum_film" or cells == CELLS[0]:
-            return 0.0
+    def _change(self, cells: int, work: dict[str, int]) -> float | None:
+        """Return the relative change from the coarsest grid, errors by steps taken off, if that has a motion."""
+        if cells == CELLS[0]:
+            return None
         try:
-            return abs(self.extreme(CELLS[0], STEPS, work)[0] / value - 1.0)
+            rough, fine = (
+                self.extreme(n, steps_on(n), work)[0] * (1.0 + self.step_error(steps_on(n), work))
+                for n in (CELLS[0], cells)
+            )
         except ConvergenceError:
-            return 1.0
+            return None
+        return 1.0 - rough / fine
 
     def equivalent_load(self, cells: int, deepest: float, work: dict[str, int]) -> float:
         """Return the load whose contact at rest is as deep, as of a dry contact."""
@@ -238,6 +253,8 @@ class FilmMotionRung:
             2.0 / 3.0
         )
         doubt = "the contact grows beyond the rectangle" if deep else ""
+        if not parts.resolved:
+            doubt = f"too thin a film for {self.cells} x {self.cells} cells, and no coarser motion beside it"
         if self.extrapolated:
             return ErrorEstimate(parts.left, f"share of the {method}", work, bound=True, doubt=doubt)
         bound = self.followed.films.quantity == "minimum_film"

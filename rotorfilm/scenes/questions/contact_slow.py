@@ -61,7 +61,10 @@ class SlowRung:
         return Found(values[load] * self.films.ball.film_scale, work, load)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the errors of grid and rectangle, and what the linearized film makes of the motion."""
+        """Return the errors of grid and rectangle, and what the linearized film makes of the motion.
+
+        A bound of a small motion, since amplitudes are added whatever their phases.
+        """
         work: dict[str, int] = {}
         least, load = self.shaken.extremes[0], float(found.solution)
         try:
@@ -75,9 +78,8 @@ class SlowRung:
         doubt = "the ball swings: no small motion about rest" if moved > DISAGREEMENT else ""
         if least < SLACKEST:
             doubt = "the ball leaves the film"
-        bound = self.films.quantity == "minimum_film"
         method = "order increments; linearized film over frequency"
-        return ErrorEstimate(lacking + moved, method, work, bound, doubt)
+        return ErrorEstimate(lacking + moved, method, work, bound=True, doubt=doubt)
 
     def _motion(self) -> float:
         """Return how far the quantity goes beyond that at rest, by the linearized film [1]."""
