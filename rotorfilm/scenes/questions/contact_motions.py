@@ -172,7 +172,7 @@ class FollowedFilm:
         return Followed(value, by_steps, by_cells, reach, jump, resolved)
 
     def _change(self, cells: int, work: dict[str, int]) -> float | None:
-        """Return the relative change from the coarsest grid, errors by steps taken off, if that has a motion."""
+        """Return the relative change from the coarsest grid, without errors by steps, if it has a motion."""
         if cells == CELLS[0]:
             return None
         try:
