@@ -1,0 +1,156 @@
+"""Wear of a melting bush at nodes of its profile, under a load that keeps its direction.
+
+The load may fall. The shaft rests where the pressure carries the load at every moment; friction's share of
+it is left out, as in the source. The nodes are those of `bush_profile`, to both sides of the load line.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from ..errors import ConvergenceError
+from ..model import Array
+from .bush_moments import Stage, Wearing
+from .bush_profile import (
+    HeatState,
+    LocalMelting,
+    MeltingRule,
+    Nodes,
+    Pressed,
+    arc_nodes,
+    press,
+    times_stiffness,
+)
+
+MAX_ITERATIONS = 60
+REST = 1e-10
+"""Wear still to come, over that of the deepest node, at which a stage has come to its end."""
+
+STEP_ERROR = 1e-2
+"""Relative error of the steps in time over the square of the distance of nodes per half angle."""
+
+
+class Worn(NamedTuple):
+    """The end of a run at nodes.
+
+    Attributes
+    ----------
+    settlement : float
+        By how much farther than unworn the shaft settles, per radius of the liner.
+    angle : float [rad]
+        Half the widest angle of contact.
+    depth : ndarray, shape (n,)
+        Wear, per radius.
+    calls : int
+        Profiles for which the shaft was settled.
+    """
+
+    settlement: float
+    angle: float
+    depth: Array
+    calls: int
+
+
+def wear_at_nodes(
+    bush: Wearing, rule: MeltingRule, stages: tuple[Stage, ...], count: int, reach: float
+) -> Worn:
+    """Return the wear at the end of a run.
+
+    Parameters
+    ----------
+    bush : Wearing
+    rule : MeltingRule
+    stages : tuple of Stage
+        Of any loads above zero.
+    count : int
+        Nodes to one side of the load line.
+    reach : float [rad]
+        Half the arc of nodes; the contact must stay inside.
+
+    Raises
+    ------
+    ConvergenceError
+        If the contact leaves the arc of nodes, or the steps in time fail.
+    """
+    nodes = arc_nodes(2 * count + 1, 0.0, 2.0 * reach)
+    depth, at, widest, calls = np.zeros(2 * count + 1), 0.0, 0.0, 0
+    rtol = STEP_ERROR / count**2
+    for stage in stages:
+        at = _unworn(bush, stage.load_ratio) + depth.max()
+
+        def rate(t: float, depth: Array, load: float = stage.load_ratio) -> Array:
+            nonlocal at, calls
+            calls += 1
+            offset = bush.gap + depth
+            at, pressed = settle_along(nodes, offset, bush.law.compliance * load, at)
+            return _melted(bush, rule, nodes, at * nodes.normal[0] - offset, pressed) / bush.heat
+
+        def rest(t: float, depth: Array, end: float = stage.duration, rate=rate) -> float:  # type: ignore[no-untyped-def]
+            return float(rate(t, depth).max() * (end - t) - REST * depth.max())
+
+        rest.terminal = True  # type: ignore[attr-defined]
+        if rate(0.0, depth).any():
+            run = solve_ivp(
+                rate, (0.0, stage.duration), depth, rtol=rtol, atol=1e-3 * rtol * bush.gap, events=rest
+            )
+            if not run.success:
+                raise ConvergenceError(f"wear of a bush must be found in steps of time: {run.message}")
+            depth = run.y[:, -1]
+        at, pressed = settle_along(nodes, bush.gap + depth, bush.law.compliance * stage.load_ratio, at)
+        widest = max(widest, float(pressed.angle))
+    fresh = np.full(nodes.weight.size, bush.gap)
+    unworn, _ = settle_along(nodes, fresh, bush.law.compliance * stages[-1].load_ratio, at - depth.max())
+    return Worn(at - unworn if depth.any() else 0.0, widest, depth, calls)
+
+
+def settle_along(nodes: Nodes, offset: Array, pull: float, start: float) -> tuple[float, Pressed]:
+    """Return how far the shaft moves along the load line, per radius, until the depths carry `pull`.
+
+    Newton's method on a rising and, within the arc, convex function of the position.
+    """
+    cosine = nodes.normal[0]
+    last = 0.5 * float(offset[0] / cosine[0] + offset[-1] / cosine[-1])
+    at = min(start, last)
+    for _ in range(MAX_ITERATIONS):
+        pressed = press(nodes, at * cosine - offset)
+        slope = float(cosine @ times_stiffness(nodes, pressed, cosine))
+        if slope == 0.0:
+            at = float((offset / cosine).min()) * (1.0 + 1e-3) + 1e-6
+            continue
+        step = (pull - float(cosine @ pressed.load)) / slope
+        if abs(step) <= 1e-13 * at:
+            return at, pressed
+        if step > 0.0 and at == last:
+            raise ConvergenceError(f"contact must stay on {last:.6g} of the arc of nodes, got one beyond")
+        at = min(at + step, last)
+    return at, press(nodes, at * cosine - offset)
+
+
+def _unworn(bush: Wearing, load_ratio: float) -> float:
+    return float(bush.gap / np.cos(bush.angle(np.array(0.0), np.array(load_ratio))))
+
+
+def _melted(bush: Wearing, rule: MeltingRule, nodes: Nodes, depth: Array, pressed: Pressed) -> Array:
+    """Return the heat that melts the liner at the nodes [W/m2].
+
+    What `LocalMelting` cuts off at each point is integrated against the nodes' hat functions as the pressure
+    is, so that the rates are smooth while the end of the melting zone moves from node to node.
+    """
+    pressure = pressed.load / (bush.law.compliance * nodes.weight)
+    angle = np.asarray(max(float(pressed.angle), 1e-9))
+    losses = float(bush.losses(angle))
+    if isinstance(rule, LocalMelting):
+        margin = bush.work * depth / bush.law.compliance - losses
+        return np.asarray(press(nodes, margin).load / nodes.weight)
+    state = HeatState(
+        pressure=pressure,
+        total=float(pressed.load.sum()) / bush.law.compliance,
+        angle=float(angle),
+        work=bush.work,
+        losses=losses,
+        losses_slope=0.0,  # of the derivatives, which are not asked for
+    )
+    return rule.melting(state).heat

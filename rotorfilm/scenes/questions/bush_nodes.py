@@ -1,0 +1,119 @@
+"""Wear of a bush at nodes of its profile: for loads that fall, and where each point melts by itself."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from ...errors import ConvergenceError
+from ...films.bush_moments import Wearing, wear_by_one_moment
+from ...films.bush_worn import Worn, wear_at_nodes
+from ..ladder import ErrorEstimate, Found, Work
+from .bush_run import BushRun
+
+NODES = (8, 16, 32, 64, 128)
+"""Nodes to each side of the load line."""
+
+ORDER = 2
+"""Of the wear in the distance of nodes."""
+
+BRINK = 1e-6
+"""Speed over the critical one, less one, below which an unworn bush is known to stay so."""
+
+WIDEST_ARC = 1.5
+"""Half the widest arc of nodes [rad]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class NodesRung:
+    """Wear by nodes on an arc that the contact just fills at the end.
+
+    Attributes
+    ----------
+    run : BushRun
+    nodes : int
+        To each side of the load line.
+    closed : bool
+        Whether the heat into the shaft is that of the closed form.
+    """
+
+    run: BushRun
+    nodes: int
+    closed: bool
+
+    @property
+    def name(self) -> str:
+        """Number of nodes."""
+        return f"{self.nodes} nodes a side{', closed form of the flux' if self.closed else ''}"
+
+    @property
+    def prior(self) -> float:
+        """Nothing is known beforehand."""
+        return 0.0
+
+    @property
+    def own(self) -> Wearing:
+        """The bush with this rung's heat into the shaft."""
+        return self.run.closed if self.closed else self.run.exact
+
+    def answer(self, before: Found | None) -> Found:
+        """Return by how much farther than unworn the shaft settles [m]."""
+        if self.run.margin(self.own) < 0.0:
+            return Found(0.0, {"critical speeds": len(self.run.stages)}, math.nan)
+        reach, work = self._reach(before)
+        worn = wear_at_nodes(self.own, self.run.rule, self.run.stages, self.nodes, reach)
+        value = self.run.require_liner(self.run.radius * worn.settlement)
+        return Found(value, {profiles(self.nodes): worn.calls, **work}, reach)
+
+    def _reach(self, before: Found | None) -> tuple[float, Work]:
+        """Return half the arc of nodes [rad]: that of a lower rung, or by the fewest nodes on a guess."""
+        if before is not None:
+            return float(before.solution), {}
+        path = wear_by_one_moment(self.own, self.run.stages)
+        guess = 1.2 * float(self.own.angle(path.moment, path.load_ratio).max())
+        first = self._first(min(guess, WIDEST_ARC))
+        return min(1.05 * first.angle, WIDEST_ARC), {f"{profiles(NODES[0])}, first": first.calls + path.calls}
+
+    def _first(self, reach: float) -> Worn:
+        while True:
+            try:
+                return wear_at_nodes(self.own, self.run.rule, self.run.stages, NODES[0], reach)
+            except ConvergenceError:
+                if reach >= WIDEST_ARC:
+                    raise
+                reach = min(1.25 * reach, WIDEST_ARC)
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the order increment from half the nodes, and what the exact flux would change by these."""
+        margin = self.run.margin(self.run.exact)
+        how = f"exact flux: the speed is {margin:+.2%} off that at which the liner melts"
+        if found.value == 0.0 or margin < BRINK:
+            certain = found.value == 0.0 and margin < -BRINK
+            return ErrorEstimate(0.0 if certain else math.inf, how, bound=certain)
+        coarse, work = self._half(found, before)
+        error = abs(found.value - coarse) / (2.0**ORDER - 1.0)
+        method = f"order increment, order {ORDER}"
+        if self.closed:
+            exact = wear_at_nodes(
+                self.run.exact, self.run.rule, self.run.stages, self.nodes // 2, float(found.solution)
+            )
+            error += abs(self.run.radius * exact.settlement - coarse)
+            method, work = f"{method}; exact flux at half the nodes", {profiles(self.nodes // 2): exact.calls}
+        return ErrorEstimate(error / abs(found.value), method, work)
+
+    def _half(self, found: Found, before: Found | None) -> tuple[float, Work]:
+        """Return the wear by half the nodes, that of the rung below if there is one."""
+        if before is not None and profiles(self.nodes // 2) in before.work:
+            return float(before.value), {}
+        count = self.nodes // 2
+        worn = wear_at_nodes(self.own, self.run.rule, self.run.stages, count, float(found.solution))
+        return self.run.radius * worn.settlement, {profiles(count): worn.calls}
+
+    def expected(self, done: Work) -> Work:
+        """Return twice the profiles of half the nodes."""
+        return {profiles(self.nodes): 2 * max(done.values(), default=100)}
+
+
+def profiles(nodes: int) -> str:
+    """Return the name of one profile for which the shaft is settled."""
+    return f"profiles of {2 * nodes + 1} nodes"
