@@ -6,6 +6,7 @@ it is left out, as in the source. The nodes are those of `bush_profile`, to both
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -86,7 +87,7 @@ def wear_at_nodes(
             calls += 1
             offset = bush.gap + depth
             at, pressed = settle_along(nodes, offset, bush.law.compliance * load, at)
-            return _melted(bush, rule, nodes, at * nodes.normal[0] - offset, pressed) / bush.heat
+            return _melted(bush, rule, nodes, at, offset, pressed) / bush.heat
 
         def rest(t: float, depth: Array, end: float = stage.duration, rate=rate) -> float:  # type: ignore[no-untyped-def]
             return float(rate(t, depth).max() * (end - t) - REST * depth.max())
@@ -133,14 +134,17 @@ def _unworn(bush: Wearing, load_ratio: float) -> float:
     return float(bush.gap / np.cos(bush.angle(np.array(0.0), np.array(load_ratio))))
 
 
-def _melted(bush: Wearing, rule: MeltingRule, nodes: Nodes, depth: Array, pressed: Pressed) -> Array:
+def _melted(
+    bush: Wearing, rule: MeltingRule, nodes: Nodes, at: float, offset: Array, pressed: Pressed
+) -> Array:
     """Return the heat that melts the liner at the nodes [W/m2].
 
     What `LocalMelting` cuts off at each point is integrated against the nodes' hat functions as the pressure
     is, so that the rates are smooth while the end of the melting zone moves from node to node.
     """
     pressure = pressed.load / (bush.law.compliance * nodes.weight)
-    angle = np.asarray(max(float(pressed.angle), 1e-9))
+    depth = at * nodes.normal[0] - offset
+    angle = np.asarray(_edge(nodes, at, offset, depth))
     losses = float(bush.losses(angle))
     if isinstance(rule, LocalMelting):
         margin = bush.work * depth / bush.law.compliance - losses
@@ -154,3 +158,18 @@ def _melted(bush: Wearing, rule: MeltingRule, nodes: Nodes, depth: Array, presse
         losses_slope=0.0,  # of the derivatives, which are not asked for
     )
     return rule.melting(state).heat
+
+
+def _edge(nodes: Nodes, at: float, offset: Array, depth: Array) -> float:
+    """Return where the contact ends [rad]: between two nodes the shaft is round, the worn liner straight."""
+    middle = depth.size // 2
+    inside = depth[middle:] > 0.0
+    last = int(np.argmin(inside)) - 1
+    if inside.all() or last < 0:
+        return max(float(press(nodes, depth).angle), 1e-9)
+    near, far = depth[middle + last : middle + last + 2].tolist()
+    part = near / (near - far)
+    angle = nodes.step * (last + part)
+    ground = offset[middle + last] + part * (offset[middle + last + 1] - offset[middle + last])
+    slope = -at * math.sin(angle) - (offset[middle + last + 1] - offset[middle + last]) / nodes.step
+    return float(angle - (at * math.cos(angle) - ground) / slope)

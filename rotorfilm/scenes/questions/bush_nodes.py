@@ -11,7 +11,7 @@ from ...films.bush_worn import Worn, wear_at_nodes
 from ..ladder import ErrorEstimate, Found, Work
 from .bush_run import BushRun
 
-NODES = (8, 16, 32, 64, 128)
+NODES = (12, 24, 48, 96)
 """Nodes to each side of the load line."""
 
 ORDER = 2
@@ -20,8 +20,14 @@ ORDER = 2
 BRINK = 1e-6
 """Speed over the critical one, less one, below which an unworn bush is known to stay so."""
 
+FEW = 96
+"""Nodes to each side up to which the order increment is taken twice."""
+
 WIDEST_ARC = 1.5
 """Half the widest arc of nodes [rad]."""
+
+MARGIN, WIDER = 1.08, 1.25
+"""Arc of nodes over the widest contact found by few of them; by how much it is widened where that fails."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,28 +66,36 @@ class NodesRung:
         """Return by how much farther than unworn the shaft settles [m]."""
         if self.run.margin(self.own) < 0.0:
             return Found(0.0, {"critical speeds": len(self.run.stages)}, math.nan)
-        reach, work = self._reach(before)
-        worn = wear_at_nodes(self.own, self.run.rule, self.run.stages, self.nodes, reach)
+        reach, work = math.nan, dict[str, int]()
+        if before is not None and math.isfinite(float(before.solution)):
+            reach = float(before.solution)
+        else:
+            reach, work = self._reach()
+        worn = self._worn(self.nodes, reach)
         value = self.run.require_liner(self.run.radius * worn.settlement)
         return Found(value, {profiles(self.nodes): worn.calls, **work}, reach)
 
-    def _reach(self, before: Found | None) -> tuple[float, Work]:
-        """Return half the arc of nodes [rad]: that of a lower rung, or by the fewest nodes on a guess."""
-        if before is not None:
-            return float(before.solution), {}
+    def _reach(self) -> tuple[float, dict[str, int]]:
+        """Return half the arc of nodes [rad] that the contact fills, found by few nodes, and the work."""
         path = wear_by_one_moment(self.own, self.run.stages)
-        guess = 1.2 * float(self.own.angle(path.moment, path.load_ratio).max())
-        first = self._first(min(guess, WIDEST_ARC))
-        return min(1.05 * first.angle, WIDEST_ARC), {f"{profiles(NODES[0])}, first": first.calls + path.calls}
-
-    def _first(self, reach: float) -> Worn:
+        reach = min(1.2 * float(self.own.angle(path.moment, path.load_ratio).max()), WIDEST_ARC)
+        calls = path.calls
         while True:
             try:
-                return wear_at_nodes(self.own, self.run.rule, self.run.stages, NODES[0], reach)
+                first = self._worn(NODES[0], reach)
             except ConvergenceError:
                 if reach >= WIDEST_ARC:
                     raise
-                reach = min(1.25 * reach, WIDEST_ARC)
+                reach = min(WIDER * reach, WIDEST_ARC)
+                continue
+            calls += first.calls
+            fits = MARGIN * first.angle
+            if fits > 0.7 * reach:
+                return min(fits, WIDEST_ARC), {f"{profiles(NODES[0])}, first": calls}
+            reach = 0.5 * (fits + reach)
+
+    def _worn(self, nodes: int, reach: float) -> Worn:
+        return wear_at_nodes(self.own, self.run.rule, self.run.stages, nodes, reach)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the order increment from half the nodes, and what the exact flux would change by these."""
@@ -90,24 +104,29 @@ class NodesRung:
         if found.value == 0.0 or margin < BRINK:
             certain = found.value == 0.0 and margin < -BRINK
             return ErrorEstimate(0.0 if certain else math.inf, how, bound=certain)
+        reach = float(found.solution)
         coarse, work = self._half(found, before)
         error = abs(found.value - coarse) / (2.0**ORDER - 1.0)
+        if self.nodes <= FEW:
+            # One difference of few nodes may vanish by chance, two hardly do.
+            between = self._worn(3 * self.nodes // 4, reach)
+            other = abs(found.value - self.run.radius * between.settlement) / ((4.0 / 3.0) ** ORDER - 1.0)
+            error = math.hypot(error, other) / math.sqrt(2.0)
+            work = {**work, profiles(3 * self.nodes // 4): between.calls}
         method = f"order increment, order {ORDER}"
         if self.closed:
-            exact = wear_at_nodes(
-                self.run.exact, self.run.rule, self.run.stages, self.nodes // 2, float(found.solution)
-            )
+            exact = wear_at_nodes(self.run.exact, self.run.rule, self.run.stages, self.nodes // 2, reach)
             error += abs(self.run.radius * exact.settlement - coarse)
-            method, work = f"{method}; exact flux at half the nodes", {profiles(self.nodes // 2): exact.calls}
+            method += "; exact flux at half the nodes"
+            work = {**work, f"{profiles(self.nodes // 2)}, exact flux": exact.calls}
         return ErrorEstimate(error / abs(found.value), method, work)
 
-    def _half(self, found: Found, before: Found | None) -> tuple[float, Work]:
+    def _half(self, found: Found, before: Found | None) -> tuple[float, dict[str, int]]:
         """Return the wear by half the nodes, that of the rung below if there is one."""
         if before is not None and profiles(self.nodes // 2) in before.work:
             return float(before.value), {}
-        count = self.nodes // 2
-        worn = wear_at_nodes(self.own, self.run.rule, self.run.stages, count, float(found.solution))
-        return self.run.radius * worn.settlement, {profiles(count): worn.calls}
+        worn = self._worn(self.nodes // 2, float(found.solution))
+        return self.run.radius * worn.settlement, {profiles(self.nodes // 2): worn.calls}
 
     def expected(self, done: Work) -> Work:
         """Return twice the profiles of half the nodes."""
