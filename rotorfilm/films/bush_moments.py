@@ -42,6 +42,10 @@ WIDEST = 1.55
 """Half the contact angle [rad] beyond which no end of the wear is looked for."""
 
 
+WIDEST_TRIAL = 1.57
+"""Of a trial step."""
+
+
 class Stage(NamedTuple):
     """A time in which the load is constant.
 
@@ -219,7 +223,7 @@ def wear_by_one_moment(bush: Wearing, stages: tuple[Stage, ...]) -> Path:
     """
 
     def rate(alpha: Array, first: float, load_ratio: float) -> tuple[float, float]:
-        grown = max(float(bush.surplus(alpha, bush.shaped_total(alpha, load_ratio))), 0.0)
+        grown = float(bush.surplus(alpha, bush.shaped_total(alpha, load_ratio)))
         return load_ratio * grown * float(bush.angle_slope(alpha)), 0.0
 
     return _march(bush, stages, rate, SHAPED_RTOL)
@@ -230,18 +234,19 @@ def wear_by_two_moments(bush: Wearing, stages: tuple[Stage, ...]) -> Path:
 
     def rate(alpha: Array, first: float, load_ratio: float) -> tuple[float, float]:
         total = float(bush.total(alpha, first))
-        grown = max(float(bush.surplus(alpha, total)), 0.0)
+        grown = float(bush.surplus(alpha, total))
         return load_ratio * grown * float(bush.angle_slope(alpha)), total * grown
 
     return _march(bush, stages, rate, RTOL)
 
 
 Rate = Callable[[Array, float, float], tuple[float, float]]
-"""d(alpha)/dt and dV/dt for alpha, V and N."""
+"""d(alpha)/dt and dV/dt for alpha, V and N: not clamped, since the wear comes to its end from below."""
 
 
 def _shifted(rate: Rate, alpha: Array, load: float, t: float, state: Array) -> tuple[float, float]:
-    return rate(alpha + state[0], float(state[1]), load)
+    # Trial steps go astray; a contact neither shrinks nor is wider than half a turn.
+    return rate(np.clip(alpha + state[0], alpha, WIDEST_TRIAL), float(state[1]), load)
 
 
 def _march(bush: Wearing, stages: tuple[Stage, ...], rate: Rate, rtol: float) -> Path:
@@ -266,9 +271,9 @@ def _stage(
     """Return the steps of one stage, as scipy does; two where nothing melts at its begin and so ever."""
     state = np.array([0.0, first])
     scale = rate(0.0, state)
-    if scale[0] == 0.0:
+    if scale[0] <= 0.0:
         return SimpleNamespace(t=np.array([0.0, duration]), y=np.stack([state, state], axis=1), nfev=1)
-    atol = [ATOL * min(scale[0] * duration, 1.0), ATOL * scale[1] * duration + 1e-300]
+    atol = [ATOL * min(scale[0] * duration, 1.0), ATOL * scale[1] * duration or 1.0]
     run = solve_ivp(rate, (0.0, duration), state, method="LSODA", rtol=rtol, atol=atol)
     if not run.success:
         raise ConvergenceError(f"wear of a bush must be found in steps of time: {run.message}")

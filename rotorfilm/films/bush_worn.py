@@ -11,10 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 
 from ..errors import ConvergenceError
 from ..model import Array
-from .bush_moments import Stage, Wearing
+from .bush_moments import WIDEST, Stage, Wearing
 from .bush_profile import (
     HeatState,
     LocalMelting,
@@ -27,8 +28,8 @@ from .bush_profile import (
 )
 
 MAX_ITERATIONS = 60
-REST = 1e-10
-"""Wear still to come, over that of the deepest node, at which a stage has come to its end."""
+REST = 1e-7
+"""Wear to come in the time that has passed, over that of the stage, at which a stage has come to its end."""
 
 STEP_ERROR = 1e-2
 """Relative error of the steps in time over the square of the distance of nodes per half angle."""
@@ -89,10 +90,11 @@ def wear_at_nodes(
             at, pressed = settle_along(nodes, offset, bush.law.compliance * load, at)
             return _melted(bush, rule, nodes, at, offset, pressed) / bush.heat
 
-        def rest(t: float, depth: Array, end: float = stage.duration, rate=rate) -> float:  # type: ignore[no-untyped-def]
-            return float(rate(t, depth).max() * (end - t) - REST * depth.max())
+        def rest(t: float, now: Array, end: float = stage.duration, begin: Array = depth) -> float:
+            left = min(end - t, t)
+            return float(rate(t, now).max() * left - REST * (now - begin).max())
 
-        rest.terminal = True  # type: ignore[attr-defined]
+        rest.terminal, rest.direction = True, -1.0  # type: ignore[attr-defined]
         if rate(0.0, depth).any():
             run = solve_ivp(
                 rate, (0.0, stage.duration), depth, rtol=rtol, atol=1e-3 * rtol * bush.gap, events=rest
@@ -105,6 +107,64 @@ def wear_at_nodes(
     fresh = np.full(nodes.weight.size, bush.gap)
     unworn, _ = settle_along(nodes, fresh, bush.law.compliance * stages[-1].load_ratio, at - depth.max())
     return Worn(at - unworn if depth.any() else 0.0, widest, depth, calls)
+
+
+class LocalEnd(NamedTuple):
+    """Where the wear of a bush ends that melts at each point by itself.
+
+    Attributes
+    ----------
+    angle : float [rad]
+        Half the contact angle; infinite where it has no end below `WIDEST`.
+    settlement : float
+        By how much farther than unworn the shaft settles, per radius.
+    rate : float [1/s]
+        By which the last of the wear decays.
+    exact : bool
+        Whether all that melts goes on melting to the end.
+    """
+
+    angle: float
+    settlement: float
+    rate: float
+    exact: bool
+
+
+def end_of_local_wear(bush: Wearing, load_ratio: float) -> LocalEnd:
+    """Return the end of the wear under a constant load.
+
+    There friction heat equals the losses at every point that has melted: up to an angle phi_1 the pressure
+    is q_0 = losses/work, beyond it that of the unworn liner, and both carry the load. With the integrals A
+    and K of cos^2 over both parts, what is to come decays by work/(a_1 heat) (K + rho A)/(K + A): the unworn
+    part holds the shaft, rho = d(a_1 q_0)/d(position).
+    """
+    compliance, gap = bush.law.compliance, bush.gap
+
+    def parts(alpha: float) -> tuple[float, float, float]:
+        level = float(bush.losses(np.asarray(alpha))) / bush.work
+        inner = math.acos(min((gap + compliance * level) * math.cos(alpha) / gap, 1.0))
+        outer = gap / math.cos(alpha) * (_square(alpha) - _square(inner))
+        outer -= gap * (math.sin(alpha) - math.sin(inner))
+        return 2.0 * level * math.sin(inner) + 2.0 * outer / compliance - load_ratio, inner, level
+
+    begin = float(bush.angle(0.0, load_ratio))
+    if parts(begin)[1] == 0.0:
+        return LocalEnd(begin, 0.0, math.inf, True)
+    if parts(WIDEST)[0] < 0.0:
+        return LocalEnd(math.inf, math.inf, 0.0, False)
+    alpha = brentq(lambda at: parts(at)[0], begin, WIDEST, xtol=1e-13)
+    inner = parts(alpha)[1]
+    slope = float(bush.losses_slope(np.asarray(alpha))) * math.cos(alpha) ** 2 / (gap * math.sin(alpha))
+    rho = slope * compliance / bush.work
+    held, melted = _square(alpha) - _square(inner), _square(inner)
+    rate = bush.work / (compliance * bush.heat) * (held + rho * melted) / (held + melted)
+    settlement = gap * (1.0 / math.cos(alpha) - 1.0 / math.cos(begin))
+    return LocalEnd(alpha, settlement, rate, rho < math.cos(inner))
+
+
+def _square(angle: float) -> float:
+    """Return the integral of cos^2 from zero."""
+    return 0.5 * angle + 0.25 * math.sin(2.0 * angle)
 
 
 def settle_along(nodes: Nodes, offset: Array, pull: float, start: float) -> tuple[float, Pressed]:
@@ -125,7 +185,9 @@ def settle_along(nodes: Nodes, offset: Array, pull: float, start: float) -> tupl
         if abs(step) <= 1e-13 * at:
             return at, pressed
         if step > 0.0 and at == last:
-            raise ConvergenceError(f"contact must stay on {last:.6g} of the arc of nodes, got one beyond")
+            raise ConvergenceError(
+                f"half the contact must stay below {nodes.step * (cosine.size // 2):.3g} rad, got a wider one"
+            )
         at = min(at + step, last)
     return at, press(nodes, at * cosine - offset)
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ..films import bush_contact as arc
 from ..films.bush_moments import end_of_wear
+from ..films.bush_worn import end_of_local_wear
 
 if TYPE_CHECKING:
     from .questions.bush_run import BushRun
@@ -59,7 +60,8 @@ def bush_numbers(run: BushRun) -> BushNumbers:
     end, _ = end_of_wear(bush, load)
     rate = float(bush.surplus(alpha, bush.shaped_total(alpha, load)))
     fastest = max(bush.work * peak - float(bush.losses(alpha)), 0.0) / bush.heat if run.local else rate * peak
-    settled = bush.settlement(end, load) if math.isfinite(end) and not run.local else math.inf
+    shared = bush.settlement(end, load) if math.isfinite(end) else math.inf
+    settled = end_of_local_wear(bush, load).settlement if run.local else shared
     friction = float(run.bush.friction.at(liner.melting_point))
     return BushNumbers(
         margin=run.margin(bush),

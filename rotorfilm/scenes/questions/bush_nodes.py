@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ...errors import ConvergenceError
-from ...films.bush_moments import Wearing, wear_by_one_moment
-from ...films.bush_worn import Worn, wear_at_nodes
+from ...errors import ConvergenceError, RotorfilmError
+from ...films.bush_moments import WIDEST, Wearing, wear_by_one_moment
+from ...films.bush_worn import LocalEnd, Worn, end_of_local_wear, wear_at_nodes
 from ..ladder import ErrorEstimate, Found, Work
 from .bush_run import BushRun
 
@@ -54,8 +54,8 @@ class NodesRung:
 
     @property
     def prior(self) -> float:
-        """Nothing is known beforehand."""
-        return 0.0
+        """Order of magnitude of the error of so many nodes."""
+        return 0.1 / self.nodes**ORDER
 
     @property
     def own(self) -> Wearing:
@@ -67,8 +67,8 @@ class NodesRung:
         if self.run.margin(self.own) < 0.0:
             return Found(0.0, {"critical speeds": len(self.run.stages)}, math.nan)
         reach, work = math.nan, dict[str, int]()
-        if before is not None and math.isfinite(float(before.solution)):
-            reach = float(before.solution)
+        if before is not None and isinstance(before.solution, float) and math.isfinite(before.solution):
+            reach = before.solution
         else:
             reach, work = self._reach()
         worn = self._worn(self.nodes, reach)
@@ -100,10 +100,8 @@ class NodesRung:
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the order increment from half the nodes, and what the exact flux would change by these."""
         margin = self.run.margin(self.run.exact)
-        how = f"exact flux: the speed is {margin:+.2%} off that at which the liner melts"
         if found.value == 0.0 or margin < BRINK:
-            certain = found.value == 0.0 and margin < -BRINK
-            return ErrorEstimate(0.0 if certain else math.inf, how, bound=certain)
+            return _brink(found.value, margin)
         reach = float(found.solution)
         coarse, work = self._half(found, before)
         error = abs(found.value - coarse) / (2.0**ORDER - 1.0)
@@ -131,6 +129,63 @@ class NodesRung:
     def expected(self, done: Work) -> Work:
         """Return twice the profiles of half the nodes."""
         return {profiles(self.nodes): 2 * max(done.values(), default=100)}
+
+
+@dataclass(frozen=True, kw_only=True)
+class LocalEndRung:
+    """Where the wear under a constant load ends if each point melts by itself, in closed form.
+
+    Attributes
+    ----------
+    run : BushRun
+    """
+
+    run: BushRun
+
+    @property
+    def name(self) -> str:
+        """What it is."""
+        return "end of the wear"
+
+    @property
+    def prior(self) -> float:
+        """Nothing is known beforehand."""
+        return 0.0
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the wear after a long time [m]; raises RotorfilmError where it has no end."""
+        end = end_of_local_wear(self.run.exact, self.run.stages[0].load_ratio)
+        if math.isinf(end.angle):
+            raise RotorfilmError(f"the wear has no end below {WIDEST} rad of half the contact")
+        value = self.run.require_liner(self.run.radius * end.settlement)
+        return Found(value, {ENDS: 1}, end)
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the wear still to come, at most: it decays ever more slowly, at the end by a known rate."""
+        margin = self.run.margin(self.run.exact)
+        if found.value == 0.0 or margin < BRINK:
+            return _brink(found.value, margin)
+        end: LocalEnd = found.solution
+        doubt = "" if end.exact else "the losses rise so fast that not all that has melted goes on melting"
+        to_come = math.exp(-end.rate * self.run.stages[0].duration)
+        error = to_come / (1.0 - to_come) if to_come < 1.0 else math.inf
+        return ErrorEstimate(error + END_ERROR, "time to the end", bound=True, doubt=doubt)
+
+    def expected(self, done: Work) -> Work:
+        """Return one."""
+        return {ENDS: 1}
+
+
+ENDS = "ends of the wear"
+END_ERROR = 1e-5
+"""Verified error of the end of the wear: tests/films/test_bush_worn.py."""
+
+
+def _brink(value: float, margin: float) -> ErrorEstimate:
+    """Return the error of a bush that does not wear: none, unless its speed is at the critical one itself."""
+    how = f"exact flux: the speed is {margin:+.2%} off that at which the liner melts"
+    certain = value == 0.0 and margin < -BRINK
+    return ErrorEstimate(0.0 if certain else math.inf, how, bound=certain)
 
 
 def profiles(nodes: int) -> str:

@@ -14,7 +14,7 @@ from ...films.bush_moments import WIDEST, Path, Wearing, end_of_wear, wear_by_on
 from ...model import Array
 from ..bush_validity import bush_remarks
 from ..ladder import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work
-from .bush_nodes import NODES, NodesRung
+from .bush_nodes import NODES, LocalEndRung, NodesRung
 from .bush_run import BushRun, bush_run
 from .bushes import EXACT_ERROR
 
@@ -219,8 +219,9 @@ def wear_ladder(scene: Scene, quantity: str) -> Ladder:
     run = bush_run(scene, quantity)
     named = isinstance(run.bush.shaft_heat, ApproximateShaft)
     if run.local or not run.grows:
-        rungs = tuple(NodesRung(run=run, nodes=nodes, closed=named) for nodes in NODES)
-        return Ladder(rungs=rungs, unit="m", remarks=bush_remarks(run))
+        nodes = tuple(NodesRung(run=run, nodes=nodes, closed=named) for nodes in NODES)
+        ends = (LocalEndRung(run=run),) if run.local and len(run.stages) == 1 and not named else ()
+        return Ladder(rungs=(*ends, *nodes), unit="m", remarks=bush_remarks(run))
     end = (EndRung(name="end of the wear" + CLOSED, run=run),) if len(run.stages) == 1 else ()
     closed = MomentRung(name="one moment" + CLOSED, run=run, closed=True, moments=1)
     exact = (
