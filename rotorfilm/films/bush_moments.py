@@ -28,14 +28,14 @@ from ..model import Array
 from . import bush_contact as arc
 from .bush_melting import MeltingLaw
 
-RTOL = 1e-9
+RTOL = 1e-10
 """Of the steps in time."""
 
 SHAPED_RTOL = 1e-8
 """Of the steps in time with the assumed shape of the pressure, whose own error is larger."""
 
-ATOL = 1e-8
-"""Error of the angle's change that is always accepted, over what it would be at the first rate."""
+ATOL = 1e-2
+"""Error that is always accepted, over the relative one, of what changes at the first rate, 1 rad at most."""
 
 
 WIDEST = 1.55
@@ -273,7 +273,7 @@ def _stage(
     scale = rate(0.0, state)
     if scale[0] <= 0.0:
         return SimpleNamespace(t=np.array([0.0, duration]), y=np.stack([state, state], axis=1), nfev=1)
-    atol = [ATOL * min(scale[0] * duration, 1.0), ATOL * scale[1] * duration or 1.0]
+    atol = [ATOL * rtol * min(scale[0] * duration, 1.0), ATOL * rtol * scale[1] * duration or 1.0]
     run = solve_ivp(rate, (0.0, duration), state, method="LSODA", rtol=rtol, atol=atol)
     if not run.success:
         raise ConvergenceError(f"wear of a bush must be found in steps of time: {run.message}")

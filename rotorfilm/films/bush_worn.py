@@ -91,8 +91,8 @@ def wear_at_nodes(
             return _melted(bush, rule, nodes, at, offset, pressed) / bush.heat
 
         def rest(t: float, now: Array, end: float = stage.duration, begin: Array = depth) -> float:
-            left = min(end - t, t)
-            return float(rate(t, now).max() * left - REST * (now - begin).max())
+            passed = max(t, 1e-6 * end)
+            return float(rate(t, now).max() * passed - REST * (now - begin).max())
 
         rest.terminal, rest.direction = True, -1.0  # type: ignore[attr-defined]
         if rate(0.0, depth).any():
