@@ -256,7 +256,8 @@ def _march(bush: Wearing, stages: tuple[Stage, ...], rate: Rate, rtol: float) ->
         load = stage.load_ratio
         # The angle grows by very little near the critical speed: its change is the state, not itself.
         alpha = bush.angle(moment, load)
-        run = _stage(partial(_shifted, rate, alpha, load), stage.duration, first, rtol)
+        room = WIDEST - float(alpha)
+        run = _stage(partial(_shifted, rate, alpha, load), stage.duration, first, room, rtol)
         grown = moment + bush.gap * _rise(alpha, run.y[0])
         parts.append(np.stack([time + run.t, np.full(run.t.size, load), grown, run.y[1]]))
         moment, first = float(grown[-1]), float(run.y[1, -1])
@@ -266,7 +267,11 @@ def _march(bush: Wearing, stages: tuple[Stage, ...], rate: Rate, rtol: float) ->
 
 
 def _stage(
-    rate: Callable[[float, Array], tuple[float, float]], duration: float, first: float, rtol: float
+    rate: Callable[[float, Array], tuple[float, float]],
+    duration: float,
+    first: float,
+    room: float,
+    rtol: float,
 ) -> Any:
     """Return the steps of one stage, as scipy does; two where nothing melts at its begin and so ever."""
     state = np.array([0.0, first])
@@ -274,9 +279,15 @@ def _stage(
     if scale[0] <= 0.0:
         return SimpleNamespace(t=np.array([0.0, duration]), y=np.stack([state, state], axis=1), nfev=1)
     atol = [ATOL * rtol * min(scale[0] * duration, 1.0), ATOL * rtol * scale[1] * duration or 1.0]
-    run = solve_ivp(rate, (0.0, duration), state, method="LSODA", rtol=rtol, atol=atol)
-    if not run.success:
-        raise ConvergenceError(f"wear of a bush must be found in steps of time: {run.message}")
+
+    def widest(t: float, state: Array) -> float:
+        return float(state[0]) - room
+
+    widest.terminal = True  # type: ignore[attr-defined]
+    run = solve_ivp(rate, (0.0, duration), state, method="LSODA", rtol=rtol, atol=atol, events=widest)
+    if run.status != 0:
+        why = f"half the contact must stay below {WIDEST} rad, got a wider one after {run.t[-1]:.3g} s"
+        raise ConvergenceError(why if run.status == 1 else f"steps of the wear of a bush end: {run.message}")
     return run
 
 
