@@ -54,7 +54,7 @@ def finite_volume_flux(cooling: float, stubbiness: float, cells: int, grading: i
 
 
 def speed_by_volumes(scene: Scene) -> Truth:
-    """Return the critical speed with the flux of three grids, extrapolated; the floor is their last change."""
+    """Return the critical speed with the flux of three grids, extrapolated, and its last change."""
     assert scene.bush is not None
     bush, load = scene.bush.build(), math.hypot(*scene.static_load)
     law = Liner.of(bush, load)
@@ -127,26 +127,29 @@ class Half(NamedTuple):
     def contact(self, u: float, worn: np.ndarray) -> tuple[float, float, float, float]:
         """Return the integrals of depth cos and of depth over both halves, d(first)/du, half the angle."""
         depth = u * self.cosine - worn
-        inside = np.maximum(depth, 0.0)
-        # Trapezoidal rule up to the last node in contact, a triangle beyond it.
-        last = int(np.argmax(depth <= 0.0)) - 1
-        part = self.step * depth[last] / (depth[last] - depth[last + 1])
-        cosine = self.cosine
-        total = self.step * (inside.sum() - 0.5 * inside[0] - 0.5 * inside[last]) + 0.5 * part * inside[last]
-        product = inside * cosine
-        lifted = self.step * (product.sum() - 0.5 * product[0] - 0.5 * product[last])
-        lifted += 0.5 * part * product[last]
-        square = cosine[: last + 1] ** 2
-        slope = self.step * (square.sum() - 0.5 * square[0] - 0.5 * square[-1]) + part * square[-1]
-        return 2.0 * lifted, 2.0 * total, 2.0 * slope, self.angle[last] + part
+        left, right = depth[:-1], depth[1:]
+        high, low = np.maximum(left, right), np.minimum(left, right)
+        # Trapezoidal rule where both ends touch, triangles where one does.
+        cut = (high > 0.0) & (low < 0.0)
+        part = np.where(cut, high / np.where(cut, high - low, 1.0), high > 0.0)
+        cosine = np.where(cut, np.where(right > left, self.cosine[1:], self.cosine[:-1]), 0.0)
+        mean = np.where(cut, 0.5 * high * part, 0.5 * (left + right) * part)
+        moment = 0.5 * (left * self.cosine[:-1] + right * self.cosine[1:]) * part
+        lifted = np.where(cut, mean * cosine, moment)
+        whole = 0.5 * (self.cosine[:-1] ** 2 + self.cosine[1:] ** 2) * part
+        slope = np.where(cut, part * cosine**2, whole)
+        twice = 2.0 * self.step
+        return twice * lifted.sum(), twice * mean.sum(), twice * slope.sum(), self.step * part.sum()
 
     def settle(self, pull: float, worn: np.ndarray, u: float) -> tuple[float, float, float]:
         """Return the position that carries a load, the integral of the depth, and half the angle."""
+        touch = float((worn / self.cosine).min())
+        u = max(u, touch * (1.0 + 1e-6))
         for _ in range(60):
             lifted, total, slope, alpha = self.contact(u, worn)
             step = (pull - lifted) / slope
             # No farther than to the end of the arc.
-            u = min(u + step, 0.999999 * worn[-1] / self.cosine[-1])
+            u = max(min(u + step, 0.999999 * worn[-1] / self.cosine[-1]), touch * (1.0 + 1e-9))
             if abs(step) < 1e-13 * u:
                 break
         return u, total, alpha
