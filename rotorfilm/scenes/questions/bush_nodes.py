@@ -50,7 +50,7 @@ class NodesRung:
     @property
     def name(self) -> str:
         """Number of nodes."""
-        return f"{self.nodes} nodes a side{', closed form of the flux' if self.closed else ''}"
+        return f"{self.nodes} nodes a side{', closed-form flux' if self.closed else ''}"
 
     @property
     def prior(self) -> float:

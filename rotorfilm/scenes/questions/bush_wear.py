@@ -27,7 +27,7 @@ STEPS_ERROR = 1e-6
 SAMPLES = 33
 """States on the way to the end of the wear."""
 
-CLOSED = ", closed form of the flux"
+CLOSED = ", closed-form flux"
 
 
 @dataclass(frozen=True, kw_only=True)
