@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from . import contacts, dampers, journals
+from . import bushes, contacts, dampers, journals
 from .drawn import Drawn
 
 Draw = Callable[[np.random.Generator], Drawn]
@@ -24,5 +24,7 @@ FAMILIES: dict[str, tuple[int, Draw]] = {
     "blade, film": (1, journals.blade_by_film),
     "contact": (1, contacts.rest),
     "contact motion": (1, contacts.motion),
+    "bush speed": (1, bushes.bush_speed),
+    "bush wear": (2, bushes.bush_wear),
 }
 """Weight of each family in a round of the battery, and how one scene of it is drawn."""

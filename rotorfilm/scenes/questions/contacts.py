@@ -29,6 +29,9 @@ NOISE = 0.012
 Falls with the square of the cells; that of the approach is ten times smaller. Measured on random balls.
 """
 
+SMALLEST_NOISE = 0.03
+"""The same of the smallest film, which jumps from cell to cell; falls with their power 3/2."""
+
 FORMULA_BOUNDS = {"central_film": 0.16, "approach": 0.08}
 """Largest error of the formulas in `FORMULA_RANGE`, measured on random balls (docs/contact.md)."""
 
@@ -172,8 +175,7 @@ class UnboundedRung:
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return what may be wrong with the two extrapolations, a bound."""
-        scale = 0.1 if self.films.quantity == "approach" else 1.0
-        noise = scale * NOISE * (32.0 / 96.0) ** 2
+        noise = noise_of(self.films, 96)
         return ErrorEstimate(
             max(LEFT * sum(found.solution), noise), "share of the extrapolations", bound=True
         )
@@ -196,8 +198,14 @@ def grid_error(films: RestingFilms, cells: int, work: dict[str, int], load: floa
     order = films.contact(cells).scheme.order
     whole = films.quantity == "minimum_film"
     gain = 1.0 if whole else (cells / coarse) ** order - 1.0
-    noise = NOISE * (32.0 / cells) ** (1 if whole else 2) * (0.1 if films.quantity == "approach" else 1.0)
-    return max(abs(fine - rough) / gain / abs(fine), noise)
+    return max(abs(fine - rough) / gain / abs(fine), noise_of(films, cells))
+
+
+def noise_of(films: RestingFilms, cells: int) -> float:
+    """Return the relative error below which an increment says nothing."""
+    if films.quantity == "minimum_film":
+        return SMALLEST_NOISE * (CELLS[0] / cells) ** 1.5
+    return NOISE * (CELLS[0] / cells) ** 2 * (0.1 if films.quantity == "approach" else 1.0)
 
 
 def rectangle_error(films: RestingFilms, work: dict[str, int], load: float = 1.0) -> float:
