@@ -38,6 +38,9 @@ FORMULA_BOUNDS = {"central_film": 0.16, "approach": 0.08}
 FORMULA_RANGE = ((0.008, 0.4), (2.0, 18.0))
 """V and Q0 in which that was measured."""
 
+HARD = (0.08, 12.0)
+"""V and Q0 above both of which Newton's method needs continuation on fine grids: the longest is left out."""
+
 LEFT = 0.3
 """Share of an extrapolation that may be wrong."""
 
@@ -232,5 +235,6 @@ def contact_ladder(scene: Scene, quantity: str) -> Ladder:
     formula = () if quantity == "minimum_film" else (FormulaRung(films=films),)
     grids = tuple(GridRung(films=films, cells=cells) for cells in CELLS)
     wide = (UnboundedRung(films=films, place=1, cells=96), UnboundedRung(films=films, place=2, cells=160))
-    rungs: tuple[Rung, ...] = (*formula, *grids, *wide)
+    hard = films.ball.V > HARD[0] and films.ball.Q0 > HARD[1]
+    rungs: tuple[Rung, ...] = (*formula, *grids, *wide[: 1 if hard else 2])
     return Ladder(rungs=rungs, unit="m", remarks=remarks)
