@@ -235,6 +235,6 @@ def contact_ladder(scene: Scene, quantity: str) -> Ladder:
     formula = () if quantity == "minimum_film" else (FormulaRung(films=films),)
     grids = tuple(GridRung(films=films, cells=cells) for cells in CELLS)
     wide = (UnboundedRung(films=films, place=1, cells=96), UnboundedRung(films=films, place=2, cells=160))
-    hard = films.ball.V > HARD[0] and films.ball.Q0 > HARD[1]
+    hard = HARD[0] < films.ball.V and HARD[1] < films.ball.Q0
     rungs: tuple[Rung, ...] = (*formula, *grids, *wide[: 1 if hard else 2])
     return Ladder(rungs=rungs, unit="m", remarks=remarks)
