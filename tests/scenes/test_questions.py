@@ -24,7 +24,7 @@ sys.path.append(str(ROOT / "benchmarks"))
 
 import scene_battery  # noqa: E402
 from families import FAMILIES  # noqa: E402
-from families.journals import coupled_error  # noqa: E402
+from families.couplings import coupled_error  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
 
