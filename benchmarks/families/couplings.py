@@ -104,7 +104,7 @@ def _nothing(scene: Scene) -> Truth:
 def coupled_error(scene: Scene, name: str) -> float:
     """Return the largest distance / clearance between a coupled run and both partners as one system."""
     rung = next(rung for rung in coupling_ladder(scene, "cosimulation_error").rungs if rung.name == name)
-    coupled = rung.run().trajectory
+    coupled = rung.run().outcome.trajectory
     whole = simulate(
         rung.rotor, rung.reaction, duration=float(coupled.time[-1]), times=coupled.time, rtol=1e-9
     )

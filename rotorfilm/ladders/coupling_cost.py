@@ -9,13 +9,14 @@ import numpy as np
 
 from ..bearings.journal import JournalBearing
 from ..cosim import CoSimulation, InProcessSlave, Scheme, couple
+from ..cosim.watch import quietly
 from ..errors import PartialResultError
 from ..films import MapFilm
 from ..progress import Report, silent
 from ..results import Trajectory
 from ..rotors.rigid import RigidRotor
 from ..transient import simulate
-from .coupling_schemes import EXPLICIT, IMPLICIT, quietly
+from .coupling_schemes import EXPLICIT, IMPLICIT
 
 SPEED = 157.0
 REVOLUTIONS = 2

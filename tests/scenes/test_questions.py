@@ -15,7 +15,7 @@ from rotorfilm.scenes.film_tables import ShortFilmTable
 from rotorfilm.scenes.ladder import Found
 from rotorfilm.scenes.question_table import QUANTITIES, QuestionTable
 from rotorfilm.scenes.questions import ladder_of
-from rotorfilm.scenes.questions.march import ORDER, linear_march, march, peak
+from rotorfilm.scenes.questions.equal_steps import ORDER, linear_march, march, peak
 from rotorfilm.scenes.questions.orbit_curve import SampledOrbit, nonlinear_orbit, rate_matrix
 from rotorfilm.scenes.questions.registry import LADDERS
 

@@ -1,0 +1,247 @@
+"""One rotor and one film to be coupled: runs by any scheme, their error, and what is known beforehand."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from ...cosim import GaussSeidel, Jacobi, Scheme, SIExp, SIExp3
+from ...cosim.bench import Motion, Sample, Tangents
+from ...cosim.exponential import Wiring
+from ...cosim.run import CoSimulation, couple
+from ...cosim.scheme import MEMORY
+from ...cosim.slaves import InProcessSlave
+from ...cosim.stability import coupling_loop, dominant_eigenvalue
+from ...cosim.watch import quietly
+from ...errors import PartialResultError, UndefinedDerivativeError
+from ...model import Array, Reaction
+from ...rotors import RigidRotor
+from ...rotors.force_law import ForceLaw
+from .coupling_motion import Drift, drift, inner_motion, largest, law_forces, propagated
+
+SCHEMES: tuple[Scheme, ...] = (
+    *(GaussSeidel(degree=degree) for degree in range(3)),
+    *(Jacobi(degree=degree) for degree in range(3)),
+    SIExp(),
+    SIExp3(),
+)
+"""Newton's is not among them: twice the calls of SI-exp, and a larger error."""
+
+PILOTS = tuple(math.radians(angle) for angle in (4.0, 1.0, 0.25))
+"""Macro steps of the run by SI-exp3 that all others are predicted from; the first that is possible [rad]."""
+
+PARALLEL = 3.0
+"""Error of Jacobi in that of Gauss-Seidel at the same step, at least.
+
+The film sees the motion extrapolated too, so that its force is off by H^(k+1) F^(k+1) more, beside the mean
+of the rotor's own extrapolation: 1/2, 5/12, 3/8 of that for degree k = 0, 1, 2.
+"""
+
+START = 3
+"""Macro steps after which a parabola through the latest forces is one."""
+
+GROWTH = 100.0
+"""Growth of a small disturbance over a run beyond which the run need not be made."""
+
+
+class CoupledRun(NamedTuple):
+    """A coupled run and the force laws of its macro steps.
+
+    Attributes
+    ----------
+    outcome : CoSimulation
+    laws : list of ForceLaw
+    """
+
+    outcome: CoSimulation
+    laws: list[ForceLaw]
+
+
+class _Recording(InProcessSlave):
+    """A rotor that keeps the force laws it was driven by."""
+
+    def __init__(self, model: RigidRotor) -> None:
+        super().__init__(model)
+        self.laws: list[ForceLaw] = []
+
+    def drive(self, t: float, dt: float, law: ForceLaw, wiring: Wiring) -> None:
+        """Advance the states under a force law, and keep it."""
+        self.laws.append(law)
+        super().drive(t, dt, law, wiring)
+
+
+class _Replay:
+    """A `Bench` on which a scheme is given a motion known beforehand, to see its force law."""
+
+    def __init__(self, following: Sample) -> None:
+        self._following = following
+        self.law: ForceLaw | None = None
+
+    def drive(self, t: float, dt: float, law: ForceLaw) -> Motion:
+        """Keep the law; the motion is the known one."""
+        self.law = law
+        return self._following.motion
+
+    def evaluate(self, t: float, dt: float, motion: Motion, derive: bool) -> Sample:
+        """Return the known forces."""
+        return self._following
+
+    def sensitivity(self, t: float, dt: float) -> Array:
+        """Not asked for by the schemes here."""
+        raise NotImplementedError
+
+    def save(self) -> None:
+        """Do nothing: no scheme here goes back."""
+
+    def restore(self, state: None) -> None:
+        """Do nothing."""
+
+    def release(self, state: None) -> None:
+        """Do nothing."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CouplingCase:
+    """A rigid rotor and the film or damper under it, from where the rotor starts.
+
+    Parameters
+    ----------
+    rotor : RigidRotor
+        At constant speed.
+    reaction : Reaction
+        Without states.
+    revolutions : float [1]
+        Length of a run.
+    """
+
+    rotor: RigidRotor
+    reaction: Reaction
+    revolutions: float
+
+    def exchanges(self, angle: float) -> int:
+        """Return the number of macro steps [rad] in a run."""
+        return math.ceil(2.0 * math.pi * self.revolutions / angle * (1.0 - 1e-12))
+
+    def run(self, scheme: Scheme, angle: float) -> CoupledRun:
+        """Return a coupled run at a macro step [rad].
+
+        Raises
+        ------
+        CouplingError, ContactError, ConvergenceError
+            See `cosimulate`.
+        """
+        speed, rotor = abs(self.rotor.profile.speeds[0]), _Recording(self.rotor)
+        with quietly():
+            outcome = couple(
+                rotor,
+                InProcessSlave(self.reaction),
+                macro_step=angle / speed,
+                duration=2.0 * math.pi * self.revolutions / speed,
+                scheme=scheme,
+            )
+        return CoupledRun(outcome, rotor.laws)
+
+    def drift(self, run: CoupledRun) -> Drift:
+        """Return how far a run is off; raises FilmContactError where it is at the wall within a step."""
+        own = run.outcome.trajectory
+        motion = inner_motion(self.rotor, run.laws, own.position[:, :-1], own.velocity[:, :-1], own.time)
+        return drift(self.rotor, self.reaction, run.laws, motion)
+
+    def instability(self, scheme: Scheme, angle: float) -> str:
+        """Return why a run cannot be stable, by linear theory where the rotor starts; empty if it may be."""
+        state, step = self.rotor.initial_state, angle / abs(self.rotor.profile.speeds[0])
+        try:
+            loop = coupling_loop(self.rotor, self.reaction, state, 0.0)
+        except UndefinedDerivativeError:
+            return ""  # a damper at rest
+        radius = abs(dominant_eigenvalue(loop, step, scheme))
+        itself = max(0.0, float(np.linalg.eigvals(loop.closed).real.max())) * step
+        if self.exchanges(angle) * (math.log(radius) - itself) < math.log(GROWTH):
+            return ""
+        return (
+            f"macro_step must be below the stability limit of the coupling, got {step:.3g} s: at rest it "
+            f"grows by a factor of {radius:.4g} per macro step"
+        )
+
+    @cached_property
+    def pilot(self) -> tuple[CoupledRun, float]:
+        """A run by SI-exp3, and its macro step [rad].
+
+        Raises
+        ------
+        PartialResultError
+            If the journal cannot be followed even at the shortest step.
+        """
+        for angle in PILOTS[:-1]:
+            try:
+                return self.run(SIExp3(), angle), angle
+            except PartialResultError:
+                continue
+        return self.run(SIExp3(), PILOTS[-1]), PILOTS[-1]
+
+    def predicted(self, scheme: Scheme, angle: float) -> float:
+        """Return the error that a scheme would have at a macro step [rad], / clearance, were it stable.
+
+        To leading order: the defect of its force law along the motion of the pilot, propagated, and scaled
+        by the order of the scheme.
+        """
+        own = self._constants[scheme]
+        return float(own * (angle / self.pilot[1]) ** scheme.order)
+
+    @cached_property
+    def _constants(self) -> dict[Scheme, float]:
+        """Errors of all schemes at the pilot's macro step."""
+        run, _ = self.pilot
+        own = run.outcome.trajectory
+        samples = self._samples(own.time, own.position, own.velocity)
+        motion = inner_motion(self.rotor, run.laws, own.position[:, :-1], own.velocity[:, :-1], own.time)
+        speed = np.full(motion.position.shape[1:], self.rotor.profile.speeds[0])
+        force = self.reaction.force(motion.position, motion.velocity, speed)
+        slopes = self.reaction.jacobian(motion.position, motion.velocity, speed)
+        found: dict[Scheme, float] = {}
+        for scheme in SCHEMES:
+            if isinstance(scheme, Jacobi):
+                found[scheme] = PARALLEL * found[GaussSeidel(degree=scheme.degree)]
+                continue
+            defect = force - law_forces(_laws_on(samples, scheme, run.laws), motion)
+            moved, _ = propagated(self.rotor.mass, motion.dt, slopes, defect)
+            found[scheme] = largest(moved, motion.parts) / self.reaction.clearance
+        return found
+
+    def _samples(self, time: Array, position: Array, velocity: Array) -> list[Sample]:
+        """Return the communication points of a motion."""
+        speed = self.rotor.profile.speeds[0]
+        forces = self.reaction.force(position, velocity, np.full(time.size, speed))
+        slopes = np.zeros((2, 5, time.size))
+        slopes[..., 1:] = self.reaction.jacobian(
+            position[:, 1:], velocity[:, 1:], np.full(time.size - 1, speed)
+        )
+        return [
+            Sample(
+                float(time[n]),
+                Motion(position[:, n], velocity[:, n], speed, {}),
+                forces[:, n],
+                Tangents(-slopes[:, :2, n], -slopes[:, 2:4, n], slopes[:, 4, n]),
+                {},
+            )
+            for n in range(time.size)
+        ]
+
+
+def _laws_on(samples: Sequence[Sample], scheme: Scheme, own: Sequence[ForceLaw]) -> list[ForceLaw]:
+    """Return the force laws of a scheme on a known motion; where it would begin by short steps, its own."""
+    laws = []
+    short = START if isinstance(scheme, GaussSeidel) and scheme.degree > 1 else 0
+    for n in range(len(samples) - 1):
+        bench, now = _Replay(samples[n + 1]), samples[n]
+        if n >= short:
+            scheme.step(
+                bench, samples[max(0, n + 1 - MEMORY) : n + 1], now.time, samples[n + 1].time - now.time
+            )
+        laws.append(bench.law or own[n])
+    return laws

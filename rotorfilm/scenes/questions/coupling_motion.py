@@ -1,0 +1,220 @@
+"""What a coupled run of a rigid rotor misses within its macro steps, and how far that carries the journal.
+
+Over a macro step the rotor moves under a force law in place of the film. That motion q(t) is known exactly,
+and so is the defect of the law along it, F(q, q') - law. The distance d to the motion of rotor and film as
+one system obeys, to first order,
+
+    m d'' + C(t) d' + K(t) d = defect
+
+with K and C of the film along the run, whatever the scheme.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import expm
+
+from ...model import Array, Reaction
+from ...rotors import RigidRotor
+from ...rotors.force_law import ForceLaw
+from ..ladder import DISAGREEMENT
+
+NODES = np.array([(4.0 - np.sqrt(6.0)) / 10.0, (4.0 + np.sqrt(6.0)) / 10.0, 1.0])
+"""Of Radau's method with three stages, in steps (Hairer & Wanner 1996, IV.5): order 5, L-stable."""
+
+_POWERS = np.vander(NODES, increasing=True)
+STAGES = NODES[:, None] * _POWERS / np.arange(1.0, 4.0) @ np.linalg.inv(_POWERS)
+"""Its matrix: integrals from 0 to each node of the polynomials that are 1 at one node and 0 at the others."""
+
+STEP_ANGLE = np.radians(4.0)
+"""Longest step of the propagation [rad] of the shaft."""
+
+
+class InnerMotion(NamedTuple):
+    """A coupled run at the nodes of n steps, each an equal part of a macro step.
+
+    Attributes
+    ----------
+    dt : ndarray, shape (n,) [s]
+        Lengths of the steps.
+    parts : int
+        Steps in a macro step.
+    position, velocity : ndarray, shape (2, n, 3) [m], [m/s]
+    """
+
+    dt: Array
+    parts: int
+    position: Array
+    velocity: Array
+
+
+class Drift(NamedTuple):
+    """How far a coupled run is from rotor and film as one system.
+
+    Attributes
+    ----------
+    error : float [1]
+        Largest distance at the communication points / clearance.
+    doubt : str
+        Why not to trust it, or empty.
+    states : int
+        Of the film that were evaluated, in batches.
+    """
+
+    error: float
+    doubt: str
+    states: int
+
+
+def inner_motion(
+    rotor: RigidRotor, laws: Sequence[ForceLaw], position: Array, velocity: Array, time: Array
+) -> InnerMotion:
+    """Return the motion within macro steps, each under its law from where the run was at its start.
+
+    Rotor, law and unbalance are linear with constant coefficients there, so that one matrix exponential
+    carries (q, v, F, F', F''/2, cos, sin) from node to node exactly.
+
+    Parameters
+    ----------
+    rotor : RigidRotor
+        At constant speed.
+    laws : sequence of ForceLaw, length n
+        Each starts at its communication point.
+    position, velocity : ndarray, shape (2, n) [m], [m/s]
+        At the starts.
+    time : ndarray, shape (n + 1,) [s]
+        Communication points.
+    """
+    speed, length = rotor.profile.speeds[0], np.diff(time)
+    parts = max(1, int(np.ceil(abs(speed) * float(length.max()) / STEP_ANGLE - 1e-9)))
+    dt = length / parts
+    units = np.stack([dt**0, dt, dt**2 / rotor.mass, dt**3 / rotor.mass, dt**4 / rotor.mass])
+    state = _start(rotor, laws, position, velocity, time[:-1], units)
+    rates, which = _rates(rotor, laws, dt)
+    moves = [expm(node * rates) for node in NODES]
+    found = np.empty((len(dt), parts, 3, 12))
+    for part in range(parts):
+        for k, move in enumerate(moves):
+            found[:, part, k] = np.einsum("nij,nj->ni", move[which], state)
+        state = found[:, part, -1]
+    steps = np.repeat(dt, parts)
+    q, v = (found[..., k : k + 2].reshape(-1, 3, 2).transpose(2, 0, 1) for k in (0, 2))
+    return InnerMotion(steps, parts, q, v / steps[:, None])
+
+
+def law_forces(laws: Sequence[ForceLaw], motion: InnerMotion) -> Array:
+    """Return the forces of the laws, one for each macro step of the motion, shape (2, n, 3) [N]."""
+    parts = motion.parts
+    elapsed = (np.tile(np.arange(parts), len(laws))[:, None] + NODES) * motion.dt[:, None]
+    # Each field of the laws for each step, components first.
+    value, slope, curvature, K, C, q, v = (
+        np.moveaxis(np.repeat(each, parts, axis=0), 0, -1)[..., None]
+        for each in tuple(zip(*laws, strict=True))[1:]
+    )
+    pull = np.einsum("ijnk,jnk->ink", K, motion.position - q) + np.einsum(
+        "ijnk,jnk->ink", C, motion.velocity - v
+    )
+    return np.asarray(value + elapsed * (slope + elapsed * curvature) - pull)
+
+
+def _start(
+    rotor: RigidRotor, laws: Sequence[ForceLaw], q: Array, v: Array, time: Array, units: Array
+) -> Array:
+    """Return (q, v, F, F', F''/2, cos, sin) at the starts, times their units, shape (n, 12)."""
+    constant = [
+        law.force + law.stiffness @ law.position + law.damping @ law.velocity + rotor.static_load
+        for law in laws
+    ]
+    series = (q.T, v.T, constant, [law.slope for law in laws], [law.curvature for law in laws])
+    angle = rotor.profile.speeds[0] * time + rotor.unbalance_angle
+    parts = [np.asarray(each) * unit[:, None] for each, unit in zip(series, units, strict=True)]
+    return np.concatenate([*parts, np.cos(angle)[:, None], np.sin(angle)[:, None]], axis=1)
+
+
+def _rates(rotor: RigidRotor, laws: Sequence[ForceLaw], dt: Array) -> tuple[Array, NDArray[np.intp]]:
+    """Return the different matrices of the rates, per step, and which one belongs to each macro step."""
+    longest, speed = dt.max(), rotor.profile.speeds[0]
+    near = np.round(dt / longest, 9) * longest  # times are multiples of the macro step but for roundoff
+    rows = [np.concatenate([law.stiffness.ravel(), law.damping.ravel()]) for law in laws]
+    unique, which = np.unique(np.column_stack([near, rows]), axis=0, return_inverse=True)
+    step, K, C = unique[:, 0], unique[:, 1:5].reshape(-1, 2, 2), unique[:, 5:].reshape(-1, 2, 2)
+    M = np.zeros((len(unique), 12, 12))
+    M[:, :2, 2:4] = M[:, 2:4, 4:6] = M[:, 4:6, 6:8] = np.eye(2)
+    M[:, 6:8, 8:10] = 2.0 * np.eye(2)
+    M[:, 2:4, :2] = -K * (step**2)[:, None, None] / rotor.mass
+    M[:, 2:4, 2:4] = -C * step[:, None, None] / rotor.mass
+    M[:, 2, 10] = M[:, 3, 11] = rotor.unbalance * (speed * step) ** 2 / rotor.mass
+    M[:, 10, 11], M[:, 11, 10] = -speed * step, speed * step
+    return M, which.ravel()
+
+
+def drift(rotor: RigidRotor, reaction: Reaction, laws: Sequence[ForceLaw], motion: InnerMotion) -> Drift:
+    """Return how far a coupled run is off, with the slopes of the film along it and along the corrected one.
+
+    Raises
+    ------
+    FilmContactError
+        If the run reaches the wall between two communication points.
+    """
+    q, v, clearance = motion.position, motion.velocity, reaction.clearance
+    speed, states = np.full(q.shape[1:], rotor.profile.speeds[0]), q[0].size
+    defect = reaction.force(q, v, speed) - law_forces(laws, motion)
+    slopes = reaction.jacobian(q, v, speed)
+    first, rates = propagated(rotor.mass, motion.dt, slopes, defect)
+    if not np.hypot(*(q + first)).max() < clearance:
+        return Drift(largest(first, motion.parts) / clearance, "the error is larger than the gap", 2 * states)
+    other = reaction.jacobian(q + first, v + rates, speed)
+    second, _ = propagated(rotor.mass, motion.dt, other, defect)
+    apart = float(np.linalg.norm(second - first)) / max(float(np.linalg.norm(first)), 1e-300)
+    # The film's force changes by the mean of its slopes from one motion to the other.
+    best, _ = propagated(rotor.mass, motion.dt, 0.5 * (slopes + other), defect)
+    doubt = f"the slopes before and after disagree on the error by {apart:.0%}: not linear"
+    return Drift(largest(best, motion.parts) / clearance, doubt if apart > DISAGREEMENT else "", 3 * states)
+
+
+def largest(moved: Array, parts: int) -> float:
+    """Return the largest distance at the ends of macro steps [m]."""
+    return float(np.hypot(*moved[:, parts - 1 :: parts, -1]).max())
+
+
+def propagated(mass: float, dt: Array, slopes: Array, pull: Array) -> tuple[Array, Array]:
+    """Return q and q' of m q'' + C q' + K q = pull, from rest, at the nodes of all steps.
+
+    Parameters
+    ----------
+    mass : float [kg]
+    dt : ndarray, shape (n,) [s]
+    slopes : ndarray, shape (2, 5, n, 3)
+        -K, -C and the derivative by the speed, which does not count.
+    pull : ndarray, shape (2, n, 3) [N]
+
+    Returns
+    -------
+    q, rates : ndarray, shape (2, n, 3) [m], [m/s]
+    """
+    unit, count = float(dt.max()), len(dt)
+    h = (dt / unit)[:, None, None]
+    J = np.zeros((count, 3, 4, 4))
+    J[:, :, :2, 2:] = np.eye(2)
+    J[:, :, 2:, :2] = slopes[:, :2].transpose(2, 3, 0, 1) * (unit**2 / mass)
+    J[:, :, 2:, 2:] = slopes[:, 2:4].transpose(2, 3, 0, 1) * (unit / mass)
+    given = np.zeros((count, 3, 4))
+    given[:, :, 2:] = pull.transpose(1, 2, 0) * (unit**2 / mass)
+    stages = np.eye(12) - h * np.einsum("ij,njab->niajb", STAGES, J).reshape(count, 12, 12)
+    known = np.concatenate(
+        [np.tile(np.eye(4), (count, 3, 1)), (h * (STAGES @ given)).reshape(count, 12, 1)], axis=2
+    )
+    solved = np.linalg.solve(stages, known)
+    carry, added = solved[:, 8:, :4], solved[:, 8:, 4]
+    starts = np.zeros((count, 4))
+    state = starts[0]
+    for n in range(count - 1):
+        state = carry[n] @ state + added[n]
+        starts[n + 1] = state
+    nodes = (np.einsum("nij,nj->ni", solved[:, :, :4], starts) + solved[:, :, 4]).reshape(count, 3, 4)
+    moved = nodes.transpose(2, 0, 1)
+    return moved[:2], moved[2:] / unit
