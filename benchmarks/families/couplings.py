@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.questions.coupling import coupling_ladder
+from rotorfilm.scenes.questions.coupling import CouplingRung, coupling_ladder
 from rotorfilm.transient import simulate
 
 from .drawn import Drawn, Truth, log_uniform
@@ -23,6 +24,9 @@ FILMS: tuple[dict[str, Any] | None, ...] = (
 """Films that a scene names, None for the map."""
 
 TOLERANCES = (1e-4, 3e-2)
+
+POINT = math.radians(0.125)
+"""Distance of the points of the reference [rad]; macro steps are multiples of it."""
 
 
 def coupling(random: np.random.Generator) -> Drawn:
@@ -102,10 +106,24 @@ def _nothing(scene: Scene) -> Truth:
 
 
 def coupled_error(scene: Scene, name: str) -> float:
-    """Return the largest distance / clearance between a coupled run and both partners as one system."""
-    rung = next(rung for rung in coupling_ladder(scene, "cosimulation_error").rungs if rung.name == name)
-    coupled = rung.run().outcome.trajectory
-    whole = simulate(
-        rung.rotor, rung.reaction, duration=float(coupled.time[-1]), times=coupled.time, rtol=1e-9
-    )
-    return float(np.hypot(*(coupled.position - whole.position)).max()) / rung.reaction.clearance
+    """Return the largest distance / clearance between a coupled run and both partners as one system.
+
+    At the communication points that are multiples of `POINT`: all but the first few of some schemes.
+    """
+    rungs, whole = _whole(scene)
+    rung = next(rung for rung in rungs if rung.name == name)
+    coupled, step = rung.run().outcome.trajectory, POINT / abs(scene.speed)
+    at = np.round(coupled.time / step).astype(int)
+    met = np.abs(coupled.time - at * step) < 1e-6 * step
+    distance = np.hypot(*(coupled.position[:, met] - whole[:, at[met]]))
+    return float(distance.max()) / rung.reaction.clearance
+
+
+@lru_cache(maxsize=1)
+def _whole(scene: Scene) -> tuple[tuple[CouplingRung, ...], np.ndarray]:
+    """Return the rungs of a scene, and the journal's position with both partners as one system."""
+    rungs = coupling_ladder(scene, "cosimulation_error").rungs
+    turns, step = scene.cosimulation.revolutions, POINT / abs(scene.speed)
+    times = step * np.arange(round(2.0 * math.pi * turns / POINT) + 1)
+    run = simulate(rungs[0].rotor, rungs[0].reaction, duration=float(times[-1]), times=times, rtol=1e-9)
+    return rungs, run.position

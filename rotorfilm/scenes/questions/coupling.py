@@ -29,7 +29,7 @@ FORCES = "film forces"
 SLOPES = "film derivatives"
 STATES = "1000 film states at once"
 
-MOST = 6000
+MOST = 4000
 """Most macro steps of a run that is made for an answer."""
 
 HOPELESS = 10.0

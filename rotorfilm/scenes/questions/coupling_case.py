@@ -11,10 +11,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ...cosim import GaussSeidel, Jacobi, Scheme, SIExp, SIExp3
-from ...cosim.bench import Motion, Sample, Tangents
+from ...cosim.bench import Bench, Motion, Sample, Tangents
 from ...cosim.exponential import Wiring
 from ...cosim.run import CoSimulation, couple
-from ...cosim.scheme import MEMORY
+from ...cosim.scheme import MEMORY, started
 from ...cosim.slaves import InProcessSlave
 from ...cosim.stability import coupling_loop, dominant_eigenvalue
 from ...cosim.watch import quietly
@@ -41,9 +41,6 @@ PARALLEL = 3.0
 The film sees the motion extrapolated too, so that its force is off by H^(k+1) F^(k+1) more, beside the mean
 of the rotor's own extrapolation: 1/2, 5/12, 3/8 of that for degree k = 0, 1, 2.
 """
-
-START = 3
-"""Macro steps after which a parabola through the latest forces is one."""
 
 GROWTH = 100.0
 """Growth of a small disturbance over a run beyond which the run need not be made."""
@@ -73,6 +70,15 @@ class _Recording(InProcessSlave):
         """Advance the states under a force law, and keep it."""
         self.laws.append(law)
         super().drive(t, dt, law, wiring)
+
+
+@dataclass(frozen=True)
+class _Pilot(SIExp3):
+    """SI-exp3 that begins with short steps, as parabolas do, so that all schemes find their points in it."""
+
+    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
+        """Advance by one macro step, at the start by a part of it."""
+        return super().step(bench, history, t, started(history, 2, dt))
 
 
 class _Replay:
@@ -179,10 +185,10 @@ class CouplingCase:
         """
         for angle in PILOTS[:-1]:
             try:
-                return self.run(SIExp3(), angle), angle
+                return self.run(_Pilot(), angle), angle
             except PartialResultError:
                 continue
-        return self.run(SIExp3(), PILOTS[-1]), PILOTS[-1]
+        return self.run(_Pilot(), PILOTS[-1]), PILOTS[-1]
 
     def predicted(self, scheme: Scheme, angle: float) -> float:
         """Return the error that a scheme would have at a macro step [rad], / clearance, were it stable.
@@ -190,8 +196,11 @@ class CouplingCase:
         To leading order: the defect of its force law along the motion of the pilot, propagated, and scaled
         by the order of the scheme.
         """
-        own = self._constants[scheme]
-        return float(own * (angle / self.pilot[1]) ** scheme.order)
+        ratio = angle / self.pilot[1]
+        # Long steps fall behind their order where the film is stiff.
+        return float(
+            self._constants[scheme] * ratio ** (scheme.order if ratio < 1.0 else min(scheme.order, 2))
+        )
 
     @cached_property
     def _constants(self) -> dict[Scheme, float]:
@@ -199,6 +208,7 @@ class CouplingCase:
         run, _ = self.pilot
         own = run.outcome.trajectory
         samples = self._samples(own.time, own.position, own.velocity)
+        regular = [samples[0], *(each for each in samples if each.time > 0.999 * run.outcome.macro_step)]
         motion = inner_motion(self.rotor, run.laws, own.position[:, :-1], own.velocity[:, :-1], own.time)
         speed = np.full(motion.position.shape[1:], self.rotor.profile.speeds[0])
         force = self.reaction.force(motion.position, motion.velocity, speed)
@@ -208,7 +218,9 @@ class CouplingCase:
             if isinstance(scheme, Jacobi):
                 found[scheme] = PARALLEL * found[GaussSeidel(degree=scheme.degree)]
                 continue
-            defect = force - law_forces(_laws_on(samples, scheme, run.laws), motion)
+            # Only parabolas begin with short steps.
+            met = samples if isinstance(scheme, GaussSeidel) and scheme.degree > 1 else regular
+            defect = force - law_forces(_laws_on(met, scheme), motion)
             moved, _ = propagated(self.rotor.mass, motion.dt, slopes, defect)
             found[scheme] = largest(moved, motion.parts) / self.reaction.clearance
         return found
@@ -217,10 +229,11 @@ class CouplingCase:
         """Return the communication points of a motion."""
         speed = self.rotor.profile.speeds[0]
         forces = self.reaction.force(position, velocity, np.full(time.size, speed))
-        slopes = np.zeros((2, 5, time.size))
-        slopes[..., 1:] = self.reaction.jacobian(
-            position[:, 1:], velocity[:, 1:], np.full(time.size - 1, speed)
-        )
+        try:
+            slopes = self.reaction.jacobian(position, velocity, np.full(time.size, speed))
+        except UndefinedDerivativeError:  # a damper at rest, where the schemes too go without
+            moving = self.reaction.jacobian(position[:, 1:], velocity[:, 1:], np.full(time.size - 1, speed))
+            slopes = np.concatenate([np.zeros((2, 5, 1)), moving], axis=2)
         return [
             Sample(
                 float(time[n]),
@@ -233,15 +246,13 @@ class CouplingCase:
         ]
 
 
-def _laws_on(samples: Sequence[Sample], scheme: Scheme, own: Sequence[ForceLaw]) -> list[ForceLaw]:
-    """Return the force laws of a scheme on a known motion; where it would begin by short steps, its own."""
+def _laws_on(samples: Sequence[Sample], scheme: Scheme) -> list[ForceLaw]:
+    """Return the force laws of a scheme on a known motion."""
     laws = []
-    short = START if isinstance(scheme, GaussSeidel) and scheme.degree > 1 else 0
     for n in range(len(samples) - 1):
         bench, now = _Replay(samples[n + 1]), samples[n]
-        if n >= short:
-            scheme.step(
-                bench, samples[max(0, n + 1 - MEMORY) : n + 1], now.time, samples[n + 1].time - now.time
-            )
-        laws.append(bench.law or own[n])
+        length = samples[n + 1].time - now.time
+        scheme.step(bench, samples[max(0, n + 1 - MEMORY) : n + 1], now.time, length)
+        assert bench.law is not None  # every scheme drives the rotor
+        laws.append(bench.law)
     return laws

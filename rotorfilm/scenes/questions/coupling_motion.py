@@ -34,18 +34,22 @@ STEP_ANGLE = np.radians(4.0)
 """Longest step of the propagation [rad] of the shaft."""
 
 
+LARGE = "the error is larger than the gap"
+
+
 class InnerMotion(NamedTuple):
     """A coupled run at the nodes of n steps, each an equal part of a macro step.
 
     Attributes
     ----------
-    dt : ndarray, shape (n,) [s]
-        Lengths of the steps.
+    start, dt : ndarray, shape (n,) [s]
+        Where the steps begin, and their lengths.
     parts : int
         Steps in a macro step.
     position, velocity : ndarray, shape (2, n, 3) [m], [m/s]
     """
 
+    start: Array
     dt: Array
     parts: int
     position: Array
@@ -103,21 +107,21 @@ def inner_motion(
         state = found[:, part, -1]
     steps = np.repeat(dt, parts)
     q, v = (found[..., k : k + 2].reshape(-1, 3, 2).transpose(2, 0, 1) for k in (0, 2))
-    return InnerMotion(steps, parts, q, v / steps[:, None])
+    begin = (time[:-1, None] + np.arange(parts) * dt[:, None]).ravel()
+    return InnerMotion(begin, steps, parts, q, v / steps[:, None])
 
 
 def law_forces(laws: Sequence[ForceLaw], motion: InnerMotion) -> Array:
-    """Return the forces of the laws, one for each macro step of the motion, shape (2, n, 3) [N]."""
-    parts = motion.parts
-    elapsed = (np.tile(np.arange(parts), len(laws))[:, None] + NODES) * motion.dt[:, None]
+    """Return the forces of laws along a motion, each from its start to that of the next, (2, n, 3) [N]."""
+    starts = np.array([law.start for law in laws])
+    which = np.searchsorted(starts, motion.start + 0.5 * motion.dt) - 1
+    elapsed = (motion.start - starts[which])[:, None] + NODES * motion.dt[:, None]
     # Each field of the laws for each step, components first.
     value, slope, curvature, K, C, q, v = (
-        np.moveaxis(np.repeat(each, parts, axis=0), 0, -1)[..., None]
-        for each in tuple(zip(*laws, strict=True))[1:]
+        np.moveaxis(np.asarray(each)[which], 0, -1)[..., None] for each in tuple(zip(*laws, strict=True))[1:]
     )
-    pull = np.einsum("ijnk,jnk->ink", K, motion.position - q) + np.einsum(
-        "ijnk,jnk->ink", C, motion.velocity - v
-    )
+    pull = np.einsum("ijnk,jnk->ink", K, motion.position - q)
+    pull += np.einsum("ijnk,jnk->ink", C, motion.velocity - v)
     return np.asarray(value + elapsed * (slope + elapsed * curvature) - pull)
 
 
@@ -153,7 +157,11 @@ def _rates(rotor: RigidRotor, laws: Sequence[ForceLaw], dt: Array) -> tuple[Arra
 
 
 def drift(rotor: RigidRotor, reaction: Reaction, laws: Sequence[ForceLaw], motion: InnerMotion) -> Drift:
-    """Return how far a coupled run is off, with the slopes of the film along it and along the corrected one.
+    """Return how far a coupled run is off.
+
+    The force of the film changes from the run to the motion that is sought by its mean slopes between them:
+    those along the run first, then half the sum of those at both ends, then Simpson's rule. Where the last
+    two disagree, they are not to be trusted.
 
     Raises
     ------
@@ -162,18 +170,23 @@ def drift(rotor: RigidRotor, reaction: Reaction, laws: Sequence[ForceLaw], motio
     """
     q, v, clearance = motion.position, motion.velocity, reaction.clearance
     speed, states = np.full(q.shape[1:], rotor.profile.speeds[0]), q[0].size
+
+    def slopes(part: float, moved: Array, rates: Array) -> Array:
+        return np.asarray(reaction.jacobian(q + part * moved, v + part * rates, speed))
+
     defect = reaction.force(q, v, speed) - law_forces(laws, motion)
-    slopes = reaction.jacobian(q, v, speed)
-    first, rates = propagated(rotor.mass, motion.dt, slopes, defect)
-    if not np.hypot(*(q + first)).max() < clearance:
-        return Drift(largest(first, motion.parts) / clearance, "the error is larger than the gap", 2 * states)
-    other = reaction.jacobian(q + first, v + rates, speed)
-    second, _ = propagated(rotor.mass, motion.dt, other, defect)
-    apart = float(np.linalg.norm(second - first)) / max(float(np.linalg.norm(first)), 1e-300)
-    # The film's force changes by the mean of its slopes from one motion to the other.
-    best, _ = propagated(rotor.mass, motion.dt, 0.5 * (slopes + other), defect)
-    doubt = f"the slopes before and after disagree on the error by {apart:.0%}: not linear"
-    return Drift(largest(best, motion.parts) / clearance, doubt if apart > DISAGREEMENT else "", 3 * states)
+    own = slopes(0.0, q, v)
+    first = propagated(rotor.mass, motion.dt, own, defect)
+    if not np.hypot(*(q + first[0])).max() < clearance:
+        return Drift(largest(first[0], motion.parts) / clearance, LARGE, 2 * states)
+    second = propagated(rotor.mass, motion.dt, 0.5 * (own + slopes(1.0, *first)), defect)
+    if not np.hypot(*(q + second[0])).max() < clearance:
+        return Drift(largest(second[0], motion.parts) / clearance, LARGE, 3 * states)
+    mean = (own + 4.0 * slopes(0.5, *second) + slopes(1.0, *second)) / 6.0
+    best, _ = propagated(rotor.mass, motion.dt, mean, defect)
+    apart = float(np.linalg.norm(best - second[0])) / max(float(np.linalg.norm(best)), 1e-300)
+    doubt = f"mean slopes of the film disagree on the error by {apart:.0%}: not linear"
+    return Drift(largest(best, motion.parts) / clearance, doubt if apart > DISAGREEMENT else "", 5 * states)
 
 
 def largest(moved: Array, parts: int) -> float:
