@@ -105,6 +105,7 @@ def _nothing(scene: Scene) -> Truth:
     return Truth(0.0, 1e-7)
 
 
+@lru_cache(maxsize=64)
 def coupled_error(scene: Scene, name: str) -> float:
     """Return the largest distance / clearance between a coupled run and both partners as one system.
 
