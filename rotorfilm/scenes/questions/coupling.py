@@ -10,14 +10,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...cosim import Scheme, SIExp, SIExp3
+from ...cosim import Scheme, SIExp
 from ...errors import CouplingError, InputError, RotorfilmError
+from ...films import ReynoldsFilm
 from ...linear import equilibrium
 from ...model import Reaction
 from ...rotors import RigidRotor
 from ..ladder import ErrorEstimate, Found, Ladder, Work
 from ..validity import journal_remarks
 from .coupling_case import SCHEMES, CoupledRun, CouplingCase
+from .films import has_map, with_film
 
 if TYPE_CHECKING:
     from ..scene import Scene
@@ -29,8 +31,11 @@ FORCES = "film forces"
 SLOPES = "film derivatives"
 STATES = "1000 film states at once"
 
+CELLS = (48, 4)
+"""Of the film of a bearing without a map, where the scene leaves the film open."""
+
 MOST = 4000
-"""Most macro steps of a run that is made for an answer."""
+"""Most macro steps of a run; rungs that would take more are left out."""
 
 HOPELESS = 10.0
 """Predicted error, in tolerances, beyond which a run is not made unless nothing better is left."""
@@ -56,8 +61,9 @@ class CouplingRung:
 
     @property
     def name(self) -> str:
-        """Scheme and macro step."""
-        return f"{self.scheme.label}, {math.degrees(self.macro_angle):.4g} deg"
+        """Scheme, macro step and, where it is not that of the scene, the film."""
+        film = f", {self.case.film}" if self.case.film else ""
+        return f"{self.scheme.label}, {math.degrees(self.macro_angle):.4g} deg{film}"
 
     @property
     def calls(self) -> float:
@@ -89,16 +95,14 @@ class CouplingRung:
         Raises
         ------
         RotorfilmError
-            If the run is unstable, at the wall, too long, or predicted to be far off.
+            If the run is unstable, at the wall, or predicted to be far off.
         """
         unstable = self.case.instability(self.scheme, self.macro_angle)
         if unstable:
             raise CouplingError(unstable, None)
-        about, count = 2.0 * self.prior, self.case.exchanges(self.macro_angle)
+        about = 2.0 * self.prior
         if about > self.worst:
             raise RotorfilmError(f"not run: predicted to be off by {about:.1g} from the motion by SI-exp3")
-        if count > MOST:
-            raise RotorfilmError(f"not run: {count} macro steps are more than {MOST}")
         run = self.run()
         found, work = self.case.drift(run), run.outcome.trajectory.work
         done = {FORCES: work["film_evaluations"]}
@@ -124,21 +128,26 @@ def coupling_ladder(scene: Scene, quantity: str) -> Ladder:
     Raises
     ------
     InputError
-        If the scene has no rotor, no unbalance, an excitation, or does not turn.
+        If the scene has no rotor, no unbalance, an excitation, does not turn, or turns too often.
     CouplingError, ContactError, ConvergenceError
         If no macro step follows the motion; see `CouplingCase.pilot`.
     """
     assert scene.question is not None
     case = _case(scene, quantity)
-    tried = [(scheme, math.radians(angle)) for angle in ANGLES for scheme in SCHEMES]
-    short = [(scheme, angle) for scheme, angle in tried if case.exchanges(angle) <= MOST]
-    least = min(
-        (case.predicted(scheme, angle) for scheme, angle in short if isinstance(scheme, SIExp | SIExp3)),
-        default=math.inf,
-    )
+    angles = [math.radians(angle) for angle in ANGLES]
+    angles = [angle for angle in angles if case.exchanges(angle) <= MOST]
+    if not angles:
+        raise InputError(
+            f"cosimulation.revolutions must be at most {MOST * math.radians(ANGLES[0]) / math.tau:.4g} for "
+            f"{quantity}, got {case.revolutions:.6g}"
+        )
+    # SI-exp goes where SI-exp3 overshoots.
+    least = case.predicted(SIExp(), angles[-1])
     worst = max(HOPELESS * scene.question.tolerance, least)
     rungs = [
-        CouplingRung(case=case, scheme=scheme, macro_angle=angle, worst=worst) for scheme, angle in tried
+        CouplingRung(case=case, scheme=scheme, macro_angle=angle, worst=worst)
+        for angle in angles
+        for scheme in SCHEMES
     ]
     rungs.sort(key=lambda rung: rung.calls)
     return Ladder(
@@ -164,10 +173,13 @@ def _case(scene: Scene, quantity: str) -> CouplingCase:
         assert scene.damper is not None  # the question is asked of scenes with either
         centered = scene.rigid_rotor.build(scene.speed, (0.0, 0.0))
         return CouplingCase(rotor=centered, reaction=scene.damper.support(), revolutions=turns)
-    film, load = scene.bearing, scene.static_load
+    film, load, name = scene.bearing, scene.static_load, ""
+    if not (scene.film_is_given or has_map(film)):
+        # A map of its own takes a minute, and the coupling hardly depends on the film.
+        film, name = with_film(film, ReynoldsFilm(cells=CELLS)), f"2-D {CELLS[0]} x {CELLS[1]}"
     x, y = equilibrium(film, load, scene.speed).position.tolist()
     rotor = replace(scene.rigid_rotor.build(scene.speed, load), position=(x, y))
-    return CouplingCase(rotor=rotor, reaction=film, revolutions=turns)
+    return CouplingCase(rotor=rotor, reaction=film, revolutions=turns, film=name)
 
 
 def _units(case: CouplingCase) -> dict[str, Callable[[], object]]:

@@ -123,11 +123,14 @@ class CouplingCase:
         Without states.
     revolutions : float [1]
         Length of a run.
+    film : str
+        Its name, where it is not that of the scene.
     """
 
     rotor: RigidRotor
     reaction: Reaction
     revolutions: float
+    film: str = ""
 
     def exchanges(self, angle: float) -> int:
         """Return the number of macro steps [rad] in a run."""
