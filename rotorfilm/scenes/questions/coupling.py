@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...cosim import Scheme, SIExp
+from ...cosim import Scheme, SIExp, SIExp3
 from ...errors import CouplingError, InputError, RotorfilmError
 from ...films import ReynoldsFilm
 from ...linear import equilibrium
@@ -41,6 +41,10 @@ HOPELESS = 10.0
 """Predicted error, in tolerances, beyond which a run is not made unless nothing better is left."""
 
 
+SURPLUS = 2.0
+"""Least error, in tolerances, beyond which a run is not made."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class CouplingRung:
     """A coupled run by one scheme at one macro step.
@@ -50,6 +54,7 @@ class CouplingRung:
     case : CouplingCase
     scheme : Scheme
     macro_angle : float [rad]
+    tolerance : float [1]
     worst : float [1]
         Predicted error beyond which the run is not made.
     """
@@ -57,6 +62,7 @@ class CouplingRung:
     case: CouplingCase
     scheme: Scheme
     macro_angle: float
+    tolerance: float
     worst: float
 
     @property
@@ -103,8 +109,13 @@ class CouplingRung:
         about = 2.0 * self.prior
         if about > self.worst:
             raise RotorfilmError(f"not run: predicted to be off by {about:.1g} from the motion by SI-exp3")
+        least = self.case.least(self.scheme, self.macro_angle)
+        if least > SURPLUS * self.tolerance and self.worst <= HOPELESS * self.tolerance:
+            raise RotorfilmError(f"not run: off by {least:.1g} at least, by its order from a longer step")
         run = self.run()
         found, work = self.case.drift(run), run.outcome.trajectory.work
+        if not found.doubt:
+            self.case.errors[self.scheme, self.macro_angle] = found.error
         done = {FORCES: work["film_evaluations"]}
         if self.scheme.needs.derivatives:
             done[SLOPES] = work["film_jacobians"]
@@ -113,7 +124,7 @@ class CouplingRung:
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the error, which is the answer itself."""
         about = found.solution
-        method = "defect of the force laws within macro steps, propagated"
+        method = "defect of the force law"
         return ErrorEstimate(about.error, method, {STATES: math.ceil(about.states / 1000)}, doubt=about.doubt)
 
     def expected(self, done: Work) -> Work:
@@ -141,11 +152,13 @@ def coupling_ladder(scene: Scene, quantity: str) -> Ladder:
             f"cosimulation.revolutions must be at most {MOST * math.radians(ANGLES[0]) / math.tau:.4g} for "
             f"{quantity}, got {case.revolutions:.6g}"
         )
-    # SI-exp goes where SI-exp3 overshoots.
-    least = case.predicted(SIExp(), angles[-1])
-    worst = max(HOPELESS * scene.question.tolerance, least)
+    # SI-exp goes where SI-exp3 overshoots, which goes at shorter steps than the pilot's.
+    surest = SIExp3() if angles[-1] <= case.pilot[1] else SIExp()
+    least = case.predicted(surest, angles[-1])
+    tolerance = scene.question.tolerance
+    worst = max(HOPELESS * tolerance, least)
     rungs = [
-        CouplingRung(case=case, scheme=scheme, macro_angle=angle, worst=worst)
+        CouplingRung(case=case, scheme=scheme, macro_angle=angle, tolerance=tolerance, worst=worst)
         for angle in angles
         for scheme in SCHEMES
     ]
