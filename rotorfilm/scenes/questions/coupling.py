@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...cosim import Scheme, SIExp, SIExp3
+from ...cosim import Scheme
 from ...errors import CouplingError, InputError, RotorfilmError
 from ...films import ReynoldsFilm
 from ...linear import equilibrium
@@ -108,7 +108,7 @@ class CouplingRung:
             raise CouplingError(unstable, None)
         about = 2.0 * self.prior
         if about > self.worst:
-            raise RotorfilmError(f"not run: predicted to be off by {about:.1g} from the motion by SI-exp3")
+            raise RotorfilmError(f"not run: predicted to be off by {about:.1g} from the motion of the pilot")
         least = self.case.least(self.scheme, self.macro_angle)
         if least > SURPLUS * self.tolerance and self.worst <= HOPELESS * self.tolerance:
             raise RotorfilmError(f"not run: off by {least:.1g} at least, by its order from a longer step")
@@ -152,9 +152,7 @@ def coupling_ladder(scene: Scene, quantity: str) -> Ladder:
             f"cosimulation.revolutions must be at most {MOST * math.radians(ANGLES[0]) / math.tau:.4g} for "
             f"{quantity}, got {case.revolutions:.6g}"
         )
-    # SI-exp goes where SI-exp3 overshoots, which goes at shorter steps than the pilot's.
-    surest = SIExp3() if angles[-1] <= case.pilot[1] else SIExp()
-    least = case.predicted(surest, angles[-1])
+    least = case.predicted(case.pilot.scheme, angles[-1])  # which goes at shorter steps too
     tolerance = scene.question.tolerance
     worst = max(HOPELESS * tolerance, least)
     rungs = [

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...cosim import GaussSeidel, Jacobi, Scheme, SIExp, SIExp3
-from ...cosim.bench import Bench, Motion, Sample, Tangents
+from ...cosim.bench import Bench, Motion, Needs, Sample, Tangents
 from ...cosim.exponential import Wiring
 from ...cosim.run import CoSimulation, couple
 from ...cosim.scheme import MEMORY, started
@@ -36,8 +36,13 @@ Newton's takes twice the calls of SI-exp for a larger error; extrapolation in pa
 for a larger error and a shorter limit, and masters in parallel hold their signals.
 """
 
-PILOTS = tuple(math.radians(angle) for angle in (4.0, 1.0, 0.25))
-"""Macro steps of the run by SI-exp3 that all others are predicted from; the first that is possible [rad]."""
+PILOTS: tuple[tuple[Scheme, float], ...] = (
+    (SIExp3(), math.radians(4.0)),
+    (SIExp(), math.radians(4.0)),
+    (SIExp(), math.radians(1.0)),
+    (SIExp(), math.radians(0.25)),
+)
+"""Scheme and macro step of the run that all others are predicted from; the first that is possible."""
 
 PARALLEL = 3.0
 """Error of Jacobi in that of Gauss-Seidel at the same step, at least.
@@ -63,6 +68,21 @@ class CoupledRun(NamedTuple):
     laws: list[ForceLaw]
 
 
+class Pilot(NamedTuple):
+    """The run that all others are predicted from.
+
+    Attributes
+    ----------
+    run : CoupledRun
+    scheme : Scheme
+    macro_angle : float [rad]
+    """
+
+    run: CoupledRun
+    scheme: Scheme
+    macro_angle: float
+
+
 class _Recording(InProcessSlave):
     """A rotor that keeps the force laws it was driven by."""
 
@@ -76,13 +96,26 @@ class _Recording(InProcessSlave):
         super().drive(t, dt, law, wiring)
 
 
-@dataclass(frozen=True)
-class _Pilot(SIExp3):
-    """SI-exp3 that begins with short steps, as parabolas do, so that all schemes find their points in it."""
+@dataclass(frozen=True, kw_only=True)
+class _Starting:
+    """A scheme that begins with short steps, as parabolas do, so that all schemes find their points in it."""
+
+    scheme: Scheme
+
+    @property
+    def order(self) -> int:
+        return self.scheme.order
+
+    @property
+    def label(self) -> str:
+        return self.scheme.label
+
+    @property
+    def needs(self) -> Needs:
+        return self.scheme.needs
 
     def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
-        """Advance by one macro step, at the start by a part of it."""
-        return super().step(bench, history, t, started(history, 2, dt))
+        return self.scheme.step(bench, history, t, started(history, 2, dt))
 
 
 class _Replay:
@@ -192,20 +225,21 @@ class CouplingCase:
         return max((error * min(1.0, angle / own) ** scheme.order for own, error in met), default=0.0)
 
     @cached_property
-    def pilot(self) -> tuple[CoupledRun, float]:
-        """A run by SI-exp3, and its macro step [rad].
+    def pilot(self) -> Pilot:
+        """The run that others are predicted from.
 
         Raises
         ------
         PartialResultError
             If the journal cannot be followed even at the shortest step.
         """
-        for angle in PILOTS[:-1]:
+        for scheme, angle in PILOTS[:-1]:
             try:
-                return self.run(_Pilot(), angle), angle
+                return Pilot(self.run(_Starting(scheme=scheme), angle), scheme, angle)
             except PartialResultError:
                 continue
-        return self.run(_Pilot(), PILOTS[-1]), PILOTS[-1]
+        scheme, angle = PILOTS[-1]
+        return Pilot(self.run(_Starting(scheme=scheme), angle), scheme, angle)
 
     def predicted(self, scheme: Scheme, angle: float) -> float:
         """Return the error that a scheme would have at a macro step [rad], / clearance, were it stable.
@@ -213,7 +247,7 @@ class CouplingCase:
         To leading order: the defect of its force law along the motion of the pilot, propagated, and scaled
         by the order of the scheme.
         """
-        ratio = angle / self.pilot[1]
+        ratio = angle / self.pilot.macro_angle
         # Long steps fall behind their order where the film is stiff.
         order = scheme.order if ratio < 1.0 else min(scheme.order, 2)
         return float(self._constants[scheme] * ratio**order)
@@ -221,7 +255,7 @@ class CouplingCase:
     @cached_property
     def _constants(self) -> dict[Scheme, float]:
         """Errors of all schemes at the pilot's macro step."""
-        run, _ = self.pilot
+        run = self.pilot.run
         own = run.outcome.trajectory
         samples = self._samples(own.time, own.position, own.velocity)
         regular = [samples[0], *(each for each in samples if each.time > 0.999 * run.outcome.macro_step)]
