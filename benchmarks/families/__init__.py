@@ -20,6 +20,8 @@ FAMILIES: dict[str, tuple[int, Draw]] = {
     "blade loss": (1, journals.blade),
     "coupling": (1, couplings.coupling),
     "damper": (2, dampers.damper),
+    "orbit, film": (1, journals.orbit_by_film),
+    "blade, film": (1, journals.blade_by_film),
     "coupling hard": (1, couplings.hard),
     "coupling other": (1, couplings.other),
 }
