@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -11,18 +10,17 @@ from typing import NamedTuple
 import numpy as np
 
 from ...cosim import GaussSeidel, Jacobi, Scheme, SIExp, SIExp3
-from ...cosim.bench import Bench, Motion, Needs, Sample, Tangents
 from ...cosim.exponential import Wiring
 from ...cosim.run import CoSimulation, couple
-from ...cosim.scheme import MEMORY, started
 from ...cosim.slaves import InProcessSlave
 from ...cosim.stability import coupling_loop, dominant_eigenvalue
 from ...cosim.watch import quietly
 from ...errors import PartialResultError, UndefinedDerivativeError
-from ...model import Array, Reaction
+from ...model import Reaction
 from ...rotors import RigidRotor
 from ...rotors.force_law import ForceLaw
 from .coupling_motion import Drift, drift, inner_motion, largest, law_forces, propagated
+from .coupling_replay import Starting, laws_on, samples_of
 
 SCHEMES: tuple[Scheme, ...] = (
     *(GaussSeidel(degree=degree) for degree in range(3)),
@@ -94,58 +92,6 @@ class _Recording(InProcessSlave):
         """Advance the states under a force law, and keep it."""
         self.laws.append(law)
         super().drive(t, dt, law, wiring)
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Starting:
-    """A scheme that begins with short steps, as parabolas do, so that all schemes find their points in it."""
-
-    scheme: Scheme
-
-    @property
-    def order(self) -> int:
-        return self.scheme.order
-
-    @property
-    def label(self) -> str:
-        return self.scheme.label
-
-    @property
-    def needs(self) -> Needs:
-        return self.scheme.needs
-
-    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
-        return self.scheme.step(bench, history, t, started(history, 2, dt))
-
-
-class _Replay:
-    """A `Bench` on which a scheme is given a motion known beforehand, to see its force law."""
-
-    def __init__(self, following: Sample) -> None:
-        self._following = following
-        self.law: ForceLaw | None = None
-
-    def drive(self, t: float, dt: float, law: ForceLaw) -> Motion:
-        """Keep the law; the motion is the known one."""
-        self.law = law
-        return self._following.motion
-
-    def evaluate(self, t: float, dt: float, motion: Motion, derive: bool) -> Sample:
-        """Return the known forces."""
-        return self._following
-
-    def sensitivity(self, t: float, dt: float) -> Array:
-        """Not asked for by the schemes here."""
-        raise NotImplementedError
-
-    def save(self) -> None:
-        """Do nothing: no scheme here goes back."""
-
-    def restore(self, state: None) -> None:
-        """Do nothing."""
-
-    def release(self, state: None) -> None:
-        """Do nothing."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -235,11 +181,11 @@ class CouplingCase:
         """
         for scheme, angle in PILOTS[:-1]:
             try:
-                return Pilot(self.run(_Starting(scheme=scheme), angle), scheme, angle)
+                return Pilot(self.run(Starting(scheme=scheme), angle), scheme, angle)
             except PartialResultError:
                 continue
         scheme, angle = PILOTS[-1]
-        return Pilot(self.run(_Starting(scheme=scheme), angle), scheme, angle)
+        return Pilot(self.run(Starting(scheme=scheme), angle), scheme, angle)
 
     def predicted(self, scheme: Scheme, angle: float) -> float:
         """Return the error that a scheme would have at a macro step [rad], / clearance, were it stable.
@@ -257,7 +203,7 @@ class CouplingCase:
         """Errors of all schemes at the pilot's macro step."""
         run = self.pilot.run
         own = run.outcome.trajectory
-        samples = self._samples(own.time, own.position, own.velocity)
+        samples = samples_of(self.reaction, own, self.rotor.profile.speeds[0])
         regular = [samples[0], *(each for each in samples if each.time > 0.999 * run.outcome.macro_step)]
         motion = inner_motion(self.rotor, run.laws, own.position[:, :-1], own.velocity[:, :-1], own.time)
         speed = np.full(motion.position.shape[1:], self.rotor.profile.speeds[0])
@@ -270,39 +216,7 @@ class CouplingCase:
                 continue
             # Only parabolas begin with short steps.
             met = samples if isinstance(scheme, GaussSeidel) and scheme.degree > 1 else regular
-            defect = force - law_forces(_laws_on(met, scheme), motion)
+            defect = force - law_forces(laws_on(met, scheme), motion)
             moved, _ = propagated(self.rotor.mass, motion.dt, slopes, defect)
             found[scheme] = largest(moved, motion.parts) / self.reaction.clearance
         return found
-
-    def _samples(self, time: Array, position: Array, velocity: Array) -> list[Sample]:
-        """Return the communication points of a motion."""
-        speed = self.rotor.profile.speeds[0]
-        forces = self.reaction.force(position, velocity, np.full(time.size, speed))
-        try:
-            slopes = self.reaction.jacobian(position, velocity, np.full(time.size, speed))
-        except UndefinedDerivativeError:  # a damper at rest, where the schemes too go without
-            moving = self.reaction.jacobian(position[:, 1:], velocity[:, 1:], np.full(time.size - 1, speed))
-            slopes = np.concatenate([np.zeros((2, 5, 1)), moving], axis=2)
-        return [
-            Sample(
-                float(time[n]),
-                Motion(position[:, n], velocity[:, n], speed, {}),
-                forces[:, n],
-                Tangents(-slopes[:, :2, n], -slopes[:, 2:4, n], slopes[:, 4, n]),
-                {},
-            )
-            for n in range(time.size)
-        ]
-
-
-def _laws_on(samples: Sequence[Sample], scheme: Scheme) -> list[ForceLaw]:
-    """Return the force laws of a scheme on a known motion."""
-    laws = []
-    for n in range(len(samples) - 1):
-        bench, now = _Replay(samples[n + 1]), samples[n]
-        length = samples[n + 1].time - now.time
-        scheme.step(bench, samples[max(0, n + 1 - MEMORY) : n + 1], now.time, length)
-        assert bench.law is not None  # every scheme drives the rotor
-        laws.append(bench.law)
-    return laws

@@ -40,6 +40,9 @@ BEGINNING = 24
 """Steps at the beginning of a run, where a sudden load is answered, of which none is left out."""
 
 
+NEGLIGIBLE = 0.03
+"""Change by the first mean of slopes below which no better mean is needed."""
+
 LARGE = "the error is larger than the gap"
 
 
@@ -166,8 +169,8 @@ def drift(rotor: RigidRotor, reaction: Reaction, laws: Sequence[ForceLaw], motio
     """Return how far a coupled run is off.
 
     The force of the film changes from the run to the motion that is sought by its mean slopes between them:
-    those along the run first, then half the sum of those at both ends, then Simpson's rule. Where the last
-    two disagree, they are not to be trusted.
+    those along the run first, then half the sum of those at both ends and, unless that changed nothing,
+    Simpson's rule. Where the last two disagree, they are not to be trusted.
 
     Raises
     ------
@@ -193,11 +196,18 @@ def drift(rotor: RigidRotor, reaction: Reaction, laws: Sequence[ForceLaw], motio
     second = propagated(rotor.mass, motion.dt, 0.5 * (own + slopes(1.0, *first)), defect)
     if not np.hypot(*(motion.position + second[0])).max() < clearance:
         return Drift(largest(second[0], motion.parts) / clearance, LARGE, 3 * states)
+    if _apart(first[0], second[0]) < NEGLIGIBLE:
+        return Drift(largest(second[0], motion.parts) / clearance, "", 3 * states)
     mean = (own + 4.0 * slopes(0.5, *second) + slopes(1.0, *second)) / 6.0
     best, _ = propagated(rotor.mass, motion.dt, mean, defect)
-    apart = float(np.linalg.norm(best - second[0])) / max(float(np.linalg.norm(best)), 1e-300)
+    apart = _apart(second[0], best)
     doubt = f"mean slopes of the film disagree on the error by {apart:.0%}: not linear"
     return Drift(largest(best, motion.parts) / clearance, doubt if apart > DISAGREEMENT else "", 5 * states)
+
+
+def _apart(first: Array, second: Array) -> float:
+    """Return how far two motions are apart, relative to the second."""
+    return float(np.linalg.norm(second - first)) / max(float(np.linalg.norm(second)), 1e-300)
 
 
 def _taken(turned: Array) -> NDArray[np.intp]:
