@@ -235,6 +235,21 @@ def test_damper_and_grooved_bearing_are_coupled_too():
     assert not isinstance(rungs[0].reaction.film, MapFilm)
 
 
+def test_run_shorter_than_a_macro_step_is_answered():
+    answer = asked(1e-4, 0.005).ask()
+    assert answer.met
+    assert answer.next_model is not None
+
+
+def test_estimates_hold_far_below_any_tolerance_of_use():
+    coarse, fine = (case().run(SIExp3(), math.radians(angle)) for angle in (0.5, 0.25))
+    gap = coarse.outcome.trajectory.position - fine.outcome.trajectory.position[:, ::2]
+    # of third order: half the step leaves an eighth
+    richardson = 8.0 / 7.0 * np.hypot(*gap).max() / case().reaction.clearance
+    assert richardson < 3e-7
+    assert case().drift(coarse).error == pytest.approx(richardson, rel=0.05)
+
+
 def test_example_names_its_coupling():
     answer = Scene.load(ROOT / "examples" / "coupling.toml").ask()
     assert answer.met

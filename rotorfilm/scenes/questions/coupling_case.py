@@ -204,7 +204,8 @@ class CouplingCase:
         run = self.pilot.run
         own = run.outcome.trajectory
         samples = samples_of(self.reaction, own, self.rotor.profile.speeds[0])
-        regular = [samples[0], *(each for each in samples if each.time > 0.999 * run.outcome.macro_step)]
+        whole = 0.999 * min(run.outcome.macro_step, own.time[-1])
+        regular = [samples[0], *(each for each in samples if each.time > whole)]
         motion = inner_motion(self.rotor, run.laws, own.position[:, :-1], own.velocity[:, :-1], own.time)
         speed = np.full(motion.position.shape[1:], self.rotor.profile.speeds[0])
         force = self.reaction.force(motion.position, motion.velocity, speed)
