@@ -283,7 +283,7 @@ class JournalBearing(Feedthrough):
         if type(self) is not JournalBearing or not isinstance(film, NativeFilm):
             return None
         kernel, tables = film.native(self.slenderness)
-        bounds = _bounds(tables.get("range"))
+        bounds = _bounds(tables.get("range")) if tables else ""
         parameters = tuple(
             NativeParameter(
                 name=name,
