@@ -99,7 +99,8 @@ def test_cost_of_the_answer_is_its_work_and_the_next_rung_is_priced():
     assert answer.model == "map"
     chosen = answer.rungs[0]
     assert 3 <= chosen.work["tangents of map"] <= 20
-    assert answer.cost > 0.0 and answer.next_cost > 0.0
+    assert answer.cost > 0.0
+    assert answer.next_cost > 0.0
     assert answer.estimate_cost == 0.0  # a verified bound costs nothing
     assert chosen.bound
 
