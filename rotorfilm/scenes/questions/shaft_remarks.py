@@ -1,0 +1,51 @@
+"""What the physics of all rungs leaves out of a flexible rotor."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...bearings import JournalBearing
+from ...rotors import ShaftElement, ShaftRotor
+from ..validity import film_remarks
+
+if TYPE_CHECKING:
+    from ..scene import Scene
+
+SLENDER = 4.0
+"""Length of a shaft / its largest diameter below which its cross sections may not stay plane."""
+
+STEPPED = 2.0
+"""Ratio of neighboring diameters from which the material in the corner of a step does not carry."""
+
+
+def shaft_remarks(scene: Scene, speed: float) -> tuple[str, ...]:
+    """Return what is left out and should not be, one line each, for the shaft of a scene at a speed [rad/s]."""
+    assert scene.shaft is not None
+    rotor, bearings = scene.shaft.build(), scene.shaft.build_bearings()
+    load = float(np.hypot(*rotor.gravity)) * rotor.mass / max(len(bearings), 1)
+    lines = list(beam_remarks(rotor))
+    for name, bearing in bearings.items():
+        if isinstance(bearing, JournalBearing):
+            found = film_remarks(bearing, scene.lubricant, speed, (0.0, -load))
+            lines += [f"{name}: {line}" for line in found]
+    return tuple(lines)
+
+
+def beam_remarks(rotor: ShaftRotor) -> tuple[str, ...]:
+    """Return where a shaft is no beam, one line each."""
+    pieces = [element for element in rotor.elements if isinstance(element, ShaftElement)]
+    if not pieces:
+        return ()
+    length, thickest = sum(piece.length for piece in pieces), max(piece.outer_diameter for piece in pieces)
+    diameters = [piece.outer_diameter for piece in pieces]
+    steps = [max(a, b) / min(a, b) for a, b in zip(diameters, diameters[1:], strict=False)]
+    lines = {
+        f"beam theory: the shaft is {length / thickest:.2g} diameters long, its cross sections may not stay plane": (
+            length < SLENDER * thickest
+        ),
+        f"beam theory: diameters change by a factor {max(steps, default=1.0):.2g} in a step, whose corner does "
+        "not carry": max(steps, default=1.0) > STEPPED,
+    }
+    return tuple(line for line, applies in lines.items() if applies)

@@ -1,0 +1,142 @@
+"""One whirl of a flexible rotor at the speed of its own frequency, followed by inverse iteration."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from scipy.linalg import lu_factor, lu_solve
+
+from ...errors import ConvergenceError
+from ...linear import RotorEquilibrium, rotor_equilibrium
+from ...linear.rotor_system import SecondOrder, second_order, with_hysteresis
+from ...model import Array
+from ...results import Coefficients
+from ...rotors import FlexibleRotor
+from ...rotors.structure import Structure
+from .shaft_films import ShaftFilms, coefficient_rates
+
+STEP = 1e-3
+"""Relative change of speed over which K and C of films are differentiated."""
+
+CONVERGED = 1e-12
+_STEPS = 25
+
+
+class Whirl(NamedTuple):
+    """A whirl in L(s) = s^2 M + s C + K, all at one speed.
+
+    Attributes
+    ----------
+    at : RotorEquilibrium
+    value : complex [1/s]
+        s.
+    right, left : ndarray of complex, shape (N,)
+        L right = 0, left* L = 0.
+    """
+
+    at: RotorEquilibrium
+    value: complex
+    right: np.ndarray
+    left: np.ndarray
+
+
+def small_motion(structure: Structure, at: RotorEquilibrium) -> SecondOrder:
+    """Return the equations of synchronous small motion about an equilibrium."""
+    return with_hysteresis(structure, second_order(structure, at), abs(at.speed), at.speed)
+
+
+def on_films(at: RotorEquilibrium, found: dict[str, Coefficients]) -> RotorEquilibrium:
+    """Return an equilibrium with other K and C of its bearings."""
+    return replace(at, coefficients=found)
+
+
+def dynamics(system: SecondOrder, value: complex) -> tuple[np.ndarray, np.ndarray]:
+    """Return L(s) and dL/ds."""
+    whole = value**2 * system.mass + value * system.damping + system.stiffness
+    return whole, 2.0 * value * system.mass + system.damping
+
+
+def inverse_steps(
+    system: SecondOrder, value: complex, right: np.ndarray, left: np.ndarray, count: int
+) -> list[tuple[complex, np.ndarray, np.ndarray]]:
+    """Return so many steps of two-sided inverse iteration at one shift: eigenvalue, right, left vector.
+
+    The eigenvalue is the shift less left* L right / (left* L' right): its error is of second order in that of
+    the vectors.
+    """
+    whole, slope = dynamics(system, value)
+    factor = lu_factor(whole, check_finite=False)
+    found = []
+    for _ in range(count):
+        right = _unit(lu_solve(factor, slope @ right))
+        left = _unit(lu_solve(factor, slope.conj().T @ left, trans=2))
+        change = (left.conj() @ whole @ right) / (left.conj() @ slope @ right)
+        found.append((complex(value - change), right, left))
+    return found
+
+
+def _unit(vector: np.ndarray) -> np.ndarray:
+    return np.asarray(vector / np.linalg.norm(vector))
+
+
+def mode_near(system: SecondOrder, value: complex, load: np.ndarray) -> tuple[complex, np.ndarray, np.ndarray]:
+    """Return the eigenvalue next to another one whose shape is like that under a load, and its vectors.
+
+    Raises
+    ------
+    ConvergenceError
+        If the iteration does not end.
+    """
+    # On an eigenvalue itself L has no inverse.
+    shift = value * (1.0 + 1e-9)
+    found, right, left = inverse_steps(system, shift, load, load, 3)[-1]
+    for _ in range(_STEPS):
+        before = found
+        found, right, left = inverse_steps(system, found * (1.0 + 1e-13), right, left, 1)[-1]
+        if abs(found - before) < CONVERGED * abs(found):
+            return found, right, left
+    raise ConvergenceError(f"whirl near {value:.6g} rad/s must be found by inverse iteration, and was not")
+
+
+def frequency_rate(structure: Structure, whirl: Whirl, films: ShaftFilms) -> float:
+    """Return d (Im s)/d speed of a whirl [1]: gyroscopic effect, rotating damping, and the films."""
+    s, right, left = whirl.value, whirl.right, whirl.left.conj()
+    changed = s * (structure.gyroscopic @ right) + structure.circulation @ right
+    for name, (stiffness, damping) in coefficient_rates(films, whirl.at, STEP).items():
+        rows = journal(structure, name)
+        changed = changed + rows.T @ ((stiffness + s * damping) @ (rows @ right))
+    _, slope = dynamics(small_motion(structure, whirl.at), s)
+    return float((-(left @ changed) / (left @ slope @ right)).imag)
+
+
+def journal(structure: Structure, name: str) -> Array:
+    """Return the displacement of a journal from its housing, shape (2, N)."""
+    k = structure.stations.index(name)
+    return structure.journals[2 * k : 2 * k + 2]
+
+
+def synchronous_whirl(
+    rotor: FlexibleRotor, films: ShaftFilms, speed: float, value: complex, load: np.ndarray
+) -> tuple[Whirl, int]:
+    """Return the whirl whose frequency is the speed, near another one, and how many speeds that took.
+
+    Raises
+    ------
+    ConvergenceError
+        If Newton's method in the speed does not end.
+    """
+    reactions = films.reactions
+    for count in range(1, _STEPS + 1):
+        at = rotor_equilibrium(rotor, reactions, speed)
+        whirl = Whirl(at, *mode_near(small_motion(rotor.structure, at), value, load))
+        lead = whirl.value.imag - speed
+        if abs(lead) < CONVERGED * speed:
+            return whirl, count
+        value, load = whirl.value, whirl.right
+        step = -lead / (frequency_rate(rotor.structure, whirl, films) - 1.0)
+        if count > 4 and abs(step) < 100.0 * CONVERGED * speed:
+            return whirl, count
+        speed += float(np.clip(step, -0.1 * speed, 0.1 * speed))
+    raise ConvergenceError(f"critical speed near {speed:.6g} rad/s must be found by Newton's method, and was not")
