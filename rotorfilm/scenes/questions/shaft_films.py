@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +12,7 @@ from ...bearings import JournalBearing
 from ...linear import RotorEquilibrium, coefficients, equilibrium
 from ...model import Array, Reaction
 from ...results import Coefficients
-from .films import FilmRung, film_rungs
+from .films import FINE, FilmRung, extrapolated, film_rungs
 from .statics import corrected
 
 if TYPE_CHECKING:
@@ -90,10 +90,17 @@ def film_levels(shaft: ShaftTable) -> tuple[ShaftFilms, ...]:
 
 
 def _choices(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
-    films = film_rungs(bearing, fixed=fixed)
+    films = tuple(_with_quick_check(film) for film in film_rungs(bearing, fixed=fixed))
     if len(films) == 1 or (films[0].bounded and not films[0].makes_map):
         return films[:1]
     return tuple(film for film in films if film.name in LEVELS)
+
+
+def _with_quick_check(film: FilmRung) -> FilmRung:
+    """Return a rung whose map is compared with a grid that may be solved for several bearings."""
+    if not film.bounded:
+        return film
+    return replace(film, rich=extrapolated(film.bearing, FINE), rich_name="2-D 384 x 16 extr.")
 
 
 def rich_coefficients(

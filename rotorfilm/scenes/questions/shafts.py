@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -35,21 +35,48 @@ if TYPE_CHECKING:
 LARGEST = 0.1
 """Change of speed [1] beyond which a linear step tells nothing."""
 
+NEAR = 1.1
+"""Critical speeds up to so many times the first are followed with it."""
+
 ROUNDOFF = float(np.finfo(float).eps)
+
+
+class Start(NamedTuple):
+    """Where a critical speed is looked for: speed [rad/s], eigenvalue [1/s], shape in coordinates of the rotor."""
+
+    speed: float
+    value: complex
+    shape: np.ndarray
 
 
 @dataclass(frozen=True, kw_only=True)
 class ShaftSpeed:
-    """A critical speed by one model, as a higher rung starts from it.
+    """The lowest critical speeds by one model, as a higher rung starts from them.
 
     Attributes
     ----------
-    whirl : Whirl
+    whirls : tuple of Whirl
+        By rising speed; those near the first, which another model may have in another order.
     model : ShaftModel
     """
 
-    whirl: Whirl
+    whirls: tuple[Whirl, ...]
     model: ShaftModel
+
+    def starts(self, model: ShaftModel) -> list[Start]:
+        """Return where another model may look for the same whirls."""
+        return [
+            Start(whirl.at.speed, whirl.value, model.seen(self.model.nodal(whirl.right)))
+            for whirl in self.whirls
+        ]
+
+
+class Corrected(NamedTuple):
+    """A critical speed [rad/s] after a step, its roundoff [1], and why to doubt it."""
+
+    speed: float
+    noise: float
+    doubt: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,59 +113,63 @@ class ShaftRung:
     def answer(self, before: Found | None) -> Found:
         """Return the first critical speed [rad/s]: looked for, or followed from that of a lower rung."""
         made = self.films.prepare()
-        rotor = self.model.rotor
         known: ShaftSpeed | None = None if before is None else before.solution
-        if before is None or known is None or known.model.modes == 0:
-            # Static shapes may be so far off that another whirl is nearer to theirs.
-            speed, value, load, work = self._looked_for()
-        else:
-            speed, value, work = float(before.value), known.whirl.value, 0
-            load = self.model.seen(known.model.nodal(known.whirl.right))
-        whirl, more = synchronous_whirl(rotor, self.films, speed, value, load)
-        found = whirl.at.speed
-        if not self.speeds[0] <= found <= self.speeds[-1]:
-            raise RotorfilmError(f"the critical speed {found:.6g} rad/s is not in shaft.speeds")
-        return Found(found, {self.unit: work + more, **made}, ShaftSpeed(whirl=whirl, model=self.model))
+        # Static shapes may be so far off that another whirl is nearer to theirs.
+        follow = known is not None and known.model.modes != 0
+        starts = known.starts(self.model) if known is not None and follow else self._looked_for()
+        found = [synchronous_whirl(self.model.rotor, self.films, *start) for start in starts]
+        whirls = sorted((whirl for whirl, _ in found), key=lambda whirl: whirl.at.speed)
+        first = whirls[0].at.speed
+        if not self.speeds[0] <= first <= self.speeds[-1]:
+            raise RotorfilmError(f"the critical speed {first:.6g} rad/s is not in shaft.speeds")
+        work = sum(count for _, count in found) + (0 if follow else len(self.speeds))
+        return Found(first, {self.unit: work, **made}, ShaftSpeed(whirls=tuple(whirls), model=self.model))
 
-    def _looked_for(self) -> tuple[float, complex, np.ndarray, int]:
-        """Return speed, eigenvalue and shape of the first critical speed, and how many speeds were looked at."""
-        rotor = self.model.rotor
-        found = critical_speeds(rotor, self.films.reactions, self.speeds)
+    def _looked_for(self) -> list[Start]:
+        """Return the first critical speed of this model, and those near it."""
+        rotor, reactions = self.model.rotor, self.films.reactions
+        found = critical_speeds(rotor, reactions, self.speeds)
         if not found:
             raise RotorfilmError(
                 f"no critical speed in shaft.speeds, {self.speeds[0]:.6g} to {self.speeds[-1]:.6g} rad/s: "
                 "no whirl has the frequency of the rotation there"
             )
-        speed = found[0].speed
-        value = speed * complex(-found[0].log_decrement / (2.0 * math.pi), 1.0)
-        system = small_motion(rotor.structure, rotor_equilibrium(rotor, self.films.reactions, speed))
-        start = np.random.default_rng(0).normal(size=len(system.mass)) + 0j
-        value, right, _ = mode_near(system, value, start)
-        return speed, value, right, len(self.speeds) + 1
+        starts = []
+        for one in found:
+            if one.speed > NEAR * found[0].speed:
+                break
+            value = one.speed * complex(-one.log_decrement / (2.0 * math.pi), 1.0)
+            system = small_motion(rotor.structure, rotor_equilibrium(rotor, reactions, one.speed))
+            shape = np.random.default_rng(0).normal(size=len(system.mass)) + 0j
+            value, shape, _ = mode_near(system, value, shape)
+            starts.append(Start(one.speed, value, shape))
+        return starts
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the change of speed by one shift of inverse iteration in elements half as long, on richer films.
+        """Return the change of the first critical speed in elements half as long, on richer films.
 
-        The map is its own richer film as long as its verified bound is small enough.
+        The map is its own richer film as long as its verified bound is small enough. Critical speeds that are
+        as near as the error are corrected too, and the lowest is the first.
         """
         solution: ShaftSpeed = found.solution
-        whirl, fine = solution.whirl, self.model.finer.structure
-        rate = frequency_rate(self.model.rotor.structure, whirl, self.films) - 1.0
-        bound = self._bound(solution, rate)
+        rates = [
+            frequency_rate(self.model.rotor.structure, whirl, self.films) - 1.0 for whirl in solution.whirls
+        ]
+        bound = self._bound(solution.whirls[0], rates[0])
         trusted = SAFETY * bound < tolerance
-        coefficients, doubt = (
-            (whirl.at.coefficients, "") if trusted else rich_coefficients(self.films, whirl.at)
-        )
-        system = small_motion(fine, on_films(whirl.at, coefficients))
-        right, left = self.model.lifted(whirl.right), self.model.lifted(whirl.left)
-        steps = inverse_steps(system, whirl.value, right, left, 3)
-        first, second = (-(value.imag - found.value) / rate / found.value for value, *_ in steps[1:])
-        noise = _roundoff(system, steps[-1][0], *steps[-1][1:]) / abs(rate) / found.value
-        error = abs(second) + noise
+        moved: list[Corrected] = []
+        reach = math.inf
+        for whirl, rate in zip(solution.whirls, rates, strict=True):
+            if whirl.at.speed > reach:
+                break
+            moved.append(self._corrected(whirl, rate, trusted=trusted))
+            error = abs(moved[-1].speed - whirl.at.speed)
+            reach = min(reach, moved[0].speed + 2.0 * max(error, abs(moved[0].speed - found.value)))
+        best = min(moved, key=lambda one: one.speed)
+        error = abs(best.speed - found.value) / found.value + best.noise
+        doubt = next((one.doubt for one in moved if one.doubt), "")
         if error > LARGEST:
             doubt = doubt or f"a change by {error:.0%} is too large to be linear"
-        if abs(first - second) > DISAGREEMENT * abs(second) + noise:
-            doubt = doubt or "two steps of inverse iteration disagree on the error"
         if found.value * (1.0 - SAFETY * error) < self.speeds[0]:
             doubt = doubt or "so near to the first of shaft.speeds that it may be below"
         method = f"inverse iteration, {len(self.model.finer.elements)} elements"
@@ -149,9 +180,23 @@ class ShaftRung:
             error = max(error, bound)
         return ErrorEstimate(error, method, {f"steps for {self.name}": 3}, bound=is_bound, doubt=doubt)
 
-    def _bound(self, solution: ShaftSpeed, rate: float) -> float:
+    def _corrected(self, whirl: Whirl, rate: float, *, trusted: bool) -> Corrected:
+        """Return a critical speed after steps of inverse iteration with the shift that this rung gives."""
+        coefficients, doubt = (
+            (whirl.at.coefficients, "") if trusted else rich_coefficients(self.films, whirl.at)
+        )
+        system = small_motion(self.model.finer.structure, on_films(whirl.at, coefficients))
+        right, left = self.model.lifted(whirl.right), self.model.lifted(whirl.left)
+        _, first, last = inverse_steps(system, whirl.value, right, left, 3)
+        one, other = (-(step[0].imag - whirl.at.speed) / rate for step in (first, last))
+        noise = _roundoff(system, *last) / abs(rate)
+        if abs(one - other) > DISAGREEMENT * abs(other) + noise:
+            doubt = doubt or "two steps of inverse iteration disagree on the error"
+        return Corrected(whirl.at.speed + other, noise / whirl.at.speed, doubt)
+
+    def _bound(self, whirl: Whirl, rate: float) -> float:
         """Return the error [1] that the worst K and C within the verified bounds of the films would make."""
-        whirl, structure = solution.whirl, self.model.rotor.structure
+        structure = self.model.rotor.structure
         _, slope = dynamics(small_motion(structure, whirl.at), whirl.value)
         scale = abs(whirl.left.conj() @ slope @ whirl.right)
         total = 0.0
