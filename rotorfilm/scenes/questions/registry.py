@@ -16,6 +16,7 @@ from .dampers import UNITS as DAMPERS
 from .dampers import damper_ladder
 from .orbits import UNITS as ORBITS
 from .orbits import orbit_ladder
+from .shaft_orbits import shaft_orbit_ladder
 from .shafts import shaft_ladder
 from .statics import UNITS as STATICS
 from .statics import static_ladder
@@ -33,6 +34,7 @@ LADDERS: dict[tuple[str, str], LadderOf] = {
     ("journal", "blade_loss_peak"): blade_loss_ladder,
     ("journal", "cosimulation_error"): coupling_ladder,
     ("shaft", "critical_speed"): shaft_ladder,
+    **{("shaft", quantity): shaft_orbit_ladder for quantity in ORBITS},
     **{("contact", quantity): contact_ladder for quantity in CONTACTS},
     ("bush", "critical_speed"): bush_ladder,
     **{("damper", quantity): damper_ladder for quantity in DAMPERS},

@@ -7,6 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...bearings import JournalBearing
+from ...errors import RotorfilmError
+from ...linear import rotor_modes
+from ...model import Reaction
 from ...rotors import ShaftElement, ShaftRotor
 from ..validity import film_remarks
 
@@ -15,6 +18,9 @@ if TYPE_CHECKING:
 
 SLENDER = 4.0
 """Length of a shaft / its largest diameter below which its cross sections may not stay plane."""
+
+GROWTH = 1e-6
+"""Growth rate / frequency from which a whirl counts as unstable."""
 
 STEPPED = 2.0
 """Ratio of neighboring diameters from which the material in the corner of a step does not carry."""
@@ -49,3 +55,19 @@ def beam_remarks(rotor: ShaftRotor) -> tuple[str, ...]:
         "not carry": max(steps, default=1.0) > STEPPED,
     }
     return tuple(line for line, applies in lines.items() if applies)
+
+
+def stability_remark(rotor: ShaftRotor, bearings: dict[str, Reaction], speed: float) -> tuple[str, ...]:
+    """Return that a rotor whirls by itself, if it does by the model of the file: no orbit is steady then."""
+    try:
+        modes = rotor_modes(rotor, bearings, speed)
+    except RotorfilmError:
+        return ()  # the rungs say what is wrong
+    growth = modes.eigenvalues.real / np.abs(modes.eigenvalues)
+    if not growth.size or growth.max() <= GROWTH:
+        return ()
+    k = int(np.argmax(growth))
+    return (
+        f"stability: the rotor whirls by itself at {modes.frequency[k] / abs(speed):.2f} of the speed, so that small "
+        "orbits with the rotation do not last",
+    )
