@@ -22,5 +22,6 @@ FAMILIES: dict[str, tuple[int, Draw]] = {
     "damper": (2, dampers.damper),
     "shaft speed": (2, shafts.shaft_speed),
     "shaft orbit": (2, shafts.shaft_orbit),
+    "shaft whirl": (1, shafts.shaft_whirl),
 }
 """Weight of each family in a round of the battery, and how one scene of it is drawn."""

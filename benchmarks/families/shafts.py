@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 
 from rotorfilm.bearings import JournalBearing
 from rotorfilm.films import MapFilm
-from rotorfilm.linear import critical_speed_map, critical_speeds, rotor_equilibrium
+from rotorfilm.linear import critical_speed_map, critical_speeds, rotor_equilibrium, rotor_threshold
 from rotorfilm.linear.rotor_system import second_order
 from rotorfilm.model import Reaction
 from rotorfilm.nonlinear import periodic_orbit, simulate_rotor
@@ -123,6 +123,37 @@ def shaft_orbit(random: np.random.Generator) -> Drawn:
         question["at"] = str(random.choice(places))
     data = {"schema": 1, "shaft": table, "operation": {"speed": speed}, "question": question}
     return Drawn("shaft orbit", data, orbit_of_fine_mesh)
+
+
+def shaft_whirl(random: np.random.Generator) -> Drawn:
+    """Return a question about the threshold of whirl, on journals, up to four times the first critical speed."""
+    table, scale = shaft_table(random)
+    while "journal" not in table["bearings"][0]:
+        table, scale = shaft_table(random)
+    table["speeds"] = {"first": 0.3 * scale, "last": 4.0 * scale, "count": 40}
+    question = {"quantity": "whirl_threshold", "tolerance": log_uniform(random, 1e-4, 0.1)}
+    return Drawn("shaft whirl", {"schema": 1, "shaft": table, "question": question}, threshold_by_fine_mesh)
+
+
+def threshold_by_fine_mesh(scene: Scene) -> Truth:
+    """Return the threshold of a mesh four times as fine, on maps, by inverse iteration and bisection.
+
+    The modes of the mesh of the file on maps tell which whirl it is.
+    """
+    assert scene.shaft is not None
+    rotor, films = scene.shaft.build(), true_films(scene.shaft.build_bearings())
+    first = rotor_threshold(rotor, films, scene.shaft.speeds.build())
+    if first.speed is None or first.whirl_frequency is None:
+        return Truth(math.inf, 1e-4)
+    fine, near = finer(rotor, SPLIT_SPEED), 1j * first.whirl_frequency
+    low, high = 0.995 * first.speed, 1.005 * first.speed
+
+    def growth(speed: float) -> float:
+        return float(mode_near(fine, films, speed, near).real)
+
+    while growth(low) * growth(high) > 0.0:
+        low, high = 0.97 * low, 1.03 * high
+    return Truth(float(brentq(growth, low, high, rtol=1e-12)), 1e-4)
 
 
 def finer(rotor: ShaftRotor, pieces: int) -> ShaftRotor:

@@ -391,7 +391,7 @@ class ShaftTable:
         return {bearing.name: bearing.build() for bearing in self.bearings}
 
     def places(self, *, forces: bool) -> tuple[str, ...]:
-        """Return the names of what a question may be about: bearings, and where they are not for forces, probes."""
+        """Return the names of what a question may be about: bearings, and probes unless it is for forces."""
         probes = () if forces else tuple(probe.name for probe in self.probes)
         return (*(bearing.name for bearing in self.bearings), *probes)
 
@@ -403,5 +403,6 @@ def require_place(name: str, quantity: str, shaft: ShaftTable | None) -> None:
     known = shaft.places(forces=quantity == "unbalance_force")
     if name not in known:
         raise InputError(
-            f"question.at must be one of {', '.join(known)} for {quantity}, got {name!r}{nearest(name, known)}"
+            f"question.at must be one of {', '.join(known)} for {quantity}, "
+            f"got {name!r}{nearest(name, known)}"
         )

@@ -72,7 +72,7 @@ class ShaftFilms:
 
 
 def film_levels(shaft: ShaftTable) -> tuple[ShaftFilms, ...]:
-    """Return what may stand in the journals of a shaft, the cheapest first; one level where all is settled."""
+    """Return what may stand in the journals of a shaft, the cheapest first; one level if all is settled."""
     springs = {one.name: one.build() for one in shaft.bearings if one.journal is None}
     choices = {
         one.name: _choices(one.journal.build(), fixed=one.journal.film is not None)
@@ -103,9 +103,7 @@ def _with_quick_check(film: FilmRung) -> FilmRung:
     return replace(film, rich=extrapolated(film.bearing, FINE), rich_name="2-D 384 x 16 extr.")
 
 
-def rich_coefficients(
-    films: ShaftFilms, at: RotorEquilibrium
-) -> tuple[dict[str, Coefficients], str]:
+def rich_coefficients(films: ShaftFilms, at: RotorEquilibrium) -> tuple[dict[str, Coefficients], str]:
     """Return K and C of all bearings by the richer films at their own equilibria, and why to doubt them."""
     found, doubt = dict(at.coefficients), ""
     for name, film in films.journals.items():
@@ -124,7 +122,9 @@ def rich_coefficients(
 def coefficient_bounds(films: ShaftFilms, at: RotorEquilibrium) -> dict[str, float]:
     """Return the verified relative error of K and C of each film; infinite where there is none."""
     return {
-        name: film.bound(float(np.hypot(*at.coefficients[name].position)) / film.bearing.clearance, slopes=True)
+        name: film.bound(
+            float(np.hypot(*at.coefficients[name].position)) / film.bearing.clearance, slopes=True
+        )
         for name, film in films.journals.items()
     }
 

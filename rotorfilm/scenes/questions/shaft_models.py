@@ -1,4 +1,4 @@
-"""Models of a flexible shaft, from few shapes to ever finer meshes, and how one is seen in the coordinates of another."""
+"""Models of a flexible shaft: from few shapes to fine meshes; one seen in the coordinates of another."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class ShaftModel:
 
     @cached_property
     def rotor(self) -> FlexibleRotor:
-        """The rotor that is solved; raises InputError if it is to be reduced and its stations do not hold it."""
+        """The rotor that is solved; InputError if it is to be reduced and its stations do not hold it."""
         if self.modes is None:
             return self.mesh
         rotor = self.mesh

@@ -1,11 +1,11 @@
-"""The synchronous orbit of a flexible rotor: its journals at samples over a turn, the shaft exact at each harmonic.
+"""The synchronous orbit of a flexible rotor: journals at samples over a turn, the shaft by harmonics.
 
-With K0 and C0, the films' stiffness and damping at rest, and all displacements p of journals in their bearings,
+With K0 and C0, the films' stiffness and damping at rest, and the displacements p of all journals,
 
     p = R * (F(p, p') + K0 p + C0 p') + e,
 
-where R answers each harmonic by the dynamic stiffness of shaft, K0 and C0 together, and e is the answer to
-weight and unbalance. What stands in the brackets turns with the angle only as far as the films are not linear.
+where R answers each harmonic by the dynamic stiffness of shaft, K0 and C0 together, and e is the answer
+to weight and unbalance. What stands in the brackets turns with the angle only as far as the films are not linear.
 """
 
 from __future__ import annotations
@@ -109,6 +109,11 @@ class ShaftOrbit:
     velocity: Array
     excess: np.ndarray
 
+    @property
+    def size(self) -> float:
+        """Norm of all positions [m]."""
+        return float(np.linalg.norm(self.position))
+
     def resampled(self, n: int) -> ShaftOrbit:
         """Return it at n samples, by its Fourier series."""
         return replace(self, position=_resampled(self.position, n), velocity=_resampled(self.velocity, n))
@@ -151,11 +156,23 @@ class ShaftDefect(NamedTuple):
         d(F + K0 p + C0 p')/dp over all samples [N/m].
     excess : ndarray, shape (2 m, n) [N]
         F + K0 p + C0 p'.
+    forces : ndarray, shape (2 m, n) [N]
+        F.
     """
 
     missing: Array
     slope: Array
     excess: Array
+    forces: Array
+
+
+def shaft_forces(answers: ShaftAnswers, bearings: Mapping[str, Reaction], orbit: ShaftOrbit) -> Array:
+    """Return the forces of bearings on their journals along an orbit, shape (2 m, n) [N]."""
+    p, v, speeds = orbit.position, orbit.velocity, np.full(answers.samples, answers.speed)
+    pairs = [slice(2 * k, 2 * k + 2) for k in range(len(answers.stations))]
+    return np.concatenate(
+        [bearings[name].force(p[at], v[at], speeds) for name, at in zip(answers.stations, pairs, strict=True)]
+    )
 
 
 def shaft_defect(
@@ -163,14 +180,14 @@ def shaft_defect(
 ) -> ShaftDefect:
     """Return what an orbit lacks with these bearings, under a part of the unbalance."""
     p, v, n = orbit.position, orbit.velocity, answers.samples
-    excess = answers.stiffness @ p + answers.damping @ v
+    forces = shaft_forces(answers, bearings, orbit)
+    excess = forces + answers.stiffness @ p + answers.damping @ v
     rate = abs(answers.speed) * rate_matrix(n)
     slope = np.zeros((len(p), n, len(p), n))
     speeds = np.full(n, answers.speed)
     spots = np.arange(n)
     for k, name in enumerate(answers.stations):
         pair = slice(2 * k, 2 * k + 2)
-        excess[pair] += bearings[name].force(p[pair], v[pair], speeds)
         tangent = bearings[name].jacobian(p[pair], v[pair], speeds)
         for i in range(2):
             for j in range(2):
@@ -183,7 +200,7 @@ def shaft_defect(
     moved[0] += n * answers.external[0].real
     moved[1] += part * 0.5 * n * answers.external[1]
     missing = np.fft.irfft(moved.T, n, axis=1) - p
-    return ShaftDefect(missing, slope.reshape(p.size, p.size), excess)
+    return ShaftDefect(missing, slope.reshape(p.size, p.size), excess, forces)
 
 
 def moved_by(answers: ShaftAnswers, missing: Array, slope: Array) -> Array:
@@ -238,9 +255,7 @@ def reach_of(orbit: ShaftOrbit, stations: Sequence[str], bearings: Mapping[str, 
     )
 
 
-def _inside(
-    position: Array, change: Array, answers: ShaftAnswers, bearings: Mapping[str, Reaction]
-) -> float:
+def _inside(position: Array, change: Array, answers: ShaftAnswers, bearings: Mapping[str, Reaction]) -> float:
     """Return the part of a change that takes no journal further than most of the way to its wall."""
     share = 1.0
     for k, name in enumerate(answers.stations):

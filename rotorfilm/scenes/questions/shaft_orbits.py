@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -11,13 +11,13 @@ import numpy as np
 
 from ...errors import InputError, RotorfilmError
 from ...linear import RotorEquilibrium, rotor_equilibrium
-from ...model import Array, Reaction
+from ...model import Reaction
 from ..excitation_table import UnbalanceTable
 from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Work
 from .films import NOMINAL
-from .orbit_curve import circles
+from .orbit_curve import circles, rate_matrix
 from .orbits import FORCE, PHASE, UNITS
-from .shaft_films import ShaftFilms, coefficient_bounds, film_levels
+from .shaft_films import ShaftFilms, film_levels
 from .shaft_models import ShaftModel, shaft_models
 from .shaft_orbit import (
     ShaftAnswers,
@@ -28,6 +28,7 @@ from .shaft_orbit import (
     reach_of,
     shaft_answers,
     shaft_defect,
+    shaft_forces,
     wave_of,
 )
 from .shaft_remarks import shaft_remarks, stability_remark
@@ -43,6 +44,9 @@ NONLINEAR = (("reduced", 15), ("mesh", 15), ("mesh", 31), ("mesh", 63), ("split"
 
 RAMP = 8
 """Parts in which the unbalance is raised where Newton's method does not end at once."""
+
+ROUNDOFF = 1e-12
+"""Size of a step / size of the orbit that is no error any more."""
 
 WALL = 0.999
 """Distance from the center / clearance from which a journal touches."""
@@ -178,52 +182,69 @@ class ShaftOrbitRung:
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the change that elements half as long, the richer films and twice the samples would make.
 
-        It is the defect of the orbit in them, propagated by the slopes of the richer films and, for
-        comparison, by those of this rung. The map is its own richer film as long as its verified bound is
-        small enough.
+        It is the defect of the orbit in them, propagated by the slopes of the richer films; a second defect
+        there takes out what is of second order, and tells whether the first step was linear. The map is its own richer film as long as its verified bound is small enough.
         """
         turn: ShaftTurn = found.solution
         if reach_of(turn.orbit, turn.answers.stations, self._reactions) >= WALL:
             return ErrorEstimate(math.inf, "defect", doubt="the orbit leaves the clearance: not linear")
-        bound = self._bound(turn, float(found.value))
+        value, fine = float(found.value), self.model.finer.structure
+        bound = self._bound(turn, value)
         trusted = SAFETY * bound < tolerance
-        films = self._reactions if trusted else self.films.rich
+        films = self._reactions if trusted or self.films.bounded else self.films.rich
         samples = 2 * turn.answers.samples + 1 if self._nonlinear_films else LINEAR
-        fine = shaft_answers(self.model.finer.structure, turn.at, self.place.probes, samples)
-        error, doubt = self._by_defect(fine, turn, films, float(found.value))
-        count = len(self.model.finer.elements)
-        method = f"defect in {count} elements" + (f" at {samples} samples" if self._nonlinear_films else "")
-        if self.films.name and not trusted:
+        answers = shaft_answers(fine, turn.at, self.place.probes, samples)
+        error, doubt = self._by_defect(answers, turn, films, value)
+        method = f"defect in {len(self.model.finer.elements)} elements"
+        if self._nonlinear_films:
+            method += f" at {samples} samples"
+        if not trusted:
             method += f", {self.films.rich_name}"
-        is_bound = bool(self.films.name) and self.films.bounded and (not trusted or bound > error)
+            error += self._by_grid(turn, value) if self.films.bounded else 0.0
+        is_bound = self._nonlinear_films and self.films.bounded and (not trusted or bound > error)
         if trusted:
             error = max(error, bound)
         return ErrorEstimate(error, method, {f"defects of {self.name}": 1}, bound=is_bound, doubt=doubt)
+
+    def _by_grid(self, turn: ShaftTurn, value: float) -> float:
+        """Return the change that the forces of the richer films make, propagated by the slopes of the map."""
+        answers = shaft_answers(self.model.rotor.structure, turn.at, self.place.probes, LINEAR)
+        orbit = turn.orbit.resampled(LINEAR)
+        own = shaft_defect(answers, self._reactions, orbit)
+        other = shaft_forces(answers, self.films.rich, orbit) - own.forces
+        waves = np.fft.rfft(other, axis=1).T
+        missing = np.fft.irfft((answers.journals @ waves[:, :, None])[:, :, 0].T, LINEAR, axis=1)
+        step = moved_by(answers, missing, own.slope)
+        change = wave_of(other + (own.slope @ step.ravel()).reshape(step.shape))
+        moved = replace(turn.orbit.resampled(LINEAR), excess=turn.orbit.excess + change)
+        moved = replace(moved, position=moved.position + step)
+        return self.place.change(value, self.place.value(answers, moved))
 
     def _by_defect(
         self, fine: ShaftAnswers, turn: ShaftTurn, films: dict[str, Reaction], value: float
     ) -> tuple[float, str]:
         orbit = turn.orbit.resampled(fine.samples)
+        rate = abs(self.speed) * rate_matrix(fine.samples)
         lack = shaft_defect(fine, films, orbit)
-        step = moved_by(fine, lack.missing, lack.slope)
-        other = moved_by(fine, lack.missing, self._own_slope(fine, orbit, lack.slope))
-        moved = ShaftOrbit(
-            position=orbit.position + step,
-            velocity=orbit.velocity,
-            excess=wave_of(lack.excess + (lack.slope @ step.ravel()).reshape(step.shape)),
-        )
-        size = max(float(np.linalg.norm(step)), 1e-300)
-        apart = float(np.linalg.norm(step - other)) / size
+        sizes: list[float] = []
+        for _ in range(2 if self._nonlinear_films else 1):
+            step = moved_by(fine, lack.missing, lack.slope)
+            sizes.append(float(np.linalg.norm(step)))
+            position = orbit.position + step
+            orbit = ShaftOrbit(
+                position=position,
+                velocity=position @ rate.T,
+                excess=wave_of(lack.excess + (lack.slope @ step.ravel()).reshape(step.shape)),
+            )
+            if reach_of(orbit, fine.stations, films) >= WALL:
+                return math.inf, "the error is larger than the gap"
+            if self._nonlinear_films and len(sizes) == 1:
+                lack = shaft_defect(fine, films, orbit)
         doubt = ""
-        if apart > DISAGREEMENT:
-            doubt = f"the slopes of both models disagree on the error by {apart:.0%}: not linear"
-        return self.place.change(value, self.place.value(fine, moved)), doubt
-
-    def _own_slope(self, fine: ShaftAnswers, orbit: ShaftOrbit, rich: Array) -> Array:
-        """Return the slope of F + K0 p + C0 p' by this rung's films; a linear orbit has none."""
-        if not self.samples:
-            return np.zeros_like(rich)
-        return shaft_defect(fine, self._reactions, orbit).slope
+        if len(sizes) > 1 and sizes[1] > DISAGREEMENT * sizes[0] and sizes[0] > ROUNDOFF * orbit.size:
+            part = sizes[1] / sizes[0]
+            doubt = f"what two defects say of the error differs by {part:.0%}: not linear"
+        return self.place.change(value, self.place.value(fine, orbit)), doubt
 
     @property
     def _nonlinear_films(self) -> bool:
@@ -274,7 +295,10 @@ def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
         rungs=rungs,
         unit=UNITS[quantity],
         nominal=NOMINAL,
-        remarks=(*shaft_remarks(scene, scene.speed), *stability_remark(rotor, levels[0].reactions, scene.speed)),
+        remarks=(
+            *shaft_remarks(scene, scene.speed),
+            *stability_remark(rotor, levels[0].reactions, scene.speed),
+        ),
     )
 
 

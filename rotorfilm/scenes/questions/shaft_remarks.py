@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,7 +28,7 @@ STEPPED = 2.0
 
 
 def shaft_remarks(scene: Scene, speed: float) -> tuple[str, ...]:
-    """Return what is left out and should not be, one line each, for the shaft of a scene at a speed [rad/s]."""
+    """Return what is left out and should not be, one line each, for the shaft of a scene at a speed."""
     assert scene.shaft is not None
     rotor, bearings = scene.shaft.build(), scene.shaft.build_bearings()
     load = float(np.hypot(*rotor.gravity)) * rotor.mass / max(len(bearings), 1)
@@ -46,9 +47,9 @@ def beam_remarks(rotor: ShaftRotor) -> tuple[str, ...]:
         return ()
     length, thickest = sum(piece.length for piece in pieces), max(piece.outer_diameter for piece in pieces)
     diameters = [piece.outer_diameter for piece in pieces]
-    steps = [max(a, b) / min(a, b) for a, b in zip(diameters, diameters[1:], strict=False)]
+    steps = [max(a, b) / min(a, b) for a, b in pairwise(diameters)]
     lines = {
-        f"beam theory: the shaft is {length / thickest:.2g} diameters long, its cross sections may not stay plane": (
+        f"beam theory: the shaft is {length / thickest:.2g} diameters long, cross sections may not stay plane": (
             length < SLENDER * thickest
         ),
         f"beam theory: diameters change by a factor {max(steps, default=1.0):.2g} in a step, whose corner does "
@@ -58,7 +59,7 @@ def beam_remarks(rotor: ShaftRotor) -> tuple[str, ...]:
 
 
 def stability_remark(rotor: ShaftRotor, bearings: dict[str, Reaction], speed: float) -> tuple[str, ...]:
-    """Return that a rotor whirls by itself, if it does by the model of the file: no orbit is steady then."""
+    """Return that a rotor whirls by itself, if the model of the file does: no orbit is steady then."""
     try:
         modes = rotor_modes(rotor, bearings, speed)
     except RotorfilmError:
@@ -68,6 +69,6 @@ def stability_remark(rotor: ShaftRotor, bearings: dict[str, Reaction], speed: fl
         return ()
     k = int(np.argmax(growth))
     return (
-        f"stability: the rotor whirls by itself at {modes.frequency[k] / abs(speed):.2f} of the speed, so that small "
-        "orbits with the rotation do not last",
+        f"stability: the rotor whirls by itself at {modes.frequency[k] / abs(speed):.2f} of the speed, so that "
+        "small orbits with the rotation do not last",
     )

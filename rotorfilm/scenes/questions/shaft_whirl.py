@@ -81,7 +81,9 @@ def _unit(vector: np.ndarray) -> np.ndarray:
     return np.asarray(vector / np.linalg.norm(vector))
 
 
-def mode_near(system: SecondOrder, value: complex, load: np.ndarray) -> tuple[complex, np.ndarray, np.ndarray]:
+def mode_near(
+    system: SecondOrder, value: complex, load: np.ndarray
+) -> tuple[complex, np.ndarray, np.ndarray]:
     """Return the eigenvalue next to another one whose shape is like that under a load, and its vectors.
 
     Raises
@@ -139,4 +141,6 @@ def synchronous_whirl(
         if count > 4 and abs(step) < 100.0 * CONVERGED * speed:
             return whirl, count
         speed += float(np.clip(step, -0.1 * speed, 0.1 * speed))
-    raise ConvergenceError(f"critical speed near {speed:.6g} rad/s must be found by Newton's method, and was not")
+    raise ConvergenceError(
+        f"critical speed near {speed:.6g} rad/s must be found by Newton's method, and was not"
+    )

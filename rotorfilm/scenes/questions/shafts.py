@@ -42,7 +42,7 @@ ROUNDOFF = float(np.finfo(float).eps)
 
 
 class Start(NamedTuple):
-    """Where a critical speed is looked for: speed [rad/s], eigenvalue [1/s], shape in coordinates of the rotor."""
+    """Where a critical speed is looked for: speed [rad/s], eigenvalue [1/s], shape of the rotor."""
 
     speed: float
     value: complex
