@@ -126,7 +126,7 @@ def shaft_orbit(random: np.random.Generator) -> Drawn:
 
 
 def shaft_whirl(random: np.random.Generator) -> Drawn:
-    """Return a question about the threshold of whirl, on journals, up to four times the first critical speed."""
+    """Return a question about the threshold of whirl on journals."""
     table, scale = shaft_table(random)
     while "journal" not in table["bearings"][0]:
         table, scale = shaft_table(random)

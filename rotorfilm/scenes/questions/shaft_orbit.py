@@ -4,8 +4,8 @@ With K0 and C0, the films' stiffness and damping at rest, and the displacements 
 
     p = R * (F(p, p') + K0 p + C0 p') + e,
 
-where R answers each harmonic by the dynamic stiffness of shaft, K0 and C0 together, and e is the answer
-to weight and unbalance. What stands in the brackets turns with the angle only as far as the films are not linear.
+where R answers each harmonic by the dynamic stiffness of shaft, K0 and C0 together, and e answers weight
+and unbalance. What stands in the brackets varies over a turn only as far as the films are not linear.
 """
 
 from __future__ import annotations
@@ -62,10 +62,10 @@ class ShaftAnswers(NamedTuple):
 def shaft_answers(
     structure: Structure, at: RotorEquilibrium, probes: Sequence[str], samples: int
 ) -> ShaftAnswers:
-    """Return what a rotor answers that is linearized about an equilibrium, at the harmonics of so many samples."""
+    """Return what a rotor answers about an equilibrium, at the harmonics of so many samples."""
     speed, rows = at.speed, structure.journals
     system, turn = second_order(structure, at), abs(at.speed)
-    # (cos, sin) of the angle are the real parts of (1, -i) exp(i w t); a shaft that turns backward mirrors it.
+    # (cos, sin) of the angle are the real parts of (1, -i) exp(i w t); turning backward mirrors it.
     turning = speed**2 * structure.unbalance @ np.array([1.0, -1.0j * np.sign(speed)])
     answers, external, seen = [], np.zeros((2, len(rows)), dtype=complex), {}
     own = {readout.signal.name: readout.row[: len(structure.weight)] for readout in structure.readouts}

@@ -183,7 +183,8 @@ class ShaftOrbitRung:
         """Return the change that elements half as long, the richer films and twice the samples would make.
 
         It is the defect of the orbit in them, propagated by the slopes of the richer films; a second defect
-        there takes out what is of second order, and tells whether the first step was linear. The map is its own richer film as long as its verified bound is small enough.
+        there takes out what is of second order, and tells whether the first step was linear. The map is its
+        own richer film, and where its verified bound is too large the forces of a grid are compared.
         """
         turn: ShaftTurn = found.solution
         if reach_of(turn.orbit, turn.answers.stations, self._reactions) >= WALL:

@@ -47,13 +47,14 @@ def beam_remarks(rotor: ShaftRotor) -> tuple[str, ...]:
         return ()
     length, thickest = sum(piece.length for piece in pieces), max(piece.outer_diameter for piece in pieces)
     diameters = [piece.outer_diameter for piece in pieces]
-    steps = [max(a, b) / min(a, b) for a, b in pairwise(diameters)]
+    largest = max((max(a, b) / min(a, b) for a, b in pairwise(diameters)), default=1.0)
     lines = {
-        f"beam theory: the shaft is {length / thickest:.2g} diameters long, cross sections may not stay plane": (
+        f"beam theory: {length / thickest:.2g} diameters long, cross sections may not stay plane": (
             length < SLENDER * thickest
         ),
-        f"beam theory: diameters change by a factor {max(steps, default=1.0):.2g} in a step, whose corner does "
-        "not carry": max(steps, default=1.0) > STEPPED,
+        f"beam theory: diameters change by {largest:.2g} in a step, whose corner does not carry": (
+            largest > STEPPED
+        ),
     }
     return tuple(line for line, applies in lines.items() if applies)
 
@@ -69,6 +70,6 @@ def stability_remark(rotor: ShaftRotor, bearings: dict[str, Reaction], speed: fl
         return ()
     k = int(np.argmax(growth))
     return (
-        f"stability: the rotor whirls by itself at {modes.frequency[k] / abs(speed):.2f} of the speed, so that "
-        "small orbits with the rotation do not last",
+        f"stability: the rotor whirls by itself at {modes.frequency[k] / abs(speed):.2f} of the speed; "
+        "orbits that repeat with each turn do not last",
     )

@@ -1,4 +1,4 @@
-"""One whirl of a flexible rotor at the speed of its own frequency, followed by inverse iteration."""
+"""One whirl of a flexible rotor, and the speed at which something happens to it, by inverse iteration."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from ...model import Array
 from ...results import Coefficients
 from ...rotors import FlexibleRotor
 from ...rotors.structure import Structure
+from .shaft_events import SpeedEvent
 from .shaft_films import ShaftFilms, coefficient_rates
 
 STEP = 1e-3
@@ -22,6 +23,14 @@ STEP = 1e-3
 
 CONVERGED = 1e-12
 _STEPS = 25
+
+
+class Start(NamedTuple):
+    """Where a whirl is looked for: speed [rad/s], eigenvalue [1/s], shape of the rotor."""
+
+    speed: float
+    value: complex
+    shape: np.ndarray
 
 
 class Whirl(NamedTuple):
@@ -42,9 +51,9 @@ class Whirl(NamedTuple):
     left: np.ndarray
 
 
-def small_motion(structure: Structure, at: RotorEquilibrium) -> SecondOrder:
-    """Return the equations of synchronous small motion about an equilibrium."""
-    return with_hysteresis(structure, second_order(structure, at), abs(at.speed), at.speed)
+def small_motion(structure: Structure, at: RotorEquilibrium, frequency: float) -> SecondOrder:
+    """Return the equations of small motion about an equilibrium, with hysteresis at a frequency [rad/s]."""
+    return with_hysteresis(structure, second_order(structure, at), frequency, at.speed)
 
 
 def on_films(at: RotorEquilibrium, found: dict[str, Coefficients]) -> RotorEquilibrium:
@@ -102,15 +111,15 @@ def mode_near(
     raise ConvergenceError(f"whirl near {value:.6g} rad/s must be found by inverse iteration, and was not")
 
 
-def frequency_rate(structure: Structure, whirl: Whirl, films: ShaftFilms) -> float:
-    """Return d (Im s)/d speed of a whirl [1]: gyroscopic effect, rotating damping, and the films."""
+def value_rate(structure: Structure, whirl: Whirl, films: ShaftFilms) -> complex:
+    """Return ds/d speed of a whirl [1]: gyroscopic effect, rotating damping, and the films."""
     s, right, left = whirl.value, whirl.right, whirl.left.conj()
     changed = s * (structure.gyroscopic @ right) + structure.circulation @ right
     for name, (stiffness, damping) in coefficient_rates(films, whirl.at, STEP).items():
         rows = journal(structure, name)
         changed = changed + rows.T @ ((stiffness + s * damping) @ (rows @ right))
-    _, slope = dynamics(small_motion(structure, whirl.at), s)
-    return float((-(left @ changed) / (left @ slope @ right)).imag)
+    _, slope = dynamics(second_order(structure, whirl.at), s)
+    return complex(-(left @ changed) / (left @ slope @ right))
 
 
 def journal(structure: Structure, name: str) -> Array:
@@ -119,10 +128,8 @@ def journal(structure: Structure, name: str) -> Array:
     return structure.journals[2 * k : 2 * k + 2]
 
 
-def synchronous_whirl(
-    rotor: FlexibleRotor, films: ShaftFilms, speed: float, value: complex, load: np.ndarray
-) -> tuple[Whirl, int]:
-    """Return the whirl whose frequency is the speed, near another one, and how many speeds that took.
+def whirl_of(event: SpeedEvent, rotor: FlexibleRotor, films: ShaftFilms, start: Start) -> tuple[Whirl, int]:
+    """Return the whirl to which something happens, near another one, and how many speeds that took.
 
     Raises
     ------
@@ -130,17 +137,17 @@ def synchronous_whirl(
         If Newton's method in the speed does not end.
     """
     reactions = films.reactions
+    speed, value, load = start
     for count in range(1, _STEPS + 1):
         at = rotor_equilibrium(rotor, reactions, speed)
-        whirl = Whirl(at, *mode_near(small_motion(rotor.structure, at), value, load))
-        lead = whirl.value.imag - speed
+        system = small_motion(rotor.structure, at, event.frequency(value, speed))
+        whirl = Whirl(at, *mode_near(system, value, load))
+        lead = event.lead(whirl.value, speed)
         if abs(lead) < CONVERGED * speed:
             return whirl, count
         value, load = whirl.value, whirl.right
-        step = -lead / (frequency_rate(rotor.structure, whirl, films) - 1.0)
+        step = -lead / event.rate(value_rate(rotor.structure, whirl, films))
         if count > 4 and abs(step) < 100.0 * CONVERGED * speed:
             return whirl, count
         speed += float(np.clip(step, -0.1 * speed, 0.1 * speed))
-    raise ConvergenceError(
-        f"critical speed near {speed:.6g} rad/s must be found by Newton's method, and was not"
-    )
+    raise ConvergenceError(f"speed near {speed:.6g} rad/s must be found by Newton's method, and was not")

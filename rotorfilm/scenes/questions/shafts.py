@@ -1,4 +1,4 @@
-"""The first critical speed of a flexible rotor: few shapes, plain elements, ever finer meshes."""
+"""First critical speed and whirl threshold of a flexible rotor: few shapes, plain elements, meshes."""
 
 from __future__ import annotations
 
@@ -9,24 +9,26 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ...errors import InputError, RotorfilmError
-from ...linear import critical_speeds, rotor_equilibrium
-from ...linear.rotor_system import SecondOrder
+from ...linear import rotor_equilibrium
+from ...linear.rotor_system import SecondOrder, second_order
 from ...model import Array
 from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Work
 from .films import NOMINAL
+from .shaft_events import Critical, SpeedEvent, Threshold
 from .shaft_films import ShaftFilms, coefficient_bounds, film_levels, rich_coefficients
 from .shaft_models import ShaftModel, shaft_models
 from .shaft_remarks import shaft_remarks
 from .shaft_whirl import (
+    Start,
     Whirl,
     dynamics,
-    frequency_rate,
     inverse_steps,
     journal,
     mode_near,
     on_films,
     small_motion,
-    synchronous_whirl,
+    value_rate,
+    whirl_of,
 )
 
 if TYPE_CHECKING:
@@ -35,18 +37,10 @@ if TYPE_CHECKING:
 LARGEST = 0.1
 """Change of speed [1] beyond which a linear step tells nothing."""
 
-NEAR = 1.1
-"""Critical speeds up to so many times the first are followed with it."""
+EVENTS: dict[str, SpeedEvent] = {"critical_speed": Critical(), "whirl_threshold": Threshold()}
+"""What happens at the speeds that may be asked for."""
 
 ROUNDOFF = float(np.finfo(float).eps)
-
-
-class Start(NamedTuple):
-    """Where a critical speed is looked for: speed [rad/s], eigenvalue [1/s], shape of the rotor."""
-
-    speed: float
-    value: complex
-    shape: np.ndarray
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,16 +75,18 @@ class Corrected(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class ShaftRung:
-    """The first critical speed by one model of the shaft and one film for each journal.
+    """The first critical speed, or the threshold, by one model of the shaft and one film for each journal.
 
     Attributes
     ----------
+    event : SpeedEvent
     model : ShaftModel
     films : ShaftFilms
     speeds : ndarray, shape (n,) [rad/s]
         Where it is looked for.
     """
 
+    event: SpeedEvent
     model: ShaftModel
     films: ShaftFilms
     speeds: Array
@@ -111,38 +107,30 @@ class ShaftRung:
         return f"problems of {self.name}"
 
     def answer(self, before: Found | None) -> Found:
-        """Return the first critical speed [rad/s]: looked for, or followed from that of a lower rung."""
+        """Return the speed [rad/s]: looked for, or followed from that of a lower rung."""
         made = self.films.prepare()
         known: ShaftSpeed | None = None if before is None else before.solution
         # Static shapes may be so far off that another whirl is nearer to theirs.
         follow = known is not None and known.model.modes != 0
         starts = known.starts(self.model) if known is not None and follow else self._looked_for()
-        found = [synchronous_whirl(self.model.rotor, self.films, *start) for start in starts]
+        found = [whirl_of(self.event, self.model.rotor, self.films, start) for start in starts]
         whirls = sorted((whirl for whirl, _ in found), key=lambda whirl: whirl.at.speed)
         first = whirls[0].at.speed
         if not self.speeds[0] <= first <= self.speeds[-1]:
-            raise RotorfilmError(f"the critical speed {first:.6g} rad/s is not in shaft.speeds")
+            raise RotorfilmError(f"the speed {first:.6g} rad/s is not in shaft.speeds")
         work = sum(count for _, count in found) + (0 if follow else len(self.speeds))
         return Found(first, {self.unit: work, **made}, ShaftSpeed(whirls=tuple(whirls), model=self.model))
 
     def _looked_for(self) -> list[Start]:
-        """Return the first critical speed of this model, and those near it."""
+        """Return the first such speed of this model, and those near it."""
         rotor, reactions = self.model.rotor, self.films.reactions
-        found = critical_speeds(rotor, reactions, self.speeds)
-        if not found:
-            raise RotorfilmError(
-                f"no critical speed in shaft.speeds, {self.speeds[0]:.6g} to {self.speeds[-1]:.6g} rad/s: "
-                "no whirl has the frequency of the rotation there"
-            )
         starts = []
-        for one in found:
-            if one.speed > NEAR * found[0].speed:
-                break
-            value = one.speed * complex(-one.log_decrement / (2.0 * math.pi), 1.0)
-            system = small_motion(rotor.structure, rotor_equilibrium(rotor, reactions, one.speed))
+        for speed, value in self.event.sightings(rotor, reactions, self.speeds):
+            at = rotor_equilibrium(rotor, reactions, speed)
+            system = small_motion(rotor.structure, at, self.event.frequency(value, speed))
             shape = np.random.default_rng(0).normal(size=len(system.mass)) + 0j
             value, shape, _ = mode_near(system, value, shape)
-            starts.append(Start(one.speed, value, shape))
+            starts.append(Start(speed, value, shape))
         return starts
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
@@ -152,9 +140,8 @@ class ShaftRung:
         as near as the error are corrected too, and the lowest is the first.
         """
         solution: ShaftSpeed = found.solution
-        rates = [
-            frequency_rate(self.model.rotor.structure, whirl, self.films) - 1.0 for whirl in solution.whirls
-        ]
+        structure = self.model.rotor.structure
+        rates = [self.event.rate(value_rate(structure, one, self.films)) for one in solution.whirls]
         bound = self._bound(solution.whirls[0], rates[0])
         trusted = SAFETY * bound < tolerance
         moved: list[Corrected] = []
@@ -185,10 +172,11 @@ class ShaftRung:
         coefficients, doubt = (
             (whirl.at.coefficients, "") if trusted else rich_coefficients(self.films, whirl.at)
         )
-        system = small_motion(self.model.finer.structure, on_films(whirl.at, coefficients))
+        frequency = self.event.frequency(whirl.value, whirl.at.speed)
+        system = small_motion(self.model.finer.structure, on_films(whirl.at, coefficients), frequency)
         right, left = self.model.lifted(whirl.right), self.model.lifted(whirl.left)
         _, first, last = inverse_steps(system, whirl.value, right, left, 3)
-        one, other = (-(step[0].imag - whirl.at.speed) / rate for step in (first, last))
+        one, other = (-self.event.lead(step[0], whirl.at.speed) / rate for step in (first, last))
         noise = _roundoff(system, *last) / abs(rate)
         if abs(one - other) > DISAGREEMENT * abs(other) + noise:
             doubt = doubt or "two steps of inverse iteration disagree on the error"
@@ -197,7 +185,7 @@ class ShaftRung:
     def _bound(self, whirl: Whirl, rate: float) -> float:
         """Return the error [1] that the worst K and C within the verified bounds of the films would make."""
         structure = self.model.rotor.structure
-        _, slope = dynamics(small_motion(structure, whirl.at), whirl.value)
+        _, slope = dynamics(second_order(structure, whirl.at), whirl.value)
         scale = abs(whirl.left.conj() @ slope @ whirl.right)
         total = 0.0
         for name, bound in coefficient_bounds(self.films, whirl.at).items():
@@ -219,7 +207,7 @@ def _roundoff(system: SecondOrder, value: complex, right: np.ndarray, left: np.n
 
 
 def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
-    """Return the ladder of the first critical speed of a flexible rotor.
+    """Return the ladder of the first critical speed, or of the whirl threshold, of a flexible rotor.
 
     Raises
     ------
@@ -229,9 +217,9 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
     if scene.shaft is None:
         raise InputError(f"shaft is required for {quantity}, got no such table")
     speeds, models = scene.shaft.speeds.build(), shaft_models(scene.shaft.build())
-    levels = film_levels(scene.shaft)
+    levels, event = film_levels(scene.shaft), EVENTS[quantity]
     rungs = [
-        ShaftRung(model=model, films=films, speeds=speeds)
+        ShaftRung(event=event, model=model, films=films, speeds=speeds)
         for films in levels
         for model in (models if films is levels[-1] else models[:3])
     ]
