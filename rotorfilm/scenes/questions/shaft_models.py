@@ -54,9 +54,9 @@ class ShaftModel:
 
     @property
     def name(self) -> str:
-        """Number of modes or of elements, and their kind where it is not that of the file."""
+        """Number of modes beside the static shapes, or of elements and their kind if not that of the file."""
         if self.modes is not None:
-            return f"static shapes and {self.modes} modes" if self.modes else "static shapes"
+            return f"{self.modes} modes" if self.modes else "static shapes"
         count = sum(len(pieces_of(element, self.pieces)) for element in self.shaft.elements)
         return f"{count} elements" if self.beam == self.shaft.beam else f"{count} elements, classical beam"
 

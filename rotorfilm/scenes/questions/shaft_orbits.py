@@ -134,7 +134,7 @@ class ShaftOrbitRung:
     @property
     def name(self) -> str:
         """Linear or the number of samples, the model of the shaft, the film."""
-        how = f"nonlinear, {self.samples} samples" if self.samples else "linear"
+        how = f"{self.samples} samples" if self.samples else "linear"
         return ", ".join(part for part in (how, self.model.name, self.films.name) if part)
 
     @property

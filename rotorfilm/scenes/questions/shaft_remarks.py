@@ -7,15 +7,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...bearings import JournalBearing
+from ...bearings import JournalBearing, LinearBearing
 from ...errors import RotorfilmError
-from ...linear import rotor_modes
+from ...linear import rotor_equilibrium, rotor_modes
 from ...model import Reaction
 from ...rotors import ShaftElement, ShaftRotor
 from ..validity import film_remarks
 
 if TYPE_CHECKING:
     from ..scene import Scene
+
+STIFF = 1e10
+"""Stiffness of bearings [N/m] by which the weight is shared out."""
 
 SLENDER = 4.0
 """Length of a shaft / its largest diameter below which its cross sections may not stay plane."""
@@ -31,12 +34,14 @@ def shaft_remarks(scene: Scene, speed: float) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each, for the shaft of a scene at a speed."""
     assert scene.shaft is not None
     rotor, bearings = scene.shaft.build(), scene.shaft.build_bearings()
-    load = float(np.hypot(*rotor.gravity)) * rotor.mass / max(len(bearings), 1)
+    stiff = {name: LinearBearing(stiffness=STIFF) for name in bearings}
+    loads = rotor_equilibrium(rotor, stiff, speed).loads
     lines = list(beam_remarks(rotor))
     for name, bearing in bearings.items():
         if isinstance(bearing, JournalBearing):
-            found = film_remarks(bearing, scene.lubricant, speed, (0.0, -load))
-            lines += [f"{name}: {line}" for line in found]
+            x, y = loads[name].tolist()
+            found = film_remarks(bearing, scene.lubricant, speed, (x, y))
+            lines += [f"{name}, at {speed:.4g} rad/s: {line}" for line in found]
     return tuple(lines)
 
 
