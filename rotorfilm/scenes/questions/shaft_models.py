@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ...errors import InputError
 from ...model import Array
 from ...rotors import (
     Beam,
@@ -75,19 +76,31 @@ class ShaftModel:
         return ReducedRotor(rotor=rotor, modes=self.modes, speed=rotor.speed, gravity=rotor.gravity)
 
     @cached_property
+    def quick(self) -> ShaftModel:
+        """A model to look about with: this one, or a reduced one if its stations hold it."""
+        if self.modes is not None or not _known(self.shaft):
+            return self
+        small = ShaftModel(shaft=self.shaft, beam=self.shaft.beam, modes=_known(self.shaft)[-1])
+        try:
+            _ = small.rotor
+        except InputError:
+            return self
+        return small
+
+    @cached_property
     def finer(self) -> ShaftRotor:
         """What this model is judged by: elements half as long, of fourth order where they shear."""
         fine = split(self.mesh, 2)
         sheared = all(_shears(element) for element in self.shaft.elements)
         return replace(fine, beam=FourthOrderBeam()) if sheared else fine
 
-    def nodal(self, shape: Array) -> Array:
+    def nodal(self, shape: np.ndarray) -> np.ndarray:
         """Return a shape (N,) at the nodes of the file and the supports, both planes."""
         if isinstance(self.rotor, ReducedRotor):
             shape = both_planes(self.rotor.basis) @ shape
         return np.asarray(shape[self._file_places])
 
-    def seen(self, nodal: Array) -> Array:
+    def seen(self, nodal: np.ndarray) -> np.ndarray:
         """Return what a shape at the nodes of the file, as a load, is in the coordinates of this model."""
         load = np.zeros(len(self.mesh.structure.mass), dtype=nodal.dtype)
         load[self._file_places] = nodal
@@ -100,7 +113,7 @@ class ShaftModel:
         plane = [*(2 * node + k for node in nodes for k in (0, 1)), *range(n - supports, n)]
         return np.array([*plane, *(n + k for k in plane)])
 
-    def lifted(self, shapes: Array) -> Array:
+    def lifted(self, shapes: np.ndarray) -> np.ndarray:
         """Return shapes (N, ...) of this model in the coordinates of `finer`; inside its elements 0."""
         if isinstance(self.rotor, ReducedRotor):
             shapes = both_planes(self.rotor.basis) @ shapes

@@ -122,15 +122,17 @@ class ShaftRung:
         return Found(first, {self.unit: work, **made}, ShaftSpeed(whirls=tuple(whirls), model=self.model))
 
     def _looked_for(self) -> list[Start]:
-        """Return the first such speed of this model, and those near it."""
-        rotor, reactions = self.model.rotor, self.films.reactions
+        """Return the first such speed by a reduced model, and those near it."""
+        model = self.model.quick
+        rotor, reactions = model.rotor, self.films.reactions
         starts = []
         for speed, value in self.event.sightings(rotor, reactions, self.speeds):
             at = rotor_equilibrium(rotor, reactions, speed)
             system = small_motion(rotor.structure, at, self.event.frequency(value, speed))
             shape = np.random.default_rng(0).normal(size=len(system.mass)) + 0j
             value, shape, _ = mode_near(system, value, shape)
-            starts.append(Start(speed, value, shape))
+            seen = shape if model is self.model else self.model.seen(model.nodal(shape))
+            starts.append(Start(speed, value, seen))
         return starts
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
