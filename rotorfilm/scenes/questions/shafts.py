@@ -167,7 +167,7 @@ class ShaftRung:
         is_bound = bool(self.films.name) and self.films.bounded and (not trusted or bound > error)
         if trusted:
             error = max(error, bound)
-        return ErrorEstimate(error, method, {f"steps for {self.name}": 3}, bound=is_bound, doubt=doubt)
+        return ErrorEstimate(float(error), method, {f"steps for {self.name}": 3}, bound=is_bound, doubt=doubt)
 
     def _corrected(self, whirl: Whirl, rate: float, *, trusted: bool) -> Corrected:
         """Return a critical speed after steps of inverse iteration with the shift that this rung gives."""
