@@ -7,8 +7,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
+import numpy as np
+
 from ...errors import RotorfilmError
-from ...linear import critical_speeds, rotor_threshold
+from ...linear import RotorModes, critical_speeds, rotor_threshold
 from ...model import Array, Reaction
 from ...rotors import FlexibleRotor
 
@@ -39,6 +41,9 @@ class SpeedEvent(Protocol):
         self, rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: Array
     ) -> list[Sighting]:
         """Return the lowest such speed in a range, and those near it; RotorfilmError if there is none."""
+
+    def missed(self, own: RotorModes, other: RotorModes) -> str:
+        """Return why the first such speed may be another one, from whirls just below it by two models."""
 
 
 @dataclass(frozen=True)
@@ -73,6 +78,11 @@ class Critical:
             if one.speed <= NEAR * found[0].speed
         ]
 
+    def missed(self, own: RotorModes, other: RotorModes) -> str:
+        """Return that more or fewer whirls are slower than the rotation by the other model."""
+        slow, others = (int(np.sum(modes.frequency < modes.speed)) for modes in (own, other))
+        return "" if slow == others else f"{slow} whirls are slower than the speed, with more modes {others}"
+
 
 @dataclass(frozen=True)
 class Threshold:
@@ -99,3 +109,8 @@ class Threshold:
             span = f"{speeds[0]:.6g} to {speeds[-1]:.6g} rad/s"
             raise RotorfilmError(f"no whirl threshold in shaft.speeds, {span}: {found.reason}")
         return [Sighting(found.speed, 1j * found.whirl_frequency)]
+
+    def missed(self, own: RotorModes, other: RotorModes) -> str:
+        """Return that a whirl grows already by the other model."""
+        growing = bool(np.any(other.eigenvalues.real > 0.0))
+        return "with more modes another whirl grows first" if growing else ""

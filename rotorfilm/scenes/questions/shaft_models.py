@@ -78,7 +78,12 @@ class ShaftModel:
     @cached_property
     def quick(self) -> ShaftModel:
         """A model to look about with: this one, or a reduced one if its stations hold it."""
-        if self.modes is not None or not _known(self.shaft):
+        return self if self.modes is not None else self.widest
+
+    @cached_property
+    def widest(self) -> ShaftModel:
+        """The reduced model with most modes; this one if its stations do not hold it."""
+        if not _known(self.shaft):
             return self
         small = ShaftModel(shaft=self.shaft, beam=self.shaft.beam, modes=_known(self.shaft)[-1])
         try:

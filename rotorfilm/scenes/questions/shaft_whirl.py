@@ -22,6 +22,11 @@ STEP = 1e-3
 """Relative change of speed over which K and C of films are differentiated."""
 
 CONVERGED = 1e-12
+"""Relative change of an eigenvalue, or of a speed, at which an iteration ends."""
+
+ROUNDED, _PATIENCE = 1e-9, 6
+"""The same after so many steps: roundoff of fine meshes is larger."""
+
 _STEPS = 25
 
 
@@ -103,10 +108,10 @@ def mode_near(
     # On an eigenvalue itself L has no inverse.
     shift = value * (1.0 + 1e-9)
     found, right, left = inverse_steps(system, shift, load, load, 3)[-1]
-    for _ in range(_STEPS):
+    for step in range(_STEPS):
         before = found
         found, right, left = inverse_steps(system, found * (1.0 + 1e-13), right, left, 1)[-1]
-        if abs(found - before) < CONVERGED * abs(found):
+        if abs(found - before) < (CONVERGED if step < _PATIENCE else ROUNDED) * abs(found):
             return found, right, left
     raise ConvergenceError(f"whirl near {value:.6g} rad/s must be found by inverse iteration, and was not")
 
@@ -147,7 +152,7 @@ def whirl_of(event: SpeedEvent, rotor: FlexibleRotor, films: ShaftFilms, start: 
             return whirl, count
         value, load = whirl.value, whirl.right
         step = -lead / event.rate(value_rate(rotor.structure, whirl, films))
-        if count > 4 and abs(step) < 100.0 * CONVERGED * speed:
+        if count > _PATIENCE and abs(step) < ROUNDED * speed:
             return whirl, count
         speed += float(np.clip(step, -0.1 * speed, 0.1 * speed))
     raise ConvergenceError(f"speed near {speed:.6g} rad/s must be found by Newton's method, and was not")

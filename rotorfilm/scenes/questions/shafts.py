@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ...errors import InputError, RotorfilmError
-from ...linear import rotor_equilibrium
+from ...linear import rotor_equilibrium, rotor_modes
 from ...linear.rotor_system import SecondOrder, second_order
 from ...model import Array
 from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Work
@@ -157,6 +157,7 @@ class ShaftRung:
         best = min(moved, key=lambda one: one.speed)
         error = abs(best.speed - found.value) / found.value + best.noise
         doubt = next((one.doubt for one in moved if one.doubt), "")
+        doubt = doubt or self._missed(best.speed * (1.0 - 2.0 * error))
         if error > LARGEST:
             doubt = doubt or f"a change by {error:.0%} is too large to be linear"
         if found.value * (1.0 - SAFETY * error) < self.speeds[0]:
@@ -168,6 +169,15 @@ class ShaftRung:
         if trusted:
             error = max(error, bound)
         return ErrorEstimate(float(error), method, {f"steps for {self.name}": 3}, bound=is_bound, doubt=doubt)
+
+    def _missed(self, speed: float) -> str:
+        """Return why a model of fewer modes than others may have missed one just above a speed [rad/s]."""
+        widest = self.model.widest
+        if self.model.modes is None or widest.modes in (None, self.model.modes):
+            return ""
+        films = self.films.reactions
+        own, other = (rotor_modes(model.rotor, films, speed) for model in (self.model, widest))
+        return self.event.missed(own, other)
 
     def _corrected(self, whirl: Whirl, rate: float, *, trusted: bool) -> Corrected:
         """Return a critical speed after steps of inverse iteration with the shift that this rung gives."""
