@@ -318,6 +318,8 @@ def test_a_range_without_such_a_speed_is_an_error():
     scene = parse_scene(UNIFORM.replace("first = 100, last = 900", "first = 10, last = 20"), "uniform")
     with pytest.raises(RotorfilmError, match=r"no critical speed in shaft\.speeds, 10 to 20 rad/s"):
         scene.ask()
+    with pytest.raises(RotorfilmError, match=r"10 to 20 rad/s: nothing damps or drives a whirl"):
+        asked("whirl_threshold", 0.1, scene).ask()
     text = UNIFORM.replace("stiffness = 1e13", "stiffness = 1e7, damping = 1e3").replace(
         "first = 100", "first = 50"
     )

@@ -10,12 +10,15 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from ...errors import RotorfilmError
-from ...linear import RotorModes, critical_speeds, rotor_threshold
+from ...linear import RotorModes, critical_speeds, rotor_modes, rotor_threshold
 from ...model import Array, Reaction
 from ...rotors import FlexibleRotor
 
 NEAR = 1.1
 """Critical speeds up to so many times the first are followed with it."""
+
+NEUTRAL = 1e-9
+"""Growth rate / frequency that is roundoff."""
 
 
 class Sighting(NamedTuple):
@@ -104,9 +107,14 @@ class Threshold:
         self, rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: Array
     ) -> list[Sighting]:
         """Return the threshold of stability."""
+        span = f"{speeds[0]:.6g} to {speeds[-1]:.6g} rad/s"
+        values = rotor_modes(rotor, bearings, float(speeds[0])).eigenvalues
+        if np.all(np.abs(values.real) < NEUTRAL * np.abs(values)):
+            raise RotorfilmError(
+                f"no whirl threshold in shaft.speeds, {span}: nothing damps or drives a whirl"
+            )
         found = rotor_threshold(rotor, bearings, speeds)
         if found.speed is None or found.whirl_frequency is None:
-            span = f"{speeds[0]:.6g} to {speeds[-1]:.6g} rad/s"
             raise RotorfilmError(f"no whirl threshold in shaft.speeds, {span}: {found.reason}")
         return [Sighting(found.speed, 1j * found.whirl_frequency)]
 
