@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from . import dampers, journals, shafts
+from . import bushes, dampers, journals, shafts
 from .drawn import Drawn
 
 Draw = Callable[[np.random.Generator], Drawn]
@@ -22,6 +22,8 @@ FAMILIES: dict[str, tuple[int, Draw]] = {
     "damper": (2, dampers.damper),
     "orbit, film": (1, journals.orbit_by_film),
     "blade, film": (1, journals.blade_by_film),
+    "bush speed": (1, bushes.bush_speed),
+    "bush wear": (2, bushes.bush_wear),
     "shaft speed": (2, shafts.shaft_speed),
     "shaft orbit": (2, shafts.shaft_orbit),
     "shaft whirl": (1, shafts.shaft_whirl),
