@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from . import bushes, contacts, couplings, dampers, journals
+from . import bushes, contacts, couplings, dampers, journals, shafts
 from .drawn import Drawn
 
 Draw = Callable[[np.random.Generator], Drawn]
@@ -28,5 +28,8 @@ FAMILIES: dict[str, tuple[int, Draw]] = {
     "bush wear": (2, bushes.bush_wear),
     "coupling hard": (1, couplings.hard),
     "coupling other": (1, couplings.other),
+    "shaft speed": (2, shafts.shaft_speed),
+    "shaft orbit": (2, shafts.shaft_orbit),
+    "shaft whirl": (1, shafts.shaft_whirl),
 }
 """Weight of each family in a round of the battery, and how one scene of it is drawn."""

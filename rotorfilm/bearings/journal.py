@@ -230,7 +230,7 @@ class JournalBearing(Feedthrough):
         callable
             (x, y, vx, vy, speed) [m, m/s, rad/s] -> (force_x, force_y) [N]. Raises what `force` raises.
         """
-        return self._scalar_call if self._bound is None else self._bound.call
+        return self._scalar_call if self.bound_film is None else self.bound_film.call
 
     def prepare_tangent(self) -> Tangent:
         """Return force and derivatives as one function of five numbers, for searches state by state.
@@ -241,12 +241,12 @@ class JournalBearing(Feedthrough):
             (x, y, vx, vy, speed) [m, m/s, rad/s] -> (force_x, force_y, the ten entries of `jacobian` row by
             row). Raises what `jacobian` raises.
         """
-        return self._scalar_tangent if self._bound is None else self._bound.tangent
+        return self._scalar_tangent if self.bound_film is None else self.bound_film.tangent
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape, checked for contact only."""
-        if self._bound is not None:
-            return self._bound.force(position, velocity, speed)
+        if self.bound_film is not None:
+            return self.bound_film.force(position, velocity, speed)
         eccentricity, source = self.kinematics(position, velocity, speed)
         mirror = self._mirror(speed)
         return (
@@ -257,8 +257,8 @@ class JournalBearing(Feedthrough):
 
     def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `jacobian` for inner loops: float arrays of equal batch shape, checked for contact only."""
-        if self._bound is not None:
-            return self._bound.jacobian(position, velocity, speed)
+        if self.bound_film is not None:
+            return self.bound_film.jacobian(position, velocity, speed)
         eccentricity, source = self.kinematics(self._off_center(position), velocity, speed)
         mirror = self._mirror(speed)
         film = self.force_scale * self.fitted_film.jacobian(
@@ -305,7 +305,8 @@ class JournalBearing(Feedthrough):
         return self if carried is film else replace(self, film=carried)
 
     @cached_property
-    def _bound(self) -> BoundFilm | None:
+    def bound_film(self) -> BoundFilm | None:
+        """The film law tied to the dimensions of this bearing; None for one that is not compiled."""
         film = self.fitted_film
         if not isinstance(film, BindableFilm):
             return None

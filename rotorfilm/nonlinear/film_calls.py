@@ -57,7 +57,7 @@ class FilmCall(NamedTuple):
 def film_call(reaction: Reaction) -> FilmCall:
     """Return the compiled force of a reaction without states."""
     if type(reaction) is JournalBearing:
-        bound = reaction._bound
+        bound = reaction.bound_film
         if isinstance(bound, BoundKernel):
             struct = bound.kernel._struct
             address = ctypes.cast(functions()["rf_journal_at"], c_void_p).value or 0

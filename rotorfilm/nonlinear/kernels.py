@@ -319,7 +319,7 @@ def local_error(u, start, scheme, defect, scales):  # type: ignore[no-untyped-de
 
 
 @njit(cache=True)
-def try_step(t, h, slot, z, u, start, rotor, scheme, tables, films, supports, profile, scales, limits, work):  # type: ignore[no-untyped-def]
+def try_step(t, h, slot, z, u, start, scheme, tables, films, supports, profile, scales, limits, work):  # type: ignore[no-untyped-def]
     """Solve one step for the forces u at its nodes; return (status, local error / rtol).
 
     limits : latest time of a node, rtol, tolerance of Newton's method.
@@ -416,7 +416,7 @@ def march(z, clock, stop, rotor, scheme, tables, films, supports, profile, scale
             for i in range(s):
                 guess[i] = start
         status, error = try_step(
-            t, h, slot, z, guess, start, rotor, scheme, tables, films, supports, profile, scales, limits, work
+            t, h, slot, z, guess, start, scheme, tables, films, supports, profile, scales, limits, work
         )
         steps += 1
         if status >= CONTACT or error > 1.0:

@@ -19,7 +19,7 @@ import numpy as np
 from ..errors import ConvergenceError, InputError
 from ..model import Array, Dynamic, Reaction
 from ..rotors import FlexibleRotor, MountedRotor, RigidRotor, SpeedProfile
-from ..rotors.structure import NOMINAL_LENGTH, Structure, unbalance_columns
+from ..rotors.structure import NOMINAL_LENGTH, Structure, solved_equations, unbalance_columns
 from .film_calls import FilmCall, film_call
 
 Complex = np.ndarray
@@ -125,15 +125,10 @@ def take_apart(mounted: MountedRotor) -> Parts:
     InputError
         If the rotor is none with matrices, or a station is left without a bearing.
     """
-    rotor: Dynamic = mounted
-    names: list[str] = []
-    bearings: list[Reaction] = []
-    while isinstance(rotor, MountedRotor):
-        names, bearings = [*names, *rotor.stations], [*bearings, *rotor.bearings]
-        rotor = rotor.rotor
-    structure, profile = _structure(rotor)
-    order = [names.index(name) for name in structure.stations if name in names]
-    names, bearings = [names[k] for k in order], [bearings[k] for k in order]
+    found = mounted.all_bearings
+    structure, profile = _structure(mounted.bare)
+    names = [name for name in structure.stations if name in found]
+    bearings = [found[name] for name in names]
     if not names:
         raise InputError("rotor must rest in at least one bearing: mount(rotor, {station: bearing})")
     places = [structure.stations.index(name) for name in names]
@@ -176,14 +171,13 @@ def journal_rows(parts: Parts) -> Array:
 
 def state_matrices(parts: Parts, speed: float) -> tuple[Array, Array, Array]:
     """Return A (2 N, 2 N) without films, B (2 N, 2 n_bearings + 2), the acceleration under weight (2 N,)."""
-    s, n = parts.structure, len(parts.structure.weight)
-    right = np.hstack([parts.rows.T, s.unbalance, s.weight[:, None]])
-    solved = np.linalg.solve(
-        s.mass, np.hstack([-s.stiffness - speed * s.circulation, -s.damping - speed * s.gyroscopic, right])
+    model = solved_equations(parts.structure)
+    places = [2 * parts.structure.stations.index(name) + axis for name in parts.names for axis in range(2)]
+    return (
+        model.steady + speed * model.spin,
+        np.hstack([model.push[:, places], model.unbalance]),
+        model.weight,
     )
-    A = np.vstack([np.hstack([np.zeros((n, n)), np.eye(n)]), solved[:, : 2 * n]])
-    B = np.vstack([np.zeros((n, right.shape[1])), solved[:, 2 * n :]])
-    return A, B[:, :-1], B[:, -1]
 
 
 def modal_rotor(parts: Parts, speed: float) -> ModalRotor:

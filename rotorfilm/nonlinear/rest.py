@@ -90,9 +90,7 @@ def _newton(modal: ModalRotor, start: Array) -> Array:
 
 def first_guess(mounted: MountedRotor, modal: ModalRotor) -> Array:
     """Return the positions of the journals at rest by the search of `linear`; zeros without weight."""
-    rotor = mounted.rotor
-    while isinstance(rotor, MountedRotor):
-        rotor = rotor.rotor
+    rotor = mounted.bare
     parts = modal.parts
     if not np.any(parts.structure.weight):
         return np.zeros(2 * len(parts.bearings))

@@ -113,9 +113,7 @@ def _speed(parts: Parts) -> float:
 def _trajectory(mounted: MountedRotor, grid: Array, kept: list[Array], march: March) -> Trajectory:
     states = np.concatenate(kept) if kept else np.zeros((0, len(mounted.states)))
     time = grid[: len(states)]
-    rotor = mounted
-    while isinstance(rotor, MountedRotor):
-        rotor = rotor.rotor  # type: ignore[assignment]
+    rotor = mounted.bare
     # Displacements and rates are linear in the state, the last output is the speed.
     rows = rotor.linearization(0.0, rotor.initial_state, np.zeros(len(rotor.inputs))).C
     outputs = rows @ states.T

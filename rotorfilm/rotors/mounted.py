@@ -60,6 +60,17 @@ class MountedRotor:
         _ = self._motion, self._force
 
     @property
+    def bare(self) -> Dynamic:
+        """The rotor without bearings, also where it was mounted in several steps."""
+        return self.rotor.bare if isinstance(self.rotor, MountedRotor) else self.rotor
+
+    @property
+    def all_bearings(self) -> dict[str, Reaction]:
+        """All bearings by station, also where the rotor was mounted in several steps."""
+        own = dict(zip(self.stations, self.bearings, strict=True))
+        return {**own, **self.rotor.all_bearings} if isinstance(self.rotor, MountedRotor) else own
+
+    @property
     def inputs(self) -> tuple[Signal, ...]:
         """The inputs of the rotor that no bearing drives."""
         return tuple(self.rotor.inputs[k] for k in self._free)

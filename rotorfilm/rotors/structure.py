@@ -211,26 +211,31 @@ class FlexibleRotor:
                 "loss_factor must be 0 over time, where hysteresis is not a force: use internal_damping, "
                 "the loss factor / the frequency of the bending in the rotating shaft"
             )
-        n = len(s.weight)
-        factor = cho_factor(s.mass)
-
-        def accelerations(forces: Array) -> Array:
-            return np.concatenate([np.zeros_like(forces), cho_solve(factor, forces)])
-
-        steady = -accelerations(np.hstack([s.stiffness, s.damping]))
-        steady[:n, n:] = np.eye(n)
-        return Operators(
-            steady=steady,
-            spin=-accelerations(np.hstack([s.circulation, s.gyroscopic])),
-            push=accelerations(s.journals.T),
-            weight=accelerations(s.weight),
-            unbalance=accelerations(s.unbalance),
-            sense=output_rows(s),
-        )
+        return solved_equations(s)
 
     @cached_property
     def _nominal_speed(self) -> float:
         return max(abs(speed) for speed in self.profile.speeds) or 1.0
+
+
+def solved_equations(s: Structure) -> Operators:
+    """Return the equations of a structure without hysteresis, solved for the rates."""
+    n = len(s.weight)
+    factor = cho_factor(s.mass)
+
+    def accelerations(forces: Array) -> Array:
+        return np.concatenate([np.zeros_like(forces), cho_solve(factor, forces)])
+
+    steady = -accelerations(np.hstack([s.stiffness, s.damping]))
+    steady[:n, n:] = np.eye(n)
+    return Operators(
+        steady=steady,
+        spin=-accelerations(np.hstack([s.circulation, s.gyroscopic])),
+        push=accelerations(s.journals.T),
+        weight=accelerations(s.weight),
+        unbalance=accelerations(s.unbalance),
+        sense=output_rows(s),
+    )
 
 
 def output_rows(structure: Structure) -> Array:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 from ..errors import SceneError, require_positive
-from .tables import Quantity, nearest
+from .tables import Quantity, nearest, text
 
 QUANTITIES = {
     "eccentricity_ratio": "static eccentricity / clearance",
@@ -51,10 +51,13 @@ class QuestionTable:
     tolerance : float [1]
         Largest error allowed, relative to the quantity; of a matrix to its largest entry, of the error of a
         co-simulation to the clearance, of an angle to 1 rad.
+    at : str
+        Of a flexible rotor: bearing or probe that is asked about, the one that moves most unless given.
     """
 
     quantity: Annotated[str, read_quantity]
     tolerance: Annotated[float, Quantity("1")]
+    at: Annotated[str, text] = ""
 
     def __post_init__(self) -> None:
         require_positive("tolerance", self.tolerance)

@@ -29,7 +29,7 @@ from ..rotors import (
 from .excitation_table import UnbalanceTable
 from .readers import read_count
 from .schema import JournalTable
-from .tables import Quantity, Table, TableList, choose, read_table, require_table, text
+from .tables import Quantity, Table, TableList, choose, nearest, read_table, require_table, text
 
 BEAMS: dict[str, type] = {"fourth_order": FourthOrderBeam, "classical": ClassicalBeam}
 """Beam elements by their names in scene files."""
@@ -389,3 +389,20 @@ class ShaftTable:
     def build_bearings(self) -> dict[str, Reaction]:
         """Return the bearings by station."""
         return {bearing.name: bearing.build() for bearing in self.bearings}
+
+    def places(self, *, forces: bool) -> tuple[str, ...]:
+        """Return the names of what a question may be about: bearings, and probes unless it is for forces."""
+        probes = () if forces else tuple(probe.name for probe in self.probes)
+        return (*(bearing.name for bearing in self.bearings), *probes)
+
+
+def require_place(name: str, quantity: str, shaft: ShaftTable | None) -> None:
+    """Raise InputError unless a question about a place names a bearing or a probe of a shaft."""
+    if shaft is None:
+        raise InputError(f"question.at must be left out where there is no [shaft], got {name!r}")
+    known = shaft.places(forces=quantity == "unbalance_force")
+    if name not in known:
+        raise InputError(
+            f"question.at must be one of {', '.join(known)} for {quantity}, "
+            f"got {name!r}{nearest(name, known)}"
+        )

@@ -24,7 +24,7 @@ from .ladder import QuestionAnswer
 from .lubricant_table import LubricantTable
 from .question_table import QuestionTable
 from .questions import ask
-from .rotor_table import ShaftTable
+from .rotor_table import ShaftTable, require_place
 from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
 from .solve import Answer, solve
 from .tables import Table, Variant, read_table, require_no_near_miss, text
@@ -78,7 +78,7 @@ class Scene:
     ------
     InputError
         If there is no bearing, or a journal bearing without an operation, or with a load that is neither
-        given nor follows from the weight of a rotor.
+        given nor follows from the weight of a rotor; if the question is about a place that is not there.
     """
 
     title: Annotated[str, text] = "untitled scene"
@@ -106,6 +106,8 @@ class Scene:
         families = [each.name for each in fields(self) if each.name not in NOT_A_BEARING]
         if all(getattr(self, name) is None for name in families):
             raise InputError(f"{' or '.join(families)} is required and missing")
+        if self.question is not None and self.question.at:
+            require_place(self.question.at, self.question.quantity, self.shaft)
         if self.journal is None:
             return
         if self.operation is None:

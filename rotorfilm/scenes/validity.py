@@ -87,8 +87,14 @@ def journal_numbers(
 
 def journal_remarks(scene: Scene) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each, for the journal bearing of a scene."""
-    bearing = scene.bearing
-    n = journal_numbers(bearing, scene.lubricant, scene.speed, scene.static_load)
+    return film_remarks(scene.bearing, scene.lubricant, scene.speed, scene.static_load)
+
+
+def film_remarks(
+    bearing: JournalBearing, oil: LubricantTable, speed: float, load: tuple[float, float]
+) -> tuple[str, ...]:
+    """Return the same for one bearing at a speed [rad/s] and a load [N]."""
+    n = journal_numbers(bearing, oil, speed, load)
     tilt = 2.0 * bearing.clearance / bearing.length
     lines = {
         f"heat: the oil warms by about {n.warming:.2g} K (Peclet number {n.peclet:.2g}), "

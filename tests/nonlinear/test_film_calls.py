@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from rotorfilm import JournalBearing, LinearBearing, ShortFilm, Sprung
@@ -35,8 +35,7 @@ def test_compiled_force_is_that_of_the_bearing(bearing, chi, angle, velocity, sp
     position = 1e-4 * chi * np.array([np.cos(angle), np.sin(angle)])
     state = np.array([*position, *velocity, speed])
     source = state[2:4] / 1e-4 + 0.5 * speed * np.array([position[1], -position[0]]) / 1e-4
-    if np.hypot(*source) < 1e-3:
-        return  # no derivative there
+    assume(np.hypot(*source) >= 1e-3)  # no derivative there
     _, force, slope = answer(bearing, state)
     exact = bearing.force(position, state[2:4], speed)
     slopes = bearing.jacobian(position, state[2:4], speed)[:, :4]

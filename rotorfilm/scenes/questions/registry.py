@@ -17,6 +17,8 @@ from .dampers import UNITS as DAMPERS
 from .dampers import damper_ladder
 from .orbits import UNITS as ORBITS
 from .orbits import orbit_ladder
+from .shaft_orbits import shaft_orbit_ladder
+from .shafts import EVENTS as SHAFT_SPEEDS
 from .shafts import shaft_ladder
 from .statics import UNITS as STATICS
 from .statics import static_ladder
@@ -33,7 +35,8 @@ LADDERS: dict[tuple[str, str], LadderOf] = {
     ("journal", "whirl_threshold"): whirl_ladder,
     ("journal", "blade_loss_peak"): blade_loss_ladder,
     ("journal", "cosimulation_error"): coupling_ladder,
-    ("shaft", "critical_speed"): shaft_ladder,
+    **{("shaft", quantity): shaft_ladder for quantity in SHAFT_SPEEDS},
+    **{("shaft", quantity): shaft_orbit_ladder for quantity in ORBITS},
     **{("contact", quantity): contact_ladder for quantity in CONTACTS},
     ("bush", "critical_speed"): bush_ladder,
     ("bush", "wear"): wear_ladder,

@@ -1,0 +1,358 @@
+"""Questions about flexible rotors: estimates beside closed forms, other methods and true errors; refusals."""
+
+import math
+import sys
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rotorfilm.errors import InputError, RotorfilmError, SceneError
+from rotorfilm.linear import (
+    critical_speeds,
+    rotor_equilibrium,
+    rotor_modes,
+    rotor_threshold,
+    unbalance_response,
+)
+from rotorfilm.nonlinear import periodic_orbit
+from rotorfilm.rotors import mount
+from rotorfilm.scenes import Scene, parse_scene
+from rotorfilm.scenes.question_table import QuestionTable
+from rotorfilm.scenes.questions import ladder_of
+from rotorfilm.scenes.questions.shaft_events import Critical
+from rotorfilm.scenes.questions.shaft_films import film_levels
+from rotorfilm.scenes.questions.shaft_models import ShaftModel, shaft_models, split
+from rotorfilm.scenes.questions.shaft_remarks import beam_remarks
+from rotorfilm.scenes.questions.shaft_whirl import Start, mode_near, small_motion, value_rate, whirl_of
+
+ROOT = Path(__file__).parents[2]
+sys.path.append(str(ROOT / "benchmarks"))
+
+import scene_battery  # noqa: E402
+from families import FAMILIES  # noqa: E402
+
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+
+SCENE = Scene.load(ROOT / "examples" / "rotor_questions.toml")
+UNIFORM = """schema = 1
+[shaft]
+material = { young_modulus = 2.1e11, shear_modulus = 8.0e10, density = 7850 }
+elements = [{ length = 1.2, outer_diameter = 0.04, pieces = 4 }]
+bearings = [{ name = "a", node = 0, stiffness = 1e13 }, { name = "b", node = 4, stiffness = 1e13 }]
+speeds = { first = 100, last = 900, count = 12 }
+probes = [{ node = 2, name = "middle" }]
+unbalances = [{ node = 1, unbalance = 1e-4, unbalance_angle = 0.4 }]
+[question]
+quantity = "critical_speed"
+tolerance = 1e-3
+"""
+SUBSET = [("shaft speed", 1), ("shaft orbit", 1), ("shaft orbit", 3)]
+
+
+def asked(quantity, tolerance, scene=SCENE, at=""):
+    return replace(scene, question=QuestionTable(quantity=quantity, tolerance=tolerance, at=at))
+
+
+@pytest.mark.parametrize(("family", "seed"), SUBSET)
+def test_estimate_is_within_a_factor_of_two_and_the_tolerance_is_met(family, seed):
+    drawn = FAMILIES[family][1](np.random.default_rng(seed))
+    first, *_ = scene_battery.judge(seed, drawn)
+    if not first.doubtful:
+        assert first.right, first
+    if first.verdict == "chosen":
+        assert first.met, first
+
+
+def timoshenko_speed(length, diameter, young, shear, density):
+    """Return the first forward critical speed of a simply supported shaft with shear, by its equation.
+
+    Forward circles at the speed w have (w0 sin(b z), theta0 cos(b z)), the polar inertia being twice that
+    about a diameter: K b^2 - rho A w^2, -K b; -K b, E I b^2 + K + (2 - 1) rho I w^2 with K = kappa G A.
+    """
+    area, moment, b = 0.25 * math.pi * diameter**2, math.pi * diameter**4 / 64.0, math.pi / length
+    nu = young / (2.0 * shear) - 1.0
+    stiff = 6.0 * (1.0 + nu) / (7.0 + 6.0 * nu) * shear * area
+    # squares of w: (stiff b^2 - rho A s) (E I b^2 + stiff + rho I s) = (stiff b)^2
+    mass, rotary, bent = density * area, density * moment, young * moment * b**2 + stiff
+    roots = np.roots(
+        [-mass * rotary, stiff * b**2 * rotary - mass * bent, stiff * b**2 * bent - (stiff * b) ** 2]
+    )
+    return math.sqrt(min(root for root in roots.real if root > 0.0))
+
+
+def test_every_rung_knows_its_error_of_a_simply_supported_shaft():
+    scene = parse_scene(UNIFORM, "uniform")
+    exact = timoshenko_speed(1.2, 0.04, 2.1e11, 8.0e10, 7850.0)
+    rungs = ladder_of(scene).rungs
+    found = critical_speeds(rungs[0].model.rotor, rungs[0].films.reactions, rungs[0].speeds)
+    forward = next(
+        one.speed for one in found if one.direction > 0.5
+    )  # the first of all is the backward whirl
+    shape = np.random.default_rng(1).normal(size=len(rungs[0].model.rotor.structure.mass))
+    nodal = rungs[0].model.nodal(mode_near(at_speed(rungs[0], forward), 1j * forward, shape)[1])
+    for rung in rungs[:-1]:
+        whirl, _ = whirl_of(
+            Critical(), rung.model.rotor, rung.films, Start(forward, 1j * forward, rung.model.seen(nodal))
+        )
+        rate = Critical().rate(value_rate(rung.model.rotor.structure, whirl, rung.films))
+        moved = rung._corrected(whirl, rate, trusted=True)
+        error, about = abs(whirl.at.speed / exact - 1.0), abs(moved.speed / whirl.at.speed - 1.0)
+        # bearings of 1e13 N/m give way by some 4e-8
+        assert about == pytest.approx(error, rel=0.15, abs=1e-7 + moved.noise)
+
+
+def at_speed(rung, speed):
+    at = rotor_equilibrium(rung.model.rotor, rung.films.reactions, speed)
+    return small_motion(rung.model.rotor.structure, at, speed)
+
+
+def test_critical_speed_agrees_with_the_whole_eigenproblem():
+    scene = asked("critical_speed", 0.01)
+    rungs = ladder_of(scene).rungs
+    first, twelve = rungs[0].answer(None), rungs[5].answer(None)
+    assert (rungs[0].name, rungs[5].name) == ("static shapes, map", "12 elements, map")
+    fine = split(scene.shaft.build(), 2)
+    whole = critical_speeds(fine, scene.shaft.build_bearings(), np.linspace(0.98, 1.02, 3) * first.value)
+    assert twelve.value == pytest.approx(whole[0].speed, rel=1e-9)
+    error = abs(first.value / whole[0].speed - 1.0)
+    assert rungs[0].estimate(first, None, 0.1).error == pytest.approx(error, rel=0.02)
+
+
+def test_threshold_agrees_with_the_whole_eigenproblem():
+    scene = asked("whirl_threshold", 0.02)
+    answer = scene.ask()
+    whole = rotor_threshold(scene.shaft.build(), scene.shaft.build_bearings(), np.linspace(600.0, 750.0, 4))
+    assert answer.met
+    assert abs(answer.value / whole.speed - 1.0) <= 2.0 * answer.error_estimate
+    finest = ladder_of(scene).rungs[4].answer(None)  # as many elements as the file has
+    assert finest.value == pytest.approx(whole.speed, rel=1e-8)
+
+
+def test_derivative_of_an_eigenvalue_by_the_speed():
+    scene = asked("whirl_threshold", 0.02)
+    rung = ladder_of(scene).rungs[1]
+    whirl = rung.answer(None).solution.whirls[0]
+    rotor, reactions = rung.model.rotor, rung.films.reactions
+    speed, step = whirl.at.speed, 1e-4 * whirl.at.speed
+
+    def nearest(at):
+        values = rotor_modes(rotor, reactions, at).eigenvalues
+        return values[np.argmin(np.abs(values - whirl.value))]
+
+    slope = (nearest(speed + step) - nearest(speed - step)) / (2.0 * step)
+    assert value_rate(rotor.structure, whirl, rung.films) == pytest.approx(slope, rel=1e-4)
+
+
+def test_linear_orbit_is_the_unbalance_response():
+    scene = asked("unbalance_amplitude", 0.02, at="impeller")
+    rung = ladder_of(scene).rungs[2]
+    assert rung.name == "linear, 6 elements, map"
+    shaft = scene.shaft
+    response = unbalance_response(shaft.build(), shaft.build_bearings(), [scene.speed])
+    values = dict(zip(response.output_labels, np.asarray(response.complex)[:, 0, 0], strict=True))
+    x, y = values["impeller_x"], values["impeller_y"]
+    axis = 0.5 * (abs(x + 1j * y) + abs(x.conjugate() + 1j * y.conjugate()))
+    assert rung.answer(None).value == pytest.approx(axis, rel=1e-10)
+    force = ladder_of(asked("unbalance_force", 0.02, at="drive_end")).rungs[2].answer(None).value
+    x, y = values["drive_end_housing_force_x"], values["drive_end_housing_force_y"]
+    axis = 0.5 * (abs(x + 1j * y) + abs(x.conjugate() + 1j * y.conjugate()))
+    assert force == pytest.approx(axis, rel=1e-10)
+
+
+def test_nonlinear_orbit_is_that_of_harmonic_balance():
+    shaft = replace(
+        SCENE.shaft, unbalances=(replace(SCENE.shaft.unbalances[0], unbalance=6e-3, unbalance_angle=0.7),)
+    )
+    scene = replace(SCENE, shaft=shaft)
+    rung = next(
+        rung
+        for rung in ladder_of(asked("unbalance_amplitude", 1e-3, scene, at="drive_end")).rungs
+        if rung.name == "63 samples, 6 elements, map"
+    )
+    orbit = periodic_orbit(mount(shaft.build(speed=scene.speed), shaft.build_bearings()), stability=False)
+    waves = orbit.series[0, :, 1] - 1j * orbit.series[0, :, 1 + orbit.harmonics]
+    axis = 0.5 * (abs(waves[0] + 1j * waves[1]) + abs(waves[0].conjugate() + 1j * waves[1].conjugate()))
+    found = rung.answer(None)
+    assert found.value == pytest.approx(axis, rel=1e-7)
+    linear = ladder_of(asked("unbalance_amplitude", 1e-3, scene, at="drive_end")).rungs[2]
+    assert abs(linear.answer(None).value / axis - 1.0) > 0.02  # else nothing here is nonlinear
+    about = linear.estimate(linear.answer(None), None, 1.0)
+    assert about.error == pytest.approx(abs(linear.answer(None).value / axis - 1.0), rel=0.2)
+
+
+@pytest.mark.parametrize("quantity", ["unbalance_amplitude", "unbalance_force"])
+def test_orbit_of_a_shaft_that_turns_backward_is_mirrored(quantity):
+    forward = asked(quantity, 0.1)
+    backward = replace(forward, operation=replace(forward.operation, speed=-forward.speed))
+    assert backward.ask().value == pytest.approx(forward.ask().value, rel=1e-9)
+
+
+def test_phase_turns_with_the_unbalance_on_springs():
+    scene = parse_scene(UNIFORM + "at = 'middle'\n[operation]\nspeed = 200\n", "uniform")
+    first = asked("unbalance_phase", 0.01, scene, "middle").ask()
+    turned = replace(scene.shaft, unbalances=(replace(scene.shaft.unbalances[0], unbalance_angle=2.4),))
+    second = asked("unbalance_phase", 0.01, replace(scene, shaft=turned), "middle").ask()
+    assert first.met
+    assert first.value == pytest.approx(second.value, abs=1e-9)
+    assert first.value == pytest.approx(0.0, abs=1e-6)  # below the first critical speed, without damping
+
+
+@pytest.mark.parametrize("quantity", ["critical_speed", "whirl_threshold", "unbalance_amplitude"])
+def test_tighter_tolerance_never_selects_a_less_accurate_rung(quantity):
+    scene = asked(quantity, 1.0)
+    names = [rung.name for rung in ladder_of(scene).rungs]
+    answers = [asked(quantity, tolerance).ask() for tolerance in (0.1, 0.02, 0.005)]
+    places = [names.index(answer.model) for answer in answers]
+    assert places == sorted(places)
+    assert all(tight <= loose * (1.0 + 1e-9) for loose, tight in pairwise(a.error_estimate for a in answers))
+
+
+@pytest.mark.parametrize("quantity", ["critical_speed", "unbalance_amplitude"])
+def test_an_impossible_tolerance_is_answered_honestly(quantity):
+    scene = parse_scene(UNIFORM + "[operation]\nspeed = 200\n", "uniform")
+    answer = asked(quantity, 1e-13, scene).ask()
+    assert not answer.met
+    assert answer.error_estimate > 1e-13 / 1.5
+    assert answer.next_model is None
+
+
+def test_coupling_stays_one_element_of_finer_meshes():
+    text = UNIFORM.replace(
+        "pieces = 4 }]",
+        "pieces = 2 }, { stiffness = 1e9, tilt_stiffness = 2e5 }, { length = 0.6, outer_diameter = 0.04 }]",
+    )
+    answer = asked("critical_speed", 1e-4, parse_scene(text, "coupled")).ask()
+    assert answer.met
+    fine = split(parse_scene(text, "coupled").shaft.build(), 4)
+    assert len(fine.elements) == 13
+    assert fine.stations[1].node == 13
+    films = parse_scene(text, "coupled").shaft.build_bearings()
+    whole = critical_speeds(fine, films, np.linspace(0.98, 1.02, 3) * answer.value)
+    assert answer.value == pytest.approx(whole[0].speed, rel=1e-4)
+
+
+def test_hysteresis_and_a_classical_beam_have_their_ladders():
+    scene = parse_scene(
+        UNIFORM.replace("probes", "loss_factor = 0.01\nbeam = 'classical'\nprobes"), "uniform"
+    )
+    names = [model.name for model in shaft_models(scene.shaft.build())]
+    assert names == [
+        "static shapes",
+        "2 modes",
+        "6 modes",
+        "4 elements",
+        "8 elements",
+        "16 elements",
+        "32 elements",
+    ]
+    assert asked("critical_speed", 1e-3, scene).ask().met
+    moving = replace(scene, operation=SCENE.operation)
+    assert asked("unbalance_amplitude", 1e-2, moving).ask().met
+
+
+def test_estimate_is_against_elements_of_fourth_order_also_for_classical_ones():
+    scene = parse_scene(UNIFORM, "uniform")
+    model = ShaftModel(shaft=scene.shaft.build(), beam=shaft_models(scene.shaft.build())[3].beam)
+    assert model.name == "4 elements, classical beam"
+    assert len(model.finer.elements) == 8
+    assert model.finer.beam == scene.shaft.beam
+
+
+def test_a_short_film_named_in_the_file_is_judged_by_the_map():
+    short = tuple(replace(one, journal=replace(one.journal, film=None)) for one in SCENE.shaft.bearings)
+    assert film_levels(replace(SCENE.shaft, bearings=short))[0].name == "map"
+    text = (ROOT / "examples" / "rotor_questions.toml").read_text()
+    named = parse_scene(text.replace('20 mPa s"', '20 mPa s", film = { name = "short" }'), "short")
+    answer = asked("unbalance_amplitude", 0.01, named, at="impeller").ask()
+    truth = asked("unbalance_amplitude", 1e-3, at="impeller").ask()
+    assert not answer.met
+    if not answer.rungs[-1].doubtful:
+        assert answer.error_estimate == pytest.approx(abs(answer.value / truth.value - 1.0), rel=0.3)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ("at = 'x'", r"question\.at must be one of a, b, middle for unbalance_amplitude, got 'x'"),
+        ("at = 'midle'", "did you mean 'middle'"),
+    ],
+)
+def test_a_place_that_is_not_there_is_named_when_the_file_is_read(change, message):
+    text = UNIFORM.replace("critical_speed", "unbalance_amplitude") + change
+    with pytest.raises(SceneError, match=message):
+        parse_scene(text, "uniform")
+
+
+def test_a_place_needs_a_shaft():
+    with pytest.raises(InputError, match=r"question\.at must be left out where there is no \[shaft\]"):
+        replace(
+            Scene.load(ROOT / "examples" / "question.toml"),
+            question=QuestionTable(quantity="eccentricity_ratio", tolerance=0.1, at="left"),
+        )
+
+
+def test_what_is_missing_or_contradictory_is_said():
+    scene = parse_scene(UNIFORM, "uniform")
+    with pytest.raises(InputError, match=r"operation is required"):
+        asked("unbalance_amplitude", 0.1, scene).ask()
+    moving = replace(scene, operation=SCENE.operation)
+    with pytest.raises(
+        InputError, match=r"question\.at is required for unbalance_phase: one of a, b, middle"
+    ):
+        asked("unbalance_phase", 0.1, moving).ask()
+    balanced = replace(moving, shaft=replace(scene.shaft, unbalances=()))
+    with pytest.raises(InputError, match=r"shaft\.unbalances must have a positive one"):
+        asked("unbalance_force", 0.1, balanced).ask()
+    loaded = replace(moving, operation=replace(moving.operation, load=(0.0, -1.0)))
+    with pytest.raises(InputError, match=r"operation\.load must be left out for a \[shaft\]"):
+        asked("unbalance_force", 0.1, loaded).ask()
+    still = replace(moving, operation=replace(moving.operation, speed=0.0))
+    with pytest.raises(InputError, match=r"operation\.speed must not be zero"):
+        asked("unbalance_force", 0.1, still).ask()
+
+
+def test_a_range_without_such_a_speed_is_an_error():
+    scene = parse_scene(UNIFORM.replace("first = 100, last = 900", "first = 10, last = 20"), "uniform")
+    with pytest.raises(RotorfilmError, match=r"no critical speed in shaft\.speeds, 10 to 20 rad/s"):
+        scene.ask()
+    with pytest.raises(RotorfilmError, match=r"10 to 20 rad/s: nothing damps or drives a whirl"):
+        asked("whirl_threshold", 0.1, scene).ask()
+    text = UNIFORM.replace("stiffness = 1e13", "stiffness = 1e7, damping = 1e3").replace(
+        "first = 100", "first = 50"
+    )
+    damped = parse_scene(text, "damped")
+    with pytest.raises(RotorfilmError, match=r"no whirl threshold in shaft\.speeds, 50 to 900 rad/s: stable"):
+        asked("whirl_threshold", 0.1, damped).ask()
+
+
+def test_the_rotor_of_the_book_takes_static_shapes_for_its_critical_speed():
+    scene = Scene.load(ROOT / "examples" / "flexible_rotor.toml")
+    answer = asked("critical_speed", 1e-3, scene).ask()
+    whole = critical_speeds(
+        scene.shaft.build(), scene.shaft.build_bearings(), np.linspace(0.97, 1.03, 3) * answer.value
+    )
+    assert (answer.model, answer.met) == ("static shapes, map", True)
+    assert answer.value == pytest.approx(whole[0].speed, rel=1e-3)
+
+
+def test_what_the_physics_leaves_out_of_a_shaft_is_said():
+    stubby = parse_scene(UNIFORM.replace("length = 1.2", "length = 0.12"), "stubby").shaft.build()
+    assert beam_remarks(stubby)[0].startswith("beam theory: 3 diameters long")
+    assert beam_remarks(SCENE.shaft.build()) == ()
+    fast = replace(SCENE, operation=replace(SCENE.operation, speed=900.0))
+    remarks = ladder_of(fast).remarks
+    assert any(line.startswith("drive_end, at 900 rad/s: heat") for line in remarks)
+    assert remarks[-1].startswith("stability: the rotor whirls by itself at 0.48 of the speed")
+    assert not any(line.startswith("stability") for line in ladder_of(SCENE).remarks)
+
+
+def test_remarks_take_the_load_of_each_bearing():
+    at = rotor_equilibrium(SCENE.shaft.build(), SCENE.shaft.build_bearings(), SCENE.speed)
+    loads = {name: float(np.hypot(*load)) for name, load in at.loads.items()}
+    lines = {line.split(",")[0]: line for line in ladder_of(SCENE).remarks if "cavitation" in line}
+    assert loads["impeller_end"] > 4.0 * loads["drive_end"]
+    assert set(lines) == {"drive_end"}  # the one that carries less than the ambient pressure
+    assert f"{loads['drive_end'] / (0.06 * 0.04) / 1e5:.2g} times" in lines["drive_end"]
