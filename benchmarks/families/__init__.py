@@ -20,5 +20,7 @@ FAMILIES: dict[str, tuple[int, Draw]] = {
     "blade loss": (1, journals.blade),
     "coupling": (1, journals.coupling),
     "damper": (2, dampers.damper),
+    "damper jumps": (2, dampers.jumps),
+    "damper blade loss": (2, dampers.lost_blade),
 }
 """Weight of each family in a round of the battery, and how one scene of it is drawn."""
