@@ -3,23 +3,21 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.optimize import brentq
 
-from ...bearings import PorousDamper, Sprung
-from ...errors import InputError, RotorfilmError, ValidityWarning
-from ...films import FiniteMapSqueeze, FiniteSqueeze, FullFilm, ShortSqueeze
+from ...errors import InputError, RotorfilmError
 from ...model import Array, Reaction
 from ...orbits.branches import synchronous_orbits
 from ...orbits.curve import OrbitRotor, orbit_points, orbit_rotor, orbit_slope
 from ...rotors import RigidRotor
 from ..counted import Counted
 from ..ladder import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work
+from .damper_films import NO_RICHER, damper_films, make_map, sprung
 from .films import MAP_MADE, NOMINAL
 
 if TYPE_CHECKING:
@@ -28,9 +26,6 @@ if TYPE_CHECKING:
 UP, DOWN = "jump_up", "jump_down"
 UNITS = {UP: "kg m", DOWN: "kg m", "transmissibility": "1", "unbalance_amplitude": "m"}
 """Quantities of a damper and their units."""
-
-TOP_BOUNDS = {FiniteSqueeze: 1e-6, FiniteMapSqueeze: 3e-4}
-"""Verified errors of the force of the richest films: docs/accuracy.md."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,7 +63,7 @@ class DamperRung:
 
     def answer(self, before: Found | None) -> Found:
         """Return the quantity; raises RotorfilmError where there is no such jump, or contact."""
-        made = _made(self.support)
+        made = make_map(self.support)
         counted = Counted(self.support)
         if before is not None:
             near = self._from(counted, float(before.solution))
@@ -118,9 +113,11 @@ class DamperRung:
         to second order by the shift of the fold; at a given unbalance the radius shifts by the defect of u
         over u'.
         """
+        if self.rich is None and not math.isfinite(self.bound):
+            return ErrorEstimate(math.inf, "none", doubt=NO_RICHER)
         if self.rich is None:
             return ErrorEstimate(self.bound, "verified bound of the film", bound=True)
-        made = _made(self.rich)
+        made = make_map(self.rich)
         radius = float(found.solution)
         fold = self.quantity in (UP, DOWN)
         change = self._fold if fold else self._orbit
@@ -167,15 +164,6 @@ class DamperRung:
 RICH = "forces of the richest film"
 
 
-def _made(support: Reaction) -> dict[str, int]:
-    """Make the map of a support that has one by its first force, and return the work of that."""
-    film = getattr(getattr(support, "reaction", support), "film", None)
-    if not isinstance(film, FiniteMapSqueeze):
-        return {}
-    support.force([0.5 * support.clearance, 0.0], [0.0, support.clearance], 1.0)
-    return {MAP_MADE: 1}
-
-
 def _system(rotor: RigidRotor, reaction: Reaction) -> OrbitRotor:
     """Return the constants of a rotor on the richest film, which is isotropic as the cheap one is."""
     reach = getattr(reaction, "largest_eccentricity_ratio", 1.0)
@@ -208,62 +196,24 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
     rotor = RigidRotor(
         mass=scene.rigid_rotor.mass, speed=scene.speed, unbalance=unbalance, gravity=(0.0, 0.0)
     )
-    dampers = _dampers(scene.damper.build(), fixed=scene.damper.film is not None)
+    films = damper_films(scene.damper)
     stiffness = scene.damper.stiffness
-    top = dampers[-1][1] if scene.damper.film is None else _richest(scene.damper.build())
     rungs = [
         DamperRung(
-            name=name,
+            name=film.name,
             rotor=rotor,
-            support=_sprung(damper, stiffness),
-            rich=None if damper == top else _sprung(top, stiffness),
+            support=sprung(film.damper, stiffness),
+            rich=None if film.rich is None else sprung(film.rich, stiffness),
             quantity=quantity,
-            prior=prior,
-            bound=TOP_BOUNDS.get(type(damper.film), math.inf),
+            prior=film.prior,
+            bound=film.bound,
         )
-        for name, damper, prior in dampers
+        for film in films
     ]
     units: dict[str, Callable[[], object]] = {rung.unit: _one(rung.support, scene.speed) for rung in rungs}
-    units[RICH] = _one(_sprung(top, stiffness), scene.speed)
+    if films[0].rich is not None:
+        units[RICH] = _one(sprung(films[0].rich, stiffness), scene.speed)
     return Ladder(rungs=tuple(rungs), unit=UNITS[quantity], units=units, nominal=NOMINAL)
-
-
-def _dampers(damper: PorousDamper, *, fixed: bool) -> list[tuple[str, PorousDamper, float]]:
-    """Return name, damper and prior error of the rungs: solid cage, thin layer, Darcy's; short, finite."""
-    if fixed:
-        return [(type(damper.film).__name__, damper, 0.0)]
-    short = _with(damper, film=ShortSqueeze())
-    slim = 0.02 * min((damper.length / (2.0 * damper.radius)) ** 2, 1.0)
-    rungs = []
-    if damper.cage is not None:
-        rungs.append(("short film, solid cage", _with(short, cage=None), slim))
-        if not damper.cage.thin:
-            try:
-                thin = _with(short, cage=replace(damper.cage, thin=True))
-                rungs.append(("short film, thin layer", thin, slim))
-            except RotorfilmError:  # an anisotropic or vented layer is never thin
-                pass
-    own = "" if damper.cage is None else ", thin layer" if damper.cage.thin else ", Darcy's layer"
-    rungs.append((f"short film{own}", short, slim))
-    richest = _richest(damper)
-    return rungs if richest == short else [*rungs, (f"finite film{own}", richest, 0.0)]
-
-
-def _richest(damper: PorousDamper) -> PorousDamper:
-    """Return the damper with a film of finite length; a fed one keeps its short film, its only one."""
-    if damper.feed is not None:
-        return _with(damper, film=ShortSqueeze())
-    return _with(damper, film=FiniteSqueeze() if isinstance(damper.extent, FullFilm) else FiniteMapSqueeze())
-
-
-def _with(damper: PorousDamper, **changes: object) -> PorousDamper:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)
-        return replace(damper, **changes)  # type: ignore[arg-type]
-
-
-def _sprung(damper: PorousDamper, stiffness: float) -> Reaction:
-    return Sprung(reaction=damper, stiffness=stiffness) if stiffness else damper
 
 
 def _one(reaction: Reaction, speed: float) -> Callable[[], object]:

@@ -55,11 +55,12 @@ def march(
     tangent, clearance = prepared_tangent(reaction), reaction.clearance
     path, rates = np.empty((2, count + 1)), np.zeros((2, count + 1))
     path[:, 0] = rest
-    (x, y), (vx, vy), (ax, ay) = rest.tolist(), (0.0, 0.0), _acceleration(tangent, mass, speed, pull, rest)
+    (x, y), (vx, vy), (ax, ay) = rest.tolist(), (0.0, 0.0), _acceleration(reaction, mass, speed, pull, rest)
     calls, k2, k1 = 1, 4.0 / step**2, 2.0 / step
     for n in range(1, count + 1):
         px, py = pull(n * step)
-        qx, qy = x + step * vx, y + step * vy
+        # With its acceleration, since a cavitated film has no derivative at rest.
+        qx, qy = x + step * (vx + 0.5 * step * ax), y + step * (vy + 0.5 * step * ay)
         if np.hypot(qx, qy) > 0.5 * (clearance + np.hypot(x, y)):
             qx, qy = x, y
         for _ in range(NEWTON_STEPS):
@@ -72,7 +73,7 @@ def march(
             c, d = -D[5] - k1 * D[7], mass * k2 - D[6] - k1 * D[8]
             det = a * d - b * c
             dx, dy = (d * rx - b * ry) / det, (a * ry - c * rx) / det
-            share = _share(qx, qy, dx, dy, clearance)
+            share = _share(qx, qy, dx, dy, clearance, n * step)
             qx, qy = qx + share * dx, qy + share * dy
             if abs(dx) + abs(dy) < TOLERANCE * clearance:
                 break
@@ -85,20 +86,22 @@ def march(
     return Motion(time=np.asarray(step * np.arange(count + 1)), position=path, velocity=rates), calls
 
 
-def _share(x: float, y: float, dx: float, dy: float, clearance: float) -> float:
+def _share(x: float, y: float, dx: float, dy: float, clearance: float, time: float) -> float:
     """Return the part of a Newton step that leaves a tenth of the gap."""
     limit, share = clearance - 0.1 * (clearance - float(np.hypot(x, y))), 1.0
     while np.hypot(x + share * dx, y + share * dy) > limit:
         share *= 0.5
         if share < 1e-6:
-            raise FilmContactError("the journal must stay inside the clearance, got to the wall")
+            raise FilmContactError(
+                f"the journal must stay inside the clearance, got to the wall at {time:.6g} s"
+            )
     return share
 
 
 def _acceleration(
-    tangent: Callable[..., tuple], mass: float, speed: float, pull: Pull, rest: Array
+    reaction: Reaction, mass: float, speed: float, pull: Pull, rest: Array
 ) -> tuple[float, float]:
-    fx, fy, _ = tangent(*rest.tolist(), 0.0, 0.0, speed)
+    fx, fy = np.asarray(reaction.force(rest, np.zeros(2), speed)).tolist()
     px, py = pull(0.0)
     return (fx + px) / mass, (fy + py) / mass
 

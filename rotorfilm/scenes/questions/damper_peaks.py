@@ -1,0 +1,280 @@
+"""How far a rotor on a squeeze-film damper goes after a blade is lost, or over a run-up."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...errors import FilmContactError, InputError
+from ...model import Array, Reaction, prepared_tangent
+from ...rotors import RigidRotor
+from ..damper_models import damper_models
+from ..damper_table import DamperTable
+from ..excitation_table import BladeLossTable, RunUpTable
+from ..ladder import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work
+from .damper_films import NO_RICHER, DamperFilm, damper_films, make_map, mapped, sprung
+from .films import NOMINAL
+from .march import ORDER, Motion, linear_march, march, peak
+
+if TYPE_CHECKING:
+    from ..scene import Scene
+
+STEPS = (48, 96, 192, 384, 768)
+"""Steps over a turn of the nonlinear rungs."""
+
+CHEAP_STEPS = (48, 192)
+"""Those of films that leave out the layer or part of it."""
+
+FED_STEPS = (24, 48, 96)
+"""Those of films with feed, which have no map: a force takes some tenths to thousandths of a second."""
+
+LINEAR_STEPS = 192
+SAMPLED = 48
+"""States over a turn at which the defect is taken."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class DamperPeakRung:
+    """The peak by one film, linear about the center or nonlinear in so many steps over a turn.
+
+    Attributes
+    ----------
+    film : DamperFilm
+    rotor : RigidRotor
+        At rest in the center.
+    stiffness : float [N/m]
+        Of the retainer springs.
+    duration : float [s]
+    steps : int
+        Over a turn at the highest speed; 0 for the linear motion.
+    """
+
+    film: DamperFilm
+    rotor: RigidRotor
+    stiffness: float
+    duration: float
+    steps: int
+
+    @property
+    def name(self) -> str:
+        """Linear, or the number of steps and the film."""
+        how = f"nonlinear, {self.steps} steps" if self.steps else "linear"
+        return f"{how}, {self.film.name}"
+
+    @property
+    def prior(self) -> float:
+        """Order of magnitude of the error of the steps, and of the film."""
+        return max(0.3 * self.film.prior, 3.0 / self.steps**2 if self.steps else 0.0)
+
+    @property
+    def tangents(self) -> str:
+        """Name of one force of this film with derivatives."""
+        return f"tangents of {self.film.name}"
+
+    @cached_property
+    def support(self) -> Reaction:
+        """Film and springs, the film on its map where it has one."""
+        return sprung(mapped(self.film.damper), self.stiffness)
+
+    @cached_property
+    def rich(self) -> Reaction | None:
+        """The richer film and the springs; None if there is none."""
+        return None if self.film.rich is None else sprung(mapped(self.film.rich), self.stiffness)
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the largest distance from the center [m]; raises FilmContactError at the wall."""
+        if not self.steps:
+            motion = self._linear(LINEAR_STEPS)
+            if np.hypot(*motion.position).max() >= self.support.clearance:
+                raise FilmContactError("the linear motion leaves the clearance")
+            half = self._linear(LINEAR_STEPS // 2)
+            return Found(
+                peak(motion.position), {"linear steps": motion.time.size}, (motion, peak(half.position))
+            )
+        made = make_map(self.support)
+        motion, calls = self._march(self.steps)
+        coarse = self._known(before)
+        if math.isnan(coarse):
+            other, more = self._march(self.steps // 2)
+            coarse, calls = peak(other.position), calls + more
+        return Found(peak(motion.position), {self.tangents: calls, **made}, (motion, coarse))
+
+    def _known(self, before: Found | None) -> float:
+        """Return the peak in steps twice as long, if the rung below has it."""
+        if before is None or self.tangents not in before.work:
+            return math.nan
+        twice = before.solution[0].time.size - 1 == self._count(self.steps // 2)
+        return float(before.value) if twice else math.nan
+
+    def _count(self, steps: int) -> int:
+        """Return an even number of steps, so that one ends where a run-up turns back."""
+        fastest = max(abs(speed) for speed in self.rotor.profile.speeds)
+        return 2 * math.ceil(self.duration * fastest * steps / (4.0 * math.pi))
+
+    def _march(self, steps: int) -> tuple[Motion, int]:
+        count = self._count(steps)
+        return march(
+            self.support, self.rotor.mass, 0.0, self._pull, np.zeros(2), self.duration / count, count
+        )
+
+    def _pull(self, t: float) -> tuple[float, float]:
+        x, y = self.rotor.unbalance_force(t).tolist()
+        return x, y
+
+    def _linear(self, steps: int) -> Motion:
+        """Return the motion by the film's stiffness and damping in the center, by average acceleration."""
+        count, (K, C) = self._count(steps), self._small
+        step, m = self.duration / count, self.rotor.mass
+        time = np.asarray(step * np.arange(count + 1))
+        pulls = [complex(*self._pull(t)) for t in time]
+        path, rates = np.zeros(count + 1, complex), np.zeros(count + 1, complex)
+        q, v, a = 0j, 0j, pulls[0] / m
+        k2, k1 = 4.0 / step**2, 2.0 / step
+        whole = m * k2 + k1 * C + K
+        for n in range(1, count + 1):
+            new = (pulls[n] + m * (k2 * (q + step * v) + a) + C * (k1 * q + v)) / whole
+            a, v, q = k2 * (new - q - step * v) - a, k1 * (new - q) - v, new
+            path[n], rates[n] = q, v
+        return Motion(
+            time=time,
+            position=np.array([path.real, path.imag]),
+            velocity=np.array([rates.real, rates.imag]),
+        )
+
+    @cached_property
+    def _small(self) -> tuple[float, float]:
+        """Stiffness and damping in the center: there also a cavitated film is linear in the velocity."""
+        c, center = self.support.clearance, np.zeros(2)
+        rate = c * abs(self.rotor.profile.speeds[-1] or 1.0)
+        damping = -float(self.support.force(center, np.array([rate, 0.0]), 0.0)[0]) / rate
+        fed = self.film.damper.is_fed
+        own = -float(self.film.damper.jacobian(center, center, 0.0)[0, 0]) if fed else 0.0
+        return self.stiffness + own, damping
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the error of the steps (order increment), and of the film by its defect along the motion."""
+        motion, coarse = found.solution
+        steps = (found.value - coarse) / (2.0**ORDER - 1.0) / found.value
+        if self.film.rich is None and not math.isfinite(self.film.bound):
+            return ErrorEstimate(math.inf, "order increment", doubt=NO_RICHER)
+        reach = float(np.hypot(*motion.position).max()) / self.support.clearance
+        limit = _reach(self.rich or self.support)
+        if reach >= limit:
+            return ErrorEstimate(math.inf, "defect", doubt=_beyond(reach, limit))
+        if self.film.rich is None and self.steps:
+            return self._by_bound(motion, found.value, steps)
+        change, doubt, calls = self._by_defect(motion, found.value, self.rich or self.support)
+        # Errors of opposite signs cancel, but how well nobody knows.
+        error = max(abs(change + steps), 0.5 * max(abs(change), abs(steps)))
+        name = "its own film" if self.rich is None else "the film of finite length"
+        work = {"defects of a richer film": calls}
+        return ErrorEstimate(error, f"order increment; defect of {name}", work, doubt=doubt)
+
+    def _by_bound(self, motion: Motion, value: float, steps: float) -> ErrorEstimate:
+        """Return the error of the steps, and what the verified error of the film could do all along."""
+        q, v, step = self._sampled(motion)
+        slopes = self.support.jacobian(q, v, 0.0)
+        film = self.film.bound * (self.support.force(q, v, 0.0) + self.stiffness * q)
+        moved = linear_march(self.rotor.mass, -slopes[:, :2], -slopes[:, 2:4], film, step)
+        bound = float(np.hypot(*moved).max()) / value
+        method = "order increment; verified bound of the film, propagated"
+        return ErrorEstimate(max(abs(steps), bound), method, {self.tangents: q.shape[1]}, abs(steps) < bound)
+
+    def _sampled(self, motion: Motion) -> tuple[Array, Array, float]:
+        """Return position, velocity and step of the samples of a motion; the first is off the rest."""
+        # With feed the richer film takes milliseconds for a force.
+        samples = SAMPLED // 2 if self.film.damper.is_fed else SAMPLED
+        stride = max(1, (self.steps or LINEAR_STEPS) // samples)
+        q, v = motion.position[:, ::stride].copy(), motion.velocity[:, ::stride].copy()
+        # A cavitated film has no derivative at rest: the direction in which the rotor starts.
+        v[:, 0] = 1e-3 * v[:, 1]
+        return q, v, float(motion.time[stride] - motion.time[0])
+
+    def _by_defect(self, motion: Motion, value: float, rich: Reaction) -> tuple[float, str, int]:
+        """Return the relative change of the peak that the richer film would make, and why not to trust it."""
+        q, v, step = self._sampled(motion)
+        slopes = rich.jacobian(q, v, 0.0)
+        if self.steps:
+            own = self.support.jacobian(q, v, 0.0)
+            cheap, K, C = self.support.force(q, v, 0.0), -own[:, :2], -own[:, 2:4]
+        else:
+            stiffness, damping = self._small
+            cheap = -stiffness * q - damping * v
+            K, C = (np.repeat(part * np.eye(2)[:, :, None], q.shape[1], axis=2) for part in self._small)
+        defect = rich.force(q, v, 0.0) - cheap
+        moved = linear_march(self.rotor.mass, -slopes[:, :2], -slopes[:, 2:4], defect, step)
+        other = linear_march(self.rotor.mass, K, C, defect, step)
+        size = float(np.linalg.norm(moved))
+        apart = float(np.linalg.norm(moved - other)) / size if size else 0.0
+        reach, limit = float(np.hypot(*(q + moved)).max()) / self.support.clearance, _reach(rich)
+        doubt = f"the slopes of both films disagree on the error by {apart:.0%}: not linear"
+        doubt = _beyond(reach, limit) if reach >= limit else doubt if apart > DISAGREEMENT else ""
+        return (peak(q + moved) - peak(q)) / value, doubt, q.shape[1]
+
+    def expected(self, done: Work) -> Work:
+        """Return three tangents for each step."""
+        return {self.tangents: 3 * self._count(self.steps)} if self.steps else {}
+
+
+def _reach(reaction: Reaction) -> float:
+    return min(0.999, getattr(reaction, "largest_eccentricity_ratio", 1.0))
+
+
+def _beyond(reach: float, limit: float) -> str:
+    return (
+        f"the rotor goes to {reach:.4g} of the clearance and the film is known to {limit:.4g}: it may touch "
+        "the wall"
+    )
+
+
+def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
+    """Return the ladder of the largest distance after a blade is lost, or over a run-up, in a damper.
+
+    Raises
+    ------
+    InputError
+        If the scene loses no blade and does not run up, has no rotor, or does not turn.
+    """
+    if not isinstance(scene.excitation, BladeLossTable | RunUpTable):
+        raise InputError(f'excitation of kind "blade_loss" or "run_up" is required for {quantity}, got none')
+    assert scene.damper is not None  # or the ladder is another one
+    models = damper_models(scene)
+    rungs = tuple(
+        DamperPeakRung(
+            film=film,
+            rotor=models.rotor,
+            stiffness=scene.damper.stiffness,
+            duration=models.duration,
+            steps=steps,
+        )
+        for film, steps in _choices(scene.damper)
+    )
+    units = {rung.tangents: _one(rung.support, scene.speed) for rung in rungs if rung.steps}
+    return Ladder(rungs=rungs, unit="m", units=units, nominal=NOMINAL)
+
+
+def _choices(table: DamperTable) -> list[tuple[DamperFilm, int]]:
+    """Return films and steps of the rungs, 0 for the linear motion, the cheapest first."""
+    films = damper_films(table)
+    *cheap, own = films if len(films) < 2 or films[-1].rich is not None else films[:-1]
+    top = films[-1]
+    fed = own.damper.is_fed
+    choices = [(film, steps) for film in cheap for steps in CHEAP_STEPS]
+    if fed:
+        choices += [(own, steps) for steps in FED_STEPS]
+    else:
+        choices += [(film, steps) for film in dict.fromkeys((own, top)) for steps in STEPS]
+    if fed and own.rich is None:
+        return choices
+    small = own if own.rich is None or table.film is not None else replace(own, damper=own.rich)
+    return [(replace(small, name="small motion"), 0), *choices]
+
+
+def _one(reaction: Reaction, speed: float) -> Callable[[], object]:
+    call, x, v = prepared_tangent(reaction), 0.5 * reaction.clearance, abs(speed) * reaction.clearance
+    return lambda: call(x, 0.0, 0.1 * v, 0.5 * v, 0.0)
