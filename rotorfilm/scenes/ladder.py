@@ -15,7 +15,7 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from ..errors import RotorfilmError, ValidityWarning, require_positive
+from ..errors import FilmContactError, RotorfilmError, ValidityWarning, require_positive
 
 SAFETY = 1.5
 """An answer is accepted if so many times its estimated error is below the tolerance."""
@@ -260,6 +260,8 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
     ------
     InputError
         If the tolerance is not positive.
+    FilmContactError
+        If the last rung that was tried finds contact.
     RotorfilmError
         What the last rung raised, if none has an answer.
 
@@ -272,6 +274,7 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
     meter = Meter(ladder)
     reports: list[RungReport] = []
     failure: RotorfilmError | None = None
+    contact = False
     before: Found | None = None
     for rung in ladder.rungs:
         if reports and reports[-1].verdict == "chosen":
@@ -283,9 +286,14 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
         try:
             report, before = _tried(rung, before, meter, tolerance)
             reports.append(report)
+            contact = False
         except RotorfilmError as error:
-            failure = error
+            failure, contact = error, isinstance(error, FilmContactError)
             reports.append(RungReport(name=rung.name, verdict="refused", reason=str(error)))
+    if contact:
+        # By the richest model that was tried; what cheaper ones say instead is no answer.
+        assert failure is not None
+        raise failure
     return _answer(quantity, ladder, meter, reports, tolerance, failure)
 
 

@@ -28,7 +28,7 @@ STEPS = (48, 96, 192, 384, 768)
 """Steps over a turn of the nonlinear rungs."""
 
 CHEAP_STEPS = (48, 192)
-"""Those of films that leave out the layer or part of it."""
+"""Those of films that leave out the layer or the flow around the circumference."""
 
 FED_STEPS = (24, 48, 96)
 """Those of films with feed, which have no map: a force takes some tenths to thousandths of a second."""
@@ -169,8 +169,9 @@ class DamperPeakRung:
         if self.film.rich is None and self.steps:
             return self._by_bound(motion, found.value, steps)
         change, doubt, calls = self._by_defect(motion, found.value, self.rich or self.support)
-        # Errors of opposite signs cancel, but how well nobody knows.
-        error = max(abs(change + steps), 0.5 * max(abs(change), abs(steps)))
+        # Errors of opposite signs cancel only as far as each is known: to a tenth, or to second order.
+        largest = max(abs(change), abs(steps))
+        error = max(abs(change + steps), largest * max(0.1, largest))
         name = "its own film" if self.rich is None else "the film of finite length"
         work = {"defects of a richer film": calls}
         return ErrorEstimate(error, f"order increment; defect of {name}", work, doubt=doubt)
@@ -183,7 +184,7 @@ class DamperPeakRung:
         moved = linear_march(self.rotor.mass, -slopes[:, :2], -slopes[:, 2:4], film, step)
         bound = float(np.hypot(*moved).max()) / value
         method = "order increment; verified bound of the film, propagated"
-        return ErrorEstimate(max(abs(steps), bound), method, {self.tangents: q.shape[1]}, abs(steps) < bound)
+        return ErrorEstimate(abs(steps) + bound, method, {self.tangents: q.shape[1]}, abs(steps) < bound)
 
     def _sampled(self, motion: Motion) -> tuple[Array, Array, float]:
         """Return position, velocity and step of the samples of a motion; the first is off the rest."""
@@ -268,7 +269,8 @@ def _choices(table: DamperTable) -> list[tuple[DamperFilm, int]]:
     if fed:
         choices += [(own, steps) for steps in FED_STEPS]
     else:
-        choices += [(film, steps) for film in dict.fromkeys((own, top)) for steps in STEPS]
+        choices += [(own, steps) for steps in CHEAP_STEPS if own is not top]
+        choices += [(top, steps) for steps in STEPS]
     if fed and own.rich is None:
         return choices
     small = own if own.rich is None or table.film is not None else replace(own, damper=own.rich)
