@@ -15,7 +15,7 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from ..errors import FilmContactError, RotorfilmError, ValidityWarning, require_positive
+from ..errors import AbsentError, FilmContactError, RotorfilmError, ValidityWarning, require_positive
 
 SAFETY = 1.5
 """An answer is accepted if so many times its estimated error is below the tolerance."""
@@ -260,8 +260,8 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
     ------
     InputError
         If the tolerance is not positive.
-    FilmContactError
-        If the last rung that was tried finds contact.
+    AbsentError, FilmContactError
+        If the last rung that was tried finds that there is no such value, or contact.
     RotorfilmError
         What the last rung raised, if none has an answer.
 
@@ -274,7 +274,7 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
     meter = Meter(ladder)
     reports: list[RungReport] = []
     failure: RotorfilmError | None = None
-    contact = False
+    absent = False
     before: Found | None = None
     for rung in ladder.rungs:
         if reports and reports[-1].verdict == "chosen":
@@ -286,11 +286,11 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
         try:
             report, before = _tried(rung, before, meter, tolerance)
             reports.append(report)
-            contact = False
+            absent = False
         except RotorfilmError as error:
-            failure, contact = error, isinstance(error, FilmContactError)
+            failure, absent = error, isinstance(error, AbsentError | FilmContactError)
             reports.append(RungReport(name=rung.name, verdict="refused", reason=str(error)))
-    if contact:
+    if absent:
         # By the richest model that was tried; what cheaper ones say instead is no answer.
         assert failure is not None
         raise failure

@@ -4,20 +4,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.optimize import brentq
 
-from ...errors import InputError, RotorfilmError
+from ...bearings import PorousDamper
+from ...errors import AbsentError, FilmContactError, InputError, RotorfilmError
+from ...films import FiniteSqueeze, ShortSqueeze
 from ...model import Array, Reaction
 from ...orbits.branches import synchronous_orbits
 from ...orbits.curve import OrbitRotor, orbit_points, orbit_rotor, orbit_slope
 from ...rotors import RigidRotor
 from ..counted import Counted
+from ..damper_models import damper_models
+from ..damper_table import DamperTable
 from ..ladder import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work
-from .damper_films import NO_RICHER, damper_films, make_map, sprung
+from .damper_films import NO_RICHER, damper_films, make_map, mapped, sprung, with_changes
 from .films import MAP_MADE, NOMINAL
 
 if TYPE_CHECKING:
@@ -41,6 +45,8 @@ class DamperRung:
         Film and springs.
     rich : Reaction or None
         The richest film with the same springs; None for this one.
+    search : Reaction
+        The film on its map, where it has one: all orbits are searched with it.
     quantity : str
     prior : float [1]
         Order of magnitude of the error of the film.
@@ -52,6 +58,7 @@ class DamperRung:
     rotor: RigidRotor
     support: Reaction
     rich: Reaction | None
+    search: Reaction
     quantity: str
     prior: float
     bound: float
@@ -65,24 +72,30 @@ class DamperRung:
         """Return the quantity; raises RotorfilmError where there is no such jump, or contact."""
         made = make_map(self.support)
         counted = Counted(self.support)
-        if before is not None:
-            near = self._from(counted, float(before.solution))
-            if near is not None:
-                return Found(near[0], {self.unit: counted.forces + counted.tangents, **made}, near[1])
-        orbits = synchronous_orbits(self.rotor, counted)
+        near = None if before is None else self._from(counted, float(before.solution))
+        if near is None:
+            value, radius = self._searched(Counted(self.search) if self.search != self.support else counted)
+            near = (value, radius) if self.search == self.support else self._from(counted, radius)
+        if near is None:
+            raise RotorfilmError(f"{self.name} has no orbit beside that of its map")
+        return Found(near[0], {self.unit: counted.forces + counted.tangents, **made}, near[1])
+
+    def _searched(self, reaction: Counted) -> tuple[float, float]:
+        """Return quantity and radius among all orbits: the smallest stable one, or the first jump."""
+        orbits = synchronous_orbits(self.rotor, reaction)
         if self.quantity in (UP, DOWN):
             folds = [fold for fold in orbits.folds if fold.upward == (self.quantity == UP)]
             if not folds:
-                raise RotorfilmError(f"no {self.quantity.replace('_', ' ')}: one orbit at every unbalance")
-            value, radius = folds[0].unbalance, folds[0].eccentricity_ratio
-        else:
-            found = orbits.at(self.rotor.unbalance)
-            if not found:
-                raise RotorfilmError("no orbit at this unbalance: the rotor reaches the wall")
-            radius = found[0].eccentricity_ratio
-            amplitude = radius * self.support.clearance
-            value = found[0].transmissibility if self.quantity == "transmissibility" else amplitude
-        return Found(value, {self.unit: counted.forces + counted.tangents, **made}, radius)
+                why = "no orbit ends so" if orbits.folds else "one orbit at every unbalance"
+                raise AbsentError(f"no {self.quantity.replace('_', ' ')} of the rotor in the damper: {why}")
+            return folds[0].unbalance, folds[0].eccentricity_ratio
+        found = orbits.at(self.rotor.unbalance)
+        if not found:
+            raise FilmContactError("no orbit at this unbalance: the rotor reaches the wall")
+        chosen = next((orbit for orbit in found if orbit.stable), found[0])
+        amplitude = chosen.eccentricity_ratio * reaction.clearance
+        value = chosen.transmissibility if self.quantity == "transmissibility" else amplitude
+        return value, chosen.eccentricity_ratio
 
     def _from(self, counted: Counted, radius: float) -> tuple[float, float] | None:
         """Return quantity and radius of the orbit next to that of a lower rung, if there is one."""
@@ -190,12 +203,11 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
     """
     if scene.damper is None or scene.rigid_rotor is None:
         raise InputError(f"rigid_rotor is required for {quantity}, got no such table")
-    unbalance = scene.rigid_rotor.unbalance or 1e-9 * scene.rigid_rotor.mass * scene.damper.clearance
-    if quantity not in (UP, DOWN) and scene.rigid_rotor.unbalance <= 0.0:
+    rotor = damper_models(scene).rotor
+    if quantity in (UP, DOWN):
+        rotor = replace(rotor, unbalance=1e-9 * rotor.mass * scene.damper.clearance)
+    elif rotor.unbalance <= 0.0:
         raise InputError(f"rigid_rotor.unbalance must be positive for {quantity}, got 0.0")
-    rotor = RigidRotor(
-        mass=scene.rigid_rotor.mass, speed=scene.speed, unbalance=unbalance, gravity=(0.0, 0.0)
-    )
     films = damper_films(scene.damper)
     stiffness = scene.damper.stiffness
     rungs = [
@@ -204,6 +216,7 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
             rotor=rotor,
             support=sprung(film.damper, stiffness),
             rich=None if film.rich is None else sprung(film.rich, stiffness),
+            search=sprung(_searching(film.damper), stiffness),
             quantity=quantity,
             prior=film.prior,
             bound=film.bound,
@@ -213,7 +226,34 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
     units: dict[str, Callable[[], object]] = {rung.unit: _one(rung.support, scene.speed) for rung in rungs}
     if films[0].rich is not None:
         units[RICH] = _one(sprung(films[0].rich, stiffness), scene.speed)
-    return Ladder(rungs=tuple(rungs), unit=UNITS[quantity], units=units, nominal=NOMINAL)
+    steady = quantity not in (UP, DOWN) and not films[-1].damper.is_fed
+    remarks = orbit_remarks(rotor, _short(scene.damper), stiffness) if steady else ()
+    return Ladder(rungs=tuple(rungs), unit=UNITS[quantity], units=units, nominal=NOMINAL, remarks=remarks)
+
+
+def _short(table: DamperTable) -> PorousDamper:
+    """Return the damper with the short film, which tells how many orbits there are."""
+    return with_changes(table.build(), film=ShortSqueeze())
+
+
+def _searching(damper: PorousDamper) -> PorousDamper:
+    """Return a damper whose film is quick enough for hundreds of orbits; a short one reaches the wall itself."""
+    return mapped(damper) if isinstance(damper.film, FiniteSqueeze) else damper
+
+
+def orbit_remarks(rotor: RigidRotor, film: PorousDamper, stiffness: float) -> tuple[str, ...]:
+    """Return which orbit is meant, where the short film has several at the rotor's unbalance."""
+    found = synchronous_orbits(rotor, sprung(film, stiffness)).at(rotor.unbalance)
+    if len(found) < 2:
+        return ()
+    shown = ", ".join(
+        f"{orbit.eccentricity_ratio:.3g} ({'stable' if orbit.stable else 'unstable'})" for orbit in found
+    )
+    return (
+        f"{len(found)} orbits at this unbalance, of eccentricity ratios about {shown}: the answer is the "
+        "smallest stable one, on which a rotor is whose unbalance grew; a blow or a fall of the unbalance "
+        "may leave it on another",
+    )
 
 
 def _one(reaction: Reaction, speed: float) -> Callable[[], object]:
