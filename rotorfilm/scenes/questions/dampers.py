@@ -21,7 +21,7 @@ from ..counted import Counted
 from ..damper_models import damper_models
 from ..damper_table import DamperTable
 from ..ladder import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work
-from .damper_films import NO_RICHER, damper_films, make_map, mapped, sprung, with_changes
+from .damper_films import NO_RICHER, DamperFilm, damper_films, make_map, mapped, sprung, with_changes
 from .films import MAP_MADE, NOMINAL
 
 if TYPE_CHECKING:
@@ -208,7 +208,7 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
         rotor = replace(rotor, unbalance=1e-9 * rotor.mass * scene.damper.clearance)
     elif rotor.unbalance <= 0.0:
         raise InputError(f"rigid_rotor.unbalance must be positive for {quantity}, got 0.0")
-    films = damper_films(scene.damper)
+    films = [film for film in damper_films(scene.damper) if not _endless(film, quantity)]
     stiffness = scene.damper.stiffness
     rungs = [
         DamperRung(
@@ -236,8 +236,14 @@ def _short(table: DamperTable) -> PorousDamper:
     return with_changes(table.build(), film=ShortSqueeze())
 
 
+def _endless(film: DamperFilm, quantity: str) -> bool:
+    """Return whether hundreds of orbits would take minutes: a fed film of finite length has no map."""
+    slow = film.damper.is_fed and isinstance(film.damper.film, FiniteSqueeze)
+    return slow and film.rich is None and film.name.startswith("finite") and quantity in (UP, DOWN)
+
+
 def _searching(damper: PorousDamper) -> PorousDamper:
-    """Return a damper whose film is quick enough for hundreds of orbits; a short one reaches the wall itself."""
+    """Return a damper whose film is quick enough for hundreds of orbits."""
     return mapped(damper) if isinstance(damper.film, FiniteSqueeze) else damper
 
 
