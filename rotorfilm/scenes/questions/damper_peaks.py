@@ -18,6 +18,7 @@ from ..damper_table import DamperTable
 from ..excitation_table import BladeLossTable, RunUpTable
 from ..ladder import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work
 from .damper_films import NO_RICHER, DamperFilm, damper_films, make_map, mapped, sprung
+from .damper_remarks import scene_remarks
 from .films import NOMINAL
 from .march import ORDER, Motion, linear_march, march, peak
 
@@ -171,7 +172,7 @@ class DamperPeakRung:
         change, doubt, calls = self._by_defect(motion, found.value, self.rich or self.support)
         # Errors of opposite signs cancel only as far as each is known: to a tenth, or to second order.
         largest = max(abs(change), abs(steps))
-        error = max(abs(change + steps), largest * max(0.1, largest))
+        error = max(abs(change + steps), largest * max(0.1, min(1.0, largest)))
         name = "its own film" if self.rich is None else "the film of finite length"
         work = {"defects of a richer film": calls}
         return ErrorEstimate(error, f"order increment; defect of {name}", work, doubt=doubt)
@@ -213,6 +214,9 @@ class DamperPeakRung:
         size = float(np.linalg.norm(moved))
         apart = float(np.linalg.norm(moved - other)) / size if size else 0.0
         reach, limit = float(np.hypot(*(q + moved)).max()) / self.support.clearance, _reach(rich)
+        if reach >= 1.0:
+            doubt = "with its error the rotor would leave the clearance: a jump, or contact, and not linear"
+            return math.inf, doubt, q.shape[1]
         doubt = f"the slopes of both films disagree on the error by {apart:.0%}: not linear"
         doubt = _beyond(reach, limit) if reach >= limit else doubt if apart > DISAGREEMENT else ""
         return (peak(q + moved) - peak(q)) / value, doubt, q.shape[1]
@@ -256,7 +260,8 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
         for film, steps in _choices(scene.damper)
     )
     units = {rung.tangents: _one(rung.support, scene.speed) for rung in rungs if rung.steps}
-    return Ladder(rungs=rungs, unit="m", units=units, nominal=NOMINAL)
+    remarks = scene_remarks(scene, models.rotor, steady=False)
+    return Ladder(rungs=rungs, unit="m", units=units, nominal=NOMINAL, remarks=remarks)
 
 
 def _choices(table: DamperTable) -> list[tuple[DamperFilm, int]]:

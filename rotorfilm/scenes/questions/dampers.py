@@ -12,16 +12,16 @@ from scipy.optimize import brentq
 
 from ...bearings import PorousDamper
 from ...errors import AbsentError, FilmContactError, InputError, RotorfilmError
-from ...films import FiniteSqueeze, ShortSqueeze
+from ...films import FiniteSqueeze
 from ...model import Array, Reaction
 from ...orbits.branches import synchronous_orbits
 from ...orbits.curve import OrbitRotor, orbit_points, orbit_rotor, orbit_slope
 from ...rotors import RigidRotor
 from ..counted import Counted
 from ..damper_models import damper_models
-from ..damper_table import DamperTable
 from ..ladder import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work
-from .damper_films import NO_RICHER, DamperFilm, damper_films, make_map, mapped, sprung, with_changes
+from .damper_films import NO_RICHER, DamperFilm, damper_films, make_map, mapped, sprung
+from .damper_remarks import scene_remarks
 from .films import MAP_MADE, NOMINAL
 
 if TYPE_CHECKING:
@@ -226,14 +226,14 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
     units: dict[str, Callable[[], object]] = {rung.unit: _one(rung.support, scene.speed) for rung in rungs}
     if films[0].rich is not None:
         units[RICH] = _one(sprung(films[0].rich, stiffness), scene.speed)
-    steady = quantity not in (UP, DOWN) and not films[-1].damper.is_fed
-    remarks = orbit_remarks(rotor, _short(scene.damper), stiffness) if steady else ()
-    return Ladder(rungs=tuple(rungs), unit=UNITS[quantity], units=units, nominal=NOMINAL, remarks=remarks)
-
-
-def _short(table: DamperTable) -> PorousDamper:
-    """Return the damper with the short film, which tells how many orbits there are."""
-    return with_changes(table.build(), film=ShortSqueeze())
+    asked = replace(rotor, unbalance=0.0) if quantity in (UP, DOWN) else rotor
+    return Ladder(
+        rungs=tuple(rungs),
+        unit=UNITS[quantity],
+        units=units,
+        nominal=NOMINAL,
+        remarks=scene_remarks(scene, asked, steady=quantity not in (UP, DOWN)),
+    )
 
 
 def _endless(film: DamperFilm, quantity: str) -> bool:
@@ -245,21 +245,6 @@ def _endless(film: DamperFilm, quantity: str) -> bool:
 def _searching(damper: PorousDamper) -> PorousDamper:
     """Return a damper whose film is quick enough for hundreds of orbits."""
     return mapped(damper) if isinstance(damper.film, FiniteSqueeze) else damper
-
-
-def orbit_remarks(rotor: RigidRotor, film: PorousDamper, stiffness: float) -> tuple[str, ...]:
-    """Return which orbit is meant, where the short film has several at the rotor's unbalance."""
-    found = synchronous_orbits(rotor, sprung(film, stiffness)).at(rotor.unbalance)
-    if len(found) < 2:
-        return ()
-    shown = ", ".join(
-        f"{orbit.eccentricity_ratio:.3g} ({'stable' if orbit.stable else 'unstable'})" for orbit in found
-    )
-    return (
-        f"{len(found)} orbits at this unbalance, of eccentricity ratios about {shown}: the answer is the "
-        "smallest stable one, on which a rotor is whose unbalance grew; a blow or a fall of the unbalance "
-        "may leave it on another",
-    )
 
 
 def _one(reaction: Reaction, speed: float) -> Callable[[], object]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -16,6 +17,10 @@ ORDER = 2
 NEWTON_STEPS = 20
 TOLERANCE = 1e-10
 """Last Newton step, in clearances."""
+
+CONTACT = "the journal must stay inside the clearance"
+NEAR = 0.9999
+"""Eccentricity ratio from which Newton's method, where it does not end, counts as led to the wall."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,7 +66,7 @@ def march(
         px, py = pull(n * step)
         # With its acceleration, since a cavitated film has no derivative at rest.
         qx, qy = x + step * (vx + 0.5 * step * ax), y + step * (vy + 0.5 * step * ay)
-        if np.hypot(qx, qy) > 0.5 * (clearance + np.hypot(x, y)):
+        if math.hypot(qx, qy) > 0.5 * (clearance + math.hypot(x, y)):
             qx, qy = x, y
         for _ in range(NEWTON_STEPS):
             wx, wy = k1 * (qx - x) - vx, k1 * (qy - y) - vy
@@ -78,6 +83,7 @@ def march(
             if abs(dx) + abs(dy) < TOLERANCE * clearance:
                 break
         else:
+            _require_inside(qx, qy, clearance, n * step)
             raise ConvergenceError(f"Newton's method must end within {NEWTON_STEPS} steps at step {n}")
         wx, wy = k1 * (qx - x) - vx, k1 * (qy - y) - vy
         ax, ay = k2 * (qx - x - step * vx) - ax, k2 * (qy - y - step * vy) - ay
@@ -88,14 +94,18 @@ def march(
 
 def _share(x: float, y: float, dx: float, dy: float, clearance: float, time: float) -> float:
     """Return the part of a Newton step that leaves a tenth of the gap."""
-    limit, share = clearance - 0.1 * (clearance - float(np.hypot(x, y))), 1.0
-    while np.hypot(x + share * dx, y + share * dy) > limit:
+    limit, share = clearance - 0.1 * (clearance - math.hypot(x, y)), 1.0
+    while math.hypot(x + share * dx, y + share * dy) > limit:
         share *= 0.5
         if share < 1e-6:
-            raise FilmContactError(
-                f"the journal must stay inside the clearance, got to the wall at {time:.6g} s"
-            )
+            raise FilmContactError(f"{CONTACT}, got to the wall at {time:.6g} s")
     return share
+
+
+def _require_inside(x: float, y: float, clearance: float, time: float) -> None:
+    """Raise FilmContactError where Newton's method has been led to the wall."""
+    if math.hypot(x, y) > NEAR * clearance:
+        raise FilmContactError(f"{CONTACT}, got to the wall at {time:.6g} s")
 
 
 def _acceleration(
@@ -113,13 +123,13 @@ def linear_march(mass: float, stiffness: Array, damping: Array, pull: Array, ste
     q: Array = np.zeros(2)
     v: Array = np.zeros(2)
     a: Array = pull[:, 0] / mass
-    k2, k1, one = 4.0 / step**2, 2.0 / step, np.eye(2)
+    k2, k1, one = 4.0 / step**2, 2.0 / step, np.eye(2)[:, :, None]
+    inverse = np.linalg.inv(np.moveaxis(mass * k2 * one + k1 * damping + stiffness, -1, 0))
     for n in range(1, count):
-        K, C = stiffness[:, :, n], damping[:, :, n]
-        known = mass * (k2 * (q + step * v) + a) + C @ (k1 * q + v)
-        new = np.linalg.solve(mass * k2 * one + k1 * C + K, pull[:, n] + known)
+        known = mass * (k2 * (q + step * v) + a) + damping[:, :, n] @ (k1 * q + v)
+        new = inverse[n] @ (pull[:, n] + known)
         a, v = np.asarray(k2 * (new - q - step * v) - a), np.asarray(k1 * (new - q) - v)
-        q = np.asarray(new)
+        q = new
         path[:, n] = q
     return path
 
