@@ -44,6 +44,12 @@ class DamperRun:
     peak_force: float
     contact_time: float | None
 
+    @property
+    def force(self) -> Array:
+        """Force on the housing, of film and springs, shape (n,) [N]."""
+        signals = self.trajectory.signals
+        return np.asarray(np.hypot(signals["force_x"], signals["force_y"]))
+
 
 def run_damper(scene: Scene) -> DamperRun:
     """Return the motion by integrating rotor and damper as one system; contact ends it and is no error."""
