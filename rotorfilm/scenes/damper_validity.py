@@ -13,7 +13,7 @@ from ..films.porous_layer import layer_modes
 from .lubricant_table import LubricantTable
 from .validity import ATMOSPHERE, NOTABLE
 
-NOTABLE_MASS = 0.02
+NOTABLE_MASS = 0.05
 """Mass of the moving film / mass of the rotor that is worth a word."""
 
 
@@ -33,7 +33,8 @@ class DamperNumbers(NamedTuple):
     thinning : float
         Relative loss of viscosity by that.
     tension : float
-        Ambient pressure over the largest pressure of the film: a full film carries as much tension.
+        Ambient pressure over the largest pressure of the film: a full film carries as much tension; and the
+        part of a cavity that ambient pressure fills again within a turn is of this order.
     compression : float
         Largest pressure over the bulk modulus.
     """
@@ -110,8 +111,8 @@ def damper_remarks(
         "pressure, where oil ruptures": full and n.tension < 1.0,
         f"cavitation: {orbit} the pressure is {1.0 / n.tension:.2g} of the ambient one only, so that the oil "
         "may not rupture where this film does": not full and n.tension > 1.0 / NOTABLE,
-        f"cavitation: {orbit} the film ruptures; what fills the cavity again, and air in the oil, is left "
-        "out, and no film conserves its mass": not full and n.tension < 1.0,
+        f"cavitation: {orbit} the pressure is {1.0 / n.tension:.2g} times the ambient one, which does not "
+        "fill the cavity again within a turn; no film conserves its mass": not full and n.tension < NOTABLE,
         f"heat: {orbit} the oil warms by about {n.warming:.2g} K (Peclet number {n.peclet:.2g}), which takes "
         f"{n.thinning:.0%} of its viscosity": n.thinning > NOTABLE,
         f"compressibility: {n.compression:.2%} by the largest pressure": n.compression > 0.01,

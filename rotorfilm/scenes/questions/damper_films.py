@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from ...bearings import PorousDamper, Sprung
 from ...errors import RotorfilmError, ValidityWarning
 from ...films import FiniteMapSqueeze, FiniteSqueeze, FullFilm, MapSqueeze, ShortSqueeze
+from ...films.squeeze_laws import SqueezeLaw
 from ...model import Reaction
 from ..damper_table import DamperTable
 from .films import MAP_MADE
@@ -19,6 +23,9 @@ DEFECT_CELLS = (10, 20)
 TOP_BOUNDS = {FiniteSqueeze: 1e-6, FiniteMapSqueeze: 3e-4}
 """Verified errors of the force of the richest films: docs/accuracy.md."""
 
+RICH_MADE = "maps of the film of finite length made for estimates"
+"""Unit of the work of making the map that defects are sampled with."""
+
 NO_RICHER = (
     "no film of finite length is there for a cavitated damper with feed, so that nobody knows how far the "
     "short one is off"
@@ -27,15 +34,19 @@ NO_RICHER = (
 
 @dataclass(frozen=True, kw_only=True)
 class DamperFilm:
-    """A film of a damper that may answer.
+    """A film of a damper that may answer; the dampers are made when they are needed, for a map takes seconds.
 
     Attributes
     ----------
     name : str
-    damper : PorousDamper
-        With this film.
-    rich : PorousDamper or None
-        With the film that its defect is sampled with; None where there is none.
+    shape : PorousDamper
+        The damper with a short film, and the cage that this rung knows.
+    law : SqueezeLaw
+        The film.
+    rich_shape : PorousDamper
+        The damper with a short film and its whole cage.
+    rich_law : SqueezeLaw or None
+        The film that the defect is sampled with; None where there is none.
     prior : float [1]
         Order of magnitude of the error of its force; 0 if unknown.
     bound : float [1]
@@ -43,10 +54,54 @@ class DamperFilm:
     """
 
     name: str
-    damper: PorousDamper
-    rich: PorousDamper | None
+    shape: PorousDamper
+    law: SqueezeLaw
+    rich_shape: PorousDamper
+    rich_law: SqueezeLaw | None
     prior: float
     bound: float
+
+    @property
+    def is_fed(self) -> bool:
+        """Whether the force has a part that comes from a feed."""
+        return self.shape.is_fed
+
+    @property
+    def makes_map(self) -> bool:
+        """Whether the damper is made with a map, which takes seconds."""
+        return isinstance(self.law, FiniteMapSqueeze)
+
+    @property
+    def work(self) -> dict[str, int]:
+        """Work of making the damper."""
+        return {MAP_MADE: 1} if self.makes_map else {}
+
+    @property
+    def rich_work(self) -> dict[str, int]:
+        """Work of making the richer one."""
+        return {RICH_MADE: 1} if isinstance(self.rich_law, FiniteMapSqueeze) else {}
+
+    @cached_property
+    def damper(self) -> PorousDamper:
+        """The damper with its film."""
+        return with_changes(self.shape, film=self.law)
+
+    @cached_property
+    def rich(self) -> PorousDamper | None:
+        """The damper with the richer film."""
+        return None if self.rich_law is None else with_changes(self.rich_shape, film=self.rich_law)
+
+    @cached_property
+    def moving(self) -> PorousDamper:
+        """The damper on the map of its film, where it has one: a motion takes thousands of forces."""
+        return with_changes(self.shape, film=_mapped(self.law, self.shape))
+
+    @cached_property
+    def rich_moving(self) -> PorousDamper | None:
+        """The richer damper on its map."""
+        if self.rich_law is None:
+            return None
+        return with_changes(self.rich_shape, film=_mapped(self.rich_law, self.rich_shape))
 
 
 def damper_films(table: DamperTable) -> tuple[DamperFilm, ...]:
@@ -55,77 +110,80 @@ def damper_films(table: DamperTable) -> tuple[DamperFilm, ...]:
     Solid cage, thin layer, Darcy's layer with the short film, then the film of finite length. A film with
     feed keeps its cage, through which it is fed.
     """
-    damper = table.build()
-    top = richest(damper)
-    named = [(type(damper.film).__name__, damper, 0.0)]
-    found = _free(damper, top) if table.film is None else named
-    rich = None if top is None else coarser(top)
+    shape, top = _short(table), richest_law(_short(table))
+    named = None if table.film is None else table.film.build()
+    found = _free(shape, top) if named is None else [(type(named).__name__, shape, named, 0.0)]
+    rich = FiniteMapSqueeze(cells=DEFECT_CELLS) if isinstance(top, FiniteMapSqueeze) else top
     return tuple(
         DamperFilm(
             name=name,
-            damper=film,
-            rich=None if film == top else rich,
+            shape=own,
+            law=law,
+            rich_shape=shape,
+            rich_law=None if law == top else rich,
             prior=prior,
-            bound=TOP_BOUNDS.get(type(film.film), math.inf),
+            bound=TOP_BOUNDS.get(type(law), math.inf),
         )
-        for name, film, prior in found
+        for name, own, law, prior in found
     )
 
 
-def _free(damper: PorousDamper, top: PorousDamper | None) -> list[tuple[str, PorousDamper, float]]:
-    short = with_changes(damper, film=ShortSqueeze())
-    slim = 0.02 * min(damper.slenderness**2, 1.0)
-    rungs = []
-    if damper.cage is not None and not damper.is_fed:
-        rungs.append(("short film, solid cage", with_changes(short, cage=None), slim))
-        if not damper.cage.thin:
+def _short(table: DamperTable) -> PorousDamper:
+    """Return the damper of a scene with the short film, which takes no time to make."""
+    with quiet():
+        return replace(table, film=None).build()
+
+
+def _free(shape: PorousDamper, top: SqueezeLaw | None) -> list[tuple[str, PorousDamper, SqueezeLaw, float]]:
+    short = ShortSqueeze()
+    slim = 0.02 * min(shape.slenderness**2, 1.0)
+    rungs: list[tuple[str, PorousDamper, SqueezeLaw, float]] = []
+    if shape.cage is not None and not shape.is_fed:
+        rungs.append(("short film, solid cage", with_changes(shape, cage=None), short, slim))
+        if not shape.cage.thin:
             try:
-                thin = with_changes(short, cage=replace(damper.cage, thin=True))
-                rungs.append(("short film, thin layer", thin, slim))
+                thin = with_changes(shape, cage=replace(shape.cage, thin=True))
+                rungs.append(("short film, thin layer", thin, short, slim))
             except RotorfilmError:
                 pass
-    own = "" if damper.cage is None else ", thin layer" if damper.cage.thin else ", Darcy's layer"
-    rungs.append((f"short film{own}", short, slim))
-    return rungs if top is None else [*rungs, (f"finite film{own}", top, 0.0)]
+    own = "" if shape.cage is None else ", thin layer" if shape.cage.thin else ", Darcy's layer"
+    rungs.append((f"short film{own}", shape, short, slim))
+    return rungs if top is None else [*rungs, (f"finite film{own}", shape, top, 0.0)]
 
 
-def richest(damper: PorousDamper) -> PorousDamper | None:
-    """Return the damper with a film of finite length; None for a cavitated one with feed, which has none."""
+def richest_law(damper: PorousDamper) -> SqueezeLaw | None:
+    """Return the film of finite length of a damper; None for a cavitated one with feed, which has none."""
     full = isinstance(damper.extent, FullFilm)
     if damper.is_fed and not full:
         return None
-    return with_changes(damper, film=FiniteSqueeze() if full else FiniteMapSqueeze())
+    return FiniteSqueeze() if full else FiniteMapSqueeze()
 
 
-def coarser(damper: PorousDamper) -> PorousDamper:
-    """Return a damper of finite length with a coarser map, if it has one: enough for a defect."""
-    cavitated_map = isinstance(damper.film, FiniteMapSqueeze)
-    return replace(damper, film=FiniteMapSqueeze(cells=DEFECT_CELLS)) if cavitated_map else damper
+def _mapped(law: SqueezeLaw, shape: PorousDamper) -> SqueezeLaw:
+    maps: dict[type, SqueezeLaw] = {ShortSqueeze: MapSqueeze(), FiniteSqueeze: FiniteMapSqueeze()}
+    return law if shape.is_fed else maps.get(type(law), law)
 
 
-def mapped(damper: PorousDamper) -> PorousDamper:
-    """Return the damper on the map of its film, where it has one: a motion takes thousands of forces."""
-    laws = {ShortSqueeze: MapSqueeze(), FiniteSqueeze: FiniteMapSqueeze()}
-    law = laws.get(type(damper.film))
-    return damper if law is None or damper.is_fed else with_changes(damper, film=law)
+def mapped_short(table: DamperTable) -> PorousDamper:
+    """Return the damper with the short film, on its map where it has one."""
+    shape = _short(table)
+    return with_changes(shape, film=_mapped(ShortSqueeze(), shape))
 
 
 def with_changes(damper: PorousDamper, **changes: object) -> PorousDamper:
     """Return the damper with other fields, without the warning of a short film: its error is estimated."""
+    with quiet():
+        return replace(damper, **changes)  # type: ignore[arg-type]
+
+
+@contextmanager
+def quiet() -> Iterator[None]:
+    """Leave out what a film warns of when it is made: a ladder estimates its error."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ValidityWarning)
-        return replace(damper, **changes)  # type: ignore[arg-type]
+        yield
 
 
 def sprung(damper: PorousDamper, stiffness: float) -> Reaction:
     """Return the damper with springs of the stiffness [N/m], if there are some."""
     return Sprung(reaction=damper, stiffness=stiffness) if stiffness else damper
-
-
-def make_map(support: Reaction) -> dict[str, int]:
-    """Make the map of a support that has one by its first force, and return the work of that."""
-    film = getattr(getattr(support, "reaction", support), "film", None)
-    if not isinstance(film, FiniteMapSqueeze):
-        return {}
-    support.force([0.5 * support.clearance, 0.0], [0.0, support.clearance], 1.0)
-    return {MAP_MADE: 1}

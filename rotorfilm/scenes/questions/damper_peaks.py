@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...errors import FilmContactError, InputError
-from ...model import Array, Reaction, prepared_tangent
+from ...model import Array, Reaction, Tangent, prepared_tangent
 from ...rotors import RigidRotor
 from ..damper_models import damper_models
 from ..damper_table import DamperTable
 from ..excitation_table import BladeLossTable, RunUpTable
 from ..ladder import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work
-from .damper_films import NO_RICHER, DamperFilm, damper_films, make_map, mapped, sprung
+from .damper_films import NO_RICHER, DamperFilm, damper_films, quiet, sprung
 from .damper_remarks import scene_remarks
 from .films import NOMINAL
 from .march import ORDER, Motion, linear_march, march, peak
@@ -80,12 +80,18 @@ class DamperPeakRung:
     @cached_property
     def support(self) -> Reaction:
         """Film and springs, the film on its map where it has one."""
-        return sprung(mapped(self.film.damper), self.stiffness)
+        return sprung(self.film.moving, self.stiffness)
+
+    @cached_property
+    def tangent(self) -> Tangent:
+        """Force and derivatives of film and springs for plain numbers."""
+        return prepared_tangent(self.support)
 
     @cached_property
     def rich(self) -> Reaction | None:
         """The richer film and the springs; None if there is none."""
-        return None if self.film.rich is None else sprung(mapped(self.film.rich), self.stiffness)
+        found = self.film.rich_moving
+        return None if found is None else sprung(found, self.stiffness)
 
     def answer(self, before: Found | None) -> Found:
         """Return the largest distance from the center [m]; raises FilmContactError at the wall."""
@@ -97,7 +103,7 @@ class DamperPeakRung:
             return Found(
                 peak(motion.position), {"linear steps": motion.time.size}, (motion, peak(half.position))
             )
-        made = make_map(self.support)
+        made = self.film.work
         motion, calls = self._march(self.steps)
         coarse = self._known(before)
         if math.isnan(coarse):
@@ -153,7 +159,7 @@ class DamperPeakRung:
         c, center = self.support.clearance, np.zeros(2)
         rate = c * abs(self.rotor.profile.speeds[-1] or 1.0)
         damping = -float(self.support.force(center, np.array([rate, 0.0]), 0.0)[0]) / rate
-        fed = self.film.damper.is_fed
+        fed = self.film.is_fed
         own = -float(self.film.damper.jacobian(center, center, 0.0)[0, 0]) if fed else 0.0
         return self.stiffness + own, damping
 
@@ -161,20 +167,20 @@ class DamperPeakRung:
         """Return the error of the steps (order increment), and of the film by its defect along the motion."""
         motion, coarse = found.solution
         steps = (found.value - coarse) / (2.0**ORDER - 1.0) / found.value
-        if self.film.rich is None and not math.isfinite(self.film.bound):
+        if self.film.rich_law is None and not math.isfinite(self.film.bound):
             return ErrorEstimate(math.inf, "order increment", doubt=NO_RICHER)
         reach = float(np.hypot(*motion.position).max()) / self.support.clearance
         limit = _reach(self.rich or self.support)
         if reach >= limit:
             return ErrorEstimate(math.inf, "defect", doubt=_beyond(reach, limit))
-        if self.film.rich is None and self.steps:
+        if self.film.rich_law is None and self.steps:
             return self._by_bound(motion, found.value, steps)
         change, doubt, calls = self._by_defect(motion, found.value, self.rich or self.support)
         # Errors of opposite signs cancel only as far as each is known: to a tenth, or to second order.
         largest = max(abs(change), abs(steps))
         error = max(abs(change + steps), largest * max(0.1, min(1.0, largest)))
         name = "its own film" if self.rich is None else "the film of finite length"
-        work = {"defects of a richer film": calls}
+        work = {"defects of a richer film": calls, **self.film.rich_work}
         return ErrorEstimate(error, f"order increment; defect of {name}", work, doubt=doubt)
 
     def _by_bound(self, motion: Motion, value: float, steps: float) -> ErrorEstimate:
@@ -190,7 +196,7 @@ class DamperPeakRung:
     def _sampled(self, motion: Motion) -> tuple[Array, Array, float]:
         """Return position, velocity and step of the samples of a motion; the first is off the rest."""
         # With feed the richer film takes milliseconds for a force.
-        samples = SAMPLED // 2 if self.film.damper.is_fed else SAMPLED
+        samples = SAMPLED // 2 if self.film.is_fed else SAMPLED
         stride = max(1, (self.steps or LINEAR_STEPS) // samples)
         q, v = motion.position[:, ::stride].copy(), motion.velocity[:, ::stride].copy()
         # A cavitated film has no derivative at rest: the direction in which the rotor starts.
@@ -237,6 +243,7 @@ def _beyond(reach: float, limit: float) -> str:
     )
 
 
+@quiet()
 def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     """Return the ladder of the largest distance after a blade is lost, or over a run-up, in a damper.
 
@@ -259,7 +266,7 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
         )
         for film, steps in _choices(scene.damper)
     )
-    units = {rung.tangents: _one(rung.support, scene.speed) for rung in rungs if rung.steps}
+    units = {rung.tangents: _one(rung, scene.speed) for rung in rungs if rung.steps}
     remarks = scene_remarks(scene, models.rotor, steady=False)
     return Ladder(rungs=rungs, unit="m", units=units, nominal=NOMINAL, remarks=remarks)
 
@@ -267,21 +274,27 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
 def _choices(table: DamperTable) -> list[tuple[DamperFilm, int]]:
     """Return films and steps of the rungs, 0 for the linear motion, the cheapest first."""
     films = damper_films(table)
-    *cheap, own = films if len(films) < 2 or films[-1].rich is not None else films[:-1]
+    *cheap, own = films if len(films) < 2 or films[-1].rich_law is not None else films[:-1]
     top = films[-1]
-    fed = own.damper.is_fed
+    fed = own.is_fed
     choices = [(film, steps) for film in cheap for steps in CHEAP_STEPS]
     if fed:
         choices += [(own, steps) for steps in FED_STEPS]
     else:
         choices += [(own, steps) for steps in CHEAP_STEPS if own is not top]
         choices += [(top, steps) for steps in STEPS]
-    if fed and own.rich is None:
+    if fed and own.rich_law is None:
         return choices
-    small = own if own.rich is None or table.film is not None else replace(own, damper=own.rich)
+    # Without a film named, with the damping of the richer film, which the estimate needs anyway.
+    small = own
+    if own.rich_law is not None and table.film is None:
+        small = replace(own, law=own.rich_law)
     return [(replace(small, name="small motion"), 0), *choices]
 
 
-def _one(reaction: Reaction, speed: float) -> Callable[[], object]:
-    call, x, v = prepared_tangent(reaction), 0.5 * reaction.clearance, abs(speed) * reaction.clearance
-    return lambda: call(x, 0.0, 0.1 * v, 0.5 * v, 0.0)
+def _one(rung: DamperPeakRung, speed: float) -> Callable[[], object]:
+    def one() -> object:
+        x, v = 0.5 * rung.support.clearance, abs(speed) * rung.support.clearance
+        return rung.tangent(x, 0.0, 0.1 * v, 0.5 * v, 0.0)
+
+    return one

@@ -6,12 +6,12 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ...bearings import PorousDamper
-from ...films import FullFilm, ShortSqueeze
+from ...films import FullFilm
 from ...orbits.branches import synchronous_orbits
 from ...results import CircularOrbit
 from ...rotors import RigidRotor
 from ..damper_validity import damper_remarks
-from .damper_films import mapped, sprung, with_changes
+from .damper_films import mapped_short, sprung
 
 if TYPE_CHECKING:
     from ..scene import Scene
@@ -32,7 +32,7 @@ def scene_remarks(scene: Scene, rotor: RigidRotor, *, steady: bool) -> tuple[str
         Whether its orbit is asked for, so that it matters how many there are.
     """
     assert scene.damper is not None  # or it is no question of a damper
-    damper = with_changes(scene.damper.build(), film=ShortSqueeze())
+    damper = mapped_short(scene.damper)
     fastest = max((abs(speed) for speed in rotor.profile.speeds), default=0.0)
     rotor = replace(rotor, speed=fastest)
     found = _orbits(damper, scene.damper.stiffness, rotor)
@@ -47,7 +47,7 @@ def _orbits(damper: PorousDamper, stiffness: float, rotor: RigidRotor) -> tuple[
     slow = damper.is_fed and not isinstance(damper.extent, FullFilm)
     if slow or not rotor.unbalance:
         return ()
-    return synchronous_orbits(rotor, sprung(mapped(damper), stiffness)).at(rotor.unbalance)
+    return synchronous_orbits(rotor, sprung(damper, stiffness)).at(rotor.unbalance)
 
 
 def _smallest_stable(found: tuple[CircularOrbit, ...]) -> CircularOrbit | None:

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.optimize import brentq
 
-from ...bearings import PorousDamper
 from ...errors import AbsentError, FilmContactError, InputError, RotorfilmError
 from ...films import FiniteSqueeze
 from ...model import Array, Reaction
@@ -20,7 +20,7 @@ from ...rotors import RigidRotor
 from ..counted import Counted
 from ..damper_models import damper_models
 from ..ladder import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work
-from .damper_films import NO_RICHER, DamperFilm, damper_films, make_map, mapped, sprung
+from .damper_films import NO_RICHER, DamperFilm, damper_films, quiet, sprung
 from .damper_remarks import scene_remarks
 from .films import MAP_MADE, NOMINAL
 
@@ -38,30 +38,39 @@ class DamperRung:
 
     Attributes
     ----------
-    name : str
+    film : DamperFilm
     rotor : RigidRotor
         Centered by its springs.
-    support : Reaction
-        Film and springs.
-    rich : Reaction or None
-        The richest film with the same springs; None for this one.
-    search : Reaction
-        The film on its map, where it has one: all orbits are searched with it.
+    stiffness : float [N/m]
+        Of the springs.
     quantity : str
-    prior : float [1]
-        Order of magnitude of the error of the film.
-    bound : float [1]
-        Verified error of the richest film; infinite for others.
     """
 
-    name: str
+    film: DamperFilm
     rotor: RigidRotor
-    support: Reaction
-    rich: Reaction | None
-    search: Reaction
+    stiffness: float
     quantity: str
-    prior: float
-    bound: float
+
+    @property
+    def name(self) -> str:
+        """That of the film."""
+        return self.film.name
+
+    @property
+    def prior(self) -> float:
+        """Order of magnitude of the error of the film."""
+        return self.film.prior
+
+    @cached_property
+    def support(self) -> Reaction:
+        """Film and springs."""
+        return sprung(self.film.damper, self.stiffness)
+
+    @cached_property
+    def search(self) -> Reaction:
+        """Film and springs that are quick enough for hundreds of orbits."""
+        slow = isinstance(self.film.law, FiniteSqueeze)
+        return sprung(self.film.moving, self.stiffness) if slow else self.support
 
     @property
     def unit(self) -> str:
@@ -70,7 +79,7 @@ class DamperRung:
 
     def answer(self, before: Found | None) -> Found:
         """Return the quantity; raises RotorfilmError where there is no such jump, or contact."""
-        made = make_map(self.support)
+        made = self.film.work
         counted = Counted(self.support)
         near = None if before is None else self._from(counted, float(before.solution))
         if near is None:
@@ -91,7 +100,8 @@ class DamperRung:
             return folds[0].unbalance, folds[0].eccentricity_ratio
         found = orbits.at(self.rotor.unbalance)
         if not found:
-            raise FilmContactError("no orbit at this unbalance: the rotor reaches the wall")
+            end = "the wall" if orbits.contact_unbalance is not None else "the end of the film's range"
+            raise FilmContactError(f"no orbit at this unbalance: the rotor reaches {end}")
         chosen = next((orbit for orbit in found if orbit.stable), found[0])
         amplitude = chosen.eccentricity_ratio * reaction.clearance
         value = chosen.transmissibility if self.quantity == "transmissibility" else amplitude
@@ -126,18 +136,19 @@ class DamperRung:
         to second order by the shift of the fold; at a given unbalance the radius shifts by the defect of u
         over u'.
         """
-        if self.rich is None and not math.isfinite(self.bound):
+        rich = self.film.rich
+        if rich is None and not math.isfinite(self.film.bound):
             return ErrorEstimate(math.inf, "none", doubt=NO_RICHER)
-        if self.rich is None:
-            return ErrorEstimate(self.bound, "verified bound of the film", bound=True)
-        made = make_map(self.rich)
+        if rich is None:
+            return ErrorEstimate(self.film.bound, "verified bound of the film", bound=True)
         radius = float(found.solution)
         fold = self.quantity in (UP, DOWN)
         change = self._fold if fold else self._orbit
-        value, doubt = change(orbit_rotor(self.rotor, self.support), _system(self.rotor, self.rich), radius)
+        richer = _system(self.rotor, sprung(rich, self.stiffness))
+        value, doubt = change(orbit_rotor(self.rotor, self.support), richer, radius)
         error = abs(value - found.value) / abs(value)
         return ErrorEstimate(
-            error, "orbits of the richest film", {RICH: 4 if fold else 3, **made}, doubt=doubt
+            error, "orbits of the richest film", {RICH: 4 if fold else 3, **self.film.rich_work}, doubt=doubt
         )
 
     def _fold(self, own: OrbitRotor, rich: OrbitRotor, radius: float) -> tuple[float, str]:
@@ -193,6 +204,7 @@ def _slope(system: OrbitRotor, radius: Array) -> float:
     return squared / (2.0 * float(_unbalance(system, radius)[0]) * system.speed**4)
 
 
+@quiet()
 def damper_ladder(scene: Scene, quantity: str) -> Ladder:
     """Return the ladder of a quantity of a rotor on a damper.
 
@@ -208,27 +220,16 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
         rotor = replace(rotor, unbalance=1e-9 * rotor.mass * scene.damper.clearance)
     elif rotor.unbalance <= 0.0:
         raise InputError(f"rigid_rotor.unbalance must be positive for {quantity}, got 0.0")
-    films = [film for film in damper_films(scene.damper) if not _endless(film, quantity)]
     stiffness = scene.damper.stiffness
-    rungs = [
-        DamperRung(
-            name=film.name,
-            rotor=rotor,
-            support=sprung(film.damper, stiffness),
-            rich=None if film.rich is None else sprung(film.rich, stiffness),
-            search=sprung(_searching(film.damper), stiffness),
-            quantity=quantity,
-            prior=film.prior,
-            bound=film.bound,
-        )
-        for film in films
-    ]
-    units: dict[str, Callable[[], object]] = {rung.unit: _one(rung.support, scene.speed) for rung in rungs}
-    if films[0].rich is not None:
-        units[RICH] = _one(sprung(films[0].rich, stiffness), scene.speed)
+    rungs = tuple(
+        DamperRung(film=film, rotor=rotor, stiffness=stiffness, quantity=quantity)
+        for film in damper_films(scene.damper)
+        if not _endless(film, quantity)
+    )
+    units = {rung.unit: _one(rung, scene.speed) for rung in rungs}
     asked = replace(rotor, unbalance=0.0) if quantity in (UP, DOWN) else rotor
     return Ladder(
-        rungs=tuple(rungs),
+        rungs=rungs,
         unit=UNITS[quantity],
         units=units,
         nominal=NOMINAL,
@@ -238,15 +239,13 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
 
 def _endless(film: DamperFilm, quantity: str) -> bool:
     """Return whether hundreds of orbits would take minutes: a fed film of finite length has no map."""
-    slow = film.damper.is_fed and isinstance(film.damper.film, FiniteSqueeze)
-    return slow and film.rich is None and film.name.startswith("finite") and quantity in (UP, DOWN)
+    slow = film.is_fed and isinstance(film.law, FiniteSqueeze)
+    return slow and film.name.startswith("finite") and quantity in (UP, DOWN)
 
 
-def _searching(damper: PorousDamper) -> PorousDamper:
-    """Return a damper whose film is quick enough for hundreds of orbits."""
-    return mapped(damper) if isinstance(damper.film, FiniteSqueeze) else damper
+def _one(rung: DamperRung, speed: float) -> Callable[[], object]:
+    def force() -> object:
+        radius = 0.5 * rung.support.clearance
+        return rung.support.force([radius, 0.0], [0.0, speed * radius], speed)
 
-
-def _one(reaction: Reaction, speed: float) -> Callable[[], object]:
-    radius = 0.5 * reaction.clearance
-    return lambda: reaction.force([radius, 0.0], [0.0, speed * radius], speed)
+    return force
