@@ -209,6 +209,9 @@ class QuestionAnswer:
         about = f"{self.error_estimate:.2g}"
         if self.met:
             return f"{self.model} meets the tolerance {self.tolerance:.3g}: estimated error {about}"
+        for report in self.rungs:
+            if report.name == self.model and report.doubtful:
+                return f"no rung can be trusted; the closest may be {self.model}: {report.reason}"
         return (
             f"no rung meets the tolerance {self.tolerance:.3g}; the closest is {self.model}, off by {about}"
         )

@@ -279,7 +279,8 @@ def _choices(table: DamperTable) -> list[tuple[DamperFilm, int]]:
     fed = own.is_fed
     choices = [(film, steps) for film in cheap for steps in CHEAP_STEPS]
     if fed:
-        choices += [(own, steps) for steps in FED_STEPS]
+        # Where nothing is known of the film's error, a third run would tell no more.
+        choices += [(own, steps) for steps in (FED_STEPS if own.rich_law is not None else FED_STEPS[:2])]
     else:
         choices += [(own, steps) for steps in CHEAP_STEPS if own is not top]
         choices += [(top, steps) for steps in STEPS]
