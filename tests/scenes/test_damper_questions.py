@@ -24,7 +24,7 @@ from rotorfilm import (
 )
 from rotorfilm.errors import AbsentError, FilmContactError, InputError, ValidityWarning
 from rotorfilm.model import prepared_tangent
-from rotorfilm.scenes import parse_scene
+from rotorfilm.scenes import parse_scene, read_scene
 from rotorfilm.scenes.damper_models import damper_models
 from rotorfilm.scenes.damper_runs import run_damper
 from rotorfilm.scenes.damper_table import FiniteSqueezeTable, RadialFeedTable
@@ -219,6 +219,17 @@ def test_tighter_tolerance_never_selects_a_less_accurate_rung_and_none_is_met_by
     assert answers[-1].model == "nonlinear, 768 steps, finite film"
 
 
+def test_defect_along_the_motion_tells_the_richer_film_with_its_sign():
+    rungs = {rung.name: rung for rung in ladder_of(scene(FULL)).rungs}
+    short, finite = (rungs[f"nonlinear, 192 steps, {film} film"] for film in ("short", "finite"))
+    found = short.answer(None)
+    change, doubt, _ = short._by_defect(found.solution[0], found.value, short.rich)
+    assert not doubt
+    # less damping, so that the rotor goes farther
+    assert change > 5e-3
+    assert change == pytest.approx(finite.answer(None).value / found.value - 1.0, rel=0.05)
+
+
 def test_named_film_is_the_only_one_that_answers():
     answer = scene(FULL + 'film = {name = "short"}\n').ask()
     assert all(report.name.endswith(("ShortSqueeze", "small motion")) for report in answer.rungs)
@@ -275,6 +286,15 @@ def test_jump_that_is_not_there_is_said_so():
     cage = 'cage = {thickness = "2.5 mm", permeability = "40 um2", thin = true}\nfilm = {name = "short"}\n'
     with pytest.raises(AbsentError, match="no jump down"):
         asked(scene(cage, JUMPS), "jump_down", 0.1).ask()
+
+
+def test_no_jump_is_made_up_beyond_the_reach_of_a_map():
+    drawn = FAMILIES["damper jumps"][1]
+    random = np.random.default_rng(103)
+    found = [read_scene(drawn(random).data, "drawn") for _ in range(2)][1]
+    assert found.damper.film is not None
+    with pytest.raises(AbsentError, match=r"no orbit ends so, up to 0\.985 of the clearance"):
+        found.ask()
 
 
 @pytest.mark.literature

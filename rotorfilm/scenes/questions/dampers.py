@@ -95,7 +95,9 @@ class DamperRung:
         if self.quantity in (UP, DOWN):
             folds = [fold for fold in orbits.folds if fold.upward == (self.quantity == UP)]
             if not folds:
+                reach = reaction.largest_eccentricity_ratio
                 why = "no orbit ends so" if orbits.folds else "one orbit at every unbalance"
+                why += "" if reach >= 1.0 else f", up to {reach:.4g} of the clearance"
                 raise AbsentError(f"no {self.quantity.replace('_', ' ')} of the rotor in the damper: {why}")
             return folds[0].unbalance, folds[0].eccentricity_ratio
         found = orbits.at(self.rotor.unbalance)
@@ -142,6 +144,10 @@ class DamperRung:
         if rich is None:
             return ErrorEstimate(self.film.bound, "verified bound of the film", bound=True)
         radius = float(found.solution)
+        reach = rich.largest_eccentricity_ratio
+        if radius >= reach:
+            doubt = f"the orbit goes to {radius:.4g} of the clearance, the richest film to {reach:.4g}"
+            return ErrorEstimate(math.inf, "none", doubt=doubt)
         fold = self.quantity in (UP, DOWN)
         change = self._fold if fold else self._orbit
         richer = _system(self.rotor, sprung(rich, self.stiffness))
