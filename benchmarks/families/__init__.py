@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from . import dampers, journals
+from . import bushes, couplings, dampers, journals
 from .drawn import Drawn
 
 Draw = Callable[[np.random.Generator], Drawn]
@@ -18,11 +18,15 @@ FAMILIES: dict[str, tuple[int, Draw]] = {
     "whirl": (2, journals.whirl),
     "orbit": (3, journals.orbit),
     "blade loss": (1, journals.blade),
-    "coupling": (1, journals.coupling),
+    "coupling": (1, couplings.coupling),
     "damper": (2, dampers.damper),
     "orbit, film": (1, journals.orbit_by_film),
     "blade, film": (1, journals.blade_by_film),
     "damper jumps": (2, dampers.jumps),
     "damper blade loss": (2, dampers.lost_blade),
+    "bush speed": (1, bushes.bush_speed),
+    "bush wear": (2, bushes.bush_wear),
+    "coupling hard": (1, couplings.hard),
+    "coupling other": (1, couplings.other),
 }
 """Weight of each family in a round of the battery, and how one scene of it is drawn."""

@@ -19,8 +19,8 @@ from ..excitation_table import BladeLossTable, RunUpTable
 from ..ladder import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work
 from .damper_films import NO_RICHER, DamperFilm, damper_films, quiet, sprung
 from .damper_remarks import scene_remarks
+from .equal_steps import ORDER, Motion, linear_march, march, peak
 from .films import NOMINAL
-from .march import ORDER, Motion, linear_march, march, peak
 
 if TYPE_CHECKING:
     from ..scene import Scene
