@@ -189,6 +189,7 @@ _HOMES = {
         "ConvergenceError",
         "CouplingError",
         "CouplingWarning",
+        "AbsentError",
         "EquilibriumError",
         "FilmContactError",
         "FmuError",

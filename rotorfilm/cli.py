@@ -18,6 +18,7 @@ from .chart_commands import chart_app
 from .cli_contact import CONTACT_EXAMPLE, contact
 from .cli_cosim import COSIM_EXAMPLE, cosim
 from .cli_damper import DAMPER_EXAMPLE, damper
+from .cli_damper_run import DAMPER_RUN_EXAMPLE, damper_run
 from .cli_rotor import ROTOR_EXAMPLE, rotor
 from .cli_sweep import SWEEP_EXAMPLE, sweep
 from .errors import InputError, RotorfilmError, SceneError
@@ -363,6 +364,7 @@ def demo(
 
 app.command(epilog=COSIM_EXAMPLE)(cosim)
 app.command(epilog=DAMPER_EXAMPLE)(damper)
+app.command(epilog=DAMPER_RUN_EXAMPLE)(damper_run)
 app.command(epilog=CONTACT_EXAMPLE)(contact)
 app.command(epilog=ROTOR_EXAMPLE)(rotor)
 app.command(epilog=SWEEP_EXAMPLE)(sweep)

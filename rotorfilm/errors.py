@@ -34,6 +34,10 @@ class EquilibriumError(RotorfilmError):
     """No static equilibrium was found, for instance because the load is beyond the film's capacity."""
 
 
+class AbsentError(RotorfilmError):
+    """What is asked for does not exist, as the jump of a rotor that has one orbit at every unbalance."""
+
+
 class FmuError(RotorfilmError):
     """A model cannot be exported, or an FMU answered with an error status."""
 

@@ -182,8 +182,11 @@ class TangentReaction(Protocol):
 
 def prepared_tangent(reaction: Reaction) -> Tangent:
     """Return force and derivatives of any reaction as a function of five numbers."""
-    if isinstance(reaction, TangentReaction):
-        return reaction.prepare_tangent()
+    return reaction.prepare_tangent() if isinstance(reaction, TangentReaction) else tangent_of(reaction)
+
+
+def tangent_of(reaction: Reaction) -> Tangent:
+    """Return force and derivatives of a reaction by its `force` and `jacobian`."""
 
     def tangent(
         x: float, y: float, vx: float, vy: float, speed: float

@@ -20,7 +20,7 @@ LAYERS = [
     ["scenes", "charts"],
     ["sweeps"],
     ["console", "console_ladder", "gallery"],
-    ["chart_commands", "cli_contact", "cli_cosim", "cli_damper", "cli_rotor", "cli_sweep"],
+    ["chart_commands", "cli_contact", "cli_cosim", "cli_damper", "cli_damper_run", "cli_rotor", "cli_sweep"],
     ["cli"],
 ]
 RANK = {name: rank for rank, layer in enumerate(LAYERS) for name in layer}

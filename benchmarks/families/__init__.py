@@ -24,6 +24,8 @@ FAMILIES: dict[str, tuple[int, Draw]] = {
     "blade, film": (1, journals.blade_by_film),
     "contact": (1, contacts.rest),
     "contact motion": (1, contacts.motion),
+    "damper jumps": (2, dampers.jumps),
+    "damper blade loss": (2, dampers.lost_blade),
     "bush speed": (1, bushes.bush_speed),
     "bush wear": (2, bushes.bush_wear),
     "coupling hard": (1, couplings.hard),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -21,7 +21,7 @@ from ..films.porous_layer import LayerModes, PorousLayer, layer_modes
 from ..films.squeeze import SqueezeFilm
 from ..films.squeeze_laws import ShortSqueeze, SqueezeCase, SqueezeLaw, parabola_mean
 from ..films.squeeze_map import MappedSqueezeFilm, TabulatedSqueeze
-from ..model import Array
+from ..model import Array, Tangent, tangent_of
 from ..native.spec import NativeSpec
 from .damper_kernel import damper_spec
 from .reaction import NOMINAL_SPEED, StaticReaction
@@ -203,6 +203,12 @@ class PorousDamper(StaticReaction):
         """Eccentricity ratio to which the film is meant: the last node of a map, 0.99 for finite length."""
         return getattr(self.film, "largest_eccentricity_ratio", 1.0)
 
+    @property
+    def is_fed(self) -> bool:
+        """Whether the force has a part that comes from a feed, so that the film has no potential."""
+        case = self._case
+        return bool(np.any(case.feed) or (case.cavitated and np.any(case.ends)))
+
     @cached_property
     def layer(self) -> PorousLayer | None:
         """The cage in the film's units; None for a solid one."""
@@ -260,6 +266,21 @@ class PorousDamper(StaticReaction):
             return in_c(x, y, vx, vy, 0.0)
 
         return call
+
+    def prepare_tangent(self) -> Tangent:
+        """Return force and derivatives as a function of five numbers; in C for a map."""
+        if not isinstance(self.bound_film, MappedSqueezeFilm):
+            return tangent_of(self)
+        in_c = self.bound_film.bound(clearance=self.clearance, force_scale=self.force_scale).tangent
+
+        def tangent(
+            x: float, y: float, vx: float, vy: float, speed: float
+        ) -> tuple[float, float, Sequence[float]]:
+            force_x, force_y, slopes = in_c(x, y, vx, vy, 0.0)
+            slopes[4] = slopes[9] = 0.0
+            return force_x, force_y, slopes
+
+        return tangent
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape, inside the clearance."""

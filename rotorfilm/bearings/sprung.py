@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..errors import InputError, require_positive
-from ..model import Array, Reaction
+from ..model import Array, Reaction, Tangent, prepared_tangent
 from ..native.spec import HasKernel, NativeSpec
 from .damper_kernel import sprung_spec
 from .reaction import StaticReaction
@@ -61,6 +62,21 @@ class Sprung(StaticReaction):
         if type(self) is not Sprung or not isinstance(self.reaction, HasKernel):
             return None
         return sprung_spec(self.reaction.native(), self.stiffness)
+
+    def prepare_tangent(self) -> Tangent:
+        """Return force and derivatives as a function of five numbers; see `prepared_tangent`."""
+        call, stiffness = prepared_tangent(self.reaction), self.stiffness
+
+        def tangent(
+            x: float, y: float, vx: float, vy: float, speed: float
+        ) -> tuple[float, float, Sequence[float]]:
+            force_x, force_y, slopes = call(x, y, vx, vy, speed)
+            total = [*slopes]
+            total[0] -= stiffness
+            total[6] -= stiffness
+            return force_x - stiffness * x, force_y - stiffness * y, total
+
+        return tangent
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape, inside the clearance."""

@@ -7,7 +7,14 @@ from .contact_cases import plot_contact_cases
 from .contact_ladder import plot_contact_limits, plot_contact_precision
 from .coupling import plot_coupling_cost, plot_coupling_limits
 from .coupling_error import plot_coupling_error
-from .damper import plot_bistable, plot_eccentricity, plot_phase, plot_transmissibility, plot_transmitted
+from .damper import (
+    plot_bistable,
+    plot_damper_run,
+    plot_eccentricity,
+    plot_phase,
+    plot_transmissibility,
+    plot_transmitted,
+)
 from .damper_ladder import plot_damper_accuracy
 from .limits import plot_limits
 from .motion import plot_locus, plot_orbits
@@ -42,6 +49,7 @@ __all__ = [
     "plot_critical_speed",
     "plot_critical_speed_map",
     "plot_damper_accuracy",
+    "plot_damper_run",
     "plot_eccentricity",
     "plot_force_error",
     "plot_journal_accuracy",

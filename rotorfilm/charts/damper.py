@@ -73,6 +73,32 @@ def plot_transmitted(runs: Mapping[str, tuple[np.ndarray, np.ndarray]], *, axes:
     return axes
 
 
+def plot_damper_run(
+    time: np.ndarray, eccentricity_ratio: np.ndarray, force: np.ndarray, *, axes: Axes | None = None
+) -> Axes:
+    """Draw the motion of a rotor on a damper over time: eccentricity ratio, and force on a second axis.
+
+    Parameters
+    ----------
+    time : ndarray, shape (n,) [s]
+    eccentricity_ratio : ndarray, shape (n,) [1]
+    force : ndarray, shape (n,) [N]
+        On the housing.
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+    """
+    axes = axes or new_axes("Rotor on a damper")
+    axes.plot(time, eccentricity_ratio, "C0", linewidth=1.3, label="eccentricity ratio")
+    axes.axhline(1.0, color="0.6", linewidth=0.8)
+    axes.set(xlabel="time, s", ylabel="eccentricity ratio", ylim=(0.0, 1.05))
+    beside = axes.twinx()
+    beside.plot(time, force, "C1", linewidth=0.9, label="force on housing")
+    beside.set(ylabel="force on housing, N")
+    lines = [*axes.lines[:1], *beside.lines]
+    axes.legend(lines, [str(line.get_label()) for line in lines], fontsize=8)
+    return axes
+
+
 def plot_bistable(found: BistableMap, *, axes: Axes | None = None) -> Axes:
     """Draw the bistable region, between the unbalances of the jump up and of the fall back.
 

@@ -31,6 +31,11 @@ class Counted(StaticReaction):
         return self._reaction.clearance
 
     @property
+    def largest_eccentricity_ratio(self) -> float:
+        """Eccentricity ratio to which the reaction is meant."""
+        return getattr(self._reaction, "largest_eccentricity_ratio", 1.0)
+
+    @property
     def nominal_force(self) -> float:
         """Nominal force [N]."""
         return self._reaction.outputs[0].nominal

@@ -2,46 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..bearings import PorousDamper, Sprung
 from ..cosim import CoSimulation, cosimulate
-from ..errors import ContactError, InputError
+from ..errors import ContactError
 from ..fmu import export_fmu
 from ..model import Array, Model
 from ..results import Trajectory
-from ..rotors import RigidRotor
 from ..transient import simulate
-from .excitation_table import BladeLossTable, RunUpTable, UnbalanceTable
-from .scene import Scene
+from .damper_models import DamperScene, damper_models
+
+if TYPE_CHECKING:
+    from .scene import Scene
 
 RTOL = 1e-6
-
-
-class DamperScene(NamedTuple):
-    """The models of a scene with a damper.
-
-    Attributes
-    ----------
-    rotor : RigidRotor
-        At the center of the damper, at rest.
-    support : PorousDamper or Sprung
-    start : float [s]
-        When the excitation begins: until then nothing moves, and the run counts from there.
-    duration : float [s]
-    step : float [s]
-        Time between samples, or exchanges of a coupled run.
-    """
-
-    rotor: RigidRotor
-    support: PorousDamper | Sprung
-    start: float
-    duration: float
-    step: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,36 +44,11 @@ class DamperRun:
     peak_force: float
     contact_time: float | None
 
-
-def damper_models(scene: Scene) -> DamperScene:
-    """Return rotor and damper of a scene.
-
-    An unbalance is that of `[rigid_rotor]`, there from the start, or that of the excitation: `unbalance`,
-    `blade_loss` or `run_up`.
-
-    Raises
-    ------
-    InputError
-        If the scene lacks a damper or a rotor, has two unbalances, or another excitation.
-    """
-    excitation = scene.excitation
-    if scene.damper is None or scene.rigid_rotor is None:
-        raise InputError("damper and rigid_rotor are required for a run on a damper, got a scene without")
-    rotor, start, duration = scene.rigid_rotor.build(scene.speed, (0.0, 0.0)), 0.0, 0.0
-    if excitation is not None:
-        if not isinstance(excitation, UnbalanceTable):
-            raise InputError(f"excitation must be an unbalance, a blade_loss or a run_up, got {excitation!r}")
-        if rotor.unbalance:
-            raise InputError("rigid_rotor.unbalance must be 0 where [excitation] has the unbalance, got both")
-        turned = excitation.unbalance_angle
-        rotor = replace(rotor, unbalance=excitation.unbalance, unbalance_angle=turned)
-    if isinstance(excitation, BladeLossTable):
-        start, duration = excitation.start, scene.time_of(2.0 * np.pi * excitation.revolutions)
-        rotor = replace(rotor, unbalance_angle=turned + scene.speed * start)
-    if isinstance(excitation, RunUpTable):
-        profile = excitation.profile(scene.speed)
-        rotor, duration = replace(rotor, speed=profile), profile.times[-1]
-    return DamperScene(rotor, scene.damper.support(), start, duration or scene.duration, scene.macro_step)
+    @property
+    def force(self) -> Array:
+        """Force on the housing, of film and springs, shape (n,) [N]."""
+        signals = self.trajectory.signals
+        return np.asarray(np.hypot(signals["force_x"], signals["force_y"]))
 
 
 def run_damper(scene: Scene) -> DamperRun:

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from ..errors import RotorfilmError, ValidityWarning, require_positive
+from ..errors import AbsentError, FilmContactError, RotorfilmError, ValidityWarning, require_positive
 
 SAFETY = 1.5
 """An answer is accepted if so many times its estimated error is below the tolerance."""
@@ -209,6 +209,9 @@ class QuestionAnswer:
         about = f"{self.error_estimate:.2g}"
         if self.met:
             return f"{self.model} meets the tolerance {self.tolerance:.3g}: estimated error {about}"
+        for report in self.rungs:
+            if report.name == self.model and report.doubtful:
+                return f"no rung can be trusted; the closest may be {self.model}: {report.reason}"
         return (
             f"no rung meets the tolerance {self.tolerance:.3g}; the closest is {self.model}, off by {about}"
         )
@@ -260,6 +263,8 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
     ------
     InputError
         If the tolerance is not positive.
+    AbsentError, FilmContactError
+        If the last rung that was tried finds that there is no such value, or contact.
     RotorfilmError
         What the last rung raised, if none has an answer.
 
@@ -272,6 +277,7 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
     meter = Meter(ladder)
     reports: list[RungReport] = []
     failure: RotorfilmError | None = None
+    absent = False
     before: Found | None = None
     for rung in ladder.rungs:
         if reports and reports[-1].verdict == "chosen":
@@ -283,9 +289,14 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
         try:
             report, before = _tried(rung, before, meter, tolerance)
             reports.append(report)
+            absent = False
         except RotorfilmError as error:
-            failure = error
+            failure, absent = error, isinstance(error, AbsentError | FilmContactError)
             reports.append(RungReport(name=rung.name, verdict="refused", reason=str(error)))
+    if absent:
+        # By the richest model that was tried; what cheaper ones say instead is no answer.
+        assert failure is not None
+        raise failure
     return _answer(quantity, ladder, meter, reports, tolerance, failure)
 
 

@@ -37,7 +37,7 @@ NOT_A_BEARING = ("title", "operation", "lubricant", "rigid_rotor", "excitation",
 """Fields of a scene that do not make one by themselves; every other field is a bearing or has some."""
 
 
-COMMANDS = {"shaft": "rotorfilm rotor", "damper": "rotorfilm damper", "contact": "rotorfilm contact"}
+COMMANDS = {"shaft": "rotorfilm rotor", "damper": "rotorfilm damper-run", "contact": "rotorfilm contact"}
 """Where to turn with a scene that has no journal and asks no question."""
 
 

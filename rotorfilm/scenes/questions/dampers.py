@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.optimize import brentq
 
-from ...bearings import PorousDamper, Sprung
-from ...errors import InputError, RotorfilmError, ValidityWarning
-from ...films import FiniteMapSqueeze, FiniteSqueeze, FullFilm, ShortSqueeze
+from ...errors import AbsentError, FilmContactError, InputError, RotorfilmError
+from ...films import FiniteSqueeze
 from ...model import Array, Reaction
 from ...orbits.branches import synchronous_orbits
 from ...orbits.curve import OrbitRotor, orbit_points, orbit_rotor, orbit_slope
 from ...rotors import RigidRotor
 from ..counted import Counted
+from ..damper_models import damper_models
 from ..ladder import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work
+from .damper_films import NO_RICHER, DamperFilm, damper_films, quiet, sprung
+from .damper_remarks import scene_remarks
 from .films import MAP_MADE, NOMINAL
 
 if TYPE_CHECKING:
@@ -29,9 +31,6 @@ UP, DOWN = "jump_up", "jump_down"
 UNITS = {UP: "kg m", DOWN: "kg m", "transmissibility": "1", "unbalance_amplitude": "m"}
 """Quantities of a damper and their units."""
 
-TOP_BOUNDS = {FiniteSqueeze: 1e-6, FiniteMapSqueeze: 3e-4}
-"""Verified errors of the force of the richest films: docs/accuracy.md."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class DamperRung:
@@ -39,27 +38,39 @@ class DamperRung:
 
     Attributes
     ----------
-    name : str
+    film : DamperFilm
     rotor : RigidRotor
         Centered by its springs.
-    support : Reaction
-        Film and springs.
-    rich : Reaction or None
-        The richest film with the same springs; None for this one.
+    stiffness : float [N/m]
+        Of the springs.
     quantity : str
-    prior : float [1]
-        Order of magnitude of the error of the film.
-    bound : float [1]
-        Verified error of the richest film; infinite for others.
     """
 
-    name: str
+    film: DamperFilm
     rotor: RigidRotor
-    support: Reaction
-    rich: Reaction | None
+    stiffness: float
     quantity: str
-    prior: float
-    bound: float
+
+    @property
+    def name(self) -> str:
+        """That of the film."""
+        return self.film.name
+
+    @property
+    def prior(self) -> float:
+        """Order of magnitude of the error of the film."""
+        return self.film.prior
+
+    @cached_property
+    def support(self) -> Reaction:
+        """Film and springs."""
+        return sprung(self.film.damper, self.stiffness)
+
+    @cached_property
+    def search(self) -> Reaction:
+        """Film and springs that are quick enough for hundreds of orbits."""
+        slow = isinstance(self.film.law, FiniteSqueeze)
+        return sprung(self.film.moving, self.stiffness) if slow else self.support
 
     @property
     def unit(self) -> str:
@@ -68,26 +79,35 @@ class DamperRung:
 
     def answer(self, before: Found | None) -> Found:
         """Return the quantity; raises RotorfilmError where there is no such jump, or contact."""
-        made = _made(self.support)
+        made = self.film.work
         counted = Counted(self.support)
-        if before is not None:
-            near = self._from(counted, float(before.solution))
-            if near is not None:
-                return Found(near[0], {self.unit: counted.forces + counted.tangents, **made}, near[1])
-        orbits = synchronous_orbits(self.rotor, counted)
+        near = None if before is None else self._from(counted, float(before.solution))
+        if near is None:
+            value, radius = self._searched(Counted(self.search) if self.search != self.support else counted)
+            near = (value, radius) if self.search == self.support else self._from(counted, radius)
+        if near is None:
+            raise RotorfilmError(f"{self.name} has no orbit beside that of its map")
+        return Found(near[0], {self.unit: counted.forces + counted.tangents, **made}, near[1])
+
+    def _searched(self, reaction: Counted) -> tuple[float, float]:
+        """Return quantity and radius among all orbits: the smallest stable one, or the first jump."""
+        orbits = synchronous_orbits(self.rotor, reaction)
         if self.quantity in (UP, DOWN):
             folds = [fold for fold in orbits.folds if fold.upward == (self.quantity == UP)]
             if not folds:
-                raise RotorfilmError(f"no {self.quantity.replace('_', ' ')}: one orbit at every unbalance")
-            value, radius = folds[0].unbalance, folds[0].eccentricity_ratio
-        else:
-            found = orbits.at(self.rotor.unbalance)
-            if not found:
-                raise RotorfilmError("no orbit at this unbalance: the rotor reaches the wall")
-            radius = found[0].eccentricity_ratio
-            amplitude = radius * self.support.clearance
-            value = found[0].transmissibility if self.quantity == "transmissibility" else amplitude
-        return Found(value, {self.unit: counted.forces + counted.tangents, **made}, radius)
+                reach = reaction.largest_eccentricity_ratio
+                why = "no orbit ends so" if orbits.folds else "one orbit at every unbalance"
+                why += "" if reach >= 1.0 else f", up to {reach:.4g} of the clearance"
+                raise AbsentError(f"no {self.quantity.replace('_', ' ')} of the rotor in the damper: {why}")
+            return folds[0].unbalance, folds[0].eccentricity_ratio
+        found = orbits.at(self.rotor.unbalance)
+        if not found:
+            end = "the wall" if orbits.contact_unbalance is not None else "the end of the film's range"
+            raise FilmContactError(f"no orbit at this unbalance: the rotor reaches {end}")
+        chosen = next((orbit for orbit in found if orbit.stable), found[0])
+        amplitude = chosen.eccentricity_ratio * reaction.clearance
+        value = chosen.transmissibility if self.quantity == "transmissibility" else amplitude
+        return value, chosen.eccentricity_ratio
 
     def _from(self, counted: Counted, radius: float) -> tuple[float, float] | None:
         """Return quantity and radius of the orbit next to that of a lower rung, if there is one."""
@@ -118,16 +138,23 @@ class DamperRung:
         to second order by the shift of the fold; at a given unbalance the radius shifts by the defect of u
         over u'.
         """
-        if self.rich is None:
-            return ErrorEstimate(self.bound, "verified bound of the film", bound=True)
-        made = _made(self.rich)
+        rich = self.film.rich
+        if rich is None and not math.isfinite(self.film.bound):
+            return ErrorEstimate(math.inf, "none", doubt=NO_RICHER)
+        if rich is None:
+            return ErrorEstimate(self.film.bound, "verified bound of the film", bound=True)
         radius = float(found.solution)
+        reach = rich.largest_eccentricity_ratio
+        if radius >= reach:
+            doubt = f"the orbit goes to {radius:.4g} of the clearance, the richest film to {reach:.4g}"
+            return ErrorEstimate(math.inf, "none", doubt=doubt)
         fold = self.quantity in (UP, DOWN)
         change = self._fold if fold else self._orbit
-        value, doubt = change(orbit_rotor(self.rotor, self.support), _system(self.rotor, self.rich), radius)
+        richer = _system(self.rotor, sprung(rich, self.stiffness))
+        value, doubt = change(orbit_rotor(self.rotor, self.support), richer, radius)
         error = abs(value - found.value) / abs(value)
         return ErrorEstimate(
-            error, "orbits of the richest film", {RICH: 4 if fold else 3, **made}, doubt=doubt
+            error, "orbits of the richest film", {RICH: 4 if fold else 3, **self.film.rich_work}, doubt=doubt
         )
 
     def _fold(self, own: OrbitRotor, rich: OrbitRotor, radius: float) -> tuple[float, str]:
@@ -167,15 +194,6 @@ class DamperRung:
 RICH = "forces of the richest film"
 
 
-def _made(support: Reaction) -> dict[str, int]:
-    """Make the map of a support that has one by its first force, and return the work of that."""
-    film = getattr(getattr(support, "reaction", support), "film", None)
-    if not isinstance(film, FiniteMapSqueeze):
-        return {}
-    support.force([0.5 * support.clearance, 0.0], [0.0, support.clearance], 1.0)
-    return {MAP_MADE: 1}
-
-
 def _system(rotor: RigidRotor, reaction: Reaction) -> OrbitRotor:
     """Return the constants of a rotor on the richest film, which is isotropic as the cheap one is."""
     reach = getattr(reaction, "largest_eccentricity_ratio", 1.0)
@@ -192,6 +210,7 @@ def _slope(system: OrbitRotor, radius: Array) -> float:
     return squared / (2.0 * float(_unbalance(system, radius)[0]) * system.speed**4)
 
 
+@quiet()
 def damper_ladder(scene: Scene, quantity: str) -> Ladder:
     """Return the ladder of a quantity of a rotor on a damper.
 
@@ -202,70 +221,37 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
     """
     if scene.damper is None or scene.rigid_rotor is None:
         raise InputError(f"rigid_rotor is required for {quantity}, got no such table")
-    unbalance = scene.rigid_rotor.unbalance or 1e-9 * scene.rigid_rotor.mass * scene.damper.clearance
-    if quantity not in (UP, DOWN) and scene.rigid_rotor.unbalance <= 0.0:
+    rotor = damper_models(scene).rotor
+    if quantity in (UP, DOWN):
+        rotor = replace(rotor, unbalance=1e-9 * rotor.mass * scene.damper.clearance)
+    elif rotor.unbalance <= 0.0:
         raise InputError(f"rigid_rotor.unbalance must be positive for {quantity}, got 0.0")
-    rotor = RigidRotor(
-        mass=scene.rigid_rotor.mass, speed=scene.speed, unbalance=unbalance, gravity=(0.0, 0.0)
-    )
-    dampers = _dampers(scene.damper.build(), fixed=scene.damper.film is not None)
     stiffness = scene.damper.stiffness
-    top = dampers[-1][1] if scene.damper.film is None else _richest(scene.damper.build())
-    rungs = [
-        DamperRung(
-            name=name,
-            rotor=rotor,
-            support=_sprung(damper, stiffness),
-            rich=None if damper == top else _sprung(top, stiffness),
-            quantity=quantity,
-            prior=prior,
-            bound=TOP_BOUNDS.get(type(damper.film), math.inf),
-        )
-        for name, damper, prior in dampers
-    ]
-    units: dict[str, Callable[[], object]] = {rung.unit: _one(rung.support, scene.speed) for rung in rungs}
-    units[RICH] = _one(_sprung(top, stiffness), scene.speed)
-    return Ladder(rungs=tuple(rungs), unit=UNITS[quantity], units=units, nominal=NOMINAL)
+    rungs = tuple(
+        DamperRung(film=film, rotor=rotor, stiffness=stiffness, quantity=quantity)
+        for film in damper_films(scene.damper)
+        if not _endless(film, quantity)
+    )
+    units = {rung.unit: _one(rung, scene.speed) for rung in rungs}
+    asked = replace(rotor, unbalance=0.0) if quantity in (UP, DOWN) else rotor
+    return Ladder(
+        rungs=rungs,
+        unit=UNITS[quantity],
+        units=units,
+        nominal=NOMINAL,
+        remarks=scene_remarks(scene, asked, steady=quantity not in (UP, DOWN)),
+    )
 
 
-def _dampers(damper: PorousDamper, *, fixed: bool) -> list[tuple[str, PorousDamper, float]]:
-    """Return name, damper and prior error of the rungs: solid cage, thin layer, Darcy's; short, finite."""
-    if fixed:
-        return [(type(damper.film).__name__, damper, 0.0)]
-    short = _with(damper, film=ShortSqueeze())
-    slim = 0.02 * min((damper.length / (2.0 * damper.radius)) ** 2, 1.0)
-    rungs = []
-    if damper.cage is not None:
-        rungs.append(("short film, solid cage", _with(short, cage=None), slim))
-        if not damper.cage.thin:
-            try:
-                thin = _with(short, cage=replace(damper.cage, thin=True))
-                rungs.append(("short film, thin layer", thin, slim))
-            except RotorfilmError:  # an anisotropic or vented layer is never thin
-                pass
-    own = "" if damper.cage is None else ", thin layer" if damper.cage.thin else ", Darcy's layer"
-    rungs.append((f"short film{own}", short, slim))
-    richest = _richest(damper)
-    return rungs if richest == short else [*rungs, (f"finite film{own}", richest, 0.0)]
+def _endless(film: DamperFilm, quantity: str) -> bool:
+    """Return whether hundreds of orbits would take minutes: a fed film of finite length has no map."""
+    slow = film.is_fed and isinstance(film.law, FiniteSqueeze)
+    return slow and film.name.startswith("finite") and quantity in (UP, DOWN)
 
 
-def _richest(damper: PorousDamper) -> PorousDamper:
-    """Return the damper with a film of finite length; a fed one keeps its short film, its only one."""
-    if damper.feed is not None:
-        return _with(damper, film=ShortSqueeze())
-    return _with(damper, film=FiniteSqueeze() if isinstance(damper.extent, FullFilm) else FiniteMapSqueeze())
+def _one(rung: DamperRung, speed: float) -> Callable[[], object]:
+    def force() -> object:
+        radius = 0.5 * rung.support.clearance
+        return rung.support.force([radius, 0.0], [0.0, speed * radius], speed)
 
-
-def _with(damper: PorousDamper, **changes: object) -> PorousDamper:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)
-        return replace(damper, **changes)  # type: ignore[arg-type]
-
-
-def _sprung(damper: PorousDamper, stiffness: float) -> Reaction:
-    return Sprung(reaction=damper, stiffness=stiffness) if stiffness else damper
-
-
-def _one(reaction: Reaction, speed: float) -> Callable[[], object]:
-    radius = 0.5 * reaction.clearance
-    return lambda: reaction.force([radius, 0.0], [0.0, speed * radius], speed)
+    return force

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -16,6 +17,10 @@ ORDER = 2
 NEWTON_STEPS = 20
 TOLERANCE = 1e-10
 """Last Newton step, in clearances."""
+
+CONTACT = "the journal must stay inside the clearance"
+NEAR = 0.9999
+"""Eccentricity ratio from which Newton's method, where it does not end, counts as led to the wall."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,12 +60,13 @@ def march(
     tangent, clearance = prepared_tangent(reaction), reaction.clearance
     path, rates = np.empty((2, count + 1)), np.zeros((2, count + 1))
     path[:, 0] = rest
-    (x, y), (vx, vy), (ax, ay) = rest.tolist(), (0.0, 0.0), _acceleration(tangent, mass, speed, pull, rest)
+    (x, y), (vx, vy), (ax, ay) = rest.tolist(), (0.0, 0.0), _acceleration(reaction, mass, speed, pull, rest)
     calls, k2, k1 = 1, 4.0 / step**2, 2.0 / step
     for n in range(1, count + 1):
         px, py = pull(n * step)
-        qx, qy = x + step * vx, y + step * vy
-        if np.hypot(qx, qy) > 0.5 * (clearance + np.hypot(x, y)):
+        # With its acceleration, since a cavitated film has no derivative at rest.
+        qx, qy = x + step * (vx + 0.5 * step * ax), y + step * (vy + 0.5 * step * ay)
+        if math.hypot(qx, qy) > 0.5 * (clearance + math.hypot(x, y)):
             qx, qy = x, y
         for _ in range(NEWTON_STEPS):
             wx, wy = k1 * (qx - x) - vx, k1 * (qy - y) - vy
@@ -72,11 +78,12 @@ def march(
             c, d = -D[5] - k1 * D[7], mass * k2 - D[6] - k1 * D[8]
             det = a * d - b * c
             dx, dy = (d * rx - b * ry) / det, (a * ry - c * rx) / det
-            share = _share(qx, qy, dx, dy, clearance)
+            share = _share(qx, qy, dx, dy, clearance, n * step)
             qx, qy = qx + share * dx, qy + share * dy
             if abs(dx) + abs(dy) < TOLERANCE * clearance:
                 break
         else:
+            _require_inside(qx, qy, clearance, n * step)
             raise ConvergenceError(f"Newton's method must end within {NEWTON_STEPS} steps at step {n}")
         wx, wy = k1 * (qx - x) - vx, k1 * (qy - y) - vy
         ax, ay = k2 * (qx - x - step * vx) - ax, k2 * (qy - y - step * vy) - ay
@@ -85,20 +92,26 @@ def march(
     return Motion(time=np.asarray(step * np.arange(count + 1)), position=path, velocity=rates), calls
 
 
-def _share(x: float, y: float, dx: float, dy: float, clearance: float) -> float:
+def _share(x: float, y: float, dx: float, dy: float, clearance: float, time: float) -> float:
     """Return the part of a Newton step that leaves a tenth of the gap."""
-    limit, share = clearance - 0.1 * (clearance - float(np.hypot(x, y))), 1.0
-    while np.hypot(x + share * dx, y + share * dy) > limit:
+    limit, share = clearance - 0.1 * (clearance - math.hypot(x, y)), 1.0
+    while math.hypot(x + share * dx, y + share * dy) > limit:
         share *= 0.5
         if share < 1e-6:
-            raise FilmContactError("the journal must stay inside the clearance, got to the wall")
+            raise FilmContactError(f"{CONTACT}, got to the wall at {time:.6g} s")
     return share
 
 
+def _require_inside(x: float, y: float, clearance: float, time: float) -> None:
+    """Raise FilmContactError where Newton's method has been led to the wall."""
+    if math.hypot(x, y) > NEAR * clearance:
+        raise FilmContactError(f"{CONTACT}, got to the wall at {time:.6g} s")
+
+
 def _acceleration(
-    tangent: Callable[..., tuple], mass: float, speed: float, pull: Pull, rest: Array
+    reaction: Reaction, mass: float, speed: float, pull: Pull, rest: Array
 ) -> tuple[float, float]:
-    fx, fy, _ = tangent(*rest.tolist(), 0.0, 0.0, speed)
+    fx, fy = np.asarray(reaction.force(rest, np.zeros(2), speed)).tolist()
     px, py = pull(0.0)
     return (fx + px) / mass, (fy + py) / mass
 
@@ -110,13 +123,13 @@ def linear_march(mass: float, stiffness: Array, damping: Array, pull: Array, ste
     q: Array = np.zeros(2)
     v: Array = np.zeros(2)
     a: Array = pull[:, 0] / mass
-    k2, k1, one = 4.0 / step**2, 2.0 / step, np.eye(2)
+    k2, k1, one = 4.0 / step**2, 2.0 / step, np.eye(2)[:, :, None]
+    inverse = np.linalg.inv(np.moveaxis(mass * k2 * one + k1 * damping + stiffness, -1, 0))
     for n in range(1, count):
-        K, C = stiffness[:, :, n], damping[:, :, n]
-        known = mass * (k2 * (q + step * v) + a) + C @ (k1 * q + v)
-        new = np.linalg.solve(mass * k2 * one + k1 * C + K, pull[:, n] + known)
+        known = mass * (k2 * (q + step * v) + a) + damping[:, :, n] @ (k1 * q + v)
+        new = inverse[n] @ (pull[:, n] + known)
         a, v = np.asarray(k2 * (new - q - step * v) - a), np.asarray(k1 * (new - q) - v)
-        q = np.asarray(new)
+        q = new
         path[:, n] = q
     return path
 

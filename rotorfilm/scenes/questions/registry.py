@@ -13,6 +13,7 @@ from .bushes import bush_ladder
 from .contacts import QUANTITIES as CONTACTS
 from .contacts import contact_ladder
 from .coupling import coupling_ladder
+from .damper_peaks import damper_peak_ladder
 from .dampers import UNITS as DAMPERS
 from .dampers import damper_ladder
 from .orbits import UNITS as ORBITS
@@ -42,6 +43,7 @@ LADDERS: dict[tuple[str, str], LadderOf] = {
     ("bush", "wear"): wear_ladder,
     ("damper", "cosimulation_error"): coupling_ladder,
     **{("damper", quantity): damper_ladder for quantity in DAMPERS},
+    ("damper", "blade_loss_peak"): damper_peak_ladder,
 }
 """Builders of ladders by table of the scene and quantity, in the order in which they are tried."""
 
