@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from . import dampers, journals
+from . import dampers, journals, openings
 from .drawn import Drawn
 
 Draw = Callable[[np.random.Generator], Drawn]
@@ -20,5 +20,7 @@ FAMILIES: dict[str, tuple[int, Draw]] = {
     "blade loss": (1, journals.blade),
     "coupling": (1, journals.coupling),
     "damper": (2, dampers.damper),
+    "fed": (1, openings.fed),
+    "pads": (1, openings.pads),
 }
 """Weight of each family in a round of the battery, and how one scene of it is drawn."""
