@@ -21,6 +21,7 @@ from ...films import (
     ShortFilm,
     SplittingFilm,
 )
+from ...films.groove_axis import is_mappable
 from ...model import Array
 from ..echo import film_name
 
@@ -122,10 +123,10 @@ def film_rungs(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
         low, high = MapFilm().slenderness_range
         own = [_map(bearing)] if low <= bearing.slenderness <= high else []
         rungs = [*_plain_films(bearing, tabulated), *_grids(bearing, tabulated), *own]
-    elif bearing.supply_pressure:
-        rungs = _grids(bearing, tabulated)
     else:
-        rungs = [*_grids(bearing, tabulated), _grooved_map(bearing)]
+        low, high = GroovedMapFilm().slenderness_range
+        mapped = is_mappable(bearing.geometry) and low <= bearing.slenderness <= high
+        rungs = [*_grids(bearing, tabulated), *([_grooved_map(bearing)] if mapped else [])]
     return tuple(rungs)
 
 
