@@ -234,11 +234,11 @@ def limits(
     if json:
         console.print_json(result)
         return
+    rows: list[tuple[str, str]] = []
     for panel, curves in groupby(failures(result), key=lambda one: one.panel):
-        title = f"{panel.physics}: {panel.title}; fails from {panel.x_label} of"
-        console.print_rows(
-            title, [(one.name, "nowhere" if one.at is None else f"{one.at:.3g}") for one in curves]
-        )
+        rows += [("", ""), (f"{panel.physics}: {panel.title}", ""), (f"fails from {panel.x_label}", "")]
+        rows += [(f"  {one.name}", "nowhere" if one.at is None else f"{one.at:.3g}") for one in curves]
+    console.print_rows("", rows)
     console.print_rows("", files)
 
 

@@ -63,7 +63,7 @@ class StaticRung:
 
     def answer(self, before: Found | None) -> Found:
         """Return the quantity at the equilibrium of this film."""
-        made = self.film.prepare()
+        made = self.film.prepare(before.solution.eccentricity_ratio if before is not None else 0.0)
         counted = Counted(self.film.bearing)
         at = equilibrium(counted, self.load, self.speed)
         if self.quantity in MATRIX:
