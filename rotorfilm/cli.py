@@ -209,14 +209,16 @@ def build(
     ),
     json: Json = False,
 ) -> None:
-    """Export the film and the rotor of a scene as FMUs."""
+    """Export the film and the rotor of a scene as FMUs; a flexible rotor as one, with its bearings in it."""
     from .scenes import Scene
     from .scenes.export import export_scene
+    from .scenes.export_rotor import export_system
 
     loaded = Scene.load(scene)
-    if loaded.damper is None:
+    whole = loaded.shaft is not None and loaded.journal is None
+    if loaded.damper is None and not whole:
         _make_map(loaded.bearing)
-    made = export_scene(
+    made = (export_system if whole else export_scene)(
         loaded,
         out,
         version=fmi.value,

@@ -39,8 +39,10 @@ SCHEMES: dict[str, Callable[[Array], Array]] = {
     "explicit Runge-Kutta, order 4": lambda Z: (
         np.eye(4) + Z @ (np.eye(4) + Z @ (np.eye(4) + Z @ (np.eye(4) + Z / 4.0) / 3.0) / 2.0)
     ),
-    "implicit Euler": lambda Z: np.linalg.inv(np.eye(4) - Z),
-    "trapezoidal rule": lambda Z: np.linalg.solve(np.eye(4) - 0.5 * Z, np.eye(4) + 0.5 * Z),
+    "implicit Euler": lambda Z: np.asarray(np.linalg.inv(np.eye(4) - Z), dtype=float),
+    "trapezoidal rule": lambda Z: np.asarray(
+        np.linalg.solve(np.eye(4) - 0.5 * Z, np.eye(4) + 0.5 * Z), dtype=float
+    ),
 }
 """What a step does to the linearized state, by the step times its matrix."""
 

@@ -13,9 +13,9 @@ from ...linear import coefficients, equilibrium, whirl_threshold
 from ...model import Array
 from ...results import Equilibrium
 from ..counted import Counted
-from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Work
+from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, NoAnswerError, Work
 from ..validity import journal_remarks
-from .films import NOMINAL, FilmRung, film_rungs
+from .films import NOMINAL, FilmRung, film_rungs, is_grid
 from .statics import corrected, film_units
 
 if TYPE_CHECKING:
@@ -62,7 +62,8 @@ class WhirlRung:
         if threshold.speed is None and around is not None:
             threshold = whirl_threshold(counted, self.load, self.mass)
         if threshold.speed is None:
-            raise RotorfilmError(f"no threshold: {threshold.reason}")
+            kind = NoAnswerError if self.film.bounded or is_grid(self.film.bearing) else RotorfilmError
+            raise kind(f"no threshold: {threshold.reason}, by {self.name}")
         return Found(threshold.speed, {self.film.tangents: counted.tangents, **made}, threshold.equilibrium)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
