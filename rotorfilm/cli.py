@@ -37,9 +37,10 @@ app = typer.Typer(
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
+    epilog="Example: rotorfilm solve examples/question.toml --explain",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-app.add_typer(chart_app, name="chart")
+app.add_typer(chart_app, name="chart", epilog="Example: rotorfilm chart journal --ld 0.5 --out pictures")
 
 fmu = typer.Typer(
     help="Build FMUs of a scene, check one, show what is in one.",

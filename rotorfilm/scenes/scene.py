@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from importlib import resources
 from os import PathLike
 from pathlib import Path
@@ -28,6 +28,7 @@ from .rotor_table import ShaftTable
 from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
 from .solve import Answer, solve
 from .tables import Table, Variant, read_table, require_no_near_miss, text
+from .validity import journal_remarks
 
 BUNDLED = "friswell_5_9_6.toml"
 """The scene file that ships with the package."""
@@ -157,14 +158,22 @@ class Scene:
             Where the physics of all rungs leaves out what matters in this scene.
         """
         answer = ask(self)
-        for remark in answer.remarks:
-            warn_user(f"left out: {remark}")
+        _warn_of(answer.remarks)
         return answer
 
     def describe(self) -> Answer:
-        """Return equilibrium, coefficients and whirl threshold; see `rotorfilm.scenes.solve.solve`."""
+        """Return equilibrium, coefficients and whirl threshold; see `rotorfilm.scenes.solve.solve`.
+
+        Warns
+        -----
+        ValidityWarning
+            Where the physics of the film leaves out what matters in this scene.
+        """
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
-        return solve(self.bearing, load=self.static_load, speed=self.speed, mass=mass)
+        answer = solve(self.bearing, load=self.static_load, speed=self.speed, mass=mass)
+        answer = replace(answer, remarks=journal_remarks(self))
+        _warn_of(answer.remarks)
+        return answer
 
     def melting(self) -> BushAnswer:
         """Return contact and critical speeds of the unworn bush; raises InputError if the scene has none."""
@@ -229,6 +238,11 @@ class Scene:
         if self.operation is None:
             raise InputError("operation is required for a speed and a load, got no such table")
         return self.operation
+
+
+def _warn_of(remarks: tuple[str, ...]) -> None:
+    for remark in remarks:
+        warn_user(f"left out: {remark}")
 
 
 def parse_scene(document: str, source: str) -> Scene:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...bearings.journal import JournalBearing
-from ...errors import RotorfilmError, ValidityWarning
+from ...errors import ValidityWarning
 from ...films import (
     ComplementarityArc,
     ExtrapolatedFilm,
@@ -76,22 +76,10 @@ class FilmRung:
     bounded: bool = False
     makes_map: bool = False
 
-    def prepare(self, eccentricity_ratio: float = 0.0) -> dict[str, int]:
-        """Make what the first force would make, and return the work of that.
-
-        Raises
-        ------
-        RotorfilmError
-            If that is a map which does not reach to the eccentricity ratio where the journal is known to be.
-        """
+    def prepare(self) -> dict[str, int]:
+        """Make what the first force would make, and return the work of that."""
         if not self.makes_map:
             return {}
-        reach = getattr(self.bearing.film, "largest_eccentricity_ratio", 1.0)
-        if eccentricity_ratio > reach:
-            raise RotorfilmError(
-                f"no map is made: it would end at eccentricity ratio {reach:g}, "
-                f"and the journal rests at {eccentricity_ratio:.4g}"
-            )
         self.bearing.force([0.5 * self.bearing.clearance, 0.0], [0.0, 0.0], 1.0)
         return {MAP_MADE: 1}
 
@@ -140,6 +128,11 @@ def film_rungs(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
         mapped = is_mappable(bearing.geometry) and low <= bearing.slenderness <= high
         rungs = [*_grids(bearing, tabulated), *([_grooved_map(bearing)] if mapped else [])]
     return tuple(rungs)
+
+
+def point_films(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
+    """Return the films for some equilibria: a map that must be made first costs more than any grid."""
+    return tuple(film for film in film_rungs(bearing, fixed=fixed) if fixed or not film.makes_map)
 
 
 def with_film(bearing: JournalBearing, film: FilmLaw) -> JournalBearing:

@@ -15,7 +15,7 @@ from ...results import Equilibrium
 from ..counted import Counted
 from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, NoAnswerError, Work
 from ..validity import journal_remarks
-from .films import NOMINAL, FilmRung, film_rungs, is_grid
+from .films import NOMINAL, FilmRung, is_grid, point_films
 from .statics import corrected, film_units
 
 if TYPE_CHECKING:
@@ -150,7 +150,7 @@ def whirl_ladder(scene: Scene, quantity: str) -> Ladder:
     """
     if scene.rigid_rotor is None:
         raise InputError(f"rigid_rotor is required for {quantity}, got no such table")
-    films = film_rungs(scene.bearing, fixed=scene.film_is_given)
+    films = point_films(scene.bearing, fixed=scene.film_is_given)
     mass = scene.rigid_rotor.mass
     return Ladder(
         rungs=tuple(WhirlRung(film=film, load=scene.static_load, mass=mass) for film in films),
