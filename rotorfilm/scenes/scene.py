@@ -158,22 +158,18 @@ class Scene:
             Where the physics of all rungs leaves out what matters in this scene.
         """
         answer = ask(self)
-        _warn_of(answer.remarks)
+        for remark in answer.remarks:
+            warn_user(f"left out: {remark}")
         return answer
 
     def describe(self) -> Answer:
         """Return equilibrium, coefficients and whirl threshold; see `rotorfilm.scenes.solve.solve`.
 
-        Warns
-        -----
-        ValidityWarning
-            Where the physics of the film leaves out what matters in this scene.
+        What the physics of the film leaves out is in `remarks` of the answer.
         """
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
         answer = solve(self.bearing, load=self.static_load, speed=self.speed, mass=mass)
-        answer = replace(answer, remarks=journal_remarks(self))
-        _warn_of(answer.remarks)
-        return answer
+        return replace(answer, remarks=journal_remarks(self))
 
     def melting(self) -> BushAnswer:
         """Return contact and critical speeds of the unworn bush; raises InputError if the scene has none."""
@@ -238,11 +234,6 @@ class Scene:
         if self.operation is None:
             raise InputError("operation is required for a speed and a load, got no such table")
         return self.operation
-
-
-def _warn_of(remarks: tuple[str, ...]) -> None:
-    for remark in remarks:
-        warn_user(f"left out: {remark}")
 
 
 def parse_scene(document: str, source: str) -> Scene:

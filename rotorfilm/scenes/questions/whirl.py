@@ -150,7 +150,7 @@ def whirl_ladder(scene: Scene, quantity: str) -> Ladder:
     """
     if scene.rigid_rotor is None:
         raise InputError(f"rigid_rotor is required for {quantity}, got no such table")
-    films = point_films(scene.bearing, fixed=scene.film_is_given)
+    films = point_films(scene.bearing, fixed=scene.film_is_given, slopes=True)
     mass = scene.rigid_rotor.mass
     return Ladder(
         rungs=tuple(WhirlRung(film=film, load=scene.static_load, mass=mass) for film in films),
