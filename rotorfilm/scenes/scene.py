@@ -168,8 +168,9 @@ class Scene:
         What the physics of the film leaves out is in `remarks` of the answer.
         """
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
+        remarks = journal_remarks(self)
         answer = solve(self.bearing, load=self.static_load, speed=self.speed, mass=mass)
-        return replace(answer, remarks=journal_remarks(self))
+        return replace(answer, remarks=remarks)
 
     def melting(self) -> BushAnswer:
         """Return contact and critical speeds of the unworn bush; raises InputError if the scene has none."""

@@ -354,5 +354,5 @@ def test_a_threshold_that_does_not_exist_is_not_looked_for_on_grids():
     # The unbounded stability of heavily loaded journals: at 100 times its natural speed this one still is.
     scene = HOT.format(openings="", speed=100.0, quantity="whirl_threshold", tolerance=1e-3)
     heavy = scene.replace('["100 N", "-0.3 kN"]', '"900 kN"') + "[rigid_rotor]\nmass = 1e-3\n"
-    with pytest.raises(NoAnswerError, match="no threshold: .*, by map"):
+    with pytest.raises(NoAnswerError, match=r"no threshold: .*, by map"):
         parse_scene(heavy, "heavy").ask()
