@@ -44,7 +44,7 @@ MAP_MADE = "maps made"
 NOMINAL = {MAP_MADE: 20.0}
 """What a map costs about [s], where none was made in this run."""
 
-COARSE, MEDIUM, FINE, FINEST = (96, 8), (192, 16), (384, 16), (768, 32)
+MEDIUM, FINE, FINEST = (192, 16), (384, 16), (768, 32)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -105,7 +105,7 @@ class FilmRung:
         return math.inf
 
 
-def film_rungs(bearing: JournalBearing, *, fixed: bool, slopes: bool = True) -> tuple[FilmRung, ...]:
+def film_rungs(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
     """Return the films that can answer for a bearing, the cheapest first.
 
     Parameters
@@ -113,32 +113,26 @@ def film_rungs(bearing: JournalBearing, *, fixed: bool, slopes: bool = True) -> 
     bearing : JournalBearing
     fixed : bool
         Whether the scene names the film of the bearing, so that no other may answer.
-    slopes : bool
-        Whether errors of K and C are asked for too; grids are told those of a position by one less fine.
     """
     plain, tabulated = not (bearing.grooves or bearing.pads), _has_map(bearing)
     if fixed:
         rungs = [_named(bearing, tabulated)]
     elif tabulated:
-        rungs = [
-            _map(bearing),
-            *_plain_films(bearing, tabulated),
-            *_grids(bearing, tabulated, slopes),
-        ]
+        rungs = [_map(bearing), *_plain_films(bearing, tabulated), *_grids(bearing, tabulated)]
     elif plain:
         low, high = MapFilm().slenderness_range
         own = [_map(bearing)] if low <= bearing.slenderness <= high else []
-        rungs = [*_plain_films(bearing, tabulated), *_grids(bearing, tabulated, slopes), *own]
+        rungs = [*_plain_films(bearing, tabulated), *_grids(bearing, tabulated), *own]
     else:
         low, high = GroovedMapFilm().slenderness_range
         mapped = is_mappable(bearing.geometry) and low <= bearing.slenderness <= high
-        rungs = [*_grids(bearing, tabulated, slopes), *([_grooved_map(bearing)] if mapped else [])]
+        rungs = [*_grids(bearing, tabulated), *([_grooved_map(bearing)] if mapped else [])]
     return tuple(rungs)
 
 
-def point_films(bearing: JournalBearing, *, fixed: bool, slopes: bool) -> tuple[FilmRung, ...]:
+def point_films(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
     """Return the films for some equilibria: a map that must be made first costs more than any grid."""
-    films = film_rungs(bearing, fixed=fixed, slopes=slopes)
+    films = film_rungs(bearing, fixed=fixed)
     return tuple(film for film in films if fixed or not film.makes_map)
 
 
@@ -212,11 +206,11 @@ def _plain_films(bearing: JournalBearing, tabulated: bool) -> list[FilmRung]:
     return [_rung(name, bearing, film, rich, *priors) for name, film, *priors in films]
 
 
-def _grids(bearing: JournalBearing, tabulated: bool, slopes: bool) -> list[FilmRung]:
-    rich = _rich(tabulated, MEDIUM if slopes else COARSE)
+def _grids(bearing: JournalBearing, tabulated: bool) -> list[FilmRung]:
+    rich = _rich(tabulated, MEDIUM)
     coarse = _rung("2-D 48 x 4", bearing, ReynoldsFilm(cells=(48, 4)), rich, 1e-3, 1e-3)
     levels = (
-        ((48, 8), FINE if slopes else MEDIUM, 3e-5, 1e-3),
+        ((48, 8), FINE, 3e-5, 1e-3),
         ((96, 8), FINE, 5e-6, 3e-4),
         ((192, 16), FINEST, 1e-6, 1e-4),
         ((384, 16), FINEST, 5e-7, 5e-5),

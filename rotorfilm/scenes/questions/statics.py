@@ -203,7 +203,7 @@ def _one_defect(bearing: JournalBearing, speed: float, *, smooth: bool) -> Calla
 
 def static_ladder(scene: Scene, quantity: str) -> Ladder:
     """Return the ladder of a static quantity of a journal bearing."""
-    films = point_films(scene.bearing, fixed=scene.film_is_given, slopes=quantity in MATRIX)
+    films = point_films(scene.bearing, fixed=scene.film_is_given)
     rungs = tuple(
         StaticRung(film=film, quantity=quantity, load=scene.static_load, speed=scene.speed) for film in films
     )

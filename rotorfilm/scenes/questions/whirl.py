@@ -92,7 +92,7 @@ class WhirlRung:
 
     def _bound(self, at: Equilibrium) -> float:
         """Return the error [1] that the worst K and C within the verified bound would make."""
-        bound = self.film.bound(at.eccentricity_ratio, slopes=True)
+        bound = self.film.bound(at.eccentricity_ratio)
         if not math.isfinite(bound):
             return math.inf
         found = coefficients(self.film.bearing, at.position, at.speed)
@@ -150,7 +150,7 @@ def whirl_ladder(scene: Scene, quantity: str) -> Ladder:
     """
     if scene.rigid_rotor is None:
         raise InputError(f"rigid_rotor is required for {quantity}, got no such table")
-    films = point_films(scene.bearing, fixed=scene.film_is_given, slopes=True)
+    films = point_films(scene.bearing, fixed=scene.film_is_given)
     mass = scene.rigid_rotor.mass
     return Ladder(
         rungs=tuple(WhirlRung(film=film, load=scene.static_load, mass=mass) for film in films),
