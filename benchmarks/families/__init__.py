@@ -20,6 +20,8 @@ FAMILIES: dict[str, tuple[int, Draw]] = {
     "blade loss": (1, journals.blade),
     "coupling": (1, journals.coupling),
     "damper": (2, dampers.damper),
+    "orbit, film": (1, journals.orbit_by_film),
+    "blade, film": (1, journals.blade_by_film),
     "fed": (1, openings.fed),
     "pads": (1, openings.pads),
 }

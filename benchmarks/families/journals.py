@@ -128,6 +128,13 @@ def orbit(random: np.random.Generator) -> Drawn:
     return Drawn("orbit", data, orbit_by_map)
 
 
+def orbit_by_film(random: np.random.Generator) -> Drawn:
+    """Return a question about an orbit in a plain bearing whose film the scene names."""
+    drawn = orbit(random)
+    drawn.data["journal"]["film"] = FIXED_FILMS[random.integers(len(FIXED_FILMS))]
+    return replace(drawn, family="orbit, film")
+
+
 def unbalance(random: np.random.Generator, data: dict[str, Any], low: float, high: float) -> float:
     """Return an unbalance whose force is a part of the load."""
     operation = data["operation"]
@@ -141,6 +148,15 @@ def blade(random: np.random.Generator) -> Drawn:
     size = unbalance(random, data, 0.05, 1.0)
     data["excitation"] = {"kind": "blade_loss", "unbalance": size, "revolutions": 5.0}
     return Drawn("blade loss", data, blade_by_map)
+
+
+def blade_by_film(random: np.random.Generator) -> Drawn:
+    """Return the peak after a blade is lost, by the short film or a coarse grid."""
+    drawn = blade(random)
+    drawn.data["journal"]["film"] = ({"name": "short"}, {"name": "reynolds", "cells": [48, 4]})[
+        random.integers(2)
+    ]
+    return replace(drawn, family="blade, film")
 
 
 def coupling(random: np.random.Generator) -> Drawn:
@@ -206,5 +222,7 @@ def orbit_by_map(scene: Scene) -> Truth:
 
 def blade_by_map(scene: Scene) -> Truth:
     """Return the peak by the map in 3072 steps over a turn."""
-    rung = blade_loss_ladder(scene, "blade_loss_peak").rungs[0]
+    assert scene.journal is not None
+    by_map = replace(scene, journal=replace(scene.journal, film=None))
+    rung = blade_loss_ladder(by_map, "blade_loss_peak").rungs[0]
     return Truth(replace(rung, steps=3072).answer(None).value, 1e-6)
