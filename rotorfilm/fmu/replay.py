@@ -100,7 +100,7 @@ def _integrated(instance: Instance, t: float, x: Array, end: float, nominal: Arr
     return solver.y
 
 
-def _solver(slope: Callable[[float, Array], Array], t: float, x: Array, end: float, nominal: Array) -> DOP853:
+def _solver(slope: Callable[[float, Array], Array], t: float, x: Array, end: float, nominal: Array) -> Any:
     """Return the solver after the first step, which is short where a long one leaves the model's states."""
     for first in (end - t, SHORTER * (end - t), SHORTER**2 * (end - t)):
         solver = DOP853(slope, t, x, end, rtol=TOLERANCE, atol=TOLERANCE * nominal, first_step=first)  # type: ignore[arg-type]

@@ -413,9 +413,9 @@ def test_typo_in_the_version_is_named():
 @pytest.mark.parametrize(
     ("old", "new", "told"),
     [
-        ('clearance = "0.1 mm"', 'clearance = "-50 um"', r"got -5e-05 \[m; clearance = '-50 um'\]"),
+        ('clearance = "0.1 mm"', 'clearance = "-0.1 mm"', r"got -0.0001 \[m; clearance = '-0.1 mm'\]"),
         ('clearance = "0.1 mm"', "clearance = -1e-4", r"got -0.0001 \[m\]"),
-        ('diameter = "100 mm"', 'diameter = "0 in"', r"got 0.0 \[m; diameter = '0 in'\]"),
+        ("radius = 0.05", 'diameter = "0 in"', r"got 0.0 \[m; diameter = '0 in'\]"),
     ],
 )
 def test_errors_have_the_unit_and_the_text_of_the_file(old, new, told):

@@ -92,7 +92,7 @@ class WhirlRung:
 
     def _bound(self, at: Equilibrium) -> float:
         """Return the error [1] that the worst K and C within the verified bound would make."""
-        bound = self.film.bound(at.eccentricity_ratio)
+        bound = self.film.bound(at.eccentricity_ratio, slopes=True)
         if not math.isfinite(bound):
             return math.inf
         found = coefficients(self.film.bearing, at.position, at.speed)
