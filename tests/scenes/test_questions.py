@@ -351,7 +351,7 @@ def test_openings_never_make_a_map_for_an_equilibrium_and_tighter_is_never_worse
 
 
 def test_a_threshold_that_does_not_exist_is_not_looked_for_on_grids():
-    # A journal this close to the wall is stable, and still is at 100 times the natural speed of so large a mass.
+    # A journal this close to the wall is stable, even at 100 times the natural speed of so large a mass.
     scene = HOT.format(openings="", speed=100.0, quantity="whirl_threshold", tolerance=1e-3)
     heavy = scene.replace('["100 N", "-0.3 kN"]', '"900 kN"') + "[rigid_rotor]\nmass = 1e8\n"
     with pytest.raises(NoAnswerError, match=r"no threshold: .*, by map"):
