@@ -35,6 +35,14 @@ def draw_grooved_journal(axes: Axes) -> None:
     axes.patches[2].set_zorder(0.5)
 
 
+def draw_short_journal(axes: Axes) -> None:
+    """Draw a shaft in a short bearing, from the side."""
+    for y in (-0.85, 0.45):
+        axes.add_patch(Rectangle((-0.25, y), 0.5, 0.4, color=STEEL))
+    axes.add_patch(Rectangle((-0.25, -0.45), 0.5, 0.9, color=OIL))
+    axes.add_patch(Rectangle((-0.95, -0.4), 1.9, 0.75, facecolor="white", edgecolor=INK, lw=2))
+
+
 def draw_contact(axes: Axes) -> None:
     """Draw a ball on a plane with the film between them."""
     axes.add_patch(Rectangle((-0.95, -0.85), 1.9, 0.3, color=STEEL))
@@ -102,6 +110,7 @@ DRAWN = {
     "linear": draw_linear,
     "rigid_rotor": draw_rotor,
     "rotor_system": draw_rotor_system,
+    "short_journal": draw_short_journal,
 }
 
 

@@ -36,6 +36,8 @@ class Drawn:
         if quantity == "unbalance_phase":
             return abs(math.remainder(float(gap), 2.0 * math.pi))
         scale = 1.0 if quantity == "attitude_angle" else float(np.max(np.abs(truth)))
+        if scale == 0.0:  # a bush that does not wear
+            return 0.0 if not np.any(gap) else math.inf
         return float(np.max(np.abs(gap))) / scale
 
 

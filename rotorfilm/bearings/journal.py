@@ -298,7 +298,7 @@ class JournalBearing:
         if type(self) is not JournalBearing or not isinstance(film, NativeFilm):
             return None
         kernel, tables = film.native(self.slenderness)
-        bounds = _bounds(tables.get("range"))
+        bounds = _bounds(tables.get("range")) if tables else ""
         parameters = tuple(
             NativeParameter(
                 name=name,

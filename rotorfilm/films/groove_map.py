@@ -19,7 +19,8 @@ from .groove_axis import AlignedOpenings, aligned_openings, require_mappable
 from .groove_build import Resolution, build_groove_table
 from .groove_cache import cache_path
 from .groove_table import GrooveMapTable
-from .map import KernelFilm, MapFilm
+from .kernel_film import KernelFilm
+from .map import MapFilm
 from .ring import are_counts, require_cells
 from .table_cache import cached_table
 

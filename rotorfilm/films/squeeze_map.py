@@ -15,7 +15,8 @@ import numpy as np
 
 from ..errors import InputError
 from ..model import Array
-from .map import BoundMap, MapFilm
+from .kernel_film import BoundKernel
+from .map import MapFilm
 from .squeeze import SqueezeFilm
 from .squeeze_laws import SqueezeCase
 from .squeeze_table import LARGEST, LARGEST_FINITE, RATIO, SqueezeTable, finite_table, short_table
@@ -118,7 +119,7 @@ class MappedSqueezeFilm:
     film: MapFilm
     one_slenderness: bool
 
-    def bound(self, *, clearance: float, force_scale: float) -> BoundMap:
+    def bound(self, *, clearance: float, force_scale: float) -> BoundKernel:
         """Return the film of one damper in SI units, in C.
 
         Its speed must be 0, since a damper has no wedge.

@@ -1,10 +1,11 @@
 """Thin view of the C library, whose kernels Python and the native FMUs share."""
 
-from .kernels import GrooveMapKernel, JournalKernel, MapKernel, Status, slice_table
+from .kernels import FilmKernel, GrooveMapKernel, JournalKernel, MapKernel, ShortKernel, Status, slice_table
 from .library import NativeLibraryError
 from .spec import HasKernel, NativeParameter, NativeSpec
 
 __all__ = [
+    "FilmKernel",
     "GrooveMapKernel",
     "HasKernel",
     "JournalKernel",
@@ -12,6 +13,7 @@ __all__ = [
     "NativeLibraryError",
     "NativeParameter",
     "NativeSpec",
+    "ShortKernel",
     "Status",
     "slice_table",
 ]

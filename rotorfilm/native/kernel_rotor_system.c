@@ -20,8 +20,9 @@
 
 #define MOST 500
 
-extern const rf_kernel_type rf_grooved_journal_type, rf_journal_type;
-static const rf_kernel_type *const KINDS[] = {&rf_journal_type, &rf_grooved_journal_type};
+extern const rf_kernel_type rf_grooved_journal_type, rf_journal_type, rf_short_journal_type;
+static const rf_kernel_type *const KINDS[] = {&rf_journal_type, &rf_grooved_journal_type,
+                                              &rf_short_journal_type};
 enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS };
 
 typedef struct bearing {

@@ -7,7 +7,7 @@
 /* The kernels of this library. Compiled without RF_SUBSET, as from the sources in an FMU, it has all. */
 extern const rf_kernel_type rf_bush_reaction_type, rf_bush_wear_type, rf_contact_type, rf_damper_type;
 extern const rf_kernel_type rf_grooved_journal_type, rf_journal_type, rf_linear_type, rf_rigid_rotor_type,
-    rf_rotor_system_type;
+    rf_rotor_system_type, rf_short_journal_type;
 
 static const rf_kernel_type *const KERNELS[] = {
 #if !defined(RF_SUBSET) || RF_SUBSET == 1
@@ -25,6 +25,7 @@ static const rf_kernel_type *const KERNELS[] = {
 #if !defined(RF_SUBSET) || RF_SUBSET == 1 || RF_SUBSET == 3
     &rf_grooved_journal_type,
     &rf_journal_type,
+    &rf_short_journal_type,
 #endif
 #if !defined(RF_SUBSET) || RF_SUBSET == 3
     &rf_rotor_system_type,

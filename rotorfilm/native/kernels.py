@@ -9,7 +9,7 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 
 from ..model import Array
-from .library import GrooveMapStruct, JournalStruct, MapStruct, MapTableStruct, functions
+from .library import GrooveMapStruct, JournalStruct, MapStruct, MapTableStruct, ShortStruct, functions
 
 _Pair, _Five, _Ten = c_double * 2, c_double * 5, c_double * 10
 
@@ -42,28 +42,18 @@ class Batch(NamedTuple):
     first: int
 
 
-class MapKernel:
-    """The dimensionless film force of one bearing from its impedance map.
+class FilmKernel:
+    """A dimensionless film force of the C library.
 
-    Parameters
+    Attributes
     ----------
-    coefficients : ndarray, shape (cells_x + 5, cells_t + 5)
-        Quintic B-spline coefficients of M(X, T).
-    reach : float
-        X of the last node.
-    log_center : float
-        L0, the logarithm of -J/|w|^2 at the center.
+    struct : ctypes.Structure
+        What its rf_film reads.
     """
 
-    _function: ClassVar[str] = "rf_map_film"
-
-    def __init__(self, coefficients: Array, reach: float, log_center: float) -> None:
-        self._arguments: tuple[Any, ...] = (coefficients, reach, log_center)
-        self.coefficients = np.ascontiguousarray(coefficients, dtype=float)
-        cells_x, cells_t = (count - 5 for count in self.coefficients.shape)
-        if min(cells_x, cells_t) < 1 or not np.isfinite(self.coefficients).all():
-            raise ValueError(f"coefficients must be finite, 6 x 6 at least, got shape {coefficients.shape}")
-        self.struct: Any = MapStruct(cells_x, cells_t, reach, log_center, self.coefficients.ctypes.data)
+    _function: ClassVar[str]
+    _arguments: tuple[Any, ...]
+    struct: Any
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._arguments
@@ -85,6 +75,46 @@ class MapKernel:
         e, w = _rows(e), _rows(w)
         film = [self.film, byref(self.struct)]
         return _run("rf_film_batch", film, e.shape[1], [*_pointer(e), *_pointer(w)], shape)
+
+
+class ShortKernel(FilmKernel):
+    """The short-bearing film of one length / diameter.
+
+    Parameters
+    ----------
+    slenderness : float
+        Length / diameter.
+    """
+
+    _function: ClassVar[str] = "rf_short_film"
+
+    def __init__(self, slenderness: float) -> None:
+        self._arguments = (slenderness,)
+        self.struct = ShortStruct(4.0 * slenderness**2)
+
+
+class MapKernel(FilmKernel):
+    """The dimensionless film force of one bearing from its impedance map.
+
+    Parameters
+    ----------
+    coefficients : ndarray, shape (cells_x + 5, cells_t + 5)
+        Quintic B-spline coefficients of M(X, T).
+    reach : float
+        X of the last node.
+    log_center : float
+        L0, the logarithm of -J/|w|^2 at the center.
+    """
+
+    _function: ClassVar[str] = "rf_map_film"
+
+    def __init__(self, coefficients: Array, reach: float, log_center: float) -> None:
+        self._arguments = (coefficients, reach, log_center)
+        self.coefficients = np.ascontiguousarray(coefficients, dtype=float)
+        cells_x, cells_t = (count - 5 for count in self.coefficients.shape)
+        if min(cells_x, cells_t) < 1 or not np.isfinite(self.coefficients).all():
+            raise ValueError(f"coefficients must be finite, 6 x 6 at least, got shape {coefficients.shape}")
+        self.struct = MapStruct(cells_x, cells_t, reach, log_center, self.coefficients.ctypes.data)
 
 
 class GrooveMapKernel(MapKernel):
@@ -124,15 +154,15 @@ class JournalKernel:
 
     Parameters
     ----------
-    kernel : MapKernel
-        Its map, or the GrooveMapKernel of a bearing with openings.
+    kernel : FilmKernel
+        Its film.
     clearance : float [m]
         Radial clearance.
     force_scale : float [N s]
         viscosity * length * radius^3 / clearance^2.
     """
 
-    def __init__(self, kernel: MapKernel, clearance: float, force_scale: float) -> None:
+    def __init__(self, kernel: FilmKernel, clearance: float, force_scale: float) -> None:
         self._arguments = (kernel, clearance, force_scale)
         self._struct = JournalStruct(kernel.film, addressof(kernel.struct), clearance, force_scale)
         self._reference = byref(self._struct)

@@ -35,6 +35,12 @@ class MapStruct(ctypes.Structure):
     ]
 
 
+class ShortStruct(ctypes.Structure):
+    """rf_short of short_kernel.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [("factor", c_double)]
+
+
 class JournalStruct(ctypes.Structure):
     """rf_journal of journal_kernel.h."""
 
@@ -84,6 +90,7 @@ _BATCH: dict[str, list[Any]] = {
 _SCALAR: dict[str, list[Any]] = {
     "rf_map_film": [c_void_p] * 5,
     "rf_groove_film": [c_void_p] * 5,
+    "rf_short_film": [c_void_p] * 5,
     "rf_journal_call": [c_void_p, *[c_double] * 5, c_void_p],
     "rf_journal_at": [c_void_p] * 4,
     "rf_map_slice": [c_void_p, c_double, c_void_p, c_void_p],

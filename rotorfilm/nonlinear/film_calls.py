@@ -4,8 +4,8 @@ Every such function is that of the C library (native/journal_kernel.h),
 
     int f(const void *bearing, const double state[5], double force[2], double jacobian[2][5]),
 
-with state = (x, y, vx, vy, speed). Journal bearings on a map bring it along, `ShortFilm` and `LinearBearing`
-have one here, and any other reaction is called back in Python: slower, with the same result.
+with state = (x, y, vx, vy, speed). Journal bearings on a film of that library bring it along, `LinearBearing`
+has one here, and any other reaction is called back in Python: slower, with the same result.
 """
 
 from __future__ import annotations
@@ -22,12 +22,11 @@ from numba.extending import intrinsic
 
 from ..bearings import JournalBearing, LinearBearing
 from ..errors import FilmContactError, RotorfilmError, UndefinedDerivativeError
-from ..films import ShortFilm
-from ..films.map import BoundMap
+from ..films.kernel_film import BoundKernel
 from ..model import Reaction
 from ..native import Status
 from ..native.library import functions
-from .short_kernel import linear_bearing, short_bearing
+from .linear_kernel import linear_bearing
 
 CONTACT = int(Status.CONTACT)
 UNDEFINED = int(Status.UNDEFINED)
@@ -59,13 +58,10 @@ def film_call(reaction: Reaction) -> FilmCall:
     """Return the compiled force of a reaction without states."""
     if type(reaction) is JournalBearing:
         bound = reaction._bound
-        if isinstance(bound, BoundMap):
+        if isinstance(bound, BoundKernel):
             struct = bound.kernel._struct
             address = ctypes.cast(functions()["rf_journal_at"], c_void_p).value or 0
             return FilmCall(address=address, data=ctypes.addressof(struct), owner=bound)
-        if type(reaction.fitted_film) is ShortFilm:
-            values = np.array([reaction.clearance, 4.0 * reaction.slenderness**2 * reaction.force_scale])
-            return FilmCall(address=short_bearing.address, data=values.ctypes.data, owner=values)
     if type(reaction) is LinearBearing:
         values = np.concatenate([np.ravel(reaction.stiffness), np.ravel(reaction.damping)])
         return FilmCall(address=linear_bearing.address, data=values.ctypes.data, owner=values)

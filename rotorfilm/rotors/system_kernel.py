@@ -12,7 +12,7 @@ from .profile import SpeedProfile
 from .rigid import RigidRotor
 from .structure import FlexibleRotor, Operators, station_name
 
-KINDS = ("journal", "grooved_journal")
+KINDS = ("journal", "grooved_journal", "short_journal")
 """Kernels that may be a bearing of a system, in the order of `native/kernel_rotor_system.c`."""
 
 

@@ -25,7 +25,7 @@ QUANTITIES = {
     "transmissibility": "force on the housing / centrifugal force of the unbalance",
     "central_film": "film thickness in the middle of a contact, the smallest over time [m]",
     "approach": "of a ball towards its plane, the largest over time [m]",
-    "wear": "settlement of a bush at the end of its run [m]",
+    "wear": "how much farther a bush settles because it melts, at the end of its run [m]",
     "cosimulation_error": "largest distance of coupled and monolithic orbit / clearance",
 }
 """What a scene may ask for; the families that answer are listed in docs/scenes.md."""

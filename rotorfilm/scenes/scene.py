@@ -221,7 +221,9 @@ class Scene:
 
     @property
     def duration(self) -> float:
-        """Length of a run [s]; the shaft must turn."""
+        """Length of a run [s]; where it is given in turns, the shaft must turn."""
+        if self._operation.duration is not None:
+            return self._operation.duration
         return self.time_of(2.0 * math.pi * self.cosimulation.revolutions)
 
     def time_of(self, angle: float) -> float:

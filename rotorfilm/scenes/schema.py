@@ -98,13 +98,18 @@ class OperationTable:
     load : (float, float) or None [N]
         Whole static force on the journal, weight included; in a file one magnitude, along -y, or
         `[x, y]`. None: the weight of the rotor.
+    duration : float or None [s]
+        Length of a run. None: `cosimulation.revolutions` turns of the shaft.
     """
 
     speed: Annotated[float, Quantity("rad/s")]
     load: Annotated[tuple[float, float] | None, read_load] = None
+    duration: Annotated[float | None, Quantity("s")] = None
 
     def __post_init__(self) -> None:
         require_finite("speed", self.speed)
+        if self.duration is not None:
+            require_positive("duration", self.duration)
         if self.load is not None:
             require_finite("load", self.load)
 

@@ -11,7 +11,7 @@ from fmpy.fmi1 import FMICallException
 
 from rotorfilm.bearings.journal import JournalBearing
 from rotorfilm.errors import FmuError
-from rotorfilm.films import MapFilm
+from rotorfilm.films import MapFilm, ShortFilm
 from rotorfilm.fmu import export_fmu
 from rotorfilm.fmu.instance import extracted, instantiated
 from rotorfilm.fmu.linear_system import from_state_space
@@ -25,7 +25,8 @@ RUN_UP = replace(ROTOR, speed=SpeedProfile(times=(0.0, 0.01, 0.03), speeds=(40.0
 PLANT = control.ss(
     [[0.0, 1.0], [-400.0, -2.0]], [[0.0], [1.0]], [[1.0, 0.0], [0.0, 1.0]], [[0.0], [0.5]], inputs=["u"]
 )
-MODELS = {"film": BEARING, "rotor": ROTOR, "run_up": RUN_UP, "plant": PLANT}
+SHORT = replace(BEARING, film=ShortFilm())
+MODELS = {"film": BEARING, "short": SHORT, "rotor": ROTOR, "run_up": RUN_UP, "plant": PLANT}
 KINDS = [("native", "2.0", False), ("native", "2.0", True), ("native", "3.0", False), ("native", "3.0", True)]
 KINDS.append(("python", "2.0", False))
 

@@ -47,5 +47,5 @@ def test_a_users_film_over_a_map_travels_with_it(write_module):
 
 def test_other_films_travel_without_it():
     assert not [
-        name for name in bundle_source({"rotorfilm.films.short"}).files if name.endswith((".so", ".bin"))
+        name for name in bundle_source({"rotorfilm.films.splitting"}).files if name.endswith((".so", ".bin"))
     ]

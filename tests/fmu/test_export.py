@@ -18,9 +18,9 @@ from rotorfilm.fmu import archive, export_fmu
 from rotorfilm.rotors.rigid import RigidRotor
 from rotorfilm.units import UNITS
 
-BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())
-MAP = replace(BEARING, film=MapFilm())
-SPLIT = replace(BEARING, film=SplittingFilm(order=(2, 1), rupture=RotatingArc()))
+SPLITTING = SplittingFilm(order=(2, 1), rupture=RotatingArc())
+BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=SPLITTING)
+MAP, SHORT = replace(BEARING, film=MapFilm()), replace(BEARING, film=ShortFilm())
 ROTOR = RigidRotor(mass=50.0, speed=157.0, unbalance=8e-4)
 
 EXPORT_ELSEWHERE = """
@@ -57,7 +57,7 @@ class Wrapped:
     a: float = 1.0
 
 
-@pytest.mark.parametrize("model", [MAP, BEARING, SPLIT, ROTOR], ids=["map", "short", "split", "rotor"])
+@pytest.mark.parametrize("model", [MAP, SHORT, BEARING, ROTOR], ids=["map", "short", "split", "rotor"])
 def test_fmpy_finds_nothing_wrong(model, tmp_path):
     assert validate_fmu(str(export_fmu(model, tmp_path / "a.fmu", backend="python"))) == []
 
@@ -81,7 +81,7 @@ def test_another_process_builds_the_same_bytes(tmp_path):
     "change",
     [
         {"model": replace(BEARING, viscosity=0.2)},
-        {"model": SPLIT},
+        {"model": SHORT},
         {"component": "other"},
         {"start": {"speed": 1.0}},
         {"stop_time": 2.0},
@@ -93,7 +93,7 @@ def test_the_guid_changes_with_the_content(change, tmp_path):
     assert fmpy.read_model_description(str(first)).guid != fmpy.read_model_description(str(second)).guid
 
 
-@pytest.mark.parametrize("model", [MAP, BEARING], ids=["map", "short"])
+@pytest.mark.parametrize("model", [MAP, SHORT], ids=["map", "short"])
 def test_the_fmu_needs_neither_this_package_nor_its_own_folder(model, tmp_path):
     path = export_fmu(model, tmp_path / "a.fmu", backend="python", component="bearing")
     command = [sys.executable, "-c", RUN_ALONE, str(path)]

@@ -6,7 +6,7 @@ from fmpy.fmi2 import FMU2Model, FMU2Slave
 from fmpy.fmi3 import FMU3Model, FMU3Slave
 from scipy.integrate import solve_ivp
 
-from rotorfilm import JournalBearing, RigidRotor, ShortFilm, SpeedProfile, equilibrium
+from rotorfilm import JournalBearing, ReynoldsFilm, RigidRotor, ShortFilm, SpeedProfile, equilibrium
 from rotorfilm.rotors import (
     Disk,
     ElasticMaterial,
@@ -21,6 +21,7 @@ from rotorfilm.rotors import (
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 WIDE = JournalBearing(radius=0.05, length=0.05, clearance=1.2e-4, viscosity=0.05)
+SHORT = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
 RUN_UP = SpeedProfile((0.0, 0.01, 0.03), (100.0, 150.0, 120.0))
 
@@ -54,6 +55,7 @@ def systems():
     return {
         "two of a kind": mount(reduced(150.0), {"left": BEARING, "right": BEARING}),
         "two tables": mount(reduced(RUN_UP), {"left": BEARING, "right": WIDE}),
+        "two films": mount(reduced(RUN_UP), {"left": SHORT, "right": WIDE}),
         "free station": mount(reduced(RUN_UP), {"right": WIDE}),
         "whole shaft": mount(shaft(150.0), {"left": WIDE, "right": BEARING}),
         "rigid": rigid(RUN_UP),
@@ -221,7 +223,7 @@ def test_parameters_reach_their_bearing(unzipped):
 
 
 def test_a_rotor_on_a_film_without_kernel_has_none():
-    short = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())
+    grid = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ReynoldsFilm())
     rotor = RigidShaft(
         mass=50.0,
         diametral_inertia=1.0,
@@ -230,4 +232,4 @@ def test_a_rotor_on_a_film_without_kernel_has_none():
         stations=(("left", -0.5), ("right", 0.5)),
     )
     assert mount(rotor, {"left": BEARING, "right": BEARING}).native() is not None
-    assert mount(rotor, {"left": BEARING, "right": short}).native() is None
+    assert mount(rotor, {"left": BEARING, "right": grid}).native() is None

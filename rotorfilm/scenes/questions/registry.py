@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from ...errors import InputError
 from ..ladder import Ladder, QuestionAnswer, walk
 from .blade_loss import blade_loss_ladder
+from .bush_wear import wear_ladder
 from .bushes import bush_ladder
 from .contacts import QUANTITIES as CONTACTS
 from .contacts import contact_ladder
@@ -35,6 +36,7 @@ LADDERS: dict[tuple[str, str], LadderOf] = {
     ("shaft", "critical_speed"): shaft_ladder,
     **{("contact", quantity): contact_ladder for quantity in CONTACTS},
     ("bush", "critical_speed"): bush_ladder,
+    ("bush", "wear"): wear_ladder,
     **{("damper", quantity): damper_ladder for quantity in DAMPERS},
 }
 """Builders of ladders by table of the scene and quantity, in the order in which they are tried."""
