@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import dataclasses
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -132,6 +132,28 @@ class Trajectory:
     def velocity(self) -> Array:
         """Journal velocity, shape (2, n) [m/s]."""
         return np.stack([self.signals["vx"], self.signals["vy"]])
+
+
+def orbit_distance(
+    own: Trajectory, reference: Trajectory, journals: Sequence[tuple[str, str]] = (("x", "y"),)
+) -> float:
+    """Return the largest distance of the journals between two trajectories [m].
+
+    Compared at the sample times of the first up to the end of the second, which is interpolated linearly
+    between its own.
+
+    Parameters
+    ----------
+    own, reference : Trajectory
+    journals : sequence of (str, str)
+        Names of the signals x and y of each journal.
+    """
+    met = own.time <= reference.time[-1] * (1.0 + 1e-12)
+    largest = 0.0
+    for pair in journals:
+        gaps = [own[name][met] - np.interp(own.time[met], reference.time, reference[name]) for name in pair]
+        largest = max(largest, float(np.hypot(*gaps).max(initial=0.0)))
+    return largest
 
 
 @dataclass(frozen=True, kw_only=True)

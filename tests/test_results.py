@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotorfilm.results import Coefficients, Trajectory, WhirlThreshold, to_plain
+from rotorfilm.results import Coefficients, Trajectory, WhirlThreshold, orbit_distance, to_plain
 
 SCALARS = st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text(max_size=5)
 PLAIN = st.recursive(
@@ -66,3 +66,22 @@ def test_trajectory_stacks_its_components():
     np.testing.assert_array_equal(trajectory.position, [[0.0, 1.0, 2.0], [1.0, 2.0, 3.0]])
     np.testing.assert_array_equal(trajectory.velocity, [[2.0, 3.0, 4.0], [3.0, 4.0, 5.0]])
     np.testing.assert_array_equal(trajectory["vy"], [3.0, 4.0, 5.0])
+
+
+def test_orbit_distance_is_the_largest_at_the_times_of_the_first():
+    time = np.linspace(0.0, 1.0, 11)
+    own = Trajectory(time=time, signals={"x": 3.0 * time, "y": 0.0 * time}, work={})
+    other = Trajectory(time=time[::2], signals={"x": 0.0 * time[::2], "y": 4.0 * time[::2]}, work={})
+    assert orbit_distance(own, other) == pytest.approx(5.0)
+    # beyond the end of the second there is nothing to compare with
+    short = Trajectory(time=time[:3], signals={"x": 0.0 * time[:3], "y": 4.0 * time[:3]}, work={})
+    assert orbit_distance(own, short) == pytest.approx(1.0)
+
+
+def test_orbit_distance_is_that_of_the_journal_that_is_farthest_off():
+    time = np.array([0.0, 1.0])
+    names = ("left_x", "left_y", "right_x", "right_y")
+    own = Trajectory(time=time, signals={name: k * time for k, name in enumerate(names)}, work={})
+    rest = Trajectory(time=time, signals=dict.fromkeys(names, 0.0 * time), work={})
+    journals = [("left_x", "left_y"), ("right_x", "right_y")]
+    assert orbit_distance(own, rest, journals) == pytest.approx(13.0**0.5)

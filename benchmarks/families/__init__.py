@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from . import bushes, dampers, journals, openings
+from . import bushes, couplings, dampers, journals, openings
 from .drawn import Drawn
 
 Draw = Callable[[np.random.Generator], Drawn]
@@ -18,12 +18,14 @@ FAMILIES: dict[str, tuple[int, Draw]] = {
     "whirl": (2, journals.whirl),
     "orbit": (3, journals.orbit),
     "blade loss": (1, journals.blade),
-    "coupling": (1, journals.coupling),
+    "coupling": (1, couplings.coupling),
     "damper": (2, dampers.damper),
     "orbit, film": (1, journals.orbit_by_film),
     "blade, film": (1, journals.blade_by_film),
     "bush speed": (1, bushes.bush_speed),
     "bush wear": (2, bushes.bush_wear),
+    "coupling hard": (1, couplings.hard),
+    "coupling other": (1, couplings.other),
     "fed": (1, openings.fed),
     "pads": (1, openings.pads),
 }

@@ -13,11 +13,9 @@ from rotorfilm.films import MapFilm, ShortFilm
 from rotorfilm.linear import equilibrium, whirl_threshold
 from rotorfilm.scenes import Scene
 from rotorfilm.scenes.questions.blade_loss import blade_loss_ladder
-from rotorfilm.scenes.questions.coupling import coupling_ladder
 from rotorfilm.scenes.questions.films import FilmRung, extrapolated, tangent
 from rotorfilm.scenes.questions.orbits import OrbitRung, rotor_of
 from rotorfilm.scenes.questions.statics import StaticRung
-from rotorfilm.transient import simulate
 
 from .drawn import Drawn, Truth, log_uniform
 
@@ -157,25 +155,6 @@ def blade_by_film(random: np.random.Generator) -> Drawn:
         random.integers(2)
     ]
     return replace(drawn, family="blade, film")
-
-
-def coupling(random: np.random.Generator) -> Drawn:
-    """Return the error of a co-simulation over two turns, in a plain bearing."""
-    table, _ = journal(random, (0.12, 1.5))
-    data = with_rotor(random, scene_of(random, table, "cosimulation_error", (1e-3, 3e-2), (0.2, 0.7)))
-    data["rigid_rotor"]["unbalance"] = unbalance(random, data, 0.05, 0.5)
-    data["cosimulation"] = {"revolutions": 2.0}
-    return Drawn("coupling", data, lambda scene: Truth(0.0, 1e-7), coupled_error)
-
-
-def coupled_error(scene: Scene, name: str) -> float:
-    """Return the largest distance / clearance between a coupled run and both partners as one system."""
-    rung = next(rung for rung in coupling_ladder(scene, "cosimulation_error").rungs if rung.name == name)
-    coupled = rung.run().trajectory
-    whole = simulate(
-        rung.rotor, rung.bearing, duration=float(coupled.time[-1]), times=coupled.time, rtol=1e-9
-    )
-    return float(np.hypot(*(coupled.position - whole.position)).max()) / rung.bearing.clearance
 
 
 def by_map(scene: Scene) -> Truth:

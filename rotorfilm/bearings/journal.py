@@ -20,10 +20,10 @@ from ..errors import (
 from ..films.geometry import FilmGeometry, Groove, Pad
 from ..films.law import CENTER, BindableFilm, BoundFilm, FilmLaw, FittedFilm, NativeFilm, TabulatedFilm
 from ..films.map import MapFilm
-from ..model import Array, Linearization, Tangent, force_outputs, journal_inputs, static_linearization
+from ..model import Array, Tangent, force_outputs, journal_inputs
 from ..native.spec import NativeParameter, NativeSpec
 from ..signals import Signal
-from .reaction import NOMINAL_SPEED, broadcast_state, input_vector
+from .reaction import NOMINAL_SPEED, Feedthrough, broadcast_state
 
 NATIVE_PARAMETERS = (
     ("radius", "m", "bearing radius"),
@@ -44,7 +44,7 @@ ROUNDOFF = 1e-14
 
 
 @dataclass(frozen=True, kw_only=True)
-class JournalBearing:
+class JournalBearing(Feedthrough):
     """A cylindrical journal bearing, full unless it has pads or grooves: a Reaction and a static Model.
 
     x and y are Cartesian from the bearing center, rotation is about +z, the force acts on the journal.
@@ -175,11 +175,6 @@ class JournalBearing:
         """Signals force_x, force_y: the force on the journal."""
         return force_outputs(self.force_scale * NOMINAL_SPEED * min(1.0, self.slenderness**2))
 
-    @property
-    def states(self) -> tuple[Signal, ...]:
-        """No states: the film is quasi-static."""
-        return ()
-
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the film force on the journal.
 
@@ -276,16 +271,6 @@ class JournalBearing:
         by_position = (by_eccentricity - 0.5 * speed * turned) / self.clearance
         by_speed = 0.5 * (by_source[:, 0] * eccentricity[1] - by_source[:, 1] * eccentricity[0])
         return np.concatenate([by_position, by_source / self.clearance, by_speed[:, None]], axis=1)
-
-    def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return (force_x, force_y) [N] for the input u = (x, y, vx, vy, speed); t and x are not used."""
-        values = input_vector(u)
-        return self.force(values[:2], values[2:4], values[4])
-
-    def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
-        """Return the exact derivatives at u: all of them in the feedthrough matrix D (2, 5)."""
-        values = input_vector(u)
-        return static_linearization(self.jacobian(values[:2], values[2:4], values[4]))
 
     def native(self) -> NativeSpec | None:
         """Return the kernel of the C library that is this bearing; None if its film has none.

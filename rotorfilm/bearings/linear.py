@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_vector
-from ..model import Array, Linearization, force_outputs, journal_inputs, static_linearization
+from ..model import Array, force_outputs, journal_inputs
 from ..signals import Signal
+from .reaction import Feedthrough
 
 Pair = tuple[tuple[float, float], tuple[float, float]]
 
@@ -19,7 +20,7 @@ NOMINAL_LENGTH = 1e-4
 
 
 @dataclass(frozen=True, kw_only=True)
-class LinearBearing:
+class LinearBearing(Feedthrough):
     """A spring and a damper, force = -stiffness position - damping velocity: a Reaction at any speed.
 
     Parameters
@@ -60,11 +61,6 @@ class LinearBearing:
         """Signals force_x, force_y: the force on the journal."""
         return force_outputs(float(np.abs(self.stiffness).max()) * NOMINAL_LENGTH or 1.0)
 
-    @property
-    def states(self) -> tuple[Signal, ...]:
-        """No states."""
-        return ()
-
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the force on the journal [N], shape (2, ...); the speed is not used."""
         q, v = require_vector("position", position), require_vector("velocity", velocity)
@@ -76,13 +72,3 @@ class LinearBearing:
         batch = np.broadcast_shapes(np.shape(position)[1:], np.shape(velocity)[1:], np.shape(speed))
         constant = np.hstack([-np.array(self.stiffness), -np.array(self.damping), np.zeros((2, 1))])
         return np.broadcast_to(constant.reshape(2, 5, *(1,) * len(batch)), (2, 5, *batch)).copy()
-
-    def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return (force_x, force_y) [N] for the input u = (x, y, vx, vy, speed); t and x are not used."""
-        values = np.asarray(u, dtype=float)
-        return self.force(values[:2], values[2:4], values[4])
-
-    def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
-        """Return the derivatives: all of them in the feedthrough matrix D (2, 5)."""
-        values = np.asarray(u, dtype=float)
-        return static_linearization(self.jacobian(values[:2], values[2:4], values[4]))

@@ -47,7 +47,32 @@ def input_vector(u: ArrayLike) -> Array:
     return values
 
 
-class _Prepared(Protocol):
+class _Law(Protocol):
+    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
+
+    def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
+
+
+class Feedthrough:
+    """What makes a static Model of `force` and `jacobian`."""
+
+    @property
+    def states(self) -> tuple[Signal, ...]:
+        """No states: the reaction is quasi-static."""
+        return ()
+
+    def output(self: _Law, t: float, x: ArrayLike, u: ArrayLike) -> Array:
+        """Return (force_x, force_y) [N] for the input u = (x, y, vx, vy, speed); t and x are not used."""
+        values = input_vector(u)
+        return self.force(values[:2], values[2:4], values[4])
+
+    def linearization(self: _Law, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
+        """Return the exact derivatives at u: all of them in the feedthrough matrix D (2, 5)."""
+        values = input_vector(u)
+        return static_linearization(self.jacobian(values[:2], values[2:4], values[4]))
+
+
+class _Prepared(_Law, Protocol):
     @property
     def clearance(self) -> float: ...
 
@@ -58,12 +83,8 @@ class _Prepared(Protocol):
 
     def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array: ...
 
-    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
 
-    def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
-
-
-class StaticReaction:
+class StaticReaction(Feedthrough):
     """A Reaction made from `clearance`, `nominal_force`, `prepared_force` and `prepared_jacobian`."""
 
     @property
@@ -80,11 +101,6 @@ class StaticReaction:
     def outputs(self: _Prepared) -> tuple[Signal, ...]:
         """Signals force_x, force_y: the force on the journal."""
         return force_outputs(self.nominal_force)
-
-    @property
-    def states(self) -> tuple[Signal, ...]:
-        """No states: the reaction is quasi-static."""
-        return ()
 
     def force(self: _Prepared, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
         """Return the force on the journal.
@@ -151,13 +167,3 @@ class StaticReaction:
             return force_x, force_y
 
         return call
-
-    def output(self: _Prepared, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return (force_x, force_y) [N] for the input u = (x, y, vx, vy, speed); t and x are not used."""
-        values = input_vector(u)
-        return self.force(values[:2], values[2:4], values[4])
-
-    def linearization(self: _Prepared, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
-        """Return the exact derivatives at u: all of them in the feedthrough matrix D (2, 5)."""
-        values = input_vector(u)
-        return static_linearization(self.jacobian(values[:2], values[2:4], values[4]))

@@ -13,9 +13,10 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
 from ..errors import InputError, require_finite, require_vector
-from ..model import Array, Linearization, force_outputs, journal_inputs, static_linearization
+from ..model import Array, force_outputs, journal_inputs
 from ..results import write_csv
 from ..signals import Signal
+from .reaction import Feedthrough
 
 NOMINAL_LENGTH = 1e-4
 """Typical displacement [m]."""
@@ -26,7 +27,7 @@ HEADINGS = ("speed [rad/s]", *(f"k{e} [N/m]" for e in ENTRIES), *(f"c{e} [N s/m]
 
 
 @dataclass(frozen=True, kw_only=True)
-class TabulatedBearing:
+class TabulatedBearing(Feedthrough):
     """force = -K(speed) position - C(speed) velocity: a Reaction for small motion about an equilibrium.
 
     Between the speeds the entries follow a monotone cubic (Fritsch & Butland 1984); beyond them the bearing
@@ -96,11 +97,6 @@ class TabulatedBearing:
         """Signals force_x, force_y: the force on the journal."""
         return force_outputs(float(np.abs(self._tables[0]).max()) * NOMINAL_LENGTH or 1.0)
 
-    @property
-    def states(self) -> tuple[Signal, ...]:
-        """No states."""
-        return ()
-
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the force on the journal [N], shape (2, ...).
 
@@ -124,16 +120,6 @@ class TabulatedBearing:
         by_speed = -np.einsum("...ij,j...->i...", k_slope, q) - np.einsum("...ij,j...->i...", c_slope, v)
         blocks = [np.moveaxis(-table, (-2, -1), (0, 1)) for table in (stiffness, damping)]
         return np.concatenate([*np.broadcast_arrays(*blocks), by_speed[:, None]], axis=1)
-
-    def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return (force_x, force_y) [N] for the input u = (x, y, vx, vy, speed); t and x are not used."""
-        values = np.asarray(u, dtype=float)
-        return self.force(values[:2], values[2:4], values[4])
-
-    def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
-        """Return the derivatives: all of them in the feedthrough matrix D (2, 5)."""
-        values = np.asarray(u, dtype=float)
-        return static_linearization(self.jacobian(values[:2], values[2:4], values[4]))
 
     @property
     def _tables(self) -> tuple[Array, Array]:

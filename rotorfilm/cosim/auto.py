@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -12,18 +11,18 @@ from ..errors import (
     ContactError,
     ConvergenceError,
     CouplingError,
-    CouplingWarning,
     InputError,
     PartialResultError,
     require_positive,
 )
-from ..results import Trajectory
+from ..results import Trajectory, orbit_distance
 from .choice import Choice, Trial
 from .explicit import GaussSeidel
 from .implicit import SIExp3
 from .newton import Newton
 from .run import CoSimulation
 from .scheme import Scheme
+from .watch import quietly
 
 TRIAL_STEPS = 180
 """Longest trial run, in macro steps: half a turn of the shaft at one degree."""
@@ -93,8 +92,7 @@ def choose_scheme(attempt: Attempt, auto: Auto, *, macro_step: float, duration: 
         If the journal reaches the wall.
     """
     length = min(duration, TRIAL_STEPS * macro_step)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", CouplingWarning)
+    with quietly():
         reference = _reference(attempt, macro_step, length)
         trials: list[Trial] = []
         for scheme in CANDIDATES:
@@ -158,16 +156,13 @@ def _failure(failure: PartialResultError) -> str:
 
 
 def _calls(run: CoSimulation) -> float:
-    """Return the film calls per macro step, those of derivatives included where the scheme asks for them."""
-    work = run.trajectory.work
-    derivatives = work["film_jacobians"] if run.scheme.needs.derivatives else 0
-    return (work["film_evaluations"] + derivatives) / (work["steps"] + 1)
+    """Return the film calls per macro step."""
+    return run.film_calls / (run.trajectory.work["steps"] + 1)
 
 
 def _distance(own: Trajectory, reference: Trajectory) -> float:
     """Return the largest distance of the journals / largest displacement."""
-    names = [name for name in own.signals if name in ("x", "y") or name.endswith(("_x", "_y"))]
-    names = [name for name in names if "force" not in name]
-    finer = np.array([np.interp(own.time, reference.time, reference[name]) for name in names])
-    distance = np.abs(np.array([own[name] for name in names]) - finer).max()
-    return float(distance / np.abs(finer).max())
+    names = [name for name in own.signals if name == "x" or name.endswith("_x")]
+    journals = [(name, f"{name[:-1]}y") for name in names if "force" not in name]
+    reach = max(float(np.hypot(reference[x], reference[y]).max()) for x, y in journals)
+    return orbit_distance(own, reference, journals) / reach

@@ -58,6 +58,12 @@ class CoSimulation:
     watch: CouplingWatch
     choice: Choice | None = None
 
+    @property
+    def film_calls(self) -> int:
+        """Calls of the films, those of derivatives included where the scheme asks for them."""
+        work = self.trajectory.work
+        return work["film_evaluations"] + (work["film_jacobians"] if self.scheme.needs.derivatives else 0)
+
 
 def couple(
     rotor: Slave,

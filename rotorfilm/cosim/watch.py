@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,6 +53,14 @@ class CouplingWatch:
     explicit_ratio: float | None
     spectral_radius: float | None
     warnings: tuple[str, ...]
+
+
+@contextmanager
+def quietly() -> Iterator[None]:
+    """Silence the warnings of couplings that go to their limit on purpose."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", CouplingWarning)
+        yield
 
 
 class Watch:

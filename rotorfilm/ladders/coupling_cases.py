@@ -17,7 +17,7 @@ from ..cosim.stability import coupling_loop
 from ..errors import PartialResultError
 from ..films import MapFilm
 from ..model import Array
-from ..results import Trajectory
+from ..results import Trajectory, orbit_distance
 from ..rotors.rigid import RigidRotor
 from .coupling_schemes import EXPLICIT
 
@@ -69,10 +69,7 @@ class CouplingCase:
 
     def orbit_error(self, trajectory: Trajectory) -> float:
         """Return the largest distance from the reference / clearance, over the time that both cover."""
-        own = self.reference
-        at = [np.interp(trajectory.time, own.time, series) for series in own.position]
-        distance = np.hypot(*(trajectory.position - np.array(at)))
-        return float(distance.max()) / self.bearing.clearance
+        return orbit_distance(trajectory, self.reference) / self.bearing.clearance
 
 
 def coupling_cases(count: int, *, bad: bool, seed: int = 2026) -> list[CouplingCase]:

@@ -9,13 +9,14 @@ import numpy as np
 
 from ..bearings.journal import JournalBearing
 from ..cosim import CoSimulation, InProcessSlave, Scheme, couple
+from ..cosim.watch import quietly
 from ..errors import PartialResultError
 from ..films import MapFilm
 from ..progress import Report, silent
-from ..results import Trajectory
+from ..results import Trajectory, orbit_distance
 from ..rotors.rigid import RigidRotor
 from ..transient import simulate
-from .coupling_schemes import EXPLICIT, IMPLICIT, quietly
+from .coupling_schemes import EXPLICIT, IMPLICIT
 
 SPEED = 157.0
 REVOLUTIONS = 2
@@ -85,7 +86,9 @@ def coupling_cost(*, macro_angles: Sequence[float] = ANGLES, report: Report = si
     rotor, bearing = cost_case()
     schemes = (*EXPLICIT, *IMPLICIT)
     duration = REVOLUTIONS * 2.0 * np.pi / SPEED
-    points = np.concatenate([_times(angle, duration) for angle in macro_angles])
+    # Schemes that begin with short steps have more points than these.
+    starts = [angle / SPEED * (2.0**k - 1.0) / 63.0 for angle in macro_angles for k in range(6)]
+    points = np.concatenate([*(_times(angle, duration) for angle in macro_angles), starts])
     exact = simulate(rotor, bearing, duration=duration, times=np.unique(points), rtol=1e-10)
     rows = []
     for number, angle in enumerate(macro_angles):
@@ -129,28 +132,18 @@ def _row(
             )
     except PartialResultError as failure:
         return _refused(scheme, angle, failure.partial, str(failure))
-    own = run.trajectory
-    # Schemes that begin with short steps have more points than these.
-    times = _times(angle, duration)
-    at, whole = (np.searchsorted(series, times - 1e-9 * duration) for series in (own.time, exact.time))
-    distance = np.hypot(*(own.position[:, at] - exact.position[:, whole]))
     return CostRow(
         scheme=scheme.label,
         macro_angle=angle,
-        orbit_error=float(distance.max()) / bearing.clearance,
-        film_calls=_calls(run) / REVOLUTIONS,
+        orbit_error=orbit_distance(run.trajectory, exact) / bearing.clearance,
+        film_calls=run.film_calls / REVOLUTIONS,
         refused="",
     )
 
 
 def _refused(scheme: Scheme, angle: float, run: CoSimulation, reason: str) -> CostRow:
-    calls = _calls(run) / max(run.trajectory.work["steps"], 1) * 2.0 * np.pi / angle
+    calls = run.film_calls / max(run.trajectory.work["steps"], 1) * 2.0 * np.pi / angle
     return CostRow(scheme=scheme.label, macro_angle=angle, orbit_error=None, film_calls=calls, refused=reason)
-
-
-def _calls(run: CoSimulation) -> float:
-    derivatives = run.trajectory.work["film_jacobians"] if run.scheme.needs.derivatives else 0
-    return float(run.trajectory.work["film_evaluations"] + derivatives)
 
 
 def _times(angle: float, duration: float) -> np.ndarray:

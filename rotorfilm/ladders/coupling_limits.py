@@ -9,13 +9,14 @@ import numpy as np
 
 from ..bearings.journal import JournalBearing
 from ..cosim import InProcessSlave, Scheme, couple, critical_macro_step
+from ..cosim.watch import quietly
 from ..errors import PartialResultError
 from ..films import ShortFilm
 from ..model import Array, Dynamic
 from ..progress import Report, silent
 from ..rotors.jeffcott import JeffcottRotor
 from ..rotors.rigid import RigidRotor
-from .coupling_schemes import EXPLICIT, IMPLICIT, quietly
+from .coupling_schemes import EXPLICIT, IMPLICIT
 
 SPEED = 157.0
 SHAFT = 4.0

@@ -24,13 +24,10 @@ from ..cosim import (
 )
 from ..errors import ContactError, InputError
 from ..progress import Report, part_of, silent
-from ..results import Trajectory
-from ..transient import simulate
+from ..results import Trajectory, orbit_distance
 from .export import export_scene, resting_rotor
+from .monolithic import monolithic_solution
 from .scene import Scene
-
-REFERENCE_TOLERANCE = 1e-9
-"""Relative tolerance of the monolithic solution."""
 
 SCHEMES: dict[str, Scheme] = {
     **{f"gauss-seidel-{degree}": GaussSeidel(degree=degree) for degree in range(3)},
@@ -174,7 +171,7 @@ def _answer(scene: Scene, result: CoSimulation) -> CosimAnswer:
         limit = None if found is None else found * abs(scene.speed)
     times = np.minimum(own.time, scene.duration)
     try:
-        whole = simulate(rotor, scene.bearing, duration=scene.duration, times=times, rtol=REFERENCE_TOLERANCE)
+        whole = monolithic_solution(scene, times)
     except ContactError as wall:
         raise ContactError(f"the monolithic solution: {wall}", result) from wall
     choice = result.choice
@@ -183,7 +180,7 @@ def _answer(scene: Scene, result: CoSimulation) -> CosimAnswer:
         order=result.scheme.order,
         macro_angle=scene.cosimulation.macro_angle,
         critical_macro_angle=limit,
-        orbit_error=float(np.hypot(*(own.position - whole.position)).max()) / clearance,
+        orbit_error=orbit_distance(own, whole) / clearance,
         eccentricity_ratio=float(np.hypot(*own.position).max()) / clearance,
         hold_defect=result.coupling.hold_defect,
         watch=result.watch,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from time import perf_counter
@@ -11,16 +10,14 @@ from time import perf_counter
 import numpy as np
 
 from ..cosim import CoSimulation, cosimulate, coupling_stability
-from ..errors import CouplingWarning, PartialResultError
+from ..cosim.watch import quietly
+from ..errors import PartialResultError
 from ..model import Array
 from ..progress import Report
-from ..results import Trajectory
-from ..transient import simulate
+from ..results import Trajectory, orbit_distance
 from .export import ExportedScene, resting_rotor
+from .monolithic import monolithic_solution
 from .scene import Scene
-
-REFERENCE_TOLERANCE = 1e-9
-"""Relative tolerance of the monolithic solution, far below any coupling error shown."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -110,9 +107,7 @@ def _run(
     """Return a coupled run, its wall time, and why it is no answer if it is none."""
     begin = perf_counter()
     try:
-        with warnings.catch_warnings():
-            # One of the runs is past the limit on purpose.
-            warnings.simplefilter("ignore", CouplingWarning)
+        with quietly():
             result = cosimulate(
                 fmus.rotor,
                 fmus.film,
@@ -130,9 +125,7 @@ def _run(
 def _monolithic(scene: Scene, times: list[Array]) -> Trajectory:
     """Return the monolithic solution at the times of all runs."""
     every = np.unique(np.minimum(np.concatenate(times), scene.duration))
-    return simulate(
-        resting_rotor(scene), scene.bearing, duration=scene.duration, times=every, rtol=REFERENCE_TOLERANCE
-    )
+    return monolithic_solution(scene, every)
 
 
 def _compared(
@@ -143,13 +136,11 @@ def _compared(
         rotor, scene.bearing, state=rotor.initial_state, macro_step=simulation.macro_step
     )
     own = simulation.trajectory
-    same = np.searchsorted(monolithic.time, np.minimum(own.time, scene.duration))
-    distance = np.hypot(*(own.position - monolithic.position[:, same]))
     return CoupledRun(
         macro_angle=angle,
         macro_step=simulation.macro_step,
         spectral_radius=theory.spectral_radius,
-        orbit_error=float(distance.max()) / scene.bearing.clearance,
+        orbit_error=orbit_distance(own, monolithic) / scene.bearing.clearance,
         wall_time=wall,
         refused=refused,
         trajectory=own,

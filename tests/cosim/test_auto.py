@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotorfilm.cosim import Auto, Newton, SIExp3, cosimulate
+from rotorfilm.cosim import Auto, GaussSeidel, Newton, SIExp3, cosimulate
 from rotorfilm.errors import InputError
 from rotorfilm.fmu import export_fmu
 from rotorfilm.ladders.coupling_cost import cost_case
@@ -63,3 +63,14 @@ def test_an_unstable_scheme_is_refused_for_that_reason():
     assert first.scheme.label == "Gauss-Seidel 0"
     assert first.reason.startswith("unstable: ")
     assert found.scheme not in (Newton(),)
+
+
+def test_film_calls_count_derivatives_where_the_scheme_asks_for_them():
+    rotor, bearing = cost_case()
+    step, calls = np.radians(2.0) / SPEED, {}
+    for scheme in (GaussSeidel(), SIExp3()):
+        calls[scheme.label] = cosimulate(
+            rotor, bearing, macro_step=step, duration=10 * step, scheme=scheme
+        ).film_calls
+    # one film call at each of the eleven points, and the derivatives of a linearly implicit scheme
+    assert calls == {"Gauss-Seidel 0": 11, "SI-exp3": 22}

@@ -170,7 +170,7 @@ def test_what_is_caught_looks_like_an_answer(nondimensional):
     assert 1.4 < np.abs(forces[:, 0]).max() < 2.4
     assert_allclose(np.ptp(positions[200:], axis=0), 0.0, atol=1e-3)
     assert 0.03 < np.hypot(*(positions[-1] - case.state[:2])) < 0.07
-    with pytest.raises(CouplingError) as caught:
+    with pytest.raises(CouplingError, match="macro_step must be below the stability limit") as caught:
         run(replace(case, rotor=rotor), 12.16, 400)
     assert caught.value.partial.trajectory.time.size < 200
 
@@ -182,7 +182,7 @@ def test_what_is_caught_looks_like_an_answer(nondimensional):
 )
 def test_chatter_on_part_of_an_orbit_is_caught(nondimensional, eccentricity, w, unbalance, degrees):
     case = nondimensional(eccentricity, w=w, unbalance=unbalance)
-    with pytest.raises(CouplingError):
+    with pytest.raises(CouplingError, match="macro_step must be"):
         run(case, degrees, int(20 * 360 / degrees))
 
 

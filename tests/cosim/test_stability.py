@@ -145,7 +145,7 @@ def test_arguments_that_do_not_fit_are_named(nondimensional):
         critical_macro_step(case.rotor, case.film, state=[0.0, 0.0])
     with pytest.raises(InputError, match=r"rotor must have the outputs .* without \['x', 'y'"):
         critical_macro_step(case.film, case.film, state=[])
-    with pytest.raises(FilmContactError):
+    with pytest.raises(FilmContactError, match=r"outside at 1\.0"):
         critical_macro_step(case.rotor, case.film, state=[1.0, 0.0, 0.0, 0.0])
     loop = AngularSpeedRotor(mass=1.0, speed=1.0)
     with pytest.raises(InputError, match="rotor must have outputs that its inputs do not reach directly"):
@@ -157,7 +157,7 @@ def test_a_run_past_the_limit_is_never_an_answer(nondimensional):
     limit = critical_macro_step(case.rotor, case.film, state=nondimensional(0.9).state).macro_step
     for factor in (1.02, 1.2, 1.5, 2.0, 3.0, 5.0):
         step = factor * limit
-        with pytest.raises(PartialResultError):
+        with pytest.raises(PartialResultError, match=r"macro_step must be|macro step of"):
             couple(
                 InProcessSlave(case.rotor), InProcessSlave(case.film), macro_step=step, duration=150.0 * step
             )

@@ -15,8 +15,8 @@ from ...model import Array, Reaction
 from ..excitation_table import BladeLossTable
 from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Work
 from ..validity import journal_remarks
+from .equal_steps import ORDER, Motion, linear_march, march, peak
 from .films import MAP_BOUNDS, NOMINAL, FilmRung
-from .march import ORDER, Motion, linear_march, march, peak
 from .orbits import film_batch_units, orbit_films
 
 if TYPE_CHECKING:

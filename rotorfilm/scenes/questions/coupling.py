@@ -1,135 +1,206 @@
-"""How far a co-simulation of rotor and film is from both as one system: rungs are macro steps."""
+"""How far a co-simulation of rotor and film is from both as one system: rungs are schemes and macro steps."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...bearings.journal import JournalBearing
-from ...cosim.master import CoSimulation, couple
-from ...cosim.slaves import InProcessSlave
+from ...cosim import Scheme
+from ...errors import CouplingError, InputError, RotorfilmError
+from ...films import ReynoldsFilm
 from ...linear import equilibrium
+from ...model import Reaction
 from ...rotors import RigidRotor
-from ..ladder import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work
+from ..ladder import ErrorEstimate, Found, Ladder, Work
 from ..validity import journal_remarks
-from .march import linear_march
+from .coupling_case import SCHEMES, CoupledRun, CouplingCase
+from .films import has_map, with_film
 
 if TYPE_CHECKING:
     from ..scene import Scene
 
 ANGLES = (16.0, 8.0, 4.0, 2.0, 1.0, 0.5, 0.25, 0.125)
-"""Macro steps of the rungs [deg], the cheapest first."""
+"""Macro steps of the rungs [deg]."""
 
-STEP = "macro steps"
+FORCES = "film forces"
+SLOPES = "film derivatives"
+STATES = "1000 film states at once"
+
+CELLS = (48, 4)
+"""Of the film of a bearing without a map, where the scene leaves the film open."""
+
+MOST = 4000
+"""Most macro steps of a run; rungs that would take more are left out."""
+
+HOPELESS = 10.0
+"""Predicted error, in tolerances, beyond which a run is not made unless nothing better is left."""
+
+
+SURPLUS = 2.0
+"""Least error, in tolerances, beyond which a run is not made."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class CouplingRung:
-    """Gauss-Seidel coupling with held force at one macro step, from the rest of the rotor.
+    """A coupled run by one scheme at one macro step.
 
     Attributes
     ----------
-    bearing : JournalBearing
-    rotor : RigidRotor
-        At rest in its equilibrium.
+    case : CouplingCase
+    scheme : Scheme
     macro_angle : float [rad]
-    revolutions : float [1]
+    tolerance : float [1]
+    worst : float [1]
+        Predicted error beyond which the run is not made.
     """
 
-    bearing: JournalBearing
-    rotor: RigidRotor
+    case: CouplingCase
+    scheme: Scheme
     macro_angle: float
-    revolutions: float
+    tolerance: float
+    worst: float
 
     @property
     def name(self) -> str:
-        """Scheme and macro step."""
-        return f"Gauss-Seidel, {math.degrees(self.macro_angle):.4g} deg"
+        """Scheme, macro step and, where it is not that of the scene, the film."""
+        film = f", {self.case.film}" if self.case.film else ""
+        return f"{self.scheme.label}, {math.degrees(self.macro_angle):.4g} deg{film}"
+
+    @property
+    def calls(self) -> float:
+        """Expected calls of film forces and derivatives over a run."""
+        return float(sum(self.expected({}).values()))
 
     @property
     def prior(self) -> float:
-        """Nothing is known beforehand."""
-        return 0.0
+        """Half the predicted error."""
+        return 0.5 * self.case.predicted(self.scheme, self.macro_angle)
 
-    @property
-    def macro_step(self) -> float:
-        """Time between two exchanges [s]."""
-        return self.macro_angle / abs(self.rotor.profile.speeds[0])
+    @cached_property
+    def rotor(self) -> RigidRotor:
+        """The rotor of the run."""
+        return self.case.rotor
 
-    def run(self) -> CoSimulation:
+    @cached_property
+    def reaction(self) -> Reaction:
+        """The film, or the damper with its springs."""
+        return self.case.reaction
+
+    def run(self) -> CoupledRun:
         """Return the coupled run; raises CouplingError where it is no answer."""
-        duration = 2.0 * math.pi * self.revolutions / abs(self.rotor.profile.speeds[0])
-        partners = InProcessSlave(self.rotor), InProcessSlave(self.bearing)
-        return couple(*partners, macro_step=self.macro_step, duration=duration)
+        return self.case.run(self.scheme, self.macro_angle)
 
     def answer(self, before: Found | None) -> Found:
-        """Return the estimated error of the coupled run [clearances]."""
+        """Return the estimated error of the coupled run [clearances].
+
+        Raises
+        ------
+        RotorfilmError
+            If the run is unstable, at the wall, or predicted to be far off.
+        """
+        unstable = self.case.instability(self.scheme, self.macro_angle)
+        if unstable:
+            raise CouplingError(unstable, None)
+        about = 2.0 * self.prior
+        if about > self.worst:
+            raise RotorfilmError(f"not run: predicted to be off by {about:.1g} from the motion of the pilot")
+        least = self.case.least(self.scheme, self.macro_angle)
+        if least > SURPLUS * self.tolerance and self.worst <= HOPELESS * self.tolerance:
+            raise RotorfilmError(f"not run: off by {least:.1g} at least, by its order from a longer step")
         run = self.run()
-        error, doubt = self._error(run)
-        return Found(error, {STEP: run.trajectory.time.size - 1}, (error, doubt))
+        found, work = self.case.drift(run), run.outcome.trajectory.work
+        if not found.doubt:
+            self.case.errors[self.scheme, self.macro_angle] = found.error
+        done = {FORCES: work["film_evaluations"]}
+        if self.scheme.needs.derivatives:
+            done[SLOPES] = work["film_jacobians"]
+        return Found(found.error, done, found)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the error: half of each jump of the held force, propagated by the film's K and C."""
-        error, doubt = found.solution
-        return ErrorEstimate(error, "jumps of the held force, propagated", doubt=doubt)
-
-    def _error(self, run: CoSimulation) -> tuple[float, str]:
-        """Return the largest distance / clearance to the motion without held forces, and why not to trust it.
-
-        Held from t_n on, the force F_n misses F(t) - F_n, on average over the step half of F_(n+1) - F_n.
-        That is propagated by m d'' + C d' + K d = defect along the run, and again with the K and C of the
-        corrected one.
-        """
-        trajectory, step = run.trajectory, run.macro_step
-        uniform = np.append(True, np.isclose(np.diff(trajectory.time), step, rtol=1e-6))
-        q, v = trajectory.position[:, uniform], trajectory.velocity[:, uniform]
-        force = np.array([trajectory.signals["force_x"], trajectory.signals["force_y"]])[:, uniform]
-        defect = np.zeros_like(force)
-        defect[:, 1:] = 0.5 * np.diff(force, axis=1)
-        first = self._propagated(q, v, defect, step)
-        size = float(np.hypot(*first).max()) / self.bearing.clearance
-        moved = q + first
-        if not np.hypot(*moved).max() < self.bearing.clearance:
-            return size, "the error is larger than the gap"
-        rates = np.gradient(first, step, axis=1)
-        second = self._propagated(moved, v + rates, defect, step)
-        apart = float(np.linalg.norm(second - first)) / max(float(np.linalg.norm(first)), 1e-300)
-        doubt = f"the slopes before and after disagree on the error by {apart:.0%}: not linear"
-        return float(np.hypot(*second).max()) / self.bearing.clearance, doubt if apart > DISAGREEMENT else ""
-
-    def _propagated(self, q: np.ndarray, v: np.ndarray, defect: np.ndarray, step: float) -> np.ndarray:
-        slopes = self.bearing.jacobian(q, v, np.full(q.shape[1], self.rotor.profile.speeds[0]))
-        return linear_march(self.rotor.mass, -slopes[:, :2], -slopes[:, 2:4], defect, step)
+        """Return the error, which is the answer itself."""
+        about = found.solution
+        method = "defect of the force law"
+        return ErrorEstimate(about.error, method, {STATES: math.ceil(about.states / 1000)}, doubt=about.doubt)
 
     def expected(self, done: Work) -> Work:
-        """Return the number of macro steps."""
-        return {STEP: math.ceil(2.0 * math.pi * self.revolutions / self.macro_angle)}
+        """Return the calls of the film, one at each communication point."""
+        count = self.case.exchanges(self.macro_angle) + 1
+        return {FORCES: count, **({SLOPES: count} if self.scheme.needs.derivatives else {})}
 
 
 def coupling_ladder(scene: Scene, quantity: str) -> Ladder:
-    """Return the ladder of macro steps."""
-    at = equilibrium(scene.bearing, scene.static_load, scene.speed)
-    x, y = at.position.tolist()
-    built = scene.rotor
-    rotor = RigidRotor(
-        mass=built.mass,
-        speed=scene.speed,
-        unbalance=built.unbalance,
-        unbalance_angle=built.unbalance_angle,
-        gravity=(0.0, 0.0),
-        static_force=scene.static_load,
-        position=(x, y),
-    )
-    rungs = tuple(
-        CouplingRung(
-            bearing=scene.bearing,
-            rotor=rotor,
-            macro_angle=math.radians(angle),
-            revolutions=scene.cosimulation.revolutions,
+    """Return the ladder of schemes and macro steps, by the calls of the film that they take.
+
+    Raises
+    ------
+    InputError
+        If the scene has no rotor, no unbalance, an excitation, does not turn, or turns too often.
+    CouplingError, ContactError, ConvergenceError
+        If no macro step follows the motion; see `CouplingCase.pilot`.
+    """
+    assert scene.question is not None
+    case = _case(scene, quantity)
+    angles = [math.radians(angle) for angle in ANGLES]
+    angles = [angle for angle in angles if case.exchanges(angle) <= MOST]
+    if not angles:
+        raise InputError(
+            f"cosimulation.revolutions must be at most {MOST * math.radians(ANGLES[0]) / math.tau:.4g} for "
+            f"{quantity}, got {case.revolutions:.6g}"
         )
-        for angle in ANGLES
+    least = case.predicted(case.pilot.scheme, angles[-1])  # which goes at shorter steps too
+    tolerance = scene.question.tolerance
+    worst = max(HOPELESS * tolerance, least)
+    rungs = [
+        CouplingRung(case=case, scheme=scheme, macro_angle=angle, tolerance=tolerance, worst=worst)
+        for angle in angles
+        for scheme in SCHEMES
+    ]
+    rungs.sort(key=lambda rung: rung.calls)
+    return Ladder(
+        rungs=tuple(rungs),
+        unit="1",
+        units=_units(case),
+        remarks=() if scene.journal is None else journal_remarks(scene),
     )
-    return Ladder(rungs=rungs, unit="1", remarks=journal_remarks(scene))
+
+
+def _case(scene: Scene, quantity: str) -> CouplingCase:
+    """Return rotor and film of a scene, at rest."""
+    if scene.rigid_rotor is None:
+        raise InputError(f"rigid_rotor is required for {quantity}, got no such table")
+    if scene.rigid_rotor.unbalance == 0.0:
+        raise InputError(f"rigid_rotor.unbalance must be positive for {quantity}, got 0.0: nothing moves")
+    if scene.excitation is not None:
+        raise InputError(f"excitation must be left out for {quantity}, got {type(scene.excitation).__name__}")
+    if scene.speed == 0.0:
+        raise InputError(f"operation.speed must not be zero for {quantity}, got 0.0")
+    turns = scene.cosimulation.revolutions
+    if scene.journal is None:
+        assert scene.damper is not None  # the question is asked of scenes with either
+        centered = scene.rigid_rotor.build(scene.speed, (0.0, 0.0))
+        return CouplingCase(rotor=centered, reaction=scene.damper.support(), revolutions=turns)
+    film, load, name = scene.bearing, scene.static_load, ""
+    if not (scene.film_is_given or has_map(film)):
+        # A map of its own takes a minute, and the coupling hardly depends on the film.
+        film, name = with_film(film, ReynoldsFilm(cells=CELLS)), f"2-D {CELLS[0]} x {CELLS[1]}"
+    x, y = equilibrium(film, load, scene.speed).position.tolist()
+    rotor = replace(scene.rigid_rotor.build(scene.speed, load), position=(x, y))
+    return CouplingCase(rotor=rotor, reaction=film, revolutions=turns, film=name)
+
+
+def _units(case: CouplingCase) -> dict[str, Callable[[], object]]:
+    """Return calls that do one unit of work each."""
+    film, speed = case.reaction, case.rotor.profile.speeds[0]
+    q = np.array([0.3, 0.4]) * film.clearance
+    v = 0.1 * speed * np.array([-0.4, 0.3]) * film.clearance
+    many = np.repeat(q[:, None], 1000, axis=1), np.repeat(v[:, None], 1000, axis=1), np.full(1000, speed)
+    return {
+        FORCES: lambda: film.force(q, v, speed),
+        SLOPES: lambda: film.jacobian(q, v, speed),
+        STATES: lambda: film.jacobian(*many),
+    }

@@ -114,7 +114,7 @@ def film_rungs(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
     fixed : bool
         Whether the scene names the film of the bearing, so that no other may answer.
     """
-    plain, tabulated = not (bearing.grooves or bearing.pads), _has_map(bearing)
+    plain, tabulated = not (bearing.grooves or bearing.pads), has_map(bearing)
     if fixed:
         rungs = [_named(bearing, tabulated)]
     elif tabulated:
@@ -180,7 +180,7 @@ def tangent(bearing: JournalBearing, position: Array, speed: float, *, smooth: b
 
 def _map(bearing: JournalBearing) -> FilmRung:
     rung = _rung("map", bearing, MapFilm(), (FINEST, "2-D 768 x 32 extr."), 1e-6, 1e-4, bounded=True)
-    return replace(rung, makes_map=not _has_map(bearing))
+    return replace(rung, makes_map=not has_map(bearing))
 
 
 def _grooved_map(bearing: JournalBearing) -> FilmRung:
@@ -188,7 +188,7 @@ def _grooved_map(bearing: JournalBearing) -> FilmRung:
     return replace(rung, makes_map=True)
 
 
-def _has_map(bearing: JournalBearing) -> bool:
+def has_map(bearing: JournalBearing) -> bool:
     """Return whether the map that comes with the package holds a bearing."""
     low, high = TABLE_RANGE
     return not (bearing.grooves or bearing.pads) and low <= bearing.slenderness <= high

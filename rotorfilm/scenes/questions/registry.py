@@ -37,6 +37,7 @@ LADDERS: dict[tuple[str, str], LadderOf] = {
     **{("contact", quantity): contact_ladder for quantity in CONTACTS},
     ("bush", "critical_speed"): bush_ladder,
     ("bush", "wear"): wear_ladder,
+    ("damper", "cosimulation_error"): coupling_ladder,
     **{("damper", quantity): damper_ladder for quantity in DAMPERS},
 }
 """Builders of ladders by table of the scene and quantity, in the order in which they are tried."""
