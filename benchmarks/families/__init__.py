@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from . import bushes, couplings, dampers, journals, openings
+from . import bushes, contacts, couplings, dampers, journals, openings
 from .drawn import Drawn
 
 Draw = Callable[[np.random.Generator], Drawn]
@@ -22,6 +22,8 @@ FAMILIES: dict[str, tuple[int, Draw]] = {
     "damper": (2, dampers.damper),
     "orbit, film": (1, journals.orbit_by_film),
     "blade, film": (1, journals.blade_by_film),
+    "contact": (1, contacts.rest),
+    "contact motion": (1, contacts.motion),
     "bush speed": (1, bushes.bush_speed),
     "bush wear": (2, bushes.bush_wear),
     "coupling hard": (1, couplings.hard),

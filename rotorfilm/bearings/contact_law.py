@@ -9,17 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_positive
+from ..films.contact_points import FREQUENCIES, LOADS
 from ..films.contact_static import StaticLaw
 from ..model import Array, Linearization
 from ..native.spec import NativeSpec
 from ..signals import Signal
 from .contact_native import contact_spec
-
-LOAD_RANGE = (0.2, 3.0)
-"""Smallest and largest load of the fits, in Hertzian loads."""
-
-HIGHEST_FREQUENCY = 6.0
-"""Highest angular frequency of the fits."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -136,12 +131,12 @@ class ContactLaw:
     @property
     def load_range(self) -> tuple[float, float]:
         """Smallest and largest load of the static law's fit [N]."""
-        return LOAD_RANGE[0] * self.force_scale, LOAD_RANGE[1] * self.force_scale
+        return LOADS[0] * self.force_scale, LOADS[-1] * self.force_scale
 
     @property
     def highest_frequency(self) -> float:
         """Angular frequency to which the dynamic stiffness was fitted [rad/s]."""
-        return HIGHEST_FREQUENCY / self.time_scale
+        return float(FREQUENCIES[-1]) / self.time_scale
 
     @property
     def stiffness(self) -> float:

@@ -36,7 +36,7 @@ class SmallMotion:
         wet = np.flatnonzero(pressure > 0.0)
         film = equations.film(pressure, delta)
         columns = _deflections(equations, wet)
-        self._area = equations.area
+        self._equations, self._wet = equations, wet
         still, rated = (equations.derivatives(pressure, film, rate) for rate in (0.0, 1.0))
         self._matrix, self._by_delta = _reduced(still, wet, columns)
         moving, by_delta = _reduced(rated, wet, columns)
@@ -44,10 +44,25 @@ class SmallMotion:
 
     def stiffness(self, s: complex) -> complex:
         """Return Z(s) = -d(integral of p)/d(delta) for motions as exp(s t)."""
-        pressures = linalg.solve(
-            self._matrix + s * self._rate_matrix, self._by_delta + s * self._rate_by_delta, check_finite=False
+        return self._equations.area * complex(self._pressures(s).sum())
+
+    def film(self, s: complex) -> tuple[complex, np.ndarray]:
+        """Return d(film thickness)/d(delta) for motions as exp(s t), at the center and at the samples."""
+        pressures = np.zeros(self._equations.grid.shape[0] * self._equations.grid.shape[1], dtype=complex)
+        pressures[self._wet] = -self._pressures(s)
+        sampling = self._equations.sampling
+        bent = sampling.deflection(pressures.real) + 1j * sampling.deflection(pressures.imag)
+        return 1.0 + complex(sampling.center @ pressures), 1.0 + bent
+
+    def _pressures(self, s: complex) -> np.ndarray:
+        """Return -dp/d(delta) of the film cells."""
+        return np.asarray(
+            linalg.solve(
+                self._matrix + s * self._rate_matrix,
+                self._by_delta + s * self._rate_by_delta,
+                check_finite=False,
+            )
         )
-        return self._area * complex(pressures.sum())
 
     def natural_motion(self, W: float, guess: complex) -> complex:
         """Return the eigenvalue s near a guess of a ball on the contact: W s^2 + Z(s) = 0.

@@ -18,7 +18,6 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from ..errors import warn_user
 from ..model import Array
 from .contact_checkerboard import checkerboard
 from .contact_equations import ContactEquations
@@ -26,7 +25,7 @@ from .contact_fluid import BarusViscosity, DowsonHigginsonDensity, RoelandsVisco
 from .contact_linear import SmallMotion
 from .contact_newton import Contact
 from .contact_stationary import follow, stationary
-from .table_cache import FOLDER_VARIABLE, cache_folder, write_whole
+from .table_cache import cache_folder, cached
 
 LOADS = (0.2, 0.35, 0.6, 1.0, 1.5, 2.2, 3.0)
 """Loads f of the stationary contacts of a point."""
@@ -106,20 +105,13 @@ def operating_point(equations: ContactEquations) -> ContactPoint:
     RuntimeWarning
         If the point cannot be written: it will be computed again next time.
     """
-    path = _path(equations)
-    # A file that is damaged, or being replaced, is no reason to fail.
-    with contextlib.suppress(OSError, ValueError):
-        return _read(path)
-    point = _computed(equations)
-    try:
-        write_whole(path, _bytes(point))
-    except OSError as error:
-        warn_user(
-            f"the operating point could not be kept in {path.parent} ({error}); "
-            f"{FOLDER_VARIABLE} names another folder",
-            RuntimeWarning,
-        )
-    return point
+    return cached(
+        _path(equations),
+        read=_read,
+        build=lambda: _computed(equations),
+        to_bytes=_bytes,
+        what="the operating point",
+    )
 
 
 def kept_points(equations: ContactEquations) -> list[ContactPoint]:

@@ -15,7 +15,8 @@ from .table_bytes import StoredTable
 FOLDER_VARIABLE = "ROTORFILM_CACHE"
 """Environment variable that names the folder of the cache."""
 
-T = TypeVar("T", bound=StoredTable)
+T = TypeVar("T")
+S = TypeVar("S", bound=StoredTable)
 
 
 def cache_folder() -> Path:
@@ -29,7 +30,48 @@ def cache_folder() -> Path:
     return user_cache_path("rotorfilm", appauthor=False)
 
 
-def cached_table(kind: type[T], path: Path, build: Callable[[], T], require: Callable[[T], None]) -> T:
+def cached(
+    path: Path,
+    *,
+    read: Callable[[Path], T],
+    build: Callable[[], T],
+    to_bytes: Callable[[T], bytes],
+    what: str,
+) -> T:
+    """Return what a file holds, built and written where it is missing or damaged.
+
+    Parameters
+    ----------
+    path : Path
+    read : callable
+        Returns what the file holds; raises OSError, ValueError or RotorfilmError if it is not right.
+    build : callable
+        Returns it without a file.
+    to_bytes : callable
+        Returns the content of the file.
+    what : str
+        What it is, for the warning.
+
+    Warns
+    -----
+    RuntimeWarning
+        If the file cannot be written: it will be built again next time.
+    """
+    # A file that another process is replacing, or that is damaged, is no reason to fail.
+    with contextlib.suppress(OSError, ValueError, RotorfilmError):
+        return read(path)
+    made = build()
+    try:
+        write_whole(path, to_bytes(made))
+    except OSError as error:
+        warn_user(
+            f"{what} could not be kept in {path.parent} ({error}); {FOLDER_VARIABLE} names another folder",
+            RuntimeWarning,
+        )
+    return made
+
+
+def cached_table(kind: type[S], path: Path, build: Callable[[], S], require: Callable[[S], None]) -> S:
     """Return the table at a path, built and written where it is missing, damaged or not as required.
 
     Parameters
@@ -45,23 +87,15 @@ def cached_table(kind: type[T], path: Path, build: Callable[[], T], require: Cal
     Warns
     -----
     RuntimeWarning
-        If the table cannot be written: it will be built again next time.
+        If the table cannot be written.
     """
-    # A file that another process is replacing, or that is damaged, is no reason to fail.
-    with contextlib.suppress(OSError, RotorfilmError):
+
+    def read(path: Path) -> S:
         table = kind.load(path)
         require(table)
         return table
-    table = build()
-    try:
-        write_whole(path, table.to_bytes())
-    except OSError as error:
-        warn_user(
-            f"the map of the film could not be kept in {path.parent} ({error}); "
-            f"{FOLDER_VARIABLE} names another folder",
-            RuntimeWarning,
-        )
-    return table
+
+    return cached(path, read=read, build=build, to_bytes=kind.to_bytes, what="the map of the film")
 
 
 def write_whole(path: Path, content: bytes) -> None:

@@ -240,33 +240,6 @@ def test_critical_speed_of_a_bush_takes_the_closed_form_only_where_it_is_good_en
     assert first.error_estimate == pytest.approx(abs(first.value / exact - 1.0), rel=1e-6)
 
 
-def test_film_of_a_contact_takes_the_grid_that_the_tolerance_needs():
-    document = """schema = 1
-    [contact]
-    radius = "10 mm"
-    modulus = 2.1e11
-    poisson_ratio = 0.3
-    viscosity = 0.04
-    pressure_coefficient = 1.5e-8
-    speed = 1
-    load = "10 N"
-    [question]
-    quantity = "{}"
-    tolerance = {}
-    """
-    loose = parse_scene(document.format("central_film", 0.02), "contact.toml").ask()
-    tight = parse_scene(document.format("central_film", 2.5e-3), "contact.toml").ask()
-    assert (loose.model, tight.model) == ("grid 16 x 16", "grid 32 x 32")
-    assert loose.met
-    assert tight.met
-    # 96 x 96 cells give .9824 film scales; the error of 32 x 32 beside it
-    scale = tight.value / 0.9813217377819765
-    assert tight.error_estimate == pytest.approx(abs(tight.value / (0.98241 * scale) - 1.0), rel=1.0)
-    shaken = document.format("approach", 0.02) + '[excitation]\nkind = "step"\nload = 1\n'
-    with pytest.raises(InputError, match="excitation must be none for approach"):
-        parse_scene(shaken, "contact.toml").ask()
-
-
 def test_command_line_shows_the_ladder_and_fails_where_no_rung_will_do(tmp_path, capsys):
     from rotorfilm.cli import main
 

@@ -1,41 +1,105 @@
-"""Film and approach of a rolling ball under its static load: ever finer grids."""
+"""Film and approach of a rolling ball at rest: a formula, ever finer grids, and the rectangle around them."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ...bearings.contact import PointContact
-from ...errors import InputError
-from ...films.contact_grid import ContactGrid
-from ..ladder import ErrorEstimate, Found, Ladder, Work
+from ...errors import ConvergenceError, InputError
+from ..contact_validity import contact_remarks
+from ..ladder import ErrorEstimate, Found, Ladder, Rung, Work
+from .contact_motions import motion_rungs
+from .contact_rest import INLETS, REACH, RestingFilms, unknowns
 
 if TYPE_CHECKING:
     from ..scene import Scene
 
-QUANTITIES = ("central_film", "minimum_film", "approach")
-"""Quantities of a stationary contact, all of them lengths [m]."""
+QUANTITIES = tuple(REACH)
+"""Quantities of a contact, all of them lengths [m]."""
 
-CELLS = (16, 32, 64)
-"""Cells along each side of the rungs."""
+CELLS = (32, 48, 64)
+"""Cells along each side of the plain rungs."""
 
-DOUBLED = 2.0
+COARSER = {24: 20, 32: 24, 48: 32, 64: 48, 96: 64}
+"""Cells of the companion that an order increment takes."""
+
+NOISE = 0.012
+"""Error of a film on 32 x 32 cells below which an order increment says nothing: it may change its sign.
+
+Falls with the square of the cells; that of the approach is ten times smaller. Measured on random balls.
+"""
+
+SMALLEST_NOISE = 0.03
+"""The same of the smallest film, which jumps from cell to cell; falls with their power 3/2."""
+
+FORMULA_BOUNDS = {"central_film": 0.16, "approach": 0.08}
+"""Largest error of the formulas in `FORMULA_RANGE`, measured on random balls (docs/contact.md)."""
+
+FORMULA_RANGE = ((0.008, 0.4), (2.0, 18.0))
+"""V and Q0 in which that was measured."""
+
+HARD = (0.08, 12.0)
+"""V and Q0 above both of which Newton's method needs continuation on fine grids: the longest is left out."""
+
+LEFT = 0.3
+"""Share of an extrapolation that may be wrong."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class ContactRung:
-    """A stationary contact on one grid.
+class FormulaRung:
+    """The film of Nijenbanning, Venner and Moes (1994); the dry contact's approach with it between.
 
     Attributes
     ----------
-    contact : PointContact
-    film_scale : float [m]
-    quantity : str
+    films : RestingFilms
     """
 
-    contact: PointContact
-    film_scale: float
-    quantity: str
+    films: RestingFilms
+
+    @property
+    def name(self) -> str:
+        """By whom."""
+        return "formula of Nijenbanning et al."
+
+    @property
+    def prior(self) -> float:
+        """Nothing is known beforehand."""
+        return 0.0
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the quantity [m]; the dry contact has the approach -2, in Hertzian units."""
+        film = self.films.ball.published_films.nijenbanning_venner_moes
+        dry = 2.0 * self.films.ball.film_scale
+        return Found(film if self.films.quantity == "central_film" else film - dry, {"formulas": 1})
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the measured bound, where it was measured."""
+        ball = self.films.ball
+        inside = all(
+            low <= x <= high for (low, high), x in zip(FORMULA_RANGE, (ball.V, ball.Q0), strict=True)
+        )
+        doubt = "" if inside else f"V = {ball.V:.3g}, Q0 = {ball.Q0:.3g} are outside of its measured range"
+        bound = FORMULA_BOUNDS[self.films.quantity]
+        return ErrorEstimate(bound, "measured bound of the formula", bound=True, doubt=doubt)
+
+    def expected(self, done: Work) -> Work:
+        """Return one formula."""
+        return {"formulas": 1}
+
+
+@dataclass(frozen=True, kw_only=True)
+class GridRung:
+    """A stationary contact on one grid of the shortest rectangle.
+
+    Attributes
+    ----------
+    films : RestingFilms
+    cells : int
+        Along each side.
+    """
+
+    films: RestingFilms
+    cells: int
 
     @property
     def name(self) -> str:
@@ -43,72 +107,134 @@ class ContactRung:
         return f"grid {self.cells} x {self.cells}"
 
     @property
-    def cells(self) -> int:
-        """Cells along a side."""
-        return self.contact.grid.cells[0]
+    def prior(self) -> float:
+        """Nothing is known beforehand."""
+        return 0.0
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the quantity [m]."""
+        work: dict[str, int] = {}
+        value = self.films.value(self.cells, work)
+        return Found(value * self.films.ball.film_scale, work)
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the order increment from less cells, and that from two rectangles on coarse grids.
+
+        The smallest film jumps from cell to cell, so that its whole increment is taken as a bound.
+        """
+        work: dict[str, int] = {}
+        bound = self.films.quantity == "minimum_film"
+        try:
+            error = grid_error(self.films, self.cells, work) + rectangle_error(self.films, work)
+        except ConvergenceError:
+            return ErrorEstimate(1.0, "order increment", work, doubt="too thin a film for a coarser grid")
+        doubt = "the grids disagree on the film: it is too thin for them" if bound and error > 0.5 else ""
+        return ErrorEstimate(error, "order increments of cells and rectangle", work, bound, doubt)
+
+    def expected(self, done: Work) -> Work:
+        """Return the number of unknowns."""
+        return {unknowns(self.cells): self.cells**2}
+
+
+@dataclass(frozen=True, kw_only=True)
+class UnboundedRung:
+    """A grid of 16 cells per Hertzian radius on a longer rectangle, extrapolated to an infinite one.
+
+    Attributes
+    ----------
+    films : RestingFilms
+    place : int
+        Of the rectangle in `INLETS`.
+    cells : int
+        Along each side.
+    """
+
+    films: RestingFilms
+    place: int
+    cells: int
+
+    @property
+    def name(self) -> str:
+        """Cells of the grid."""
+        return f"grid {self.cells} x {self.cells}, unbounded"
 
     @property
     def prior(self) -> float:
         """Nothing is known beforehand."""
         return 0.0
 
-    @property
-    def unit(self) -> str:
-        """Name of one unknown solved for."""
-        return f"unknowns on {self.name}"
-
     def answer(self, before: Found | None) -> Found:
-        """Return the quantity [m]."""
-        return Found(self._value(self.contact), {self.unit: self.cells**2}, None)
-
-    def _value(self, contact: PointContact) -> float:
-        state = contact.stationary()
-        name = "delta" if self.quantity == "approach" else self.quantity
-        return self.film_scale * float(getattr(state, name))
+        """Return the quantity [m], extrapolated in the length of the rectangle and in the cells."""
+        work: dict[str, int] = {}
+        short, longer = INLETS[self.place - 1 : self.place + 1]
+        wide = self.films.value(self.cells, work, longer)
+        before_it = self.films.value(round(16 * (short + 1.5)), work, short)
+        reach = (wide - before_it) / ((longer / short) ** REACH[self.films.quantity] - 1.0)
+        fine, coarse = (self.films.value(cells, work) for cells in (96, 64))
+        spacing = (fine - coarse) / (1.0 - (64.0 / 96.0) ** 2)
+        value = wide + reach + spacing
+        parts = abs(reach / value), abs(spacing / value)
+        return Found(value * self.films.ball.film_scale, work, parts)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the order increment from the grid with half the cells, the rung below or a new one."""
-        coarse = self.cells // 2
-        if before is not None and sum(before.work.values()) == coarse**2:
-            other, work = before.value, {}
-        else:
-            half = ContactGrid(cells=(coarse, coarse))
-            other = self._value(self._on(half))
-            work = {f"unknowns on grid {coarse} x {coarse}": coarse**2}
-        order = self.contact.scheme.order
-        error = abs(found.value - other) / (DOUBLED**order - 1.0) / abs(found.value)
-        return ErrorEstimate(error, f"order increment, order {order}", work)
-
-    def _on(self, grid: ContactGrid) -> PointContact:
-        return replace(self.contact, grid=grid)
+        """Return what may be wrong with the two extrapolations, a bound."""
+        noise = noise_of(self.films, 96)
+        return ErrorEstimate(
+            max(LEFT * sum(found.solution), noise), "share of the extrapolations", bound=True
+        )
 
     def expected(self, done: Work) -> Work:
         """Return the number of unknowns."""
-        return {self.unit: self.cells**2}
+        return {unknowns(self.cells): self.cells**2, unknowns(96): 96**2}
+
+
+def grid_error(films: RestingFilms, cells: int, work: dict[str, int], load: float = 1.0) -> float:
+    """Return the relative error of a quantity by the cells, from less of them; a bound of the smallest film.
+
+    Raises
+    ------
+    ConvergenceError
+        If there is no solution on less cells.
+    """
+    coarse = COARSER[cells]
+    fine, rough = (films.value(n, work, load=load) for n in (cells, coarse))
+    order = films.contact(cells).scheme.order
+    whole = films.quantity == "minimum_film"
+    gain = 1.0 if whole else (cells / coarse) ** order - 1.0
+    return max(abs(fine - rough) / gain / abs(fine), noise_of(films, cells))
+
+
+def noise_of(films: RestingFilms, cells: int) -> float:
+    """Return the relative error below which an increment says nothing."""
+    if films.quantity == "minimum_film":
+        return SMALLEST_NOISE * (CELLS[0] / cells) ** 1.5
+    return NOISE * (CELLS[0] / cells) ** 2 * (0.1 if films.quantity == "approach" else 1.0)
+
+
+def rectangle_error(films: RestingFilms, work: dict[str, int], load: float = 1.0) -> float:
+    """Return the relative error of a quantity by the end of the rectangle."""
+    change = films.beyond(work, load)
+    near = next(value for (inlet, _, at), value in films.known.items() if inlet == INLETS[0] and at == load)
+    return abs(change / (near + change))
 
 
 def contact_ladder(scene: Scene, quantity: str) -> Ladder:
-    """Return the ladder of grids of a stationary contact.
+    """Return the ladder of a contact at rest, or in motion where its load jumps or swings.
 
     Raises
     ------
     InputError
-        If the scene has no contact, or its load changes.
+        If the scene has no contact, or an excitation that is no step or sine of the load.
     """
     if scene.contact is None:
         raise InputError(f"contact is required for {quantity}, got no such table")
+    films = RestingFilms(table=scene.contact, quantity=quantity)
+    remarks = contact_remarks(scene)
     if scene.excitation is not None:
-        raise InputError(f"excitation must be none for {quantity}: only a static load has a ladder, got one")
-    table = scene.contact
-    ball = table.build()
-    rungs = tuple(
-        ContactRung(
-            contact=ball.contact(
-                ContactGrid(cells=(cells, cells)), roelands=table.roelands, compressible=table.compressible
-            ),
-            film_scale=ball.film_scale,
-            quantity=quantity,
-        )
-        for cells in CELLS
-    )
-    return Ladder(rungs=rungs, unit="m")
+        return Ladder(rungs=motion_rungs(scene, films), unit="m", remarks=remarks)
+    formula = () if quantity == "minimum_film" else (FormulaRung(films=films),)
+    grids = tuple(GridRung(films=films, cells=cells) for cells in CELLS)
+    wide = (UnboundedRung(films=films, place=1, cells=96), UnboundedRung(films=films, place=2, cells=160))
+    hard = HARD[0] < films.ball.V and HARD[1] < films.ball.Q0
+    rungs: tuple[Rung, ...] = (*formula, *grids, *wide[: 1 if hard else 2])
+    return Ladder(rungs=rungs, unit="m", remarks=remarks)
