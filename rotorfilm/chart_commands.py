@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from enum import StrEnum
+from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Protocol
 
@@ -211,22 +212,33 @@ def scene(
     console.print_rows("", files)
 
 
-@chart_app.command(epilog="Example: rotorfilm chart limits --json")
-def limits(out: Folder = OUT, json: Json = False) -> None:
-    """Atlas of where methods fail: film extent, order, length, grid, linearization, macro step."""
+@chart_app.command(epilog="Example: rotorfilm chart limits --physics journal --physics damper")
+def limits(
+    physics: Annotated[
+        list[str] | None, typer.Option(help="journal, rotor, damper, contact or bush; all unless given.")
+    ] = None,
+    out: Folder = OUT,
+    json: Json = False,
+) -> None:
+    """Atlas of where methods fail: films, grids, steps, linearization, of all bearings. Ten seconds."""
     with console.progress_display() as report:
         report(0.0, "packages")
         from .charts import plot_limits
-        from .ladders import failures, journal_limits
+        from .ladders import failures, limits_atlas
+        from .ladders.limits_atlas import PHYSICS
 
-        result = journal_limits(report=report)
+        result = limits_atlas(physics or PHYSICS, report=report)
         files = _write(out, "chart_limits", result, plot_limits(result))
+        files.append(("data", str(console.write_json(out / "chart_limits.json", result))))
         report(1.0, "done")
     if json:
         console.print_json(result)
         return
-    rows = [(panel, name, "nowhere" if at is None else f"{at:.3g}") for panel, name, at in failures(result)]
-    console.print_columns(("simplification", "variant", "fails from"), rows)
+    rows: list[tuple[str, str]] = []
+    for panel, curves in groupby(failures(result), key=lambda one: one.panel):
+        rows += [("", ""), (f"{panel.physics}: {panel.title}", ""), (f"fails from {panel.x_label}", "")]
+        rows += [(f"  {one.name}", "nowhere" if one.at is None else f"{one.at:.3g}") for one in curves]
+    console.print_rows("", rows)
     console.print_rows("", files)
 
 

@@ -38,9 +38,10 @@ app = typer.Typer(
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
+    epilog="Example: rotorfilm solve examples/question.toml --explain",
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-app.add_typer(chart_app, name="chart")
+app.add_typer(chart_app, name="chart", epilog="Example: rotorfilm chart journal --ld 0.5 --out pictures")
 
 fmu = typer.Typer(
     help="Build FMUs of a scene, check one, show what is in one.",
@@ -210,14 +211,16 @@ def build(
     ),
     json: Json = False,
 ) -> None:
-    """Export the film and the rotor of a scene as FMUs."""
+    """Export the film and the rotor of a scene as FMUs; a flexible rotor as one, with its bearings in it."""
     from .scenes import Scene
     from .scenes.export import export_scene
+    from .scenes.export_rotor import export_system
 
     loaded = Scene.load(scene)
-    if loaded.damper is None:
+    whole = loaded.shaft is not None and loaded.journal is None
+    if loaded.damper is None and not whole:
         _make_map(loaded.bearing)
-    made = export_scene(
+    made = (export_system if whole else export_scene)(
         loaded,
         out,
         version=fmi.value,

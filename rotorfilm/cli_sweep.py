@@ -41,11 +41,14 @@ def sweep(
         "path": str(out),
         "points": int(dataset["failure"].size),
         "failed": failed,
+        "remarks": int((dataset["remarks"] != "").sum()),
         "sizes": dict(dataset.sizes),
     }
     if json:
         console.print_json(answer)
         return
+    if answer["remarks"]:
+        answer["remarks"] = f"{answer['remarks']} points: physics left out, or a model beyond its range"
     console.print_rows("sweep", [(name, str(value)) for name, value in answer.items()])
 
 

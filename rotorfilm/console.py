@@ -150,7 +150,8 @@ def print_answer(title: str, answer: Answer) -> None:
     """Print equilibrium, coefficients and whirl threshold."""
     rows = [*bearing_rows(answer.bearing), ("film", answer.model), *equilibrium_rows(answer.equilibrium)]
     rows += coefficient_rows(answer.coefficients)
-    print_rows(title, rows + whirl_rows(answer.whirl_threshold))
+    rows += whirl_rows(answer.whirl_threshold)
+    print_rows(title, rows + [("left out", remark) for remark in answer.remarks])
 
 
 def print_bush(answer: BushAnswer) -> None:

@@ -14,6 +14,7 @@ from zipfile import ZipFile
 import numpy as np
 import pytest
 from fmpy import read_model_description
+from typer.main import get_command
 
 import rotorfilm
 from rotorfilm import cli, ladders, scenes
@@ -239,6 +240,22 @@ def test_help_shows_an_example(run, command):
     assert code == 0
     assert f"Example: rotorfilm {command}" in out
     assert "--json" in out
+
+
+def _commands(group, path=()):
+    """Yield the words of every command and group below one."""
+    yield path
+    for name, command in getattr(group, "commands", {}).items():
+        yield from _commands(command, (*path, name))
+
+
+def test_every_command_and_group_shows_an_example(run):
+    every = list(_commands(get_command(cli.app)))
+    assert ("chart", "limits") in every
+    for words in every:
+        code, out, _ = run(*words, "--help")
+        assert code == 0
+        assert "Example: rotorfilm" in out, words
 
 
 def test_installed_command_answers_without_heavy_imports(tmp_path):

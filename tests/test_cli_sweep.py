@@ -27,6 +27,7 @@ def test_a_sweep_becomes_netcdf(tmp_path):
     ran = CliRunner().invoke(app, arguments, catch_exceptions=False)
     assert ran.exit_code == 0
     assert json.loads(ran.stdout)["points"] == 6
+    assert json.loads(ran.stdout)["remarks"] == 6  # all of them hot
     with xarray.open_dataset(out, engine="h5netcdf") as found:
         assert found["eccentricity_ratio"].shape == (2, 3)
 
@@ -55,3 +56,10 @@ def test_variations_are_read(text, expected):
 def test_other_texts_are_named(text):
     with pytest.raises(InputError, match="--vary must"):
         read_variation(text)
+
+
+def test_points_with_remarks_are_counted(tmp_path):
+    arguments = ["sweep", str(SHORT), "--vary", "journal.clearance = 90 um, 100 um"]
+    arguments += ["--out", str(tmp_path / "out.nc"), "--workers", "1"]
+    ran = CliRunner().invoke(app, arguments, catch_exceptions=False)
+    assert "2 points: physics left out" in " ".join(ran.stdout.split())

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from . import bushes, contacts, couplings, dampers, journals, shafts
+from . import bushes, contacts, couplings, dampers, journals, openings, shafts
 from .drawn import Drawn
 
 Draw = Callable[[np.random.Generator], Drawn]
@@ -33,5 +33,7 @@ FAMILIES: dict[str, tuple[int, Draw]] = {
     "shaft speed": (2, shafts.shaft_speed),
     "shaft orbit": (2, shafts.shaft_orbit),
     "shaft whirl": (1, shafts.shaft_whirl),
+    "fed": (1, openings.fed),
+    "pads": (1, openings.pads),
 }
 """Weight of each family in a round of the battery, and how one scene of it is drawn."""

@@ -1,13 +1,17 @@
-"""The atlas of limits: where each simplification of a journal bearing fails."""
+"""The atlas of limits: where each simplification fails, one panel for each."""
 
 from __future__ import annotations
 
+import math
+
 from matplotlib.axes import Axes
 
-from ..ladders.limits import PANELS, LimitAtlas, Panel
+from ..ladders.limits import LimitAtlas, Panel
 from .canvas import new_figure
 
-SHAPE = (2, 3)
+COLUMNS = 4
+SIZE = (4.4, 3.6)
+"""Width and height of a panel [inch]."""
 
 
 def plot_limits(atlas: LimitAtlas) -> list[Axes]:
@@ -20,11 +24,13 @@ def plot_limits(atlas: LimitAtlas) -> list[Axes]:
     Returns
     -------
     list of Axes
-        Of one figure, in the order of `ladders.limits.PANELS`.
+        Of one figure, in the order of the panels of the atlas.
     """
-    figure = new_figure(size=(13.0, 7.6))
-    drawn = [figure.add_subplot(*SHAPE, k + 1) for k in range(len(PANELS))]
-    for axes, (key, panel) in zip(drawn, PANELS.items(), strict=True):
+    columns = min(COLUMNS, len(atlas.panels))
+    rows = math.ceil(len(atlas.panels) / columns)
+    figure = new_figure(size=(columns * SIZE[0], rows * SIZE[1]))
+    drawn = [figure.add_subplot(rows, columns, k + 1) for k in range(len(atlas.panels))]
+    for axes, (key, panel) in zip(drawn, atlas.panels.items(), strict=True):
         for limit in atlas.limits:
             if limit.panel == key:
                 axes.plot(limit.abscissa, limit.ordinate, ".-", label=limit.name)
@@ -33,7 +39,8 @@ def plot_limits(atlas: LimitAtlas) -> list[Axes]:
 
 
 def _finish(axes: Axes, panel: Panel) -> None:
-    axes.set(title=panel.title, xlabel=panel.x_label, ylabel=panel.y_label, yscale="log")
+    axes.set(xlabel=panel.x_label, ylabel=panel.y_label, yscale="log")
+    axes.set_title(f"{panel.physics}: {panel.title}", fontsize=10)
     if panel.logarithmic:
         axes.set_xscale("log")
     if panel.level is not None:

@@ -53,6 +53,15 @@ def aligned_openings(geometry: FilmGeometry) -> AlignedOpenings:
     return AlignedOpenings(grooves, axis, view == _mirror(view), _fold(view))
 
 
+def is_mappable(geometry: FilmGeometry) -> bool:
+    """Return whether a film of this geometry has a map: no supply, openings of 60 deg at most."""
+    try:
+        require_mappable(geometry)
+    except InputError:
+        return geometry.plain and geometry.supply == 0.0
+    return True
+
+
 def require_mappable(geometry: FilmGeometry) -> None:
     """Raise InputError where a film of this geometry has no map, with what to take instead."""
     if geometry.supply > 0.0:

@@ -24,6 +24,9 @@ from .geometry import FilmGeometry
 CENTER = 1e-8
 """Eccentricity ratio below which the derivative is taken on this circle, or that of the centered film."""
 
+TINY = 1e-290
+"""Eccentricity ratio below which roundoff would spoil its direction."""
+
 CHUNK = 2048
 """States evaluated at once, which bounds the memory of a large batch."""
 
@@ -142,9 +145,11 @@ def polar_frame(eccentricity: Array, source: Array, floor: float = 0.0) -> Polar
     """Return the polar frame of states given as (2, B); a chi below `floor` is raised to it."""
     chi = np.hypot(eccentricity[0], eccentricity[1])
     off_center = chi > 0.0
-    safe = np.where(off_center, chi, 1.0)
-    cos = np.where(off_center, eccentricity[0] / safe, 1.0)
-    sin = np.where(off_center, eccentricity[1] / safe, 0.0)
+    # Denormal numbers have too few digits for a direction.
+    lifted = np.where(chi < TINY, 2.0**600, 1.0) * eccentricity
+    safe = np.where(off_center, np.hypot(lifted[0], lifted[1]), 1.0)
+    cos = np.where(off_center, lifted[0] / safe, 1.0)
+    sin = np.where(off_center, lifted[1] / safe, 0.0)
     axes, polar = np.empty((chi.size, 2, 2)), np.empty((chi.size, 2))
     axes[:, 0, 0], axes[:, 1, 0] = -sin, cos
     axes[:, 0, 1], axes[:, 1, 1] = cos, sin

@@ -65,8 +65,17 @@ class Instance:
         """Make the instance."""
         raise NotImplementedError
 
-    def initialize(self, references: Sequence[int], values: Sequence[float], time: float = 0.0) -> EventInfo:
-        """Initialize at the time [s] with these start values; afterwards it is ready to step or integrate."""
+    def initialize(
+        self,
+        references: Sequence[int],
+        values: Sequence[float],
+        time: float = 0.0,
+        tolerance: float | None = None,
+    ) -> EventInfo:
+        """Initialize at the time [s] with these start values; afterwards it is ready to step or integrate.
+
+        The tolerance is that of its time integration, its own default unless given.
+        """
         raise NotImplementedError
 
     def set(self, references: Sequence[int], values: Sequence[float]) -> None:
@@ -183,9 +192,15 @@ class Instance2(Instance):
         # With logging on, or PythonFMU would keep the reason of a failure to itself.
         self._fmu.instantiate(callbacks=self._callbacks, loggingOn=True)
 
-    def initialize(self, references: Sequence[int], values: Sequence[float], time: float = 0.0) -> EventInfo:
+    def initialize(
+        self,
+        references: Sequence[int],
+        values: Sequence[float],
+        time: float = 0.0,
+        tolerance: float | None = None,
+    ) -> EventInfo:
         """Initialize; see `Instance`."""
-        self._fmu.setupExperiment(startTime=time)
+        self._fmu.setupExperiment(tolerance=tolerance, startTime=time)
         self._fmu.enterInitializationMode()
         self.set(references, values)
         self._fmu.exitInitializationMode()
@@ -222,9 +237,15 @@ class Instance3(Instance):
         """Make the instance; see `Instance`."""
         self._fmu.instantiate(loggingOn=True, logMessage=self._logger)
 
-    def initialize(self, references: Sequence[int], values: Sequence[float], time: float = 0.0) -> EventInfo:
+    def initialize(
+        self,
+        references: Sequence[int],
+        values: Sequence[float],
+        time: float = 0.0,
+        tolerance: float | None = None,
+    ) -> EventInfo:
         """Initialize; see `Instance`."""
-        self._fmu.enterInitializationMode(startTime=time)
+        self._fmu.enterInitializationMode(tolerance=tolerance, startTime=time)
         self.set(references, values)
         self._fmu.exitInitializationMode()
         return self._settle()

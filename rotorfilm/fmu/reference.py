@@ -54,7 +54,7 @@ def reference_table(model: Model, start: Array, duration: float) -> Array:
     for swing in SWINGS:
         rows = _rows(model, time, start + swing * nominal * waves)
         best = max(best, rows, key=len)
-        if len(best) == ROWS:
+        if len(best) == ROWS or not len(nominal):
             break
     if len(best) < 2:
         best = _rows(model, time, np.tile(start, (ROWS, 1)))

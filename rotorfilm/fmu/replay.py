@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from fmpy.fmi1 import FMICallException
 from scipy.integrate import DOP853
 
 from ..errors import FmuError
 from ..model import Array
 from .described import nominal_of, references_of, variables_of
 from .instance import Instance, instantiated
+
+STEP_TOLERANCE = 1e-12
+"""Of the time integration inside an FMU in Co-Simulation."""
+
+SHORTER = 1e-3
+"""Of a first step that leads where the model has no derivative, the part that is tried next."""
 
 TOLERANCE = 1e-11
 """Local error of the integration in Model Exchange, relative to each state and its nominal value."""
@@ -31,7 +39,7 @@ def replay_steps(description: Any, folder: str, table: Array) -> Array:
     time, values = table[:, 0], table[:, 1 : 1 + len(inputs)]
     instance = instantiated(description, folder, False)
     try:
-        instance.initialize(inputs, values[0].tolist(), float(time[0]))
+        instance.initialize(inputs, values[0].tolist(), float(time[0]), STEP_TOLERANCE)
         rows = [instance.get(outputs)]
         for k in range(1, len(time)):
             instance.step(float(time[k - 1]), float(time[k] - time[k - 1]))
@@ -83,10 +91,23 @@ def _integrated(instance: Instance, t: float, x: Array, end: float, nominal: Arr
         instance.move(time, state)
         return instance.derivatives(len(state))
 
-    solver = DOP853(slope, t, x, end, rtol=TOLERANCE, atol=TOLERANCE * nominal, first_step=end - t)  # type: ignore[arg-type]
+    solver = _solver(slope, t, x, end, nominal)
     while solver.status == "running":
         solver.step()
     if solver.status != "finished":
         raise FmuError(f"the integration must reach t = {end!r} s, got stuck at {solver.t!r} s")
     instance.move(end, solver.y)
     return solver.y
+
+
+def _solver(slope: Callable[[float, Array], Array], t: float, x: Array, end: float, nominal: Array) -> Any:
+    """Return the solver after the first step, which is short where a long one leaves the model's states."""
+    for first in (end - t, SHORTER * (end - t), SHORTER**2 * (end - t)):
+        solver = DOP853(slope, t, x, end, rtol=TOLERANCE, atol=TOLERANCE * nominal, first_step=first)  # type: ignore[arg-type]
+        try:
+            solver.step()
+        except FMICallException:
+            continue
+        return solver
+    slope(t, x)
+    raise FmuError(f"the integration must leave t = {t!r} s, got no derivative beside it")

@@ -12,7 +12,8 @@ from .journal_rungs import Rung, comparison_bearing, fitted_bearing, journal_run
 from .journal_stability import journal_stability
 from .journal_states import LARGE, SMALL, StateRange, random_states
 from .journal_thresholds import JournalStability, RungStability
-from .limits import Limit, LimitAtlas, Panel, failures, journal_limits
+from .limits import Failure, Limit, LimitAtlas, Panel, failures
+from .limits_atlas import limits_atlas
 
 __all__ = [
     "LARGE",
@@ -24,6 +25,7 @@ __all__ = [
     "CouplingLimits",
     "DamperAccuracy",
     "DamperRung",
+    "Failure",
     "JournalAccuracy",
     "JournalStability",
     "Limit",
@@ -47,9 +49,9 @@ __all__ = [
     "failures",
     "fitted_bearing",
     "journal_accuracy",
-    "journal_limits",
     "journal_rungs",
     "journal_stability",
+    "limits_atlas",
     "pareto_front",
     "random_states",
     "shaft_flux_errors",

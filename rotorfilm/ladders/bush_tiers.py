@@ -140,11 +140,14 @@ def bush_tiers(
         ("two moments", "two moments"): partial(two_moments, bush, times, **USUAL),
         ("BushWear", "BushWear"): partial(_one_state, bush, times),
         **{
-            ("BushReaction", f"BushReaction, {n} nodes"): partial(_profile, times, replace(worn, nodes=n))
+            ("BushReaction", f"BushReaction, {n} nodes"): partial(worn_run, times, replace(worn, nodes=n))
             for n in nodes
         },
-        ("LocalMelting: another law", f"LocalMelting, {local.nodes} nodes"): partial(_profile, times, local),
-        **{("as published", f"as published, {n} steps"): partial(_published, bush, times, n) for n in steps},
+        ("LocalMelting: another law", f"LocalMelting, {local.nodes} nodes"): partial(worn_run, times, local),
+        **{
+            ("as published", f"as published, {n} steps"): partial(published_run, bush, times, n)
+            for n in steps
+        },
     }
     tiers = []
     for number, ((family, name), run) in enumerate(runs.items()):
@@ -217,7 +220,9 @@ def _one_state(bush: MeltingBush, times: Array) -> Array:
     return np.array([model.output(t, x, [_load(t), SPEED])[0] for t, x in zip(times, run.y.T, strict=True)])
 
 
-def _profile(times: Array, model: BushReaction) -> Array:
+def worn_run(times: Array, model: BushReaction) -> Array:
+    """Return half the contact angle [rad] at the times [s], by a worn profile."""
+
     def point(t: float, wear: Array) -> list[float]:
         return [*model.position([0.0, -_load(t)], 0.0, wear).tolist(), 0.0, 0.0, SPEED]
 
@@ -232,7 +237,8 @@ def _profile(times: Array, model: BushReaction) -> Array:
     return np.array([model.output(t, v, point(t, v))[3] for t, v in zip(times, run.y.T, strict=True)])
 
 
-def _published(bush: MeltingBush, times: Array, steps: int) -> Array:
+def published_run(bush: MeltingBush, times: Array, steps: int) -> Array:
+    """Return half the contact angle [rad] at the times [s], by the published stage in so many steps."""
     law = bush.law
     unit = bush.geometry.radius * HEAT / (law.liner * bush.outer_swing)
     grid = np.linspace(0.0, DURATION, steps + 1)

@@ -41,7 +41,8 @@ def whirl_threshold(
     -------
     WhirlThreshold
         With speed None and a reason where there is no threshold in the range. Speeds too low for the film
-        to carry the load, below the first with an equilibrium, are passed over.
+        to carry the load, below the first with an equilibrium, are passed over; a film that does not carry it
+        at the highest speed carries it at none.
 
     Raises
     ------
@@ -99,17 +100,35 @@ def _checked_range(speed_range: tuple[float, float] | None, natural: float) -> t
 
 def _scan(reaction: Reaction, load: Array, low: float, high: float) -> Iterator[Coefficients]:
     """Yield the coefficients at the equilibria, from the lowest speed at which there is one."""
-    carried = False
     points = max(3, 1 + math.ceil(_POINTS_PER_DECADE * math.log10(high / low)))
-    for speed in np.geomspace(low, high, points):
-        try:
-            at = equilibrium(reaction, load, float(speed))
-        except EquilibriumError:
-            if carried:
-                raise
-            continue
-        carried = True
+    speeds = np.geomspace(low, high, points).tolist()
+    for speed in speeds[_first_carried(reaction, load, speeds) :]:
+        at = equilibrium(reaction, load, speed)
         yield coefficients(reaction, at.position, at.speed)
+
+
+def _first_carried(reaction: Reaction, load: Array, speeds: list[float]) -> int:
+    """Return the place of the lowest speed that carries the load, by bisection; past the end if none does.
+
+    A failed search costs far more than one that finds its equilibrium.
+    """
+
+    def carries(k: int) -> bool:
+        try:
+            equilibrium(reaction, load, speeds[k])
+        except EquilibriumError:
+            return False
+        return True
+
+    if carries(0):
+        return 0
+    below, above = 0, len(speeds) - 1
+    if not carries(above):
+        return len(speeds)
+    while above - below > 1:
+        middle = (below + above) // 2
+        below, above = (below, middle) if carries(middle) else (middle, above)
+    return above
 
 
 def _refined(

@@ -69,6 +69,10 @@ class ErrorEstimate(NamedTuple):
     doubt: str = ""
 
 
+class NoAnswerError(AbsentError):
+    """It does not exist by a model close enough to say so: dearer ones need not be asked."""
+
+
 class Rung(Protocol):
     """One way to answer a question."""
 
@@ -81,7 +85,10 @@ class Rung(Protocol):
         """Order of magnitude of its error known beforehand [1]; 0 where nothing is known."""
 
     def answer(self, before: Found | None) -> Found:
-        """Return its answer, from that of a lower rung or alone; raises RotorfilmError where it has none."""
+        """Return its answer, from that of a lower rung or alone; raises RotorfilmError where it has none.
+
+        NoAnswerError where none has.
+        """
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the error of its answer without running a richer model.
@@ -291,6 +298,8 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
             reports.append(report)
             absent = False
         except RotorfilmError as error:
+            if isinstance(error, NoAnswerError) and before is None:
+                raise
             failure, absent = error, isinstance(error, AbsentError | FilmContactError)
             reports.append(RungReport(name=rung.name, verdict="refused", reason=str(error)))
     if absent:

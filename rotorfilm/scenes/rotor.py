@@ -91,7 +91,7 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
     """
     if scene.shaft is None:
         raise InputError("shaft is required for the analyses of a flexible rotor, got no such table")
-    rotor, bearings = scene.shaft.build(extra=_unbalance(scene)), scene.shaft.build_bearings()
+    rotor, bearings = scene.shaft.build(extra=added_unbalance(scene)), scene.shaft.build_bearings()
     speeds = scene.shaft.speeds.build()
     highest = scene.shaft.highest_frequency or 2.0 * float(speeds[-1])
     report(0.0, "equilibrium")
@@ -170,7 +170,8 @@ def _unit(name: str) -> str:
     return "m/s" if name.rpartition("_")[2] in ("vx", "vy") else "m"
 
 
-def _unbalance(scene: Scene) -> tuple[UnbalanceTable, ...]:
+def added_unbalance(scene: Scene) -> tuple[UnbalanceTable, ...]:
+    """Return the unbalance that excites a shaft; raise InputError for an excitation of another kind."""
     if scene.excitation is None:
         return ()
     if type(scene.excitation) is not UnbalanceTable:

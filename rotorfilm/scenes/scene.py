@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from importlib import resources
 from os import PathLike
 from pathlib import Path
@@ -28,6 +28,7 @@ from .rotor_table import ShaftTable, require_place
 from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
 from .solve import Answer, solve
 from .tables import Table, Variant, read_table, require_no_near_miss, text
+from .validity import journal_remarks
 
 BUNDLED = "friswell_5_9_6.toml"
 """The scene file that ships with the package."""
@@ -164,9 +165,14 @@ class Scene:
         return answer
 
     def describe(self) -> Answer:
-        """Return equilibrium, coefficients and whirl threshold; see `rotorfilm.scenes.solve.solve`."""
+        """Return equilibrium, coefficients and whirl threshold; see `rotorfilm.scenes.solve.solve`.
+
+        What the physics of the film leaves out is in `remarks` of the answer.
+        """
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
-        return solve(self.bearing, load=self.static_load, speed=self.speed, mass=mass)
+        remarks = journal_remarks(self)
+        answer = solve(self.bearing, load=self.static_load, speed=self.speed, mass=mass)
+        return replace(answer, remarks=remarks)
 
     def melting(self) -> BushAnswer:
         """Return contact and critical speeds of the unworn bush; raises InputError if the scene has none."""

@@ -12,8 +12,10 @@ from typing import Annotated
 
 from ..bearings.journal import JournalBearing
 from ..errors import require_finite, require_positive
+from ..films import FilmGeometry, FilmLaw, GroovedMapFilm, MapFilm, ReynoldsFilm
+from ..films.groove_axis import is_mappable
 from ..rotors.rigid import RigidRotor
-from .film_tables import FILMS, FilmTable, GrooveTable, MapFilmTable, PadTable
+from .film_tables import FILMS, FilmTable, GrooveTable, PadTable
 from .readers import read_load
 from .tables import Quantity, TableList, Variant
 
@@ -35,7 +37,7 @@ class JournalTable:
         Radial clearance.
     viscosity : float [Pa s]
     film : FilmTable or None
-        The film law; if the file does not say, the map, or what the question of the scene needs.
+        The film law; if the file does not say, the map where there is one, or what a question needs.
     pads : tuple of PadTable
         Where there is a bearing wall; empty for the full circumference.
     grooves : tuple of GrooveTable
@@ -57,17 +59,32 @@ class JournalTable:
         self.build()
 
     def build(self) -> JournalBearing:
-        """Return the bearing; raise InputError where a value breaks its rule."""
+        """Return the bearing; raise InputError where a value breaks its rule.
+
+        Where the file names no film: the map if there is one, else the film in two dimensions.
+        """
         return JournalBearing(
             radius=self.radius,
             length=self.length,
             clearance=self.clearance,
             viscosity=self.viscosity,
-            film=(self.film or MapFilmTable()).build(),
+            film=self._film(),
             pads=tuple(pad.build() for pad in self.pads),
             grooves=tuple(groove.build() for groove in self.grooves),
             supply_pressure=self.supply_pressure,
         )
+
+    def _film(self) -> FilmLaw:
+        if self.film is not None:
+            return self.film.build()
+        geometry = FilmGeometry(
+            grooves=tuple(groove.build() for groove in self.grooves),
+            pads=tuple(pad.build() for pad in self.pads),
+        )
+        low, high = GroovedMapFilm().slenderness_range
+        mapped = is_mappable(geometry) and not (self.grooves and self.supply_pressure)
+        long_enough = geometry.plain or low <= 0.5 * self.length / self.radius <= high
+        return MapFilm() if mapped and long_enough else ReynoldsFilm()
 
 
 @dataclass(frozen=True, kw_only=True)

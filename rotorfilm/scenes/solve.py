@@ -27,6 +27,8 @@ class Answer:
         Heaviest rigid rotor that is stable at the equilibrium.
     whirl_threshold : WhirlThreshold or None
         Onset of self-excited whirl; None when the scene has no rotor.
+    remarks : tuple of str
+        What the physics of the film leaves out, in dimensionless numbers; only a scene knows.
     """
 
     bearing: BearingData
@@ -35,6 +37,7 @@ class Answer:
     coefficients: Coefficients
     critical_mass: CriticalMass
     whirl_threshold: WhirlThreshold | None
+    remarks: tuple[str, ...] = ()
 
 
 def solve(

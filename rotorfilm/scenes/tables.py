@@ -154,7 +154,17 @@ def read_table(table: type[T], where: str, data: Any) -> T:
     try:
         return table(**found)
     except InputError as error:  # its message begins with the name of the key
-        raise SceneError(f"{where}{error}") from None
+        raise SceneError(f"{where}{error}{_as_written(str(error), readers, values)}") from None
+
+
+def _as_written(message: str, readers: Mapping[str, Reader], values: Mapping[str, Any]) -> str:
+    """Return the SI unit of the key that a message begins with, and the text in the file if it has one."""
+    reader = readers.get(message.partition(" ")[0])
+    if not isinstance(reader, Quantity) or reader.unit == "1":
+        return ""
+    key = reader.twice if reader.twice in values else message.partition(" ")[0]
+    written = f"; {key} = {values[key]!r}" if isinstance(values.get(key), str) else ""
+    return f" [{reader.unit}{written}]"
 
 
 def unit_of(table: type, path: Sequence[str]) -> str | None:

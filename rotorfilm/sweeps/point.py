@@ -44,12 +44,15 @@ def solve_point(scene: Mapping[str, Any], values: Mapping[str, Any], source: str
     """
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
+        told: set[str] = set()
         try:
-            row = _kept(read_scene(varied(scene, values), source).solve())
+            answer = read_scene(varied(scene, values), source).solve()
+            row = _kept(answer)
+            told = {f"left out: {remark}" for remark in getattr(answer, "remarks", ())}
         except RotorfilmError as error:
             row = {"failure": f"{type(error).__name__}: {error}"}
-    told = sorted({str(each.message) for each in caught if issubclass(each.category, ValidityWarning)})
-    return {**row, "remarks": "; ".join(told)}
+    told |= {str(each.message) for each in caught if issubclass(each.category, ValidityWarning)}
+    return {**row, "remarks": "; ".join(sorted(told))}
 
 
 def _kept(answer: Answer | BushAnswer | QuestionAnswer) -> Row:

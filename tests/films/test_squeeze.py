@@ -406,3 +406,13 @@ def test_finite_porous_film_in_small_motion(thin):
 def test_finite_film_beyond_its_range_warns():
     with pytest.warns(ValidityWarning, match="must not exceed 0.99 for a film of finite length, got 0.995"):
         FILMS["finite solid"].force(np.array([0.995, 0.0]), np.ones(2))
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("tiny", [5e-324, 1e-310, 1e-200])
+def test_a_direction_of_denormal_numbers_is_one(tiny):
+    # At the center the damping is isotropic: the direction of a vanishing eccentricity must not matter.
+    film = FiniteSqueezeFilm(0.5, None, layer_modes(None), np.zeros(1))
+    rate = np.array([3.0, -2.0])
+    for e in ([tiny, tiny], [tiny, 0.0], [-tiny, tiny], [0.0, 0.0]):
+        np.testing.assert_allclose(film.force(np.array(e), rate), film.force(np.zeros(2), rate), rtol=1e-12)

@@ -1,6 +1,7 @@
 """A flexible rotor as a native FMU, coupled with two film FMUs."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import fmpy
 import numpy as np
@@ -27,7 +28,8 @@ from rotorfilm.rotors import (
     Unbalance,
     mount,
 )
-from rotorfilm.scenes import export_rotor_fmu
+from rotorfilm.scenes import bundled_scene, export_rotor_fmu, parse_scene
+from rotorfilm.scenes.export_rotor import export_system
 from rotorfilm.signals import names
 
 SPEED = 1500.0 * np.pi / 30.0
@@ -223,3 +225,41 @@ def test_without_bearings_it_begins_straight(tmp_path):
     assert small.initial == ()
     moved = replace(small, speed=2.0)
     assert len(SteadyRotor(rotor=moved).states) == len(small.states) + 3
+
+
+@pytest.mark.closed_form
+def test_scene_becomes_one_fmu_of_rotor_and_bearings_that_moves_as_the_model(tmp_path):
+    """After an eighth of a turn under its unbalance it is where Radau takes the model."""
+    text = (Path(__file__).parents[2] / "examples" / "flexible_rotor.toml").read_text(encoding="utf-8")
+    scene = parse_scene(text.replace("[shaft]", '[operation]\nspeed = "1500 rpm"\n[shaft]', 1), "flexible")
+    made = export_system(scene, tmp_path)
+    assert made.system.name == "system.fmu"
+    known = {v.name: v for v in fmpy.read_model_description(str(made.system)).modelVariables}
+    assert {"system.left_x", "system.right_force_y", "system.small_x"} <= set(known)
+    bearings = scene.shaft.build_bearings()
+    small = reduce_rotor(
+        scene.shaft.build(speed=scene.speed), frequency=scene.shaft.highest_frequency, tolerance=1e-3
+    ).rotor
+    at = rotor_equilibrium(small, bearings, scene.speed).displacement
+    model = mount(replace(small, initial=(*at.tolist(), *np.zeros(len(at)).tolist())), bearings)
+    end = 0.125 * 2.0 * np.pi / scene.speed
+    run = solve_ivp(
+        lambda t, x: model.derivative(t, x, []),
+        (0.0, end),
+        model.initial_state,
+        "Radau",
+        rtol=1e-8,
+        atol=1e-11,
+    )
+    wanted = dict(zip(names(model.outputs), model.output(end, run.y[:, -1], []), strict=True))
+    with open_fmu(made.system) as fmu:
+        fmu.start({})
+        fmu.step(0.0, end)
+        found = fmu.get()
+    for name in ("left_x", "left_y", "right_y"):
+        assert found[name] == pytest.approx(wanted[name], abs=1e-10)
+
+
+def test_scene_without_a_shaft_has_no_system():
+    with pytest.raises(InputError, match="shaft is required for the FMU"):
+        export_system(bundled_scene(), Path("."))

@@ -408,3 +408,29 @@ def test_scene_without_a_bearing_or_an_operation_is_refused():
 def test_typo_in_the_version_is_named():
     with pytest.raises(SceneError, match=r"case.toml: shcema is no known key; did you mean 'schema'\?"):
         parse(GOOD.replace("schema", "shcema"))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ('clearance = "0.1 mm"', 'clearance = "-0.1 mm"', r"got -0.0001 \[m; clearance = '-0.1 mm'\]"),
+        ('clearance = "0.1 mm"', "clearance = -1e-4", r"got -0.0001 \[m\]"),
+        ("radius = 0.05", 'diameter = "0 in"', r"got 0.0 \[m; diameter = '0 in'\]"),
+    ],
+)
+def test_errors_have_the_unit_and_the_text_of_the_file(old, new, told):
+    assert old in GOOD
+    with pytest.raises(SceneError, match=told):
+        parse(GOOD.replace(old, new))
+
+
+@pytest.mark.parametrize(
+    ("openings", "film"),
+    [
+        ('grooves = [{ center = "0 deg", width = "20 deg" }]\nsupply_pressure = "1 bar"', ReynoldsFilm()),
+        ('pads = [{ start = "195 deg", extent = "150 deg" }]', ReynoldsFilm()),
+        ('pads = [{ start = "0 deg", extent = "310 deg" }]', MapFilm()),
+    ],
+)
+def test_a_film_that_is_not_named_is_one_that_the_openings_can_have(openings, film):
+    assert parse(GOOD.replace("[operation]", f"{openings}\n[operation]")).bearing.film == film

@@ -12,6 +12,7 @@ import pytest
 from rotorfilm.errors import InputError, ValidityWarning
 from rotorfilm.scenes import Scene, bundled_scene, parse_scene
 from rotorfilm.scenes.film_tables import ShortFilmTable
+from rotorfilm.scenes.ladder import NoAnswerError
 from rotorfilm.scenes.question_table import QUANTITIES, QuestionTable
 from rotorfilm.scenes.questions import ladder_of
 from rotorfilm.scenes.questions.equal_steps import ORDER, linear_march, march, peak
@@ -250,3 +251,57 @@ def test_command_line_shows_the_ladder_and_fails_where_no_rung_will_do(tmp_path,
     code, shown = run(str(ROOT / "examples" / "friswell.toml"), "--explain")
     assert code == 2
     assert "--explain must be given with a scene that has a [question]" in shown.err
+
+
+HOT = """schema = 1
+[journal]
+radius = 0.05
+length = 0.03
+clearance = 1e-4
+viscosity = 0.05
+{openings}
+[operation]
+speed = {speed}
+load = ["100 N", "-0.3 kN"]
+[question]
+quantity = "{quantity}"
+tolerance = {tolerance}
+"""
+
+
+@pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+@pytest.mark.parametrize("family", ["fed", "pads"])
+def test_bearings_with_openings_of_every_kind_are_answered(family):
+    for seed in (1, 2):
+        drawn = FAMILIES[family][1](np.random.default_rng(seed))
+        first, *_ = scene_battery.judge(seed, drawn)
+        assert first.doubtful or first.right, first
+        assert first.verdict != "chosen" or first.met, first
+
+
+@pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+@pytest.mark.parametrize(
+    ("openings", "quantity"),
+    [
+        ("grooves = [{ center = '10 deg', width = '30 deg' }]", "eccentricity_ratio"),
+        ("grooves = [{ center = '10 deg', width = '30 deg' }]\nsupply_pressure = '1 bar'", "attitude_angle"),
+        ("pads = [{ start = '200 deg', extent = '140 deg' }]", "minimum_film"),
+    ],
+)
+def test_openings_never_make_a_map_for_an_equilibrium_and_tighter_is_never_worse(openings, quantity):
+    errors = []
+    for tolerance in (0.1, 1e-3, 1e-9):
+        scene = HOT.format(openings=openings, speed=-200.0, quantity=quantity, tolerance=tolerance)
+        answer = parse_scene(scene, "openings").ask()
+        assert not any("map" in report.name for report in answer.rungs)
+        errors.append(answer.error_estimate)
+    assert not answer.met
+    assert errors == sorted(errors, reverse=True)
+
+
+def test_a_threshold_that_does_not_exist_is_not_looked_for_on_grids():
+    # A journal this close to the wall is stable, even at 100 times the natural speed of so large a mass.
+    scene = HOT.format(openings="", speed=100.0, quantity="whirl_threshold", tolerance=1e-3)
+    heavy = scene.replace('["100 N", "-0.3 kN"]', '"900 kN"') + "[rigid_rotor]\nmass = 1e8\n"
+    with pytest.raises(NoAnswerError, match=r"no threshold: .*, by map"):
+        parse_scene(heavy, "heavy").ask()

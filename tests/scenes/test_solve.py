@@ -123,3 +123,8 @@ def test_answer_is_plain_json():
     plain = json.loads(json.dumps(to_plain(answer(rotor="[rigid_rotor]\nmass = 50")), allow_nan=False))
     assert plain["equilibrium"]["load"] == [0.0, -525.0]
     assert len(plain["coefficients"]["stiffness"]) == 2
+
+
+def test_what_the_physics_leaves_out_is_in_the_answer_without_a_question():
+    answer = bundled_scene().describe()
+    assert any(remark.startswith("heat: the oil warms by about 27 K") for remark in answer.remarks)

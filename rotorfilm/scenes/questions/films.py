@@ -21,6 +21,7 @@ from ...films import (
     ShortFilm,
     SplittingFilm,
 )
+from ...films.groove_axis import is_mappable
 from ...model import Array
 from ..echo import film_name
 
@@ -122,11 +123,17 @@ def film_rungs(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
         low, high = MapFilm().slenderness_range
         own = [_map(bearing)] if low <= bearing.slenderness <= high else []
         rungs = [*_plain_films(bearing, tabulated), *_grids(bearing, tabulated), *own]
-    elif bearing.supply_pressure:
-        rungs = _grids(bearing, tabulated)
     else:
-        rungs = [*_grids(bearing, tabulated), _grooved_map(bearing)]
+        low, high = GroovedMapFilm().slenderness_range
+        mapped = is_mappable(bearing.geometry) and low <= bearing.slenderness <= high
+        rungs = [*_grids(bearing, tabulated), *([_grooved_map(bearing)] if mapped else [])]
     return tuple(rungs)
+
+
+def point_films(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
+    """Return the films for some equilibria: a map that must be made first costs more than any grid."""
+    films = film_rungs(bearing, fixed=fixed)
+    return tuple(film for film in films if fixed or not film.makes_map)
 
 
 def with_film(bearing: JournalBearing, film: FilmLaw) -> JournalBearing:

@@ -17,7 +17,7 @@ from ...results import Equilibrium
 from ..counted import Counted
 from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Work
 from ..validity import journal_remarks
-from .films import NOMINAL, FilmRung, film_rungs, tangent
+from .films import NOMINAL, FilmRung, point_films, tangent
 
 if TYPE_CHECKING:
     from ..scene import Scene
@@ -203,7 +203,7 @@ def _one_defect(bearing: JournalBearing, speed: float, *, smooth: bool) -> Calla
 
 def static_ladder(scene: Scene, quantity: str) -> Ladder:
     """Return the ladder of a static quantity of a journal bearing."""
-    films = film_rungs(scene.bearing, fixed=scene.film_is_given)
+    films = point_films(scene.bearing, fixed=scene.film_is_given)
     rungs = tuple(
         StaticRung(film=film, quantity=quantity, load=scene.static_load, speed=scene.speed) for film in films
     )

@@ -13,9 +13,9 @@ from ...linear import coefficients, equilibrium, whirl_threshold
 from ...model import Array
 from ...results import Equilibrium
 from ..counted import Counted
-from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Work
+from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, NoAnswerError, Work
 from ..validity import journal_remarks
-from .films import NOMINAL, FilmRung, film_rungs
+from .films import NOMINAL, FilmRung, is_grid, point_films
 from .statics import corrected, film_units
 
 if TYPE_CHECKING:
@@ -62,7 +62,8 @@ class WhirlRung:
         if threshold.speed is None and around is not None:
             threshold = whirl_threshold(counted, self.load, self.mass)
         if threshold.speed is None:
-            raise RotorfilmError(f"no threshold: {threshold.reason}")
+            kind = NoAnswerError if self.film.bounded or is_grid(self.film.bearing) else RotorfilmError
+            raise kind(f"no threshold: {threshold.reason}, by {self.name}")
         return Found(threshold.speed, {self.film.tangents: counted.tangents, **made}, threshold.equilibrium)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
@@ -149,7 +150,7 @@ def whirl_ladder(scene: Scene, quantity: str) -> Ladder:
     """
     if scene.rigid_rotor is None:
         raise InputError(f"rigid_rotor is required for {quantity}, got no such table")
-    films = film_rungs(scene.bearing, fixed=scene.film_is_given)
+    films = point_films(scene.bearing, fixed=scene.film_is_given)
     mass = scene.rigid_rotor.mass
     return Ladder(
         rungs=tuple(WhirlRung(film=film, load=scene.static_load, mass=mass) for film in films),
