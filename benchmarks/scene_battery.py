@@ -30,7 +30,7 @@ from rotorfilm.scenes import read_scene
 from rotorfilm.scenes.ladder import Meter, QuestionAnswer
 from rotorfilm.scenes.questions import ladder_of
 
-SEED, COUNT = 20261, 200
+SEED, COUNT = 20271, 200
 FACTOR = 2.0
 
 

@@ -23,6 +23,9 @@ SAFETY = 1.5
 DISAGREEMENT = 0.3
 """Largest relative difference of two propagations of a defect, beyond which neither is trusted."""
 
+STALLED = 0.05
+"""Relative change of the error over a refinement, below which another one does not help."""
+
 REPEATS = 3
 """Measurements of a unit of work, of which the shortest counts."""
 
@@ -113,6 +116,8 @@ class Ladder:
         Of the value.
     nominal : mapping of str to float [s]
         Costs of units that are too dear to be tried for a prediction.
+    refined : mapping of str to str
+        By the name of a rung, what its steps refine: rungs of the same differ in nothing else.
     remarks : tuple of str
         What the physics of all rungs leaves out and should not.
     """
@@ -121,6 +126,7 @@ class Ladder:
     unit: str
     units: Mapping[str, Callable[[], object]] = field(default_factory=dict)
     nominal: Mapping[str, float] = field(default_factory=dict)
+    refined: Mapping[str, str] = field(default_factory=dict)
     remarks: tuple[str, ...] = ()
 
 
@@ -278,7 +284,7 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
     Notes
     -----
     Which rung answers depends on the tolerance through one comparison per rung only, so that a tighter one
-    never chooses a rung with a larger estimate.
+    never chooses a rung with a larger estimate: what is skipped depends on the rungs below alone.
     """
     require_positive("tolerance", tolerance)
     meter = Meter(ladder)
@@ -289,9 +295,9 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
     for rung in ladder.rungs:
         if reports and reports[-1].verdict == "chosen":
             break
-        beaten = _refused_more_accurate(rung, reports)
-        if beaten is not None:
-            reports.append(RungReport(name=rung.name, verdict="skipped", reason=beaten))
+        idle = _refused_more_accurate(rung, reports) or _refined_in_vain(rung, ladder, reports)
+        if idle:
+            reports.append(RungReport(name=rung.name, verdict="skipped", reason=idle))
             continue
         try:
             report, before = _tried(rung, before, meter, tolerance)
@@ -348,6 +354,19 @@ def _refused_more_accurate(rung: Rung, reports: Sequence[RungReport]) -> str | N
         if not report.doubtful and rung.prior >= (report.error_estimate or math.inf):
             return f"known to be off by about {rung.prior:.0e}; {report.name} is closer and was refused"
     return None
+
+
+def _refined_in_vain(rung: Rung, ladder: Ladder, reports: Sequence[RungReport]) -> str | None:
+    """Return why finer steps do not help: the last refinement of the same model changed nothing."""
+    model = ladder.refined.get(rung.name)
+    coarser = [(r.error_estimate, r.name) for r in reports if model and ladder.refined.get(r.name) == model]
+    known = [(error, name) for error, name in coarser if error is not None and math.isfinite(error)][-2:]
+    if len(known) < 2:
+        return None
+    (before, coarse), (after, fine) = known
+    if abs(before - after) > STALLED * after:
+        return None
+    return f"finer steps do not help: {coarse} is off by {before:.2g}, {fine} by {after:.2g}"
 
 
 def _answer(

@@ -37,8 +37,9 @@ class Made:
         return {"calls": 10 * sum(done.values())}
 
 
-def ladder(*rungs):
-    return Ladder(rungs=rungs, unit="m", units={"calls": lambda: None})
+def ladder(*rungs, refined=""):
+    models = {rung.name: "one film" for rung in rungs if rung.name in refined}
+    return Ladder(rungs=rungs, unit="m", units={"calls": lambda: None}, refined=models)
 
 
 def test_first_rung_below_the_tolerance_is_chosen_and_the_rest_is_not_asked():
@@ -111,14 +112,31 @@ def test_cost_of_the_next_rung_is_predicted_from_the_work_done():
 @given(
     errors=st.lists(st.floats(1e-9, 1.0), min_size=1, max_size=8),
     factors=st.lists(st.floats(1e-3, 3.0), min_size=8, max_size=8),
+    refined=st.text("01234567"),
     tolerances=st.tuples(st.floats(1e-9, 1.0), st.floats(1e-9, 1.0)),
 )
-def test_tighter_tolerance_never_chooses_a_less_accurate_rung(errors, factors, tolerances):
+def test_tighter_tolerance_never_chooses_a_less_accurate_rung(errors, factors, refined, tolerances):
     rungs = [Made(str(k), error, prior=error * factors[k]) for k, error in enumerate(errors)]
-    loose, tight = (walk("wear", ladder(*rungs), t) for t in (max(tolerances), min(tolerances)))
+    loose, tight = (
+        walk("wear", ladder(*rungs, refined=refined), t) for t in (max(tolerances), min(tolerances))
+    )
     if loose.met:
         assert tight.error_estimate <= loose.error_estimate
         assert int(tight.model) >= int(loose.model) or not tight.met
+
+
+def test_steps_are_not_refined_where_that_no_longer_helps():
+    rungs = [Made("a", 0.5), Made("b", 0.3), Made("c", 0.296), Made("d", 0.29), Made("e", 0.2)]
+    answer = walk("wear", ladder(*rungs, refined="abcd"), 0.1)
+    assert [report.verdict for report in answer.rungs] == [
+        "refused",
+        "refused",
+        "refused",
+        "skipped",
+        "refused",
+    ]
+    assert answer.rungs[3].reason == "finer steps do not help: b is off by 0.3, c by 0.3"
+    assert [rung.asked for rung in rungs] == [1, 1, 1, 0, 1]
 
 
 def test_tolerance_must_be_positive():

@@ -195,5 +195,6 @@ def blade_loss_ladder(scene: Scene, quantity: str) -> Ladder:
         unit="m",
         units=film_batch_units(films, scene.speed),
         nominal=NOMINAL,
+        refined={rung.name: rung.film.name for rung in rungs if rung.steps},
         remarks=journal_remarks(scene),
     )

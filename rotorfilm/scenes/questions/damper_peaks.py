@@ -268,7 +268,8 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     )
     units = {rung.tangents: _one(rung, scene.speed) for rung in rungs if rung.steps}
     remarks = scene_remarks(scene, models.rotor, steady=False)
-    return Ladder(rungs=rungs, unit="m", units=units, nominal=NOMINAL, remarks=remarks)
+    refined = {rung.name: rung.film.name for rung in rungs if rung.steps}
+    return Ladder(rungs=rungs, unit="m", units=units, nominal=NOMINAL, refined=refined, remarks=remarks)
 
 
 def _choices(table: DamperTable) -> list[tuple[DamperFilm, int]]:

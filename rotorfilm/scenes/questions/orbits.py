@@ -217,6 +217,7 @@ def orbit_ladder(scene: Scene, quantity: str) -> Ladder:
         unit=UNITS[quantity],
         units=film_batch_units(films, scene.speed),
         nominal=NOMINAL,
+        refined={rung.name: rung.film.name for rung in rungs if rung.samples},
         remarks=journal_remarks(scene),
     )
 

@@ -296,6 +296,7 @@ def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
         rungs=rungs,
         unit=UNITS[quantity],
         nominal=NOMINAL,
+        refined={rung.name: replace(rung, samples=0).name for rung in rungs if rung.samples},
         remarks=(
             *shaft_remarks(scene, scene.speed),
             *stability_remark(rotor, levels[0].reactions, scene.speed),
