@@ -109,13 +109,14 @@ def solve(
 ) -> None:
     """Answer a scene: its question, or else equilibrium, stiffness, damping and whirl threshold.
 
-    Exits with 1 where no rung meets the tolerance of the question.
+    Exits with 1 where no rung meets the tolerance of the question, or nothing is there to answer it; with 2
+    for bad input.
     """
     from .scenes import Scene
 
     loaded = Scene.load(scene)
     if loaded.question is not None:
-        _print_question(loaded, explain, json)
+        _print_question(scene, loaded, explain, json)
         return
     if explain:
         raise InputError(f"--explain must be given with a scene that has a [question], got {str(scene)!r}")
@@ -134,10 +135,13 @@ def solve(
     console.print_answer(loaded.title, answer)
 
 
-def _print_question(scene: Scene, explain: bool, json: bool) -> None:
+def _print_question(path: Path, scene: Scene, explain: bool, json: bool) -> None:
     from .console_ladder import print_question
 
-    answer = scene.ask()
+    try:
+        answer = scene.ask()
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
     if json:
         console.print_json(answer)
     else:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import Any
 
 import numpy as np
@@ -14,12 +15,17 @@ MARKS = {"chosen": "[bold green]chosen[/]", "refused": "[yellow]refused[/]", "sk
 """How verdicts are shown; others are dim."""
 
 
+WIDE = 160
+"""Columns of a print-out that is not on a screen."""
+
+
 def print_question(title: str, answer: QuestionAnswer, *, explain: bool) -> None:
     """Print the answer to a question, and with `explain` the whole ladder."""
     table = Table(title=title, title_justify="left", show_header=False, box=None, pad_edge=False)
     for row in _summary(answer):
         table.add_row(*row)
-    screen = Console(highlight=False)
+    # A file or a pipe has no width that tables must fit.
+    screen = Console(highlight=False) if sys.stdout.isatty() else Console(highlight=False, width=WIDE)
     screen.print(table)
     if explain:
         screen.print("", _ladder(answer))
@@ -29,10 +35,11 @@ def print_question(title: str, answer: QuestionAnswer, *, explain: bool) -> None
 def _summary(answer: QuestionAnswer) -> list[tuple[str, str]]:
     verdict = "met" if answer.met else "NOT met by any rung"
     share = "at most" if chosen_report(answer).bound else "about"
-    above = "none" if answer.next_model is None else f"{answer.next_model}: {_seconds(answer.next_cost)}"
+    price = "cost not known" if answer.next_cost is None else _seconds(answer.next_cost)
+    above = "none" if answer.next_model is None else f"{answer.next_model}: {price}"
     return [
         (answer.quantity.replace("_", " "), f"{_value(answer.value)} {answer.unit.removeprefix('1')}"),
-        ("error", f"{share} {_number(answer.error_estimate)}"),
+        ("error", f"{share} {_number(answer.error_estimate)}, relative"),
         ("tolerance", f"{answer.tolerance:.3g}: {verdict}"),
         ("model", answer.model),
         ("cost", f"{_seconds(answer.cost)}, its error {_seconds(answer.estimate_cost)}"),
@@ -48,7 +55,7 @@ def chosen_report(answer: QuestionAnswer) -> RungReport:
 
 def _ladder(answer: QuestionAnswer) -> Table:
     table = Table(title="the ladder, the cheapest rung first", title_justify="left", box=None, pad_edge=False)
-    table.add_column("rung", no_wrap=True)
+    table.add_column("rung", overflow="fold")
     table.add_column("", no_wrap=True)
     for heading in ("value", "error", "cost", "of error"):
         table.add_column(heading, justify="right", no_wrap=True)

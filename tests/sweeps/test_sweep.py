@@ -135,7 +135,8 @@ def test_a_killed_sweep_goes_on_where_it_was(tmp_path):
     axes = {"journal.clearance": [f"{c} um" for c in range(80, 120)]}
     out, waiting = tmp_path / "out.nc", tmp_path / "out.nc.rows"
     arguments = [json.dumps(SCENE), json.dumps(axes), str(out)]
-    running = subprocess.Popen([sys.executable, "-c", SLOW, *arguments])
+    # Not from the checkout, whose package would hide the installed one.
+    running = subprocess.Popen([sys.executable, "-c", SLOW, *arguments], cwd=tmp_path)
     deadline = time.monotonic() + 120.0
     while not (waiting.is_file() and waiting.read_bytes().count(b"\n") > 10):
         assert running.poll() is None, "the sweep ended before it could be killed"

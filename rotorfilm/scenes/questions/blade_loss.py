@@ -17,7 +17,7 @@ from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Work
 from ..validity import journal_remarks
 from .equal_steps import ORDER, Motion, linear_march, march, peak
 from .films import MAP_BOUNDS, NOMINAL, FilmRung
-from .orbits import film_batch_units, orbit_films
+from .orbits import film_batch_units, orbit_films, require_one_unbalance
 
 if TYPE_CHECKING:
     from ..scene import Scene
@@ -178,6 +178,7 @@ def blade_loss_ladder(scene: Scene, quantity: str) -> Ladder:
     if scene.speed == 0.0:
         raise InputError("operation.speed must not be zero for a lost blade, got 0.0")
     films, rotor = orbit_films(scene), scene.rotor
+    require_one_unbalance(rotor)
     rungs = [
         BladeLossRung(
             film=film,

@@ -190,17 +190,30 @@ def rotor_of(scene: Scene) -> RigidRotor:
     Raises
     ------
     InputError
-        If it has none, or does not turn.
+        If it has none or both, another excitation, or does not turn.
     """
-    rotor = scene.rotor
-    if isinstance(scene.excitation, UnbalanceTable):
-        own = scene.excitation
-        rotor = replace(rotor, unbalance=own.unbalance, unbalance_angle=own.unbalance_angle)
+    rotor, excitation = scene.rotor, scene.excitation
+    if isinstance(excitation, UnbalanceTable):
+        require_one_unbalance(rotor)
+        rotor = replace(rotor, unbalance=excitation.unbalance, unbalance_angle=excitation.unbalance_angle)
+    elif excitation is not None:
+        raise InputError(
+            f'excitation must be of kind "unbalance" for a steady orbit, got {type(excitation).__name__}'
+        )
     if rotor.unbalance <= 0.0:
         raise InputError(f"rigid_rotor.unbalance must be positive for an orbit, got {rotor.unbalance!r}")
     if scene.speed == 0.0:
         raise InputError("operation.speed must not be zero for an orbit, got 0.0")
     return rotor
+
+
+def require_one_unbalance(rotor: RigidRotor) -> None:
+    """Raise InputError if a rotor has an unbalance beside that of an excitation."""
+    if rotor.unbalance:
+        raise InputError(
+            "rigid_rotor.unbalance must be 0 where [excitation] has the unbalance, "
+            f"got {rotor.unbalance!r} kg m"
+        )
 
 
 def orbit_ladder(scene: Scene, quantity: str) -> Ladder:

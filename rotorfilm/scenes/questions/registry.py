@@ -45,7 +45,7 @@ LADDERS: dict[tuple[str, str], LadderOf] = {
     **{("damper", quantity): damper_ladder for quantity in DAMPERS},
     ("damper", "blade_loss_peak"): damper_peak_ladder,
 }
-"""Builders of ladders by table of the scene and quantity, in the order in which they are tried."""
+"""Builders of ladders by table of the scene and quantity."""
 
 
 def ladder_of(scene: Scene) -> Ladder:
@@ -54,15 +54,19 @@ def ladder_of(scene: Scene) -> Ladder:
     Raises
     ------
     InputError
-        If the scene asks nothing, or no table of it has the quantity.
+        If the scene asks nothing, or no table of it has the quantity, or several have.
     """
     if scene.question is None:
         raise InputError("question is required for a ladder, got no such table")
     quantity = scene.question.quantity
-    for (table, name), build in LADDERS.items():
-        if name == quantity and getattr(scene, table, None) is not None:
-            return build(scene, quantity)
     tables = sorted({table for table, name in LADDERS if name == quantity})
+    given = [table for table in tables if getattr(scene, table, None) is not None]
+    if len(given) > 1:
+        raise InputError(
+            f"question.quantity must be of one table, got {quantity!r} of [{'] and ['.join(given)}]"
+        )
+    if given:
+        return LADDERS[given[0], quantity](scene, quantity)
     known = sorted({name for table, name in LADDERS if getattr(scene, table, None) is not None})
     needs = f", which needs [{'] or ['.join(tables)}]" if tables else ""
     raise InputError(
