@@ -198,7 +198,9 @@ def test_step_is_met_by_law_and_film_alike():
 
 def test_massless_ball_under_a_step_has_no_law_but_a_film():
     rungs = {rung.name: rung for rung in ladder_of(scene_of("approach", 0.05, STEP, mass=0.0)).rungs}
-    with pytest.raises(InputError, match=r"contact.mass must be positive for a motion on a reduced law"):
+    with pytest.raises(
+        InputError, match=r"contact.mass must be positive for a motion on a reduced law, got 0.0 kg"
+    ):
         rungs["reduced law over time"].answer(None)
     assert natural_frequency(0.0) == math.inf
 
@@ -212,7 +214,7 @@ def test_massless_ball_under_a_step_has_no_law_but_a_film():
         ),
         (
             '[excitation]\nkind = "blade_loss"\nunbalance = 1\n',
-            r'excitation of kind "step" or "sine" is required',
+            r'excitation of kind "step" or "sine" is required for the motion of a ball, got BladeLossTable',
         ),
     ],
 )

@@ -48,7 +48,6 @@ LARGEST_LOAD = 2.8
 LEFT = 0.5
 """Share of an extrapolation that may be wrong."""
 
-
 RESOLVED = 0.03
 """Relative error of the film at rest by its cells from which a motion loses far more of it."""
 
