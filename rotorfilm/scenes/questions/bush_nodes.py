@@ -165,7 +165,7 @@ class LocalEndRung:
         doubt = "" if end.exact else "the losses rise so fast that not all that has melted goes on melting"
         to_come = math.exp(-end.rate * self.run.stages[0].duration)
         error = to_come / (1.0 - to_come) if to_come < 1.0 else math.inf
-        return ErrorEstimate(error + END_ERROR, "time to the end", bound=True, doubt=doubt)
+        return ErrorEstimate(error + END_ERROR, "overestimated: time to the end", bound=True, doubt=doubt)
 
     def expected(self, done: Work) -> Work:
         """Return one."""

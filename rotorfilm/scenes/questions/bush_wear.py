@@ -187,13 +187,11 @@ class EndRung:
             doubt = "the rate of wear does not fall ever more slowly"
         to_come = math.exp(float(max(slopes)) * stage.duration)
         left, _ = relative(own, stage.load_ratio, end, -to_come * end, -to_come * end)
-        return ErrorEstimate(
-            error + left + STEPS_ERROR,
-            "defect of two moments; time to the end",
-            {"defects of two moments": SAMPLES},
-            bound=left > 0.2 * error,
-            doubt=doubt,
-        )
+        # What is still to come is overestimated, the defect is not.
+        bound = left > error
+        method = f"{'overestimated: ' if bound else ''}defect of two moments; time to the end"
+        work = {"defects of two moments": SAMPLES}
+        return ErrorEstimate(error + left + STEPS_ERROR, method, work, bound, doubt)
 
     def expected(self, done: Work) -> Work:
         """Return the critical speeds that a root takes."""
