@@ -87,6 +87,20 @@ def test_wear_for_ever_ends_at_the_angle_whose_critical_speed_is_the_speed():
     assert float(closed.critical_speed(3750.0, angle)) == pytest.approx(8.0, rel=1e-9)
 
 
+def test_end_of_the_wear_is_at_most_its_error_only_where_the_wear_to_come_prevails():
+    def estimate(duration):
+        rung = ladder_of(scene(operation={"duration": duration})).rungs[0]
+        return rung.estimate(rung.answer(None), None, 0.1)
+
+    closed_form = estimate(1e6).error
+    shares = {about.error / closed_form - 1.0: about for about in map(estimate, np.linspace(0.2, 2.0, 10))}
+    assert [about.bound for about in shares.values()] == [share > 1.0 for share in shares]
+    assert any(0.2 < share < 1.0 for share in shares)
+    assert any(share > 1.0 for share in shares)
+    methods = {about.method for about in shares.values() if about.bound}
+    assert methods == {"overestimated: defect of two moments; time to the end"}
+
+
 @pytest.mark.parametrize(("melting", "speed"), [("shared", 0.99 * ONSET), ("local", 0.6 * ONSET)])
 @pytest.mark.parametrize("tolerance", [0.1, 1e-9])
 def test_a_bush_that_does_not_melt_does_not_wear_and_that_is_certain(melting, speed, tolerance):

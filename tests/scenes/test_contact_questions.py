@@ -91,6 +91,7 @@ def test_an_impossible_tolerance_is_answered_honestly():
     answer = scene_of("central_film", 1e-9).ask()
     assert not answer.met
     assert answer.model.endswith("unbounded")
+    assert answer.rungs[-1].method == "overestimated: 30% of the extrapolations"
     assert 1e-5 < answer.error_estimate < 0.05
 
 
