@@ -1,12 +1,14 @@
 """The wear of a bush as a scene asks for it: estimates, refusals, no wear at all, what is left out."""
 
 import math
-import sys
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
+import scene_battery
+from families import FAMILIES
+from families.bush_truth import wear_by_nodes
 
 from rotorfilm.errors import FilmContactError, InputError, RotorfilmError, SceneError
 from rotorfilm.scenes import Scene, read_scene
@@ -15,11 +17,6 @@ from rotorfilm.scenes.bush_validity import bush_numbers, bush_remarks
 from rotorfilm.scenes.questions import ladder_of
 
 ROOT = Path(__file__).parents[2]
-sys.path.append(str(ROOT / "benchmarks"))
-
-import scene_battery  # noqa: E402
-from families import FAMILIES  # noqa: E402
-from families.bush_truth import wear_by_nodes  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
 

@@ -1,13 +1,14 @@
 """Questions about a rolling ball, at rest and shaken: estimates beside true errors, limits, refusals."""
 
 import math
-import sys
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
+import scene_battery
+from families import FAMILIES
 
 from rotorfilm.bearings import RollingBall
 from rotorfilm.errors import InputError
@@ -25,11 +26,6 @@ from rotorfilm.scenes.questions.contact_motions import FollowedFilm, lowest
 from rotorfilm.scenes.questions.contact_rest import INLETS, OUTLET, REACH, SPACINGS, RestingFilms
 from rotorfilm.scenes.questions.contact_slow import SlowRung
 from rotorfilm.scenes.questions.contacts import GridRung
-
-sys.path.append(str(Path(__file__).parents[2] / "benchmarks"))
-
-import scene_battery
-from families import FAMILIES
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
 

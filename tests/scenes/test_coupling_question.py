@@ -1,7 +1,6 @@
 """Which coupling keeps a journal within a tolerance: estimates beside true errors, predictions, refusals."""
 
 import math
-import sys
 from dataclasses import replace
 from functools import cache
 from itertools import pairwise
@@ -9,6 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import scene_battery
+from families import FAMILIES
 from scipy.integrate import solve_ivp
 
 from rotorfilm.cosim import GaussSeidel, Jacobi, SIExp, SIExp3, critical_macro_step
@@ -27,10 +28,6 @@ from rotorfilm.scenes.questions.coupling_motion import inner_motion, law_forces,
 from rotorfilm.transient import simulate
 
 ROOT = Path(__file__).parents[2]
-sys.path.append(str(ROOT / "benchmarks"))
-
-import scene_battery  # noqa: E402
-from families import FAMILIES  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
 
