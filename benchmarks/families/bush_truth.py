@@ -175,9 +175,11 @@ def _worn(scene: Scene, nodes: int, arc: float) -> tuple[float, float]:
     heat = scene.bush.melting_heat * bush.geometry.radius
     pieces = [(scene.operation.duration, liner.pull)]
     if scene.excitation is not None:
-        start = scene.excitation.start
+        last = scene.operation.duration
+        start, end = scene.excitation.start, min(scene.excitation.end, last)
         change = math.copysign(math.hypot(*scene.excitation.load), -scene.excitation.load[1])
-        pieces = [(start, liner.pull), (scene.operation.duration - start, liner.pull * (1.0 + change / load))]
+        pieces = [(start, liner.pull), (end - start, liner.pull * (1.0 + change / load))]
+        pieces += [(last - end, liner.pull)] if end < last else []
     angle = np.linspace(0.0, arc, nodes)
     half = Half(angle, np.cos(angle), float(angle[1]))
     wear, widest = np.zeros(nodes), 0.0

@@ -16,8 +16,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import partial
-from types import SimpleNamespace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -37,10 +36,8 @@ SHAPED_RTOL = 1e-8
 ATOL = 1e-2
 """Error that is always accepted, over the relative one, of what changes at the first rate, 1 rad at most."""
 
-
 WIDEST = 1.55
 """Half the contact angle [rad] beyond which no end of the wear is looked for."""
-
 
 WIDEST_TRIAL = 1.57
 """Of a trial step."""
@@ -78,6 +75,15 @@ class Path(NamedTuple):
     time: Array
     load_ratio: Array
     moment: Array
+    first: Array
+    calls: int
+
+
+class _Steps(NamedTuple):
+    """Samples of one stage: times, changes of alpha and V itself at them, and the rates evaluated."""
+
+    time: Array
+    change: Array
     first: Array
     calls: int
 
@@ -258,10 +264,10 @@ def _march(bush: Wearing, stages: tuple[Stage, ...], rate: Rate, rtol: float) ->
         alpha = bush.angle(moment, load)
         room = WIDEST - float(alpha)
         run = _stage(partial(_shifted, rate, alpha, load), stage.duration, first, room, rtol)
-        grown = moment + bush.gap * _rise(alpha, run.y[0])
-        parts.append(np.stack([time + run.t, np.full(run.t.size, load), grown, run.y[1]]))
-        moment, first = float(grown[-1]), float(run.y[1, -1])
-        time, calls = time + stage.duration, calls + run.nfev
+        grown = moment + bush.gap * _rise(alpha, run.change)
+        parts.append(np.stack([time + run.time, np.full(run.time.size, load), grown, run.first]))
+        moment, first = float(grown[-1]), float(run.first[-1])
+        time, calls = time + stage.duration, calls + run.calls
     times, loads, moments, firsts = np.concatenate(parts, axis=1)
     return Path(times, loads, moments, firsts, calls)
 
@@ -272,12 +278,12 @@ def _stage(
     first: float,
     room: float,
     rtol: float,
-) -> Any:
-    """Return the steps of one stage, as scipy does; two where nothing melts at its begin and so ever."""
+) -> _Steps:
+    """Return the steps of one stage; two where nothing melts at its begin and so ever."""
     state = np.array([0.0, first])
     scale = rate(0.0, state)
     if scale[0] <= 0.0:
-        return SimpleNamespace(t=np.array([0.0, duration]), y=np.stack([state, state], axis=1), nfev=1)
+        return _Steps(np.array([0.0, duration]), np.zeros(2), np.array([first, first]), 1)
     atol = [ATOL * rtol * min(scale[0] * duration, 1.0), ATOL * rtol * scale[1] * duration or 1.0]
 
     def widest(t: float, state: Array) -> float:
@@ -288,7 +294,7 @@ def _stage(
     if run.status != 0:
         why = f"half the contact must stay below {WIDEST} rad, got a wider one after {run.t[-1]:.3g} s"
         raise ConvergenceError(why if run.status == 1 else f"steps of the wear of a bush end: {run.message}")
-    return run
+    return _Steps(run.t, run.y[0], run.y[1], run.nfev)
 
 
 def _rise(alpha: Array, change: Array) -> Array:

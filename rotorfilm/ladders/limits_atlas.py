@@ -24,7 +24,7 @@ PHYSICS = tuple(dict.fromkeys(each.panel.physics for each in PANELS.values()))
 
 
 def limits_atlas(physics: Sequence[str] = PHYSICS, *, report: Report = silent) -> LimitAtlas:
-    """Return the atlas of limits; all of it takes about half a minute.
+    """Return the atlas of limits; all of it takes some 12 s of CPU.
 
     Parameters
     ----------

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from ..films import bush_contact as arc
 from ..films.bush_moments import end_of_wear
 from ..films.bush_worn import end_of_local_wear
-
-if TYPE_CHECKING:
-    from .questions.bush_run import BushRun
+from .bush_run import BushRun
 
 SPREAD_SPEED = 5.0
 """Speed [rad/s] from which the heat into the shaft is spread evenly around it: docs/bush.md."""
@@ -21,7 +19,7 @@ STRAIN = 0.1
 LEAN = 0.02
 """Share of the load that friction may carry without a word."""
 
-BRINK = 0.05
+NEAR = 0.05
 """Speed over the critical one, less one, within which small causes decide whether a bush melts."""
 
 
@@ -77,7 +75,7 @@ def bush_remarks(run: BushRun) -> tuple[str, ...]:
     n = bush_numbers(run)
     lines = {
         f"brink: the speed is {n.margin:+.1%} off that at which the liner melts, which is not known so "
-        f"well; friction carries {n.lean:.1%} of the load, which no model counts": abs(n.margin) < BRINK,
+        f"well; friction carries {n.lean:.1%} of the load, which no model counts": abs(n.margin) < NEAR,
         f"friction: it carries {n.lean:.1%} of the load, so that the pressure is less": n.lean > LEAN,
         f"thick liner: {n.slenderness:.2g} of half the width of the contact": n.slenderness > 1.0,
         f"strain: the liner is compressed by {n.strain:.1%} of its thickness": n.strain > STRAIN,

@@ -68,8 +68,9 @@ def contact_motion(scene: Scene) -> ShakenBall:
         raise InputError("contact is required for the motion of a ball, got no such table")
     shaken = scene.excitation
     if not isinstance(shaken, StepLoadTable | SineLoadTable):
+        got = "no such table" if shaken is None else type(shaken).__name__
         raise InputError(
-            'excitation of kind "step" or "sine" is required for the motion of a ball, got another'
+            f'excitation of kind "step" or "sine" is required for the motion of a ball, got {got}'
         )
     ball = scene.contact.build()
     amplitude = _amplitude(shaken, ball)

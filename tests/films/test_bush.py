@@ -5,10 +5,9 @@ import math
 import mpmath
 import numpy as np
 import pytest
+from families.bush_truth import finite_volume_flux
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.sparse import coo_matrix
-from scipy.sparse.linalg import spsolve
 
 from rotorfilm.errors import ValidityWarning
 from rotorfilm.films import bush_contact as contact
@@ -79,34 +78,6 @@ def test_the_mean_pressure_is_the_mean_of_the_assumed_one():
     load = alpha * weights @ (shape * np.cos(alpha * phi))
     assert contact.mean_weight(alpha) == pytest.approx(0.5 * (weights @ shape) / load, rel=1e-13)
     assert contact.peak_weight(alpha) == pytest.approx((1.0 - math.cos(alpha)) / load, rel=1e-13)
-
-
-def finite_volume_flux(cooling, stubbiness, cells, grading=3):
-    """Return the mean flux under the bush by finite volumes on a grid graded to the edge of the bush.
-
-    Shaft of radius 1, held at 1 on |z| < 1/stubbiness, mirrored at z = 0, cut off where exp(-30) is left.
-    """
-    edge, tail = 1.0 / stubbiness, 30.0 / math.sqrt(2.0 * cooling)
-    distance = np.linspace(0.0, 1.0, cells + 1) ** grading
-    # Differences of the distances from the edge: those of r and z would round off.
-    r, radii = 1.0 - distance[::-1], np.diff(distance)[::-1]
-    heights = np.concatenate([edge * radii, tail * np.diff(distance)])
-    radial = r[1:-1, None] * heights / (0.5 * (radii[1:] + radii[:-1]))[:, None]
-    axial = (0.5 * np.diff(r**2))[:, None] / (0.5 * (heights[1:] + heights[:-1]))
-    hot = np.arange(2 * cells) < cells
-    half = 0.5 * radii[-1]
-    surface = np.where(hot, heights / half, heights * cooling / (1.0 + cooling * half))
-    number = np.arange(cells * 2 * cells).reshape(cells, 2 * cells)
-    left = np.concatenate([number[:-1].ravel(), number[:, :-1].ravel()])
-    right = np.concatenate([number[1:].ravel(), number[:, 1:].ravel()])
-    link = np.concatenate([radial.ravel(), axial.ravel()])
-    rows = np.concatenate([left, right, left, right, number[-1]])
-    columns = np.concatenate([left, right, right, left, number[-1]])
-    matrix = coo_matrix((np.concatenate([link, link, -link, -link, surface]), (rows, columns))).tocsc()
-    source = np.zeros(number.size)
-    source[number[-1]] = surface * hot
-    temperature = spsolve(matrix, source)[number[-1]]
-    return float((surface * (1.0 - temperature))[hot].sum() / edge)
 
 
 @pytest.mark.convergence

@@ -17,7 +17,7 @@ from rotorfilm.ladders import (
     limits_journal,
     limits_rotor,
 )
-from rotorfilm.ladders.limits import Limit, failure
+from rotorfilm.ladders.limits import FAILED, Limit, failure
 from rotorfilm.ladders.limits_atlas import PANELS
 from rotorfilm.linear import coefficients
 
@@ -164,9 +164,14 @@ def test_steps_of_a_contact_are_judged_by_their_known_damping(name, order):
 
 @pytest.mark.convergence
 def test_upwind_grid_of_a_contact_converges():
-    curve = curves(limits_contact._grids())["film in the middle, upwind"]
+    found = curves(limits_contact._grids())
+    curve = found["film in the middle, upwind"]
     slope = np.polyfit(np.log(curve.abscissa), np.log(curve.ordinate), 1)[0]
     assert slope == pytest.approx(2.0, abs=0.35)
+    # docs/charts.md: within 10 % on 16 x 16 cells of 4 radii, the smallest film from 24 x 24 on
+    assert curve.abscissa.max() == 4.0 / 16.0
+    assert failure(curve, FAILED) is None
+    assert 4.0 / 24.0 < failure(found["smallest film, upwind"], FAILED) < 4.0 / 16.0
 
 
 @pytest.mark.convergence
@@ -174,6 +179,38 @@ def test_nodes_of_a_worn_bush_converge():
     curve = curves(limits_bush._nodes())["largest"]
     slope = np.polyfit(np.log(curve.abscissa), np.log(curve.ordinate), 1)[0]
     assert 1.5 < slope < 2.5
+    assert failure(curve, FAILED) == pytest.approx(9.0, abs=0.5)  # docs/charts.md [deg]
+
+
+def failing(family, part):
+    """Return where the curves whose names contain a part fail, in their order."""
+    return [failure(curve, FAILED) for name, curve in curves(family).items() if part in name]
+
+
+def test_limits_of_a_damper_are_as_documented():
+    # docs/charts.md, to the digits that it gives
+    lengths = {of: failing(limits_damper._lengths(), of) for of in ("solid", "porous")}
+    assert lengths["solid"] == pytest.approx([0.47, 0.30, 0.13], abs=0.006)
+    assert lengths["porous"] == pytest.approx([0.50, 0.44, 0.39], abs=0.005)
+    cages = curves(limits_damper._cages())
+    assert failing(limits_damper._cages(), "solid") == pytest.approx([0.008, 0.002, 4e-5], rel=0.1)
+    assert max(c.ordinate.max() for n, c in cages.items() if "thin" in n) == pytest.approx(0.04, abs=0.005)
+    orbits = failing(limits_damper._linearizations(), "L/D")
+    assert (min(orbits), max(orbits)) == pytest.approx((0.26, 0.35), abs=0.005)
+
+
+def test_limits_of_steps_of_a_contact_are_as_documented():
+    euler, bdf = (failing(limits_contact._time_steps(), of) for of in ("Euler", "BDF2"))
+    assert (min(euler), max(euler)) == pytest.approx((0.001, 0.003), abs=5e-4)
+    assert (min(bdf), max(bdf)) == pytest.approx((0.07, 0.26), abs=0.005)
+
+
+def test_limits_of_the_published_models_of_a_bush_are_as_documented():
+    fluxes = curves(limits_bush._fluxes()).values()
+    assert all(curve.abscissa.max() == 0.3 for curve in fluxes)
+    assert max(curve.ordinate.max() for curve in fluxes) == pytest.approx(0.03, abs=0.005)
+    loads = failing(limits_bush._published(), "steps")
+    assert all(1.01 <= load <= 1.02 for load in loads)
 
 
 def test_atlas_names_the_abscissa_of_every_curve():

@@ -1,7 +1,6 @@
 """Which coupling keeps a journal within a tolerance: estimates beside true errors, predictions, refusals."""
 
 import math
-import sys
 from dataclasses import replace
 from functools import cache
 from itertools import pairwise
@@ -9,6 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import scene_battery
+from families import FAMILIES
 from scipy.integrate import solve_ivp
 
 from rotorfilm.cosim import GaussSeidel, Jacobi, SIExp, SIExp3, critical_macro_step
@@ -27,10 +28,6 @@ from rotorfilm.scenes.questions.coupling_motion import inner_motion, law_forces,
 from rotorfilm.transient import simulate
 
 ROOT = Path(__file__).parents[2]
-sys.path.append(str(ROOT / "benchmarks"))
-
-import scene_battery  # noqa: E402
-from families import FAMILIES  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
 
@@ -198,13 +195,15 @@ def test_rungs_go_by_the_calls_of_the_film():
 
 
 def test_tighter_tolerance_takes_no_less_accurate_coupling_and_an_impossible_one_is_refused():
-    answers = [asked(tolerance).ask() for tolerance in (3e-2, 1e-3, 1e-4, 1e-5, 1e-9)]
+    answers = [asked(tolerance).ask() for tolerance in (3e-2, 1e-3, 1e-4, 1e-5, 1e-9, 1e-10)]
     estimates = [answer.error_estimate for answer in answers]
     assert all(tight <= loose * (1.0 + 1e-9) for loose, tight in pairwise(estimates))
-    assert [answer.met for answer in answers[:-1]] == [True] * 4
+    assert [answer.met for answer in answers[:-1]] == [True] * 5
     assert all(1.5 * answer.error_estimate < answer.tolerance for answer in answers[:-1])
     impossible = answers[-1]
-    assert not impossible.met or impossible.error_estimate < 1e-9 / 1.5
+    assert (impossible.model, impossible.met) == ("SI-exp3, 0.125 deg", False)
+    twice = next(report for report in answers[-2].rungs if report.name == "SI-exp3, 0.25 deg")
+    assert impossible.error_estimate == pytest.approx(twice.error_estimate / 8.0, rel=0.05)  # of third order
     reasons = [report.reason for report in impossible.rungs if report.verdict == "refused"]
     assert any("past the limit" in reason for reason in reasons)
     assert any("predicted to be off" in reason for reason in reasons)

@@ -1,13 +1,14 @@
 """Questions about dampers: a peak after a lost blade or over a run-up, jumps, what films leave out."""
 
 import math
-import sys
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
+import scene_battery
+from families import FAMILIES
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
@@ -34,10 +35,6 @@ from rotorfilm.scenes.question_table import QuestionTable
 from rotorfilm.scenes.questions import ladder_of
 
 ROOT = Path(__file__).parents[2]
-sys.path.append(str(ROOT / "benchmarks"))
-
-import scene_battery  # noqa: E402
-from families import FAMILIES  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
 

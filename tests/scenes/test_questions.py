@@ -1,13 +1,14 @@
 """Questions of scenes: estimates beside true errors, tolerances, honest refusals."""
 
 import math
-import sys
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
+import scene_battery
+from families import FAMILIES
 
 from rotorfilm.errors import InputError, ValidityWarning
 from rotorfilm.scenes import Scene, bundled_scene, parse_scene
@@ -20,10 +21,6 @@ from rotorfilm.scenes.questions.orbit_curve import SampledOrbit, nonlinear_orbit
 from rotorfilm.scenes.questions.registry import LADDERS
 
 ROOT = Path(__file__).parents[2]
-sys.path.append(str(ROOT / "benchmarks"))
-
-import scene_battery  # noqa: E402
-from families import FAMILIES  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
 

@@ -1,13 +1,14 @@
 """Questions about flexible rotors: estimates beside closed forms, other methods and true errors; refusals."""
 
 import math
-import sys
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
+import scene_battery
+from families import FAMILIES
 
 from rotorfilm.errors import InputError, RotorfilmError, SceneError
 from rotorfilm.linear import (
@@ -29,10 +30,6 @@ from rotorfilm.scenes.questions.shaft_remarks import beam_remarks
 from rotorfilm.scenes.questions.shaft_whirl import Start, mode_near, small_motion, value_rate, whirl_of
 
 ROOT = Path(__file__).parents[2]
-sys.path.append(str(ROOT / "benchmarks"))
-
-import scene_battery  # noqa: E402
-from families import FAMILIES  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
 

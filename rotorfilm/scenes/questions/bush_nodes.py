@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from ...errors import ConvergenceError, RotorfilmError
 from ...films.bush_moments import WIDEST, Wearing, wear_by_one_moment
 from ...films.bush_worn import LocalEnd, Worn, end_of_local_wear, wear_at_nodes
+from ..bush_run import BushRun, unworn
 from ..ladder import ErrorEstimate, Found, Work
-from .bush_run import BushRun
 
 NODES = (12, 24, 48, 96)
 """Nodes to each side of the load line."""
@@ -17,11 +17,8 @@ NODES = (12, 24, 48, 96)
 ORDER = 2
 """Of the wear in the distance of nodes."""
 
-BRINK = 1e-6
-"""Speed over the critical one, less one, below which an unworn bush is known to stay so."""
-
-FEW = 96
-"""Nodes to each side up to which the order increment is taken twice."""
+AT_CRITICAL = 1e-6
+"""Speed over the critical one, less one, within which it is not known whether an unworn bush melts."""
 
 WIDEST_ARC = 1.5
 """Half the widest arc of nodes [rad]."""
@@ -100,17 +97,16 @@ class NodesRung:
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the order increment from half the nodes, and what the exact flux would change by these."""
         margin = self.run.margin(self.run.exact)
-        if found.value == 0.0 or margin < BRINK:
-            return _brink(found.value, margin)
+        if found.value == 0.0 or margin < AT_CRITICAL:
+            return unworn(self.run, found.value, AT_CRITICAL)
         reach = float(found.solution)
         coarse, work = self._half(found, before)
         error = abs(found.value - coarse) / (2.0**ORDER - 1.0)
-        if self.nodes <= FEW:
-            # One difference of few nodes may vanish by chance, two hardly do.
-            between = self._worn(3 * self.nodes // 4, reach)
-            other = abs(found.value - self.run.radius * between.settlement) / ((4.0 / 3.0) ** ORDER - 1.0)
-            error = math.hypot(error, other) / math.sqrt(2.0)
-            work = {**work, profiles(3 * self.nodes // 4): between.calls}
+        # One difference of few nodes may vanish by chance, two hardly do.
+        between = self._worn(3 * self.nodes // 4, reach)
+        other = abs(found.value - self.run.radius * between.settlement) / ((4.0 / 3.0) ** ORDER - 1.0)
+        error = math.hypot(error, other) / math.sqrt(2.0)
+        work = {**work, profiles(3 * self.nodes // 4): between.calls}
         method = f"order increment, order {ORDER}"
         if self.closed:
             exact = wear_at_nodes(self.run.exact, self.run.rule, self.run.stages, self.nodes // 2, reach)
@@ -163,13 +159,13 @@ class LocalEndRung:
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the wear still to come, at most: it decays ever more slowly, at the end by a known rate."""
         margin = self.run.margin(self.run.exact)
-        if found.value == 0.0 or margin < BRINK:
-            return _brink(found.value, margin)
+        if found.value == 0.0 or margin < AT_CRITICAL:
+            return unworn(self.run, found.value, AT_CRITICAL)
         end: LocalEnd = found.solution
         doubt = "" if end.exact else "the losses rise so fast that not all that has melted goes on melting"
         to_come = math.exp(-end.rate * self.run.stages[0].duration)
         error = to_come / (1.0 - to_come) if to_come < 1.0 else math.inf
-        return ErrorEstimate(error + END_ERROR, "time to the end", bound=True, doubt=doubt)
+        return ErrorEstimate(error + END_ERROR, "overestimated: time to the end", bound=True, doubt=doubt)
 
     def expected(self, done: Work) -> Work:
         """Return one."""
@@ -179,13 +175,6 @@ class LocalEndRung:
 ENDS = "ends of the wear"
 END_ERROR = 1e-5
 """Verified error of the end of the wear: tests/films/test_bush_worn.py."""
-
-
-def _brink(value: float, margin: float) -> ErrorEstimate:
-    """Return the error of a bush that does not wear: none, unless its speed is at the critical one itself."""
-    how = f"exact flux: the speed is {margin:+.2%} off that at which the liner melts"
-    certain = value == 0.0 and margin < -BRINK
-    return ErrorEstimate(0.0 if certain else math.inf, how, bound=certain)
 
 
 def profiles(nodes: int) -> str:

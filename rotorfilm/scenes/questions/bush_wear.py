@@ -12,10 +12,10 @@ from ...errors import RotorfilmError
 from ...films.bush_heat import ApproximateShaft
 from ...films.bush_moments import WIDEST, Path, Wearing, end_of_wear, wear_by_one_moment, wear_by_two_moments
 from ...model import Array
+from ..bush_run import BushRun, bush_run, unworn
 from ..bush_validity import bush_remarks
 from ..ladder import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work
 from .bush_nodes import NODES, LocalEndRung, NodesRung
-from .bush_run import BushRun, bush_run
 from .bushes import EXACT_ERROR
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ class MomentRung:
         """Return what both moments with the exact flux would change, from their rates along this run."""
         path: Path = found.solution
         if path.moment[-1] == 0.0 or self.run.margin(self.run.exact) <= EXACT_ERROR:
-            return unworn(self.run, found.value, {})
+            return unworn(self.run, found.value, EXACT_ERROR)
         if self.moments == 2 and not self.closed:
             return self._bound(path)
         rich, own = self.run.exact, self.own
@@ -122,14 +122,6 @@ def relative(bush: Wearing, load: float, moment: float, moved: float, other: flo
     apart = abs(moved - other) / max(abs(moved), abs(other), 1e-300)
     doubt = f"the rates of both models disagree on the error by {apart:.0%}: not linear"
     return error, doubt if apart > DISAGREEMENT else ""
-
-
-def unworn(run: BushRun, value: float, work: Work) -> ErrorEstimate:
-    """Return the error of a bush that does not wear: none, unless its speed is at the critical one itself."""
-    margin = run.margin(run.exact)
-    how = f"exact flux: the speed is {margin:+.2%} off that at which the liner melts"
-    error = 0.0 if value == 0.0 and margin < -EXACT_ERROR else math.inf
-    return ErrorEstimate(error, how, work, bound=error == 0.0)
 
 
 def propagated(time: Array, defect: Array, slope: Array) -> float:
@@ -181,7 +173,7 @@ class EndRung:
         """
         rich, own, stage = self.run.exact, self.run.closed, self.run.stages[-1]
         if found.value == 0.0 or self.run.margin(rich) <= EXACT_ERROR:
-            return unworn(self.run, found.value, {})
+            return unworn(self.run, found.value, EXACT_ERROR)
         end = float(found.solution)
         moment = end * np.linspace(0.0, 1.0, SAMPLES)
         load = np.full(SAMPLES, stage.load_ratio)
@@ -195,13 +187,11 @@ class EndRung:
             doubt = "the rate of wear does not fall ever more slowly"
         to_come = math.exp(float(max(slopes)) * stage.duration)
         left, _ = relative(own, stage.load_ratio, end, -to_come * end, -to_come * end)
-        return ErrorEstimate(
-            error + left + STEPS_ERROR,
-            "defect of two moments; time to the end",
-            {"defects of two moments": SAMPLES},
-            bound=left > 0.2 * error,
-            doubt=doubt,
-        )
+        # What is still to come is overestimated, the defect is not.
+        bound = left > error
+        method = f"{'overestimated: ' if bound else ''}defect of two moments; time to the end"
+        work = {"defects of two moments": SAMPLES}
+        return ErrorEstimate(error + left + STEPS_ERROR, method, work, bound, doubt)
 
     def expected(self, done: Work) -> Work:
         """Return the critical speeds that a root takes."""

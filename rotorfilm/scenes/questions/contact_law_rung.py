@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 from ...bearings.contact_law import ContactLaw
@@ -56,8 +55,9 @@ class LawRung:
 
     def answer(self, before: Found | None) -> Found:
         """Return the deepest approach [m]."""
-        if not self.films.ball.W > 0.0:
-            raise InputError("contact.mass must be positive for a motion on a reduced law, got 0")
+        mass = self.films.table.mass
+        if not mass > 0.0:
+            raise InputError(f"contact.mass must be positive for a motion on a reduced law, got {mass!r} kg")
         law = reduce_contact(self.films.contact(CELLS), self.order)
         deepest, carried = self._motion(law)
         return Found(deepest * self.films.ball.film_scale, {LAW: 1, RIDE: 1}, (law, deepest, carried))
@@ -107,7 +107,7 @@ class LawRung:
         fastest = natural_frequency(self.films.ball.W)
         if isinstance(self.shaken.load, SineLoad):
             fastest = max(fastest, self.shaken.load.frequency)
-        if fastest > law.highest_frequency or math.isinf(fastest):
+        if fastest > law.highest_frequency:
             return f"the law reaches to the frequency {law.highest_frequency:g}, not to {fastest:.3g}"
         return ""
 

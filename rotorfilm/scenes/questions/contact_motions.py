@@ -48,7 +48,6 @@ LARGEST_LOAD = 2.8
 LEFT = 0.5
 """Share of an extrapolation that may be wrong."""
 
-
 RESOLVED = 0.03
 """Relative error of the film at rest by its cells from which a motion loses far more of it."""
 
@@ -59,8 +58,8 @@ SMALLEST_SUM = 0.35
 class Followed(NamedTuple):
     """The extreme of a motion and what it lacks by steps, cells and rectangle, relative to it.
 
-    The last is the change of the smallest film from the coarser grid, a bound; 0 for other quantities. Films
-    are `resolved` if the cells matter little at rest, or can be told from two motions.
+    The last is the change of the smallest film from the coarser grid, more than its error; 0 for other
+    quantities. Films are `resolved` if the cells matter little at rest, or can be told from two motions.
     """
 
     value: float
@@ -83,7 +82,7 @@ class Followed(NamedTuple):
 
     @property
     def left(self) -> float:
-        """Bound of the relative error where what lacks is added."""
+        """Relative error where what lacks is added, chosen to overestimate."""
         return LEFT * (abs(self.steps) + abs(self.cells) + abs(self.rectangle)) + 0.5 * self.jump
 
 
@@ -241,7 +240,7 @@ class FilmMotionRung:
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the increments of steps, cells and rectangle; of an extrapolation a share.
 
-        That of the smallest film, which jumps from cell to cell, is a bound.
+        That of the smallest film, which jumps from cell to cell, is overestimated.
         """
         work: dict[str, int] = {}
         try:
@@ -256,8 +255,10 @@ class FilmMotionRung:
         if not parts.resolved:
             doubt = f"too thin a film for {self.cells} x {self.cells} cells, and no coarser motion beside it"
         if self.extrapolated:
-            return ErrorEstimate(parts.left, f"share of the {method}", work, bound=True, doubt=doubt)
+            method = f"overestimated: {LEFT:.0%} of the {method}"
+            return ErrorEstimate(parts.left, method, work, bound=True, doubt=doubt)
         bound = self.followed.films.quantity == "minimum_film"
+        method = f"overestimated: {method}, whole change of cells" if bound else method
         return ErrorEstimate(parts.error, method, work, bound, doubt)
 
     def expected(self, done: Work) -> Work:

@@ -63,7 +63,7 @@ class SlowRung:
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the errors of grid and rectangle, and what the linearized film makes of the motion.
 
-        A bound of a small motion, since amplitudes are added whatever their phases.
+        Overestimated for a small motion: amplitudes are added whatever their phases.
         """
         work: dict[str, int] = {}
         least, load = self.shaken.extremes[0], float(found.solution)
@@ -78,7 +78,7 @@ class SlowRung:
         doubt = "the ball swings: no small motion about rest" if moved > DISAGREEMENT else ""
         if least < SLACKEST:
             doubt = "the ball leaves the film"
-        method = "order increments; linearized film over frequency"
+        method = "overestimated: order increments; amplitudes of the linearized film, whatever their phases"
         return ErrorEstimate(lacking + moved, method, work, bound=True, doubt=doubt)
 
     def _motion(self) -> float:

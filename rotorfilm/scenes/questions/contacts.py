@@ -9,7 +9,7 @@ from ...errors import ConvergenceError, InputError
 from ..contact_validity import contact_remarks
 from ..ladder import ErrorEstimate, Found, Ladder, Rung, Work
 from .contact_motions import motion_rungs
-from .contact_rest import INLETS, REACH, RestingFilms, unknowns
+from .contact_rest import INLETS, OUTLET, REACH, SPACINGS, RestingFilms, unknowns
 
 if TYPE_CHECKING:
     from ..scene import Scene
@@ -20,7 +20,7 @@ QUANTITIES = tuple(REACH)
 CELLS = (32, 48, 64)
 """Cells along each side of the plain rungs."""
 
-COARSER = {24: 20, 32: 24, 48: 32, 64: 48, 96: 64}
+COARSER = {32: 24, 48: 32, 64: 48}
 """Cells of the companion that an order increment takes."""
 
 NOISE = 0.012
@@ -40,6 +40,9 @@ FORMULA_RANGE = ((0.008, 0.4), (2.0, 18.0))
 
 HARD = (0.08, 12.0)
 """V and Q0 above both of which Newton's method needs continuation on fine grids: the longest is left out."""
+
+DENSE = (96, 64)
+"""Cells along each side of the shortest rectangle from which an unbounded film is extrapolated."""
 
 LEFT = 0.3
 """Share of an extrapolation that may be wrong."""
@@ -120,16 +123,18 @@ class GridRung:
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the order increment from less cells, and that from two rectangles on coarse grids.
 
-        The smallest film jumps from cell to cell, so that its whole increment is taken as a bound.
+        The smallest film jumps from cell to cell, so that its increment is overestimated: the whole is taken.
         """
         work: dict[str, int] = {}
         bound = self.films.quantity == "minimum_film"
         try:
-            error = grid_error(self.films, self.cells, work) + rectangle_error(self.films, work)
-        except ConvergenceError:
-            return ErrorEstimate(1.0, "order increment", work, doubt="too thin a film for a coarser grid")
-        doubt = "the grids disagree on the film: it is too thin for them" if bound and error > 0.5 else ""
-        return ErrorEstimate(error, "order increments of cells and rectangle", work, bound, doubt)
+            about = grid_error(self.films, self.cells, work) + rectangle_error(self.films, work)
+        except ConvergenceError as error:
+            return ErrorEstimate(1.0, "order increments", work, doubt=f"no companion: {error}")
+        doubt = "the grids disagree on the film: it is too thin for them" if bound and about > 0.5 else ""
+        how = "overestimated: whole increment of cells, order increment of rectangle"
+        method = how if bound else "order increments of cells and rectangle"
+        return ErrorEstimate(about, method, work, bound, doubt)
 
     def expected(self, done: Work) -> Work:
         """Return the number of unknowns."""
@@ -138,7 +143,7 @@ class GridRung:
 
 @dataclass(frozen=True, kw_only=True)
 class UnboundedRung:
-    """A grid of 16 cells per Hertzian radius on a longer rectangle, extrapolated to an infinite one.
+    """A grid of the finest of `SPACINGS` on a longer rectangle, extrapolated to an infinite one.
 
     Attributes
     ----------
@@ -168,28 +173,26 @@ class UnboundedRung:
         work: dict[str, int] = {}
         short, longer = INLETS[self.place - 1 : self.place + 1]
         wide = self.films.value(self.cells, work, longer)
-        before_it = self.films.value(round(16 * (short + 1.5)), work, short)
+        before_it = self.films.value(round(SPACINGS[-1] * (short + OUTLET)), work, short)
         reach = (wide - before_it) / ((longer / short) ** REACH[self.films.quantity] - 1.0)
-        fine, coarse = (self.films.value(cells, work) for cells in (96, 64))
-        spacing = (fine - coarse) / (1.0 - (64.0 / 96.0) ** 2)
+        fine, coarse = (self.films.value(cells, work) for cells in DENSE)
+        spacing = (fine - coarse) / (1.0 - (DENSE[1] / DENSE[0]) ** 2)
         value = wide + reach + spacing
         parts = abs(reach / value), abs(spacing / value)
         return Found(value * self.films.ball.film_scale, work, parts)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return what may be wrong with the two extrapolations, a bound."""
-        noise = noise_of(self.films, 96)
-        return ErrorEstimate(
-            max(LEFT * sum(found.solution), noise), "share of the extrapolations", bound=True
-        )
+        """Return a share of the two extrapolations, chosen to overestimate what is wrong with them."""
+        error = max(LEFT * sum(found.solution), noise_of(self.films, DENSE[0]))
+        return ErrorEstimate(error, f"overestimated: {LEFT:.0%} of the extrapolations", bound=True)
 
     def expected(self, done: Work) -> Work:
         """Return the number of unknowns."""
-        return {unknowns(self.cells): self.cells**2, unknowns(96): 96**2}
+        return {unknowns(self.cells): self.cells**2, unknowns(DENSE[0]): DENSE[0] ** 2}
 
 
-def grid_error(films: RestingFilms, cells: int, work: dict[str, int], load: float = 1.0) -> float:
-    """Return the relative error of a quantity by the cells, from less of them; a bound of the smallest film.
+def grid_error(films: RestingFilms, cells: int, work: dict[str, int]) -> float:
+    """Return the relative error of a quantity by the cells, from less of them; more of the smallest film.
 
     Raises
     ------
@@ -197,7 +200,7 @@ def grid_error(films: RestingFilms, cells: int, work: dict[str, int], load: floa
         If there is no solution on less cells.
     """
     coarse = COARSER[cells]
-    fine, rough = (films.value(n, work, load=load) for n in (cells, coarse))
+    fine, rough = (films.value(n, work) for n in (cells, coarse))
     order = films.contact(cells).scheme.order
     whole = films.quantity == "minimum_film"
     gain = 1.0 if whole else (cells / coarse) ** order - 1.0
@@ -211,10 +214,10 @@ def noise_of(films: RestingFilms, cells: int) -> float:
     return NOISE * (CELLS[0] / cells) ** 2 * (0.1 if films.quantity == "approach" else 1.0)
 
 
-def rectangle_error(films: RestingFilms, work: dict[str, int], load: float = 1.0) -> float:
+def rectangle_error(films: RestingFilms, work: dict[str, int]) -> float:
     """Return the relative error of a quantity by the end of the rectangle."""
-    change = films.beyond(work, load)
-    near = next(value for (inlet, _, at), value in films.known.items() if inlet == INLETS[0] and at == load)
+    change = films.beyond(work)
+    near = next(value for (inlet, _, at), value in films.known.items() if inlet == INLETS[0] and at == 1.0)
     return abs(change / (near + change))
 
 

@@ -40,7 +40,6 @@ MOST = 4000
 HOPELESS = 10.0
 """Predicted error, in tolerances, beyond which a run is not made unless nothing better is left."""
 
-
 SURPLUS = 2.0
 """Least error, in tolerances, beyond which a run is not made."""
 
@@ -109,6 +108,7 @@ class CouplingRung:
         about = 2.0 * self.prior
         if about > self.worst:
             raise RotorfilmError(f"not run: predicted to be off by {about:.1g} from the motion of the pilot")
+        # Where even the best prediction is hopeless the closest run is wanted all the same: none is left out.
         least = self.case.least(self.scheme, self.macro_angle)
         if least > SURPLUS * self.tolerance and self.worst <= HOPELESS * self.tolerance:
             raise RotorfilmError(f"not run: off by {least:.1g} at least, by its order from a longer step")

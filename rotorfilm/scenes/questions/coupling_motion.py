@@ -39,7 +39,6 @@ APART = np.radians(4.0)
 BEGINNING = 24
 """Steps at the beginning of a run, where a sudden load is answered, of which none is left out."""
 
-
 NEGLIGIBLE = 0.03
 """Change by the first mean of slopes below which no better mean is needed."""
 

@@ -9,16 +9,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...bearings import MeltingBush
-from ...errors import FilmContactError, InputError
-from ...films import bush_contact as arc
-from ...films.bush_heat import ApproximateShaft, ExactShaft, ShaftHeat
-from ...films.bush_moments import Stage, Wearing
-from ...films.bush_profile import LocalMelting, MeltingRule
-from ..excitation_table import StepLoadTable
+from ..bearings import MeltingBush
+from ..errors import FilmContactError, InputError
+from ..films import bush_contact as arc
+from ..films.bush_heat import ApproximateShaft, ExactShaft, ShaftHeat
+from ..films.bush_moments import Stage, Wearing
+from ..films.bush_profile import LocalMelting, MeltingRule
+from .excitation_table import StepLoadTable
+from .ladder import ErrorEstimate
 
 if TYPE_CHECKING:
-    from ..scene import Scene
+    from .scene import Scene
 
 PARALLEL = 1e-12
 """Largest sine of the angle between a step of load and the static load."""
@@ -159,3 +160,24 @@ def _stages(scene: Scene, load: float, quantity: str) -> list[tuple[float, float
     times = [0.0, min(step.start, end), min(step.end, end), end]
     stages = zip(np.diff(times).tolist(), (load, stepped, load), strict=True)
     return [(duration, force) for duration, force in stages if duration > 0.0]
+
+
+def unworn(run: BushRun, value: float, within: float) -> ErrorEstimate:
+    """Return the error of a wear that is none, or that begins at the critical speed itself.
+
+    Parameters
+    ----------
+    run : BushRun
+    value : float [m]
+    within : float
+        Speed over the critical one, less one, within which it is not known whether the liner melts.
+
+    Returns
+    -------
+    ErrorEstimate
+        Zero for no wear clearly below the critical speed, otherwise infinite.
+    """
+    margin = run.margin(run.exact)
+    how = f"exact flux: the speed is {margin:+.2%} off that at which the liner melts"
+    certain = value == 0.0 and margin < -within
+    return ErrorEstimate(0.0 if certain else math.inf, how, bound=certain)
