@@ -25,8 +25,16 @@ from rotorfilm.scenes.questions import ladder_of
 from rotorfilm.scenes.questions.shaft_events import Critical
 from rotorfilm.scenes.questions.shaft_films import film_levels
 from rotorfilm.scenes.questions.shaft_models import ShaftModel, shaft_models, split
+from rotorfilm.scenes.questions.shaft_orbit import linear_shaft_orbit, shaft_answers
 from rotorfilm.scenes.questions.shaft_remarks import beam_remarks
-from rotorfilm.scenes.questions.shaft_whirl import Start, mode_near, small_motion, value_rate, whirl_of
+from rotorfilm.scenes.questions.shaft_whirl import (
+    Start,
+    mode_near,
+    on_films,
+    small_motion,
+    value_rate,
+    whirl_of,
+)
 
 ROOT = Path(__file__).parents[2]
 sys.path.append(str(ROOT / "benchmarks"))
@@ -181,6 +189,41 @@ def test_nonlinear_orbit_is_that_of_harmonic_balance():
     assert abs(linear.answer(None).value / axis - 1.0) > 0.02  # else nothing here is nonlinear
     about = linear.estimate(linear.answer(None), None, 1.0)
     assert about.error == pytest.approx(abs(linear.answer(None).value / axis - 1.0), rel=0.2)
+
+
+def with_error(film, random):
+    def off(entries):
+        return entries + 1e-3 * np.abs(entries).max() * random.choice((-1.0, 1.0), (2, 2))
+
+    return replace(film, stiffness=off(film.stiffness), damping=off(film.damping))
+
+
+@pytest.mark.parametrize(
+    ("quantity", "at"),
+    [
+        ("unbalance_amplitude", "drive_end"),
+        ("unbalance_amplitude", "impeller"),
+        ("unbalance_force", "drive_end"),
+        ("unbalance_force", "impeller_end"),
+        ("unbalance_phase", "drive_end"),
+        ("unbalance_phase", "impeller"),
+    ],
+)
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_bound_of_films_is_that_of_what_is_asked(quantity, at, sense):
+    turning = replace(SCENE, operation=replace(SCENE.operation, speed=sense * SCENE.speed))
+    rung = ladder_of(asked(quantity, 0.1, turning, at)).rungs[2]
+    found = rung.answer(None)
+    turn, structure, random = found.solution, rung.model.rotor.structure, np.random.default_rng(5)
+    bound, changes = rung._bound(turn), []
+    for _ in range(300):
+        # to 1e-3 of the largest entry, in the corners of that box
+        off = {name: with_error(film, random) for name, film in turn.at.coefficients.items()}
+        at_rest = on_films(turn.at, off)
+        answers = shaft_answers(structure, at_rest, rung.place.probes, 15)
+        moved = rung.place.value(answers, linear_shaft_orbit(answers, at_rest))
+        changes.append(rung.place.change(found.value, moved))
+    assert 0.3 * bound < max(changes) < 1.02 * bound
 
 
 @pytest.mark.parametrize("quantity", ["unbalance_amplitude", "unbalance_force"])

@@ -173,7 +173,7 @@ class DamperRung:
             return ErrorEstimate(change / value, method, work, bound=True)
         slope = _slope(system, np.array([radius]))
         ends = radius + np.array([-1.0, 1.0]) * abs(change / slope)
-        inside = 0.0 < ends[0] and ends[1] < 1.0
+        inside = ends[0] > 0.0 and ends[1] < 1.0
         least = min(_slope(system, np.array([end])) / slope for end in ends) if inside else 0.0
         if least < 1.0 - DISAGREEMENT:
             doubt = "so near to a jump, or to the wall, that the error of the film may take the orbit there"
