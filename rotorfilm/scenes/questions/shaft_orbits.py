@@ -224,11 +224,12 @@ class ShaftOrbitRung:
             method += f" at {samples} samples"
         if not trusted:
             method += f", {self.films.rich_name}"
-            error += self._by_grid(turn, value) if self.films.bounded else 0.0
-        # Where it is below what the verified bound allows, the grid's own error makes it too large.
-        is_bound = self.has_films and self.films.bounded and bound > error
-        if trusted:
-            error = max(error, bound)
+        # The share of a map: its verified bound, or the distance to a grid, which is less close than it is.
+        films_share = 0.0
+        if self.has_films and self.films.bounded:
+            films_share = bound if trusted else self._by_grid(turn, value)
+        is_bound = films_share > error
+        error = max(error, films_share) if trusted else error + films_share
         return ErrorEstimate(error, method, {f"defects of {self.name}": 1}, bound=is_bound, doubt=doubt)
 
     def _by_grid(self, turn: ShaftTurn, value: float) -> float:
