@@ -22,6 +22,7 @@ from rotorfilm import (
     Sprung,
     synchronous_orbits,
 )
+from rotorfilm.console_ladder import print_question
 from rotorfilm.errors import AbsentError, FilmContactError, InputError, ValidityWarning
 from rotorfilm.model import prepared_tangent
 from rotorfilm.scenes import parse_scene, read_scene
@@ -444,3 +445,24 @@ def test_what_a_damper_lacks_is_named():
         damper_ladder(read_scene(FAMILIES["orbit"][1](np.random.default_rng(1)).data, "drawn"), "jump_up")
     with pytest.raises(InputError, match=r"rigid_rotor is required for jump_up"):
         damper_ladder(replace(found, rigid_rotor=None), "jump_up")
+
+
+def test_an_excitation_that_does_not_fit_is_shown():
+    step = SCENE.replace('kind = "blade_loss"', 'kind = "unbalance"').replace("revolutions = 5\n", "")
+    with pytest.raises(InputError, match=r'"run_up" is required for blade_loss_peak, got UnbalanceTable\('):
+        scene(FULL, step).ask()
+    with pytest.raises(InputError, match=r"blade_loss_peak, got none"):
+        replace(scene(FULL), excitation=None).ask()
+    twice = SCENE.replace('mass = "20 kg"', 'mass = "20 kg"\nunbalance = 3e-4')
+    with pytest.raises(
+        InputError, match=r"where \[excitation\] has the unbalance, got 0\.0003 beside 0\.0008"
+    ):
+        scene(FULL, twice).ask()
+
+
+def test_an_answer_that_is_at_most_about_right_says_so(capsys):
+    found = asked(scene(MAPPED, JUMPS), "jump_up", 1e-2)
+    print_question("jump", found.ask(), explain=True)
+    shown = capsys.readouterr().out
+    assert "at most about 0.00017" in shown
+    assert "<~ 0.00017" in shown

@@ -355,7 +355,9 @@ def test_what_is_missing_or_contradictory_is_said():
     with pytest.raises(InputError, match=r"shaft\.unbalances must have a positive one"):
         asked("unbalance_force", 0.1, balanced).ask()
     loaded = replace(moving, operation=replace(moving.operation, load=(0.0, -1.0)))
-    with pytest.raises(InputError, match=r"operation\.load must be left out for a \[shaft\]"):
+    with pytest.raises(
+        InputError, match=r"left out for a \[shaft\], which has its weight, got \(0\.0, -1\.0\)"
+    ):
         asked("unbalance_force", 0.1, loaded).ask()
     still = replace(moving, operation=replace(moving.operation, speed=0.0))
     with pytest.raises(InputError, match=r"operation\.speed must not be zero"):
@@ -420,3 +422,14 @@ def test_remarks_take_the_load_of_each_bearing():
     assert loads["impeller_end"] > 4.0 * loads["drive_end"]
     assert set(lines) == {"drive_end"}  # the one that carries less than the ambient pressure
     assert f"{loads['drive_end'] / (0.06 * 0.04) / 1e5:.2g} times" in lines["drive_end"]
+
+
+def test_an_error_is_at_most_about_right_where_a_map_is_most_of_it():
+    scene = asked("unbalance_amplitude", 1e-3, at="impeller")
+    linear, fine = (next(r for r in ladder_of(scene).rungs if r.name.startswith(n)) for n in ("linear", "63"))
+    found = linear.answer(None)
+    finer = fine.answer(found)
+    # a bound; that the motion is linear is most of it; the distance of the map to a grid is
+    assert linear.estimate(found, None, 0.5).bound
+    assert not linear.estimate(found, None, 1e-4).bound
+    assert fine.estimate(finer, found, 1e-4).bound
