@@ -360,14 +360,14 @@ def _refused_more_accurate(rung: Rung, reports: Sequence[RungReport]) -> str | N
 def _refined_in_vain(rung: Rung, ladder: Ladder, reports: Sequence[RungReport]) -> str | None:
     """Return why finer steps do not help: the last refinement of the same model changed nothing."""
     model = ladder.refined.get(rung.name)
-    coarser = [(r.error_estimate, r.name) for r in reports if model and ladder.refined.get(r.name) == model]
-    known = [(error, name) for error, name in coarser if error is not None and math.isfinite(error)][-2:]
-    if len(known) < 2:
+    coarser = [r for r in reports if model and ladder.refined.get(r.name) == model]
+    known = [r for r in coarser if r.error_estimate is not None and math.isfinite(r.error_estimate)][-2:]
+    if len(known) < 2 or known[0].doubtful != known[1].doubtful:
         return None
-    (before, coarse), (after, fine) = known
+    before, after = (float(r.error_estimate or 0.0) for r in known)
     if abs(before - after) > STALLED * after:
         return None
-    return f"finer steps do not help: {coarse} is off by {before:.2g}, {fine} by {after:.2g}"
+    return f"finer steps do not help: {known[0].name} is off by {before:.2g}, {known[1].name} by {after:.2g}"
 
 
 def _answer(
