@@ -34,12 +34,12 @@ def print_question(title: str, answer: QuestionAnswer, *, explain: bool) -> None
 
 def _summary(answer: QuestionAnswer) -> list[tuple[str, str]]:
     verdict = "met" if answer.met else "NOT met by any rung"
-    share = "at most" if chosen_report(answer).bound else "about"
+    share = "at most about" if chosen_report(answer).bound else "about"
     price = "cost not known" if answer.next_cost is None else _seconds(answer.next_cost)
     above = "none" if answer.next_model is None else f"{answer.next_model}: {price}"
     return [
         (answer.quantity.replace("_", " "), f"{_value(answer.value)} {answer.unit.removeprefix('1')}"),
-        ("error", f"{share} {_number(answer.error_estimate)}, relative"),
+        ("error", f"{share} {_number(answer.error_estimate)}"),
         ("tolerance", f"{answer.tolerance:.3g}: {verdict}"),
         ("model", answer.model),
         ("cost", f"{_seconds(answer.cost)}, its error {_seconds(answer.estimate_cost)}"),
@@ -66,7 +66,7 @@ def _ladder(answer: QuestionAnswer) -> Table:
             report.name,
             MARKS.get(report.verdict, f"[dim]{report.verdict}[/]"),
             "" if report.value is None else _value(report.value, short=True),
-            ("<= " if report.bound else "") + error,
+            ("<~ " if report.bound else "") + error,
             _seconds(report.cost),
             _seconds(report.estimate_cost),
             report.method,

@@ -4,10 +4,12 @@ import os
 import re
 import subprocess
 import sys
+from contextlib import nullcontext
 from pathlib import Path
 
 import pytest
 
+from rotorfilm.errors import ValidityWarning
 from rotorfilm.scenes import Scene, bundled_scene
 from rotorfilm.scenes.rotor import solve_rotor
 
@@ -15,6 +17,9 @@ EXAMPLES = Path(__file__).parents[1] / "examples"
 README = EXAMPLES.parent / "README.md"
 SCRIPTS = sorted(EXAMPLES.glob("*.py"))
 SCENES = sorted(EXAMPLES.glob("*.toml"))
+WARNS = {"rotor_questions.toml": "left out: (drive|impeller)_end, at 251.3 rad/s: (heat|cavitation)"}
+"""Scenes whose answer comes with a limit of the physics."""
+
 LAST_NUMBER = {
     # Friswell et al. (2010), example 5.9.6
     "static_coefficients.py": pytest.approx(12807959, abs=1.0),
@@ -100,14 +105,15 @@ def test_example_is_short(path):
 @pytest.mark.parametrize("path", SCENES, ids=lambda path: path.name)
 def test_scene_file_loads_and_solves(path):
     scene = Scene.load(path)
-    if scene.shaft is not None:
+    if scene.question is not None:
+        with pytest.warns(ValidityWarning, match=WARNS[path.name]) if path.name in WARNS else nullcontext():
+            asked = scene.solve()
+        assert asked.met
+        assert asked.error_estimate <= asked.tolerance
+    elif scene.shaft is not None:
         found = solve_rotor(scene)
         assert found.residual < 1e-9
         assert found.threshold.whirl_ratio == pytest.approx(0.5, abs=0.02)
-    elif scene.question is not None:
-        asked = scene.solve()
-        assert asked.met
-        assert asked.error_estimate <= asked.tolerance
     elif scene.bush is not None:
         # Evtushenko & Kovalenko (1993) print .201 rad.
         assert scene.melting().contact.contact_angle == pytest.approx(0.201, abs=5e-4)

@@ -12,6 +12,7 @@ from rotorfilm.scenes import Scene
 from rotorfilm.scenes.questions.coupling import CouplingRung, coupling_ladder
 from rotorfilm.transient import simulate
 
+from .dampers import slim, turned
 from .drawn import Drawn, Truth, log_uniform
 from .journals import journal, scene_of, unbalance, with_rotor
 
@@ -70,23 +71,11 @@ def other(random: np.random.Generator) -> Drawn:
 
 def _damper(random: np.random.Generator) -> Drawn:
     """Return a co-simulation of a rotor on a sprung damper."""
-    radius = log_uniform(random, 0.02, 0.1)
-    table: dict[str, Any] = {
-        "radius": radius,
-        "length": 2.0 * radius * log_uniform(random, 0.1, 0.4),
-        "clearance": radius * log_uniform(random, 1e-3, 3e-3),
-        "viscosity": log_uniform(random, 3e-3, 0.05),
-    }
+    table = slim(random)
     if random.random() < 0.5:
         table["extent"] = {"kind": "full"}
-    mass, speed = log_uniform(random, 5.0, 50.0), log_uniform(random, 100.0, 800.0)
-    table["stiffness"] = mass * (speed / float(random.uniform(0.5, 3.0))) ** 2
-    size = float(random.uniform(0.05, 0.6)) * mass * table["clearance"]
     data = {
-        "schema": 1,
-        "damper": table,
-        "operation": {"speed": speed},
-        "rigid_rotor": {"mass": mass, "unbalance": size},
+        **turned(random, table),
         "cosimulation": {"revolutions": 2.0},
         "question": {"quantity": "cosimulation_error", "tolerance": log_uniform(random, *TOLERANCES)},
     }

@@ -30,34 +30,43 @@ NOWHERE = 1e-30
 
 def damper(random: np.random.Generator) -> Drawn:
     """Return an orbit in a damper with a full film, a third of them with a porous cage."""
+    table = slim(random)
+    table["extent"] = {"kind": "full"}
+    if random.random() < 1.0 / 3.0:
+        permeability = log_uniform(random, 1e-16, 1e-12)
+        table["cage"] = {"thickness": 0.05 * table["radius"], "permeability": permeability}
+    data = {
+        **turned(random, table),
+        "question": {
+            "quantity": str(random.choice(["transmissibility", "unbalance_amplitude"])),
+            "tolerance": log_uniform(random, 3e-3, 0.1),
+        },
+    }
+    return Drawn("damper", data, damper_by_finite_film)
+
+
+def slim(random: np.random.Generator) -> dict[str, Any]:
+    """Return a damper so short that the short film is not far off."""
     radius = log_uniform(random, 0.02, 0.1)
-    table: dict[str, Any] = {
+    return {
         "radius": radius,
         "length": 2.0 * radius * log_uniform(random, 0.1, 0.4),
         "clearance": radius * log_uniform(random, 1e-3, 3e-3),
         "viscosity": log_uniform(random, 3e-3, 0.05),
-        "extent": {"kind": "full"},
     }
-    if random.random() < 1.0 / 3.0:
-        permeability = log_uniform(random, 1e-16, 1e-12)
-        table["cage"] = {"thickness": 0.05 * radius, "permeability": permeability}
+
+
+def turned(random: np.random.Generator, table: dict[str, Any]) -> dict[str, Any]:
+    """Return a scene of a damper, to which it adds springs, and of a rotor with unbalance."""
     mass, speed = log_uniform(random, 5.0, 50.0), log_uniform(random, 100.0, 800.0)
     table["stiffness"] = mass * (speed / float(random.uniform(0.5, 3.0))) ** 2
     size = float(random.uniform(0.05, 0.6)) * mass * table["clearance"]
-    return Drawn(
-        "damper",
-        {
-            "schema": 1,
-            "damper": table,
-            "operation": {"speed": speed},
-            "rigid_rotor": {"mass": mass, "unbalance": size},
-            "question": {
-                "quantity": str(random.choice(["transmissibility", "unbalance_amplitude"])),
-                "tolerance": log_uniform(random, 3e-3, 0.1),
-            },
-        },
-        damper_by_finite_film,
-    )
+    return {
+        "schema": 1,
+        "damper": table,
+        "operation": {"speed": speed},
+        "rigid_rotor": {"mass": mass, "unbalance": size},
+    }
 
 
 def damper_by_finite_film(scene: Scene) -> Truth:

@@ -57,7 +57,10 @@ def damper_models(scene: Scene) -> DamperScene:
         if not isinstance(excitation, UnbalanceTable):
             raise InputError(f"excitation must be an unbalance, a blade_loss or a run_up, got {excitation!r}")
         if rotor.unbalance:
-            raise InputError("rigid_rotor.unbalance must be 0 where [excitation] has the unbalance, got both")
+            raise InputError(
+                "rigid_rotor.unbalance must be 0 where [excitation] has the unbalance, "
+                f"got {rotor.unbalance:g} beside {excitation.unbalance:g} kg m"
+            )
         turned = excitation.unbalance_angle
         rotor = replace(rotor, unbalance=excitation.unbalance, unbalance_angle=turned)
     if isinstance(excitation, BladeLossTable):

@@ -60,7 +60,8 @@ class ErrorEstimate(NamedTuple):
     method : str
     work : mapping of str to int
     bound : bool
-        Whether the error is at most this, rather than about this.
+        Whether the error is at most about this, rather than about this: its largest term is verified, or
+        known to be too large.
     doubt : str
         Why the estimate must not be trusted; empty if it may.
     """
@@ -145,7 +146,7 @@ class RungReport:
         None where it was not asked, or had no answer.
     error_estimate : float or None [1]
     bound : bool
-        Whether the error is at most the estimate, rather than about it.
+        Whether the error is at most about the estimate, rather than about it.
     doubtful : bool
         Whether the estimate contradicts itself.
     method : str

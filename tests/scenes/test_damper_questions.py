@@ -23,6 +23,7 @@ from rotorfilm import (
     Sprung,
     synchronous_orbits,
 )
+from rotorfilm.console_ladder import print_question
 from rotorfilm.errors import AbsentError, FilmContactError, InputError, ValidityWarning
 from rotorfilm.model import prepared_tangent
 from rotorfilm.scenes import parse_scene, read_scene
@@ -33,6 +34,8 @@ from rotorfilm.scenes.damper_validity import damper_numbers, damper_remarks, lar
 from rotorfilm.scenes.lubricant_table import LubricantTable
 from rotorfilm.scenes.question_table import QuestionTable
 from rotorfilm.scenes.questions import ladder_of
+from rotorfilm.scenes.questions.damper_films import damper_films
+from rotorfilm.scenes.questions.dampers import _endless, damper_ladder
 
 ROOT = Path(__file__).parents[2]
 
@@ -369,11 +372,94 @@ def test_remarks_name_what_is_left_out():
 def test_shipped_scene_meets_its_tolerance_without_a_warning():
     from rotorfilm.scenes import Scene
 
-    found = Scene.load(ROOT / "examples" / "damper_question.toml")
-    assert not ladder_of(found).remarks
+    answer = Scene.load(ROOT / "examples" / "damper_question.toml").ask()
+    assert answer.met
+    assert not answer.remarks
 
 
 def test_a_short_film_warns_where_it_runs_not_where_a_ladder_answers(recwarn):
-    slender = parse_scene(JUMPS.replace('length = "25 mm"', 'length = "40 mm"'), "case.toml")
+    text = JUMPS.replace('length = "25 mm"', 'length = "40 mm"')
+    slender = parse_scene(f"{text}unbalance = 1e-4\n", "case.toml")
+    assert asked(slender, "unbalance_amplitude", 0.5).ask().rungs[0].name == "short film"
+    assert not [one for one in recwarn if "length / diameter" in str(one.message)]
     with pytest.warns(ValidityWarning, match="length / diameter must not exceed"):
         slender.damper.support()
+
+
+MAPPED = 'film = {name = "finite_map"}\n'
+
+
+def turned_by(unbalance, quantity, viscosity=1.0):
+    found = scene(MAPPED, JUMPS.replace("[rigid_rotor]", f"[rigid_rotor]\nunbalance = {float(unbalance)!r}"))
+    thicker = replace(found.damper, viscosity=viscosity * found.damper.viscosity)
+    return asked(replace(found, damper=thicker), quantity, 1e-3)
+
+
+@pytest.mark.parametrize("quantity", ["unbalance_amplitude", "transmissibility"])
+@pytest.mark.parametrize("part", [0.5, 0.9, 0.99])
+def test_bound_of_a_force_is_carried_on_to_the_quantity(quantity, part):
+    jump = asked(scene(MAPPED, JUMPS), "jump_up", 1e-2).ask()
+    # the force is proportional to the viscosity
+    low, middle, high = (turned_by(part * jump.value, quantity, 1.0 + k * 3e-4).ask() for k in (-1, 0, 1))
+    changes = [abs(answer.value / middle.value - 1.0) for answer in (low, high)]
+    assert middle.rungs[-1].bound
+    assert max(changes) <= middle.error_estimate
+    # an error across the force makes more of it than one along it
+    assert middle.error_estimate < 10.0 * max(changes)
+
+
+@pytest.mark.parametrize("quantity", ["unbalance_amplitude", "transmissibility"])
+def test_bound_of_a_force_is_no_bound_of_an_orbit_just_below_a_jump(quantity):
+    jump = asked(scene(MAPPED, JUMPS), "jump_up", 1e-2).ask()
+    answer = turned_by(0.9999 * jump.value, quantity).ask()
+    assert not answer.met
+    assert "so near to a jump" in answer.message
+    assert answer.error_estimate > 1.5e-3  # a film of 3e-4 less force takes it there
+
+
+def test_bound_of_a_jump_is_that_of_the_force_there():
+    jump = asked(scene(MAPPED, JUMPS), "jump_up", 1e-3).ask()
+    thicker = scene(MAPPED, JUMPS.replace("4.096e-4", "4.0972288e-4"))  # 3e-4 more
+    moved = asked(thicker, "jump_up", 1e-3).ask()
+    assert moved.value != jump.value
+    assert abs(moved.value / jump.value - 1.0) <= jump.error_estimate < 3e-4
+
+
+def test_jumps_of_a_fed_film_of_finite_length_are_left_out_unless_it_is_named():
+    fed = scene(FULL, JUMPS)
+    fed = replace(fed, damper=replace(fed.damper, feed=RadialFeedTable(inflow=0.002)))
+    assert [rung.name for rung in ladder_of(asked(fed, "jump_up", 0.1)).rungs] == ["short film"]
+    named = replace(fed, damper=replace(fed.damper, film=FiniteSqueezeTable()))
+    assert len(ladder_of(asked(named, "jump_up", 0.1)).rungs) == 1
+    (film,) = damper_films(named.damper)
+    # whatever it is called
+    assert not _endless(replace(film, name="finite film"), "jump_up", is_named=True)
+
+
+def test_what_a_damper_lacks_is_named():
+    found = asked(scene(FULL, JUMPS), "jump_up", 0.1)
+    with pytest.raises(InputError, match=r"damper is required for jump_up, got no such table"):
+        damper_ladder(read_scene(FAMILIES["orbit"][1](np.random.default_rng(1)).data, "drawn"), "jump_up")
+    with pytest.raises(InputError, match=r"rigid_rotor is required for jump_up"):
+        damper_ladder(replace(found, rigid_rotor=None), "jump_up")
+
+
+def test_an_excitation_that_does_not_fit_is_shown():
+    step = SCENE.replace('kind = "blade_loss"', 'kind = "unbalance"').replace("revolutions = 5\n", "")
+    with pytest.raises(InputError, match=r'"run_up" is required for blade_loss_peak, got UnbalanceTable\('):
+        scene(FULL, step).ask()
+    with pytest.raises(InputError, match=r"blade_loss_peak, got none"):
+        replace(scene(FULL), excitation=None).ask()
+    twice = SCENE.replace('mass = "20 kg"', 'mass = "20 kg"\nunbalance = 3e-4')
+    with pytest.raises(
+        InputError, match=r"where \[excitation\] has the unbalance, got 0\.0003 beside 0\.0008"
+    ):
+        scene(FULL, twice).ask()
+
+
+def test_an_answer_that_is_at_most_about_right_says_so(capsys):
+    found = asked(scene(MAPPED, JUMPS), "jump_up", 1e-2)
+    print_question("jump", found.ask(), explain=True)
+    shown = capsys.readouterr().out
+    assert "at most about 0.00017" in shown
+    assert "<~ 0.00017" in shown

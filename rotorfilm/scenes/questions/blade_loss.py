@@ -174,7 +174,8 @@ def blade_loss_ladder(scene: Scene, quantity: str) -> Ladder:
         If the scene loses no blade, has no rotor, or does not turn.
     """
     if not isinstance(scene.excitation, BladeLossTable):
-        raise InputError(f'excitation of kind "blade_loss" is required for {quantity}, got none')
+        got = "none" if scene.excitation is None else f"{scene.excitation!r}"
+        raise InputError(f'excitation of kind "blade_loss" is required for {quantity}, got {got}')
     if scene.speed == 0.0:
         raise InputError("operation.speed must not be zero for a lost blade, got 0.0")
     films, rotor = orbit_films(scene), scene.rotor

@@ -35,6 +35,8 @@ FED_STEPS = (24, 48, 96)
 """Those of films with feed, which have no map: a force takes some tenths to thousandths of a second."""
 
 LINEAR_STEPS = 192
+"""Those of the linear motion."""
+
 SAMPLED = 48
 """States over a turn at which the defect is taken."""
 
@@ -253,7 +255,8 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
         If the scene loses no blade and does not run up, has no rotor, or does not turn.
     """
     if not isinstance(scene.excitation, BladeLossTable | RunUpTable):
-        raise InputError(f'excitation of kind "blade_loss" or "run_up" is required for {quantity}, got none')
+        got = "none" if scene.excitation is None else f"{scene.excitation!r}"
+        raise InputError(f'excitation of kind "blade_loss" or "run_up" is required for {quantity}, got {got}')
     assert scene.damper is not None  # or the ladder is another one
     models = damper_models(scene)
     rungs = tuple(
@@ -275,6 +278,8 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
 def _choices(table: DamperTable) -> list[tuple[DamperFilm, int]]:
     """Return films and steps of the rungs, 0 for the linear motion, the cheapest first."""
     films = damper_films(table)
+    # `own` is the richest film beside that of finite length: it has the whole cage, gives the small motion,
+    # and is the last one where there is feed, for which a motion in the finite film takes minutes.
     *cheap, own = films if len(films) < 2 or films[-1].rich_law is not None else films[:-1]
     top = films[-1]
     fed = own.is_fed

@@ -141,9 +141,9 @@ class DamperRung:
         rich = self.film.rich
         if rich is None and not math.isfinite(self.film.bound):
             return ErrorEstimate(math.inf, "none", doubt=NO_RICHER)
-        if rich is None:
-            return ErrorEstimate(self.film.bound, "verified bound of the film", bound=True)
         radius = float(found.solution)
+        if rich is None:
+            return self._by_bound(found.value, radius)
         reach = rich.largest_eccentricity_ratio
         if radius >= reach:
             doubt = f"the orbit goes to {radius:.4g} of the clearance, the richest film to {reach:.4g}"
@@ -156,6 +156,37 @@ class DamperRung:
         return ErrorEstimate(
             error, "orbits of the richest film", {RICH: 4 if fold else 3, **self.film.rich_work}, doubt=doubt
         )
+
+    def _by_bound(self, value: float, radius: float) -> ErrorEstimate:
+        """Return what the verified error of the film's force may make of the quantity.
+
+        It changes the unbalance of an orbit of the same radius, and so that of a fold. At a given unbalance
+        it shifts the radius by that over the smallest u' on the way: near a fold that is much, and past it
+        there may be no such orbit.
+        """
+        system, work = _system(self.rotor, self.support), {self.unit: 7}
+        force = self._force(system, radius)
+        film = abs(force + self.stiffness * system.clearance * radius)
+        change = self.film.bound * film / system.speed**2
+        method = "verified bound of the film, propagated"
+        if self.quantity in (UP, DOWN):
+            return ErrorEstimate(change / value, method, work, bound=True)
+        slope = _slope(system, np.array([radius]))
+        ends = radius + np.array([-1.0, 1.0]) * abs(change / slope)
+        inside = ends[0] > 0.0 and ends[1] < 1.0
+        least = min(_slope(system, np.array([end])) / slope for end in ends) if inside else 0.0
+        if least < 1.0 - DISAGREEMENT:
+            doubt = "so near to a jump, or to the wall, that the error of the film may take the orbit there"
+            return ErrorEstimate(abs(change / slope) / radius, method, work, doubt=doubt)
+        if self.quantity == "unbalance_amplitude":
+            return ErrorEstimate(abs(change / slope) / least / radius, method, work, bound=True)
+        # At a given unbalance the ratio changes as the force does: along the shift, and by the film itself.
+        shifted = max(abs(abs(self._force(system, end)) - abs(force)) for end in ends) / least
+        return ErrorEstimate((shifted + self.film.bound * film) / abs(force), method, work, bound=True)
+
+    @staticmethod
+    def _force(system: OrbitRotor, radius: float) -> complex:
+        return complex(orbit_points(system, np.array([radius])).force[0])
 
     def _fold(self, own: OrbitRotor, rich: OrbitRotor, radius: float) -> tuple[float, str]:
         """Return the unbalance of the rich film's fold by a parabola through three orbits about the other."""
@@ -219,8 +250,10 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
     InputError
         If the scene has no rotor, no unbalance, no speed or no operation.
     """
-    if scene.damper is None or scene.rigid_rotor is None:
-        raise InputError(f"rigid_rotor is required for {quantity}, got no such table")
+    for table in ("damper", "rigid_rotor"):
+        if getattr(scene, table) is None:
+            raise InputError(f"{table} is required for {quantity}, got no such table")
+    assert scene.damper is not None  # checked by the above
     rotor = damper_models(scene).rotor
     if quantity in (UP, DOWN):
         rotor = replace(rotor, unbalance=1e-9 * rotor.mass * scene.damper.clearance)
@@ -230,7 +263,7 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
     rungs = tuple(
         DamperRung(film=film, rotor=rotor, stiffness=stiffness, quantity=quantity)
         for film in damper_films(scene.damper)
-        if not _endless(film, quantity)
+        if not _endless(film, quantity, is_named=scene.damper.film is not None)
     )
     units = {rung.unit: _one(rung, scene.speed) for rung in rungs}
     asked = replace(rotor, unbalance=0.0) if quantity in (UP, DOWN) else rotor
@@ -243,10 +276,13 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
     )
 
 
-def _endless(film: DamperFilm, quantity: str) -> bool:
-    """Return whether hundreds of orbits would take minutes: a fed film of finite length has no map."""
+def _endless(film: DamperFilm, quantity: str, *, is_named: bool) -> bool:
+    """Return whether hundreds of orbits would take minutes: a fed film of finite length has no map.
+
+    One that the scene names is the only rung there is.
+    """
     slow = film.is_fed and isinstance(film.law, FiniteSqueeze)
-    return slow and film.name.startswith("finite") and quantity in (UP, DOWN)
+    return slow and not is_named and quantity in (UP, DOWN)
 
 
 def _one(rung: DamperRung, speed: float) -> Callable[[], object]:

@@ -9,7 +9,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from ...errors import RotorfilmError
+from ...errors import AbsentError
 from ...linear import RotorModes, critical_speeds, rotor_modes, rotor_threshold
 from ...model import Array, Reaction
 from ...rotors import FlexibleRotor
@@ -43,7 +43,7 @@ class SpeedEvent(Protocol):
     def sightings(
         self, rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: Array
     ) -> list[Sighting]:
-        """Return the lowest such speed in a range, and those near it; RotorfilmError if there is none."""
+        """Return the lowest such speed in a range, and those near it; AbsentError if there is none."""
 
     def missed(self, own: RotorModes, other: RotorModes) -> str:
         """Return why the first such speed may be another one, from whirls just below it by two models."""
@@ -71,7 +71,7 @@ class Critical:
         """Return the first critical speed, and those near it."""
         found = critical_speeds(rotor, bearings, speeds)
         if not found:
-            raise RotorfilmError(
+            raise AbsentError(
                 f"no critical speed in shaft.speeds, {speeds[0]:.6g} to {speeds[-1]:.6g} rad/s: "
                 "no whirl has the frequency of the rotation there"
             )
@@ -110,12 +110,10 @@ class Threshold:
         span = f"{speeds[0]:.6g} to {speeds[-1]:.6g} rad/s"
         values = rotor_modes(rotor, bearings, float(speeds[0])).eigenvalues
         if np.all(np.abs(values.real) < NEUTRAL * np.abs(values)):
-            raise RotorfilmError(
-                f"no whirl threshold in shaft.speeds, {span}: nothing damps or drives a whirl"
-            )
+            raise AbsentError(f"no whirl threshold in shaft.speeds, {span}: nothing damps or drives a whirl")
         found = rotor_threshold(rotor, bearings, speeds)
         if found.speed is None or found.whirl_frequency is None:
-            raise RotorfilmError(f"no whirl threshold in shaft.speeds, {span}: {found.reason}")
+            raise AbsentError(f"no whirl threshold in shaft.speeds, {span}: {found.reason}")
         return [Sighting(found.speed, 1j * found.whirl_frequency)]
 
     def missed(self, own: RotorModes, other: RotorModes) -> str:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...errors import InputError, RotorfilmError
 from ...linear import RotorEquilibrium, rotor_equilibrium
-from ...model import Reaction
+from ...model import Array, Reaction
 from ..excitation_table import UnbalanceTable
 from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Work
 from .films import NOMINAL
@@ -94,6 +94,29 @@ class OrbitPlace:
         turn = abs(answers.speed)
         springs = answers.stiffness + 1j * turn * answers.damping
         return np.asarray((springs @ motion - orbit.excess)[pair])
+
+    def largest_change(self, answers: ShaftAnswers, orbit: ShaftOrbit, forces: Array) -> float:
+        """Return the most that first harmonics of forces on the journals (2 m,) [N] change the quantity by.
+
+        Relative, or of a phase in radians: the phase of each force is the worst.
+        """
+        moved = answers.journals[1]
+        if self.quantity == FORCE:
+            springs = answers.stiffness + 1j * abs(answers.speed) * answers.damping
+            moved = np.eye(len(moved)) - springs @ moved
+        changes = []
+        for name in self.places:
+            if name in self.probes:
+                rows = answers.probes[name][0]
+            else:
+                k = answers.stations.index(name)
+                rows = moved[2 * k : 2 * k + 2]
+            changes.append(float(np.linalg.norm(np.abs(rows) @ forces)))
+        if self.quantity != PHASE:
+            return max(changes) / abs(self.value(answers, orbit))
+        with_it, against = circles(self._wave(answers, orbit, self.places[0]))
+        # half of the sum of x and +-i y
+        return changes[0] / math.sqrt(2.0) / abs(with_it if answers.speed > 0.0 else against)
 
     def change(self, before: float, after: float) -> float:
         """Return the relative distance of two values; of phases in radians."""
@@ -190,21 +213,23 @@ class ShaftOrbitRung:
         if reach_of(turn.orbit, turn.answers.stations, self._reactions) >= WALL:
             return ErrorEstimate(math.inf, "defect", doubt="the orbit leaves the clearance: not linear")
         value, fine = float(found.value), self.model.finer.structure
-        bound = self._bound(turn, value)
+        bound = self._bound(turn)
         trusted = SAFETY * bound < tolerance
         films = self._reactions if trusted or self.films.bounded else self.films.rich
-        samples = 2 * turn.answers.samples + 1 if self._nonlinear_films else LINEAR
+        samples = 2 * turn.answers.samples + 1 if self.has_films else LINEAR
         answers = shaft_answers(fine, turn.at, self.place.probes, samples)
         error, doubt = self._by_defect(answers, turn, films, value)
         method = f"defect in {len(self.model.finer.elements)} elements"
-        if self._nonlinear_films:
+        if self.has_films:
             method += f" at {samples} samples"
         if not trusted:
             method += f", {self.films.rich_name}"
-            error += self._by_grid(turn, value) if self.films.bounded else 0.0
-        is_bound = self._nonlinear_films and self.films.bounded and (not trusted or bound > error)
-        if trusted:
-            error = max(error, bound)
+        # The share of a map: its verified bound, or the distance to a grid, which is less close than it is.
+        films_share = 0.0
+        if self.has_films and self.films.bounded:
+            films_share = bound if trusted else self._by_grid(turn, value)
+        is_bound = films_share > error
+        error = max(error, films_share) if trusted else error + films_share
         return ErrorEstimate(error, method, {f"defects of {self.name}": 1}, bound=is_bound, doubt=doubt)
 
     def _by_grid(self, turn: ShaftTurn, value: float) -> float:
@@ -228,7 +253,7 @@ class ShaftOrbitRung:
         rate = abs(self.speed) * rate_matrix(fine.samples)
         lack = shaft_defect(fine, films, orbit)
         sizes: list[float] = []
-        for _ in range(2 if self._nonlinear_films else 1):
+        for _ in range(2 if self.has_films else 1):
             step = moved_by(fine, lack.missing, lack.slope)
             sizes.append(float(np.linalg.norm(step)))
             position = orbit.position + step
@@ -239,7 +264,7 @@ class ShaftOrbitRung:
             )
             if reach_of(orbit, fine.stations, films) >= WALL:
                 return math.inf, "the error is larger than the gap"
-            if self._nonlinear_films and len(sizes) == 1:
+            if self.has_films and len(sizes) == 1:
                 lack = shaft_defect(fine, films, orbit)
         doubt = ""
         if len(sizes) > 1 and sizes[1] > DISAGREEMENT * sizes[0] and sizes[0] > ROUNDOFF * orbit.size:
@@ -248,11 +273,12 @@ class ShaftOrbitRung:
         return self.place.change(value, self.place.value(fine, orbit)), doubt
 
     @property
-    def _nonlinear_films(self) -> bool:
+    def has_films(self) -> bool:
+        """Whether some bearing is nonlinear."""
         return bool(self.films.journals)
 
-    def _bound(self, turn: ShaftTurn, value: float) -> float:
-        """Return the relative error that the worst K and C within the verified bounds would make at least.
+    def _bound(self, turn: ShaftTurn) -> float:
+        """Return the error that the worst K and C within the verified bounds would make at most.
 
         At the farthest point of the orbit the bounds are the widest.
         """
@@ -266,8 +292,7 @@ class ShaftOrbitRung:
             worst[pair] = film.bound(reach, slopes=True) * slope * moved[pair].sum()
         if not worst.any():
             return 0.0
-        shifted = np.abs(turn.answers.journals[1]) @ worst
-        return float(np.linalg.norm(shifted) / np.linalg.norm(moved))
+        return self.place.largest_change(turn.answers, turn.orbit, worst)
 
     def expected(self, done: Work) -> Work:
         """Return five Newton steps."""
@@ -328,7 +353,8 @@ def orbit_place(scene: Scene, quantity: str) -> OrbitPlace:
     if scene.speed == 0.0:
         raise InputError("operation.speed must not be zero for an orbit, got 0.0")
     if scene.operation is not None and scene.operation.load is not None:
-        raise InputError("operation.load must be left out for a [shaft], which has its weight, got one")
+        load = scene.operation.load
+        raise InputError(f"operation.load must be left out for a [shaft], which has its weight, got {load!r}")
     unbalances = (*scene.shaft.unbalances, *_extra(scene))
     if not any(one.unbalance > 0.0 for one in unbalances):
         raise InputError("shaft.unbalances must have a positive one for an orbit, got none")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ...errors import InputError, RotorfilmError
+from ...errors import AbsentError, InputError
 from ...linear import rotor_equilibrium, rotor_modes
 from ...linear.rotor_system import SecondOrder, second_order
 from ...model import Array
@@ -117,7 +117,7 @@ class ShaftRung:
         whirls = sorted((whirl for whirl, _ in found), key=lambda whirl: whirl.at.speed)
         first = whirls[0].at.speed
         if not self.speeds[0] <= first <= self.speeds[-1]:
-            raise RotorfilmError(f"the speed {first:.6g} rad/s is not in shaft.speeds")
+            raise AbsentError(f"the speed {first:.6g} rad/s is not in shaft.speeds")
         work = sum(count for _, count in found) + (0 if follow else len(self.speeds))
         return Found(first, {self.unit: work, **made}, ShaftSpeed(whirls=tuple(whirls), model=self.model))
 
@@ -165,7 +165,9 @@ class ShaftRung:
         method = f"inverse iteration, {len(self.model.finer.elements)} elements"
         if self.films.name and not trusted:
             method += f", {self.films.rich_name}"
-        is_bound = bool(self.films.name) and self.films.bounded and (not trusted or bound > error)
+        is_bound = bool(self.films.name) and self.films.bounded
+        if is_bound:
+            is_bound = bound > error if trusted else self._by_grids(solution.whirls[0], rates[0], error)
         if trusted:
             error = max(error, bound)
         return ErrorEstimate(float(error), method, {f"steps for {self.name}": 3}, bound=is_bound, doubt=doubt)
@@ -193,6 +195,11 @@ class ShaftRung:
         if abs(one - other) > DISAGREEMENT * abs(other) + noise:
             doubt = doubt or "two steps of inverse iteration disagree on the error"
         return Corrected(whirl.at.speed + other, noise / whirl.at.speed, doubt)
+
+    def _by_grids(self, whirl: Whirl, rate: float, error: float) -> bool:
+        """Return whether most of an error is the distance of maps to grids, which are less close."""
+        own = self._corrected(whirl, rate, trusted=True)
+        return abs(own.speed / whirl.at.speed - 1.0) < 0.5 * error
 
     def _bound(self, whirl: Whirl, rate: float) -> float:
         """Return the error [1] that the worst K and C within the verified bounds of the films would make."""
