@@ -383,12 +383,11 @@ def main(arguments: list[str] | None = None) -> None:
         with warnings.catch_warnings():
             warnings.showwarning = _show_warning  # type: ignore[assignment]
             app(arguments)
-    except (InputError, SceneError, OSError) as error:
+    except (RotorfilmError, OSError) as error:
         console.complain("error", error)
-        sys.exit(BAD_INPUT)
-    except RotorfilmError as error:
-        console.complain("error", error)
-        sys.exit(FAILED)
+        if "--json" in (sys.argv if arguments is None else arguments):
+            console.print_json({"error": type(error).__name__, "message": str(error)})
+        sys.exit(BAD_INPUT if isinstance(error, InputError | SceneError | OSError) else FAILED)
 
 
 def _make_map(bearing: JournalBearing) -> None:

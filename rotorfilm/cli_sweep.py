@@ -82,7 +82,7 @@ def _spread(text: str, first: str, last: str, count: int) -> list[Any]:
 
 
 def _split(text: str) -> tuple[float | None, str]:
-    number, _, unit = text.partition(" ")
+    number, _, unit = text.replace("%", " %").partition(" ")
     try:
         return float(number), unit.strip()
     except ValueError:

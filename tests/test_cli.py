@@ -528,3 +528,21 @@ def test_impossible_groove_map_is_refused(run, option, message):
     code, out, err = run("groove-map", "--slenderness", "0.5", *option)
     assert (code, out) == (2, "")
     assert message in err
+
+
+def test_an_error_is_said_in_json_too_where_that_is_asked_for(run, tmp_path):
+    missing = str(tmp_path / "none.toml")
+    code, out, err = run("solve", missing, "--json")
+    assert code == 2
+    assert json.loads(out)["error"] == "SceneError"
+    assert json.loads(out)["message"] in err.replace("\n", " ")
+    assert run("solve", missing)[1] == ""
+
+
+def test_a_question_that_a_scene_cannot_be_asked_names_the_file(run, tmp_path):
+    text = (Path(__file__).parents[1] / "examples" / "question.toml").read_text(encoding="utf-8")
+    path = tmp_path / "asked.toml"
+    path.write_text(text.replace('"eccentricity_ratio"', '"whirl_threshold"'), encoding="utf-8")
+    code, _, err = run("solve", str(path))
+    assert code == 2
+    assert "asked.toml: rigid_rotor is required for whirl_threshold" in err.replace("\n", "")

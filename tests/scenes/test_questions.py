@@ -12,6 +12,8 @@ from families import FAMILIES
 
 from rotorfilm.errors import InputError, ValidityWarning
 from rotorfilm.scenes import Scene, bundled_scene, parse_scene
+from rotorfilm.scenes.damper_table import DamperTable
+from rotorfilm.scenes.excitation_table import BladeLossTable, UnbalanceTable
 from rotorfilm.scenes.film_tables import ShortFilmTable
 from rotorfilm.scenes.ladder import NoAnswerError
 from rotorfilm.scenes.question_table import QUANTITIES, QuestionTable
@@ -302,3 +304,19 @@ def test_a_threshold_that_does_not_exist_is_not_looked_for_on_grids():
     heavy = scene.replace('["100 N", "-0.3 kN"]', '"900 kN"') + "[rigid_rotor]\nmass = 1e8\n"
     with pytest.raises(NoAnswerError, match=r"no threshold: .*, by map"):
         parse_scene(heavy, "heavy").ask()
+
+
+def test_one_unbalance_and_one_table_answer():
+    scene = bundled_scene()
+    bare = replace(scene, rigid_rotor=replace(scene.rigid_rotor, unbalance=0.0))
+    shaken = replace(scene, excitation=UnbalanceTable(unbalance=1e-4))
+    with pytest.raises(InputError, match=r"rigid_rotor.unbalance must be 0 where \[excitation\] has"):
+        asked("unbalance_amplitude", 1e-2, shaken).ask()
+    lost = replace(bare, excitation=BladeLossTable(unbalance=1e-4))
+    with pytest.raises(InputError, match=r'excitation must be of kind "unbalance" .* got BladeLossTable'):
+        asked("unbalance_amplitude", 1e-2, lost).ask()
+    both = replace(bare, damper=DamperTable(radius=0.05, length=0.02, clearance=1e-4, viscosity=0.01))
+    with pytest.raises(
+        InputError, match=r"one table, got 'unbalance_amplitude' of \[damper\] and \[journal\]"
+    ):
+        asked("unbalance_amplitude", 1e-2, both).ask()

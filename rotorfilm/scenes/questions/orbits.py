@@ -193,7 +193,7 @@ def rotor_of(scene: Scene) -> RigidRotor:
         If it has none or both, another excitation, or does not turn.
     """
     rotor, excitation = scene.rotor, scene.excitation
-    if isinstance(excitation, UnbalanceTable):
+    if type(excitation) is UnbalanceTable:  # a lost blade is one too
         require_one_unbalance(rotor)
         rotor = replace(rotor, unbalance=excitation.unbalance, unbalance_angle=excitation.unbalance_angle)
     elif excitation is not None:
