@@ -148,11 +148,10 @@ def draw_all(seed: int, count: int) -> list[Drawn]:
 def run(seed: int, count: int, report: Callable[[str], None]) -> list[list[Judged]]:
     """Judge all scenes."""
     found = []
+    warnings.simplefilter("ignore")  # what scenes leave out, and films beyond their range, is judged here
     for number, drawn in enumerate(draw_all(seed, count)):
         try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")
-                rows = judge(number, drawn)
+            rows = judge(number, drawn)
         except RotorfilmError as error:
             report(f"{number:4d} {drawn.family:12s} no answer: {error}")
             found.append([])
