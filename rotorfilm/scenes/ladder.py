@@ -278,7 +278,7 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
     InputError
         If the tolerance is not positive.
     AbsentError, FilmContactError
-        If the last rung that was tried finds that there is no such value, or contact.
+        If the last rung that found anything finds that there is no such value, or contact.
     RotorfilmError
         What the last rung raised, if none has an answer.
 
@@ -307,7 +307,11 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
         except RotorfilmError as error:
             if isinstance(error, NoAnswerError) and before is None:
                 raise
-            failure, absent = error, isinstance(error, AbsentError | FilmContactError)
+            # A search that fails says nothing against contact, or an absence, found below it.
+            if isinstance(error, AbsentError | FilmContactError):
+                failure, absent = error, True
+            elif not absent:
+                failure = error
             reports.append(RungReport(name=rung.name, verdict="refused", reason=str(error)))
     if absent:
         # By the richest model that was tried; what cheaper ones say instead is no answer.

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotorfilm.errors import InputError, RotorfilmError
+from rotorfilm.errors import FilmContactError, InputError, RotorfilmError
 from rotorfilm.scenes.ladder import ErrorEstimate, Found, Ladder, Meter, walk
 
 
@@ -27,7 +27,7 @@ class Made:
     def answer(self, before):
         self.asked += 1
         if self.fails:
-            raise RotorfilmError("the film cannot")
+            raise self.fails if isinstance(self.fails, RotorfilmError) else RotorfilmError("the film cannot")
         return Found(1.0 + self.error, {"calls": self.work})
 
     def estimate(self, found, before, tolerance):
@@ -137,6 +137,13 @@ def test_steps_are_not_refined_where_that_no_longer_helps():
     ]
     assert answer.rungs[3].reason == "finer steps do not help: b is off by 0.3, c by 0.3"
     assert [rung.asked for rung in rungs] == [1, 1, 1, 0, 1]
+
+
+def test_contact_found_by_the_richest_rung_that_found_anything_is_the_answer():
+    below, wall = Made("a", 0.5), Made("b", 0.1, fails=FilmContactError("to the wall"))
+    with pytest.raises(FilmContactError, match="to the wall"):
+        walk("wear", ladder(below, wall, Made("c", 0.1, fails=True)), 1e-2)
+    assert walk("wear", ladder(below, wall, Made("d", 1e-3)), 1e-2).model == "d"
 
 
 def test_tolerance_must_be_positive():
