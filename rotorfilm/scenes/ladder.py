@@ -73,6 +73,13 @@ class ErrorEstimate(NamedTuple):
     doubt: str = ""
 
 
+def beside_bound(error: float, bound: float, method: str, work: Work, doubt: str = "") -> ErrorEstimate:
+    """Return an estimated error beside a verified bound of another: their sum where the bound is larger."""
+    if error < bound:
+        return ErrorEstimate(error + bound, method, work, bound=True, doubt=doubt)
+    return ErrorEstimate(error, method, work, doubt=doubt)
+
+
 class NoAnswerError(AbsentError):
     """It does not exist by a model close enough to say so: dearer ones need not be asked."""
 

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rotorfilm.errors import FilmContactError, InputError, RotorfilmError
-from rotorfilm.scenes.ladder import ErrorEstimate, Found, Ladder, Meter, walk
+from rotorfilm.scenes.ladder import ErrorEstimate, Found, Ladder, Meter, beside_bound, walk
 
 
 class Made:
@@ -144,6 +144,13 @@ def test_contact_found_by_the_richest_rung_that_found_anything_is_the_answer():
     with pytest.raises(FilmContactError, match="to the wall"):
         walk("wear", ladder(below, wall, Made("c", 0.1, fails=True)), 1e-2)
     assert walk("wear", ladder(below, wall, Made("d", 1e-3)), 1e-2).model == "d"
+
+
+def test_two_errors_of_a_bound_add_up():
+    kept = beside_bound(9e-4, 1e-3, "defect", {})
+    assert (kept.error, kept.bound) == (pytest.approx(1.9e-3), True)
+    about = beside_bound(2e-3, 1e-3, "defect", {})
+    assert (about.error, about.bound) == (2e-3, False)
 
 
 def test_tolerance_must_be_positive():

@@ -13,7 +13,7 @@ from ...errors import InputError
 from ...linear import coefficients, equilibrium
 from ...model import Array, Reaction
 from ..excitation_table import BladeLossTable
-from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Work
+from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Work, beside_bound
 from ..validity import journal_remarks
 from .equal_steps import ORDER, Motion, linear_march, march, peak
 from .films import MAP_BOUNDS, NOMINAL, FilmRung
@@ -124,14 +124,13 @@ class BladeLossRung:
         how = "" if not self.steps else "order increment; "
         bound = MAP_BOUNDS[0][2] if self.film.bounded and reach <= MAP_BOUNDS[0][0] else math.inf
         if self.steps and SAFETY * bound < tolerance:
-            return ErrorEstimate(max(steps, bound), how + "verified bound of the map", bound=steps < bound)
+            return beside_bound(steps, bound, how + "verified bound of the map", {})
         own = not self.steps and SAFETY * bound < tolerance
         rich = self.film.bearing if own else self.film.rich
         change, doubt, calls = self._by_defect(motion, found.value, rich)
         work = {self.film.tangents if own else self.film.defects(smooth=False): calls}
         method = f"{how}defect of {self.film.name if own else self.film.rich_name}"
-        error = max(change + steps, bound if own else 0.0)
-        return ErrorEstimate(error, method, work, bound=own and change < bound, doubt=doubt)
+        return beside_bound(change + steps, bound if own else 0.0, method, work, doubt)
 
     def _by_defect(self, motion: Motion, value: float, rich: Reaction) -> tuple[float, str, int]:
         """Return the relative change of the peak that the richer film would make, and why not to trust it."""

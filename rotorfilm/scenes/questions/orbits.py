@@ -14,7 +14,7 @@ from ...linear import coefficients, equilibrium
 from ...model import Array, Reaction
 from ...rotors import RigidRotor
 from ..excitation_table import UnbalanceTable
-from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Work
+from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Work, beside_bound
 from ..validity import journal_remarks
 from .films import FINE, MAP_BOUNDS, NOMINAL, FilmRung, extrapolated, film_rungs
 from .orbit_curve import (
@@ -137,7 +137,7 @@ class OrbitRung:
         if SAFETY * bound < tolerance:
             error, doubt = self._by_defect(doubled, found, self.film.bearing)
             method, work = f"its defect at {calls} samples", {self.film.tangents: calls}
-            return ErrorEstimate(max(error, bound), method, work, bound=error < bound, doubt=doubt)
+            return beside_bound(error, bound, method, work, doubt)
         error, doubt = self._by_defect(doubled, found, self.film.rich)
         work = {self.film.defects(smooth=False): calls}
         method = f"defect of {self.film.rich_name}, {calls} samples"

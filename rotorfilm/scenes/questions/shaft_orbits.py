@@ -229,7 +229,7 @@ class ShaftOrbitRung:
         if self.has_films and self.films.bounded:
             films_share = bound if trusted else self._by_grid(turn, value)
         is_bound = films_share > error
-        error = max(error, films_share) if trusted else error + films_share
+        error += films_share if is_bound or not trusted else 0.0
         return ErrorEstimate(error, method, {f"defects of {self.name}": 1}, bound=is_bound, doubt=doubt)
 
     def _by_grid(self, turn: ShaftTurn, value: float) -> float:

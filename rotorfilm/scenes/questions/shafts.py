@@ -168,8 +168,8 @@ class ShaftRung:
         is_bound = bool(self.films.name) and self.films.bounded
         if is_bound:
             is_bound = bound > error if trusted else self._by_grids(solution.whirls[0], rates[0], error)
-        if trusted:
-            error = max(error, bound)
+        if trusted and is_bound:
+            error += bound
         return ErrorEstimate(float(error), method, {f"steps for {self.name}": 3}, bound=is_bound, doubt=doubt)
 
     def _missed(self, speed: float) -> str:
