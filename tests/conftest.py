@@ -5,6 +5,8 @@ import sys
 
 import pytest
 
+from rotorfilm import cli
+
 PROPORTIONAL = '''
 """A user's model."""
 
@@ -34,6 +36,19 @@ class Proportional:
     def linearization(self, t, x, u) -> Linearization:
         return static_linearization(np.array([[GAIN]]))
 '''
+
+
+@pytest.fixture
+def run(capsys):
+    """Return a function that runs the command line: exit code, standard output, standard error."""
+
+    def call(*arguments):
+        with pytest.raises(SystemExit) as exit_:
+            cli.main([str(argument) for argument in arguments])
+        out, err = capsys.readouterr()
+        return exit_.value.code or 0, out, err
+
+    return call
 
 
 @pytest.fixture

@@ -60,17 +60,6 @@ def scene(tmp_path):
     return path
 
 
-@pytest.fixture
-def run(capsys):
-    def call(*arguments):
-        with pytest.raises(SystemExit) as exit_:
-            cli.main([str(argument) for argument in arguments])
-        out, err = capsys.readouterr()
-        return exit_.value.code or 0, out, err
-
-    return call
-
-
 @pytest.mark.literature
 def test_coefficients_are_those_of_the_book(run):
     # Friswell et al. (2010), example 5.9.6

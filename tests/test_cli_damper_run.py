@@ -6,23 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from rotorfilm import cli
 from rotorfilm.scenes import Scene
 from rotorfilm.scenes.damper_runs import run_damper
 
 SCENE = (Path(__file__).parents[1] / "examples" / "blade_loss.toml").read_text(encoding="utf-8")
 SHORT = SCENE.replace("revolutions = 40", "revolutions = 2").replace('"0.25 deg"', '"2 deg"')
-
-
-@pytest.fixture
-def run(capsys):
-    def call(*arguments):
-        with pytest.raises(SystemExit) as exit_:
-            cli.main([str(argument) for argument in arguments])
-        out, err = capsys.readouterr()
-        return exit_.value.code or 0, out, err
-
-    return call
 
 
 @pytest.fixture

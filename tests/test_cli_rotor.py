@@ -7,22 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from rotorfilm import cli
 from rotorfilm.scenes import Scene
 from rotorfilm.scenes.rotor import solve_rotor
 
 SCENE = Path(__file__).parents[1] / "examples" / "flexible_rotor.toml"
-
-
-@pytest.fixture
-def run(capsys):
-    def call(*arguments):
-        with pytest.raises(SystemExit) as exit_:
-            cli.main([str(argument) for argument in arguments])
-        out, err = capsys.readouterr()
-        return exit_.value.code or 0, out, err
-
-    return call
 
 
 @pytest.fixture(scope="module")

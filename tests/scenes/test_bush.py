@@ -12,17 +12,6 @@ from rotorfilm.errors import InputError
 from rotorfilm.scenes.bush import SETTINGS, bush_from_settings, solve_bush
 
 
-@pytest.fixture
-def run(capsys):
-    def call(*arguments):
-        with pytest.raises(SystemExit) as exit_:
-            cli.main([str(argument) for argument in arguments])
-        out, err = capsys.readouterr()
-        return exit_.value.code or 0, out, err
-
-    return call
-
-
 def test_without_settings_it_is_the_example():
     assert bush_from_settings({}) == f4k20_bush()
 
