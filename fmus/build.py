@@ -19,8 +19,10 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from rotorfilm.cosim import open_fmu
+from rotorfilm.files import write_whole
 from rotorfilm.fmu import CheckItem, check_fmu, export_fmu
 from rotorfilm.fmu.narrow import as_exported
+from rotorfilm.fmu.reference import to_csv
 from rotorfilm.signals import to_fmi_name
 
 HERE = Path(__file__).parent
@@ -82,11 +84,9 @@ def reference_path(name: str) -> Path:
 def write_reference(name: str) -> Path:
     """Compute and write a reference CSV."""
     recipe = load_recipe(name)
-    header = ",".join(columns(recipe))
     path = reference_path(name)
     path.parent.mkdir(exist_ok=True)
-    np.savetxt(path, compute_reference(recipe), "%.17g", ",", header=header, comments="")
-    return path
+    return write_whole(path, to_csv(columns(recipe), compute_reference(recipe)))
 
 
 def read_reference(name: str) -> NDArray:

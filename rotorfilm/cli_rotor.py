@@ -101,23 +101,21 @@ def plain_rotor(answer: RotorAnswer) -> dict[str, Any]:
 
 def write_rotor(answer: RotorAnswer, folder: Path) -> None:
     """Write the pictures, tables and the JSON of an answer into a folder, which is made if need be."""
-    import json
-
     from .charts import plot_campbell, plot_log_decrement, plot_unbalance_response, save
+    from .files import written_together
     from .results import write_csv
     from .scenes.rotor import campbell_columns, response_columns
 
-    folder.mkdir(parents=True, exist_ok=True)
-    save(plot_campbell(answer.campbell, critical=answer.critical_speeds), folder / "campbell.png")
-    save(plot_log_decrement(answer.campbell), folder / "log_decrement.png")
-    write_csv(folder / "campbell.csv", campbell_columns(answer))
-    if answer.response is not None:
-        shown = [name for name in answer.amplitudes if "_force_" not in name]
-        above, _ = plot_unbalance_response(answer.response, shown)
-        save(above, folder / "unbalance_response.png")
-        write_csv(folder / "unbalance_response.csv", response_columns(answer))
-    text = json.dumps(plain_rotor(answer), indent=2, allow_nan=False)
-    (folder / "rotor.json").write_text(text + "\n", encoding="utf-8")
+    with written_together(folder) as part:
+        save(plot_campbell(answer.campbell, critical=answer.critical_speeds), part / "campbell.png")
+        save(plot_log_decrement(answer.campbell), part / "log_decrement.png")
+        write_csv(part / "campbell.csv", campbell_columns(answer))
+        if answer.response is not None:
+            shown = [name for name in answer.amplitudes if "_force_" not in name]
+            above, _ = plot_unbalance_response(answer.response, shown)
+            save(above, part / "unbalance_response.png")
+            write_csv(part / "unbalance_response.csv", response_columns(answer))
+        console.write_json(part / "rotor.json", plain_rotor(answer))
 
 
 def _sense(direction: float) -> str:

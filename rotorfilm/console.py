@@ -14,6 +14,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
+from .files import write_whole
 from .results import Coefficients, Equilibrium, WhirlThreshold, to_plain
 
 if TYPE_CHECKING:
@@ -38,8 +39,8 @@ def print_json(value: Any) -> None:
 
 def write_json(path: Path, value: Any) -> Path:
     """Write a result as JSON; return where it is."""
-    path.write_text(json.dumps(to_plain(value), indent=2, allow_nan=False) + "\n", encoding="utf-8")
-    return path
+    text = json.dumps(to_plain(value), indent=2, allow_nan=False)
+    return write_whole(path, f"{text}\n".encode())
 
 
 def print_rows(title: str, rows: list[tuple[str, str]]) -> None:

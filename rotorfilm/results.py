@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import dataclasses
+import io
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,6 +12,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from .files import write_whole
 
 Array = NDArray[np.float64]
 
@@ -212,9 +215,9 @@ def write_csv(path: Path, columns: Mapping[str, Iterable[object]]) -> Path:
     columns : mapping of str to iterable
         Heading, with the unit where there is one, and entries.
     """
-    with path.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(columns)
-        for row in zip(*columns.values(), strict=True):
-            writer.writerow([f"{entry:.9g}" if isinstance(entry, float) else entry for entry in row])
-    return path
+    text = io.StringIO(newline="")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns)
+    for row in zip(*columns.values(), strict=True):
+        writer.writerow([f"{entry:.9g}" if isinstance(entry, float) else entry for entry in row])
+    return write_whole(path, text.getvalue().encode())

@@ -65,7 +65,7 @@ class TabulatedBearing(Feedthrough):
     def from_csv(cls, path: Path) -> TabulatedBearing:
         """Read a table that `to_csv` wrote; raise InputError where it is not one."""
         with path.open(encoding="utf-8", newline="") as file:
-            heading, *rows = list(csv.reader(file))
+            heading, *rows = list(csv.reader(file)) or [[]]
         if tuple(heading) != HEADINGS:
             raise InputError(f"{path} must have the columns {list(HEADINGS)}, got {heading}")
         try:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+
+from ..files import write_whole
 
 
 def new_axes(title: str, *, size: tuple[float, float] = (6.4, 4.8)) -> Axes:
@@ -28,5 +31,6 @@ def save(axes: Axes, path: Path, *, dpi: int = 130) -> Path:
     """Write the figure of `axes`, all of its Axes, as PNG and return the path."""
     figure = axes.get_figure()
     assert isinstance(figure, Figure)
-    figure.savefig(path, dpi=dpi, metadata={"Software": "rotorfilm"})
-    return path
+    picture = io.BytesIO()
+    figure.savefig(picture, dpi=dpi, metadata={"Software": "rotorfilm"}, format=path.suffix[1:] or "png")
+    return write_whole(path, picture.getvalue())

@@ -9,6 +9,7 @@ from html import escape
 from pathlib import Path
 
 from ..errors import InputError
+from ..files import write_whole
 
 NAME = "charts.html"
 
@@ -64,9 +65,8 @@ def write_page(folder: Path) -> Path:
         f'<a href="#{chart.stem}">{escape(name)}</a>' for chart, name in zip(charts, names, strict=True)
     )
     sections = "\n".join(_section(chart, name) for chart, name in zip(charts, names, strict=True))
-    path = folder / NAME
-    path.write_text(PAGE.format(style=STYLE, links=links, sections=sections), encoding="utf-8")
-    return path
+    text = PAGE.format(style=STYLE, links=links, sections=sections)
+    return write_whole(folder / NAME, text.encode())
 
 
 def _title(chart: Path) -> str:

@@ -6,7 +6,6 @@ operating point (V, Q0, load) is kept as the (V, Q0) that it has in its own unit
 
 from __future__ import annotations
 
-import contextlib
 import hashlib
 import io
 from collections.abc import Iterator
@@ -14,10 +13,10 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
-from zipfile import BadZipFile
 
 import numpy as np
 
+from ..errors import InputError, warn_user
 from ..model import Array
 from .contact_checkerboard import checkerboard
 from .contact_equations import ContactEquations
@@ -25,7 +24,7 @@ from .contact_fluid import BarusViscosity, DowsonHigginsonDensity, RoelandsVisco
 from .contact_linear import SmallMotion
 from .contact_newton import Contact
 from .contact_stationary import follow, stationary
-from .table_cache import cache_folder, cached
+from .table_cache import cache_folder, cached, read_kept
 
 LOADS = (0.2, 0.35, 0.6, 1.0, 1.5, 2.2, 3.0)
 """Loads f of the stationary contacts of a point."""
@@ -103,11 +102,11 @@ def operating_point(equations: ContactEquations) -> ContactPoint:
     Warns
     -----
     RuntimeWarning
-        If the point cannot be written: it will be computed again next time.
+        If the point on disk is damaged, or cannot be written: it will be computed again next time.
     """
     return cached(
         _path(equations),
-        read=_read,
+        from_bytes=_point,
         build=lambda: _computed(equations),
         to_bytes=_bytes,
         what="the operating point",
@@ -115,11 +114,19 @@ def operating_point(equations: ContactEquations) -> ContactPoint:
 
 
 def kept_points(equations: ContactEquations) -> list[ContactPoint]:
-    """Return the points on disk that differ from some equations in V and Q0 at most, sorted by these."""
+    """Return the points on disk that differ from some equations in V and Q0 at most, sorted by these.
+
+    Warns
+    -----
+    RuntimeWarning
+        Of a damaged point, which is left out.
+    """
     found = []
     for path in sorted(cache_folder().glob(f"contact-{_family(equations)}-*.npz")):
-        with contextlib.suppress(OSError, ValueError):
-            found.append(_read(path))
+        try:
+            found.append(_point(read_kept(path)))
+        except (OSError, InputError) as error:
+            warn_user(f"an operating point is left out: {error}", RuntimeWarning)
     return sorted(found, key=lambda point: (point.V, point.Q0))
 
 
@@ -188,15 +195,8 @@ def _bytes(point: ContactPoint) -> bytes:
     return buffer.getvalue()
 
 
-def _read(path: Path) -> ContactPoint:
-    # From memory: numpy leaves a damaged file open.
-    content = io.BytesIO(path.read_bytes())
-    try:
-        with np.load(content, allow_pickle=False) as file:
-            values = {name: file[name] for name in _FIELDS}
-    except (BadZipFile, EOFError, KeyError) as error:
-        raise ValueError(f"{path} is damaged: {error}") from error
-    if values["delta"].shape != (len(LOADS),) or values["stiffness"].shape != (len(FREQUENCIES) + 1,):
-        raise ValueError(f"{path} holds no operating point")
+def _point(content: bytes) -> ContactPoint:
+    with np.load(io.BytesIO(content), allow_pickle=False) as file:
+        values = {name: file[name] for name in _FIELDS}
     scalars = {name: float(values[name]) for name in ("V", "Q0", "checkerboard")}
     return ContactPoint(**{**values, **scalars})

@@ -164,7 +164,7 @@ class GroovedMapFilm(KernelFilm):
                 )
             return build_groove_table(openings, rounded, resolution, report)
 
-        return cached_table(GrooveMapTable, path, build, lambda table: require_same_openings(table, openings))
+        return cached_table(GrooveMapTable, path, build)
 
     def _kernel(self, slenderness: float) -> GrooveMapKernel:
         return _kernel(self, float(slenderness))

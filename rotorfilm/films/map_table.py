@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
+from ..files import write_whole
 from ..model import Array
 from ..native import slice_table
 from .table_bytes import Layout, Sizes, StoredTable, seal, unseal
@@ -162,7 +163,7 @@ class MapTable(StoredTable):
 
     def save(self, path: str | Path, quantum: float = 0.0) -> None:
         """Write the table to a file; see `to_bytes`."""
-        Path(path).write_bytes(self.to_bytes(quantum))
+        write_whole(path, self.to_bytes(quantum))
 
 
 def stretch(eccentricity_ratio: Array | float) -> Array:

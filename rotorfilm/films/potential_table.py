@@ -7,12 +7,14 @@ dL/dchi.
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from ..errors import InputError
+from ..files import write_whole
 from ..model import Array
 from .potential import potential
 
@@ -108,10 +110,10 @@ def load_table(path: Path) -> tuple[TableAxes, dict[str, Array]]:
 
 def save_table(path: Path, axes: TableAxes, fields: dict[str, Array]) -> None:
     """Write axes and fields as plain arrays; a failure leaves the earlier file."""
-    partial = path.with_suffix(".partial.npz")
+    content = io.BytesIO()
     log, error, chi_slope, force_t, force_r = (fields[name] for name in FIELDS)
     np.savez_compressed(
-        partial,
+        content,
         X=axes.X,
         T=axes.T,
         log_slenderness=axes.log_slenderness,
@@ -121,4 +123,4 @@ def save_table(path: Path, axes: TableAxes, fields: dict[str, Array]) -> None:
         force_t=force_t,
         force_r=force_r,
     )
-    partial.replace(path)
+    write_whole(path, content.getvalue())

@@ -105,7 +105,6 @@ def finite_table(
 ) -> SqueezeTable:
     """Return the table of a film of finite length, from disk if it was made before; see `short_table`."""
     path = table_path(slenderness, layer, cavitated, cells)
-    shape = (1, cells[0] + 5, cells[1] * (1 if cavitated else FULL) + 5)
 
     def build() -> MapTable:
         if cavitated:
@@ -114,11 +113,7 @@ def finite_table(
         film = FiniteSqueezeFilm(slenderness, layer, modes, np.zeros_like(modes.weight))
         return _full_table(film, cells, LARGEST_FINITE)
 
-    def require(table: MapTable) -> None:
-        if table.coefficients.shape != shape:
-            raise InputError(f"coefficients must have shape {shape}, got {table.coefficients.shape}")
-
-    table = cached_table(MapTable, path, build, require)
+    table = cached_table(MapTable, path, build)
     return SqueezeTable(slenderness, layer and tuple(layer), cavitated, table)
 
 

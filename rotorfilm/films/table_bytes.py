@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import RotorfilmError
+from ..files import write_whole
 from ..model import Array
 
 _HEADER = struct.Struct("<8sIIiiii")
@@ -38,7 +39,7 @@ class StoredTable(ABC):
 
     def save(self, path: str | Path) -> None:
         """Write the table to a file."""
-        Path(path).write_bytes(self.to_bytes())
+        write_whole(path, self.to_bytes())
 
     @classmethod
     def load(cls, path: str | Path) -> Self:

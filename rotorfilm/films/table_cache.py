@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
-from uuid import uuid4
 
 from ..errors import RotorfilmError, warn_user
+from ..files import read_sealed, write_sealed
 from .table_bytes import StoredTable
 
 FOLDER_VARIABLE = "ROTORFILM_CACHE"
@@ -33,36 +32,41 @@ def cache_folder() -> Path:
 def cached(
     path: Path,
     *,
-    read: Callable[[Path], T],
+    from_bytes: Callable[[bytes], T],
     build: Callable[[], T],
     to_bytes: Callable[[T], bytes],
     what: str,
 ) -> T:
-    """Return what a file holds, built and written where it is missing or damaged.
+    """Return what a sealed file holds, built and written where it is missing or damaged.
 
     Parameters
     ----------
     path : Path
-    read : callable
-        Returns what the file holds; raises OSError, ValueError or RotorfilmError if it is not right.
+        Its name tells all that decides what it holds: a file of another name is refused.
+    from_bytes : callable
+        Returns what content holds; raises RotorfilmError if it is not right.
     build : callable
         Returns it without a file.
     to_bytes : callable
         Returns the content of the file.
     what : str
-        What it is, for the warning.
+        What it is, for the warnings.
 
     Warns
     -----
     RuntimeWarning
-        If the file cannot be written: it will be built again next time.
+        If the file is damaged or cannot be read, so that it is built again, or if it cannot be written.
     """
-    # A file that another process is replacing, or that is damaged, is no reason to fail.
-    with contextlib.suppress(OSError, ValueError, RotorfilmError):
-        return read(path)
+    try:
+        return from_bytes(read_kept(path))
+    except (FileNotFoundError, NotADirectoryError):
+        pass
+    except (OSError, RotorfilmError) as error:
+        warn_user(f"{what} is made again: {error}", RuntimeWarning)
     made = build()
     try:
-        write_whole(path, to_bytes(made))
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_sealed(path, to_bytes(made), path.name)
     except OSError as error:
         warn_user(
             f"{what} could not be kept in {path.parent} ({error}); {FOLDER_VARIABLE} names another folder",
@@ -71,40 +75,17 @@ def cached(
     return made
 
 
-def cached_table(kind: type[S], path: Path, build: Callable[[], S], require: Callable[[S], None]) -> S:
-    """Return the table at a path, built and written where it is missing, damaged or not as required.
-
-    Parameters
-    ----------
-    kind : type
-        A `StoredTable`.
-    path : Path
-    build : callable
-        Returns the table.
-    require : callable
-        Raises an InputError if a table is not the right one.
-
-    Warns
-    -----
-    RuntimeWarning
-        If the table cannot be written.
-    """
-
-    def read(path: Path) -> S:
-        table = kind.load(path)
-        require(table)
-        return table
-
-    return cached(path, read=read, build=build, to_bytes=kind.to_bytes, what="the map of the film")
+def read_kept(path: Path) -> bytes:
+    """Return what `cached` wrote; see `read_sealed` for the errors."""
+    return read_sealed(path, path.name, "a file of the cache must be what its name says")
 
 
-def write_whole(path: Path, content: bytes) -> None:
-    """Write a file that is either whole or not there, whoever else writes it."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    # Not by tempfile, whose files are for one user alone: the mode of this one follows the umask.
-    part = path.with_name(f"{path.stem}-{uuid4().hex}.part")
-    try:
-        part.write_bytes(content)
-        os.replace(part, path)
-    finally:
-        part.unlink(missing_ok=True)
+def cached_table(kind: type[S], path: Path, build: Callable[[], S]) -> S:
+    """Return the table at a path, built and written where it is missing or damaged; see `cached`."""
+    return cached(
+        path,
+        from_bytes=kind.from_bytes,
+        build=build,
+        to_bytes=kind.to_bytes,
+        what="the map of the film",
+    )

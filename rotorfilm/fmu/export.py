@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import FmuError, InputError, require_finite, require_positive
+from ..files import write_whole
 from ..model import Array, Dynamic, Model, Stepped
 from ..native.spec import HasKernel, NativeSpec
 from .archive import to_zip
@@ -126,8 +127,7 @@ def export_fmu(
     else:
         contents = _python_contents(subject, name, inputs, stop_time, step_size)
     target.parent.mkdir(parents=True, exist_ok=True)
-    target.write_bytes(to_zip(contents))
-    return target
+    return write_whole(target, to_zip(contents))
 
 
 def _native_contents(export: Export, step_size: float) -> dict[str, bytes]:

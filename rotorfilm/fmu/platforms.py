@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ..errors import FmuError
-from ..films.table_cache import cache_folder
+from ..films.table_cache import cache_folder, cached
 from ..native.library import SUFFIXES
 from ..native.spec import LIBRARIES
 from .macho import universal
@@ -138,15 +138,18 @@ def compiled(target: Target, sources: Mapping[str, bytes], library: str) -> byte
             "platforms must be 'host' unless the zig compiler is installed: "
             "python -m pip install '.[platforms]' in the source of rotorfilm"
         )
-    kept = _cache_folder() / _key(sources) / library / f"{target.folder}.{target.suffix}"
-    if not kept.is_file():
-        kept.parent.mkdir(parents=True, exist_ok=True)
-        _compile(target, sources, library, kept)
-    return kept.read_bytes()
+    name = f"{library}-{_key(sources)}-{target.folder}.{target.suffix}"
+    return cached(
+        _cache_folder() / name,
+        from_bytes=bytes,
+        build=lambda: _compile(target, sources, library),
+        to_bytes=bytes,
+        what=f"the library for {target.folder}",
+    )
 
 
-def _compile(target: Target, sources: Mapping[str, bytes], library: str, result: Path) -> None:
-    with tempfile.TemporaryDirectory(prefix="rotorfilm-", dir=result.parent) as name:
+def _compile(target: Target, sources: Mapping[str, bytes], library: str) -> bytes:
+    with tempfile.TemporaryDirectory(prefix="rotorfilm-") as name:
         folder = Path(name)
         for path, content in sources.items():
             (folder / path).parent.mkdir(parents=True, exist_ok=True)
@@ -160,8 +163,7 @@ def _compile(target: Target, sources: Mapping[str, bytes], library: str, result:
         ran = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
         if ran.returncode != 0:
             raise FmuError(f"zig must compile the library for {target.folder}, got: {ran.stderr.strip()}")
-        # Whole or not at all, also when two processes compile at once.
-        (folder / output).replace(result)
+        return (folder / output).read_bytes()
 
 
 def _cache_folder() -> Path:

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..cosim import CoSimulation, cosimulate
 from ..errors import ContactError
+from ..files import written_together
 from ..fmu import export_fmu
 from ..model import Array, Model
 from ..results import Trajectory
@@ -84,13 +85,13 @@ def couple_damper(scene: Scene, folder: Path, version: str = "2.0") -> DamperRun
 def export_damper(
     scene: Scene, folder: Path, version: str = "2.0", *, backend: str | None = None, platforms: str = "host"
 ) -> tuple[Path, Path]:
-    """Write `rotor.fmu` and `damper.fmu` of a scene, at rest in the center; see `export_fmu`."""
+    """Write `rotor.fmu` and `damper.fmu` of a scene at rest in the center, both or none; see `export_fmu`."""
     models = damper_models(scene)
 
-    def write(model: Model, name: str) -> Path:
-        return export_fmu(
+    def write(model: Model, name: str) -> None:
+        export_fmu(
             model,
-            folder / f"{name}.fmu",
+            part / f"{name}.fmu",
             version,
             backend,
             platforms=platforms,
@@ -99,7 +100,10 @@ def export_damper(
             stop_time=models.duration,
         )
 
-    return write(models.rotor, "rotor"), write(models.support, "damper")
+    with written_together(folder) as part:
+        write(models.rotor, "rotor")
+        write(models.support, "damper")
+    return folder / "rotor.fmu", folder / "damper.fmu"
 
 
 def _partial(contact: ContactError) -> Trajectory:

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..cosim import critical_macro_step
 from ..errors import InputError
+from ..files import write_whole
 from ..ladders import (
     JournalAccuracy,
     JournalStability,
@@ -189,7 +190,7 @@ def demo_rungs() -> tuple[Rung, ...]:
 def write_results(result: DemoResult, folder: Path) -> None:
     """Write `results.json`, and trajectories and comparisons as CSV in SI units."""
     text = json.dumps(plain_results(result), indent=2, allow_nan=False)
-    (folder / "results.json").write_text(text + "\n", encoding="utf-8")
+    write_whole(folder / "results.json", f"{text}\n".encode())
     _write_csv(folder / "monolithic.csv", result.coupling.monolithic)
     _write_csv(folder / "coupled.csv", result.scene_run.trajectory)
     write_csv(folder / "stability.csv", result.stability.columns())

@@ -6,6 +6,7 @@ import dataclasses
 from pathlib import Path
 from typing import NamedTuple
 
+from ..files import written_together
 from ..fmu import export_fmu
 from ..linear import equilibrium
 from ..model import Model
@@ -49,7 +50,7 @@ def export_scene(
     backend: str | None = None,
     platforms: str = "host",
 ) -> ExportedScene:
-    """Write `film.fmu` and `rotor.fmu`, both starting at the static equilibrium.
+    """Write `film.fmu` and `rotor.fmu`, both or none, both starting at the static equilibrium.
 
     Of a scene with a damper these are `damper.fmu`, springs included, and `rotor.fmu`, at rest in the center.
 
@@ -77,10 +78,10 @@ def export_scene(
     rotor = resting_rotor(scene)
     start = {"x": rotor.position[0], "y": rotor.position[1], "speed": scene.speed}
 
-    def write(model: Model, name: str, values: dict[str, float]) -> Path:
-        return export_fmu(
+    def write(model: Model, name: str, values: dict[str, float]) -> None:
+        export_fmu(
             model,
-            folder / f"{name}.fmu",
+            part / f"{name}.fmu",
             version,
             backend,
             platforms=platforms,
@@ -90,6 +91,7 @@ def export_scene(
             stop_time=scene.duration,
         )
 
-    return ExportedScene(
-        film=write(scene.bearing, "film", start), rotor=write(LawRotor(rotor=rotor), "rotor", {})
-    )
+    with written_together(folder) as part:
+        write(scene.bearing, "film", start)
+        write(LawRotor(rotor=rotor), "rotor", {})
+    return ExportedScene(film=folder / "film.fmu", rotor=folder / "rotor.fmu")

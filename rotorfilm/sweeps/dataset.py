@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import io
+import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..files import read_sealed, write_sealed
 from .axes import Axis, sizes
 from .point import UNITS, Row
 
@@ -51,16 +54,24 @@ def _coordinate(axis: Axis) -> Any:
     return (axis.dimension,), values, {"key": axis.key, **({"units": unit} if unit else {})}
 
 
-def save(dataset: xarray.Dataset, path: Path) -> None:
-    """Write NetCDF: whole or not at all."""
-    waiting = path.with_name(f"{path.name}.writing")
-    dataset.to_netcdf(waiting, engine="h5netcdf")
-    waiting.replace(path)
+def save(dataset: xarray.Dataset, path: Path, name: str) -> None:
+    """Write the dataset of a sweep as NetCDF with a seal (`files.write_sealed`)."""
+    with tempfile.TemporaryDirectory() as folder:
+        made = Path(folder, "sweep.nc")
+        dataset.to_netcdf(made, engine="h5netcdf")
+        write_sealed(path, made.read_bytes(), name)
 
 
-def load(path: Path) -> xarray.Dataset:
-    """Return what `save` wrote."""
+def load(path: Path, name: str) -> xarray.Dataset:
+    """Return what `save` wrote.
+
+    Raises
+    ------
+    InputError
+        If the file is damaged, or that of another sweep.
+    """
     import xarray
 
-    with xarray.open_dataset(path, engine="h5netcdf") as found:
+    content = read_sealed(path, name, "path must be that of the same sweep, or of none")
+    with xarray.open_dataset(io.BytesIO(content), engine="h5netcdf") as found:
         return found.load()

@@ -80,11 +80,11 @@ def sweep(
     name = _name(tables, axes)
     target = None if path is None else Path(path)
     if target is not None and target.is_file():
-        return _finished(target, name)
+        return load(target, name)
     rows = _rows(tables, axes, source, name, target, workers=workers, dask=dask, report=report)
     dataset = to_dataset(axes, rows, {"sweep": name, "scene": source, "rotorfilm": version("rotorfilm")})
     if target is not None:
-        save(dataset, target)
+        save(dataset, target, name)
         _waiting(target).unlink()
     failed = sum("failure" in row for row in rows)
     if failed:
@@ -107,13 +107,6 @@ def _name(tables: Mapping[str, Any], axes: tuple[Axis, ...]) -> str:
     """Return a fingerprint of the scene and of all values."""
     parts = [tables, [[axis.key, axis.dimension, list(axis.values)] for axis in axes], version("rotorfilm")]
     return hashlib.sha256(json.dumps(parts, sort_keys=True, default=str).encode()).hexdigest()[:16]
-
-
-def _finished(path: Path, name: str) -> xarray.Dataset:
-    found = load(path)
-    if found.attrs.get("sweep") != name:
-        raise InputError(f"path must be that of the same sweep, or of none, got {str(path)!r} with another")
-    return found
 
 
 def _waiting(path: Path) -> Path:

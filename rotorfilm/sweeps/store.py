@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
 import os
-from collections.abc import Iterator
 from pathlib import Path
-from typing import IO, Any
+from typing import IO
 
-from ..errors import InputError
+from ..errors import InputError, warn_user
+from ..files import sealed_line, unsealed_line, write_whole
 from .point import Row
+
+HEAD = "rows of a sweep, version 1"
+"""What the first line of a file belongs to."""
 
 
 class Store:
@@ -19,48 +21,53 @@ class Store:
     Parameters
     ----------
     path : Path
-        Its first line names the sweep, each other one holds a point and its row.
+        Its first line names the sweep, each other one holds a point and its row, behind its checksum.
     name : str
         Of the sweep: another one in the file is refused.
 
     Raises
     ------
     InputError
-        If the file holds another sweep.
+        If the file holds another sweep, or none.
+
+    Warns
+    -----
+    RuntimeWarning
+        Of damaged rows, which are left out.
     """
 
     def __init__(self, path: Path, name: str) -> None:
         self.path, self.name = path, name
-        self.rows: dict[int, Row] = dict(self._read())
+        self.rows: dict[int, Row] = {}
+        head = sealed_line(json.dumps({"sweep": name}), HEAD)
+        content = path.read_bytes() if path.is_file() else b""
+        # What was cut off when the sweep was killed is computed again.
+        whole = content[: content.rfind(b"\n") + 1].splitlines(keepends=True)
+        if not head.startswith(content):
+            self._require_same(whole[0] if whole else content)
+        kept = [line for line in whole[1:] if self._read(line)]
+        if lost := len(whole[1:]) - len(kept):
+            warn_user(f"{lost} damaged rows of {str(path)!r} are computed again", RuntimeWarning)
+        if (found := head + b"".join(kept)) != content:
+            write_whole(path, found)
         self._file: IO[bytes] = path.open("ab")
-        if self._file.tell() == 0:
-            self._write({"sweep": name})
 
-    def _read(self) -> Iterator[tuple[int, Row]]:
-        if not self.path.is_file():
-            return
-        content = self.path.read_bytes()
-        whole = content.rpartition(b"\n")[0]
-        # A line that was cut off when the sweep was killed is computed again.
-        kept = len(whole) + 1 if whole else 0
-        if kept < len(content):
-            os.truncate(self.path, kept)
-        for number, line in enumerate(whole.splitlines()):
-            entry = self._entry(line)
-            if number == 0:
-                self._require_same(entry)
-            else:
-                yield entry["point"], entry["row"]
+    def _read(self, line: bytes) -> bool:
+        """Take the row of a line; return whether it is one."""
+        text = unsealed_line(line, self.name)
+        if text is not None:
+            entry = json.loads(text)
+            self.rows[entry["point"]] = entry["row"]
+        return text is not None
 
-    def _entry(self, line: bytes) -> dict[str, Any]:
-        with contextlib.suppress(ValueError):
-            entry = json.loads(line)
-            if isinstance(entry, dict):
-                return entry
-        raise InputError(f"path must leave {str(self.path)!r} to the rows of a sweep, got another file there")
-
-    def _require_same(self, entry: dict[str, Any]) -> None:
-        if entry.get("sweep") != self.name:
+    def _require_same(self, line: bytes) -> None:
+        text = unsealed_line(line, HEAD)
+        if text is None:
+            raise InputError(
+                f"path must leave {str(self.path)!r} to the rows of a sweep, got another file there, or a "
+                "damaged one"
+            )
+        if json.loads(text)["sweep"] != self.name:
             raise InputError(
                 f"path must be that of the same sweep, or of none, got {str(self.path)!r} with the rows of "
                 "another scene or of other values; delete the file or choose another path"
@@ -69,10 +76,7 @@ class Store:
     def add(self, point: int, row: Row) -> None:
         """Keep a row; it is on disk when this returns."""
         self.rows[point] = row
-        self._write({"point": point, "row": row})
-
-    def _write(self, entry: dict[str, Any]) -> None:
-        self._file.write(json.dumps(entry).encode() + b"\n")
+        self._file.write(sealed_line(json.dumps({"point": point, "row": row}), self.name))
         self._file.flush()
         os.fsync(self._file.fileno())
 

@@ -85,13 +85,23 @@ def test_a_point_is_computed_once(monkeypatch, folder):
     assert reduce_contact(contact()).operating == first.delta[3]
 
 
-def test_a_damaged_point_is_computed_again(folder):
+def test_a_damaged_point_is_computed_again(folder, monkeypatch):
     first = operating_point(contact().equations)
     (path,) = folder.glob("contact-*.npz")
-    path.write_bytes(path.read_bytes()[:100])
-    assert np.array_equal(operating_point(contact().equations).delta, first.delta)
-    path.write_bytes(b"PK")
-    assert kept_points(contact().equations) == []
+    whole = path.read_bytes()
+    # Cut off, emptied, as zip that needs what is not there, and with another V: one byte of each changed.
+    flipped = [whole[:k] + bytes([whole[k] ^ 1]) + whole[k + 1 :] for k in (8, 150, len(whole) - 5)]
+    for damaged in (whole[:100], b"PK", b"", *flipped):
+        path.write_bytes(damaged)
+        with pytest.warns(RuntimeWarning, match=rf"left out: '{path}' must"):
+            assert kept_points(contact().equations) == []
+    monkeypatch.setattr(contact_points, "_computed", lambda equations: first)
+    with pytest.warns(RuntimeWarning, match=rf"operating point is made again: '{path}' must"):
+        operating_point(contact().equations)
+    assert path.read_bytes() == whole
+    path.rename(contact_points._path(contact(V=0.2).equations))
+    with pytest.warns(RuntimeWarning, match="must be what its name says"):
+        operating_point(contact(V=0.2).equations)
 
 
 def test_points_of_another_grid_or_lubricant_are_kept_apart():

@@ -89,15 +89,16 @@ def test_table_is_built_once_and_again_after_damage(tmp_path):
         return some_table()
 
     assert (
-        cached_table(GrooveMapTable, path, build, any_table)
-        == cached_table(GrooveMapTable, path, build, any_table)
+        cached_table(GrooveMapTable, path, build)
+        == cached_table(GrooveMapTable, path, build)
         == some_table()
     )
     assert len(built) == 1
     path.write_bytes(path.read_bytes()[:-9] + b"damaged!!")
-    assert cached_table(GrooveMapTable, path, build, any_table) == some_table()
+    with pytest.warns(RuntimeWarning, match=r"made again: '.*map\.bin' .* it is damaged"):
+        assert cached_table(GrooveMapTable, path, build) == some_table()
     assert len(built) == 2
-    assert cached_table(GrooveMapTable, path, build, any_table) == some_table()
+    assert cached_table(GrooveMapTable, path, build) == some_table()
     assert len(built) == 2
     assert [entry.name for entry in path.parent.iterdir()] == ["map.bin"]
 
@@ -106,7 +107,7 @@ def test_folder_that_cannot_be_written_costs_a_warning_only(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.warns(RuntimeWarning, match="ROTORFILM_CACHE names another folder"):
         assert (
-            cached_table(GrooveMapTable, tmp_path / "file" / "map.bin", some_table, any_table) == some_table()
+            cached_table(GrooveMapTable, tmp_path / "file" / "map.bin", some_table) == some_table()
         )
 
 
@@ -116,7 +117,7 @@ def test_failed_writing_leaves_nothing_behind(tmp_path, monkeypatch):
 
     monkeypatch.setattr(os, "replace", refuse)
     with pytest.warns(RuntimeWarning, match="could not be kept"):
-        cached_table(GrooveMapTable, tmp_path / "map.bin", some_table, any_table)
+        cached_table(GrooveMapTable, tmp_path / "map.bin", some_table)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -126,7 +127,7 @@ def test_interrupted_writing_leaves_nothing_behind(tmp_path, monkeypatch):
 
     monkeypatch.setattr(os, "replace", interrupt)
     with pytest.raises(KeyboardInterrupt):
-        cached_table(GrooveMapTable, tmp_path / "map.bin", some_table, any_table)
+        cached_table(GrooveMapTable, tmp_path / "map.bin", some_table)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -134,19 +135,17 @@ def test_interrupted_writing_leaves_nothing_behind(tmp_path, monkeypatch):
 def test_file_has_the_mode_of_the_umask(tmp_path):
     before = os.umask(0o027)
     try:
-        cached_table(GrooveMapTable, tmp_path / "map.bin", some_table, any_table)
+        cached_table(GrooveMapTable, tmp_path / "map.bin", some_table)
     finally:
         os.umask(before)
     assert (tmp_path / "map.bin").stat().st_mode & 0o777 == 0o640
 
 
-def test_table_that_is_not_as_required_is_built_anew(tmp_path):
-    def require(table):
-        if table == some_table(1):
-            raise InputError("no")
-
-    some_table(1).save(tmp_path / "map.bin")
-    assert cached_table(GrooveMapTable, tmp_path / "map.bin", some_table, require) == some_table()
+def test_table_under_the_name_of_another_is_built_anew(tmp_path):
+    cached_table(GrooveMapTable, tmp_path / "other.bin", lambda: some_table(1))
+    (tmp_path / "other.bin").rename(tmp_path / "map.bin")
+    with pytest.warns(RuntimeWarning, match="must be what its name says"):
+        assert cached_table(GrooveMapTable, tmp_path / "map.bin", some_table) == some_table()
 
 
 def test_sources_that_decide_the_content_are_there():

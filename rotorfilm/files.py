@@ -1,0 +1,149 @@
+"""Files that are written whole or not at all, and that are read back only if they are what was written.
+
+A sealed file is its content, of any format, followed by a seal of 84 bytes: magic, version, length of the
+content, SHA-256 of the settings that it belongs to, SHA-256 of all before. The seal is at the end, where
+readers of NetCDF do not mind it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import hashlib
+import os
+import shutil
+import struct
+from collections.abc import Iterator
+from pathlib import Path
+from uuid import uuid4
+
+from .errors import InputError
+
+MAGIC = b"\x93RFSEAL\n"
+VERSION = 1
+
+_SEAL = struct.Struct("<8sIQ32s")
+_CHECKSUM = hashlib.sha256().digest_size
+_LINE = 16
+"""Digits of the checksum in front of a line."""
+
+
+def write_whole(path: str | os.PathLike[str], content: bytes) -> Path:
+    """Write a file that is either whole or as it was before, whoever else writes it; return the path.
+
+    Raises
+    ------
+    OSError
+        If it cannot be written; it names the file.
+    """
+    target = Path(path)
+    try:
+        if target.exists() and not target.is_file():  # a pipe or a device; a folder says what it is
+            target.write_bytes(content)
+        else:
+            # The file that a link names, not the link, is replaced.
+            _replace(Path(os.path.realpath(target)), content)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror or str(error), str(target)) from error
+    return target
+
+
+def _replace(target: Path, content: bytes) -> None:
+    # Not by tempfile, whose files are for one user alone: the mode of this one follows the umask.
+    part = target.with_name(f"{target.stem}-{uuid4().hex}.part")
+    try:
+        with part.open("wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(part, target)
+    finally:
+        part.unlink(missing_ok=True)
+
+
+@contextlib.contextmanager
+def written_together(folder: Path) -> Iterator[Path]:
+    """Yield a folder to write files into; they move to `folder`, made if absent, if all goes well, else none.
+
+    Raises
+    ------
+    OSError
+        If a file cannot be written; it names the file, in `folder`.
+    """
+    new = not folder.exists()
+    folder.mkdir(parents=True, exist_ok=True)
+    part = folder / f"{uuid4().hex}.part"
+    try:
+        part.mkdir()
+        yield part
+        made = sorted(part.iterdir())
+        for path in made:
+            if (folder / path.name).is_dir():
+                raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(folder / path.name))
+        for path in made:
+            os.replace(path, folder / path.name)
+    except OSError as error:
+        name = Path(str(error.filename))
+        if name.is_relative_to(part):
+            error.filename = str(folder / name.relative_to(part))
+        raise
+    finally:
+        shutil.rmtree(part, ignore_errors=True)
+        if new and not any(folder.iterdir()):
+            folder.rmdir()
+
+
+def write_sealed(path: str | os.PathLike[str], content: bytes, settings: str) -> Path:
+    """Write content with its seal; `settings` is a text of all that the content belongs to."""
+    head = _SEAL.pack(MAGIC, VERSION, len(content), _digest(settings.encode()))
+    return write_whole(path, content + head + _digest(content + head))
+
+
+def read_sealed(path: str | os.PathLike[str], settings: str, rule: str) -> bytes:
+    """Return the content that `write_sealed` wrote.
+
+    Parameters
+    ----------
+    path : path
+    settings : str
+        As written.
+    rule : str
+        What the message says where the file is whole but belongs to other settings.
+
+    Raises
+    ------
+    InputError
+        If the file is damaged, of another version or of other settings; the message names it.
+    OSError
+        If it cannot be read.
+    """
+    data = Path(path).read_bytes()
+    sealed = data[:-_CHECKSUM]
+    content, head = sealed[: -_SEAL.size], sealed[-_SEAL.size :]
+    name = repr(str(path))
+    if len(head) < _SEAL.size or not head.startswith(MAGIC):
+        raise InputError(f"{name} must end with the seal of rotorfilm: it is cut off, or another file")
+    if _digest(sealed) != data[-_CHECKSUM:]:
+        raise InputError(f"{name} must hold what was written: its checksum does not fit, it is damaged")
+    _, version, length, owner = _SEAL.unpack(head)
+    if (version, length) != (VERSION, len(content)):
+        raise InputError(f"{name} must have a seal of version {VERSION}, got {version}")
+    if owner != _digest(settings.encode()):
+        raise InputError(f"{rule}, got {name}")
+    return content
+
+
+def sealed_line(text: str, settings: str) -> bytes:
+    """Return a line with its checksum in front, for files that grow."""
+    checksum = _digest(f"{settings}\n{text}".encode()).hex()[:_LINE]
+    return f"{checksum} {text}\n".encode()
+
+
+def unsealed_line(line: bytes, settings: str) -> str | None:
+    """Return the text of a line that `sealed_line` made, its end included; None of any other."""
+    text = line[_LINE + 1 : -1].decode(errors="replace")
+    return text if sealed_line(text, settings) == line else None
+
+
+def _digest(content: bytes) -> bytes:
+    return hashlib.sha256(content).digest()
