@@ -62,8 +62,13 @@ def contact(
         str | None, typer.Option(help="Of the response; 20 transit times without.", metavar='"2 ms"')
     ] = None,
     full: Annotated[bool, typer.Option("--full", help="Response by the full film.")] = False,
-    save: Annotated[Path | None, typer.Option(help="Keep the full film's run in this NetCDF file.")] = None,
-    resume: Annotated[Path | None, typer.Option(help="Go on from such a file.")] = None,
+    save: Annotated[
+        Path | None, typer.Option(help="Keep the full film's run in this NetCDF file, as it goes.")
+    ] = None,
+    resume: Annotated[
+        Path | None,
+        typer.Option(help="Go on from such a file: with a run that was cut off, else from where one ended."),
+    ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print JSON on stdout instead of tables.")] = False,
 ) -> None:
     """Film thickness, approach and stiffness of a lubricated rolling ball, and its response to a load."""
@@ -211,18 +216,13 @@ def _run(
     resume: Path | None,
     report: Any,
 ) -> ContactRun:
-    """Return the run of the full film, kept on disk also where it fails or is interrupted."""
-    from .errors import ConvergenceError
+    """Return the run of the full film, kept on disk as it goes; one that is not complete is gone on with."""
     from .scenes.contact import run_full
 
-    start = None if resume is None else case.contact.load(resume).final
-    try:
-        run = run_full(case, drive, duration=duration, start=start, report=report)
-    except ConvergenceError as error:
-        if save is not None and error.partial is not None:
-            case.contact.save(error.partial, save)
-        raise
-    if save is not None:
+    earlier = None if resume is None else case.contact.load(resume)
+    start = earlier.final if earlier is not None and earlier.complete else earlier
+    run = run_full(case, drive, duration=duration, start=start, keep=save, report=report)
+    if save is not None:  # once more, where a failure is an error
         case.contact.save(run, save)
     return run
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 
 import numpy as np
 
-from ..errors import InputError, ValidityWarning, require_number, require_positive
+from ..errors import InputError, ValidityWarning, require_number, require_positive, warn_user
 from ..films.contact_equations import ContactEquations
 from ..films.contact_files import load_run, save_run
 from ..films.contact_fluid import BarusViscosity, DowsonHigginsonDensity, Piezoviscosity
@@ -137,21 +137,24 @@ class PointContact:
 
     def simulate(
         self,
-        start: ContactState,
+        start: ContactState | ContactRun,
         *,
         duration: float,
         W: float,
         load: float | Callable[[float], float] = 1.0,
         control: AdaptiveSteps | FixedSteps | None = None,
         snapshots: Sequence[float] = (),
+        keep: str | Path | None = None,
     ) -> ContactRun:
         """Return the motion of a ball on the contact, W delta'' = integral of p - (2 pi/3) f(t).
 
         Parameters
         ----------
-        start : ContactState
-            From `stationary`, `state` or an earlier run.
+        start : ContactState or ContactRun
+            From `stationary`, `state` or an earlier run. A run that is not complete, with the other arguments
+            of the first time, goes on to its end, to the last bit as if it had not been interrupted.
         duration : float [1]
+            Of the run as a whole.
         W : float [1]
             Inertia of the ball, pi m (u1 + u2)^2/(12 P0 R); 0 for a massless one.
         load : float or callable
@@ -161,49 +164,70 @@ class PointContact:
             `AdaptiveSteps()` by default.
         snapshots : sequence of float [1]
             Times at which to keep the whole state.
+        keep : path, optional
+            File in which the run is saved as it goes, three times a minute, and at its end, however that
+            comes; `load` reads it.
 
         Raises
         ------
+        InputError
+            If a run to go on with was begun with other arguments.
         ConvergenceError
             If a step fails; its `partial` is the run up to there.
+
+        Warns
+        -----
+        RuntimeWarning
+            If the run cannot be saved on its way.
         """
         force = load if callable(load) else _Constant(require_number("load", load))
-        return self._run(start, BallMotion(W=W, load=force), duration, control, snapshots)
+        return self._run(start, BallMotion(W=W, load=force), duration, control, snapshots, keep)
 
     def drive(
         self,
-        start: ContactState,
+        start: ContactState | ContactRun,
         *,
         duration: float,
         approach: Callable[[float], float],
         control: AdaptiveSteps | FixedSteps | None = None,
         snapshots: Sequence[float] = (),
+        keep: str | Path | None = None,
     ) -> ContactRun:
         """Return the contact under a given approach delta(t); otherwise like `simulate`."""
-        return self._run(start, GivenMotion(approach=approach), duration, control, snapshots)
+        return self._run(start, GivenMotion(approach=approach), duration, control, snapshots, keep)
 
     def save(self, run: ContactRun, path: str | Path) -> None:
-        """Write a run and its final state, from which to resume it, as NetCDF; snapshots are left out."""
+        """Write a run and what it takes to go on with it, as NetCDF; snapshots are left out."""
         save_run(run, path, repr(self))
 
     def load(self, path: str | Path) -> ContactRun:
-        """Return a run of this contact from a file; raise InputError if it is of another one."""
+        """Return a run of this contact from a file; raise InputError if it is of another one, or damaged."""
         return load_run(path, repr(self), self.equations)
 
     def _run(
         self,
-        start: ContactState,
+        start: ContactState | ContactRun,
         motion: BallMotion | GivenMotion,
         duration: float,
         control: AdaptiveSteps | FixedSteps | None,
         snapshots: Sequence[float],
+        keep: str | Path | None,
     ) -> ContactRun:
         require_positive("duration", duration)
-        begin = self._start(start)
+        self._start(start.final if isinstance(start, ContactRun) else start)
+        if isinstance(start, ContactRun) and start.complete:
+            raise InputError("start must be a state, or a run that is not complete, got a complete run")
         steps = AdaptiveSteps() if control is None else control
-        run = run_contact(self.equations, motion, steps, begin, begin.t + duration, snapshots)
+        saved = None if keep is None else partial(self._kept, Path(keep))
+        run = run_contact(self.equations, motion, steps, start, duration, snapshots, saved)
         self._checked(run.final)
         return run
+
+    def _kept(self, path: Path, run: ContactRun) -> None:
+        try:
+            self.save(run, path)
+        except OSError as error:  # what has been computed is worth more
+            warn_user(f"the run could not be saved: {error}", RuntimeWarning)
 
     def _start(self, state: ContactState) -> ContactState:
         if not isinstance(state, ContactState) or state.pressure.shape != self.grid.shape:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 from pathlib import Path
 from typing import Any
@@ -9,17 +10,25 @@ from typing import Any
 import numpy as np
 from scipy.io import netcdf_file
 
-from ..errors import InputError
+from ..files import read_sealed, write_sealed
 from .contact_equations import ContactEquations
 from .contact_levels import Level
+from .contact_newton import Place
+from .contact_preconditioner import Closure
 from .contact_run import SERIES
 from .contact_state import ContactRun, state_of
+from .contact_steps import Memory
 
 COLUMNS = (*SERIES, "driven")
 
+FACTS = ("complete", "work", "asked")
+
+PLACE = {"pressure": "cell", "film": "sample", "wet": "cell"}
+"""Arrays of a `Place`, and their dimensions."""
+
 
 def save_run(run: ContactRun, path: str | Path, contact: str) -> None:
-    """Write a run and its final state as NetCDF 3; snapshots are not written.
+    """Write a run and what it takes to go on with it as NetCDF 3 with a seal; snapshots are not written.
 
     Parameters
     ----------
@@ -29,21 +38,27 @@ def save_run(run: ContactRun, path: str | Path, contact: str) -> None:
         What was computed, to be compared on loading.
     """
     file: Any
-    with netcdf_file(path, "w") as file:
-        file.contact, file.complete = contact.encode(), int(run.complete)
-        file.work = json.dumps(run.work).encode()
-        for name, size in (
-            ("step", len(run.time)),
-            ("level", len(run.final.levels)),
-            ("cell", run.final.pressure.size),
-        ):
-            file.createDimension(name, size)
-        for name in COLUMNS:
-            file.createVariable(name, "f8", ("step",))[:] = getattr(run, name)
-        for name in Level._fields:
-            values = np.array([getattr(level, name) for level in run.final.levels])
-            dimensions = ("level", "cell")[: values.ndim]
-            file.createVariable(f"level_{name}", "f8", dimensions)[:] = values
+    buffer = io.BytesIO()
+    place = run.memory.place
+    facts: dict[str, Any] = {name: getattr(run, name) for name in FACTS}
+    facts |= {"step": run.memory.step}
+    tables = {name: (("time_step",), getattr(run, name)) for name in COLUMNS}
+    for name in Level._fields:
+        values = np.array([getattr(level, name) for level in run.final.levels])
+        tables[f"level_{name}"] = ("level", "cell")[: values.ndim], values
+    if place is not None:
+        facts |= {"closure": list(place.closure), "rate": place.rate}
+        for name, dimension in PLACE.items():
+            tables[f"place_{name}"] = (dimension,), getattr(place, name)
+    with netcdf_file(buffer, "w") as file:
+        file.contact, file.facts = contact.encode(), json.dumps(facts).encode()
+        for name, (dimensions, values) in tables.items():
+            for dimension, size in zip(dimensions, values.shape, strict=True):
+                if dimension not in file.dimensions:
+                    file.createDimension(dimension, size)
+            file.createVariable(name, "f8", dimensions)[:] = values
+        file.flush()
+        write_sealed(path, buffer.getvalue(), contact)
 
 
 def load_run(path: str | Path, contact: str, equations: ContactEquations) -> ContactRun:
@@ -52,20 +67,23 @@ def load_run(path: str | Path, contact: str, equations: ContactEquations) -> Con
     Raises
     ------
     InputError
-        If the file is of another contact.
+        If the file is damaged, or of another contact.
     """
+    content = read_sealed(path, contact, f"path must be a run of {contact}")
     file: Any
-    with netcdf_file(path, "r", mmap=False) as file:
-        if file.contact.decode() != contact:
-            raise InputError(f"path must be a run of {contact}, got one of {file.contact.decode()}")
+    with netcdf_file(io.BytesIO(content), "r", mmap=False) as file:
         arrays = {name: np.array(variable[:], dtype=float) for name, variable in file.variables.items()}
-        complete, work = bool(file.complete), json.loads(file.work.decode())
+        facts = json.loads(file.facts.decode())
     rows = zip(*(arrays[f"level_{name}"] for name in Level._fields), strict=True)
     levels = tuple(Level(float(t), float(d), float(v), p, s) for t, d, v, p, s in rows)
+    place = None
+    if "closure" in facts:
+        pressure, film, wet = (arrays[f"place_{name}"] for name in PLACE)
+        place = Place(pressure, film, wet > 0.0, Closure(*facts["closure"]), facts["rate"])
     return ContactRun(
         **{name: arrays[name] for name in COLUMNS},
+        **{name: facts[name] for name in FACTS},
         snapshots=(),
         final=state_of(equations, levels),
-        complete=complete,
-        work=work,
+        memory=Memory(facts["step"], place, facts["work"]),
     )

@@ -50,6 +50,25 @@ class Contact(NamedTuple):
     iterations: int
 
 
+class Place(NamedTuple):
+    """Where equations are linearized: enough to make the factors of a preconditioner again.
+
+    Attributes
+    ----------
+    pressure : ndarray, shape (n,)
+    film : ndarray, shape (samples,)
+    wet : ndarray of bool, shape (n,)
+    closure : Closure
+    rate : float
+    """
+
+    pressure: Array
+    film: Array
+    wet: np.ndarray
+    closure: Closure
+    rate: float
+
+
 class _Linear(NamedTuple):
     """The linearized equations on the cells with film."""
 
@@ -58,6 +77,7 @@ class _Linear(NamedTuple):
     wet: np.ndarray
     closure: Closure
     rate: float
+    place: Place
 
 
 class NewtonKrylov:
@@ -68,12 +88,17 @@ class NewtonKrylov:
     equations : ContactEquations
     tolerance : float [1]
         Largest error of pressures and approach.
+    place : Place, optional
+        Where an earlier solver made its preconditioner: this one goes on to the last bit as that would.
     """
 
-    def __init__(self, equations: ContactEquations, tolerance: float) -> None:
+    def __init__(self, equations: ContactEquations, tolerance: float, place: Place | None = None) -> None:
         self.equations, self.tolerance = equations, tolerance
         self._change: Distribution | None = None
         self._factors: Factors | None = None
+        self.place: Place | None = None
+        if place is not None:
+            self._factors = self._factorized(self._linear(place))
 
     def solve(self, pressure: Array, delta: float, closure: Closure, time: TimeDerivative) -> Contact:
         """Return the solution near a guess.
@@ -108,7 +133,7 @@ class NewtonKrylov:
                 pressure = np.where(wet, pressure, 0.0)
                 film = self.equations.film(pressure, delta)
                 residual = self.equations.residual(pressure, film, time)
-            linear = self._linear(pressure, film, wet, closure, time.rate)
+            linear = self._linear(Place(pressure, film, wet, closure, time.rate))
             miss = closure.value - closure.approach * delta - closure.load * self.equations.load(pressure)
             forcing = float(np.clip(0.3 * self.tolerance / error, *FORCING)) if error < np.inf else FORCING[1]
             dp, dd, count = self._step(linear, np.where(wet, -residual, 0.0), miss, forcing)
@@ -122,12 +147,11 @@ class NewtonKrylov:
             f"{self.tolerance:.0e}, got an error of {error:.1e} at delta = {delta:.6g}"
         )
 
-    def _linear(
-        self, pressure: Array, film: Array, wet: np.ndarray, closure: Closure, rate: float
-    ) -> _Linear:
+    def _linear(self, place: Place) -> _Linear:
+        pressure, film, wet, closure, rate = place
         derivatives = self.equations.derivatives(pressure, film, rate)
         by_delta = derivatives.by_film @ np.ones(derivatives.by_film.shape[1])
-        return _Linear(derivatives, np.where(wet, by_delta, 0.0), wet, closure, rate)
+        return _Linear(derivatives, np.where(wet, by_delta, 0.0), wet, closure, rate, place)
 
     def _step(
         self, linear: _Linear, residual: Array, miss: float, forcing: float
@@ -150,6 +174,7 @@ class NewtonKrylov:
     def _factorized(self, linear: _Linear) -> Factors:
         if self._change is None:
             self._change = distribution(self.equations)
+        self.place = linear.place
         return factorize(
             self.equations, self._change, linear.derivatives, linear.wet, linear.closure, linear.rate
         )

@@ -9,6 +9,7 @@ from .contact_checkerboard import checkerboard
 from .contact_equations import ContactEquations
 from .contact_levels import Level
 from .contact_stationary import HERTZ_LOAD
+from .contact_steps import Memory
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,6 +65,10 @@ class ContactRun:
         Whether it reached its end.
     work : dict of str to int
         Steps, rejected steps, Newton and GMRES iterations.
+    asked : str
+        Motion, control and end that were asked for: a run that is not complete goes on with these only.
+    memory : Memory
+        What the integration knows beside `final.levels`.
     """
 
     time: Array
@@ -77,6 +82,8 @@ class ContactRun:
     final: ContactState
     complete: bool
     work: dict[str, int]
+    asked: str
+    memory: Memory
 
 
 def state_of(equations: ContactEquations, levels: tuple[Level, ...]) -> ContactState:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,7 +22,7 @@ from .contact_levels import (
     error_share,
     extrapolation_weights,
 )
-from .contact_newton import NewtonKrylov
+from .contact_newton import NewtonKrylov, Place
 
 LEVELS = 3
 """Levels that the extrapolation takes."""
@@ -94,6 +95,24 @@ class FixedSteps:
             raise InputError(f"order must be 1 or 2, got {self.order!r}")
 
 
+class Memory(NamedTuple):
+    """What an integration knows after a step beside its levels: with it another goes on to the last bit.
+
+    Attributes
+    ----------
+    step : float [1]
+        Length proposed for the next step.
+    place : Place or None
+        Where the preconditioner was made.
+    work : dict of str to int
+        Steps, rejected steps, Newton and GMRES iterations.
+    """
+
+    step: float
+    place: Place | None
+    work: dict[str, int]
+
+
 class Stepper:
     """One step after another, with the solver whose preconditioner they share.
 
@@ -102,15 +121,24 @@ class Stepper:
     equations : ContactEquations
     motion : ContactMotion
     control : AdaptiveSteps or FixedSteps
+    memory : Memory, optional
+        Of an integration to go on with.
     """
 
     def __init__(
-        self, equations: ContactEquations, motion: ContactMotion, control: AdaptiveSteps | FixedSteps
+        self,
+        equations: ContactEquations,
+        motion: ContactMotion,
+        control: AdaptiveSteps | FixedSteps,
+        memory: Memory | None = None,
     ) -> None:
         self.equations, self.motion, self.control = equations, motion, control
         share = NEWTON_SHARE if isinstance(control, AdaptiveSteps) else 1.0
-        self.solver = NewtonKrylov(equations, share * control.tolerance)
-        self.work = {"steps": 0, "rejected": 0, "newton": 0, "gmres": 0}
+        place = None if memory is None else memory.place
+        self.solver = NewtonKrylov(equations, share * control.tolerance, place)
+        none = {"steps": 0, "rejected": 0, "newton": 0, "gmres": 0}
+        self.work = none if memory is None else dict(memory.work)
+        self._step_on = None if memory is None else memory.step
         distance = np.hypot(*np.meshgrid(equations.grid.x, equations.grid.y, indexing="ij"))
         self._near = (distance < CONTACT_RADIUS).ravel()
 
@@ -123,13 +151,19 @@ class Stepper:
             If the equations of a step cannot be solved, for the shortest step where steps adapt.
         """
         breaks = set(self.motion.breakpoints)
-        step = self._resumed(levels)
+        step = self._resumed(levels) if self._step_on is None else self._step_on
         for end in ends:
             if levels[0].t in breaks:
                 levels, step = levels[:1], self._first()
             while end - levels[0].t > SHORTEST:
                 levels, step = self._accepted(levels, step, end)
+                self._step_on = step
                 yield levels
+
+    def memory(self, levels: tuple[Level, ...]) -> Memory:
+        """Return what is to be kept at the levels that were yielded last, or at the start."""
+        step = self._resumed(levels) if self._step_on is None else self._step_on
+        return Memory(step, self.solver.place, dict(self.work))
 
     def _first(self) -> float:
         return self.control.first if isinstance(self.control, AdaptiveSteps) else self.control.step

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -164,10 +165,13 @@ def run_full(
     load: Callable[[float], float],
     *,
     duration: float,
-    start: ContactState | None = None,
+    start: ContactState | ContactRun | None = None,
+    keep: Path | None = None,
     report: Report = silent,
 ) -> ContactRun:
     """Return the response by the full film, dimensionless; an interruption returns what there is.
+
+    A run as start is gone on with; `keep` is as in `PointContact.simulate`.
 
     Raises
     ------
@@ -175,8 +179,9 @@ def run_full(
         If a step fails; its `partial` is the run up to there.
     """
     begin = case.contact.stationary() if start is None else start
-    told = _Told(load, begin.t, duration, report)
-    return case.contact.simulate(begin, duration=duration, W=case.W, load=told)
+    at = float(begin.time[0]) if isinstance(begin, ContactRun) else begin.t
+    told = _Told(load, at, duration, report)
+    return case.contact.simulate(begin, duration=duration, W=case.W, load=told, keep=keep)
 
 
 def response_of(case: ContactCase, run: ContactRun) -> ContactResponse:
@@ -206,6 +211,9 @@ class _Told:
     def __init__(self, load: Callable[[float], float], start: float, duration: float, report: Report) -> None:
         self.load, self.start, self.duration, self.report = load, start, duration, report
         self.breakpoints = tuple(getattr(load, "breakpoints", ()))
+
+    def __repr__(self) -> str:
+        return repr(self.load)
 
     def __call__(self, t: float) -> float:
         self.report(min(max((t - self.start) / self.duration, 0.0), 1.0), "full film over time")

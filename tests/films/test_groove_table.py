@@ -33,10 +33,6 @@ def some_table(seed=0):
     )
 
 
-def any_table(table):
-    """Require nothing."""
-
-
 def openings(turn=0.0):
     grooves = tuple(dataclasses.replace(g, center=g.center + turn) for g in GROOVES)
     return aligned_openings(FilmGeometry(grooves=grooves))
@@ -89,9 +85,7 @@ def test_table_is_built_once_and_again_after_damage(tmp_path):
         return some_table()
 
     assert (
-        cached_table(GrooveMapTable, path, build)
-        == cached_table(GrooveMapTable, path, build)
-        == some_table()
+        cached_table(GrooveMapTable, path, build) == cached_table(GrooveMapTable, path, build) == some_table()
     )
     assert len(built) == 1
     path.write_bytes(path.read_bytes()[:-9] + b"damaged!!")
@@ -106,9 +100,7 @@ def test_table_is_built_once_and_again_after_damage(tmp_path):
 def test_folder_that_cannot_be_written_costs_a_warning_only(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.warns(RuntimeWarning, match="ROTORFILM_CACHE names another folder"):
-        assert (
-            cached_table(GrooveMapTable, tmp_path / "file" / "map.bin", some_table) == some_table()
-        )
+        assert cached_table(GrooveMapTable, tmp_path / "file" / "map.bin", some_table) == some_table()
 
 
 def test_failed_writing_leaves_nothing_behind(tmp_path, monkeypatch):
