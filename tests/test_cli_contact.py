@@ -1,6 +1,11 @@
 """The rolling ball at the command line: its numbers, responses, files, and one line for each mistake."""
 
 import json
+import os
+import signal
+import subprocess
+import sys
+import time
 
 import numpy as np
 import pytest
@@ -95,6 +100,43 @@ def test_the_full_film_is_saved_and_resumed(run, tmp_path):
     contact = PointContact(V=0.1, Q0=5.0, grid=ContactGrid(cells=(20, 20)))
     whole = contact.simulate(contact.stationary(), duration=0.9, W=1.0, load=StepLoad(amplitude=0.2))
     assert responses[1]["approach"][-1] == pytest.approx(whole.delta[-1], abs=1e-3)
+
+
+KEPT = """
+import sys
+import rotorfilm.films.contact_run as contact_run
+from rotorfilm import cli
+contact_run.EVERY = -1.0
+cli.main(sys.argv[1:])
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL")
+def test_a_killed_run_goes_on_to_the_last_bit(run, tmp_path):
+    command = [*PLAIN, "--sine", "0.3", "--frequency", "3", "--duration", "4"]
+    assert run([*command, "--save", tmp_path / "whole.nc"])[0] == 0
+    part = tmp_path / "part.nc"
+    # Not from the checkout, whose package would hide the installed one.
+    running = subprocess.Popen([sys.executable, "-c", KEPT, *command, "--save", str(part)], cwd=tmp_path)
+    deadline = time.monotonic() + 120.0
+    while not part.is_file():
+        assert running.poll() is None, "the run ended before it could be killed"
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+    os.kill(running.pid, signal.SIGKILL)
+    running.wait()
+    code, out, _ = run([*command, "--save", part, "--resume", part, "--json"])
+    response = json.loads(out)["response"]
+    assert code == 0
+    assert (response["complete"], response["time"][0], response["time"][-1]) == (True, 0.0, 4.0)
+    assert part.read_bytes() == (tmp_path / "whole.nc").read_bytes()
+
+
+def test_a_damaged_file_is_named(run, tmp_path):
+    (tmp_path / "run.nc").write_bytes(b"CDF\x01" + bytes(200))
+    code, out, err = run([*PLAIN, "--resume", tmp_path / "run.nc"])
+    assert (code, out) == (2, "")
+    assert "run.nc' must end with the seal of rotorfilm: it is cut off, or another file" in err
 
 
 def test_tables_for_people(run):

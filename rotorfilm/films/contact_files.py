@@ -42,7 +42,7 @@ def save_run(run: ContactRun, path: str | Path, contact: str) -> None:
     place = run.memory.place
     facts: dict[str, Any] = {name: getattr(run, name) for name in FACTS}
     facts |= {"step": run.memory.step}
-    tables = {name: (("time_step",), getattr(run, name)) for name in COLUMNS}
+    tables: dict[str, Any] = {name: (("step",), getattr(run, name)) for name in COLUMNS}
     for name in Level._fields:
         values = np.array([getattr(level, name) for level in run.final.levels])
         tables[f"level_{name}"] = ("level", "cell")[: values.ndim], values
@@ -72,7 +72,9 @@ def load_run(path: str | Path, contact: str, equations: ContactEquations) -> Con
     content = read_sealed(path, contact, f"path must be a run of {contact}")
     file: Any
     with netcdf_file(io.BytesIO(content), "r", mmap=False) as file:
-        arrays = {name: np.array(variable[:], dtype=float) for name, variable in file.variables.items()}
+        arrays: dict[str, Any] = {
+            name: np.array(variable[:], dtype=float) for name, variable in file.variables.items()
+        }
         facts = json.loads(file.facts.decode())
     rows = zip(*(arrays[f"level_{name}"] for name in Level._fields), strict=True)
     levels = tuple(Level(float(t), float(d), float(v), p, s) for t, d, v, p, s in rows)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline, RectBivariateSpline
+from scipy.io import netcdf_file
 
 from rotorfilm import (
     AdaptiveSteps,
@@ -18,6 +19,7 @@ from rotorfilm import (
     ValidityWarning,
     perturbed,
 )
+from rotorfilm.films import contact_files, contact_run
 from rotorfilm.films.contact_equations import TimeDerivative
 from rotorfilm.films.contact_levels import derivative_weights, extrapolation_weights
 from rotorfilm.films.contact_linear import SmallMotion
@@ -333,10 +335,58 @@ def test_interrupted_run_keeps_what_it_has_and_is_resumed(coarse, resting, tmp_p
     assert np.array_equal(read.delta, part.delta)
     assert read.work == part.work
     stop = False
-    rest = coarse.simulate(read.final, duration=1.0 - read.final.t, W=0.5, load=load, control=control)
-    assert rest.delta[-1] == pytest.approx(whole.delta[-1], abs=1e-8)
-    with pytest.raises(InputError, match="path must be a run of PointContact"):
+    rest = coarse.simulate(read, duration=1.0, W=0.5, load=load, control=control)
+    for name in ("time", "delta", "velocity", "carried_load", "driven", "work"):
+        assert np.array_equal(getattr(rest, name), getattr(whole, name))
+    assert np.array_equal(rest.final.pressure, whole.final.pressure)
+    with pytest.raises(InputError, match=r"path must be a run of PointContact.*, got '.*part\.nc'"):
         contact(16).load(tmp_path / "part.nc")
+    with pytest.raises(
+        InputError, match=r"start must be gone on with as it was begun, by BallMotion\(W=0\.5"
+    ):
+        coarse.simulate(read, duration=1.0, W=0.6, load=load, control=control)
+    with pytest.raises(InputError, match="that is not complete, got a complete run"):
+        coarse.simulate(whole, duration=1.0, W=0.5, load=load, control=control)
+
+
+def test_a_run_goes_on_to_the_last_bit_from_every_step(coarse, resting, tmp_path, monkeypatch):
+    # Steps adapt, a jump starts the history anew, and snapshots are hit on the way.
+    asked = {"duration": 1.5, "W": 0.5, "load": StepLoad(amplitude=0.8, start=0.7), "snapshots": (0.3,)}
+    monkeypatch.setattr(contact_run, "EVERY", -1.0)
+    whole, parts = tmp_path / "whole.nc", []
+
+    def keep(self, run, path):
+        contact_files.save_run(run, path, repr(self))
+        parts.append(path.read_bytes())
+
+    with monkeypatch.context() as patch:
+        patch.setattr(PointContact, "save", keep)
+        coarse.simulate(resting, **asked, keep=whole)
+    assert len(parts) > 20
+    for content in parts[:-1:4]:
+        (tmp_path / "part.nc").write_bytes(content)
+        coarse.simulate(coarse.load(tmp_path / "part.nc"), **asked, keep=tmp_path / "part.nc")
+        assert (tmp_path / "part.nc").read_bytes() == whole.read_bytes()
+
+
+def test_a_run_that_cannot_be_saved_is_not_lost(coarse, resting, tmp_path):
+    with pytest.warns(RuntimeWarning, match=r"could not be saved: .*No such file.*'.*absent.run\.nc'"):
+        assert coarse.simulate(resting, duration=0.1, W=1.0, keep=tmp_path / "absent" / "run.nc").complete
+
+
+def test_a_damaged_run_is_refused(coarse, resting, tmp_path):
+    path = tmp_path / "run.nc"
+    coarse.save(coarse.simulate(resting, duration=0.1, W=1.0), path)
+    whole, size = path.read_bytes(), path.stat().st_size
+    with netcdf_file(path, "r", mmap=False) as file:  # any reader of NetCDF reads it
+        assert file.variables["delta"][0] == resting.delta
+    damages = [whole[:k] for k in range(0, size, size // 20)]
+    damages += [whole[:k] + bytes([whole[k] ^ 16]) + whole[k + 1 :] for k in range(0, size, size // 20)]
+    damages += [whole[: size // 2] + bytes(size - size // 2)]  # a tail of zeros
+    for content in damages:
+        path.write_bytes(content)
+        with pytest.raises(InputError, match=r"'.*run\.nc' must"):
+            coarse.load(path)
 
 
 def test_snapshots_are_kept_at_their_times(coarse, resting):

@@ -23,6 +23,7 @@ def run_of(time, delta):
     return ContactRun(
         time=time, delta=delta, velocity=unused, central_film=2.0 * delta, minimum_film=unused,
         carried_load=unused, driven=unused, snapshots=(), final=None, complete=True, work={},
+        asked="", memory=None,
     )  # fmt: skip
 
 

@@ -1,6 +1,7 @@
 """Scenes with a damper: the table, a lost blade, a run-up."""
 
 from dataclasses import replace
+from importlib import import_module
 
 import fmpy
 import numpy as np
@@ -20,9 +21,9 @@ from rotorfilm import (
     Sprung,
     synchronous_orbits,
 )
-from rotorfilm.errors import InputError, SceneError
+from rotorfilm.errors import FmuError, InputError, SceneError
 from rotorfilm.films import FullFilm
-from rotorfilm.scenes import parse_scene
+from rotorfilm.scenes import bundled_scene, parse_scene
 from rotorfilm.scenes.damper_runs import couple_damper, damper_models, run_damper
 from rotorfilm.scenes.excitation_table import StepLoadTable
 from rotorfilm.scenes.export import export_scene
@@ -159,6 +160,28 @@ def test_exported_scene_starts_at_rest_in_the_center(tmp_path):
     assert "damper.speed" not in found
     rotor = {v.name: v for v in fmpy.read_model_description(str(made.rotor)).modelVariables}
     assert float(rotor["rotor.unbalance"].start) == 3.5e-4
+
+
+@pytest.mark.parametrize("module", ["damper_runs", "export"])
+def test_two_fmus_are_written_or_none(tmp_path, monkeypatch, module):
+    # The second export fails, over FMUs of an earlier time.
+    home = import_module(f"rotorfilm.scenes.{module}")
+    told = scene(SPRINGS + CAGE) if module == "damper_runs" else bundled_scene()
+    names = ["damper.fmu", "rotor.fmu"] if module == "damper_runs" else ["film.fmu", "rotor.fmu"]
+    for name in names:
+        (tmp_path / name).write_bytes(b"earlier")
+    export, done = home.export_fmu, []
+
+    def fail(*arguments, **options):
+        if done:
+            raise FmuError("no")
+        done.append(export(*arguments, **options))
+
+    monkeypatch.setattr(home, "export_fmu", fail)
+    with pytest.raises(FmuError, match="no"):
+        export_scene(told, tmp_path)
+    assert done
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == dict.fromkeys(names, b"earlier")
 
 
 def test_unbalance_of_the_rotor_or_of_the_excitation():

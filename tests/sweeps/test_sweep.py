@@ -178,7 +178,45 @@ def test_unit_of_a_key(key, unit):
     assert unit_of(Scene, key.split(".")) == unit
 
 
-@pytest.mark.parametrize("content", [b"no JSON\n", b"[1, 2]\n", b"\xff\xfe\n"])
+def test_damaged_results_are_refused(tmp_path):
+    axes, path = {"journal.clearance": CLEARANCES}, tmp_path / "out.nc"
+    found = sweep(SCENE, axes, path=path, workers=1)
+    with xarray.open_dataset(path, engine="h5netcdf") as read:  # any reader of NetCDF reads it
+        xarray.testing.assert_identical(read.load(), found)
+    whole, size = path.read_bytes(), path.stat().st_size
+    damages = [whole[:k] + bytes([whole[k] ^ 1]) + whole[k + 1 :] for k in range(0, size, size // 40)]
+    for content in [*damages, whole[: size // 2], b""]:
+        path.write_bytes(content)
+        with pytest.raises(InputError, match=r"'.*out\.nc' must"):
+            sweep(SCENE, axes, path=path, workers=1)
+
+
+def test_damaged_rows_are_computed_again(tmp_path):
+    store = Store(tmp_path / "rows", "one")
+    for point in range(3):
+        store.add(point, {"value": 0.125 + point})
+    store.close()
+    lines = (tmp_path / "rows").read_bytes().splitlines(keepends=True)
+    twisted = {
+        b"0.125": b"0.126",  # a digit
+        b'"row"': b'"rom"',
+        b"1.125": b'"1"',  # text for a number
+        b'"point": 2': b'"point": 7',  # a point too many
+    }
+    for before, after in twisted.items():
+        (tmp_path / "rows").write_bytes(b"".join(line.replace(before, after) for line in lines))
+        lost = {number for number, line in enumerate(lines[1:]) if before in line}
+        with pytest.warns(RuntimeWarning, match=rf"{len(lost)} damaged rows of '.*rows' are computed again"):
+            again = Store(tmp_path / "rows", "one")
+        again.close()
+        assert set(again.rows) == {0, 1, 2} - lost
+    (tmp_path / "rows").write_bytes(lines[0][:20])  # killed at once
+    empty = Store(tmp_path / "rows", "one")
+    empty.close()
+    assert empty.rows == {}
+
+
+@pytest.mark.parametrize("content", [b"no JSON\n", b"[1, 2]\n", b"\xff\xfe\n", b"a note"])
 def test_a_file_in_place_of_the_rows_is_named(tmp_path, content):
     (tmp_path / "rows").write_bytes(content)
     with pytest.raises(InputError, match=r"path must leave .* to the rows of a sweep"):
