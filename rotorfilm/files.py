@@ -37,15 +37,22 @@ def write_whole(path: str | os.PathLike[str], content: bytes) -> Path:
         If it cannot be written; it names the file.
     """
     target = Path(path)
-    try:
+    with failures_named(target):
         if target.exists() and not target.is_file():  # a pipe or a device; a folder says what it is
             target.write_bytes(content)
         else:
             # The file that a link names, not the link, is replaced.
             _replace(Path(os.path.realpath(target)), content)
-    except OSError as error:
-        raise OSError(error.errno, error.strerror or str(error), str(target)) from error
     return target
+
+
+@contextlib.contextmanager
+def failures_named(path: Path) -> Iterator[None]:
+    """Let an OSError name the file that was to be written: that of a full disk names none."""
+    try:
+        yield
+    except OSError as error:
+        raise OSError(error.errno, error.strerror or str(error), str(path)) from error
 
 
 def _replace(target: Path, content: bytes) -> None:

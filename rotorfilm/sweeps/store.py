@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import IO
 
 from ..errors import InputError, warn_user
-from ..files import sealed_line, unsealed_line, write_whole
+from ..files import failures_named, sealed_line, unsealed_line, write_whole
 from .point import Row
 
 HEAD = "rows of a sweep, version 1"
@@ -76,10 +76,12 @@ class Store:
     def add(self, point: int, row: Row) -> None:
         """Keep a row; it is on disk when this returns."""
         self.rows[point] = row
-        self._file.write(sealed_line(json.dumps({"point": point, "row": row}), self.name))
-        self._file.flush()
-        os.fsync(self._file.fileno())
+        with failures_named(self.path):
+            self._file.write(sealed_line(json.dumps({"point": point, "row": row}), self.name))
+            self._file.flush()
+            os.fsync(self._file.fileno())
 
     def close(self) -> None:
         """Close the file."""
-        self._file.close()
+        with failures_named(self.path):
+            self._file.close()

@@ -216,6 +216,21 @@ def test_damaged_rows_are_computed_again(tmp_path):
     assert empty.rows == {}
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="limits of POSIX")
+def test_rows_on_a_full_disk_name_the_file(tmp_path):
+    import resource
+
+    before, store = resource.getrlimit(resource.RLIMIT_FSIZE), Store(tmp_path / "rows", "one")
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1024, before[1]))
+    try:
+        with pytest.raises(OSError, match=r"File too large: '.*rows'"):
+            store.add(0, {"model": "a" * 2000})
+        with pytest.raises(OSError, match=r"File too large: '.*rows'"):
+            store.close()
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+
 @pytest.mark.parametrize("content", [b"no JSON\n", b"[1, 2]\n", b"\xff\xfe\n", b"a note"])
 def test_a_file_in_place_of_the_rows_is_named(tmp_path, content):
     (tmp_path / "rows").write_bytes(content)
