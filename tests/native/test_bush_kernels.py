@@ -16,6 +16,10 @@ from rotorfilm.bearings.bush_materials import Friction
 from rotorfilm.films.bush_heat import ContactBalance, GlobalBalance
 from rotorfilm.films.bush_profile import LocalMelting, SharedMelting
 
+pytestmark = pytest.mark.filterwarnings(
+    "ignore:friction must cover the losses of a worn contact:rotorfilm.errors.ValidityWarning"
+)
+
 BUSH = f4k20_bush()
 LOAD = 3750.0
 ONSET = float(BUSH.critical_speed(LOAD))
@@ -117,6 +121,35 @@ def test_the_profile_is_that_of_python(unzipped, kind, melting, balance, speed, 
         compare(client, model, rng.uniform(0.0, 5e-6, 40), u)
     compare(client, model, model.initial_state, [*position, 0.0, 0.0, 0.0])
     compare(client, model, model.initial_state, [0.0, 0.0, 0.0, 0.0, speed])
+
+
+@pytest.mark.parametrize("melting", [SharedMelting(), LocalMelting()])
+def test_a_profile_that_is_held_cold_is_that_of_python(unzipped, melting):
+    friction = Friction(f0=0.1, f1=2e-4, f2=-4e-7)
+    model = worn(bush=replace(BUSH, friction=friction), melting=melting, temperature=190.0)
+    position = model.position([0.0, -LOAD], 12.0, model.initial_state)
+    u = [*position, 0.0, 0.0, 12.0]
+    client, _ = opened(unzipped, worn(bush=model.bush, melting=melting), FMU3Model, u)
+    client.pass_event()
+    client.set(temperature=190.0)
+    client.fmu.enterContinuousTimeMode()
+    compare(client, model, model.initial_state, u)
+    assert model.output(0.0, model.initial_state, u)[1] == pytest.approx(LOAD, rel=1e-9)
+
+
+@pytest.mark.parametrize("melting", [SharedMelting(), LocalMelting()])
+def test_a_worn_contact_that_is_held_hot_for_nothing_is_told_once(unzipped, capsys, melting):
+    model = worn(melting=melting)
+    u = [*model.position([0.0, -0.3 * LOAD], 1.0, model.initial_state), 0.0, 0.0, 1.0]
+    client, _ = opened(unzipped, model, FMU2Slave, u)
+    client.step(0.0, 1e-3)
+    client.get(*names(model))
+    covered = model._covered(model._settled([0.0, -0.3 * LOAD], 1.0, model.initial_state)[1], 1.0)
+    assert capsys.readouterr().out.count(f"got about {covered:.0%}".replace("%", " %")) == 1
+    client, _ = opened(unzipped, replace(model, temperature=249.0), FMU2Slave, u)
+    client.step(0.0, 1e-3)
+    client.get(*names(model))
+    assert "it cools" not in capsys.readouterr().out
 
 
 def accurate(model, u, duration):
@@ -237,6 +270,7 @@ def test_parameters_are_those_of_the_model(unzipped):
         (WEAR, {"f2": 1e-5, "f1": -2.2e-3}, "friction must be positive up to the melting point"),
         (WEAR, {"melting_heat": 0.0}, "melting_heat must be finite and positive, got 0"),
         (WEAR, {"load": -1.0}, "load must be finite and not negative, got -1 N"),
+        (worn(), {"temperature": 251.0}, "temperature must not exceed the melting point 250, got 251"),
         (worn(), {"x": 2.1e-3}, "inside the clearance 0.002 m, got an eccentricity of 0.0021 m"),
         (worn(), {"y": 4.9e-4}, "contact must stay on the arc of nodes"),
     ],
