@@ -292,23 +292,14 @@ class BushReaction:
         """Return where a shaft comes to rest under a static load, and the temperature that friction gives.
 
         Steady heat on the worn profile, without melting: friction heat equals the losses, at the melting
-        point at most. `replace(reaction, temperature=...)` holds the contact at it.
-
-        Parameters
-        ----------
-        load, speed, wear
-            As of `position`.
+        point at most. Parameters and errors are those of `position`; `replace(reaction, temperature=...)` holds
+        the contact at the temperature.
 
         Returns
         -------
         position : ndarray, shape (2,) [m]
         temperature : float [K]
             Of the contact above ambient.
-
-        Raises
-        ------
-        InputError, ConvergenceError
-            As `position`.
         """
         depths = self.initial_state if wear is None else require_finite("wear", wear)
 
@@ -455,21 +446,17 @@ class BushReaction:
             return Melting(*np.zeros((5, self.nodes)))
         return self.melting.melting(self._heat_state(pressed, speed))
 
-    def _covered(self, pressed: Pressed, speed: float) -> float:
-        """Return friction heat over losses at the held temperature, where it is largest; inf for no losses."""
-        at = self._heat_state(pressed, speed)
-        lost = -float(self.melting.margins(at._replace(work=0.0)).max())
-        return 1.0 + float(self.melting.margins(at).max()) / lost if lost > 0.0 else math.inf
-
     def _require_heat(self, wear: Array, pressed: Pressed, speed: float) -> None:
         """Warn of a worn contact that is held at the melting point for nothing."""
         if self.temperature is not None or not wear.max() > 0.0 or not pressed.angle > 0.0:
             return
-        covered = self._covered(pressed, speed)
-        if covered < 1.0 - COVERED_TO:
+        at = self._heat_state(pressed, speed)
+        lost = -self.melting.margins(at._replace(work=0.0)).max()
+        if self.melting.margins(at).max() < -COVERED_TO * lost:
+            # Without the number: Python tells a text once for each line of the user.
             warn_user(
-                f"friction must cover the losses of a worn contact at its melting point, got about "
-                f"{round(covered, 1):.0%} of them: it cools; `rest` answers how far, `temperature` holds it"
+                "friction must cover the losses of a worn contact at its melting point, got less than "
+                f"{1.0 - COVERED_TO:.0%} of them: it cools; `rest` answers how far, `temperature` holds it"
             )
 
     def _rate_slopes(self, pressed: Pressed, loads: Array, angle: Array, speed: float) -> tuple[Array, Array]:

@@ -15,6 +15,7 @@
 #define LEAST 1e-250 /* of what is lifted: below, the powers of the angle are none */
 #define LONGEST 8.0 /* step, in times in which the rate of wear falls by 1/e */
 #define MOST_PARTS 20000
+#define COOLED 0.02 /* part of the melting point by which a worn contact may be colder without a word */
 
 /* Half the contact angle and what follows from it alone. */
 typedef struct arc {
@@ -227,6 +228,11 @@ static int output(const void *kernel, const rf_point *at, double *y, rf_message 
            * d.load * 2.0 * c.at.a * c.at.weight;
     y[5] = surplus(b, &c, &d) / b->melting_heat;
     y[6] = sliding(b, &c.at, &d) * b->grip / rf_bush_losses(b, c.at.a, c.at.sin, b->is.melting);
+    if (d.moment > 0.0 && c.temperature < (1.0 - COOLED) * b->is.melting)
+        return rf_say(why, RF_OUTSIDE,
+                      "load and speed must keep a worn contact at its melting point, got %.4g K: it is taken to "
+                      "end on unworn liner, too wide and too cold",
+                      c.temperature);
     return RF_OK;
 }
 
