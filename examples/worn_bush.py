@@ -55,7 +55,7 @@ print(f"coupled FMUs at 0.05 ms: {apart * 1e9:.1f} nm off the solution as one sy
 
 rest, temperature = worn.rest([0.0, -load / 3.0], float(motion["speed"][-1]))
 deeper = np.hypot(*rest) - np.hypot(*worn.position([0.0, -load / 3.0], 1.0))
-print(f"in the end it cools from {hot:.0f} K to {temperature:.0f} K, and the shaft sinks by {deeper * 1e6:.1f} um")
+print(f"it cools from {hot:.0f} to {temperature:.0f} K in the end, the shaft sinks by {deeper * 1e6:.1f} um")
 
 unworn = float(bush.contact_angle(load / 3.0))
 print(f"after the drop: half angle {after['contact_angle'][-1]:.3f} rad, of an unworn bush {unworn:.3f} rad")

@@ -60,8 +60,8 @@ class BushReaction:
 
     The contact is held at the temperature T, by default the melting point T_*, where alone it wears. A worn
     contact cools where its friction heat no longer covers the losses, and `rest` answers where the shaft then
-    rests and how cold it gets. That is for given loads only: at a given position heat presses, pressing heats,
-    and no steady temperature is stable.
+    rests and how cold it gets. That is for given loads only: at a given position heat presses, pressing
+    heats, and no steady temperature is stable.
 
     Parameters
     ----------
@@ -292,8 +292,8 @@ class BushReaction:
         """Return where a shaft comes to rest under a static load, and the temperature that friction gives.
 
         Steady heat on the worn profile, without melting: friction heat equals the losses, at the melting
-        point at most. Parameters and errors are those of `position`; `replace(reaction, temperature=...)` holds
-        the contact at the temperature.
+        point at most. Parameters and errors are those of `position`; `replace(reaction, temperature=...)`
+        holds the contact at the temperature.
 
         Returns
         -------

@@ -49,8 +49,8 @@ class BushWear:
         dW/dt = q_m N/(g gamma R qbar).
 
     Melting is taken proportional to the local pressure, whose shape is (2.14). The contact is taken to end on
-    unworn liner, as it does while the load does not fall. A worn contact under a smaller load, or colder, ends
-    within the worn part: it is narrower, and warmer, than here (docs/bush.md), which a warning says.
+    unworn liner, as it does while the load does not fall. A worn contact under a smaller load, or colder,
+    ends within the worn part: it is narrower, and warmer, than here (docs/bush.md), which a warning says.
     `BushReaction` knows the profile, and its `rest` how far the contact cools.
 
     Parameters
@@ -264,9 +264,9 @@ class BushWear:
         """Warn of a worn contact that is colder than where it wears."""
         if moment > 0.0 and temperature < (1.0 - COOLED) * self._law.melting:
             warn_user(
-                "load and speed must keep a worn contact at its melting point, got a temperature of less than "
-                f"{1.0 - COOLED:.0%} of it: it is taken to end on unworn liner, too wide and too cold; "
-                "BushReaction.rest knows its profile"
+                "load and speed must keep a worn contact at its melting point, got less than "
+                f"{1.0 - COOLED:.0%} of that temperature: it is taken to end on unworn liner, too wide and too "
+                "cold; BushReaction.rest knows its profile"
             )
 
     @cached_property

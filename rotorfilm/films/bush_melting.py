@@ -92,7 +92,7 @@ class MeltingLaw(NamedTuple):
         return self.outer[0] + self.outer[1] * float(arc.sinc(alpha))
 
     def losses(self, alpha: float, temperature: float | None = None) -> float:
-        """Return the heat per contact area that shaft and liner take, by default at the melting point [W/m2]."""
+        """Return the heat per contact area that shaft and liner take, by default at T_* [W/m2]."""
         contact = self.melting if temperature is None else temperature
         return self.conductance(alpha) * contact - self.liner * self.outer_temperature(alpha)
 

@@ -325,10 +325,10 @@ def test_a_worn_contact_that_is_held_hot_for_nothing_is_told(relieved, melting):
     light = [0.0, -0.3 * LOAD]
     with pytest.warns(ValidityWarning, match=r"got less than 95% of them: it cools"):
         at = model.position(light, 9.0)
-    for ask in (lambda: model.force(at, [0.0, 0.0], 9.0), lambda: model.output(0.0, wear, [*at, 0.0, 0.0, 9.0])):
-        wear = model.initial_state
-        with pytest.warns(ValidityWarning, match="it cools"):
-            ask()
+    with pytest.warns(ValidityWarning, match="it cools"):
+        model.force(at, [0.0, 0.0], 9.0)
+    with pytest.warns(ValidityWarning, match="it cools"):
+        model.output(0.0, model.initial_state, [*at, 0.0, 0.0, 9.0])
     # Neither while it melts, nor at the temperature that friction gives; there it does not wear.
     model.position(DOWN, 12.0)
     at, temperature = model.rest(light, 9.0)

@@ -268,6 +268,7 @@ def test_numbers_by_hand():
         ({"operation": {"load": 300.0, "speed": 30.0}}, "thick liner"),
         ({"bush": {"shear_modulus": 5e6}}, "strain"),
         ({"operation": {"speed": 15.0, "duration": 10.0}}, "thickness"),
+        ({"excitation": step(2625.0, start=0.1)}, "cold"),
         (
             {"bush": {"friction": [0.02, 0.0, 2e-6], "outer_mean": 0.0}, "operation": {"speed": 10.0}},
             "two states",
