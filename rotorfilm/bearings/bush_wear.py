@@ -265,8 +265,8 @@ class BushWear:
         if moment > 0.0 and temperature < (1.0 - COOLED) * self._law.melting:
             warn_user(
                 "load and speed must keep a worn contact at its melting point, got less than "
-                f"{1.0 - COOLED:.0%} of that temperature: it is taken to end on unworn liner, too wide and too "
-                "cold; BushReaction.rest knows its profile"
+                f"{1.0 - COOLED:.0%} of that temperature: it is taken to end on unworn liner, too wide "
+                "and too cold; BushReaction.rest knows its profile"
             )
 
     @cached_property
