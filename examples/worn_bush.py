@@ -33,8 +33,9 @@ for k in (0, begin, 160, 240):
         f"half angle {angle:.3f} rad  largest pressure {peak * 1e-6:.2f} MPa"
     )
 
-# The load drops to a third; profile and shaft go on from where they are.
-worn = replace(film, wear_depth=tuple(np.maximum(depth[:, -1], 0.0)))
+# The load drops to a third; profile and shaft go on from where they are, the contact for a while as hot.
+hot = bush.liner.melting_point
+worn = replace(film, wear_depth=tuple(np.maximum(depth[:, -1], 0.0)), temperature=hot)
 lighter = replace(
     rotor,
     speed=float(motion["speed"][-1]),
@@ -51,6 +52,10 @@ for model, name in ((lighter, "shaft"), (worn, "bush")):
 coupled = cosimulate("shaft.fmu", "bush.fmu", macro_step=5e-5, duration=0.05).trajectory
 apart = np.abs(coupled.position - after.position).max()
 print(f"coupled FMUs at 0.05 ms: {apart * 1e9:.1f} nm off the solution as one system")
+
+rest, temperature = worn.rest([0.0, -load / 3.0], float(motion["speed"][-1]))
+deeper = np.hypot(*rest) - np.hypot(*worn.position([0.0, -load / 3.0], 1.0))
+print(f"it cools from {hot:.0f} to {temperature:.0f} K in the end, the shaft sinks by {deeper * 1e6:.1f} um")
 
 unworn = float(bush.contact_angle(load / 3.0))
 print(f"after the drop: half angle {after['contact_angle'][-1]:.3f} rad, of an unworn bush {unworn:.3f} rad")

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.optimize import brentq
 
 from ..errors import (
     FilmContactError,
@@ -18,9 +19,10 @@ from ..errors import (
     require_number,
     require_positive,
     require_vector,
+    warn_user,
 )
 from ..films import bush_profile as profile
-from ..films.bush_profile import HeatState, LocalMelting, MeltingRule, Nodes, Pressed, SharedMelting
+from ..films.bush_profile import HeatState, LocalMelting, Melting, MeltingRule, Nodes, Pressed, SharedMelting
 from ..films.bush_settle import settle, stiffness
 from ..model import Array, Linearization, force_outputs, journal_inputs
 from ..native.spec import NativeParameter, NativeSpec
@@ -40,19 +42,26 @@ NOMINAL_SPEED = 10.0
 LEAST_ANGLE = 1e-9
 """Contact angle [rad] that stands for none in the heat balance."""
 
+COVERED_TO = 0.05
+"""Share of the losses by which friction heat may fall short without a word."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class BushReaction:
-    """A `MeltingBush` at its melting point with wear depths at nodes: a Reaction with states.
+    """A `MeltingBush` with wear depths at nodes, its contact at a given temperature: a Reaction with states.
 
     Loads may fall and turn, the shaft may leave the liner and come back. The pressure at an angle theta is
     q = (G/a_1) max(0, d), with the depth of the shaft in the liner
 
-        d = (e . n - Delta)/R + ln(R_2/R) B T_* - v/R   (+ retardation times the rate of e . n / R),
+        d = (e . n - Delta)/R + ln(R_2/R) B T - v/R   (+ retardation times the rate of e . n / R),
 
     n = (cos theta, sin theta), e the position, v the wear. The force on the journal is that of the pressure
-    and of the friction, f q against the sense of rotation. The contact is held at the melting point, also
-    where friction heat does not suffice; below the critical speed a colder contact would carry less.
+    and of the friction, f q against the sense of rotation.
+
+    The contact is held at the temperature T, by default the melting point T_*, where alone it wears. A worn
+    contact cools where its friction heat no longer covers the losses, and `rest` answers where the shaft then
+    rests and how cold it gets. That is for given loads only: at a given position heat presses, pressing
+    heats, and no steady temperature is stable.
 
     Parameters
     ----------
@@ -69,6 +78,9 @@ class BushReaction:
         Retardation time of the liner as a Kelvin-Voigt solid; the source has none.
     wear_depth : tuple of floats [m]
         Wear at t = 0 at the nodes, not negative; empty for none.
+    temperature : float or None [K]
+        Of the contact above ambient, at most the melting point; None for that, with a warning where a worn
+        contact would cool.
 
     Raises
     ------
@@ -84,6 +96,7 @@ class BushReaction:
     melting: MeltingRule = field(default_factory=SharedMelting)
     retardation: float = 0.0
     wear_depth: tuple[float, ...] = ()
+    temperature: float | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.bush, MeltingBush):
@@ -104,6 +117,13 @@ class BushReaction:
                 f"wear_depth must hold no or {self.nodes} numbers, none negative, got {self.wear_depth!r}"
             )
         object.__setattr__(self, "wear_depth", tuple(depths.tolist()))
+        if self.temperature is not None:
+            require_number("temperature", self.temperature)
+        if self._held > self._melting_point:
+            raise InputError(
+                f"temperature must not exceed the melting point {self._melting_point!r}, "
+                f"got {self.temperature!r}"
+            )
 
     @property
     def clearance(self) -> float:
@@ -166,10 +186,19 @@ class BushReaction:
             nominal=1e-3,
             description="retardation time of the liner as a Kelvin-Voigt solid",
         )
+        held = NativeParameter(
+            name="temperature",
+            unit="K",
+            value=float(self._held),
+            tunable=True,
+            minimum=-np.inf,
+            nominal=float(self._melting_point),
+            description="temperature at which the contact is held, above ambient",
+        )
         local = float(isinstance(self.melting, LocalMelting))
         return NativeSpec(
             kernel="bush_reaction",
-            parameters=(*bush_parameters(self.bush, self.melting_heat), retardation),
+            parameters=(*bush_parameters(self.bush, self.melting_heat), retardation, held),
             tables={
                 "bush": bush_table(self.bush),
                 "profile": np.array([self.nodes, self.center, self.extent, local]),
@@ -197,7 +226,10 @@ class BushReaction:
             If the shaft reaches the housing, or the contact an end of the arc of nodes.
         """
         q, v, omega = _broadcast(position, velocity, speed)
-        return self._force(self._press(q, v, self._depths(self.initial_state, q)).load, omega)
+        pressed = self._press(q, v, self._depths(self.initial_state, q))
+        if omega.ndim == 0:
+            self._require_heat(self.initial_state, pressed, float(omega))
+        return self._force(pressed.load, omega)
 
     def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return d(force_x, force_y)/d(x, y, vx, vy, speed) with the wear at t = 0, shape (2, 5, ...)."""
@@ -212,6 +244,7 @@ class BushReaction:
         """Return the outputs, shape (5,), for the wear depths x [m] and u = (x, y, vx, vy, speed)."""
         wear, values = self._point(x, u)
         pressed = self._press(values[:2], values[2:4], wear)
+        self._require_heat(wear, pressed, values[4])
         torque = self._torque_unit(values[4]) * pressed.load.sum()
         depth = max(self._depth(values[:2], values[2:4], wear).max(), 0.0)
         peak = self.bush.liner.shear_modulus / self.bush.compliance * depth
@@ -221,7 +254,7 @@ class BushReaction:
         """Return the rates of wear at the nodes [m/s], shape (nodes,), none negative."""
         wear, values = self._point(x, u)
         pressed = self._press(values[:2], values[2:4], wear)
-        return self.melting.melting(self._heat_state(pressed, values[4])).heat / self.melting_heat
+        return self._melted(pressed, values[4]).heat / self.melting_heat
 
     def events(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the switching functions: depths at the nodes, margins of melting, speed.
@@ -255,8 +288,32 @@ class BushReaction:
             np.hstack([outputs[:, n:], self.retardation * outputs[:, n:], np.zeros((len(outputs), 1))]),
         )
 
+    def rest(self, load: ArrayLike, speed: float, wear: ArrayLike | None = None) -> tuple[Array, float]:
+        """Return where a shaft comes to rest under a static load, and the temperature that friction gives.
+
+        Steady heat on the worn profile, without melting: friction heat equals the losses, at the melting
+        point at most. Parameters and errors are those of `position`; `replace(reaction, temperature=...)`
+        holds the contact at the temperature.
+
+        Returns
+        -------
+        position : ndarray, shape (2,) [m]
+        temperature : float [K]
+            Of the contact above ambient.
+        """
+        depths = self.initial_state if wear is None else require_finite("wear", wear)
+
+        def excess(temperature: float) -> float:
+            held = replace(self, temperature=temperature)
+            _, pressed = held._settled(load, speed, depths)
+            return float(self.melting.margins(held._heat_state(pressed, speed)).max())
+
+        low, high = min(0.0, self.bush.outer_mean), self._melting_point
+        temperature = high if excess(high) >= 0.0 else float(brentq(excess, low, high, xtol=1e-9))
+        return replace(self, temperature=temperature)._settled(load, speed, depths)[0], temperature
+
     def position(self, load: ArrayLike, speed: float, wear: ArrayLike | None = None) -> Array:
-        """Return the position at which the bush carries a static load.
+        """Return the position at which the bush carries a static load at the temperature it is held at.
 
         `equilibrium` answers the same with the wear at t = 0, but needs nodes all around.
 
@@ -265,7 +322,7 @@ class BushReaction:
         load : array_like, shape (2,) [N]
             External force on the journal, not zero.
         speed : float [rad/s]
-            Its sign gives the sense of friction.
+            Its sign gives the sense of friction; zero is without friction.
         wear : array_like, shape (nodes,) [m], optional
             Wear depths; those at t = 0 by default.
 
@@ -280,18 +337,26 @@ class BushReaction:
         ConvergenceError
             If no position is found, for a load beyond the arc of nodes or worn through.
         """
+        depths = self.initial_state if wear is None else require_finite("wear", wear)
+        at, pressed = self._settled(load, speed, depths)
+        if speed != 0.0:
+            self._require_heat(depths, pressed, speed)
+        return at
+
+    def _settled(self, load: ArrayLike, speed: float, depths: Array) -> tuple[Array, Pressed]:
+        """Return the position that carries a load, and the contact there."""
         target = require_vector("load", load)
         size = math.hypot(*target)
         if target.shape != (2,) or size == 0.0:
             raise InputError(f"load must be a vector of two numbers, not both zero, got {load!r}")
-        depths = self.initial_state if wear is None else require_finite("wear", wear)
         # Part of the load that the pressure carries: the load is that of pressure and friction.
         lean = self._friction * np.sign(speed)
         normal = np.array([target[0] + lean * target[1], target[1] - lean * target[0]]) / (1.0 + lean**2)
         angle = float(self.bush.contact_angle(size))
         radius = self.bush.geometry.radius
         start = (self._gap / math.cos(angle) + depths.max() / radius) * normal / math.hypot(*normal)
-        return radius * settle(self._nodes, self._gap + depths / radius, normal / self._unit, start)
+        at = radius * settle(self._nodes, self._gap + depths / radius, normal / self._unit, start)
+        return at, profile.press(self._nodes, self._depth(at, np.zeros(2), depths))
 
     @cached_property
     def _nodes(self) -> Nodes:
@@ -302,12 +367,16 @@ class BushReaction:
         return self.bush.liner.melting_point
 
     @cached_property
+    def _held(self) -> float:
+        return self._melting_point if self.temperature is None else float(self.temperature)
+
+    @cached_property
     def _friction(self) -> float:
-        return float(self.bush.friction.at(self._melting_point))
+        return float(self.bush.friction.at(self._held))
 
     @cached_property
     def _gap(self) -> float:
-        return float(self.bush.gap(self._melting_point))
+        return float(self.bush.gap(self._held))
 
     @cached_property
     def _unit(self) -> float:
@@ -368,13 +437,31 @@ class BushReaction:
             total=float(pressed.load.sum()) / self.bush.compliance,
             angle=angle,
             work=law.pressure_work * self._friction * abs(speed),
-            losses=law.losses(angle),
-            losses_slope=law.heat_slopes(angle, law.melting, 0.0, 0.0)[0],
+            losses=law.losses(angle, self._held),
+            losses_slope=law.heat_slopes(angle, self._held, 0.0, 0.0)[0],
         )
+
+    def _melted(self, pressed: Pressed, speed: float) -> Melting:
+        if self._held < self._melting_point:
+            return Melting(*np.zeros((5, self.nodes)))
+        return self.melting.melting(self._heat_state(pressed, speed))
+
+    def _require_heat(self, wear: Array, pressed: Pressed, speed: float) -> None:
+        """Warn of a worn contact that is held at the melting point for nothing."""
+        if self.temperature is not None or not wear.max() > 0.0 or not pressed.angle > 0.0:
+            return
+        at = self._heat_state(pressed, speed)
+        lost = -self.melting.margins(at._replace(work=0.0)).max()
+        if self.melting.margins(at).max() < -COVERED_TO * lost:
+            # Without the number: Python tells a text once for each line of the user.
+            warn_user(
+                "friction must cover the losses of a worn contact at its melting point, got less than "
+                f"{1.0 - COVERED_TO:.0%} of them: it cools; `rest` answers how far, `temperature` holds it"
+            )
 
     def _rate_slopes(self, pressed: Pressed, loads: Array, angle: Array, speed: float) -> tuple[Array, Array]:
         """Return d(rate of wear)/d(wear, x, y), shape (n, n + 2), and by the speed, shape (n,)."""
-        by = self.melting.melting(self._heat_state(pressed, speed))
+        by = self._melted(pressed, speed)
         rates = (by.by_pressure / self._nodes.weight)[:, None] * loads
         rates += np.outer(by.by_total, loads.sum(axis=0)) + np.outer(by.by_angle, angle)
         work = self.bush.law.pressure_work * self._friction * math.copysign(1.0, speed)

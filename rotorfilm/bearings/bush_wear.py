@@ -9,7 +9,14 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import FilmContactError, InputError, require_finite, require_non_negative, require_positive
+from ..errors import (
+    FilmContactError,
+    InputError,
+    require_finite,
+    require_non_negative,
+    require_positive,
+    warn_user,
+)
 from ..films import bush_contact as arc
 from ..films.bush_melting import Contact, MeltingLaw
 from ..model import Array, Linearization
@@ -24,10 +31,13 @@ NOMINAL_LOAD = 1e-2
 NOMINAL_SPEED = 10.0
 """Typical angular speed [rad/s]."""
 
+COOLED = 0.02
+"""Part of the melting point by which a worn contact may be colder without a word."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class BushWear:
-    """A `MeltingBush` under a load that does not fall: a Dynamic model with one state.
+    """A `MeltingBush` under a load along one line: a Dynamic model with one state.
 
     The state is the wear moment W = int v cos(phi) dphi / R of the wear depth v. Contact angle alpha and
     contact temperature T follow from it and from load and speed,
@@ -38,8 +48,10 @@ class BushWear:
 
         dW/dt = q_m N/(g gamma R qbar).
 
-    Melting is taken proportional to the local pressure, whose shape is (2.14). Where the load falls, alpha
-    falls as on an unworn surface: `BushReaction` is the model for unloading and for loads that turn.
+    Melting is taken proportional to the local pressure, whose shape is (2.14). The contact is taken to end on
+    unworn liner, as it does while the load does not fall. A worn contact under a smaller load, or colder,
+    ends within the worn part: it is narrower, and warmer, than here (docs/bush.md), which a warning says.
+    `BushReaction` knows the profile, and its `rest` how far the contact cools.
 
     Parameters
     ----------
@@ -141,6 +153,7 @@ class BushWear:
         point = self._point(x, u)
         at = self._law.contact(*point)
         settlement = float(self.bush.settlement(at.alpha, at.temperature))
+        self._require_melting(point[0], at.temperature)
         thickness = self.bush.geometry.outer_radius - self.bush.geometry.radius
         if settlement >= thickness:
             raise FilmContactError(
@@ -246,6 +259,15 @@ class BushWear:
                 (surplus + (1.0 - ratio) * loss_slope) / losses,
             ]
         )
+
+    def _require_melting(self, moment: float, temperature: float) -> None:
+        """Warn of a worn contact that is colder than where it wears."""
+        if moment > 0.0 and temperature < (1.0 - COOLED) * self._law.melting:
+            warn_user(
+                "load and speed must keep a worn contact at its melting point, got less than "
+                f"{1.0 - COOLED:.0%} of that temperature: it is taken to end on unworn liner, too wide "
+                "and too cold; BushReaction.rest knows its profile"
+            )
 
     @cached_property
     def _law(self) -> MeltingLaw:

@@ -91,9 +91,10 @@ class MeltingLaw(NamedTuple):
         """Return the mean temperature of the liner's outer surface over the contact [K]."""
         return self.outer[0] + self.outer[1] * float(arc.sinc(alpha))
 
-    def losses(self, alpha: float) -> float:
-        """Return the heat per contact area that shaft and liner take at the melting point [W/m2]."""
-        return self.conductance(alpha) * self.melting - self.liner * self.outer_temperature(alpha)
+    def losses(self, alpha: float, temperature: float | None = None) -> float:
+        """Return the heat per contact area that shaft and liner take, by default at T_* [W/m2]."""
+        contact = self.melting if temperature is None else temperature
+        return self.conductance(alpha) * contact - self.liner * self.outer_temperature(alpha)
 
     def sliding(self, alpha: float, load_ratio: float, speed: float) -> float:
         """Return the friction heat per contact area for a friction coefficient of one [W/m2]."""

@@ -37,9 +37,9 @@ double rf_bush_conductance(const rf_bush *b, double a)
     return (b->is.whole != 0.0 ? HALF_TURN / a : 1.0) * b->is.shaft + b->is.liner;
 }
 
-double rf_bush_losses(const rf_bush *b, double a, double sin_a)
+double rf_bush_losses(const rf_bush *b, double a, double sin_a, double temperature)
 {
-    return rf_bush_conductance(b, a) * b->is.melting
+    return rf_bush_conductance(b, a) * temperature
            - b->is.liner * (b->outer[0] + b->outer[1] * sin_a / a);
 }
 

@@ -4,8 +4,16 @@
 
 #include "kernel.h"
 
-/* Parameters of both kernels; kernel "bush_reaction" has RETARDATION [s] besides. */
-enum { RF_FRICTION, RF_OUTER = 3, RF_MELTING_HEAT = 5, RF_BUSH_PARAMETERS, RF_RETARDATION = RF_BUSH_PARAMETERS };
+/* Parameters of both kernels; kernel "bush_reaction" has RETARDATION [s] and TEMPERATURE [K] besides. */
+enum {
+    RF_FRICTION,
+    RF_OUTER = 3,
+    RF_MELTING_HEAT = 5,
+    RF_BUSH_PARAMETERS,
+    RF_RETARDATION = RF_BUSH_PARAMETERS,
+    RF_TEMPERATURE,
+    RF_REACTION_PARAMETERS
+};
 
 /* Table "bush", in this order: lengths per liner radius where no unit is given. */
 typedef struct rf_bush_numbers {
@@ -35,9 +43,9 @@ int rf_bush_parameters(rf_bush *bush, const double *p, rf_message *why);
 void rf_arc(double a, double sin_a, double cos_a, double *segment, double *moment);
 
 double rf_bush_friction(const rf_bush *bush, double temperature);
-/* Heat per area and kelvin that shaft and liner take; what they take at T_*, and its derivative by a. */
+/* Heat per area and kelvin that shaft and liner take; what they take at a temperature, and its derivative by a. */
 double rf_bush_conductance(const rf_bush *bush, double a);
-double rf_bush_losses(const rf_bush *bush, double a, double sin_a);
+double rf_bush_losses(const rf_bush *bush, double a, double sin_a, double temperature);
 double rf_bush_losses_slope(const rf_bush *bush, double a, double moment, double temperature);
 
 #endif

@@ -18,6 +18,7 @@
 #define TOLERANCE 1e-10       /* of the local error, relative to each depth and to a typical one */
 #define ROWS 8               /* of the extrapolation */
 #define MOST_PARTS 2000
+#define COVERED_TO 0.05 /* share of the losses by which friction heat may fall short without a word */
 
 enum { ARRAYS = 8, WORK = 9 + ROWS };
 
@@ -26,6 +27,7 @@ typedef struct model {
     rf_bush_profile profile; /* scratch, as are the arrays behind it */
     int local;
     double center, extent, retardation;
+    double held, gap, grip; /* temperature of the contact, clearance and friction there */
     double unit, friction; /* force of a unit of load; friction with its sign */
     double work, losses, losses_slope, kept;
     double *scratch[WORK];
@@ -42,6 +44,12 @@ static double pressure(const model *m, size_t i)
     return m->profile.load[i] / (m->bush.is.compliance * m->profile.weight[i]);
 }
 
+/* Only a contact that is held at the melting point wears. */
+static int melts(const model *m)
+{
+    return m->held >= m->bush.is.melting;
+}
+
 /* Depths, loads and heat at wear depths x under the input u. */
 static void press(model *m, const double *x, const double *u)
 {
@@ -49,17 +57,17 @@ static void press(model *m, const double *x, const double *u)
     const rf_bush *b = &m->bush;
     const double mx = u[0] + m->retardation * u[2], my = u[1] + m->retardation * u[3];
     for (size_t i = 0; i < p->n; ++i)
-        p->depth[i] = (p->cosine[i] * mx + p->sine[i] * my - x[i]) / b->is.radius - b->gap;
+        p->depth[i] = (p->cosine[i] * mx + p->sine[i] * my - x[i]) / b->is.radius - m->gap;
     rf_bush_profile_press(p);
     const double a = fmax(p->angle, LEAST_ANGLE), s = sin(a);
-    m->friction = u[4] > 0.0 ? b->grip : u[4] < 0.0 ? -b->grip : 0.0;
-    m->work = b->is.pressure_work * b->grip * fabs(u[4]);
-    m->losses = rf_bush_losses(b, a, s);
+    m->friction = u[4] > 0.0 ? m->grip : u[4] < 0.0 ? -m->grip : 0.0;
+    m->work = b->is.pressure_work * m->grip * fabs(u[4]);
+    m->losses = rf_bush_losses(b, a, s, m->held);
     double segment, moment;
     rf_arc(a, s, cos(a), &segment, &moment);
-    m->losses_slope = rf_bush_losses_slope(b, a, moment, b->is.melting);
+    m->losses_slope = rf_bush_losses_slope(b, a, moment, m->held);
     const double total = p->total / b->is.compliance;
-    m->kept = total > 0.0 ? fmax(m->work - 2.0 * a * m->losses / total, 0.0) : 0.0;
+    m->kept = total > 0.0 && melts(m) ? fmax(m->work - 2.0 * a * m->losses / total, 0.0) : 0.0;
 }
 
 /* Raise unless the shaft is within the housing and its contact on the arc of nodes. */
@@ -73,7 +81,7 @@ static int require_place(const model *m, const double *u, rf_message *why)
                       "position must keep the journal inside the clearance %.6g m, got an eccentricity of %.6g m",
                       housing, moved);
     const double reach = hypot(mx, my), along = cos(m->center) * mx + sin(m->center) * my;
-    const int beyond = along < reach * cos(0.5 * m->extent) && reach > m->bush.gap * m->bush.is.radius;
+    const int beyond = along < reach * cos(0.5 * m->extent) && reach > m->gap * m->bush.is.radius;
     if (p->closed || (!beyond && !(p->depth[0] > 0.0) && !(p->depth[p->n - 1] > 0.0)))
         return RF_OK;
     return rf_say(why, RF_CONTACT,
@@ -93,8 +101,8 @@ static int enter(model *m, const rf_point *at, rf_message *why)
 /* Rate of wear at node i. */
 static double rate(const model *m, size_t i)
 {
-    const double heat = m->local ? fmax(m->work * pressure(m, i) - m->losses, 0.0) : m->kept * pressure(m, i);
-    return heat / m->bush.melting_heat;
+    const double own = melts(m) ? fmax(m->work * pressure(m, i) - m->losses, 0.0) : 0.0;
+    return (m->local ? own : m->kept * pressure(m, i)) / m->bush.melting_heat;
 }
 
 static int derivative(const void *kernel, const rf_point *at, double *dx, rf_message *why)
@@ -128,6 +136,30 @@ static size_t deepest(const rf_bush_profile *p)
     return top;
 }
 
+/* Friction heat over the losses, where it is largest. */
+static double covered(const model *m)
+{
+    const rf_bush_profile *p = &m->profile;
+    double most = m->local ? 0.0 : p->total / (2.0 * p->angle * m->bush.is.compliance);
+    for (size_t i = 0; m->local && i < p->n; ++i)
+        most = fmax(most, pressure(m, i));
+    return m->losses > 0.0 ? m->work * most / m->losses : HUGE_VAL;
+}
+
+/* Tell of a worn contact that is held at the melting point for nothing. */
+static int require_heat(const model *m, const double *wear, rf_message *why)
+{
+    int worn = 0;
+    for (size_t i = 0; i < m->profile.n; ++i)
+        worn |= wear[i] > 0.0;
+    if (!worn || !melts(m) || !(m->profile.angle > 0.0) || covered(m) >= 1.0 - COVERED_TO)
+        return RF_OK;
+    return rf_say(why, RF_OUTSIDE,
+                  "friction must cover the losses of a worn contact at its melting point, got about %.0f %% of "
+                  "them: it cools; parameter temperature holds it colder",
+                  100.0 * covered(m));
+}
+
 static int output(const void *kernel, const rf_point *at, double *y, rf_message *why)
 {
     model *m = writable(kernel);
@@ -138,7 +170,7 @@ static int output(const void *kernel, const rf_point *at, double *y, rf_message 
     add_force(m, p->load, y, 1);
     y[3] = p->angle;
     y[4] = m->bush.is.modulus / m->bush.is.compliance * fmax(p->depth[deepest(p)], 0.0);
-    return RF_OK;
+    return require_heat(m, at->x, why);
 }
 
 static int events(const void *kernel, const rf_point *at, double *z, rf_message *why)
@@ -162,10 +194,10 @@ static int events(const void *kernel, const rf_point *at, double *z, rf_message 
 /* d(rate)/d(pressure of the node itself), and the part g of d(rates) = g (what the whole contact changes). */
 static void rate_slopes(const model *m, size_t i, double *own, double *whole)
 {
-    const int melts = m->local ? m->work * pressure(m, i) > m->losses : m->kept > 0.0;
+    const int on = m->local ? melts(m) && m->work * pressure(m, i) > m->losses : m->kept > 0.0;
     const double per = 1.0 / m->bush.melting_heat;
-    *own = melts ? per * (m->local ? m->work : m->kept) / (m->profile.weight[i] * m->bush.is.compliance) : 0.0;
-    *whole = melts ? per * (m->local ? 1.0 : pressure(m, i)) : 0.0;
+    *own = on ? per * (m->local ? m->work : m->kept) / (m->profile.weight[i] * m->bush.is.compliance) : 0.0;
+    *whole = on ? per * (m->local ? 1.0 : pressure(m, i)) : 0.0;
 }
 
 /* What the whole contact changes where the sum of the loads changes by `total` and half the angle by `angle`. */
@@ -224,7 +256,7 @@ static int jacobian(const void *kernel, const rf_point *at, rf_jacobian *answer,
     }
     for (size_t i = 0; i < n; ++i) {
         rate_slopes(m, i, &own, &whole);
-        answer->B[5 * i + 4] = (own > 0.0 ? pressure(m, i) : 0.0) * m->bush.is.pressure_work * m->bush.grip
+        answer->B[5 * i + 4] = (own > 0.0 ? pressure(m, i) : 0.0) * m->bush.is.pressure_work * m->grip
                                * copysign(1.0, at->u[4]) / m->bush.melting_heat;
     }
     for (size_t i = 0; i < 5; ++i)
@@ -420,7 +452,7 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
         m->scratch[k] = block + (ARRAYS + k) * p->n;
     rf_bush_profile_nodes(p, m->center, m->extent);
     m->unit = m->bush.is.force_unit / m->bush.is.compliance;
-    const rf_sizes mine = {RF_BUSH_PARAMETERS + 1, 5, 5, p->n, p->n + (m->local ? p->n : 1) + 1};
+    const rf_sizes mine = {RF_REACTION_PARAMETERS, 5, 5, p->n, p->n + (m->local ? p->n : 1) + 1};
     *sizes = mine;
     return m;
 }
@@ -431,10 +463,18 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     if (!(p[RF_RETARDATION] >= 0.0 && p[RF_RETARDATION] < HUGE_VAL))
         return rf_say(why, RF_INVALID, "retardation must be finite and not negative, got %.9g",
                       p[RF_RETARDATION]);
+    const double held = p[RF_TEMPERATURE];
+    if (!(held <= m->bush.is.melting && held > -HUGE_VAL))
+        return rf_say(why, RF_INVALID, "temperature must not exceed the melting point %.9g, got %.9g",
+                      m->bush.is.melting, held);
     const int status = rf_bush_parameters(&m->bush, p, why);
-    if (status == RF_OK)
-        m->retardation = p[RF_RETARDATION];
-    return status;
+    if (status != RF_OK)
+        return status;
+    m->retardation = p[RF_RETARDATION];
+    m->held = held;
+    m->gap = m->bush.is.clearance - m->bush.is.closing * held;
+    m->grip = rf_bush_friction(&m->bush, held);
+    return RF_OK;
 }
 
 extern const rf_kernel_type rf_bush_reaction_type;

@@ -15,6 +15,7 @@
 #define LEAST 1e-250 /* of what is lifted: below, the powers of the angle are none */
 #define LONGEST 8.0 /* step, in times in which the rate of wear falls by 1/e */
 #define MOST_PARTS 20000
+#define COOLED 0.02 /* part of the melting point by which a worn contact may be colder without a word */
 
 /* Half the contact angle and what follows from it alone. */
 typedef struct arc {
@@ -167,7 +168,7 @@ static int find(const rf_bush *b, const demand *d, contact *c, rf_message *why)
 
 static double surplus(const rf_bush *b, const contact *c, const demand *d)
 {
-    return c->melting ? fmax(sliding(b, &c->at, d) * b->grip - rf_bush_losses(b, c->at.a, c->at.sin), 0.0)
+    return c->melting ? fmax(sliding(b, &c->at, d) * b->grip - rf_bush_losses(b, c->at.a, c->at.sin, b->is.melting), 0.0)
                       : 0.0;
 }
 
@@ -226,7 +227,12 @@ static int output(const void *kernel, const rf_point *at, double *y, rf_message 
     y[4] = sense(at->u[1]) * b->is.force_unit * b->is.shaft_radius * rf_bush_friction(b, c.temperature)
            * d.load * 2.0 * c.at.a * c.at.weight;
     y[5] = surplus(b, &c, &d) / b->melting_heat;
-    y[6] = sliding(b, &c.at, &d) * b->grip / rf_bush_losses(b, c.at.a, c.at.sin);
+    y[6] = sliding(b, &c.at, &d) * b->grip / rf_bush_losses(b, c.at.a, c.at.sin, b->is.melting);
+    if (d.moment > 0.0 && c.temperature < (1.0 - COOLED) * b->is.melting)
+        return rf_say(why, RF_OUTSIDE,
+                      "load and speed must keep a worn contact at its melting point, got %.4g K: it is taken to "
+                      "end on unworn liner, too wide and too cold",
+                      c.temperature);
     return RF_OK;
 }
 
@@ -275,7 +281,7 @@ static int jacobian(const void *kernel, const rf_point *point, rf_jacobian *answ
     const arc *at = &c.at;
     const double f = rf_bush_friction(b, c.temperature), f_slope = b->friction[1] + 2.0 * b->friction[2] * c.temperature;
     const double unit = sense(point->u[1]) * b->is.force_unit * b->is.shaft_radius * 2.0 * at->a * at->weight;
-    const double losses = rf_bush_losses(b, at->a, at->sin), log_weight = of_weight(at);
+    const double losses = rf_bush_losses(b, at->a, at->sin, b->is.melting), log_weight = of_weight(at);
     const double ratio = sliding(b, at, &d) * b->grip / losses, extra = surplus(b, &c, &d);
     const double losses_slope = rf_bush_losses_slope(b, at->a, at->moment, b->is.melting);
     const double peak_slope = (at->sin - 2.0 * at->sin * at->sin * peak(at)) / at->segment;
@@ -308,7 +314,7 @@ typedef struct rate {
 
 static rate melt(const rf_bush *b, const demand *d, const arc *at)
 {
-    const double losses = rf_bush_losses(b, at->a, at->sin), per = heat_per_moment(b, at);
+    const double losses = rf_bush_losses(b, at->a, at->sin, b->is.melting), per = heat_per_moment(b, at);
     const double slope = rf_bush_losses_slope(b, at->a, at->moment, b->is.melting) - losses * of_weight(at);
     const rate found = {(sliding(b, at, d) * b->grip - losses) / per, -slope / (per * b->gap * at->F_slope)};
     return found;

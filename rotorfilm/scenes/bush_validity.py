@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from ..errors import ConvergenceError
 from ..films import bush_contact as arc
-from ..films.bush_moments import end_of_wear
+from ..films.bush_moments import end_of_wear, wear_by_one_moment
 from ..films.bush_worn import end_of_local_wear
 from .bush_run import BushRun
 
@@ -21,6 +22,10 @@ LEAN = 0.02
 
 NEAR = 0.05
 """Speed over the critical one, less one, within which small causes decide whether a bush melts."""
+
+
+COLD = 5.0
+"""Kelvin by which a worn contact may be off the melting point without a word."""
 
 
 class BushNumbers(NamedTuple):
@@ -38,6 +43,8 @@ class BushNumbers(NamedTuple):
         Share of the load that friction carries, 1 - 1/sqrt(1 + f^2): left out of the balance of forces.
     melted : float
         Largest wear there can be over the thickness of the liner: rate at the begin times duration.
+    cooled : float [K]
+        By how much friction keeps the worn contact below the melting point at the end, by one moment.
     """
 
     margin: float
@@ -45,6 +52,7 @@ class BushNumbers(NamedTuple):
     strain: float
     lean: float
     melted: float
+    cooled: float
 
 
 def bush_numbers(run: BushRun) -> BushNumbers:
@@ -67,7 +75,18 @@ def bush_numbers(run: BushRun) -> BushNumbers:
         strain=run.bush.compliance * peak * geometry.radius / thickness,
         lean=1.0 - 1.0 / math.hypot(1.0, friction),
         melted=geometry.radius / thickness * max(min(fastest * duration, settled), 0.0),
+        cooled=0.0 if run.grows else _cooled(run),
     )
+
+
+def _cooled(run: BushRun) -> float:
+    law = run.exact.law
+    try:
+        moment = float(wear_by_one_moment(run.exact, run.stages).moment[-1])
+        at = law.contact(moment, run.stages[-1].load_ratio, run.speed)
+    except ConvergenceError:  # too wide a contact, or two states: said elsewhere
+        return math.nan
+    return law.melting - at.temperature if moment > 0.0 else 0.0
 
 
 def bush_remarks(run: BushRun) -> tuple[str, ...]:
@@ -83,6 +102,10 @@ def bush_remarks(run: BushRun) -> tuple[str, ...]:
         "before": n.melted > STRAIN,
         f"slow: heat is spread evenly around a shaft above {SPREAD_SPEED:g} rad/s, this one turns at "
         f"{abs(run.speed):.3g} rad/s": abs(run.speed) < SPREAD_SPEED,
+        f"cold: in the end the worn contact cools by some {n.cooled:.0f} K, which widens its clearance by "
+        f"{n.cooled * run.bush.closing * run.radius:.2g} m; wear is told at the melting point": (
+            n.cooled > COLD
+        ),
         "two states: friction rises so steeply with temperature that a contact may also stay cold": (
             run.stays_cold
         ),

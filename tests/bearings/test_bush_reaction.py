@@ -9,18 +9,23 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
+from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
 from rotorfilm.bearings.bush import f4k20_bush
 from rotorfilm.bearings.bush_reaction import BushReaction
 from rotorfilm.bearings.bush_wear import BushWear
-from rotorfilm.errors import ConvergenceError, FilmContactError, InputError
+from rotorfilm.errors import ConvergenceError, FilmContactError, InputError, ValidityWarning
 from rotorfilm.films.bush_contact import mean_weight
 from rotorfilm.films.bush_heat import GlobalBalance
 from rotorfilm.films.bush_profile import LocalMelting, Melting, SharedMelting
 from rotorfilm.linear import OperatingPoint, coefficients, equilibrium, linearize
 from rotorfilm.model import Dynamic, Reaction, Switched
 from rotorfilm.signals import names
+
+pytestmark = pytest.mark.filterwarnings(
+    "ignore:friction must cover the losses of a worn contact:rotorfilm.errors.ValidityWarning"
+)
 
 BUSH = f4k20_bush()
 WORN = BushReaction(bush=BUSH, melting_heat=1e8, nodes=48)
@@ -248,6 +253,109 @@ def test_unloading_leaves_the_wear_and_the_conforming_contact():
     assert light[3] > 0.9 * full[3] > 1.5 * unworn[3]
 
 
+@pytest.fixture(scope="module")
+def relieved():
+    """A bush with the wear of 1 s at 9 rad/s under 3750 N."""
+    model = replace(WORN, nodes=97, extent=1.4)
+    wear = quasi_static(model, lambda t: DOWN, 9.0, 1.0, rtol=1e-4, atol=1e-9).y[:, -1]
+    return replace(model, wear_depth=tuple(np.maximum(wear, 0.0)))
+
+
+def fine_contact(model, x, y, temperature, speed):
+    """Return the force on the liner, and the heat made and lost per radius and length, by plain sums."""
+    phi = np.linspace(-0.7, 0.7, 40001)
+    wear = CubicSpline(np.linspace(-0.7, 0.7, model.nodes), model.wear_depth)(phi)
+    theta = phi - 0.5 * math.pi
+    gap = 0.5e-3 - 13e-3 * BUSH.closing * temperature
+    depth = (x * np.cos(theta) + y * np.sin(theta) - gap - wear) / 13e-3
+    pressure = 3e8 / BUSH.compliance * np.maximum(depth, 0.0)
+    step, side = phi[1] - phi[0], math.copysign(0.1, speed)
+    carried = np.array([(pressure * np.cos(theta)).sum(), (pressure * np.sin(theta)).sum()])
+    carried = 12.5e-3 * 0.1 * step * (carried + side * np.array([-carried[1], carried[0]]))
+    half = 0.5 * step * np.count_nonzero(depth > 0.0)
+    lost = BUSH.shaft_conductance * temperature
+    lost += BUSH.liner_conductance * (temperature - 235.0 - 4.0 * math.sin(half) / half)
+    return *carried, abs(speed) * 12.5e-3 * 0.1 * pressure.sum() * step, 2.0 * half * lost
+
+
+@pytest.mark.parametrize(("load", "speed"), [(1125.0, 9.0), (375.0, -9.0), (3750.0, 3.0)])
+def test_a_worn_bush_below_its_critical_speed_rests_where_force_and_steady_heat_balance(
+    relieved, load, speed
+):
+    """Three balances, summed over 40 000 pieces of the worn liner."""
+    at, temperature = relieved.rest([0.0, -load], speed)
+    *force, made, lost = fine_contact(relieved, *at, temperature, speed)
+    np.testing.assert_allclose(force, [0.0, -load], atol=0.01 * load)
+    assert made == pytest.approx(lost, rel=0.005)
+    assert BUSH.liner_conductance * 235.0 / (BUSH.liner_conductance + BUSH.shaft_conductance) < temperature
+    held = relieved.position([0.0, -load], speed)
+    assert math.hypot(*at) - math.hypot(*held) > 5e-6
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("balance", [BUSH.balance, GlobalBalance()])
+def test_an_unworn_bush_rests_as_the_model_with_one_state_says(balance):
+    bush = replace(BUSH, balance=balance)
+    model = replace(WORN, bush=bush, nodes=401)
+    one = BushWear(bush=bush, melting_heat=1e8)
+    for speed in (0.5, -3.0, 4.2, 60.0):
+        at, temperature = model.rest(DOWN, speed)
+        _, settlement, expected, *_ = one.output(0.0, [0.0], [LOAD / math.hypot(1.0, 0.1), speed])
+        assert temperature == pytest.approx(expected, rel=1e-4)
+        assert math.hypot(*at) - 0.5e-3 == pytest.approx(settlement, abs=2e-8)
+
+
+def test_rest_is_continuous_from_melting_to_cold_and_back(relieved):
+    loads = np.linspace(0.3, 1.2, 46) * LOAD
+    found = [relieved.rest([0.0, -load], 9.0) for load in loads]
+    temperature = np.array([t for _, t in found])
+    depth = np.array([math.hypot(*at) for at, _ in found])
+    assert (temperature[-1], temperature[0] < 200.0) == (250.0, True)
+    assert np.all(np.diff(temperature) >= 0.0)
+    assert np.abs(np.diff(temperature)).max() < 3.0
+    assert np.abs(np.diff(depth)).max() < 1e-6
+    # Where it melts again it is where it has been all along.
+    np.testing.assert_allclose(found[-1][0], relieved.position([0.0, -loads[-1]], 9.0), rtol=1e-12)
+
+
+@pytest.mark.parametrize("melting", [SharedMelting(), LocalMelting()])
+@pytest.mark.filterwarnings("error")
+def test_a_worn_contact_that_is_held_hot_for_nothing_is_told(relieved, melting):
+    model = replace(relieved, melting=melting)
+    light = [0.0, -0.3 * LOAD]
+    with pytest.warns(ValidityWarning, match=r"got less than 95% of them: it cools"):
+        at = model.position(light, 9.0)
+    with pytest.warns(ValidityWarning, match="it cools"):
+        model.force(at, [0.0, 0.0], 9.0)
+    with pytest.warns(ValidityWarning, match="it cools"):
+        model.output(0.0, model.initial_state, [*at, 0.0, 0.0, 9.0])
+    # Neither while it melts, nor at the temperature that friction gives; there it does not wear.
+    model.position(DOWN, 12.0)
+    at, temperature = model.rest(light, 9.0)
+    cold = replace(model, temperature=temperature)
+    np.testing.assert_allclose(cold.position(light, 9.0), at, rtol=1e-12)
+    force, *_ = np.split(cold.output(0.0, cold.initial_state, [*at, 0.0, 0.0, 9.0]), [2])
+    np.testing.assert_allclose(force, [0.0, 0.3 * LOAD], atol=1e-6)
+    assert not cold.derivative(0.0, cold.initial_state, [*at, 0.0, 0.0, 60.0]).any()
+    assert not cold.linearization(0.0, cold.initial_state, [*at, 0.0, 0.0, 60.0]).A.any()
+
+
+def test_a_steady_temperature_at_a_given_position_would_run_away():
+    """Why the reaction is held at a temperature: a kelvin more presses out four times the heat it loses."""
+    speed = float(BUSH.critical_speed(LOAD))
+    alpha = float(BUSH.contact_angle(LOAD))
+    at = np.array([0.0, -0.5e-3 - float(BUSH.settlement(alpha))])
+
+    def heat(temperature):
+        model = replace(WORN, temperature=temperature, nodes=201)
+        u = [*at, 0.0, 0.0, speed]
+        _, _, torque, angle, _ = model.output(0.0, model.initial_state, u)
+        return torque * speed / (2.0 * angle * 12.5e-3 * 0.1)
+
+    made = heat(250.0) - heat(249.0)
+    assert made > 2.0 * (BUSH.shaft_conductance + BUSH.liner_conductance)
+
+
 def test_a_shaft_that_has_left_the_liner_feels_nothing():
     y = WORN.output(0.0, WORN.initial_state, [0.0, 0.0, 0.0, 0.0, 50.0])
     assert y.tolist() == [0.0] * 5
@@ -413,6 +521,8 @@ def test_python_control_gets_the_exact_derivatives():
         ({"extent": 7.0}, "extent must not exceed 2 pi, got 7.0"),
         ({"melting": LocalMelting}, r"melting must be SharedMelting\(\) or LocalMelting\(\), got <class"),
         ({"retardation": -1.0}, "retardation must be finite and not negative, got -1.0"),
+        ({"temperature": 251.0}, "temperature must not exceed the melting point 250.0, got 251.0"),
+        ({"temperature": math.nan}, "temperature must be a single finite number, got nan"),
         ({"wear_depth": (0.0,) * 7}, "wear_depth must hold no or 48 numbers, none negative"),
         ({"wear_depth": (-1e-9,) * 48}, "wear_depth must hold no or 48 numbers, none negative"),
     ],

@@ -14,17 +14,26 @@ from scipy.optimize import brentq
 
 from rotorfilm.bearings.bush import f4k20_bush
 from rotorfilm.bearings.bush_materials import Friction
+from rotorfilm.bearings.bush_reaction import BushReaction
 from rotorfilm.bearings.bush_wear import BushWear
-from rotorfilm.errors import ConvergenceError, FilmContactError, InputError
+from rotorfilm.errors import ConvergenceError, FilmContactError, InputError, ValidityWarning
 from rotorfilm.films.bush_heat import GlobalBalance
+from rotorfilm.films.bush_moments import Stage, Wearing, wear_by_one_moment
+from rotorfilm.films.bush_profile import SharedMelting
+from rotorfilm.films.bush_worn import wear_at_nodes
 from rotorfilm.fmu.integrate import advance
 from rotorfilm.linear import OperatingPoint, linearize
 from rotorfilm.model import Dynamic, Switched
 from rotorfilm.signals import names
 
+pytestmark = pytest.mark.filterwarnings(
+    "ignore:load and speed must keep a worn contact:rotorfilm.errors.ValidityWarning"
+)
+
 BUSH = f4k20_bush()
 WEAR = BushWear(bush=BUSH, melting_heat=1e8)
 LOAD = 3750.0
+RATIO = float(BUSH.load_ratio(LOAD))
 ONSET = float(BUSH.critical_speed(LOAD))
 OUTPUTS = [
     "contact_angle",
@@ -204,6 +213,29 @@ def test_derivatives_are_exact(u, friction, balance):
     scale = np.array([1e-2, *(signal.nominal for signal in model.outputs)])
     error = (exact - difference(model, x, u, steps)) * 1e3 * steps / scale[:, None]
     assert np.abs(error).max() < 1e-9
+
+
+@pytest.mark.convergence
+@pytest.mark.parametrize(("share", "kelvin", "depth"), [(0.5, 5.0, 1.2e-6), (0.3, 8.0, 2.5e-6)])
+@pytest.mark.parametrize("duration", [0.02, 0.2])
+def test_a_worn_bush_under_a_smaller_load_is_somewhat_colder_than_its_profile_says(
+    share, kelvin, depth, duration
+):
+    """The rung above: wear at nodes and steady heat."""
+    speed = 9.0
+    wearing, stages = Wearing(BUSH.law, speed, 1e8 * 13e-3), (Stage(duration, RATIO),)
+    path = wear_by_one_moment(wearing, stages)
+    reach = 1.15 * float(wearing.angle(path.moment[-1], RATIO))
+    depths = 13e-3 * wear_at_nodes(wearing, SharedMelting(), stages, 96, reach).depth
+    model = BushReaction(
+        bush=BUSH, melting_heat=1e8, nodes=193, extent=2.0 * reach, center=-0.5 * math.pi - math.atan(0.1)
+    )
+    # Pressure carries the load beside friction, so that it is the load of the other model.
+    at, temperature = model.rest([0.0, -share * LOAD * math.hypot(1.0, 0.1)], speed, depths)
+    with pytest.warns(ValidityWarning, match="a worn contact at its melting point"):
+        y = outputs(WEAR, float(path.moment[-1]), share * LOAD, speed)
+    assert 0.0 < temperature - y["temperature"] < kelvin
+    assert math.hypot(*at) - 0.5e-3 == pytest.approx(y["settlement"], abs=depth)
 
 
 def test_events_are_where_the_derivative_has_its_kink():

@@ -16,6 +16,11 @@ from rotorfilm.bearings.bush_materials import Friction
 from rotorfilm.films.bush_heat import ContactBalance, GlobalBalance
 from rotorfilm.films.bush_profile import LocalMelting, SharedMelting
 
+pytestmark = pytest.mark.filterwarnings(
+    "ignore:(friction must cover the losses of|load and speed must keep) a worn contact"
+    ":rotorfilm.errors.ValidityWarning"
+)
+
 BUSH = f4k20_bush()
 LOAD = 3750.0
 ONSET = float(BUSH.critical_speed(LOAD))
@@ -119,6 +124,34 @@ def test_the_profile_is_that_of_python(unzipped, kind, melting, balance, speed, 
     compare(client, model, model.initial_state, [0.0, 0.0, 0.0, 0.0, speed])
 
 
+@pytest.mark.parametrize("melting", [SharedMelting(), LocalMelting()])
+def test_a_profile_that_is_held_cold_is_that_of_python(unzipped, melting):
+    friction = Friction(f0=0.1, f1=2e-4, f2=-4e-7)
+    model = worn(bush=replace(BUSH, friction=friction), melting=melting, temperature=190.0)
+    position = model.position([0.0, -LOAD], 12.0, model.initial_state)
+    u = [*position, 0.0, 0.0, 12.0]
+    client, _ = opened(unzipped, worn(bush=model.bush, melting=melting), FMU3Model, u)
+    client.pass_event()
+    client.set(temperature=190.0)
+    client.fmu.enterContinuousTimeMode()
+    compare(client, model, model.initial_state, u)
+    assert model.output(0.0, model.initial_state, u)[1] == pytest.approx(LOAD, rel=1e-9)
+
+
+@pytest.mark.parametrize("melting", [SharedMelting(), LocalMelting()])
+def test_a_worn_contact_that_is_held_hot_for_nothing_is_told_once(unzipped, capsys, melting):
+    model = worn(melting=melting)
+    u = [*model.position([0.0, -0.3 * LOAD], 1.0, model.initial_state), 0.0, 0.0, 1.0]
+    client, _ = opened(unzipped, model, FMU2Slave, u)
+    client.step(0.0, 1e-3)
+    client.get(*names(model))
+    assert capsys.readouterr().out.count("of them: it cools") == 1
+    client, _ = opened(unzipped, replace(model, temperature=249.0), FMU2Slave, u)
+    client.step(0.0, 1e-3)
+    client.get(*names(model))
+    assert "it cools" not in capsys.readouterr().out
+
+
 def accurate(model, u, duration):
     return solve_ivp(
         lambda t, x: model.derivative(t, x, u),
@@ -151,6 +184,17 @@ def test_one_very_long_step_ends_where_the_critical_speed_is_the_speed(unzipped,
     end = brentq(lambda a: BUSH.critical_speed(LOAD, a) - speed, BUSH.contact_angle(LOAD), 1.5, xtol=1e-15)
     assert client.get("contact_angle")[0] == pytest.approx(end, rel=1e-8)
     assert client.get("speed_ratio")[0] == pytest.approx(1.0, rel=1e-8)
+
+
+def test_a_worn_bush_that_has_cooled_is_told_once(unzipped, capsys):
+    client, _ = opened(unzipped, replace(WEAR, wear=2e-3), FMU3Slave, (0.3 * LOAD, 9.0))
+    client.get(*names(WEAR))
+    client.step(0.0, 1e-3)
+    client.get(*names(WEAR))
+    assert capsys.readouterr().out.count("taken to end on unworn liner") == 1
+    client, _ = opened(unzipped, WEAR, FMU3Slave, (0.3 * LOAD, 3.0))
+    client.get(*names(WEAR))
+    assert "unworn liner" not in capsys.readouterr().out
 
 
 def test_a_step_below_the_critical_speed_wears_nothing(unzipped):
@@ -237,6 +281,7 @@ def test_parameters_are_those_of_the_model(unzipped):
         (WEAR, {"f2": 1e-5, "f1": -2.2e-3}, "friction must be positive up to the melting point"),
         (WEAR, {"melting_heat": 0.0}, "melting_heat must be finite and positive, got 0"),
         (WEAR, {"load": -1.0}, "load must be finite and not negative, got -1 N"),
+        (worn(), {"temperature": 251.0}, "temperature must not exceed the melting point 250, got 251"),
         (worn(), {"x": 2.1e-3}, "inside the clearance 0.002 m, got an eccentricity of 0.0021 m"),
         (worn(), {"y": 4.9e-4}, "contact must stay on the arc of nodes"),
     ],

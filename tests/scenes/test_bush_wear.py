@@ -156,6 +156,24 @@ def test_a_pulse_of_load_wears_as_many_nodes_say():
         assert abs(far / truth.value - 1.0) > 10.0 * answer.error_estimate
 
 
+@pytest.mark.convergence
+@pytest.mark.parametrize(
+    ("operation", "excitation", "rung"),
+    [
+        ({"speed": 9.0, "duration": 1.2}, step(2625.0, start=1.0), 2),
+        ({"duration": 0.4}, step(1500.0, start=0.2), 0),
+        ({"speed": 12.0, "duration": 0.3}, step(800.0, start=0.1), 1),
+    ],
+)
+def test_errors_under_a_falling_load_are_not_underestimated(operation, excitation, rung):
+    falling = scene(operation=operation, excitation=excitation)
+    truth = wear_by_nodes(falling).value
+    at = ladder_of(falling).rungs[rung]
+    found = at.answer(None)
+    error = abs(found.value / truth - 1.0)
+    assert 0.5 < error / at.estimate(found, None, 0.01).error < 1.25
+
+
 def test_turning_backwards_and_the_direction_of_the_load_do_not_matter():
     plain = scene().ask().value
     assert scene(operation={"speed": -8.0}).ask().value == plain
@@ -250,6 +268,7 @@ def test_numbers_by_hand():
         ({"operation": {"load": 300.0, "speed": 30.0}}, "thick liner"),
         ({"bush": {"shear_modulus": 5e6}}, "strain"),
         ({"operation": {"speed": 15.0, "duration": 10.0}}, "thickness"),
+        ({"excitation": step(2625.0, start=0.1)}, "cold"),
         (
             {"bush": {"friction": [0.02, 0.0, 2e-6], "outer_mean": 0.0}, "operation": {"speed": 10.0}},
             "two states",

@@ -15,7 +15,10 @@ NODES = (12, 24, 48, 96)
 """Nodes to each side of the load line."""
 
 ORDER = 2
-"""Of the wear in the distance of nodes."""
+"""Of the wear in the distance of nodes where each point melts by itself."""
+
+SHARED_ORDER = 1.5
+"""Of it where the contact melts as a whole, with 6 to 100 nodes: its front moves from node to node."""
 
 AT_CRITICAL = 1e-6
 """Speed over the critical one, less one, within which it is not known whether an unworn bush melts."""
@@ -101,13 +104,14 @@ class NodesRung:
             return unworn(self.run, found.value, AT_CRITICAL)
         reach = float(found.solution)
         coarse, work = self._half(found, before)
-        error = abs(found.value - coarse) / (2.0**ORDER - 1.0)
+        order = ORDER if self.run.local else SHARED_ORDER
+        error = abs(found.value - coarse) / (2.0**order - 1.0)
         # One difference of few nodes may vanish by chance, two hardly do.
         between = self._worn(3 * self.nodes // 4, reach)
-        other = abs(found.value - self.run.radius * between.settlement) / ((4.0 / 3.0) ** ORDER - 1.0)
+        other = abs(found.value - self.run.radius * between.settlement) / ((4.0 / 3.0) ** order - 1.0)
         error = math.hypot(error, other) / math.sqrt(2.0)
         work = {**work, profiles(3 * self.nodes // 4): between.calls}
-        method = f"order increment, order {ORDER}"
+        method = f"order increment, order {order}"
         if self.closed:
             exact = wear_at_nodes(self.run.exact, self.run.rule, self.run.stages, self.nodes // 2, reach)
             error += abs(self.run.radius * exact.settlement - coarse)
