@@ -21,7 +21,7 @@ from .cli_damper import DAMPER_EXAMPLE, damper
 from .cli_damper_run import DAMPER_RUN_EXAMPLE, damper_run
 from .cli_rotor import ROTOR_EXAMPLE, rotor
 from .cli_sweep import SWEEP_EXAMPLE, sweep
-from .errors import InputError, RotorfilmError, SceneError
+from .errors import InputError, RotorfilmError, SceneError, ValidityWarning
 
 if TYPE_CHECKING:
     from .bearings import JournalBearing
@@ -427,8 +427,10 @@ def _map_of_options(
         return film.built_table(slenderness, report)
 
 
-def _show_warning(message: Warning | str, *_: Any) -> None:
-    console.complain("warning", message)
+def _show_warning(message: Warning | str, category: type[Warning], *_: Any) -> None:
+    """Show what a model says of itself; what other packages warn of is for their developers."""
+    if issubclass(category, ValidityWarning):
+        console.complain("warning", message)
 
 
 def _film(film: str, order: str | None, constant: bool, rupture: str | None, cells: str | None) -> FilmTable:

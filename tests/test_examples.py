@@ -68,10 +68,16 @@ LAST_NUMBER = {
 }
 
 
+STRICT = "import warnings; warnings.filterwarnings('error', module=r'(rotorfilm|__main__)\\b')\n"
+"""As in pyproject.toml: our own warnings are errors."""
+
+RUN = STRICT + "import runpy, sys; runpy.run_path(sys.argv[1], run_name='__main__')"
+
+
 @pytest.mark.parametrize("path", SCRIPTS, ids=lambda path: path.name)
 def test_example_ends_in_its_number(path, tmp_path):
-    environment = {**os.environ, "MPLBACKEND": "Agg", "PYTHONWARNINGS": "error"}
-    command = [sys.executable, str(path)]
+    environment = {**os.environ, "MPLBACKEND": "Agg"}
+    command = [sys.executable, "-c", RUN, str(path)]
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path, env=environment)
     assert done.returncode == 0, done.stderr
     assert float(done.stdout.split()[-1]) == LAST_NUMBER[path.name]
@@ -82,9 +88,8 @@ def test_python_of_the_readme_runs(tmp_path):
     script = (
         block + "print(threshold.whirl_ratio, *motion.position.shape, loop.nstates, at.eccentricity_ratio)"
     )
-    environment = {**os.environ, "PYTHONWARNINGS": "error"}
-    command = [sys.executable, "-c", script]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path, env=environment)
+    command = [sys.executable, "-c", STRICT + script]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     ratio, components, samples, states, eccentricity = map(float, done.stdout.split())
     assert 0.3 < ratio < 0.7

@@ -22,6 +22,7 @@ LAYERS = [
     ["console", "console_ladder", "gallery"],
     ["chart_commands", "cli_contact", "cli_cosim", "cli_damper", "cli_damper_run", "cli_rotor", "cli_sweep"],
     ["cli"],
+    ["__main__"],
 ]
 RANK = {name: rank for rank, layer in enumerate(LAYERS) for name in layer}
 SIDEWAYS = {("cosim", "fmu")}

@@ -9,6 +9,7 @@ from importlib.util import resolve_name
 from pathlib import Path
 from typing import NamedTuple
 
+from ..native.library import library_path
 from .usermodule import read_user_module, renamed_source
 
 ROOT = Path(__file__).parents[1]
@@ -24,8 +25,8 @@ API = f"{PACKAGE}.fmu.pythonfmu_api"
 LIBRARY = f"{PACKAGE}.native"
 """What a module imports that calls the compiled library."""
 
-COMPANIONS = ("films/data/*", "native/rotorfilm.so", "native/rotorfilm.dylib", "native/rotorfilm.dll")
-"""Files, below the package, that such a module reads at run time.
+COMPANIONS = "films/data/*"
+"""Files, below the package, that such a module reads at run time, beside the library.
 
 They go along where the model, or a user's module, names such a module, not wherever the import closure holds
 one: every film brings all others with it, and with the library an FMU runs on one platform only.
@@ -102,8 +103,12 @@ def _companions(modules: Iterable[str]) -> dict[str, bytes]:
     sources = {name: (ROOT.parent / _path(name)).read_bytes() for name in modules}
     if not any(LIBRARY in _imported(name, source) for name, source in sources.items()):
         return {}
-    found = sorted(path for pattern in COMPANIONS for path in ROOT.glob(pattern) if path.is_file())
-    return {path.relative_to(ROOT).as_posix(): path.read_bytes() for path in found}
+    found = sorted(path for path in ROOT.glob(COMPANIONS) if path.is_file())
+    library = library_path("rotorfilm")
+    return {
+        **{path.relative_to(ROOT).as_posix(): path.read_bytes() for path in found},
+        f"native/{library.name}": library.read_bytes(),
+    }
 
 
 def _imported(name: str, source: bytes) -> Iterator[str]:

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 from ..errors import FmuError
 from ..films.table_cache import cache_folder, cached
-from ..native.library import SUFFIXES
+from ..native.library import library_path
 from ..native.spec import LIBRARIES
 from .macho import universal
 
@@ -93,17 +93,16 @@ def host_binary(identifier: str, fmi_version: str, library: str) -> dict[str, by
     Raises
     ------
     FmuError
-        If the library is missing, or the machine is none for which FMI has a name.
+        If the machine is none for which FMI has a name.
+    NativeLibraryError
+        If the library is missing.
     """
     machine = MACHINES.get(platform.machine().lower())
     folder = f"{machine}-{SYSTEMS.get(sys.platform)}"
     target = next((target for target in TARGETS if target.folder == folder), None)
-    built = files(NATIVE).joinpath(library + SUFFIXES.get(sys.platform, ".so"))
     if target is None:
         raise FmuError(f"machine must be one of {[t.folder for t in TARGETS]}, got {folder}")
-    if not built.is_file():
-        raise FmuError(f"the compiled library must lie at {built}, got no such file; install rotorfilm again")
-    return {_path(target, identifier, fmi_version): built.read_bytes()}
+    return {_path(target, identifier, fmi_version): library_path(library).read_bytes()}
 
 
 def all_binaries(identifier: str, fmi_version: str, library: str) -> dict[str, bytes]:

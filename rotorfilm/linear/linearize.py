@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
+from typing import Any
 
 import control
 import numpy as np
@@ -65,14 +67,17 @@ def state_space(
     name: str | None,
 ) -> control.StateSpace:
     """Return a linearization as a python-control system that carries the names of its signals."""
-    return control.StateSpace(
-        *matrices,
-        inputs=names(inputs),
-        outputs=names(outputs),
-        states=names(states),
-        name=name,
-        remove_useless_states=False,
+    return control_system(
+        *matrices, inputs=names(inputs), outputs=names(outputs), states=names(states), name=name
     )
+
+
+def control_system(*parts: Any, **labels: Any) -> control.StateSpace:
+    """Return the `control.StateSpace` of these arguments, all its states kept."""
+    with warnings.catch_warnings():
+        # It sets the shape of the arrays of a system without states, which numpy deprecates since 2.5.
+        warnings.filterwarnings("ignore", category=DeprecationWarning, module=r"control\.")
+        return control.StateSpace(*parts, remove_useless_states=False, **labels)
 
 
 def checked_vector(name: str, value: ArrayLike, size: int) -> Array:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from ..errors import InputError
 from ..model import Array, Dynamic, Model
 from ..signals import Signal, names
-from .linearize import checked_vector
+from .linearize import checked_vector, control_system
 
 
 class ModelSystem(control.NonlinearIOSystem):
@@ -87,18 +87,17 @@ class ModelSystem(control.NonlinearIOSystem):
         x = _filled("x0", x0, self.nstates) * self.state_scale
         u = _filled("u0", 0.0 if u0 is None else u0, self.ninputs) * self.input_scale
         A, B, C, D = self.model.linearization(t, x, u)
-        linear = control.StateSpace(
+        linear = control_system(
             A * self.state_scale / self.state_scale[:, None],
             B * self.input_scale / self.state_scale[:, None],
             C * self.state_scale / self.output_scale[:, None],
             D * self.input_scale / self.output_scale[:, None],
             self.dt,
-            remove_useless_states=False,
         )
         given = {"name": name, "inputs": inputs, "outputs": outputs, "states": states}
         labels = self._own_names() if copy_names else {}
         labels.update((key, value) for key, value in given.items() if value is not None)
-        return control.StateSpace(linear, remove_useless_states=False, **labels)
+        return control_system(linear, **labels)
 
     def _own_names(self) -> dict[str, Any]:
         prefix = control.config.defaults["iosys.linearized_system_name_prefix"]

@@ -15,6 +15,7 @@ from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, across_planes, both_planes, output_rows, station_name
 from ..signals import names
 from .closed_loop import HOUSING
+from .linearize import control_system
 from .rotor_rest import RotorEquilibrium, rotor_equilibrium
 
 FORCES = (*HOUSING, "ground_force_x", "ground_force_y")
@@ -91,7 +92,7 @@ def rotor_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = 
     system = second_order(s, at)
     push = np.vstack([np.zeros_like(s.journals.T), np.linalg.solve(s.mass, s.journals.T)])
     sense, labels = _outputs(rotor, at)
-    return control.StateSpace(
+    return control_system(
         system.state_matrix(),
         push,
         sense,
@@ -100,7 +101,6 @@ def rotor_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = 
         outputs=labels,
         states=names(rotor.states),
         name=name,
-        remove_useless_states=False,
     )
 
 

@@ -7,10 +7,16 @@ import sys
 from collections.abc import Sequence
 from ctypes import c_double, c_int, c_int32, c_size_t, c_void_p
 from functools import cache
-from importlib.resources import as_file, files
+from hashlib import sha256
+from importlib.metadata import PackageNotFoundError, distribution
+from pathlib import Path
 from typing import Any, ClassVar
 
 from ..errors import RotorfilmError
+
+FOLDER = Path(__file__).parent
+RECORD = "sources.sha256"
+"""Of the C sources that an installed distribution was built from; CMakeLists.txt writes it."""
 
 SUFFIXES = {"win32": ".dll", "darwin": ".dylib"}
 REMEDY = (
@@ -124,12 +130,52 @@ def _typed(loader: type[ctypes.CDLL], signatures: dict[str, list[Any]]) -> dict[
     return found
 
 
-def _load(loader: type[ctypes.CDLL]) -> ctypes.CDLL:
-    name = "rotorfilm" + SUFFIXES.get(sys.platform, ".so")
+def library_path(name: str) -> Path:
+    """Return where one of `spec.LIBRARIES` lies.
+
+    That is beside this module; for a source tree without one, in the installed distribution, if its C
+    sources are those of the tree.
+
+    Raises
+    ------
+    NativeLibraryError
+        If it is in neither, or the C sources differ.
+    """
+    file = name + SUFFIXES.get(sys.platform, ".so")
+    if (FOLDER / file).is_file():
+        return FOLDER / file
+    installed = _installed_folder()
+    if installed is None or not (installed / file).is_file():
+        raise NativeLibraryError(f"the compiled library {file} of rotorfilm is missing in {FOLDER}; {REMEDY}")
+    if (installed / RECORD).read_text(encoding="utf-8") != source_digests(FOLDER):
+        raise NativeLibraryError(
+            f"the compiled library {file} is missing in {FOLDER}, and the installed one is built from other "
+            "C sources: run 'python -m pip install .' again in that source, or start Python in another folder"
+        )
+    return installed / file
+
+
+def source_digests(folder: Path) -> str:
+    """Return a line for each C source and header below a folder: its path and SHA-256."""
+    found = {path.relative_to(folder).as_posix(): path for path in folder.rglob("*.[ch]")}
+    return "".join(f"{name} {sha256(found[name].read_bytes()).hexdigest()}\n" for name in sorted(found))
+
+
+def _installed_folder() -> Path | None:
+    """Return the folder of the installed distribution that holds the libraries and their record."""
+    package = __name__.partition(".")[0]
     try:
-        with as_file(files(__package__).joinpath(name)) as path:
-            return loader(str(path))
+        folder = Path(str(distribution(package).locate_file(f"{package}/native")))
+    except PackageNotFoundError:
+        return None
+    return folder if (folder / RECORD).is_file() else None
+
+
+def _load(loader: type[ctypes.CDLL]) -> ctypes.CDLL:
+    path = library_path("rotorfilm")
+    try:
+        return loader(str(path))
     except OSError as error:
         raise NativeLibraryError(
-            f"the compiled library {name} of rotorfilm is missing or unusable ({error}); {REMEDY}"
+            f"the compiled library {path} of rotorfilm is unusable ({error}); {REMEDY}"
         ) from error

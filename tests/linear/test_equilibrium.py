@@ -142,7 +142,8 @@ def test_mirror_image_rotates_the_other_way(with_film, size, direction, splittin
 def test_load_and_speed_matter_by_their_ratio_only(bearing, size, factor):
     one = equilibrium(bearing, [size, 0.0], SPEED)
     other = equilibrium(bearing, [factor * size, 0.0], factor * SPEED)
-    np.testing.assert_allclose(other.position, one.position, rtol=1e-9)
+    # Along a light load the position is of second order: its round-off is that of the whole.
+    np.testing.assert_allclose(other.position, one.position, atol=1e-9 * math.hypot(*one.position))
 
 
 def test_load_beyond_capacity_is_named_with_the_force_at_the_limit(bearing, ocvirk):

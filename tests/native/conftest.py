@@ -3,7 +3,6 @@
 import shutil
 import subprocess
 from ctypes import c_double
-from importlib.resources import files
 from pathlib import Path
 from typing import NamedTuple
 
@@ -12,6 +11,7 @@ import pytest
 from fmpy.fmi3 import FMU3Model, FMU3Slave
 
 from rotorfilm.model import Switched
+from rotorfilm.native.library import library_path
 from rotorfilm.native.resource import FILE_NAME, NativeVariable, Role, pack
 from rotorfilm.native.spec import library_of
 
@@ -89,11 +89,6 @@ class Folder(NamedTuple):
         return self.clients[-1]
 
 
-def library_path(kernel):
-    start = f"{library_of(kernel)}."
-    return next(path for path in files("rotorfilm.native").iterdir() if path.name.startswith(start))
-
-
 def native_variables(model, spec, start):
     """Return time, parameters, inputs, outputs, states and derivatives of a model that is called m."""
     initial = getattr(model, "initial_state", np.zeros(0))
@@ -129,7 +124,7 @@ def unzipped(tmp_path):
         for name in FOLDERS:
             (root / name).mkdir(parents=True, exist_ok=True)
         for name in FOLDERS[:2]:
-            shutil.copy(library_path(spec.kernel), root / name / "m.so")
+            shutil.copy(library_path(library_of(spec.kernel)), root / name / "m.so")
         (root / "resources" / FILE_NAME).write_bytes(pack(spec, token, variables))
         references = {variable.name: reference for reference, variable in enumerate(variables)}
         return Folder(root, references, clients)

@@ -5,7 +5,6 @@ import platform
 import shutil
 import subprocess
 import sys
-from importlib.resources import files
 from pathlib import Path
 
 import pytest
@@ -41,7 +40,7 @@ def test_there_is_something_to_compile():
 @pytest.mark.skipif(not shutil.which("nm"), reason="no nm")
 @pytest.mark.parametrize("name", LIBRARIES)
 def test_only_the_interface_is_visible(name):
-    built = next(path for path in files("rotorfilm.native").iterdir() if path.name.startswith(f"{name}."))
+    built = library.library_path(name)
     listed = subprocess.run(
         ["nm", "-D", "--defined-only", str(built)], capture_output=True, text=True, check=True
     )
@@ -56,8 +55,7 @@ def test_only_the_interface_is_visible(name):
 )
 @pytest.mark.parametrize("name", LIBRARIES)
 def test_every_fmu_carries_little(name):
-    built = Path(str(files("rotorfilm.native"))) / f"{name}.so"
-    assert built.stat().st_size <= LARGEST[name]
+    assert library.library_path(name).stat().st_size <= LARGEST[name]
 
 
 def test_missing_library_says_what_to_do(monkeypatch):

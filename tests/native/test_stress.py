@@ -135,8 +135,9 @@ def resources(tmp_path, contents):
 def run(program, *arguments):
     environment = {**os.environ, "ASAN_OPTIONS": "detect_leaks=1"}
     environment.pop("LD_PRELOAD", None)
+    # Against an endless loop only: with sanitizers and other work on the machine it may well take minutes.
     ran = subprocess.run(
-        [program, *arguments], capture_output=True, text=True, check=False, env=environment, timeout=300
+        [program, *arguments], capture_output=True, text=True, check=False, env=environment, timeout=3600
     )
     assert ran.returncode == 0, ran.stderr[-4000:]
     return ran.stdout

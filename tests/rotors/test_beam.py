@@ -97,7 +97,11 @@ def test_the_classical_element_with_shear_ends_in_second_order(steel, timoshenko
 @pytest.mark.closed_form
 @pytest.mark.convergence
 def test_without_shear_and_rotary_inertia_the_classical_element_is_of_fourth_order():
-    """Simply supported: (n pi / L)^2; free: the roots of cos(b) cosh(b) = 1."""
+    """Simply supported: (n pi / L)^2; free: the roots of cos(b) cosh(b) = 1.
+
+    The lowest eigenvalue carries round-off of the highest, which grows as n^4 while the error of the element
+    falls as n^-4: up to 0.3 % of that error on 32 pieces, and a fifth on 48.
+    """
     section = Section(bending=1.0, shear=math.inf, mass=1.0, inertia=0.0)
     free = [brentq(lambda b: math.cos(b) - 1.0 / math.cosh(b), low, high) for low, high in ((4, 5), (7, 8.5))]
     for wanted, held, skip in (([math.pi, 2 * math.pi], True, 0), (free, False, 2)):
@@ -106,10 +110,10 @@ def test_without_shear_and_rotary_inertia_the_classical_element_is_of_fourth_ord
                 frequencies(ClassicalBeam(), section, 1.0, n, (0, 2 * n) if held else ())[skip : skip + 2]
                 / np.square(wanted)
                 - 1.0
-                for n in (12, 24, 48)
+                for n in (8, 16, 32)
             ]
         )
-        assert_allclose(observed_orders(errors), 4.0, atol=0.1)
+        assert_allclose(observed_orders(errors)[-1], 4.0, atol=0.05)
         assert np.all(errors[-1] < 1e-5)
 
 
