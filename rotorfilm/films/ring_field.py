@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..errors import ConvergenceError
 from ..model import Array
 from .film_field import FilmField
 from .ring import Grid, axial_nodes

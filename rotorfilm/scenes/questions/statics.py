@@ -151,9 +151,9 @@ def corrected(film: FilmRung, at: Equilibrium, load: Array, *, smooth: bool) -> 
     """Return the equilibrium of the richer film as far as its defect tells.
 
     With the defect d = F_rich + W at the equilibrium of the cheap film the position moves by K^-1 d; two more
-    defects there, with the same K, take out what is of second and third order. The first step is tried with both films'
-    K: where the results disagree by more than 30 % it is too long to be linear. The slopes are those of the
-    richer film where that ends.
+    defects there, with the same K, take out what is of second and third order. The first step is tried with
+    both films' K: where the results disagree by more than 30 % it is too long to be linear. The slopes are
+    those of the richer film where that ends.
     """
     force, rich = tangent(film.rich, at.position, at.speed, smooth=False)
     cheap = film.bearing.jacobian(at.position, np.zeros(2), at.speed)[:, :4]
