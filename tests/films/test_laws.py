@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rotorfilm.errors import UndefinedDerivativeError
+from rotorfilm.errors import FilmContactError, UndefinedDerivativeError
 from rotorfilm.films import (
     ComplementarityArc,
     FixedArc,
@@ -65,6 +65,15 @@ def random_states(count, largest=0.9):
     rng = np.random.default_rng(7)
     chi, phi = rng.uniform(0.05, largest, count), rng.uniform(-np.pi, np.pi, count)
     return chi * np.stack([np.cos(phi), np.sin(phi)]), rng.normal(size=(2, count))
+
+
+@films
+@pytest.mark.parametrize("chi", [1.0, 1.2])
+def test_position_at_the_wall_is_contact(film, chi):
+    e, w = np.array([0.1, chi]), np.array([-0.3, 0.2])
+    for call in (film.force, film.jacobian):
+        with pytest.raises(FilmContactError, match=r"eccentricity ratio must be below 1, got 1\."):
+            call(e, w, 0.5)
 
 
 @films

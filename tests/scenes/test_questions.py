@@ -11,6 +11,7 @@ import scene_battery
 from families import FAMILIES
 
 from rotorfilm.errors import InputError, ValidityWarning
+from rotorfilm.linear import equilibrium
 from rotorfilm.scenes import Scene, bundled_scene, parse_scene
 from rotorfilm.scenes.damper_table import DamperTable
 from rotorfilm.scenes.excitation_table import BladeLossTable, UnbalanceTable
@@ -19,6 +20,7 @@ from rotorfilm.scenes.ladder import NoAnswerError
 from rotorfilm.scenes.question_table import QUANTITIES, QuestionTable
 from rotorfilm.scenes.questions import ladder_of
 from rotorfilm.scenes.questions.equal_steps import ORDER, linear_march, march, peak
+from rotorfilm.scenes.questions.films import extrapolated
 from rotorfilm.scenes.questions.orbit_curve import SampledOrbit, nonlinear_orbit, rate_matrix
 from rotorfilm.scenes.questions.registry import LADDERS
 
@@ -47,6 +49,38 @@ SUBSET = [
 
 def asked(quantity, tolerance, scene=None):
     return replace(scene or bundled_scene(), question=QuestionTable(quantity=quantity, tolerance=tolerance))
+
+
+SLIM = """
+schema = 1
+[journal]
+radius = 0.05
+length = 0.005
+clearance = 1e-4
+viscosity = 0.02
+[operation]
+speed = 200.0
+load = 750.0
+[question]
+quantity = "stiffness"
+tolerance = 0.01
+"""
+
+
+def test_stiffness_of_a_slim_bearing_is_estimated_near_the_wall():
+    # The estimate must not be that of its own differences: a cheap film is close enough, and known to be.
+    scene = parse_scene(SLIM, "slim.toml")
+    answer = scene.solve()
+    best = extrapolated(scene.bearing, (384, 32))
+    moved = [
+        equilibrium(best, load, scene.speed).position
+        for load in np.array([0.0, -750.0]) + 15.0 * np.array([[1, 0], [-1, 0], [0, 1], [0, -1]])
+    ]
+    exact = np.linalg.inv(np.stack([moved[0] - moved[1], moved[2] - moved[3]], axis=1) / 30.0)
+    error = np.abs(answer.value - exact).max() / np.abs(exact).max()
+    assert answer.met
+    assert error < 0.004
+    assert answer.error_estimate == pytest.approx(error, rel=0.5)
 
 
 @pytest.mark.parametrize(("family", "seed"), SUBSET)

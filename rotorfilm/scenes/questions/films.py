@@ -32,10 +32,11 @@ MAP_BOUNDS = ((0.95, 2e-5, 1e-3), (0.999, 4e-4, math.inf))
 """Eccentricity ratio up to which, and largest error of a position and of K, C there: docs/accuracy.md."""
 
 STEP = 0.05
-"""Step of differences of a two-dimensional film, relative to the distance from center and wall.
+"""Step of differences of a two-dimensional film in its source, relative to the wedge; less in a thin film.
 
-Its own derivative belongs to cells that are full or empty, and jumps when one changes sides; a difference
-over many such jumps does not.
+Its own derivative in the source belongs to cells that are full or empty, and jumps when one changes sides;
+a difference over many such jumps does not. The pressure at the wall is as wide as the square root of the gap,
+and so is the squeeze, relative to the wedge, that moves its edge.
 """
 
 MAP_MADE = "maps made"
@@ -162,20 +163,23 @@ def tangent(bearing: JournalBearing, position: Array, speed: float, *, smooth: b
     position : ndarray, shape (2,) [m]
     speed : float [rad/s]
     smooth : bool
-        Whether the derivatives of a film on a grid are taken from differences of fourth order.
+        Whether the derivatives of a film on a grid in its source are taken from differences, `STEP`.
     """
     rest = np.zeros(2)
+    slopes = bearing.jacobian(position, rest, speed)[:, :4]
     if not (smooth and is_grid(bearing)):
-        return bearing.force(position, rest, speed), bearing.jacobian(position, rest, speed)[:, :4]
+        return bearing.force(position, rest, speed), slopes
     distance = float(np.hypot(*position))
-    length = STEP * min(distance, 4.0 * (bearing.clearance - distance))
-    rate = STEP * distance * abs(speed)
-    steps = np.diag([length, length, rate, rate])
-    states = np.concatenate([np.zeros((1, 4)), *(factor * steps for factor in (-2, -1, 1, 2))])
-    q, v = position[:, None] + states[:, :2].T, states[:, 2:].T
-    force = bearing.force(q, v, np.full(q.shape[1], speed))
+    thin = math.sqrt(1.0 - distance / bearing.clearance)
+    rate = STEP * min(1.0, 2.0 * thin) * 0.5 * abs(speed) * distance
+    velocities = rate * np.concatenate([np.zeros((2, 1)), *(k * np.eye(2) for k in (-2, -1, 1, 2))], axis=1)
+    force = bearing.force(np.repeat(position[:, None], 9, axis=1), velocities, np.full(9, speed))
     low2, low, high, high2 = np.split(force[:, 1:], 4, axis=1)
-    return force[:, 0], (low2 - 8.0 * low + 8.0 * high - high2) / (12.0 * np.diag(steps))
+    by_velocity = (low2 - 8.0 * low + 8.0 * high - high2) / (12.0 * rate)
+    # The wedge moves with the journal, w = v/c - (speed/2) z^ x e, so its share follows.
+    change = by_velocity - slopes[:, 2:]
+    by_position = slopes[:, :2] - 0.5 * speed * np.stack([change[:, 1], -change[:, 0]], axis=1)
+    return force[:, 0], np.concatenate([by_position, by_velocity], axis=1)
 
 
 def _map(bearing: JournalBearing) -> FilmRung:

@@ -150,10 +150,10 @@ class Corrected:
 def corrected(film: FilmRung, at: Equilibrium, load: Array, *, smooth: bool) -> Corrected:
     """Return the equilibrium of the richer film as far as its defect tells.
 
-    With the defect d = F_rich + W at the equilibrium of the cheap film the position moves by K^-1 d; a second
-    defect there, with the same K, takes out what is of second order. The first step is tried with both films'
-    K: where the results disagree by more than 30 % it is too long to be linear. The slopes are those of the
-    richer film where that ends.
+    With the defect d = F_rich + W at the equilibrium of the cheap film the position moves by K^-1 d; two more
+    defects there, with the same K, take out what is of second and third order. The first step is tried with
+    both films' K: where the results disagree by more than 30 % it is too long to be linear. The slopes are
+    those of the richer film where that ends.
     """
     force, rich = tangent(film.rich, at.position, at.speed, smooth=False)
     cheap = film.bearing.jacobian(at.position, np.zeros(2), at.speed)[:, :4]
@@ -163,11 +163,12 @@ def corrected(film: FilmRung, at: Equilibrium, load: Array, *, smooth: bool) -> 
     if gap > DISAGREEMENT * longest:
         doubt = f"the stiffnesses of both films disagree on the error by {gap / longest:.0%}: not linear"
     position = at.position
-    for _ in range(2):
+    for further in range(3):
+        if further:
+            step = np.linalg.solve(-rich[:, :2], film.rich.force(position, np.zeros(2), at.speed) + load)
         position = position + step
         if float(np.hypot(*position)) >= MAXIMUM_ECCENTRICITY * film.bearing.clearance:
             return Corrected(position=at.position, slopes=rich, doubt="the error is larger than the gap")
-        step = np.linalg.solve(-rich[:, :2], film.rich.force(position, np.zeros(2), at.speed) + load)
     slopes = tangent(film.rich, position, at.speed, smooth=smooth)[1] if smooth else rich
     return Corrected(position=position, slopes=slopes, doubt=doubt)
 
