@@ -174,7 +174,8 @@ class GroovedMapFilm(KernelFilm):
 def _kernel(film: GroovedMapFilm, slenderness: float) -> GrooveMapKernel:
     table = film.built_table(slenderness)
     axis = aligned_openings(film.geometry).axis
-    return GrooveMapKernel(table.coefficients, table.reach, table.log_center, table.crowding, axis)
+    numbers = table.crowding, axis, table.slenderness
+    return GrooveMapKernel(table.coefficients, table.reach, table.log_center, *numbers)
 
 
 def require_same_openings(table: GrooveMapTable, openings: AlignedOpenings) -> None:

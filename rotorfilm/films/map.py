@@ -128,4 +128,4 @@ def _table_for(slenderness: float) -> MapTable:
 
 @lru_cache(maxsize=64)
 def _collapsed(table: MapTable, slenderness: float) -> MapKernel:
-    return MapKernel(*table.at(slenderness))
+    return MapKernel(*table.at(slenderness), slenderness)

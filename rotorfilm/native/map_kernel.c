@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "contact.h"
 #include "map_frame.h"
 
 #define CENTER 1e-8       /* eccentricity ratio below which w = 0 has a derivative, by isotropy */
@@ -78,6 +79,25 @@ static int resting(const rf_map *map, double chi, double *f, double *jacobian)
     return RF_OK;
 }
 
+/* Beyond the last node: J there, and what the film at contact gains from there on. */
+static int beyond(const rf_map *map, const rf_frame *at, double x, double *f, double *jacobian)
+{
+    const double end = rf_unstretch(map->x_end), c = at->cos, s = -at->sin;
+    const field m = look_up(map, map->x_end, c, 1);
+    const double value = -exp(map->center + end * m.m), turn = -end * m.m_s * s;
+    rf_potential e = {value, value * turn, value * (turn * turn + end * (m.m_ss * s * s - m.m_s * c)), 0.0, 0.0};
+    rf_potential gain;
+    rf_contact_gain(map->slenderness, end, at->chi, c, s, &gain);
+    rf_add_gain(&gain, map->share, &e);
+    rf_set_film(at, &e, 0.0, 0.0, f, jacobian);
+    return rf_judge(x, map->x_end, f, jacobian);
+}
+
+int rf_map_error(const rf_map *map)
+{
+    return map->slenderness > 0.0 ? (map->x_end > 4.5 ? 2 : 5) : 0;
+}
+
 int rf_map_film(const void *of, const double *e, const double *w, double *f, double *jacobian)
 {
     const rf_map *map = of;
@@ -89,6 +109,8 @@ int rf_map_film(const void *of, const double *e, const double *w, double *f, dou
         return rf_fail(status, f, jacobian, 8);
     double slope = 0.0;
     const double x = rf_stretch(at.chi, jacobian ? &slope : NULL);
+    if (x > map->x_end * (1.0 + 1e-12) && map->slenderness > 0.0)
+        return beyond(map, &at, x, f, jacobian);
     const field m = look_up(map, x, at.cos, jacobian || x > map->x_end);
     const double potential = -exp(map->center + at.chi * m.m);
     rf_set_force(&at, potential, m.m_s * at.chi * at.sin, f);
