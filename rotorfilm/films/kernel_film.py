@@ -148,7 +148,7 @@ def _report_film(status: int, chi: float, error: float) -> None:
     if status == Status.UNDEFINED:
         raise vanishing_source(chi)
     how = (
-        f"continued as that of a film at contact, within {error:g} %"
+        f"continued as that of a film at contact, within {error:g} % where no opening is near"
         if error
         else "extrapolated there, with an error that is not known"
     )

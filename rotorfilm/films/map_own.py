@@ -8,9 +8,13 @@ extrapolated from two grids, has a smaller error than its force.
 from __future__ import annotations
 
 import logging
+from dataclasses import dataclass
 from functools import lru_cache
 
+import numpy as np
+
 from ..errors import InputError
+from ..model import Array
 from .extrapolated import ExtrapolatedFilm
 from .map_fit import tabulate_film
 from .map_table import MapTable
@@ -19,10 +23,30 @@ from .reynolds import ReynoldsFilm
 OWN_RANGE = (0.001, 20.0)
 """Length/diameter for which a table can be made; beyond, the layers at the ends get too thin for the grid."""
 
-TABLE_CELLS = (24, 48, 0)
+TABLE_CELLS = (24, 96, 0)
 REACH = 0.999
-_SHORT, _LONG = ReynoldsFilm(cells=(384, 16)), ReynoldsFilm(cells=(192, 24))
+_SHORT, _LONG = (384, 16), (192, 24)
 _logger = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class _TwoFilms:
+    """A film, and a finer one where the journal leaves the wall: it is then opposite, where lines are few."""
+
+    towards: ExtrapolatedFilm
+    away: ExtrapolatedFilm
+
+    def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
+        leaving = (eccentricity * source).sum(axis=0) < 0.0
+        force = np.empty_like(source)
+        for film, mine in ((self.towards, ~leaving), (self.away, leaving)):
+            force[:, mine] = film.force(eccentricity[:, mine], source[:, mine], slenderness)
+        return force
+
+
+def _film(around: int, along: int) -> _TwoFilms:
+    films = (ExtrapolatedFilm(film=ReynoldsFilm(cells=(k * around, along))) for k in (1, 2))
+    return _TwoFilms(*films)
 
 
 @lru_cache(maxsize=16)
@@ -52,7 +76,7 @@ def bearing_table(slenderness: float) -> MapTable:
         slenderness,
     )
     return tabulate_film(
-        ExtrapolatedFilm(film=_SHORT if slenderness < 1.0 else _LONG),
+        _film(*(_SHORT if slenderness < 1.0 else _LONG)),
         slenderness_range=(slenderness, slenderness),
         cells=TABLE_CELLS,
         largest_eccentricity_ratio=REACH,

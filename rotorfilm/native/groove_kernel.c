@@ -5,6 +5,9 @@
 #include "contact.h"
 #include "map_frame.h"
 
+#define EDGE (-0.414) /* sinh(ln(s)/3) of a contact at the edge: .23 of a film between parabola and edge is left */
+#define LEAST 1e-9    /* share of the film at contact */
+#define MOST 0.999
 #define TURN 6.283185307179586476925286766559
 
 /* Of ln(-J/|w|^2) = L: its derivatives along and across e, those of L in the angle of w, and both. With
@@ -133,7 +136,26 @@ static field film(const rf_groove_map *map, const rf_frame *at, double x, double
     return all;
 }
 
-/* Beyond the last node: J there, and the share of the film at contact that the openings leave. */
+/* The share of the film at contact that the openings leave, and its derivatives in the angle of e and in chi. */
+typedef struct share {
+    double value, side, slope;
+} share;
+
+/* The share at chi from that at chi_end. It is s/(1 + s), s = (y + sqrt(1 + y^2))^3, y = EDGE + a distance to the
+   edge in widths of the film, as of a long film: to infinity on land, to minus infinity in an opening. */
+static share left(double kept, double kept_side, double chi_end, double chi)
+{
+    const double bounded = fmin(fmax(kept, LEAST), MOST), g = (1.0 - chi) * (1.0 + chi);
+    const double z = log(bounded / (1.0 - bounded)) / 3.0, distance = sinh(z) - EDGE;
+    const double narrowing = sqrt((1.0 - chi_end) * (1.0 + chi_end) / g), y = EDGE + distance * narrowing;
+    const double root = sqrt(1.0 + y * y), base = y > 0.0 ? root + y : 1.0 / (root - y);
+    const double value = 1.0 / (1.0 + 1.0 / (base * base * base)), by_y = 3.0 * value * (1.0 - value) / root;
+    const double by_kept = bounded == kept ? cosh(z) / (3.0 * kept * (1.0 - kept)) : 0.0;
+    const share at = {value, by_y * narrowing * by_kept * kept_side, by_y * distance * narrowing * chi / g};
+    return at;
+}
+
+/* Beyond the last node: J there, and what the openings leave of the gain of the film at contact. */
 static int beyond(const rf_groove_map *map, const rf_frame *at, double x, double *f, double *jacobian)
 {
     const double end = rf_unstretch(map->x_end), S = map->slenderness;
@@ -148,19 +170,21 @@ static int beyond(const rf_groove_map *map, const rf_frame *at, double x, double
     rf_potential e = {value, turn, turn * here.turn + value * here.turn_turn, 0.0, 0.0}, full, gain;
     rf_at_contact(S, end, 1.0, 0.0, &full);
     rf_contact_gain(S, end, at->chi, at->cos, -at->sin, &gain);
-    const double share = -exp(towards.value) / full.value;
-    const double share_side = share * (end * towards.across + towards.turn);
-    const double side = end * value * here.across + turn + share_side * gain.value;
+    const double kept = -exp(towards.value) / full.value;
+    const share part = left(kept, kept * (end * towards.across + towards.turn), end, at->chi);
+    const double side = end * value * here.across + turn + part.side * gain.value;
     const double side_turn = end * (turn * here.across + value * here.turn_across) + e.turn_turn
-                             + share_side * gain.turn;
-    rf_add_gain(&gain, share, &e);
+                             + part.side * gain.turn;
+    rf_add_gain(&gain, part.value, &e);
+    e.slope += part.slope * gain.value;
+    e.turn_slope += part.slope * gain.turn;
     rf_set_film(at, &e, side, side_turn, f, jacobian);
     return rf_judge(x, map->x_end, f, jacobian);
 }
 
 int rf_groove_error(void)
 {
-    return 10;
+    return 5;
 }
 
 int rf_groove_film(const void *of, const double *e, const double *w, double *f, double *jacobian)

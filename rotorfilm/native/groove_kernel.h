@@ -32,12 +32,12 @@ typedef struct rf_groove_map {
     double slenderness;         /* length/diameter, for the film at contact */
 } rf_groove_map;
 
-/* The film of an rf_groove_map. Beyond the last node J goes on as the film at contact (contact.h), of which
-   the openings leave the share that they do at the last node in motion towards the wall: RF_OUTSIDE. Without
+/* The film of an rf_groove_map. Beyond the last node J goes on as the film at contact (contact.h), as far
+   as the openings leave it: RF_OUTSIDE. Without
    source there is no derivative, not at the center either. */
 RF_EXPORT int rf_groove_film(const void *map, const double *e, const double *w, double *f, double *jacobian);
 
-/* As rf_map_error, where the contact is not at an edge of an opening. */
+/* As rf_map_error, where no opening is near. */
 RF_EXPORT int rf_groove_error(void);
 
 #endif

@@ -37,7 +37,7 @@ static int explain(const rf_journal *journal, int status, const double *u, rf_me
         return journal->error > 0.0
                    ? rf_say(why, status,
                             "eccentricity ratio %.6g is beyond the map of the film; its force is continued as that "
-                            "of a film at contact, within %g %%",
+                            "of a film at contact, within %g %% where no opening is near",
                             e / c, journal->error)
                    : rf_say(why, status,
                             "eccentricity ratio %.6g is beyond the map of the film; its force is extrapolated "

@@ -31,8 +31,9 @@ static int take_tables(model *self, const rf_tables *tables, rf_message *why)
         return rf_say(why, RF_INVALID, "the tables of a damper must fit each other, got %u x %u", (unsigned)x,
                       (unsigned)t);
     const rf_map map = {(int32_t)x - 5, (int32_t)t - 5, reach->numbers[0], center->numbers[0],
-                        c->numbers, contact->numbers[0], contact->numbers[1]};
+                        c->numbers, 0.0, 0.0};
     self->map = map;
+    rf_map_contact(&self->map, contact->numbers[0], contact->numbers[1]);
     return RF_OK;
 }
 

@@ -51,7 +51,6 @@ static int take_tables(model *self, const rf_tables *tables, rf_message *why)
     self->map.cells_x = table.cells_x;
     self->map.cells_t = table.cells_t;
     self->map.x_end = reach->numbers[0];
-    self->map.share = 1.0;
     return RF_OK;
 }
 
@@ -99,7 +98,7 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
         self->slenderness = slenderness;
         self->map.center = center;
         self->map.coefficients = self->slice;
-        self->map.slenderness = slenderness;
+        rf_map_contact(&self->map, slenderness, 1.0);
         scaled.error = rf_map_error(&self->map);
     }
     self->journal = scaled;

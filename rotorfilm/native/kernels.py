@@ -108,8 +108,8 @@ class MapKernel(FilmKernel):
     log_center : float
         L0, the logarithm of -J/|w|^2 at the center.
     slenderness : float
-        Length / diameter for the film at contact, as which J goes on beyond the last node; 0 where that is not
-        its law: J then goes on as a power of X.
+        Length / diameter for the film at contact, as which J goes on beyond the last node; 0, or a map that is
+        no such film at its last node, goes on as a power of X.
     share : float
         Of the film at contact in units of a journal.
     """
@@ -130,7 +130,8 @@ class MapKernel(FilmKernel):
         if min(cells_x, cells_t) < 1 or not np.isfinite(self.coefficients).all():
             raise ValueError(f"coefficients must be finite, 6 x 6 at least, got shape {coefficients.shape}")
         place = self.coefficients.ctypes.data
-        self.struct = MapStruct(cells_x, cells_t, reach, log_center, place, slenderness, share)
+        self.struct = MapStruct(cells_x, cells_t, reach, log_center, place)
+        functions()["rf_map_contact"](byref(self.struct), slenderness, share)
         self.error = functions()["rf_map_error"](byref(self.struct))
 
 

@@ -5,6 +5,7 @@
 #include "contact.h"
 #include "map_frame.h"
 
+#define SAME 0.05         /* relative difference from the film at contact, of a map that has it as its limit */
 #define CENTER 1e-8       /* eccentricity ratio below which w = 0 has a derivative, by isotropy */
 
 /* M and the derivatives of it that the force and its Jacobian need; s = cos = 2 T - 1. */
@@ -91,6 +92,21 @@ static int beyond(const rf_map *map, const rf_frame *at, double x, double *f, do
     rf_add_gain(&gain, map->share, &e);
     rf_set_film(at, &e, 0.0, 0.0, f, jacobian);
     return rf_judge(x, map->x_end, f, jacobian);
+}
+
+void rf_map_contact(rf_map *map, double slenderness, double share)
+{
+    rf_potential full;
+    const double end = rf_unstretch(map->x_end);
+    const double towards = exp(map->center + end * look_up(map, map->x_end, 1.0, 0).m);
+    const double away = exp(map->center + end * look_up(map, map->x_end, -1.0, 0).m);
+    map->slenderness = 0.0;
+    map->share = share;
+    if (!(slenderness > 0.0))
+        return;
+    rf_at_contact(slenderness, end, 1.0, 0.0, &full);
+    if (fabs(towards / (-share * full.value) - 1.0) < SAME && away < 0.5 * towards)
+        map->slenderness = slenderness;
 }
 
 int rf_map_error(const rf_map *map)

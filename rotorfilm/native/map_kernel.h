@@ -30,6 +30,10 @@ typedef struct rf_map {
    its law, as a power of X: RF_OUTSIDE. Without source there is a derivative at the center only. */
 RF_EXPORT int rf_map_film(const void *map, const double *e, const double *w, double *f, double *jacobian);
 
+/* Let a map go on as the film at contact where its last node says that it is one, in motion to the wall and away from
+   it; else as a power of X. */
+RF_EXPORT void rf_map_contact(rf_map *map, double slenderness, double share);
+
 /* Largest error of a force beyond the last node that was measured [%]; 0 where none is known. */
 RF_EXPORT int rf_map_error(const rf_map *map);
 
