@@ -1,9 +1,10 @@
 """Build the table of the film at contact, `rotorfilm/native/contact_table.c`; a few minutes.
 
-Near the wall the film is that between a plane and a parabola, h = 1 + tau^2, of the length l (all lengths along the
-film in units of its width there). Its potential for the source u_c + u_s tau,
+Near the wall the film is that between a plane and a parabola, h = 1 + tau^2, of the length l, all in
+units of the film's width there. Its potential for the source u_c + u_s tau,
 
-    Phi = mean over the length of int P (u_c + u_s tau) dtau,   div(h^3 grad P) = -(u_c + u_s tau) where P > 0,
+    Phi = mean over the length of int P (u_c + u_s tau) dtau,
+    div(h^3 grad P) = -(u_c + u_s tau) where P > 0,
 
 is |u|^2 exp(Lambda(q, lambda)), q = -ln((1 + u_c/|u|)/2), lambda = ln(l/(1 + l/LONG)). Finite volumes with
 complementarity on phi = arctan tau and a length graded towards the end, extrapolated from two grids.

@@ -51,7 +51,7 @@ def _film(around: int, along: int) -> _TwoFilms:
 
 @lru_cache(maxsize=16)
 def bearing_table(slenderness: float) -> MapTable:
-    """Return the table of the full film with Reynolds rupture for one length/diameter, in about ten seconds.
+    """Return the table of the full film with Reynolds rupture for one length/diameter, in half a minute.
 
     Parameters
     ----------
@@ -61,7 +61,8 @@ def bearing_table(slenderness: float) -> MapTable:
     Returns
     -------
     MapTable
-        Error of a force, 99 % of random states: 1e-4 to eccentricity ratio .95, 5e-4 to .99, 6e-3 to .999.
+        Largest error of a force over all directions, length/diameter .05 and 8: 1e-4 to eccentricity ratio
+        .95, 4e-4 to .985, 4e-3 to .999.
 
     Raises
     ------
@@ -72,7 +73,7 @@ def bearing_table(slenderness: float) -> MapTable:
     if not low <= slenderness <= high:
         raise InputError(f"length/diameter must be {low:g} to {high:g} for a map, got {slenderness!r}")
     _logger.warning(
-        "length/diameter %.6g is outside the table of the package: making one for it, in about ten seconds",
+        "length/diameter %.6g is outside the table of the package: making one for it, in about half a minute",
         slenderness,
     )
     return tabulate_film(

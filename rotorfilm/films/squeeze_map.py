@@ -24,7 +24,6 @@ from .squeeze import SqueezeFilm
 from .squeeze_laws import SqueezeCase
 from .squeeze_table import LARGEST, LARGEST_FINITE, RATIO, SqueezeTable, finite_table, short_table
 
-
 SHORT = 1e-6
 """Length / diameter of a short film, at contact too."""
 
@@ -118,8 +117,8 @@ class SqueezeMapFilm(MapFilm):
     Parameters
     ----------
     contact : (float, float) [1]
-        Length / diameter of the film at contact, as which it goes on beyond the table, and that film's share in
-        units of a journal; zeros where that is not its law.
+        Length / diameter of the film at contact, as which it goes on beyond the table, and that film's share
+        in units of a journal; zeros where that is not its law.
     """
 
     contact: tuple[float, float] = (0.0, 0.0)

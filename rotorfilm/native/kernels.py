@@ -108,8 +108,8 @@ class MapKernel(FilmKernel):
     log_center : float
         L0, the logarithm of -J/|w|^2 at the center.
     slenderness : float
-        Length / diameter for the film at contact, as which J goes on beyond the last node; 0, or a map that is
-        no such film at its last node, goes on as a power of X.
+        Length / diameter for the film at contact, as which J goes on beyond the last node; 0, or a map that
+        is no such film at its last node, goes on as a power of X.
     share : float
         Of the film at contact in units of a journal.
     """
