@@ -3,6 +3,16 @@
 #define FACTOR 48.0
 #define LARGEST 1e15 /* tangent where the film at contact is far from the wall and E is nothing */
 
+static RF_ONCE void values(double u, double b[RF_ORDER])
+{
+    rf_values(u, b);
+}
+
+static RF_ONCE void slopes(double u, double b[RF_ORDER])
+{
+    rf_slopes(u, b);
+}
+
 /* Lambda and its derivatives in q and l. */
 typedef struct lambda {
     double value, q, qq, l, ql;
@@ -18,8 +28,8 @@ static lambda look_up(double q, double l)
     const int32_t i = rf_cell((q - past) * per_q, RF_CONTACT_CELLS_Q, &u);
     const int32_t j = rf_cell((l - before - first) * per_l, RF_CONTACT_CELLS_L, &v);
     const float *c = rf_contact_table + (size_t)i * RF_CONTACT_LAYER + (size_t)j;
-    rf_values(v, b);
-    rf_slopes(v, b_l);
+    values(v, b);
+    slopes(v, b_l);
     double along[RF_ORDER], along_l[RF_ORDER];
     for (int k = 0; k < RF_ORDER; ++k, c += RF_CONTACT_LAYER) {
         along[k] = along_l[k] = 0.0;
@@ -28,8 +38,8 @@ static lambda look_up(double q, double l)
             along_l[k] += c[m] * b_l[m];
         }
     }
-    rf_values(u, row[0]);
-    rf_slopes(u, row[1]);
+    values(u, row[0]);
+    slopes(u, row[1]);
     rf_curvatures(u, row[2]);
     lambda at = {rf_dot(row[0], along), per_q * rf_dot(row[1], along), per_q * per_q * rf_dot(row[2], along),
                  per_l * rf_dot(row[0], along_l), per_q * per_l * rf_dot(row[1], along_l)};

@@ -51,6 +51,12 @@ static field look_up(const rf_map *map, double x, double s, int full)
     return at;
 }
 
+/* At the last node. */
+static RF_ONCE field at_end(const rf_map *map, double s)
+{
+    return look_up(map, map->x_end, s, 1);
+}
+
 /* Derivatives of the force. With Phi = chi M and D = dPhi/dangle = M_s chi sin, the angle being that of w,
    F = |w| E (2 n + D m). Written in sin and cos of the angle from w to e nothing is divided by chi. */
 static void set_jacobian(const rf_frame *at, double slope, const field *m, double potential, double *jacobian)
@@ -81,10 +87,10 @@ static int resting(const rf_map *map, double chi, double *f, double *jacobian)
 }
 
 /* Beyond the last node: J there, and what the film at contact gains from there on. */
-static int beyond(const rf_map *map, const rf_frame *at, double x, double *f, double *jacobian)
+static RF_ONCE int beyond(const rf_map *map, const rf_frame *at, double x, double *f, double *jacobian)
 {
     const double end = rf_unstretch(map->x_end), c = at->cos, s = -at->sin;
-    const field m = look_up(map, map->x_end, c, 1);
+    const field m = at_end(map, c);
     const double value = -exp(map->center + end * m.m), turn = -end * m.m_s * s;
     rf_potential e = {value, value * turn, value * (turn * turn + end * (m.m_ss * s * s - m.m_s * c)), 0.0, 0.0};
     rf_potential gain;
@@ -98,8 +104,8 @@ void rf_map_contact(rf_map *map, double slenderness, double share)
 {
     rf_potential full;
     const double end = rf_unstretch(map->x_end);
-    const double towards = exp(map->center + end * look_up(map, map->x_end, 1.0, 0).m);
-    const double away = exp(map->center + end * look_up(map, map->x_end, -1.0, 0).m);
+    const double towards = exp(map->center + end * at_end(map, 1.0).m);
+    const double away = exp(map->center + end * at_end(map, -1.0).m);
     map->slenderness = 0.0;
     map->share = share;
     if (!(slenderness > 0.0))
