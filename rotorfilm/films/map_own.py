@@ -61,8 +61,8 @@ def bearing_table(slenderness: float) -> MapTable:
     Returns
     -------
     MapTable
-        Largest error of a force over all directions, length/diameter .05 and 8: 1e-4 to eccentricity ratio
-        .95, 4e-4 to .985, 4e-3 to .999.
+        Largest error of a force in nine directions, length/diameter .05 and 8: 3e-4 at eccentricity ratio
+        .95, 7e-4 at .985, 3e-3 at .995 and .999.
 
     Raises
     ------
