@@ -47,8 +47,8 @@ class GroovedMapFilm(KernelFilm):
     and then kept in the folder that the environment variable ROTORFILM_CACHE names, or the platform's cache.
     `build_groove_map` makes it beforehand and says how far it is.
 
-    Beyond the largest eccentricity ratio J is continued as a power of X, without proof of its accuracy: a
-    ValidityWarning says so.
+    Beyond the largest eccentricity ratio J goes on as the film at contact (`native/contact.h`), as far as the
+    openings leave it, with a ValidityWarning: within 5 % where no opening is near, by factors at an edge.
 
     Parameters
     ----------
@@ -174,7 +174,8 @@ class GroovedMapFilm(KernelFilm):
 def _kernel(film: GroovedMapFilm, slenderness: float) -> GrooveMapKernel:
     table = film.built_table(slenderness)
     axis = aligned_openings(film.geometry).axis
-    return GrooveMapKernel(table.coefficients, table.reach, table.log_center, table.crowding, axis)
+    numbers = table.crowding, axis, table.slenderness
+    return GrooveMapKernel(table.coefficients, table.reach, table.log_center, *numbers)
 
 
 def require_same_openings(table: GrooveMapTable, openings: AlignedOpenings) -> None:

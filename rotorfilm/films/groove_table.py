@@ -39,7 +39,7 @@ class GrooveMapTable(StoredTable):
     grooves : tuple of Groove
         Its openings, seen from the axis of `groove_axis.aligned_openings`.
     reach : float [1]
-        X of the last node; beyond it the kernel continues J as a power of X.
+        X of the last node; beyond it the kernel continues J to the wall.
     crowding : float [1]
         In (0, 1]: how much closer the nodes lie where the source is across the eccentricity.
     log_center : ndarray, shape (DIRECTIONS,)

@@ -32,8 +32,9 @@ class KernelFilm(ABC):
             If an eccentricity ratio is not below 1.
         """
         e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
-        batch = self._kernel(slenderness).force(e, w)
-        _report_law(batch, e, w)
+        kernel = self._kernel(slenderness)
+        batch = kernel.force(e, w)
+        _report_law(batch, e, w, kernel.error)
         return batch.values.reshape(eccentricity.shape)
 
     def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
@@ -47,8 +48,9 @@ class KernelFilm(ABC):
             Where the source vanishes, in a plain bearing off the center only.
         """
         e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
-        batch = self._kernel(slenderness).jacobian(e, w)
-        _report_law(batch, e, w)
+        kernel = self._kernel(slenderness)
+        batch = kernel.jacobian(e, w)
+        _report_law(batch, e, w, kernel.error)
         return batch.values.reshape(2, 4, *eccentricity.shape[1:])
 
     def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundKernel:
@@ -124,10 +126,10 @@ class BoundKernel:
             )
         if status == Status.CONTACT:
             require_inside(np.array([x, y]), self.clearance)
-        _report_film(status, float(np.hypot(x, y)) / self.clearance)
+        _report_film(status, float(np.hypot(x, y)) / self.clearance, self.kernel.error)
 
 
-def _report_law(batch: Batch, e: Array, w: Array) -> None:
+def _report_law(batch: Batch, e: Array, w: Array, error: float) -> None:
     """Raise, or warn, about the most severe status of a batch of eccentricities and sources (2, n)."""
     if not batch.status:
         return
@@ -137,12 +139,17 @@ def _report_law(batch: Batch, e: Array, w: Array) -> None:
             "eccentricity and source must be finite and not overflow, "
             f"got {at.tolist()} and {w[:, batch.first].tolist()} 1/s"
         )
-    _report_film(batch.status, float(np.hypot(*at)))
+    _report_film(batch.status, float(np.hypot(*at)), error)
 
 
-def _report_film(status: int, chi: float) -> None:
+def _report_film(status: int, chi: float, error: float) -> None:
     if status == Status.CONTACT:
         raise wall_contact(chi)
     if status == Status.UNDEFINED:
         raise vanishing_source(chi)
-    warn_user(f"eccentricity ratio {chi:.6g} is beyond the map of the film; its force is extrapolated there")
+    how = (
+        f"continued as that of a film at contact, within {error:g} % where no opening is near"
+        if error
+        else "extrapolated there, with an error that is not known"
+    )
+    warn_user(f"eccentricity ratio {chi:.6g} is beyond the map of the film; its force is {how}")

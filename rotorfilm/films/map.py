@@ -33,15 +33,17 @@ class MapFilm(KernelFilm):
     -dF/dw is symmetric, and the force is smooth through the center. Evaluated in C with exact derivatives
     (`native/map_kernel.h`).
 
-    Beyond the last node of the table (eccentricity ratio .999 in the packaged one) J is continued as a
-    power of X, without proof of its accuracy: a ValidityWarning says so.
+    Error of a force with the packaged table, 99 % of random states to eccentricity ratio .999: 2e-4; 2e-3 for
+    static journals at .999. Beyond the last node, .999, J goes on as the film at contact
+    (`native/contact.h`), with a ValidityWarning that states the error: 2 % at most, .2 % for static journals
+    to .99999. The table of a film that has another limit goes on as a power of X, with an unknown error.
 
     Parameters
     ----------
     table : MapTable, optional
         The potential of a plain bearing; by default the table of the package. It holds length/diameter .1
-        to 4; a bearing outside gets a table of its own at its first force, in about ten seconds, kept in
-        memory (`bearing_table`, which is also the way to save one). A bearing with openings gets a
+        to 4; a bearing outside gets a table of its own at its first force, in about half a minute, kept
+        in memory (`bearing_table`, which is also the way to save one). A bearing with openings gets a
         `GroovedMapFilm`, which takes up to a minute at the first force and is kept on disk.
 
     Raises
@@ -128,4 +130,4 @@ def _table_for(slenderness: float) -> MapTable:
 
 @lru_cache(maxsize=64)
 def _collapsed(table: MapTable, slenderness: float) -> MapKernel:
-    return MapKernel(*table.at(slenderness))
+    return MapKernel(*table.at(slenderness), slenderness)

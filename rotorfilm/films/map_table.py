@@ -52,7 +52,7 @@ class MapTable(StoredTable):
     slenderness_range : (float, float) [1]
         Smallest and largest length/diameter; equal for the table of a single bearing.
     reach : float [1]
-        X of the last node; beyond it the kernel continues J as a power of X.
+        X of the last node; beyond it the kernel continues J to the wall.
     log_center : ndarray, shape (s,)
         Spline coefficients of L0 over ln(L/D); s = 1 for a single bearing.
     coefficients : ndarray, shape (s, cells_x + 5, cells_t + 5)

@@ -22,7 +22,7 @@ SWEEPS = 200
 """Active sets tried before giving up; the ends move several cells per sweep."""
 
 
-class _Grid(NamedTuple):
+class GridEnergy(NamedTuple):
     """Energy of nodal pressures (N, Z), periodic in N: links to the next node around, and along; source."""
 
     around: Array
@@ -40,7 +40,7 @@ def grid_potential(source: Source, cells: tuple[int, int]) -> tuple[float, Array
         If the active set does not settle, or no circle of nodes is dry.
     """
     grid = _grid(source, cells)
-    u = _complementary(grid)
+    u = complementary_pressure(grid)
     force = 12.0 * np.einsum("kij,ij->k", grid.trig, u)
     return 6.0 * float(np.sum(grid.drive * u)), force
 
@@ -53,7 +53,7 @@ def richardson_potential(source: Source, cells: tuple[int, int]) -> tuple[float,
     return fine + gain, fine_force + (fine_force - coarse_force) / 3.0, abs(gain)
 
 
-def _grid(source: Source, cells: tuple[int, int]) -> _Grid:
+def _grid(source: Source, cells: tuple[int, int]) -> GridEnergy:
     eta = float(np.sign(source.chi) * (1.0 - (1.0 - abs(source.chi)) ** 0.7))
     stretch = np.sqrt((1.0 - eta) / (1.0 + eta))
     half = 0.5 * source.turn
@@ -68,7 +68,7 @@ def _grid(source: Source, cells: tuple[int, int]) -> _Grid:
     along = np.outer(cube * rate * step, np.full(cells[1], 1.0 / (rise * source.slenderness**2)))
     area = np.outer(rate * step, height)
     trig = np.stack([np.sin(gamma)[:, None] * area, np.cos(gamma)[:, None] * area])
-    return _Grid(around, along, source.sine * trig[0] + source.cosine * trig[1], trig)
+    return GridEnergy(around, along, source.sine * trig[0] + source.cosine * trig[1], trig)
 
 
 def _moebius(source: Source, eta: float, psi: Array) -> tuple[Array, Array, Array]:
@@ -79,7 +79,7 @@ def _moebius(source: Source, eta: float, psi: Array) -> tuple[Array, Array, Arra
     return np.arctan2(sine, cosine), root / width, (1.0 + source.chi * cosine) ** 3
 
 
-def _complementary(grid: _Grid) -> Array:
+def complementary_pressure(grid: GridEnergy) -> Array:
     """Return the nodal pressures u >= 0 that minimize the energy."""
     diagonal = grid.around + np.roll(grid.around, 1, axis=0) + grid.along
     diagonal[:, 1:] += grid.along[:, :-1]
@@ -93,7 +93,7 @@ def _complementary(grid: _Grid) -> Array:
     raise ConvergenceError(f"the film's active set must settle within {SWEEPS} sweeps, got none")
 
 
-def _solve_active(grid: _Grid, diagonal: Array, active: NDArray[np.bool_]) -> Array:
+def _solve_active(grid: GridEnergy, diagonal: Array, active: NDArray[np.bool_]) -> Array:
     """Return the pressure that balances the source on active nodes and vanishes elsewhere."""
     dry = np.flatnonzero(~active.any(axis=1))
     if dry.size == 0:
@@ -113,7 +113,7 @@ def _solve_active(grid: _Grid, diagonal: Array, active: NDArray[np.bool_]) -> Ar
     return np.roll(u.reshape(film.shape), dry[0], axis=0)
 
 
-def _excess(grid: _Grid, diagonal: Array, u: Array) -> Array:
+def _excess(grid: GridEnergy, diagonal: Array, u: Array) -> Array:
     """Return A u + drive: positive where no film is needed."""
     excess = diagonal * u + grid.drive - grid.around * np.roll(u, -1, axis=0)
     excess -= np.roll(grid.around * u, 1, axis=0)

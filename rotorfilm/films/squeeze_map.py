@@ -9,17 +9,23 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 
 from ..errors import InputError
 from ..model import Array
+from ..native import MapKernel
 from .kernel_film import BoundKernel
 from .map import MapFilm
+from .map_table import MapTable
 from .squeeze import SqueezeFilm
 from .squeeze_laws import SqueezeCase
 from .squeeze_table import LARGEST, LARGEST_FINITE, RATIO, SqueezeTable, finite_table, short_table
+
+SHORT = 1e-6
+"""Length / diameter of a short film, at contact too."""
 
 
 @runtime_checkable
@@ -57,7 +63,7 @@ class MapSqueeze:
     def bind(self, case: SqueezeCase) -> SqueezeFilm:
         """Return the film of one damper; raise InputError for one with feed."""
         _require_potential(self, case)
-        return MappedSqueezeFilm(MapFilm(self._table(case).table), one_slenderness=False)
+        return MappedSqueezeFilm(_squeeze_map(self._table(case), SHORT), one_slenderness=False)
 
     def tabulated(self, case: SqueezeCase) -> MapSqueeze:
         """Return this law with the table of one damper; see `TabulatedSqueeze`."""
@@ -92,7 +98,7 @@ class FiniteMapSqueeze:
     def bind(self, case: SqueezeCase) -> SqueezeFilm:
         """Return the film of one damper; raise InputError for one with feed."""
         _require_potential(self, case)
-        return MappedSqueezeFilm(MapFilm(self._table(case).table), one_slenderness=True)
+        return MappedSqueezeFilm(_squeeze_map(self._table(case), case.slenderness), one_slenderness=True)
 
     def tabulated(self, case: SqueezeCase) -> FiniteMapSqueeze:
         """Return this law with the table of one damper; see `TabulatedSqueeze`."""
@@ -105,18 +111,40 @@ class FiniteMapSqueeze:
 
 
 @dataclass(frozen=True)
+class SqueezeMapFilm(MapFilm):
+    """A map in units of a squeeze film.
+
+    Parameters
+    ----------
+    contact : (float, float) [1]
+        Length / diameter of the film at contact, as which it goes on beyond the table, and that film's share
+        in units of a journal; zeros where that is not its law.
+    """
+
+    contact: tuple[float, float] = (0.0, 0.0)
+
+    def _kernel(self, slenderness: float) -> MapKernel:
+        return _collapsed(self._table(slenderness), self.contact)
+
+
+@lru_cache(maxsize=64)
+def _collapsed(table: MapTable, contact: tuple[float, float]) -> MapKernel:
+    return MapKernel(*table.at(RATIO), *contact)
+
+
+@dataclass(frozen=True)
 class MappedSqueezeFilm:
     """A squeeze film on the journal's map: its source is the rate.
 
     Parameters
     ----------
-    film : MapFilm
+    film : SqueezeMapFilm
         With a table for one slenderness, `RATIO`, in units of a squeeze film.
     one_slenderness : bool
         Whether the table is that of one length / diameter only, as that of a film of finite length.
     """
 
-    film: MapFilm
+    film: SqueezeMapFilm
     one_slenderness: bool
 
     def bound(self, *, clearance: float, force_scale: float) -> BoundKernel:
@@ -130,7 +158,8 @@ class MappedSqueezeFilm:
         """Return the tables of the kernel "damper"."""
         tables = dict(self.film.native(RATIO)[1])
         return {name: tables[name] for name in ("center", "reach")} | {
-            "coefficients": tables["coefficients"][0]
+            "coefficients": tables["coefficients"][0],
+            "contact": np.array(self.film.contact),
         }
 
     def force(self, eccentricity: Array, rate: Array) -> Array:
@@ -146,6 +175,12 @@ class MappedSqueezeFilm:
             Where the rotor is at rest off the center.
         """
         return self.film.jacobian(eccentricity, rate, RATIO)
+
+
+def _squeeze_map(table: SqueezeTable, slenderness: float) -> SqueezeMapFilm:
+    """Return the map of a table; a full film, or one on a porous layer, is another one at contact."""
+    journal = table.cavitated and table.layer is None
+    return SqueezeMapFilm(table.table, (slenderness, 0.25 / slenderness**2) if journal else (0.0, 0.0))
 
 
 def _require_potential(law: MapSqueeze | FiniteMapSqueeze, case: SqueezeCase) -> None:

@@ -24,7 +24,7 @@ from .table_cache import cache_folder, cached_table
 LARGEST_FINITE = 0.985
 
 LARGEST = 0.99
-"""Eccentricity ratio of the table's last node; beyond, the kernel extrapolates and a warning says so."""
+"""Eccentricity ratio of the table's last node; beyond, the kernel goes on to the wall, with a warning."""
 
 FULL = 3
 """Times as many cells over the direction for a full film, whose tension narrows the peak over it."""

@@ -2,8 +2,12 @@
 
 #include <math.h>
 
+#include "contact.h"
 #include "map_frame.h"
 
+#define EDGE (-0.414) /* sinh(ln(s)/3) of a contact at the edge: .23 of a film between parabola and edge is left */
+#define LEAST 1e-9    /* share of the film at contact */
+#define MOST 0.999
 #define TURN 6.283185307179586476925286766559
 
 /* Of ln(-J/|w|^2) = L: its derivatives along and across e, those of L in the angle of w, and both. With
@@ -57,17 +61,15 @@ static const double *place(const rf_groove_map *map, double x, double theta, dou
     return map->coefficients + i * layer + j * row + k;
 }
 
-/* M and m_s, and the rest if `full`, as it must be beyond the last node: there M goes on linearly in ln X: J
-   is a power of X, as in thin films. */
+/* M and m_s, and the rest if `full`. */
 static spline look_up(const rf_groove_map *map, double x, double theta, double s, int full)
 {
-    const int outside = x > map->x_end;
     double rest[3], b[RF_ORDER], b_s[RF_ORDER], row[RF_ORDER], row_x[RF_ORDER], row_e[RF_ORDER];
     double block[RF_ORDER * RF_ORDER], block_x[RF_ORDER * RF_ORDER];
-    const double *c = place(map, outside ? map->x_end : x, theta, s, rest);
+    const double *c = place(map, x, theta, s, rest);
     const size_t width = (size_t)map->cells_s + RF_ORDER - 1;
     const size_t layer = ((size_t)map->cells_e + RF_ORDER - 1) * width;
-    const double per_x = map->cells_x / (outside ? x : map->x_end);
+    const double per_x = map->cells_x / map->x_end;
     const double per_e = map->cells_e / TURN, per_s = map->cells_s / TURN;
     spline at = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     values(rest[0], b);
@@ -75,8 +77,6 @@ static spline look_up(const rf_groove_map *map, double x, double theta, double s
     if (full) {
         slopes(rest[0], b);
         layers(c, layer, width, b, block_x);
-        for (int j = 0; outside && j < RF_ORDER * RF_ORDER; ++j)
-            block[j] += map->cells_x * log(x / map->x_end) * block_x[j];
     }
     values(rest[1], b);
     rows(block, b, row);
@@ -136,6 +136,57 @@ static field film(const rf_groove_map *map, const rf_frame *at, double x, double
     return all;
 }
 
+/* The share of the film at contact that the openings leave, and its derivatives in the angle of e and in chi. */
+typedef struct share {
+    double value, side, slope;
+} share;
+
+/* The share at chi from that at chi_end. It is s/(1 + s), s = (y + sqrt(1 + y^2))^3, y = EDGE + a distance to the
+   edge in widths of the film, as of a long film: to infinity on land, to minus infinity in an opening. */
+static share left(double kept, double kept_side, double chi_end, double chi)
+{
+    const double bounded = fmin(fmax(kept, LEAST), MOST), g = (1.0 - chi) * (1.0 + chi);
+    const double z = log(bounded / (1.0 - bounded)) / 3.0, distance = sinh(z) - EDGE;
+    const double narrowing = sqrt((1.0 - chi_end) * (1.0 + chi_end) / g), y = EDGE + distance * narrowing;
+    const double root = sqrt(1.0 + y * y), base = y > 0.0 ? root + y : 1.0 / (root - y);
+    const double value = 1.0 / (1.0 + 1.0 / (base * base * base)), by_y = 3.0 * value * (1.0 - value) / root;
+    const double by_kept = bounded == kept ? cosh(z) / (3.0 * kept * (1.0 - kept)) : 0.0;
+    const share at = {value, by_y * narrowing * by_kept * kept_side, by_y * distance * narrowing * chi / g};
+    return at;
+}
+
+/* Beyond the last node: J there, and what the openings leave of the gain of the film at contact. */
+static int beyond(const rf_groove_map *map, const rf_frame *at, double x, double *f, double *jacobian)
+{
+    const double end = rf_unstretch(map->x_end), S = map->slenderness;
+    rf_frame edge = *at, straight = *at;
+    edge.chi = straight.chi = end;
+    straight.nx = at->rx;
+    straight.ny = at->ry;
+    straight.cos = 1.0;
+    straight.sin = 0.0;
+    const field here = film(map, &edge, map->x_end, 0.0, 1), towards = film(map, &straight, map->x_end, 0.0, 1);
+    const double value = -exp(here.value), turn = value * here.turn;
+    rf_potential e = {value, turn, turn * here.turn + value * here.turn_turn, 0.0, 0.0}, full, gain;
+    rf_at_contact(S, end, 1.0, 0.0, &full);
+    rf_contact_gain(S, end, at->chi, at->cos, -at->sin, &gain);
+    const double kept = -exp(towards.value) / full.value;
+    const share part = left(kept, kept * (end * towards.across + towards.turn), end, at->chi);
+    const double side = end * value * here.across + turn + part.side * gain.value;
+    const double side_turn = end * (turn * here.across + value * here.turn_across) + e.turn_turn
+                             + part.side * gain.turn;
+    rf_add_gain(&gain, part.value, &e);
+    e.slope += part.slope * gain.value;
+    e.turn_slope += part.slope * gain.turn;
+    rf_set_film(at, &e, side, side_turn, f, jacobian);
+    return rf_judge(x, map->x_end, f, jacobian);
+}
+
+int rf_groove_error(void)
+{
+    return 5;
+}
+
 int rf_groove_film(const void *of, const double *e, const double *w, double *f, double *jacobian)
 {
     const rf_groove_map *map = of;
@@ -147,7 +198,9 @@ int rf_groove_film(const void *of, const double *e, const double *w, double *f, 
         return rf_fail(status, f, jacobian, 8);
     double slope = 0.0;
     const double x = rf_stretch(at.chi, jacobian ? &slope : NULL);
-    const field here = film(map, &at, x, slope, jacobian || x > map->x_end);
+    if (x > map->x_end * (1.0 + 1e-12))
+        return beyond(map, &at, x, f, jacobian);
+    const field here = film(map, &at, x, slope, jacobian != NULL);
     const double potential = -exp(here.value), k = at.size * potential, turn = here.turn;
     const double by_e[4] = {2.0 * k * here.along, 2.0 * k * here.across,
                             k * (here.along * turn + here.turn_along),

@@ -34,9 +34,15 @@ static int explain(const rf_journal *journal, int status, const double *u, rf_me
     switch (status) {
     case RF_OK: return RF_OK;
     case RF_OUTSIDE:
-        return rf_say(why, status,
-                      "eccentricity ratio %.6g is beyond the map of the film; its force is extrapolated",
-                      e / c);
+        return journal->error > 0.0
+                   ? rf_say(why, status,
+                            "eccentricity ratio %.6g is beyond the map of the film; its force is continued as that "
+                            "of a film at contact, within %g %% where no opening is near",
+                            e / c, journal->error)
+                   : rf_say(why, status,
+                            "eccentricity ratio %.6g is beyond the map of the film; its force is extrapolated "
+                            "there, with an error that is not known",
+                            e / c);
     case RF_CONTACT:
         return rf_say(why, status,
                       "the journal must stay inside the clearance %.9g m, got an eccentricity of %.9g m "

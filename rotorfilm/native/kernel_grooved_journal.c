@@ -35,7 +35,7 @@ static int take_tables(model *self, const rf_tables *tables, rf_message *why)
                       "length/diameter and reach must be positive and squeeze in (0, 1], got %.9g, %.9g, %.9g",
                       n[0], n[1], n[2]);
     const rf_groove_map groove_map = {(int32_t)x - 5, (int32_t)e - 5, (int32_t)s - 5, (int32_t)w - 5,
-                                      n[1], n[2], n[3], center->numbers, c->numbers};
+                                      n[1], n[2], n[3], center->numbers, c->numbers, n[0]};
     self->map = groove_map;
     self->slenderness = n[0];
     return RF_OK;
@@ -54,6 +54,7 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
     }
     self->journal.film = rf_groove_film;
     self->journal.map = &self->map;
+    self->journal.error = rf_groove_error();
     *sizes = RF_JOURNAL_SIZES;
     return self;
 }

@@ -98,6 +98,8 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
         self->slenderness = slenderness;
         self->map.center = center;
         self->map.coefficients = self->slice;
+        rf_map_contact(&self->map, slenderness, 1.0);
+        scaled.error = rf_map_error(&self->map);
     }
     self->journal = scaled;
     return RF_OK;

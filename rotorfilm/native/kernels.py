@@ -49,11 +49,14 @@ class FilmKernel:
     ----------
     struct : ctypes.Structure
         What its rf_film reads.
+    error : float [%]
+        Largest error of a force beyond the film's table that was measured; 0 where none is known.
     """
 
     _function: ClassVar[str]
     _arguments: tuple[Any, ...]
     struct: Any
+    error: float = 0.0
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._arguments
@@ -104,17 +107,32 @@ class MapKernel(FilmKernel):
         X of the last node.
     log_center : float
         L0, the logarithm of -J/|w|^2 at the center.
+    slenderness : float
+        Length / diameter for the film at contact, as which J goes on beyond the last node; 0, or a map that
+        is no such film at its last node, goes on as a power of X.
+    share : float
+        Of the film at contact in units of a journal.
     """
 
     _function: ClassVar[str] = "rf_map_film"
 
-    def __init__(self, coefficients: Array, reach: float, log_center: float) -> None:
-        self._arguments = (coefficients, reach, log_center)
+    def __init__(
+        self,
+        coefficients: Array,
+        reach: float,
+        log_center: float,
+        slenderness: float = 0.0,
+        share: float = 1.0,
+    ) -> None:
+        self._arguments = (coefficients, reach, log_center, slenderness, share)
         self.coefficients = np.ascontiguousarray(coefficients, dtype=float)
         cells_x, cells_t = (count - 5 for count in self.coefficients.shape)
         if min(cells_x, cells_t) < 1 or not np.isfinite(self.coefficients).all():
             raise ValueError(f"coefficients must be finite, 6 x 6 at least, got shape {coefficients.shape}")
-        self.struct = MapStruct(cells_x, cells_t, reach, log_center, self.coefficients.ctypes.data)
+        place = self.coefficients.ctypes.data
+        self.struct = MapStruct(cells_x, cells_t, reach, log_center, place)
+        functions()["rf_map_contact"](byref(self.struct), slenderness, share)
+        self.error = functions()["rf_map_error"](byref(self.struct))
 
 
 class GrooveMapKernel(MapKernel):
@@ -132,21 +150,30 @@ class GrooveMapKernel(MapKernel):
         Ratio of tan s and the tangent of the angle from the eccentricity to the source.
     axis : float [rad]
         Angle of the axis of the openings in the bearing frame.
+    slenderness : float
+        Length / diameter.
     """
 
     _function: ClassVar[str] = "rf_groove_film"
 
     def __init__(
-        self, coefficients: Array, reach: float, log_center: Array, crowding: float, axis: float
+        self,
+        coefficients: Array,
+        reach: float,
+        log_center: Array,
+        crowding: float,
+        axis: float,
+        slenderness: float,
     ) -> None:
-        self._arguments = (coefficients, reach, log_center, crowding, axis)
+        self._arguments = (coefficients, reach, log_center, crowding, axis, slenderness)
         wide = _wrapped(_wrapped(coefficients, 1), 2)
         self.coefficients = np.ascontiguousarray(wide, dtype=float)
         self.log_center = np.ascontiguousarray(_wrapped(log_center, 0), dtype=float)
         cells_x, cells_e, cells_s = (count - 5 for count in self.coefficients.shape)
         places = self.log_center.ctypes.data, self.coefficients.ctypes.data
         counts = cells_x, cells_e, cells_s, len(log_center)
-        self.struct = GrooveMapStruct(*counts, reach, crowding, axis, *places)
+        self.struct = GrooveMapStruct(*counts, reach, crowding, axis, *places, slenderness)
+        self.error = functions()["rf_groove_error"]()
 
 
 class JournalKernel:
@@ -164,7 +191,10 @@ class JournalKernel:
 
     def __init__(self, kernel: FilmKernel, clearance: float, force_scale: float) -> None:
         self._arguments = (kernel, clearance, force_scale)
-        self._struct = JournalStruct(kernel.film, addressof(kernel.struct), clearance, force_scale)
+        self.error = kernel.error
+        self._struct = JournalStruct(
+            kernel.film, addressof(kernel.struct), clearance, force_scale, kernel.error
+        )
         self._reference = byref(self._struct)
         self._call = functions()["rf_journal_call"]
         self._tangent = functions()["rf_journal_at"]

@@ -38,6 +38,8 @@ class MapStruct(ctypes.Structure):
         ("x_end", c_double),
         ("center", c_double),
         ("coefficients", c_void_p),
+        ("slenderness", c_double),
+        ("share", c_double),
     ]
 
 
@@ -55,6 +57,7 @@ class JournalStruct(ctypes.Structure):
         ("map", c_void_p),
         ("clearance", c_double),
         ("force_scale", c_double),
+        ("error", c_double),
     ]
 
 
@@ -71,6 +74,7 @@ class GrooveMapStruct(ctypes.Structure):
         ("axis", c_double),
         ("center", c_void_p),
         ("coefficients", c_void_p),
+        ("slenderness", c_double),
     ]
 
 
@@ -100,6 +104,9 @@ _SCALAR: dict[str, list[Any]] = {
     "rf_journal_call": [c_void_p, *[c_double] * 5, c_void_p],
     "rf_journal_at": [c_void_p] * 4,
     "rf_map_slice": [c_void_p, c_double, c_void_p, c_void_p],
+    "rf_map_contact": [c_void_p, c_double, c_double],
+    "rf_map_error": [c_void_p],
+    "rf_groove_error": [],
 }
 
 

@@ -2,8 +2,10 @@
 
 #include <math.h>
 
+#include "contact.h"
 #include "map_frame.h"
 
+#define SAME 0.05         /* relative difference from the film at contact, of a map that has it as its limit */
 #define CENTER 1e-8       /* eccentricity ratio below which w = 0 has a derivative, by isotropy */
 
 /* M and the derivatives of it that the force and its Jacobian need; s = cos = 2 T - 1. */
@@ -49,6 +51,12 @@ static field look_up(const rf_map *map, double x, double s, int full)
     return at;
 }
 
+/* At the last node. */
+static RF_ONCE field at_end(const rf_map *map, double s)
+{
+    return look_up(map, map->x_end, s, 1);
+}
+
 /* Derivatives of the force. With Phi = chi M and D = dPhi/dangle = M_s chi sin, the angle being that of w,
    F = |w| E (2 n + D m). Written in sin and cos of the angle from w to e nothing is divided by chi. */
 static void set_jacobian(const rf_frame *at, double slope, const field *m, double potential, double *jacobian)
@@ -78,6 +86,40 @@ static int resting(const rf_map *map, double chi, double *f, double *jacobian)
     return RF_OK;
 }
 
+/* Beyond the last node: J there, and what the film at contact gains from there on. */
+static RF_ONCE int beyond(const rf_map *map, const rf_frame *at, double x, double *f, double *jacobian)
+{
+    const double end = rf_unstretch(map->x_end), c = at->cos, s = -at->sin;
+    const field m = at_end(map, c);
+    const double value = -exp(map->center + end * m.m), turn = -end * m.m_s * s;
+    rf_potential e = {value, value * turn, value * (turn * turn + end * (m.m_ss * s * s - m.m_s * c)), 0.0, 0.0};
+    rf_potential gain;
+    rf_contact_gain(map->slenderness, end, at->chi, c, s, &gain);
+    rf_add_gain(&gain, map->share, &e);
+    rf_set_film(at, &e, 0.0, 0.0, f, jacobian);
+    return rf_judge(x, map->x_end, f, jacobian);
+}
+
+void rf_map_contact(rf_map *map, double slenderness, double share)
+{
+    rf_potential full;
+    const double end = rf_unstretch(map->x_end);
+    const double towards = exp(map->center + end * at_end(map, 1.0).m);
+    const double away = exp(map->center + end * at_end(map, -1.0).m);
+    map->slenderness = 0.0;
+    map->share = share;
+    if (!(slenderness > 0.0))
+        return;
+    rf_at_contact(slenderness, end, 1.0, 0.0, &full);
+    if (fabs(towards / (-share * full.value) - 1.0) < SAME && away < 0.5 * towards)
+        map->slenderness = slenderness;
+}
+
+int rf_map_error(const rf_map *map)
+{
+    return map->slenderness > 0.0 ? (map->x_end > 4.5 ? 2 : 5) : 0;
+}
+
 int rf_map_film(const void *of, const double *e, const double *w, double *f, double *jacobian)
 {
     const rf_map *map = of;
@@ -89,6 +131,8 @@ int rf_map_film(const void *of, const double *e, const double *w, double *f, dou
         return rf_fail(status, f, jacobian, 8);
     double slope = 0.0;
     const double x = rf_stretch(at.chi, jacobian ? &slope : NULL);
+    if (x > map->x_end * (1.0 + 1e-12) && map->slenderness > 0.0)
+        return beyond(map, &at, x, f, jacobian);
     const field m = look_up(map, x, at.cos, jacobian || x > map->x_end);
     const double potential = -exp(map->center + at.chi * m.m);
     rf_set_force(&at, potential, m.m_s * at.chi * at.sin, f);

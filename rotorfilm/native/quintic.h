@@ -110,4 +110,11 @@ static inline double rf_stretch(double chi, double *slope)
     return chi / root;
 }
 
+/* chi of X. */
+static inline double rf_unstretch(double x)
+{
+    const double squared = x * x;
+    return sqrt(2.0 * squared / (squared + sqrt(squared * squared + 4.0)));
+}
+
 #endif

@@ -125,6 +125,21 @@ def test_jacobian_equals_differences(film, name):
         np.testing.assert_allclose(jacobian[:, column] / scale, difference / scale, atol=2e-7)
 
 
+@pytest.mark.convergence
+@pytest.mark.parametrize("chi", [0.98, 0.999])
+@pytest.mark.filterwarnings("ignore:eccentricity ratio .* is beyond the map")
+def test_beyond_the_last_node_the_film_is_that_at_contact(two_grooves, chi):
+    film, slenderness = mapped(two_grooves)
+    exact = ReynoldsFilm(cells=(256, 16)).fitted(two_grooves[0])
+    (axis,) = {round(aligned_openings(two_grooves[0]).axis, 9)}
+    e = chi * unit(axis + 0.5 * np.pi)
+    for turn in np.radians([0.0, 60.0, 85.0, -90.0, 95.0]):
+        w = unit(axis + 0.5 * np.pi + turn)
+        expected = exact.extrapolated(e, w, slenderness)[0]
+        error = np.linalg.norm(film.force(e, w, slenderness) - expected) / np.linalg.norm(expected)
+        assert error < 0.01
+
+
 def test_jacobian_beyond_the_last_node_equals_differences(one_groove):
     film, slenderness = mapped(one_groove)
     z, h = np.array([0.8, 0.55, -0.3, 0.7]), 1e-6

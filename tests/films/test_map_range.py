@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rotorfilm.bearings import JournalBearing
-from rotorfilm.errors import InputError
+from rotorfilm.errors import InputError, ValidityWarning
 from rotorfilm.films import MapFilm, ReynoldsFilm, ShortFilm, bearing_table
 from rotorfilm.films.potential import potential
 
@@ -39,6 +39,49 @@ def test_bearing_shorter_than_the_table_gets_its_own(lowest, highest, worst):
     assert error(MapFilm().force(e, w, 0.05), exact).max() < worst
     # It is not the short film: near contact its ends are as wide as it is long.
     assert error(ShortFilm().force(e, w, 0.05), exact).max() > 5.0 * worst
+
+
+@pytest.mark.convergence
+@pytest.mark.parametrize(("chi", "worst"), [(0.96, 0.01), (0.985, 0.01), (0.995, 0.05)])
+def test_derivatives_of_an_own_table_in_motion_away_from_the_wall(chi, worst):
+    # The film is then opposite to the contact, and changes little with the gap there.
+    cosines, step = np.array([-0.3, -0.7]), 1e-3 * (1.0 - chi)
+    w = np.stack([cosines, -np.sqrt(1.0 - cosines**2)])
+    slope = MapFilm().jacobian(np.stack([[chi, chi], [0.0, 0.0]]), w, 0.05)[:, 0]
+    for k in range(2):
+        far, near = (converged_force([chi + h, 0.0], w[:, k], 0.05) for h in (step, -step))
+        exact = (far - near) / (2.0 * step)
+        assert np.abs(slope[:, k] - exact).max() < worst * np.abs(exact).max()
+
+
+@pytest.mark.convergence
+@pytest.mark.parametrize("cosine", [0.4, 0.03, 0.0, -0.03])
+def test_own_table_is_right_where_the_film_turns_near_contact(cosine):
+    w = np.array([cosine, -np.sqrt(1.0 - cosine**2)])
+    force = MapFilm().force(np.array([0.999, 0.0]), w, 0.05)
+    assert error(force, converged_force([0.999, 0.0], w, 0.05)) < 3e-3
+
+
+@pytest.mark.convergence
+@pytest.mark.parametrize("slenderness", [0.1, 1.0])
+@pytest.mark.parametrize("chi", [0.9995, 0.9999])
+def test_beyond_the_last_node_the_film_is_that_at_contact(slenderness, chi):
+    for cosine in (1.0, 0.3, 0.01, 0.0, -0.02, -0.3):
+        w = np.array([cosine, -np.sqrt(1.0 - cosine**2)])
+        with pytest.warns(ValidityWarning, match="as that of a film at contact, within 2 %"):
+            force = MapFilm().force(np.array([chi, 0.0]), w, slenderness)
+        assert error(force, converged_force([chi, 0.0], w, slenderness)) < 1e-2
+
+
+@pytest.mark.filterwarnings("ignore:eccentricity ratio .* is beyond the map")
+def test_jacobian_beyond_the_last_node_equals_differences():
+    z, h = np.array([0.9, -0.4354, 0.3, 0.7]), 1e-7
+    jacobian = MapFilm().jacobian(z[:2], z[2:], 0.5)
+    for column, shift in enumerate(h * np.eye(4)):
+        ends = [MapFilm().force((z + s)[:2], (z + s)[2:], 0.5) for s in (-shift, shift)]
+        difference = (ends[1] - ends[0]) / (2.0 * h)
+        scale = np.abs(jacobian[:, 2 * (column // 2) :][:, :2]).max()
+        np.testing.assert_allclose(jacobian[:, column], difference, atol=1e-5 * scale)
 
 
 def full_film(e, w):

@@ -229,6 +229,17 @@ def test_what_has_no_map_is_refused():
         MAPPED.force([0.999e-4, 0.0], [0.1, 0.0])
 
 
+@pytest.mark.convergence
+@pytest.mark.parametrize("turn", [0.0, 1.0, 1.55, 1.6, 2.2, 3.0])
+def test_short_map_goes_on_as_the_film_at_contact(turn):
+    exact, mapped = (replace(SHORT, cage=None, film=film) for film in (ShortSqueeze(), MapSqueeze()))
+    motion = np.array([0.999e-4, 0.0]), np.array([np.cos(turn), np.sin(turn)])
+    expected = exact.force(*motion)
+    with pytest.warns(ValidityWarning, match="as that of a film at contact, within 5 %"):
+        difference = mapped.force(*motion) - expected
+    assert np.linalg.norm(difference) < 0.04 * np.linalg.norm(expected)
+
+
 def test_ends_that_are_not_found_are_an_error(monkeypatch):
     monkeypatch.setattr(squeeze_potential, "RESIDUAL", 0.0)
     with pytest.raises(ConvergenceError, match="ends of the film must be found"):
@@ -243,3 +254,10 @@ def test_force_of_a_finite_map_is_that_of_the_journals_map():
     expected = journal.force(q, v, 0.0)
     errors = np.linalg.norm(damper.force(q, v) - expected, axis=0) / np.linalg.norm(expected, axis=0)
     assert np.quantile(errors, 0.99) < 2e-4
+    for chi in (0.99, 0.998):
+        for turn in (0.0, 1.2, 1.55, 1.6, 2.2):
+            q, v = np.array([chi * 1e-4, 0.0]), np.array([np.cos(turn), np.sin(turn)])
+            expected = journal.force(q, v, 0.0)
+            with pytest.warns(ValidityWarning, match="as that of a film at contact, within 5 %"):
+                difference = damper.force(q, v) - expected
+            assert np.linalg.norm(difference) < 0.03 * np.linalg.norm(expected)

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from rotorfilm.errors import EquilibriumError, InputError, ValidityWarning
 from rotorfilm.films import MapFilm, RotatingArc, ShortFilm, SplittingFilm
+from rotorfilm.films.potential import potential
 from rotorfilm.linear import equilibrium
 
 SPEED = 1500 * math.pi / 30
@@ -181,6 +182,18 @@ def test_force_that_cannot_point_against_the_load(linear_film):
 def test_bad_arguments(bearing, load, speed, message):
     with pytest.raises(InputError, match=message):
         equilibrium(bearing, load, speed)
+
+
+@pytest.mark.convergence
+def test_capacity_on_a_map_is_that_of_the_converged_film(bearing):
+    mapped = replace(bearing, length=2.0 * bearing.radius, film=MapFilm())
+    film = potential(0.9999, 0.5, 1.0)
+    scale = mapped.viscosity * mapped.length * mapped.radius**3 / mapped.clearance**2
+    exact = scale * 0.5 * 0.9999 * SPEED * math.exp(film.log) * math.hypot(*film.force)
+    with pytest.raises(EquilibriumError) as caught:
+        equilibrium(mapped, [0.0, -1e20], SPEED)
+    capacity = float(re.search(r"0\.9999 is (\S+) N", str(caught.value))[1])
+    assert capacity == pytest.approx(exact, rel=5e-3)
 
 
 def test_search_beyond_the_map_warns_of_the_answer_alone(bearing):

@@ -12,7 +12,7 @@ CELLS, REACH, SQUEEZE, AXIS = (7, 9, 12, 15), 3.0, 0.7, 0.4
 TURN = 2.0 * np.pi
 rng = np.random.default_rng(5)
 M, L0 = rng.normal(size=(CELLS[0] + 5, *CELLS[1:3])) * 0.2, rng.normal(size=CELLS[3]) * 0.2
-MAP = GrooveMapKernel(M, REACH, L0, SQUEEZE, AXIS)
+MAP = GrooveMapKernel(M, REACH, L0, SQUEEZE, AXIS, 0.5)
 
 
 def periodic(c, angle, axis, derivative=0):

@@ -15,9 +15,9 @@ from rotorfilm.native.spec import LIBRARIES
 SOURCES = sorted((Path(__file__).parents[2] / "rotorfilm" / "native").glob("*.c"))
 COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
 LARGEST = {
-    "rotorfilm": 60_000,
+    "rotorfilm": 66_000,
     "rotorfilm_states": 60_000,
-    "rotorfilm_systems": 65_000,
+    "rotorfilm_systems": 74_000,
     "rotorfilm_bushes": 60_000,
 }
 """Bytes of each library on Linux, x86_64."""

@@ -47,7 +47,7 @@ class RoughGrooves(JournalBearing):
     def native(self):
         """Return its kernel."""
         rng = np.random.default_rng(3)
-        film = GrooveMapKernel(0.1 * rng.normal(size=(7, 6, 8)), 3.0, rng.normal(size=12), 0.7, 0.4)
+        film = GrooveMapKernel(0.1 * rng.normal(size=(7, 6, 8)), 3.0, rng.normal(size=12), 0.7, 0.4, 0.5)
         numbers = np.array([self.slenderness, 3.0, 0.7, 0.4])
         tables = {"coefficients": film.coefficients, "center": film.log_center, "map": numbers}
         return replace(JournalBearing.native(small_bearing()), kernel="grooved_journal", tables=tables)
