@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from . import console
+from .limits import CONTACT_CELLS, LAW_STATES
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -68,12 +69,14 @@ def contact(
 ) -> None:
     """Film thickness, approach and stiffness of a lubricated rolling ball, and its response to a load."""
     from .scenes.contact import load_over_time, respond, response_of, solve_contact
+    from .scenes.readers import Count
 
     given = dict(
         radius=radius, mass=mass, modulus=modulus, poisson_ratio=poisson_ratio, viscosity=viscosity,
         pressure_coefficient=pressure_coefficient, speed=speed, load=load, plane_modulus=plane_modulus,
     )  # fmt: skip
     case = _case(given, (v, q0, w), roelands, compressible, cells)
+    order = Count(LAW_STATES)("--order", order)
     full = full or save is not None or resume is not None
     _require_response(case, step, sine, frequency, full)
     time = 20.0 if duration is None else _scaled(case, "--duration", duration, "s", case.time_scale)
@@ -152,9 +155,10 @@ def _case(
     from .errors import InputError
     from .films import ContactGrid
     from .scenes.contact import ContactCase, case_of
+    from .scenes.readers import Count
 
     V, Q0, W = plain
-    grid = ContactGrid(cells=(cells, cells))
+    grid = ContactGrid(cells=(Count(CONTACT_CELLS)("--cells", cells),) * 2)
     if (V is None) != (Q0 is None) or (V is None and W is not None):
         raise InputError("--v and --q0 must be given together, and --w only with them")
     if V is not None and Q0 is not None:

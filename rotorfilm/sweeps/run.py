@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, require_count, warn_user
+from ..limits import WORKERS, require_at_most
 from ..progress import Report, silent
 from ..scenes.scene import read_tables
 from .axes import Axis, Values, check, points, read_axes
@@ -76,9 +77,12 @@ def sweep(
     _require_xarray()
     tables, source = _tables(scene)
     axes = read_axes(parameters)
+    target = None if path is None else _file(path)
+    if workers is not None:
+        require_count("workers", workers)
+        require_at_most("workers", workers, WORKERS)
     check(tables, axes, source)
     name = _name(tables, axes)
-    target = None if path is None else Path(path)
     if target is not None and target.is_file():
         return _finished(target, name)
     rows = _rows(tables, axes, source, name, target, workers=workers, dask=dask, report=report)
@@ -114,6 +118,13 @@ def _finished(path: Path, name: str) -> xarray.Dataset:
     if found.attrs.get("sweep") != name:
         raise InputError(f"path must be that of the same sweep, or of none, got {str(path)!r} with another")
     return found
+
+
+def _file(path: str | os.PathLike[str]) -> Path:
+    """Return a path; raise InputError where it is a folder, before the work."""
+    if Path(path).is_dir():
+        raise InputError(f"path must be that of a file, got the folder {str(path)!r}")
+    return Path(path)
 
 
 def _waiting(path: Path) -> Path:
@@ -157,8 +168,6 @@ def _solved(
     if dask is not None:
         return solved_by_dask(tables, todo, source, dask)
     count = min(workers or os.cpu_count() or 1, len(todo))
-    if workers is not None:
-        require_count("workers", workers)
     return (
         solved_here(tables, todo, source) if count <= 1 else solved_by_processes(tables, todo, source, count)
     )
