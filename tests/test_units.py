@@ -95,7 +95,7 @@ def test_every_number_with_every_unit_is_read(number, name):
         (math.nan, "m", "must be finite, got nan"),
         (-math.inf, "m", "must be finite, got -inf"),
         ("1e999 m", "m", "must be finite, got '1e999 m'"),
-        (10**5000, "m", "must be 0 or of a size from 1e-30 to 1e\\+30 in SI, got int too long to print"),
+        (10**400, "m", "must be 0 or of a size from 1e-30 to 1e\\+30 in SI, got 1000"),
         ("-2e30 m", "m", "must be 0 or of a size from 1e-30 to 1e\\+30 in SI, got '-2e30 m'"),
         (1e-31, "m", "must be 0 or of a size from 1e-30 to 1e\\+30 in SI, got 1e-31"),
         ("-inf", "m", "must be finite, got '-inf'"),
