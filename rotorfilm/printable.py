@@ -18,10 +18,11 @@ def brief(value: object) -> str:
 
 
 def shortened(text: str) -> str:
-    """Return a text, its middle left out where it is long."""
-    if len(text) <= LONGEST:
-        return text
-    return f"{text[: LONGEST // 2]}... ({len(text)} characters) ...{text[-LONGEST // 4 :]}"
+    """Return a text on one line, its middle left out where it is long."""
+    shown = visible(text.replace("\n", " "))
+    if len(shown) <= LONGEST:
+        return shown
+    return f"{shown[: LONGEST // 2]}... ({len(text)} characters) ...{shown[-LONGEST // 4 :]}"
 
 
 def visible(text: str) -> str:
