@@ -15,6 +15,10 @@ products of ten such numbers are still finite in double precision (1e308)."""
 SCENE_BYTES = 2**20
 """Of a scene file. A shaft of 500 elements, written one by one, takes a tenth; a device never ends."""
 
+LINE_DOTS = 200
+"""In a line of a scene file. The time to read a dotted key grows as the square of its parts; keys of scenes
+have five, and lists of numbers a dot for each."""
+
 TEXT = 200
 """Characters of a title or a name: a line or two of a print-out."""
 
@@ -58,4 +62,4 @@ WORKERS = 1024
 def require_at_most(name: str, value: float, most: float) -> None:
     """Raise InputError where `value` is above the limit `most`."""
     if value > most:
-        raise InputError(f"{name} must be at most {most:,}, got {value:g}".replace(",", " "))
+        raise InputError(f"{name} must be at most {most:g}, got {value:g}")

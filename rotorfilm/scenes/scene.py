@@ -13,7 +13,7 @@ from typing import Annotated, Any
 
 from ..bearings.journal import JournalBearing
 from ..errors import InputError, SceneError, warn_user
-from ..limits import SCENE_BYTES
+from ..limits import LINE_DOTS, SCENE_BYTES
 from ..printable import brief, shortened
 from ..rotors.rigid import RigidRotor
 from ..units import STANDARD_GRAVITY
@@ -268,6 +268,8 @@ def read_tables(path: str | PathLike[str]) -> dict[str, Any]:
 
 
 def _parsed(document: str, source: str) -> dict[str, Any]:
+    if any(line.count(".") > LINE_DOTS for line in document.splitlines()):
+        raise SceneError(f"{source}: lines must not have more than {LINE_DOTS} dots")
     try:
         return tomllib.loads(document.removeprefix(BYTE_ORDER_MARK))
     except tomllib.TOMLDecodeError as error:

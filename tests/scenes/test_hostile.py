@@ -3,7 +3,6 @@
 import copy
 import math
 import re
-import sys
 import tomllib
 import warnings
 from importlib import resources
@@ -13,9 +12,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rotorfilm import limits
 from rotorfilm.errors import SceneError
-from rotorfilm.scenes import Scene, parse_scene, read_scene
+from rotorfilm.scenes import read_scene
 
 DATA = Path(str(resources.files("rotorfilm.scenes"))) / "data"
 SHIPPED = sorted([*(Path(__file__).parents[2] / "examples").glob("**/*.toml"), *DATA.glob("*.toml")])
