@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Protocol
 import typer
 
 from . import console
-from .limits import CHART_STATES, CONTACT_CELLS
+from .limits import CHART_STATES, CONTACT_CELLS, TRANSITS
 from .printable import visible
 
 if TYPE_CHECKING:
@@ -134,7 +134,7 @@ def contact_cases(
     ] = 40,
     tolerance: Annotated[float, typer.Option(help="Of the steps of converged runs.")] = 1e-4,
     settle: Annotated[
-        float, typer.Option(help="Length of the runs of case 4.3 with W = 1.", min=30.0)
+        float, typer.Option(help="Length of the runs of case 4.3 with W = 1.", min=30.0, max=TRANSITS)
     ] = 60.0,
     out: Folder = OUT,
     json: Json = False,

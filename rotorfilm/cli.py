@@ -424,10 +424,10 @@ def _map_of_options(
     geometry = FilmGeometry(grooves=tuple(_groove(text) for text in groove))
     film = GroovedMapFilm(geometry=geometry)
     if cells is not None:
-        around, along = read_counts("--cells", _counts("--cells", cells, 2), 2, FILM_CELLS)
+        around, along = read_counts("--cells", _numbers(cells), 2, FILM_CELLS)
         film = replace(film, cells=(around, along))
     if nodes is not None:
-        over, turning, moving = read_counts("--nodes", _counts("--nodes", nodes, 3), 3, MAP_NODES)
+        over, turning, moving = read_counts("--nodes", _numbers(nodes), 3, MAP_NODES)
         film = replace(film, nodes=(over, turning, moving))
     with console.progress_display() as report:
         return film.built_table(slenderness, report)
@@ -458,14 +458,6 @@ def _film(film: str, order: str | None, constant: bool, rupture: str | None, cel
 def _numbers(text: str) -> list[int | str]:
     """Return the integers between commas, and what is none as it is."""
     return [part if (number := whole_number(part)) is None else number for part in text.split(",")]
-
-
-def _counts(option: str, text: str, count: int) -> list[int]:
-    parts = [whole_number(part) for part in text.split(",")]
-    numbers = [part for part in parts if part is not None]
-    if len(numbers) != count or len(parts) != count:
-        raise InputError(f"{option} must be {count} whole numbers, as 24,12, got {brief(text)}")
-    return numbers
 
 
 def _groove(text: str) -> Groove:

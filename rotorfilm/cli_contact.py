@@ -69,6 +69,7 @@ def contact(
 ) -> None:
     """Film thickness, approach and stiffness of a lubricated rolling ball, and its response to a load."""
     from .scenes.contact import load_over_time, respond, response_of, solve_contact
+    from .scenes.contact_motion import require_followable
     from .scenes.readers import Count
 
     given = dict(
@@ -83,6 +84,7 @@ def contact(
     rate = (
         0.0 if frequency is None else _scaled(case, "--frequency", frequency, "rad/s", 1.0 / case.time_scale)
     )
+    require_followable(time, rate)
     drive = load_over_time(step, sine, rate)
     with console.progress_display() as report:
         answer, law = solve_contact(case, order, report)
@@ -156,6 +158,7 @@ def _case(
     from .films import ContactGrid
     from .scenes.contact import ContactCase, case_of
     from .scenes.readers import Count
+    from .scenes.tables import Quantity
 
     V, Q0, W = plain
     grid = ContactGrid(cells=(Count(CONTACT_CELLS)("--cells", cells),) * 2)
@@ -164,7 +167,9 @@ def _case(
     if V is not None and Q0 is not None:
         if roelands or compressible or any(value is not None for value in given.values()):
             raise InputError("--v and --q0 stand for a ball and its lubricant: give no option of these too")
-        return ContactCase(PointContact(V=V, Q0=Q0, grid=grid), 1.0 if W is None else W)
+        number = Quantity("1")
+        contact = PointContact(V=number("--v", V), Q0=number("--q0", Q0), grid=grid)
+        return ContactCase(contact, 1.0 if W is None else number("--w", W))
     ball = _ball(given)
     return case_of(ball, _contact_of(ball, grid, roelands, compressible))
 

@@ -46,6 +46,12 @@ LAW_STATES = 31
 WORN_NODES = 10_000
 """Of the profile of a worn bush: a state each, and a hundred times as many as its tests need."""
 
+TRANSITS = 100_000
+"""Transit times that a contact is followed, each of ten steps or more: some minutes by the reduced law."""
+
+SWING_RATE = 10_000
+"""Radians of a load per transit time: the film feels less than a millionth of what is that fast."""
+
 STEPS = 10_000_000
 """Exchanges or samples of a run, which keep some twenty signals each: 1.6 GB."""
 

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from rotorfilm.errors import InputError
+from rotorfilm.films import contact_preconditioner
 from rotorfilm.limits import SCENE_BYTES
 from rotorfilm.scenes import Scene
 from rotorfilm.sweeps import axes
@@ -13,6 +14,7 @@ SHORT = Path(__file__).parents[1] / "examples" / "short.toml"
 TITLE = 'title = "{}"\n'
 BEARING = {"radius": "0.05", "length": "0.03", "clearance": "1e-4", "viscosity": "0.1", "load": "525"}
 JOURNAL = [*(part for name, value in BEARING.items() for part in (f"--{name}", value)), "--speed", "100"]
+CONTACT = ["contact", "--v", ".1", "--q0", "5", "--w", "1"]
 VARY = "journal.clearance = 90 um : 100 um : "
 
 
@@ -84,6 +86,15 @@ def test_what_a_user_typed_is_shown_as_it_is(run, tmp_path):
             ["contact", "--v", "0.1", "--q0", "5", "--order", "100000"],
             "--order must be a whole number from 1",
         ),
+        (
+            ["contact", *["--v", ".1", "--q0", "5", "--w", "1", "--step", ".1", "--duration", "1e29"]],
+            "transit time must be at most",
+        ),
+        (
+            ["contact", *["--v", ".1", "--q0", "5", "--w", "1", "--sine", ".1", "--frequency", "1e29"]],
+            "transit time must be at",
+        ),
+        (["contact", "--v", "1e300", "--q0", "5"], "--v: quantity must be 0 or of a size"),
         (["bush", "--load", "nan"], "--load: quantity must be finite"),
         (["bush", "--load", "3750", "--set", "f1=nan"], "f1: quantity must be finite"),
         (["cosim", SHORT.with_name("friswell.toml"), "--revolutions", "1e300"], "at most 10000000 steps"),
@@ -106,6 +117,16 @@ def test_lack_of_memory_is_said(run, monkeypatch):
     monkeypatch.setattr(Scene, "describe", refuse)
     code, _, err = run("solve", SHORT)
     assert (code, err) == (1, "error: not enough memory: 8 TiB\n")
+
+
+def test_a_contact_with_singular_equations_is_said(run, monkeypatch):
+    def refuse(*_, **__):
+        raise RuntimeError("Factor is exactly singular")
+
+    monkeypatch.setattr(contact_preconditioner.linalg, "splu", refuse)
+    code, _, err = run(*CONTACT, "--cells", "24")
+    assert code == 1
+    assert "equations of a contact must be regular, got singular ones with V = 0.1" in err
 
 
 def test_a_sweep_has_a_largest_number_of_points():
