@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING, Annotated, Protocol
 import typer
 
 from . import console
+from .limits import CHART_STATES, CONTACT_CELLS, TRANSITS
+from .printable import visible
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -51,7 +53,7 @@ class Tabular(Protocol):
 @chart_app.command(epilog="Example: rotorfilm chart journal --ld 0.5 --json")
 def journal(
     ld: Slenderness = 0.5,
-    states: Annotated[int, typer.Option(help="Random states.", min=1)] = 300,
+    states: Annotated[int, typer.Option(help="Random states.", min=1, max=CHART_STATES)] = 300,
     seed: Annotated[int, typer.Option(help="Seed of the random states.", min=0)] = 1978,
     motion: Annotated[Motion, typer.Option(help="Range of the states' velocities.")] = Motion.LARGE,
     out: Folder = OUT,
@@ -102,7 +104,9 @@ def stability(ld: Slenderness = 0.5, out: Folder = OUT, json: Json = False) -> N
 
 @chart_app.command(epilog="Example: rotorfilm chart contact --cells 48 --json")
 def contact(
-    cells: Annotated[int, typer.Option(help="Cells along each side of the reference.", min=24)] = 64,
+    cells: Annotated[
+        int, typer.Option(help="Cells along each side of the reference.", min=24, max=CONTACT_CELLS)
+    ] = 64,
     out: Folder = OUT,
     json: Json = False,
 ) -> None:
@@ -125,10 +129,12 @@ def contact(
 
 @chart_app.command(epilog="Example: rotorfilm chart contact-cases --cells 40")
 def contact_cases(
-    cells: Annotated[int, typer.Option(help="Cells along each side, converged runs.", min=8)] = 40,
+    cells: Annotated[
+        int, typer.Option(help="Cells along each side, converged runs.", min=8, max=CONTACT_CELLS)
+    ] = 40,
     tolerance: Annotated[float, typer.Option(help="Of the steps of converged runs.")] = 1e-4,
     settle: Annotated[
-        float, typer.Option(help="Length of the runs of case 4.3 with W = 1.", min=30.0)
+        float, typer.Option(help="Length of the runs of case 4.3 with W = 1.", min=30.0, max=TRANSITS)
     ] = 60.0,
     out: Folder = OUT,
     json: Json = False,
@@ -197,7 +203,7 @@ def scene(
             for r in result.rungs
             if r.error_estimate is not None and r.cost is not None and r.error_estimate > 0.0
         ]
-        title = f"{loaded.title}: {result.quantity}"
+        title = visible(f"{loaded.title}: {result.quantity}").replace("$", r"\$")  # no mathematics
         axes = plot_scene_ladder(points, title=title, tolerance=result.tolerance)
         files = _write(out, f"chart_{file.stem}", result, [axes])
         report(1.0, "done")
@@ -282,7 +288,7 @@ def bush(out: Folder = OUT, json: Json = False) -> None:
 def damper(
     ld: Slenderness = 0.25,
     permeability: Annotated[float, typer.Option(help="Phi = A H/C^3 of the cage.")] = 1e-3,
-    states: Annotated[int, typer.Option(help="Random states.", min=1)] = 200,
+    states: Annotated[int, typer.Option(help="Random states.", min=1, max=CHART_STATES)] = 200,
     out: Folder = OUT,
     json: Json = False,
 ) -> None:

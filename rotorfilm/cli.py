@@ -22,6 +22,9 @@ from .cli_damper_run import DAMPER_RUN_EXAMPLE, damper_run
 from .cli_rotor import ROTOR_EXAMPLE, rotor
 from .cli_sweep import SWEEP_EXAMPLE, sweep
 from .errors import InputError, RotorfilmError, SceneError, ValidityWarning
+from .limits import FILM_CELLS, MAP_NODES
+from .printable import brief
+from .units import whole_number
 
 if TYPE_CHECKING:
     from .bearings import JournalBearing
@@ -331,14 +334,15 @@ def bush(
     """Find contact and critical speeds of a polymer bush that melts: the published example unless set."""
     from .films import ApproximateShaft, GlobalBalance
     from .scenes.bush import bush_from_settings, solve_bush
-    from .units import parse_quantity
+    from .scenes.tables import Quantity
 
     pairs = [text.partition("=")[::2] for text in change or ()]
     model = bush_from_settings({name.strip(): value.strip() for name, value in pairs})
     model = replace(model, shaft_heat=ApproximateShaft()) if published else model
     model = replace(model, balance=GlobalBalance()) if whole_shaft else model
-    rate = None if speed is None else parse_quantity(speed, "rad/s")
-    answer = solve_bush(model, parse_quantity(load, "N"), rate, parse_quantity(settlement, "m"))
+    rate = None if speed is None else Quantity("rad/s")("--speed", speed)
+    worn = Quantity("m")("--settlement", settlement)
+    answer = solve_bush(model, Quantity("N")("--load", load), rate, worn)
     if json:
         console.print_json(answer)
         return
@@ -383,10 +387,11 @@ def main(arguments: list[str] | None = None) -> None:
         with warnings.catch_warnings():
             warnings.showwarning = _show_warning  # type: ignore[assignment]
             app(arguments)
-    except (RotorfilmError, OSError) as error:
-        console.complain("error", error)
+    except (RotorfilmError, OSError, MemoryError) as error:
+        message = f"not enough memory: {error}" if isinstance(error, MemoryError) else str(error)
+        console.complain("error", message)
         if "--json" in (sys.argv if arguments is None else arguments):
-            console.print_json({"error": type(error).__name__, "message": str(error)})
+            console.print_json({"error": type(error).__name__, "message": message})
         sys.exit(BAD_INPUT if isinstance(error, InputError | SceneError | OSError) else FAILED)
 
 
@@ -412,16 +417,17 @@ def _map_of_options(
     slenderness: float | None, groove: list[str] | None, cells: str | None, nodes: str | None
 ) -> GrooveMapTable:
     from .films import FilmGeometry, GroovedMapFilm
+    from .scenes.readers import read_counts
 
     if slenderness is None or not groove:
         raise InputError("groove-map must have SCENE.toml, or --slenderness and --groove, got neither")
     geometry = FilmGeometry(grooves=tuple(_groove(text) for text in groove))
     film = GroovedMapFilm(geometry=geometry)
     if cells is not None:
-        around, along = _counts("--cells", cells, 2)
+        around, along = read_counts("--cells", _numbers(cells), 2, FILM_CELLS)
         film = replace(film, cells=(around, along))
     if nodes is not None:
-        over, turning, moving = _counts("--nodes", nodes, 3)
+        over, turning, moving = read_counts("--nodes", _numbers(nodes), 3, MAP_NODES)
         film = replace(film, nodes=(over, turning, moving))
     with console.progress_display() as report:
         return film.built_table(slenderness, report)
@@ -453,25 +459,19 @@ def _film(film: str, order: str | None, constant: bool, rupture: str | None, cel
 
 def _numbers(text: str) -> list[int | str]:
     """Return the integers between commas, and what is none as it is."""
-    return [int(part) if part.strip().isdigit() else part for part in text.split(",")]
-
-
-def _counts(option: str, text: str, count: int) -> list[int]:
-    parts = [part.strip() for part in text.split(",")]
-    if len(parts) != count or not all(part.isdigit() for part in parts):
-        raise InputError(f"{option} must be {count} whole numbers, as 24,12, got {text!r}")
-    return [int(part) for part in parts]
+    return [part if (number := whole_number(part)) is None else number for part in text.split(",")]
 
 
 def _groove(text: str) -> Groove:
     """Return the groove of "CENTER, WIDTH"."""
     from .films import Groove
-    from .units import parse_quantity
+    from .scenes.tables import Quantity
 
     parts = [part.strip() for part in text.split(",")]
     if len(parts) != 2:
-        raise InputError(f'--groove must be a center and a width, as "90 deg, 20 deg", got {text!r}')
-    return Groove(center=parse_quantity(parts[0], "rad"), width=parse_quantity(parts[1], "rad"))
+        raise InputError(f'--groove must be a center and a width, as "90 deg, 20 deg", got {brief(text)}')
+    center, width = (Quantity("rad")("--groove", part) for part in parts)
+    return Groove(center=center, width=width)
 
 
 def _journal(geometry: dict[str, str], film: FilmTable, grooves: list[str]) -> JournalTable:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from . import console
+from .limits import CONTACT_CELLS, LAW_STATES
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -73,18 +74,22 @@ def contact(
 ) -> None:
     """Film thickness, approach and stiffness of a lubricated rolling ball, and its response to a load."""
     from .scenes.contact import load_over_time, respond, response_of, solve_contact
+    from .scenes.contact_motion import require_followable
+    from .scenes.readers import Count
 
     given = dict(
         radius=radius, mass=mass, modulus=modulus, poisson_ratio=poisson_ratio, viscosity=viscosity,
         pressure_coefficient=pressure_coefficient, speed=speed, load=load, plane_modulus=plane_modulus,
     )  # fmt: skip
     case = _case(given, (v, q0, w), roelands, compressible, cells)
+    order = Count(LAW_STATES)("--order", order)
     full = full or save is not None or resume is not None
     _require_response(case, step, sine, frequency, full)
     time = 20.0 if duration is None else _scaled(case, "--duration", duration, "s", case.time_scale)
     rate = (
         0.0 if frequency is None else _scaled(case, "--frequency", frequency, "rad/s", 1.0 / case.time_scale)
     )
+    require_followable(time, rate)
     drive = load_over_time(step, sine, rate)
     with console.progress_display() as report:
         answer, law = solve_contact(case, order, report)
@@ -157,15 +162,19 @@ def _case(
     from .errors import InputError
     from .films import ContactGrid
     from .scenes.contact import ContactCase, case_of
+    from .scenes.readers import Count
+    from .scenes.tables import Quantity
 
     V, Q0, W = plain
-    grid = ContactGrid(cells=(cells, cells))
+    grid = ContactGrid(cells=(Count(CONTACT_CELLS)("--cells", cells),) * 2)
     if (V is None) != (Q0 is None) or (V is None and W is not None):
         raise InputError("--v and --q0 must be given together, and --w only with them")
     if V is not None and Q0 is not None:
         if roelands or compressible or any(value is not None for value in given.values()):
             raise InputError("--v and --q0 stand for a ball and its lubricant: give no option of these too")
-        return ContactCase(PointContact(V=V, Q0=Q0, grid=grid), 1.0 if W is None else W)
+        number = Quantity("1")
+        contact = PointContact(V=number("--v", V), Q0=number("--q0", Q0), grid=grid)
+        return ContactCase(contact, 1.0 if W is None else number("--w", W))
     ball = _ball(given)
     return case_of(ball, _contact_of(ball, grid, roelands, compressible))
 

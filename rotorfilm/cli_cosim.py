@@ -43,12 +43,12 @@ def cosim(
         from .results import write_csv
         from .scenes import Scene
         from .scenes.cosim import run_scene, scheme_named
-        from .units import parse_quantity
+        from .scenes.tables import Quantity
 
         loaded = Scene.load(scene)
         table = loaded.cosimulation
         if macro_angle is not None:
-            table = replace(table, macro_angle=parse_quantity(macro_angle, "rad"))
+            table = replace(table, macro_angle=Quantity("rad")("--macro-angle", macro_angle))
         if revolutions is not None:
             table = replace(table, revolutions=revolutions)
         try:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -9,6 +10,9 @@ import typer
 
 from . import console
 from .errors import InputError
+from .limits import SWEEP_POINTS
+from .printable import brief
+from .units import whole_number
 
 SWEEP_EXAMPLE = (
     'Example: rotorfilm sweep examples/question.toml --vary "journal.clearance = 50 um, 60 um, 70 um" '
@@ -33,7 +37,11 @@ def sweep(
     """Solve a scene at all combinations of some values of its keys, into a NetCDF file."""
     from .sweeps import sweep as run
 
-    parameters = dict(read_variation(text) for text in vary)
+    parameters: dict[str, list[Any]] = {}
+    for key, values in map(read_variation, vary):
+        if key in parameters:
+            raise InputError(f"--vary must be given once for each key, got {brief(key)} twice")
+        parameters[key] = values
     with console.progress_display() as report:
         dataset = run(scene, parameters, path=out, workers=workers, dask=dask, report=report)
     failed = int((dataset["failure"] != "").sum())
@@ -62,13 +70,17 @@ def read_variation(text: str) -> tuple[str, list[Any]]:
     """
     key, equals, values = text.partition("=")
     if not (equals and key.strip() and values.strip()):
-        raise InputError(f'--vary must be "KEY = VALUES", got {text!r}')
+        raise InputError(f'--vary must be "KEY = VALUES", got {brief(text)}')
     parts = [part.strip() for part in values.split(":")]
     if len(parts) == 1:
         return key.strip(), [_value(part.strip()) for part in values.split(",")]
-    if len(parts) != 3 or not parts[2].isdigit() or int(parts[2]) < 2:
-        raise InputError(f'--vary must be "KEY = first : last : count" with a count from 2 on, got {text!r}')
-    return key.strip(), _spread(text, parts[0], parts[1], int(parts[2]))
+    count = whole_number(parts[2]) if len(parts) == 3 else None
+    if count is None or not 2 <= count <= SWEEP_POINTS:
+        raise InputError(
+            f'--vary must be "KEY = first : last : count" with a count from 2 to {SWEEP_POINTS}, '
+            f"got {brief(text)}"
+        )
+    return key.strip(), _spread(text, parts[0], parts[1], count)
 
 
 def _spread(text: str, first: str, last: str, count: int) -> list[Any]:
@@ -76,7 +88,7 @@ def _spread(text: str, first: str, last: str, count: int) -> list[Any]:
 
     (low, unit), (high, other) = _split(first), _split(last)
     if low is None or high is None or unit != other:
-        raise InputError(f"--vary must run between two numbers of one unit, got {text!r}")
+        raise InputError(f"--vary must run between two numbers of one unit, got {brief(text)}")
     numbers = np.linspace(low, high, count).tolist()
     return [f"{number!r} {unit}" if unit else number for number in numbers]
 
@@ -84,9 +96,10 @@ def _spread(text: str, first: str, last: str, count: int) -> list[Any]:
 def _split(text: str) -> tuple[float | None, str]:
     number, _, unit = text.replace("%", " %").partition(" ")
     try:
-        return float(number), unit.strip()
+        value = float(number)
     except ValueError:
         return None, ""
+    return (value if math.isfinite(value) else None), unit.strip()
 
 
 def _value(text: str) -> Any:

@@ -15,6 +15,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
 from .files import write_whole
+from .printable import visible
 from .results import Coefficients, Equilibrium, WhirlThreshold, to_plain
 
 if TYPE_CHECKING:
@@ -26,15 +27,20 @@ if TYPE_CHECKING:
     from .scenes.solve import Answer
 
 
+def plain_console(**options: Any) -> Console:
+    """Return a console that takes no text for markup: what is shown may be what a user typed."""
+    return Console(highlight=False, markup=False, emoji=False, **options)
+
+
 def complain(kind: str, message: object) -> None:
     """Print one line `kind: message` on stderr."""
     line = " ".join(str(message).split())
-    Console(stderr=True, soft_wrap=True, highlight=False).print(f"{kind}: {line}", markup=False)
+    plain_console(stderr=True, soft_wrap=True).print(f"{kind}: {visible(line)}")
 
 
 def print_json(value: Any) -> None:
     """Print a result as JSON, alone on stdout."""
-    Console(soft_wrap=True, highlight=False).out(json.dumps(to_plain(value), indent=2, allow_nan=False))
+    plain_console(soft_wrap=True).out(json.dumps(to_plain(value), indent=2, allow_nan=False))
 
 
 def write_json(path: Path, value: Any) -> Path:
@@ -45,10 +51,10 @@ def write_json(path: Path, value: Any) -> Path:
 
 def print_rows(title: str, rows: list[tuple[str, str]]) -> None:
     """Print names and values in two columns."""
-    table = Table(title=title, title_justify="left", show_header=False, box=None, pad_edge=False)
+    table = Table(title=visible(title), title_justify="left", show_header=False, box=None, pad_edge=False)
     for row in rows:
-        table.add_row(*row)
-    Console(highlight=False).print(table)
+        table.add_row(*map(visible, row))
+    plain_console().print(table)
 
 
 def print_columns(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
@@ -57,18 +63,18 @@ def print_columns(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> Non
     for number, heading in enumerate(headings):
         table.add_column(heading, justify="right" if number else "left", no_wrap=not number)
     for row in rows:
-        table.add_row(*row)
-    Console(highlight=False).print(table)
+        table.add_row(*map(visible, row))
+    plain_console().print(table)
 
 
 def print_table(title: str, rows: list[dict[str, Any]]) -> None:
     """Print rows with the same keys as a table."""
-    table = Table(title=title, title_justify="left", box=None, pad_edge=False)
+    table = Table(title=visible(title), title_justify="left", box=None, pad_edge=False)
     for key in rows[0] if rows else ():
         table.add_column(key, overflow="fold")
     for row in rows:
-        table.add_row(*("" if value is None else str(value) for value in row.values()))
-    Console(highlight=False, markup=False).print(table)
+        table.add_row(*("" if value is None else visible(str(value)) for value in row.values()))
+    plain_console().print(table)
 
 
 def check_row(check: str, passed: bool | None, figure: float | None, remark: str) -> tuple[str, str]:
@@ -81,7 +87,7 @@ def check_row(check: str, passed: bool | None, figure: float | None, remark: str
 @contextmanager
 def progress_display() -> Iterator[Report]:
     """Yield a function (fraction, text) that moves a progress bar on stderr; it shows from the first call."""
-    columns = (BarColumn(bar_width=30), TimeElapsedColumn(), TextColumn("{task.description}"))
+    columns = (BarColumn(bar_width=30), TimeElapsedColumn(), TextColumn("{task.description}", markup=False))
     bar = Progress(*columns, console=Console(stderr=True))
     task = bar.add_task("", total=1.0, start=False)
 
@@ -182,7 +188,7 @@ def print_demo(result: DemoResult) -> None:
     table.add_column("")
     for run in result.coupling.runs:
         table.add_row(*_coupled_cells(run), "too long on purpose" if run is result.refusal_run else "")
-    Console(highlight=False).print("", table)
+    plain_console().print("", table)
     limit, order = result.critical_macro_angle, result.coupling.observed_order
     rows = [
         ("stability limit of the macro step", "none" if limit is None else f"{math.degrees(limit):.4g} deg"),

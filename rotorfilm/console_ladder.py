@@ -8,10 +8,13 @@ from typing import Any
 import numpy as np
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
+from .console import plain_console
+from .printable import visible
 from .scenes.ladder import QuestionAnswer, RungReport
 
-MARKS = {"chosen": "[bold green]chosen[/]", "refused": "[yellow]refused[/]", "skipped": "[dim]skipped[/]"}
+STYLES = {"chosen": "bold green", "refused": "yellow"}
 """How verdicts are shown; others are dim."""
 
 
@@ -21,11 +24,11 @@ WIDE = 160
 
 def print_question(title: str, answer: QuestionAnswer, *, explain: bool) -> None:
     """Print the answer to a question, and with `explain` the whole ladder."""
-    table = Table(title=title, title_justify="left", show_header=False, box=None, pad_edge=False)
+    table = Table(title=visible(title), title_justify="left", show_header=False, box=None, pad_edge=False)
     for row in _summary(answer):
-        table.add_row(*row)
+        table.add_row(*map(visible, row))
     # A file or a pipe has no width that tables must fit.
-    screen = Console(highlight=False) if sys.stdout.isatty() else Console(highlight=False, width=WIDE)
+    screen = plain_console() if sys.stdout.isatty() else plain_console(width=WIDE)
     screen.print(table)
     if explain:
         screen.print("", _ladder(answer))
@@ -64,7 +67,7 @@ def _ladder(answer: QuestionAnswer) -> Table:
         error = "" if report.error_estimate is None else _number(report.error_estimate)
         table.add_row(
             report.name,
-            MARKS.get(report.verdict, f"[dim]{report.verdict}[/]"),
+            Text(report.verdict, style=STYLES.get(report.verdict, "dim")),
             "" if report.value is None else _value(report.value, short=True),
             ("<~ " if report.bound else "") + error,
             _seconds(report.cost),
@@ -83,7 +86,7 @@ def _print_reasons(screen: Console, answer: QuestionAnswer) -> None:
     table.add_column(no_wrap=True)
     table.add_column(overflow="fold")
     for row in reasons:
-        table.add_row(*row)
+        table.add_row(*map(visible, row))
     screen.print("", table)
 
 

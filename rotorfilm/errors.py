@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .printable import brief
+
 
 class RotorfilmError(Exception):
     """Base of every error that rotorfilm raises on purpose."""
@@ -89,19 +91,19 @@ class CouplingWarning(ValidityWarning):
 def require_positive(name: str, value: float) -> None:
     """Raise InputError unless `value` is a finite positive number."""
     if not _is_number(value) or not np.isfinite(value) or value <= 0.0:
-        raise InputError(f"{name} must be finite and positive, got {value!r}")
+        raise InputError(f"{name} must be finite and positive, got {brief(value)}")
 
 
 def require_non_negative(name: str, value: float) -> None:
     """Raise InputError unless `value` is a finite number >= 0."""
     if not _is_number(value) or not np.isfinite(value) or value < 0.0:
-        raise InputError(f"{name} must be finite and not negative, got {value!r}")
+        raise InputError(f"{name} must be finite and not negative, got {brief(value)}")
 
 
 def require_count(name: str, value: int, least: int = 1) -> None:
     """Raise InputError unless `value` is an integer, at least `least`."""
     if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < least:
-        raise InputError(f"{name} must be an integer, at least {least}, got {value!r}")
+        raise InputError(f"{name} must be an integer, at least {least}, got {brief(value)}")
 
 
 def require_finite(name: str, value: ArrayLike) -> NDArray[np.float64]:
@@ -109,16 +111,16 @@ def require_finite(name: str, value: ArrayLike) -> NDArray[np.float64]:
     try:
         array = np.asarray(value, dtype=float)
     except (TypeError, ValueError):
-        raise InputError(f"{name} must be numeric, got {value!r}") from None
+        raise InputError(f"{name} must be numeric, got {brief(value)}") from None
     if not np.isfinite(array).all():
-        raise InputError(f"{name} must be finite, got {value!r}")
+        raise InputError(f"{name} must be finite, got {brief(value)}")
     return array
 
 
 def require_number(name: str, value: float) -> float:
     """Return `value` as a float; raise InputError unless it is a single finite number."""
     if not _is_number(value) or not np.isfinite(value):
-        raise InputError(f"{name} must be a single finite number, got {value!r}")
+        raise InputError(f"{name} must be a single finite number, got {brief(value)}")
     return float(value)
 
 

@@ -7,6 +7,8 @@ import re
 from dataclasses import dataclass, field
 
 from .errors import InputError
+from .limits import MAGNITUDE
+from .printable import brief
 
 STANDARD_GRAVITY = 9.80665
 """Standard acceleration of gravity [m/s2], by definition."""
@@ -106,6 +108,9 @@ DISPLAY_UNITS: dict[str, Unit] = {
 
 _QUANTITY = re.compile(r"^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
 
+_MICRO = str.maketrans({"\N{MICRO SIGN}": "u", "\N{GREEK SMALL LETTER MU}": "u"})
+"""Both signs of micro that keyboards have."""
+
 _NOT_FINITE = re.compile(r"^\s*[-+]?(?:nan|inf|infinity)\b", re.IGNORECASE)
 
 
@@ -122,22 +127,40 @@ def parse_quantity(text: str | float, unit: str) -> float:
     Raises
     ------
     InputError
-        If the text is no finite quantity, its unit is unknown, or it measures something else than `unit`.
+        If the text is no finite quantity, is beyond `limits.MAGNITUDE`, its unit is unknown, or it measures
+        something else than `unit`.
     """
     if isinstance(text, bool):
         raise InputError(f"quantity must be a number or a number with a unit, got {text!r}")
     if isinstance(text, int | float):
-        return float(text)
+        return _sensible(text, text)
     if _NOT_FINITE.match(text):
-        raise InputError(f"quantity must be finite, got {text!r}")
+        raise InputError(f"quantity must be finite, got {brief(text)}")
     match = _QUANTITY.match(text)
     if match is None:
-        raise InputError(f"quantity must be a number with a unit such as '1 {unit}', got {text!r}")
-    name = match[2] or unit
+        raise InputError(f"quantity must be a number with a unit such as '1 {unit}', got {brief(text)}")
+    name = (match[2] or unit).translate(_MICRO)
     if name not in DISPLAY_UNITS:
         exponents = UNITS[unit].exponents
         fitting = sorted(known for known, other in DISPLAY_UNITS.items() if other.exponents == exponents)
-        raise InputError(f"unit must be one of {', '.join(fitting)}, got {name!r} in {text!r}")
+        raise InputError(f"unit must be one of {', '.join(fitting)}, got {brief(name)} in {brief(text)}")
     if DISPLAY_UNITS[name].exponents != UNITS[unit].exponents:
-        raise InputError(f"quantity must be measured in {unit} or a multiple of it, got {text!r}")
-    return float(match[1]) * DISPLAY_UNITS[name].factor
+        raise InputError(f"quantity must be measured in {unit} or a multiple of it, got {brief(text)}")
+    return _sensible(float(match[1]) * DISPLAY_UNITS[name].factor, text)
+
+
+def whole_number(text: str) -> int | None:
+    """Return the whole number that a text is, of at most 18 digits; None where it is none."""
+    return int(text) if re.fullmatch(r"\s*[0-9]{1,18}\s*", text) else None
+
+
+def _sensible(value: float, text: str | float) -> float:
+    """Return a number as a float; raise InputError unless it is 0 or of a size that products can bear."""
+    if not abs(value) < math.inf:
+        raise InputError(f"quantity must be finite, got {brief(text)}")
+    if value != 0 and not 1.0 / MAGNITUDE <= abs(value) <= MAGNITUDE:
+        raise InputError(
+            f"quantity must be 0 or of a size from {1.0 / MAGNITUDE:g} to {MAGNITUDE:g} in SI, "
+            f"got {brief(text)}"
+        )
+    return float(value)

@@ -63,6 +63,8 @@ def test_exponents_add_up_as_the_definitions_say(product, factors):
         ("1 psi", "Pa", 4.4482216152605 / 0.00064516),
         ("100 cP", "Pa.s", 0.1),
         ("1.5e2 kN", "N", 1.5e5),
+        ("50 \N{MICRO SIGN}m", "m", 5e-5),
+        ("0.4 \N{GREEK SMALL LETTER MU}m2", "m2", 4e-13),
         (".5", "m", 0.5),
         ("+3. s", "s", 3.0),
         (7, "kg", 7.0),
@@ -73,7 +75,10 @@ def test_quantity_in_si(text, unit, expected):
     assert parse_quantity(text, unit) == pytest.approx(expected, rel=1e-15)
 
 
-@given(number=st.floats(allow_nan=False, allow_infinity=False), name=st.sampled_from(sorted(DISPLAY_UNITS)))
+SIZES = st.floats(1e-20, 1e20) | st.floats(-1e20, -1e-20) | st.just(0.0)
+
+
+@given(number=SIZES, name=st.sampled_from(sorted(DISPLAY_UNITS)))
 def test_every_number_with_every_unit_is_read(number, name):
     unit = next(key for key in UNITS if UNITS[key].exponents == DISPLAY_UNITS[name].exponents)
     assert parse_quantity(f"{number!r} {name}", unit) == number * DISPLAY_UNITS[name].factor
@@ -87,6 +92,12 @@ def test_every_number_with_every_unit_is_read(number, name):
         ("long", "m", "must be a number with a unit such as '1 m', got 'long'"),
         ("", "m", "must be a number with a unit"),
         ("nan m", "m", "must be finite, got 'nan m'"),
+        (math.nan, "m", "must be finite, got nan"),
+        (-math.inf, "m", "must be finite, got -inf"),
+        ("1e999 m", "m", "must be finite, got '1e999 m'"),
+        (10**400, "m", "must be 0 or of a size from 1e-30 to 1e\\+30 in SI, got 1000"),
+        ("-2e30 m", "m", "must be 0 or of a size from 1e-30 to 1e\\+30 in SI, got '-2e30 m'"),
+        (1e-31, "m", "must be 0 or of a size from 1e-30 to 1e\\+30 in SI, got 1e-31"),
         ("-inf", "m", "must be finite, got '-inf'"),
         ("1 in", "kg", "must be measured in kg"),
         ("in", "m", "must be a number with a unit"),

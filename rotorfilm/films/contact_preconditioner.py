@@ -16,6 +16,7 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse import linalg
 
+from ..errors import ConvergenceError
 from ..model import Array
 from .contact_equations import ContactEquations, Derivatives
 
@@ -136,9 +137,13 @@ def factorize(
     )
     solver = None
     if len(cells):
-        solver = linalg.splu(
-            matrix[:, cells].tocsc().astype(np.float32), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01
-        )
+        square = matrix[:, cells].tocsc().astype(np.float32)
+        try:
+            solver = linalg.splu(square, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01)
+        except RuntimeError:  # of SuperLU: exactly singular
+            raise ConvergenceError(
+                f"the equations of a contact must be regular, got singular ones with V = {equations.V:g}"
+            ) from None
     bare = Factors(solver, pressures.tocsr()[cells][:, cells], wet, np.zeros(len(wet)), 1.0)
     by_delta = derivatives.by_film @ np.ones(derivatives.by_film.shape[1])
     shift = bare.pressures(np.where(wet, by_delta, 0.0))

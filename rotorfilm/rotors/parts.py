@@ -240,10 +240,15 @@ class Disk:
         cls, node: int, *, density: float, width: float, outer_diameter: float, inner_diameter: float = 0.0
     ) -> Disk:
         """Return a disk of even thickness with a bore [kg/m3, m]."""
-        require_positive("width", width)
+        for name, value in (("density", density), ("width", width), ("outer_diameter", outer_diameter)):
+            require_positive(name, value)
+        require_non_negative("inner_diameter", inner_diameter)
+        if inner_diameter >= outer_diameter:
+            raise InputError(
+                f"inner_diameter must be below outer_diameter {outer_diameter!r}, got {inner_diameter!r}"
+            )
         squares = outer_diameter**2 + inner_diameter**2
         mass = 0.25 * math.pi * density * width * (outer_diameter**2 - inner_diameter**2)
-        require_positive("outer_diameter^2 - inner_diameter^2", mass)
         polar = mass * squares / 8.0
         diametral = 0.5 * polar + mass * width**2 / 12.0
         return cls(node=node, mass=mass, diametral_inertia=diametral, polar_inertia=polar)

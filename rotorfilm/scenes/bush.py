@@ -77,7 +77,7 @@ def bush_from_settings(settings: Mapping[str, str]) -> MeltingBush:
             raise InputError(f"setting must be one of {', '.join(SETTINGS)}, got {name!r}")
         part, unit = SETTINGS[name]
         field = "conductivity" if name.endswith("conductivity") else name
-        parts.setdefault(part, {})[field] = parse_quantity(text, unit) if unit else _plain(name, text)
+        parts.setdefault(part, {})[field] = _number(name, text, unit)
     bush = f4k20_bush()
     own = parts.pop("", {})
     return replace(
@@ -105,8 +105,8 @@ def solve_bush(bush: MeltingBush, load: float, speed: float | None, settlement: 
     )
 
 
-def _plain(name: str, text: str) -> float:
+def _number(name: str, text: str, unit: str) -> float:
     try:
-        return float(text)
-    except ValueError:
-        raise InputError(f"{name} must be a plain SI number, got {text!r}") from None
+        return parse_quantity(text, unit or "1")
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from None

@@ -11,7 +11,9 @@ from ..bearings.bush_materials import Friction
 from ..errors import SceneError
 from ..films.bush_heat import ApproximateShaft, ContactBalance, ExactShaft, GlobalBalance
 from ..films.bush_profile import LocalMelting, SharedMelting
-from .readers import read_count
+from ..limits import WORN_NODES
+from ..printable import brief
+from .readers import Count
 from .tables import Quantity, choose
 
 MATERIALS = {"f4k20": f4k20_bush}
@@ -44,7 +46,7 @@ def _read_friction(where: str, value: Any) -> Friction:
     """Read a coefficient of friction: one number, or f0, f1 [1/K], f2 [1/K2] of f0 + f1 T + f2 T^2."""
     numbers = value if isinstance(value, list) else [value]
     if not 1 <= len(numbers) <= 3:
-        raise SceneError(f"{where} must be one number or up to three, [f0, f1, f2], got {value!r}")
+        raise SceneError(f"{where} must be one number or up to three, [f0, f1, f2], got {brief(value)}")
     units = ("1", "1/K", "1/K2")
     f = [Quantity(unit)(f"{where}[{k}]", x) for k, (unit, x) in enumerate(zip(units, numbers, strict=False))]
     return Friction(f0=f[0], f1=f[1] if len(f) > 1 else 0.0, f2=f[2] if len(f) > 2 else 0.0)
@@ -107,7 +109,7 @@ class BushTable:
     shaft_heat: Annotated[ExactShaft | ApproximateShaft, _read_shaft_heat] = field(default_factory=ExactShaft)
     balance: Annotated[ContactBalance | GlobalBalance, _read_balance] = field(default_factory=ContactBalance)
     melting: Annotated[SharedMelting | LocalMelting, _read_melting] = field(default_factory=SharedMelting)
-    nodes: Annotated[int, read_count] = 64
+    nodes: Annotated[int, Count(WORN_NODES)] = 64
     center: Annotated[float, Quantity("rad")] = -0.5 * math.pi
     extent: Annotated[float, Quantity("rad")] = 2.0
     retardation: Annotated[float, Quantity("s")] = 0.0

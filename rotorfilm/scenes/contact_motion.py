@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import InputError
 from ..films.contact_loads import SineLoad, StepLoad
+from ..limits import SWING_RATE, TRANSITS, require_at_most
 from .excitation_table import SineLoadTable, StepLoadTable
 
 if TYPE_CHECKING:
@@ -47,6 +48,12 @@ class ShakenBall:
         return min(1.0, 1.0 + amplitude), max(1.0, 1.0 + amplitude)
 
 
+def require_followable(duration: float, frequency: float) -> None:
+    """Raise InputError for a motion of more transit times, or a faster load, than can be followed."""
+    require_at_most("duration / transit time", duration, TRANSITS)
+    require_at_most("frequency * transit time", frequency, SWING_RATE)
+
+
 def natural_frequency(W: float) -> float:
     """Return sqrt(k/W) of a ball on the dry contact; infinite without a mass."""
     return math.sqrt(DRY_STIFFNESS / W) if W > 0.0 else math.inf
@@ -77,15 +84,19 @@ def contact_motion(scene: Scene) -> ShakenBall:
     period = 2.0 * math.pi / natural_frequency(ball.W)
     if isinstance(shaken, SineLoadTable):
         frequency = shaken.frequency * ball.time_scale
+        duration = max(UNDER_SINE, 2.0 * math.pi / frequency, period)
+        require_followable(duration, frequency)
         return ShakenBall(
             load=SineLoad(amplitude=amplitude, frequency=frequency),
-            duration=max(UNDER_SINE, 2.0 * math.pi / frequency, period),
+            duration=duration,
             shortest_period=min(2.0 * math.pi / frequency, period or math.inf),
         )
     end = (shaken.end - shaken.start) / ball.time_scale
+    duration = max(AFTER_JUMP, period) + (end if math.isfinite(end) else 0.0)
+    require_followable(duration, 0.0)
     return ShakenBall(
         load=StepLoad(amplitude=amplitude, end=end),
-        duration=max(AFTER_JUMP, period) + (end if math.isfinite(end) else 0.0),
+        duration=duration,
         shortest_period=period,
     )
 

@@ -12,14 +12,16 @@ from ..bearings.contact_reduction import reduce_ball
 from ..bearings.rolling_ball import RollingBall
 from ..errors import InputError, SceneError, require_non_negative
 from ..films.contact_grid import ContactGrid
-from .readers import read_count
+from ..limits import CONTACT_CELLS, LAW_STATES
+from ..printable import brief
+from .readers import Count
 from .tables import Quantity, flag
 
 
 def read_angles(where: str, value: Any) -> tuple[float, ...]:
     """Read a list of angles [rad]."""
     if not isinstance(value, list):
-        raise SceneError(f"{where} must be a list of angles, got {value!r}")
+        raise SceneError(f"{where} must be a list of angles, got {brief(value)}")
     return tuple(Quantity("rad")(f"{where}[{index}]", entry) for index, entry in enumerate(value))
 
 
@@ -67,8 +69,8 @@ class ContactTable:
     mass: Annotated[float, Quantity("kg")] = 0.0
     plane_modulus: Annotated[float, Quantity("Pa")] = math.inf
     plane_poisson_ratio: Annotated[float, Quantity("1")] = 0.3
-    cells: Annotated[int, read_count] = 40
-    order: Annotated[int, read_count] = 5
+    cells: Annotated[int, Count(CONTACT_CELLS)] = 40
+    order: Annotated[int, Count(LAW_STATES)] = 5
     roelands: Annotated[bool, flag] = False
     compressible: Annotated[bool, flag] = False
     angles: Annotated[tuple[float, ...], read_angles] = ()

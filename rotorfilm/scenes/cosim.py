@@ -28,6 +28,7 @@ from ..results import Trajectory, orbit_distance
 from .export import export_scene, resting_rotor
 from .monolithic import monolithic_solution
 from .scene import Scene
+from .schema import require_steps
 
 SCHEMES: dict[str, Scheme] = {
     **{f"gauss-seidel-{degree}": GaussSeidel(degree=degree) for degree in range(3)},
@@ -135,6 +136,7 @@ def run_scene(scene: Scene, scheme: Scheme | Auto, report: Report = silent) -> t
     CouplingError, ContactError, ConvergenceError
         See `cosimulate`.
     """
+    require_steps("operation.duration", scene.duration * abs(scene.speed), scene.cosimulation)
     report(0.0, "equilibrium, FMUs")
     result = _coupled(scene, scheme, part_of(report, 0.05, 0.75))
     report(0.75, "monolithic solution")

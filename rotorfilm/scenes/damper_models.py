@@ -11,6 +11,7 @@ from ..bearings import PorousDamper, Sprung
 from ..errors import InputError
 from ..rotors import RigidRotor
 from .excitation_table import BladeLossTable, RunUpTable, UnbalanceTable
+from .schema import require_steps
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -69,4 +70,6 @@ def damper_models(scene: Scene) -> DamperScene:
     if isinstance(excitation, RunUpTable):
         profile = excitation.profile(scene.speed)
         rotor, duration = replace(rotor, speed=profile), profile.times[-1]
-    return DamperScene(rotor, scene.damper.support(), start, duration or scene.duration, scene.macro_step)
+    duration = duration or scene.duration
+    require_steps("excitation", duration * abs(scene.speed), scene.cosimulation)
+    return DamperScene(rotor, scene.damper.support(), start, duration, scene.macro_step)

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from ..errors import InputError, require_count, require_non_negative, require_number, require_positive
+from ..limits import SHAFT_ELEMENTS
 from ..rotors.profile import SpeedProfile
-from .readers import read_count, read_load
+from .readers import Count, read_load
 from .tables import Quantity, flag
 
 
@@ -28,7 +29,7 @@ class UnbalanceTable:
 
     unbalance: Annotated[float, Quantity("kg.m")]
     unbalance_angle: Annotated[float, Quantity("rad")] = 0.0
-    node: Annotated[int, read_count] = 0
+    node: Annotated[int, Count(SHAFT_ELEMENTS, 0)] = 0
 
     def __post_init__(self) -> None:
         require_non_negative("unbalance", self.unbalance)

@@ -24,37 +24,31 @@ from ..films import (
     ShortFilm,
     SplittingFilm,
 )
+from ..limits import FILM_CELLS, FUNCTIONS, MAP_NODES
+from ..printable import brief
+from .readers import Count, read_counts
 from .tables import Quantity, Variant, flag
 
 
 def read_order(where: str, value: Any) -> tuple[int, int | None]:
     """Read an order [n, m] of the splitting method; m may be "inf", all axial modes."""
-    match value:
-        case [int() as n, "inf"] if _is_count(n):
-            return n, None
-        case [int() as n, int() as m] if _is_count(n) and _is_count(m):
-            return n, m
-    raise SceneError(f"{where} must be [n, m] of positive integers, m also 'inf', got {value!r}")
+    if not isinstance(value, list) or len(value) != 2:
+        raise SceneError(f"{where} must be [n, m] of positive integers, m also 'inf', got {brief(value)}")
+    n, m = value
+    read = Count(FUNCTIONS)
+    return read(f"{where}[0]", n), None if m == "inf" else read(f"{where}[1]", m)
 
 
 def read_cells(where: str, value: Any) -> tuple[int, int]:
-    """Read the cells [around, along] of a two-dimensional film, which checks them itself."""
-    if not isinstance(value, list) or len(value) != 2:
-        raise SceneError(f"{where} must be [around, along], got {value!r}")
-    around, along = value
+    """Read the cells [around, along] of a two-dimensional film."""
+    around, along = read_counts(where, value, 2, FILM_CELLS)
     return around, along
 
 
 def read_nodes(where: str, value: Any) -> tuple[int, int, int]:
-    """Read the nodes of a map with openings, which checks them itself."""
-    if not isinstance(value, list) or len(value) != 3:
-        raise SceneError(f"{where} must be three numbers of nodes, got {value!r}")
-    over, turning, moving = value
+    """Read the nodes of a map with openings."""
+    over, turning, moving = read_counts(where, value, 3, MAP_NODES)
     return over, turning, moving
-
-
-def _is_count(value: int) -> bool:
-    return not isinstance(value, bool) and value > 0
 
 
 @dataclass(frozen=True, kw_only=True)

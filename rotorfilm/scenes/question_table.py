@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 from ..errors import SceneError, require_positive
+from ..printable import brief
 from .tables import Quantity, nearest, text
 
 QUANTITIES = {
@@ -35,7 +36,7 @@ def read_quantity(where: str, value: Any) -> str:
     """Read the name of a quantity."""
     if not isinstance(value, str) or value not in QUANTITIES:
         raise SceneError(
-            f"{where} must be one of {', '.join(QUANTITIES)}, got {value!r}{nearest(value, QUANTITIES)}"
+            f"{where} must be one of {', '.join(QUANTITIES)}, got {brief(value)}{nearest(value, QUANTITIES)}"
         )
     return value
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+import math
+from typing import Any, NamedTuple
 
 from ..errors import SceneError
 from ..linear.equilibrium import UNLOADED
+from ..printable import brief
 from .tables import Quantity
 
 
@@ -13,19 +15,45 @@ def read_load(where: str, value: Any) -> tuple[float, float]:
     """Read a load [N]: one positive magnitude, which acts along -y, or the two components [x, y]."""
     if isinstance(value, list):
         if len(value) != 2:
-            raise SceneError(f"{where} must be one magnitude or two components [x, y], got {value!r}")
+            raise SceneError(f"{where} must be one magnitude or two components [x, y], got {brief(value)}")
         x, y = (Quantity("N")(f"{where}[{index}]", entry) for index, entry in enumerate(value))
         return x, y
     magnitude = Quantity("N")(where, value)
     if magnitude == 0.0:
-        raise SceneError(f"{where} must not be zero, got {value!r}: {UNLOADED}")
+        raise SceneError(f"{where} must not be zero, got {brief(value)}: {UNLOADED}")
     if not magnitude > 0.0:
-        raise SceneError(f"{where} must be a positive magnitude or two components [x, y], got {value!r}")
+        raise SceneError(f"{where} must be a positive magnitude or two components [x, y], got {brief(value)}")
     return 0.0, -magnitude
 
 
-def read_count(where: str, value: Any) -> int:
-    """Read a whole number, at least 0."""
-    if isinstance(value, bool) or not isinstance(value, int) or value < 0:
-        raise SceneError(f"{where} must be a whole number, at least 0, got {value!r}")
-    return value
+class Count(NamedTuple):
+    """Reader of a whole number.
+
+    Attributes
+    ----------
+    most : int
+        The largest one, of `rotorfilm.limits`.
+    least : int
+        The smallest one.
+    """
+
+    most: int
+    least: int = 1
+
+    def __call__(self, where: str, value: Any) -> int:
+        """Return the number; raise SceneError if it is none or beyond the limits."""
+        if isinstance(value, bool) or not isinstance(value, int) or not self.least <= value <= self.most:
+            raise SceneError(
+                f"{where} must be a whole number from {self.least} to {self.most}, got {brief(value)}"
+            )
+        return value
+
+
+def read_counts(where: str, value: Any, size: int, most: int) -> tuple[int, ...]:
+    """Read a list of positive whole numbers whose product is at most `most`."""
+    if not isinstance(value, list) or len(value) != size:
+        raise SceneError(f"{where} must be a list of {size} whole numbers, got {brief(value)}")
+    counts = tuple(Count(most)(f"{where}[{index}]", entry) for index, entry in enumerate(value))
+    if math.prod(counts) > most:
+        raise SceneError(f"{where} must multiply to at most {most}, got {brief(value)}")
+    return counts

@@ -10,7 +10,9 @@ import numpy as np
 
 from ..bearings import JournalBearing, LinearBearing
 from ..errors import InputError, SceneError, require_positive
+from ..limits import SHAFT_ELEMENTS, SPEEDS, require_at_most
 from ..model import Array, Reaction
+from ..printable import brief
 from ..rotors import (
     Beam,
     ClassicalBeam,
@@ -27,7 +29,7 @@ from ..rotors import (
     Unbalance,
 )
 from .excitation_table import UnbalanceTable
-from .readers import read_count
+from .readers import Count
 from .schema import JournalTable
 from .tables import Quantity, Table, TableList, choose, nearest, read_table, require_table, text
 
@@ -45,7 +47,7 @@ def matrix(unit: str) -> Callable[[str, Any], float | Pair]:
         if not isinstance(value, list):
             return read(where, value)
         if len(value) != 2 or any(not isinstance(row, list) or len(row) != 2 for row in value):
-            raise SceneError(f"{where} must be one quantity or 2 x 2 of them, got {value!r}")
+            raise SceneError(f"{where} must be one quantity or 2 x 2 of them, got {brief(value)}")
         (a, b), (c, d) = (
             [read(f"{where}[{i}][{j}]", x) for j, x in enumerate(r)] for i, r in enumerate(value)
         )
@@ -84,6 +86,10 @@ class MaterialTable:
         )
 
 
+ANY_MATERIAL = ElasticMaterial(young_modulus=2.5, shear_modulus=1.0, density=1.0)
+"""With it the parts of a shaft check their own keys, before the shaft has its material."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class PieceTable:
     """An entry of `shaft.elements`: a piece of shaft, in so many equally long elements.
@@ -103,12 +109,15 @@ class PieceTable:
     length: Annotated[float, Quantity("m")]
     outer_diameter: Annotated[float, Quantity("m")]
     inner_diameter: Annotated[float, Quantity("m")] = 0.0
-    pieces: Annotated[int, read_count] = 1
+    pieces: Annotated[int, Count(SHAFT_ELEMENTS)] = 1
     end_outer_diameter: Annotated[float | None, Quantity("m")] = None
     end_inner_diameter: Annotated[float | None, Quantity("m")] = None
     axial_force: Annotated[float, Quantity("N")] = 0.0
     torque: Annotated[float, Quantity("N.m")] = 0.0
     material: Annotated[MaterialTable | None, Table(MaterialTable)] = None
+
+    def __post_init__(self) -> None:
+        self.build(ANY_MATERIAL)
 
     def build(self, material: ElasticMaterial) -> tuple[ShaftElement, ...]:
         """Return the elements."""
@@ -138,6 +147,9 @@ class CouplingTable:
     stiffness: Annotated[float, Quantity("N/m")]
     tilt_stiffness: Annotated[float, Quantity("N.m/rad")]
 
+    def __post_init__(self) -> None:
+        self.build(ANY_MATERIAL)
+
     def build(self, material: ElasticMaterial) -> tuple[Coupling, ...]:
         """Return the coupling; the material is not used."""
         return (Coupling(stiffness=self.stiffness, tilt_stiffness=self.tilt_stiffness),)
@@ -146,7 +158,7 @@ class CouplingTable:
 def read_pieces(where: str, value: Any) -> tuple[PieceTable | CouplingTable, ...]:
     """Read the elements of a shaft: an entry with a stiffness is a coupling."""
     if not isinstance(value, list) or not value:
-        raise SceneError(f"{where} must be a list of tables, got {value!r}")
+        raise SceneError(f"{where} must be a list of tables, got {brief(value)}")
     pieces: list[PieceTable | CouplingTable] = []
     for k, entry in enumerate(value):
         if "stiffness" in require_table(f"{where}[{k}]", entry):
@@ -170,7 +182,7 @@ class DiskTable:
     diametral_inertia, polar_inertia : float [kg m2]
     """
 
-    node: Annotated[int, read_count]
+    node: Annotated[int, Count(SHAFT_ELEMENTS, 0)]
     width: Annotated[float | None, Quantity("m")] = None
     outer_diameter: Annotated[float | None, Quantity("m")] = None
     inner_diameter: Annotated[float, Quantity("m")] = 0.0
@@ -182,7 +194,8 @@ class DiskTable:
     def __post_init__(self) -> None:
         sized = self.width is not None and self.outer_diameter is not None
         if (self.mass is None) is not sized:
-            raise InputError(f"mass, or else width and outer_diameter, is required, got {self!r}")
+            raise InputError("mass, or else width and outer_diameter, is required, got both or neither")
+        self.build(ANY_MATERIAL)
 
     def build(self, material: ElasticMaterial) -> Disk:
         """Return the disk, of this material unless it has a density."""
@@ -219,6 +232,9 @@ class SupportTable:
     stiffness: Annotated[float | Pair, matrix("N/m")]
     damping: Annotated[float | Pair, matrix("N.s/m")] = 0.0
 
+    def __post_init__(self) -> None:
+        self.build()
+
     def build(self) -> Support:
         """Return the support."""
         return Support(mass=self.mass, stiffness=self.stiffness, damping=self.damping)
@@ -241,7 +257,7 @@ class BearingTable:
     """
 
     name: Annotated[str, text]
-    node: Annotated[int, read_count]
+    node: Annotated[int, Count(SHAFT_ELEMENTS, 0)]
     journal: Annotated[JournalTable | None, Table(JournalTable)] = None
     stiffness: Annotated[float | Pair | None, matrix("N/m")] = None
     damping: Annotated[float | Pair, matrix("N.s/m")] = 0.0
@@ -250,6 +266,8 @@ class BearingTable:
     def __post_init__(self) -> None:
         if (self.journal is None) is (self.stiffness is None):
             raise InputError("journal, or else stiffness, is required, got both or neither")
+        self.build()
+        self.station()
 
     def build(self) -> JournalBearing | LinearBearing:
         """Return the bearing."""
@@ -275,9 +293,12 @@ class TiltSpringTable:
     damping : float [N m s/rad] or 2 x 2 numbers
     """
 
-    node: Annotated[int, read_count]
+    node: Annotated[int, Count(SHAFT_ELEMENTS, 0)]
     stiffness: Annotated[float | Pair, matrix("N.m/rad")]
     damping: Annotated[float | Pair, matrix("N.m.s/rad")] = 0.0
+
+    def __post_init__(self) -> None:
+        self.build()
 
     def build(self) -> TiltSpring:
         """Return the springs."""
@@ -294,8 +315,11 @@ class ProbeTable:
     name : str
     """
 
-    node: Annotated[int, read_count]
+    node: Annotated[int, Count(SHAFT_ELEMENTS, 0)]
     name: Annotated[str, text]
+
+    def __post_init__(self) -> None:
+        self.build()
 
     def build(self) -> Probe:
         """Return the probe."""
@@ -315,14 +339,12 @@ class SpeedRangeTable:
 
     first: Annotated[float, Quantity("rad/s")]
     last: Annotated[float, Quantity("rad/s")]
-    count: Annotated[int, read_count] = 60
+    count: Annotated[int, Count(SPEEDS, 2)] = 60
 
     def __post_init__(self) -> None:
         require_positive("first", self.first)
         if not self.last > self.first:
             raise InputError(f"last must be above first {self.first!r}, got {self.last!r}")
-        if self.count < 2:
-            raise InputError(f"count must be at least 2, got {self.count!r}")
 
     def build(self) -> Array:
         """Return the speeds [rad/s]."""
@@ -365,7 +387,18 @@ class ShaftTable:
     def __post_init__(self) -> None:
         if not self.bearings:
             raise InputError("bearings must be at least one, got none")
+        if self.highest_frequency is not None:
+            require_positive("highest_frequency", self.highest_frequency)
+        require_at_most("elements", self.node_count - 1, SHAFT_ELEMENTS)
+        for name in ("bearings", "disks", "unbalances", "probes", "tilt_springs"):
+            for k, part in enumerate(getattr(self, name)):
+                require_node(f"{name}[{k}].node", part.node, self)
         self.build()
+
+    @property
+    def node_count(self) -> int:
+        """Number of nodes, at the ends of the elements."""
+        return 1 + sum(one.pieces if isinstance(one, PieceTable) else 1 for one in self.elements)
 
     def build(self, speed: float = 0.0, extra: tuple[UnbalanceTable, ...] = ()) -> ShaftRotor:
         """Return the rotor at a speed [rad/s], with further unbalances."""
@@ -396,10 +429,18 @@ class ShaftTable:
         return (*(bearing.name for bearing in self.bearings), *probes)
 
 
+def require_node(name: str, node: int, shaft: ShaftTable | None) -> None:
+    """Raise InputError unless a shaft has this node; where there is none, it is 0."""
+    if shaft is None and node:
+        raise InputError(f"{name} must be 0 where there is no [shaft], got {node}")
+    if shaft is not None and node >= shaft.node_count:
+        raise InputError(f"{name} must be a node of the shaft, 0 to {shaft.node_count - 1}, got {node}")
+
+
 def require_place(name: str, quantity: str, shaft: ShaftTable | None) -> None:
     """Raise InputError unless a question about a place names a bearing or a probe of a shaft."""
     if shaft is None:
-        raise InputError(f"question.at must be left out where there is no [shaft], got {name!r}")
+        raise InputError(f"question.at must be left out where there is no [shaft], got {brief(name)}")
     known = shaft.places(forces=quantity == "unbalance_force")
     if name not in known:
         raise InputError(

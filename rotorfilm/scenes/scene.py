@@ -13,22 +13,27 @@ from typing import Annotated, Any
 
 from ..bearings.journal import JournalBearing
 from ..errors import InputError, SceneError, warn_user
+from ..limits import LINE_DOTS, SCENE_BYTES
+from ..printable import brief, shortened
 from ..rotors.rigid import RigidRotor
 from ..units import STANDARD_GRAVITY
 from .bush import BushAnswer, solve_bush
 from .bush_table import BushTable
 from .contact_table import ContactTable
 from .damper_table import DamperTable
-from .excitation_table import EXCITATIONS, ExcitationTable
+from .excitation_table import EXCITATIONS, ExcitationTable, UnbalanceTable
 from .ladder import QuestionAnswer
 from .lubricant_table import LubricantTable
 from .question_table import QuestionTable
 from .questions import ask
-from .rotor_table import ShaftTable, require_place
+from .rotor_table import ShaftTable, require_node, require_place
 from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
 from .solve import Answer, solve
 from .tables import Table, Variant, read_table, require_no_near_miss, text
 from .validity import journal_remarks
+
+BYTE_ORDER_MARK = "\ufeff"
+"""What some editors put before the text of a file."""
 
 BUNDLED = "friswell_5_9_6.toml"
 """The scene file that ships with the package."""
@@ -109,6 +114,8 @@ class Scene:
             raise InputError(f"{' or '.join(families)} is required and missing")
         if self.question is not None and self.question.at:
             require_place(self.question.at, self.question.quantity, self.shaft)
+        if isinstance(self.excitation, UnbalanceTable):
+            require_node("excitation.node", self.excitation.node, self.shaft)
         if self.journal is None:
             return
         if self.operation is None:
@@ -249,19 +256,29 @@ def parse_scene(document: str, source: str) -> Scene:
 def read_tables(path: str | PathLike[str]) -> dict[str, Any]:
     """Return the tables of a scene file as they are; raise SceneError if it cannot be read or is no TOML."""
     try:
-        document = Path(path).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
+        with Path(path).open("rb") as file:
+            content = file.read(SCENE_BYTES + 1)
+        document = content.decode("utf-8")
+    except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
         raise SceneError(f"{path}: scene file cannot be read: {reason}") from None
+    if len(content) > SCENE_BYTES:
+        raise SceneError(f"{path}: scene file must be at most {SCENE_BYTES} bytes long, got more")
     return _parsed(document, str(path))
 
 
 def _parsed(document: str, source: str) -> dict[str, Any]:
+    if any(line.count(".") > LINE_DOTS for line in document.splitlines()):
+        raise SceneError(f"{source}: lines must not have more than {LINE_DOTS} dots")
     try:
-        return tomllib.loads(document)
+        return tomllib.loads(document.removeprefix(BYTE_ORDER_MARK))
     except tomllib.TOMLDecodeError as error:
         where = str(error).replace("end of document", f"line {len(document.splitlines())}, the last")
-        raise SceneError(f"{source}: not valid TOML: {where}") from None
+        raise SceneError(f"{source}: not valid TOML: {shortened(where)}") from None
+    except RecursionError:
+        raise SceneError(f"{source}: tables and lists must not be nested that deep") from None
+    except ValueError:  # Python reads no integer of more than 4300 digits
+        raise SceneError(f"{source}: integers must not have thousands of digits") from None
 
 
 def read_scene(data: Mapping[str, Any], source: str) -> Scene:
@@ -282,5 +299,5 @@ def _require_schema(source: str, data: dict[str, Any]) -> None:
     value = data.pop("schema", None)
     if type(value) is not int or value != SCHEMA:
         require_no_near_miss(f"{source}: ", "schema", data)
-        found = "nothing" if value is None else repr(value)
+        found = "nothing" if value is None else brief(value)
         raise SceneError(f"{source}: schema must be {SCHEMA} (write `schema = {SCHEMA}`), got {found}")

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from ..bearings.journal import JournalBearing
-from ..errors import require_finite, require_positive
+from ..errors import InputError, require_finite, require_positive
 from ..films import FilmGeometry, FilmLaw, GroovedMapFilm, MapFilm, ReynoldsFilm
 from ..films.groove_axis import is_mappable
+from ..limits import STEPS
 from ..rotors.rigid import RigidRotor
 from .film_tables import FILMS, FilmTable, GrooveTable, PadTable
 from .readers import read_load
@@ -165,3 +166,11 @@ class CosimulationTable:
     def __post_init__(self) -> None:
         require_positive("macro_angle", self.macro_angle)
         require_positive("revolutions", self.revolutions)
+        require_steps("revolutions / macro_angle", 2.0 * math.pi * self.revolutions, self)
+
+
+def require_steps(name: str, angle: float, of: CosimulationTable) -> None:
+    """Raise InputError where a run over an angle [rad] of the shaft has more exchanges than can be kept."""
+    steps = angle / of.macro_angle
+    if steps > STEPS:
+        raise InputError(f"{name} must make at most {STEPS} steps of {of.macro_angle:g} rad, got {steps:.3g}")

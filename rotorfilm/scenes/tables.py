@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 import difflib
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple, TypeVar, get_type_hints
 
 from ..errors import InputError, SceneError
+from ..limits import TEXT
+from ..printable import brief, shortened
 from ..units import parse_quantity
 
 Reader = Callable[[str, Any], Any]
@@ -17,6 +20,9 @@ T = TypeVar("T")
 
 _SIMILAR = 0.4
 """Similarity, of 1, from which a known key is worth a hint."""
+
+_ARGUMENT = re.compile(r"\w+(?=[.,\[]| (?:must|is|are|and)\b)")
+"""The argument that a message begins with; `length / diameter must` is about none."""
 
 _SAME_WORD = 0.7
 """Similarity from which an unknown key is the known one with a typo."""
@@ -39,7 +45,9 @@ class Quantity(NamedTuple):
     def __call__(self, where: str, value: Any) -> float:
         """Return the value in SI; raise SceneError if it is no such quantity."""
         if isinstance(value, bool) or not isinstance(value, int | float | str):
-            raise SceneError(f"{where} must be a number or a string such as '1 {self.unit}', got {value!r}")
+            raise SceneError(
+                f"{where} must be a number or a string such as '1 {self.unit}', got {brief(value)}"
+            )
         try:
             return parse_quantity(value, self.unit)
         except InputError as error:
@@ -64,7 +72,7 @@ class TableList(NamedTuple):
     def __call__(self, where: str, value: Any) -> tuple[Any, ...]:
         """Return the sub-tables as dataclasses."""
         if not isinstance(value, list):
-            raise SceneError(f"{where} must be a list of tables, got {value!r}")
+            raise SceneError(f"{where} must be a list of tables, got {brief(value)}")
         return tuple(read_table(self.table, f"{where}[{k}].", entry) for k, entry in enumerate(value))
 
 
@@ -88,35 +96,37 @@ def choose(where: str, name: object, variants: Mapping[str, type]) -> type:
     """Return the dataclass that has this name; raise SceneError if there is none."""
     if not isinstance(name, str) or name not in variants:
         hint = nearest(name, variants)
-        raise SceneError(f"{where} must be one of {sorted(variants)}, got {name!r}{hint}")
+        raise SceneError(f"{where} must be one of {sorted(variants)}, got {brief(name)}{hint}")
     return variants[name]
 
 
 def text(where: str, value: Any) -> str:
-    """Read a string."""
-    if not isinstance(value, str):
-        raise SceneError(f"{where} must be a string, got {value!r}")
+    """Read a string of a line or two."""
+    if not isinstance(value, str) or len(value) > TEXT:
+        raise SceneError(f"{where} must be a string of at most {TEXT} characters, got {brief(value)}")
     return value
 
 
 def flag(where: str, value: Any) -> bool:
     """Read true or false."""
     if not isinstance(value, bool):
-        raise SceneError(f"{where} must be true or false, got {value!r}")
+        raise SceneError(f"{where} must be true or false, got {brief(value)}")
     return value
 
 
 def require_table(where: str, value: Any) -> Mapping[str, Any]:
     """Return `value` if it is a TOML table; raise SceneError otherwise."""
     if not isinstance(value, Mapping):
-        raise SceneError(f"{where} must be a table, got {value!r}")
+        raise SceneError(f"{where} must be a table, got {brief(value)}")
     return value
 
 
 def nearest(name: object, known: Iterable[str]) -> str:
     """Return a hint with the known name nearest to `name`, or an empty string."""
+    if not isinstance(name, str):
+        return ""
     by_small_letters = {key.lower(): key for key in known}
-    close = difflib.get_close_matches(str(name).lower(), by_small_letters, n=1, cutoff=_SIMILAR)
+    close = difflib.get_close_matches(name.lower(), by_small_letters, n=1, cutoff=_SIMILAR)
     return f"; did you mean {by_small_letters[close[0]]!r}?" if close else ""
 
 
@@ -124,7 +134,7 @@ def require_no_near_miss(where: str, tag: str, data: Mapping[str, Any]) -> None:
     """Raise SceneError if a key looks like a misspelled tag."""
     for key in data:
         if difflib.SequenceMatcher(None, key.lower(), tag).ratio() >= _SAME_WORD:
-            raise SceneError(f"{where}{key} is no known key; did you mean {tag!r}?")
+            raise SceneError(f"{where}{shortened(key)} is no known key; did you mean {tag!r}?")
 
 
 def read_table(table: type[T], where: str, data: Any) -> T:
@@ -153,17 +163,28 @@ def read_table(table: type[T], where: str, data: Any) -> T:
     _require_complete(where, table, found)
     try:
         return table(**found)
-    except InputError as error:  # its message begins with the name of the key
-        raise SceneError(f"{where}{error}{_as_written(str(error), readers, values)}") from None
+    except InputError as error:
+        raise SceneError(_located(where, str(error), readers, values)) from None
 
 
-def _as_written(message: str, readers: Mapping[str, Reader], values: Mapping[str, Any]) -> str:
-    """Return the SI unit of the key that a message begins with, and the text in the file if it has one."""
-    reader = readers.get(message.partition(" ")[0])
+def _located(where: str, message: str, readers: Mapping[str, Reader], values: Mapping[str, Any]) -> str:
+    """Return a message after the key that it is about, or after the table where it is about no one key."""
+    begins = _ARGUMENT.match(message)
+    name = begins[0] if begins else ""
+    if name not in readers:
+        return f"{where.removesuffix('.').removesuffix(': ')}: {message}"
+    reader = readers[name]
+    if _twice(reader) and _twice(reader) in values:
+        message = f"{_twice(reader)} is twice the {name}, and {message}"
+    return f"{where}{message}{_as_written(name, reader, values)}"
+
+
+def _as_written(name: str, reader: Reader, values: Mapping[str, Any]) -> str:
+    """Return the SI unit of a key, and the text in the file if it has one."""
     if not isinstance(reader, Quantity) or reader.unit == "1":
         return ""
-    key = reader.twice if reader.twice in values else message.partition(" ")[0]
-    written = f"; {key} = {values[key]!r}" if isinstance(values.get(key), str) else ""
+    key = reader.twice if reader.twice in values else name
+    written = f"; {key} = {brief(values[key])}" if isinstance(values.get(key), str) else ""
     return f" [{reader.unit}{written}]"
 
 
@@ -192,7 +213,8 @@ def _require_known(where: str, values: Mapping[str, Any], readers: Mapping[str, 
     for key in values:
         if key not in known:
             raise SceneError(
-                f"{where}{key} is no known key; known here: {', '.join(known)}{nearest(key, known)}"
+                f"{where}{shortened(key)} is no known key; known here: {', '.join(known)}"
+                f"{nearest(key, known)}"
             )
 
 

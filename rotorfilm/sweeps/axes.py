@@ -13,9 +13,10 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError, SceneError
+from ..limits import SWEEP_POINTS, require_at_most
 from ..scenes.scene import Scene, read_scene
 from ..scenes.tables import unit_of
-from ..units import UNITS, parse_quantity
+from ..units import UNITS, parse_quantity, whole_number
 
 Values = Sequence[Any] | tuple[str, Sequence[Any]]
 """Values of a key, a dimension of their own; or (dimension, values), to share it as samples do."""
@@ -60,7 +61,8 @@ def read_axes(parameters: Mapping[str, Values]) -> tuple[Axis, ...]:
     Raises
     ------
     InputError
-        If nothing does, a key has no values, or values that share a dimension are not as many.
+        If nothing does, a key has no values, values that share a dimension are not as many, or the points are
+        too many.
     """
     axes = tuple(_axis(key, values) for key, values in parameters.items())
     if not axes:
@@ -74,6 +76,7 @@ def read_axes(parameters: Mapping[str, Values]) -> tuple[Axis, ...]:
                 f"parameters[{axis.key!r}] must have {lengths[axis.dimension]} values, as others along "
                 f"{axis.dimension!r}, got {len(axis.values)}"
             )
+    require_at_most("points of a sweep", math.prod(lengths.values()), SWEEP_POINTS)
     return axes
 
 
@@ -128,16 +131,22 @@ def varied(scene: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any
 def _inside(key: str, place: Any, part: str) -> Any:
     if isinstance(place, dict):
         return place.setdefault(part, {})
-    if isinstance(place, list) and part.isdigit() and int(part) < len(place):
-        return place[int(part)]
+    if isinstance(place, list) and (number := _entry(place, part)) is not None:
+        return place[number]
     raise SceneError(f"parameters[{key!r}] must lead through tables of the scene, got no {part!r}")
+
+
+def _entry(place: list[Any], part: str) -> int | None:
+    """Return the entry of a list that a part of a key names; it has one name only."""
+    number = whole_number(part)
+    return number if number is not None and number < len(place) and str(number) == part else None
 
 
 def _set(key: str, place: Any, last: str, value: Any) -> None:
     if isinstance(place, dict):
         place[last] = value
-    elif isinstance(place, list) and last.isdigit() and int(last) < len(place):
-        place[int(last)] = value
+    elif isinstance(place, list) and (number := _entry(place, last)) is not None:
+        place[number] = value
     else:
         raise SceneError(f"parameters[{key!r}] must lead through tables of the scene, got no {last!r}")
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, require_count, warn_user
+from ..limits import WORKERS, require_at_most
 from ..progress import Report, silent
 from ..scenes.scene import read_tables
 from .axes import Axis, Values, check, points, read_axes
@@ -76,9 +77,12 @@ def sweep(
     _require_xarray()
     tables, source = _tables(scene)
     axes = read_axes(parameters)
+    target = None if path is None else _file(path)
+    if workers is not None:
+        require_count("workers", workers)
+        require_at_most("workers", workers, WORKERS)
     check(tables, axes, source)
     name = _name(tables, axes)
-    target = None if path is None else Path(path)
     if target is not None and target.is_file():
         return load(target, name)
     rows = _rows(tables, axes, source, name, target, workers=workers, dask=dask, report=report)
@@ -107,6 +111,13 @@ def _name(tables: Mapping[str, Any], axes: tuple[Axis, ...]) -> str:
     """Return a fingerprint of the scene and of all values."""
     parts = [tables, [[axis.key, axis.dimension, list(axis.values)] for axis in axes], version("rotorfilm")]
     return hashlib.sha256(json.dumps(parts, sort_keys=True, default=str).encode()).hexdigest()[:16]
+
+
+def _file(path: str | os.PathLike[str]) -> Path:
+    """Return a path; raise InputError where it is a folder, before the work."""
+    if Path(path).is_dir():
+        raise InputError(f"path must be that of a file, got the folder {str(path)!r}")
+    return Path(path)
 
 
 def _waiting(path: Path) -> Path:
@@ -150,8 +161,6 @@ def _solved(
     if dask is not None:
         return solved_by_dask(tables, todo, source, dask)
     count = min(workers or os.cpu_count() or 1, len(todo))
-    if workers is not None:
-        require_count("workers", workers)
     return (
         solved_here(tables, todo, source) if count <= 1 else solved_by_processes(tables, todo, source, count)
     )

@@ -193,14 +193,14 @@ def test_pads_arrive_in_si():
             'film = { name = "reynolds" }\ngrooves = [{ center = 0, width = 2 }, { center = 1, width = 2 }]',
             "grooves and gaps between pads must not overlap",
         ),
-        ('film = { name = "reynolds", cells = 96 }', r"film.cells must be \[around, along\], got 96"),
+        ('film = { name = "reynolds", cells = 96 }', r"film.cells must be a list of 2 whole numbers, got 96"),
         (
             'film = { name = "reynolds", cells = [90, 8] }',
             r"film.cells must be two multiples of 4, at least \(16, 4\), got \(90, 8\)",
         ),
         (
             'film = { name = "grooved_map", nodes = [8, 48] }',
-            r"film.nodes must be three numbers of nodes, got \[8, 48\]",
+            r"film.nodes must be a list of 3 whole numbers, got \[8, 48\]",
         ),
         (
             'film = { name = "grooved_map", nodes = [8, 48, 31] }',
@@ -251,7 +251,7 @@ def test_file_is_read(tmp_path):
             '"-0.1 mm"',
             "case.toml: journal.clearance must be finite and positive, got -0.0001",
         ),
-        ('"0.1 mm"', "nan", "case.toml: journal.clearance must be finite and positive, got nan"),
+        ('"0.1 mm"', "nan", "case.toml: journal.clearance: quantity must be finite, got nan"),
         (
             '"0.1 mm"',
             '"0.1 kg"',
@@ -263,8 +263,8 @@ def test_file_is_read(tmp_path):
             "case.toml: journal.clearance must be a number or a string such as '1 m', got True",
         ),
         ("radius = 0.05", "radius = 1\ndiameter = 2", "journal.radius and .*journal.diameter must not both"),
-        ('"1500 rpm"', "nan", "case.toml: operation.speed must be finite, got nan"),
-        ('"525 N"', "[0, inf]", r"case.toml: operation.load must be finite, got \(0.0, inf\)"),
+        ('"1500 rpm"', "nan", "case.toml: operation.speed: quantity must be finite, got nan"),
+        ('"525 N"', "[0, inf]", r"case.toml: operation.load\[1\]: quantity must be finite, got inf"),
         ('"525 N"', "-525.0", "case.toml: operation.load must be a positive magnitude or .*, got -525.0"),
         ('"525 N"', "[1, 2, 3]", r"case.toml: operation.load must be one magnitude or .*, got \[1, 2, 3\]"),
         ('"525 N"', '[0, "5 m"]', r"case.toml: operation.load\[1\]: quantity must be measured in N"),
@@ -283,7 +283,7 @@ def test_file_is_read(tmp_path):
         (
             "[operation]",
             'film = { name = "splitting", order = [2, 0] }\n[operation]',
-            r"case.toml: journal.film.order must be \[n, m\] of positive integers, .*, got \[2, 0\]",
+            r"case.toml: journal.film.order\[1\] must be a whole number from 1 to 100, got 0",
         ),
         (
             "[operation]",
@@ -300,7 +300,7 @@ def test_file_is_read(tmp_path):
             "[operation]",
             'film = { name = "splitting", order = [4, 1], constant = true, '
             'rupture = { kind = "reynolds", start = nan } }\n[operation]',
-            r"case.toml: journal.film.rupture.start must be finite, got nan",
+            r"case.toml: journal.film.rupture.start: quantity must be finite, got nan",
         ),
         (
             "[operation]",
@@ -308,7 +308,11 @@ def test_file_is_read(tmp_path):
             'rupture = { kind = "complementarity", start = 0 } }\n[operation]',
             r"case.toml: journal.film.rupture.start is no known key",
         ),
-        ("schema = 1", "schema = 1\ntitle = 5", "case.toml: title must be a string, got 5"),
+        (
+            "schema = 1",
+            "schema = 1\ntitle = 5",
+            "case.toml: title must be a string of at most 200 characters, got 5",
+        ),
         (
             "[operation]",
             "[rigid_rotor]\nmass = -1\n[operation]",
@@ -380,7 +384,7 @@ def test_question_takes_a_tolerance_in_per_cent():
         ),
         (
             '[excitation]\nkind = "unbalance"\nunbalance = 1\nnode = -1',
-            r"excitation.node must be a whole number, at least 0, got -1",
+            r"excitation.node must be a whole number from 0 to 500, got -1",
         ),
         (
             '[question]\nquantity = "stifness"\ntolerance = 1',
