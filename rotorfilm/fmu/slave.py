@@ -6,6 +6,7 @@ import json
 import math
 import sys
 import warnings
+import zlib
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -112,12 +113,12 @@ class ModelSlave(Fmi2Slave):
     @staticmethod
     def _fmu_state_to_bytes(state: dict[str, Any]) -> bytes:
         # JSON writes the shortest decimals that read back as the same doubles.
-        return json.dumps(state).encode()
+        return sealed(json.dumps(state).encode())
 
     @staticmethod
     def _fmu_state_from_bytes(data: bytes) -> dict[str, Any]:
         try:
-            return json.loads(data.decode())
+            return json.loads(unsealed(data))
         except ValueError:
             # Raising here would harm an instance that is not known here; restoring it is refused instead.
             return {"tag": "unreadable bytes"}
@@ -232,6 +233,18 @@ class ModelSlave(Fmi2Slave):
             raise FmuError(f"the FMU state must come from this FMU ({self.tag}), got {state['tag']}")
         self._time, self._running, self._output = state["time"], state["running"], None
         self._inputs, self._state = np.array(state["inputs"]), np.array(state["state"])
+
+
+def sealed(content: bytes) -> bytes:
+    """Return a content behind its checksum."""
+    return zlib.crc32(content).to_bytes(4, "little") + content
+
+
+def unsealed(data: bytes) -> bytes:
+    """Return the content behind a checksum; raise ValueError where that is another one."""
+    if sealed(data[4:]) != data:
+        raise ValueError("the bytes of an FMU state must have the checksum before them")
+    return data[4:]
 
 
 def _start_values(variables: tuple[Variable, ...], causality: str) -> Array:
