@@ -154,6 +154,7 @@ class Instance:
             if terminate:
                 self._fmu.terminate()
         finally:
+            _let_go(self._fmu)
             self._fmu.freeInstance()
 
     def _settle(self) -> EventInfo:
@@ -336,8 +337,19 @@ def instantiated(description: Any, folder: str, exchange: bool) -> Instance:
     try:
         instance.instantiate()
     except Exception as error:
+        _let_go(fmu)
         fmu.freeLibrary()
         raise FmuError(
             " ".join([f"FMU {description.modelName!r} cannot be instantiated: {error}", *instance.log])
         ) from error
     return instance
+
+
+def _let_go(fmu: Any) -> None:
+    """Have the library of PythonFMU let go of Python, which its way at the end of the process does not survive.
+
+    The interpreter is ours and stays.
+    """
+    end = getattr(fmu.dll, "finalizePythonInterpreter", None)
+    if end is not None:
+        end()
