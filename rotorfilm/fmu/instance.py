@@ -346,7 +346,7 @@ def instantiated(description: Any, folder: str, exchange: bool) -> Instance:
 
 
 def _let_go(fmu: Any) -> None:
-    """Have the library of PythonFMU let go of Python, which its way at the end of the process does not survive.
+    """Have the library of PythonFMU, if it is that, let go of Python: at the end of the process it is too late.
 
     The interpreter is ours and stays.
     """

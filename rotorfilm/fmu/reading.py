@@ -56,8 +56,9 @@ def _require_essentials(path: str, description: Any) -> None:
     if not description.guid:
         raise _unreadable(path, "it has no guid or instantiationToken")
     for unknown in description.derivatives:
-        if unknown.variable.derivative is None:
-            raise _unreadable(path, f"{unknown.variable.name} is listed as a derivative, but says not of what")
+        variable = unknown.variable
+        if variable.derivative is None:
+            raise _unreadable(path, f"{variable.name} is listed as a derivative, but says not of what")
 
 
 def _first_problem(path: str) -> str | None:
