@@ -346,7 +346,7 @@ def instantiated(description: Any, folder: str, exchange: bool) -> Instance:
 
 
 def _let_go(fmu: Any) -> None:
-    """Have the library of PythonFMU, if it is that, let go of Python: at the end of the process it is too late.
+    """Have the library of PythonFMU, if it is that, let go of Python while there is time.
 
     The interpreter is ours and stays.
     """
