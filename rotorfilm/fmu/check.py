@@ -13,6 +13,7 @@ from fmpy.validation import validate_fmu
 
 from ..errors import FmuError
 from ..model import Array
+from .binaries import libraries, require_whole
 from .described import common_capabilities, nominal_of, references_of, starts_of, variables_of
 from .instance import Instance, extracted, instantiated
 from .measure import adjoint_error, derivative_error, state_differences
@@ -58,9 +59,10 @@ class _Subject(NamedTuple):
 def check_fmu(path: str | PathLike[str]) -> list[CheckItem]:
     """Check an FMU of FMI 2.0 or 3.0.
 
-    Its description by fmpy; its directional derivatives against central differences of fourth order with
-    steps scaled by the nominal values; FMU states saved, restored and serialized; and the reference
-    trajectory that a native FMU of this package carries, in Co-Simulation and in Model Exchange.
+    Its description by fmpy; whether its libraries, for all platforms, are whole; its directional derivatives
+    against central differences of fourth order with steps scaled by the nominal values; FMU states saved,
+    restored and serialized; and the reference trajectory that a native FMU of this package carries, in
+    Co-Simulation and in Model Exchange.
 
     Parameters
     ----------
@@ -77,6 +79,7 @@ def check_fmu(path: str | PathLike[str]) -> list[CheckItem]:
     """
     checks: dict[str, Callable[[_Subject], CheckItem]] = {
         "description": _check_description,
+        "libraries": _check_libraries,
         "directional derivatives": _check_derivatives,
         "adjoint derivatives": _check_adjoint,
         "FMU state": _check_state,
@@ -100,6 +103,15 @@ def _check_description(subject: _Subject) -> CheckItem:
     problems = validate_fmu(subject.path)
     remark = "; ".join(problems) if problems else "problems found by fmpy"
     return CheckItem("", not problems, float(len(problems)), remark)
+
+
+def _check_libraries(subject: _Subject) -> CheckItem:
+    found = libraries(subject.folder)
+    for path in found:
+        require_whole(path)
+    if not found:
+        return _absent("no compiled library")
+    return CheckItem("", True, float(len(found)), "as long as their headers say")
 
 
 def _check_derivatives(subject: _Subject) -> CheckItem:

@@ -5,10 +5,9 @@ from __future__ import annotations
 import shutil
 import tempfile
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import chdir, contextmanager
 from ctypes import c_double
 from os import PathLike
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import fmpy
@@ -27,6 +26,8 @@ from fmpy.fmi3 import FMU3Model, FMU3Slave
 
 from ..errors import FmuError, FmuFileError
 from ..model import Array
+from .binaries import host_libraries, require_whole
+from .reading import read_description
 
 FMI_OK = 0
 
@@ -153,6 +154,7 @@ class Instance:
             if terminate:
                 self._fmu.terminate()
         finally:
+            _let_go(self._fmu)
             self._fmu.freeInstance()
 
     def _settle(self) -> EventInfo:
@@ -288,19 +290,13 @@ def extracted(path: str | PathLike[str]) -> Iterator[tuple[Any, str]]:
     FmuFileError
         If the file cannot be read, or is of another FMI version.
     """
-    if not Path(path).is_file():
-        raise FmuFileError(f"fmu must be a readable FMU, got {str(path)!r}: no such file")
+    description = read_description(str(path))
     folder = tempfile.mkdtemp(prefix="rotorfilm-")
     try:
         try:
-            description = fmpy.read_model_description(str(path), validate=False)
             fmpy.extract(str(path), unzipdir=folder)
         except Exception as error:
             raise FmuFileError(f"fmu must be a readable FMU, got {str(path)!r}: {error}") from error
-        if not str(description.fmiVersion).startswith(("2.0", "3.0")):
-            raise FmuFileError(
-                f"fmu must be of FMI 2.0 or 3.0, got {description.fmiVersion} in {str(path)!r}"
-            )
         yield description, folder
     finally:
         shutil.rmtree(folder, ignore_errors=True)
@@ -312,7 +308,7 @@ def instantiated(description: Any, folder: str, exchange: bool) -> Instance:
     Raises
     ------
     FmuError
-        If it lacks this interface or does not instantiate.
+        If it lacks this interface, its library is not whole, or it does not instantiate.
     """
     interface = description.modelExchange if exchange else description.coSimulation
     wanted = "Model Exchange" if exchange else "Co-Simulation"
@@ -324,21 +320,36 @@ def instantiated(description: Any, folder: str, exchange: bool) -> Instance:
         (False, True): (FMU3Model, Instance3),
         (False, False): (FMU3Slave, Instance3),
     }[description.fmiVersion == "2.0", exchange]
+    for library in host_libraries(folder, interface.modelIdentifier):
+        require_whole(library)
     try:
-        fmu = kind(
-            guid=description.guid,
-            unzipDirectory=folder,
-            modelIdentifier=interface.modelIdentifier,
-            instanceName=description.modelName,
-        )
+        # fmpy stays in the library's folder where it cannot load the library.
+        with chdir("."):
+            fmu = kind(
+                guid=description.guid,
+                unzipDirectory=folder,
+                modelIdentifier=interface.modelIdentifier,
+                instanceName=description.modelName,
+            )
     except Exception as error:
         raise FmuError(f"FMU {description.modelName!r} cannot be instantiated: {error}") from error
     instance = wrap(fmu, exchange)
     try:
         instance.instantiate()
     except Exception as error:
+        _let_go(fmu)
         fmu.freeLibrary()
         raise FmuError(
             " ".join([f"FMU {description.modelName!r} cannot be instantiated: {error}", *instance.log])
         ) from error
     return instance
+
+
+def _let_go(fmu: Any) -> None:
+    """Have the library of PythonFMU, if it is that, let go of Python while there is time.
+
+    The interpreter is ours and stays.
+    """
+    end = getattr(fmu.dll, "finalizePythonInterpreter", None)
+    if end is not None:
+        end()

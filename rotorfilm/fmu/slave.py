@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import ctypes
 import json
 import math
+import os
 import sys
 import warnings
+import zlib
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
@@ -58,6 +62,8 @@ class ModelSlave(Fmi2Slave):
         self._state = _start_values(self._variables, "local")
         self._output: list[float] | None = None
         self._read_files()
+        for library in Path(resources).parent.glob("binaries/linux64/*.so"):
+            _end_in_time(str(library))
 
     def setup_experiment(self, start_time: float, stop_time: float | None, tolerance: float | None) -> None:
         """Take over the start time [s]; the tolerance is fixed."""
@@ -112,12 +118,12 @@ class ModelSlave(Fmi2Slave):
     @staticmethod
     def _fmu_state_to_bytes(state: dict[str, Any]) -> bytes:
         # JSON writes the shortest decimals that read back as the same doubles.
-        return json.dumps(state).encode()
+        return sealed(json.dumps(state).encode())
 
     @staticmethod
     def _fmu_state_from_bytes(data: bytes) -> dict[str, Any]:
         try:
-            return json.loads(data.decode())
+            return json.loads(unsealed(data))
         except ValueError:
             # Raising here would harm an instance that is not known here; restoring it is refused instead.
             return {"tag": "unreadable bytes"}
@@ -234,8 +240,34 @@ class ModelSlave(Fmi2Slave):
         self._inputs, self._state = np.array(state["inputs"]), np.array(state["state"])
 
 
+def sealed(content: bytes) -> bytes:
+    """Return a content behind its checksum."""
+    return zlib.crc32(content).to_bytes(4, "little") + content
+
+
+def unsealed(data: bytes) -> bytes:
+    """Return the content behind a checksum; raise ValueError where that is another one."""
+    if sealed(data[4:]) != data:
+        raise ValueError("the bytes of an FMU state must have the checksum before them")
+    return data[4:]
+
+
 def _start_values(variables: tuple[Variable, ...], causality: str) -> Array:
     return np.array([float(v.start or 0.0) for v in variables if v.causality == causality])
+
+
+@cache
+def _end_in_time(library: str) -> None:
+    """Have PythonFMU let go of Python as the first thing when the process ends.
+
+    By itself it does so where exit() destroys its objects, when other libraries have lost theirs, and once
+    more where the library is unloaded thereafter: faults of memory. After the function that it exports
+    both do nothing. That function must stay: the library is not unloaded before the process ends.
+    """
+    with suppress(OSError, AttributeError):
+        mode = os.RTLD_NOLOAD | os.RTLD_NODELETE | os.RTLD_NOW
+        end = ctypes.CDLL(library, mode=mode).finalizePythonInterpreter
+        ctypes.CDLL(None).__cxa_atexit(end, None, None)
 
 
 def _leave_search_path(resources: str) -> None:

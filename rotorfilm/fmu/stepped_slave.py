@@ -8,7 +8,7 @@ from typing import Any
 from ..errors import FmuError
 from ..model import Array
 from .pythonfmu_api import LogMessage
-from .slave import DISCARD, ModelSlave
+from .slave import DISCARD, ModelSlave, sealed, unsealed
 
 
 class SteppedSlave(ModelSlave):
@@ -53,18 +53,16 @@ class SteppedSlave(ModelSlave):
 
     @staticmethod
     def _fmu_state_to_bytes(state: dict[str, Any]) -> bytes:
-        return json.dumps({**state, "blob": len(state["blob"])}).encode() + b"\n" + state["blob"]
+        return sealed(json.dumps({**state, "blob": ""}).encode() + b"\n" + state["blob"])
 
     @staticmethod
     def _fmu_state_from_bytes(data: bytes) -> dict[str, Any]:
-        head, _, blob = data.partition(b"\n")
         try:
-            state: dict[str, Any] = json.loads(head.decode())
-            whole = state["blob"] == len(blob)
-        except (ValueError, KeyError, TypeError):
-            whole = False
-        # Raising here would harm an instance that is not known here; restoring it is refused instead.
-        return {**state, "blob": blob} if whole else {"tag": "unreadable bytes"}
+            head, _, blob = unsealed(data).partition(b"\n")
+            return {**json.loads(head), "blob": blob}
+        except ValueError:
+            # Raising here would harm an instance that is not known here; restoring it is refused instead.
+            return {"tag": "unreadable bytes"}
 
     def _finite(self, values: Array) -> list[float]:
         output = [float(value) for value in values]

@@ -102,7 +102,7 @@ fmi2Status fmi2Terminate(fmi2Component component)
 
 fmi2Status fmi2Reset(fmi2Component component)
 {
-    CALL(fmi2Reset, ANY);
+    CALL(fmi2Reset, RF_ALWAYS);
     return (fmi2Status)rf_reset(c);
 }
 
@@ -154,13 +154,13 @@ fmi2Status fmi2GetFMUstate(fmi2Component component, fmi2FMUstate *state)
 
 fmi2Status fmi2SetFMUstate(fmi2Component component, fmi2FMUstate state)
 {
-    CALL(fmi2SetFMUstate, ANY);
+    CALL(fmi2SetFMUstate, RF_ALWAYS);
     return (fmi2Status)rf_restore(c, state);
 }
 
 fmi2Status fmi2FreeFMUstate(fmi2Component component, fmi2FMUstate *state)
 {
-    CALL(fmi2FreeFMUstate, ANY);
+    CALL(fmi2FreeFMUstate, RF_ALWAYS);
     if (state) {
         free(*state);
         *state = NULL;

@@ -126,7 +126,7 @@ fmi3Status fmi3Terminate(fmi3Instance instance)
 
 fmi3Status fmi3Reset(fmi3Instance instance)
 {
-    CALL(fmi3Reset, ANY);
+    CALL(fmi3Reset, RF_ALWAYS);
     return (fmi3Status)rf_reset(c);
 }
 
@@ -250,13 +250,13 @@ fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *state)
 
 fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState state)
 {
-    CALL(fmi3SetFMUState, ANY);
+    CALL(fmi3SetFMUState, RF_ALWAYS);
     return (fmi3Status)rf_restore(c, state);
 }
 
 fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *state)
 {
-    CALL(fmi3FreeFMUState, ANY);
+    CALL(fmi3FreeFMUState, RF_ALWAYS);
     if (state) {
         free(*state);
         *state = NULL;

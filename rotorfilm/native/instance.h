@@ -20,7 +20,8 @@ typedef enum rf_phase {
     RF_STEPPING = 32,
     RF_STEP_FAILED = 64,
     RF_RECONFIGURING = 128,
-    RF_TERMINATED = 256
+    RF_TERMINATED = 256,
+    RF_ALWAYS = -1 /* the rule of what mends an instance */
 } rf_phase;
 
 typedef enum rf_category {
@@ -42,7 +43,7 @@ typedef struct rf_host {
     void *environment;
 } rf_host;
 
-/* What is saved and restored: numbers only, the same in memory and serialized. */
+/* What is saved and restored: numbers only. */
 typedef struct rf_condition {
     double time;
     double kink;    /* next time event, as told to the simulator */
@@ -114,7 +115,7 @@ int rf_has_kink(const rf_instance *c);
 /* Advance by `step` from `from`; early returns end at a time event, where c->now.time then is. */
 rf_answer rf_step(rf_instance *c, double from, double step);
 
-/* Saved conditions are blocks of rf_saved_size() bytes. */
+/* Saved conditions are blocks of rf_saved_size() bytes; as bytes they carry a checksum. */
 size_t rf_saved_size(const rf_instance *c);
 rf_answer rf_save(rf_instance *c, void **saved);
 rf_answer rf_restore(rf_instance *c, const void *saved);

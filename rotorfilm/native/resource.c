@@ -31,8 +31,8 @@ static double read_double(const unsigned char *at)
     return value;
 }
 
-/* CRC-32 of zip files and zlib, by half bytes. */
-static uint32_t checksum(const unsigned char *bytes, size_t count)
+/* By half bytes. */
+uint32_t rf_checksum(const unsigned char *bytes, size_t count)
 {
     static const uint32_t STEP[16] = {0x00000000, 0x1db71064, 0x3b6e20c8, 0x26d930ac, 0x76dc4190, 0x6b6b51f4,
                                       0x4db26158, 0x5005713c, 0xedb88320, 0xf00f9344, 0xd6d6a3e8, 0xcb61b38c,
@@ -146,7 +146,7 @@ static int check(const unsigned char *bytes, size_t size, rf_message *why)
     if (read_u64(bytes + 16) != size)
         return rf_say(why, RF_INVALID, "%s must have %.0f bytes, got %zu", FILE_NAME,
                       (double)read_u64(bytes + 16), size);
-    if (read_u32(bytes + 12) != checksum(bytes + HEADER, size - HEADER))
+    if (read_u32(bytes + 12) != rf_checksum(bytes + HEADER, size - HEADER))
         return rf_say(why, RF_INVALID, "%s is damaged, its checksum is wrong", FILE_NAME);
     return RF_OK;
 }

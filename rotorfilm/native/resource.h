@@ -37,6 +37,9 @@ typedef struct rf_resource {
     double *numbers; /* behind the tables */
 } rf_resource;
 
+/* CRC-32, that of zip files and zlib. */
+uint32_t rf_checksum(const unsigned char *bytes, size_t count);
+
 /* Read a file; NULL with the message where it is missing, damaged or of another version. */
 rf_resource *rf_read_resource(const char *path, rf_message *why);
 void rf_free_resource(rf_resource *resource);

@@ -1,5 +1,7 @@
 /* Saving, restoring and serializing the condition of an instance: one block of bytes for all three. */
+#include <inttypes.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,38 +10,55 @@
 #define MAGIC 0x54534652u /* "RFST" */
 
 typedef struct header {
-    uint32_t magic, checksum; /* of the resource: a block belongs to its FMU */
+    uint32_t magic;
+    uint32_t checksum; /* of all bytes behind it; set and tested where a block is bytes */
+    uint32_t resource; /* checksum of the resource: a block belongs to its FMU */
+    int32_t co_simulation;
     uint64_t size;
     rf_condition now;
     double stop_time, tolerance, last_good_time;
-    int32_t stop_defined, terminated, resume, co_simulation;
+    int32_t stop_defined, terminated;
+    uint32_t resume, reserved;
 } header;
+
+enum { SEALED = offsetof(header, resource) }; /* bytes ahead of those that the checksum is of */
 
 size_t rf_saved_size(const rf_instance *c)
 {
     return sizeof(header) + c->value_count * sizeof(double);
 }
 
-static int belongs(const rf_instance *c, const void *bytes)
+static uint32_t seal(const void *bytes, size_t size)
+{
+    return rf_checksum((const unsigned char *)bytes + SEALED, size - SEALED);
+}
+
+static int is_phase(uint32_t phase, int co_simulation)
+{
+    const uint32_t known = RF_INSTANTIATED | RF_CONFIGURING | RF_INITIALIZING | RF_EVENT | RF_RECONFIGURING
+                         | RF_TERMINATED | (co_simulation ? RF_STEPPING | RF_STEP_FAILED : RF_CONTINUOUS);
+    return (phase & known) && !(phase & (phase - 1));
+}
+
+static rf_answer require_own(rf_instance *c, const void *bytes)
 {
     header h;
     double value;
     memcpy(&h, bytes, sizeof h);
-    if (h.magic != MAGIC || h.checksum != c->resource->checksum || h.size != rf_saved_size(c)
-        || h.co_simulation != c->co_simulation || !isfinite(h.now.time))
-        return 0;
+    if (h.magic != MAGIC || h.resource != c->resource->checksum || h.size != rf_saved_size(c)
+        || h.co_simulation != c->co_simulation)
+        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "the FMU state must come from this FMU, of %zu bytes",
+                      rf_saved_size(c));
+    if (!is_phase(h.now.phase, c->co_simulation) || !is_phase(h.resume, c->co_simulation))
+        return rf_log(c, RF_ERROR, RF_LOG_ERROR,
+                      "the FMU state must have a phase of this instance, got %" PRIu32 " and %" PRIu32,
+                      h.now.phase, h.resume);
+    int finite = isfinite(h.now.time);
     for (size_t i = 0; i < c->value_count; ++i) {
         memcpy(&value, (const char *)bytes + sizeof h + i * sizeof value, sizeof value);
-        if (!isfinite(value))
-            return 0;
+        finite = finite && isfinite(value);
     }
-    return 1;
-}
-
-static rf_answer refuse(rf_instance *c)
-{
-    return rf_log(c, RF_ERROR, RF_LOG_ERROR, "the FMU state must come from this FMU, of %zu bytes",
-                  rf_saved_size(c));
+    return finite ? RF_FINE : rf_log(c, RF_ERROR, RF_LOG_ERROR, "the FMU state must be finite");
 }
 
 rf_answer rf_save(rf_instance *c, void **saved)
@@ -54,7 +73,7 @@ rf_answer rf_save(rf_instance *c, void **saved)
         return rf_log(c, RF_ERROR, RF_LOG_ERROR, "no memory for an FMU state");
     memset(&h, 0, sizeof h);
     h.magic = MAGIC;
-    h.checksum = c->resource->checksum;
+    h.resource = c->resource->checksum;
     h.size = rf_saved_size(c);
     h.now = c->now;
     h.stop_time = c->stop_time;
@@ -62,7 +81,7 @@ rf_answer rf_save(rf_instance *c, void **saved)
     h.last_good_time = c->last_good_time;
     h.stop_defined = c->stop_defined;
     h.terminated = c->terminated;
-    h.resume = (int32_t)c->resume;
+    h.resume = (uint32_t)c->resume;
     h.co_simulation = c->co_simulation;
     memcpy(*saved, &h, sizeof h);
     memcpy((char *)*saved + sizeof h, c->values[RF_PARAMETER], c->value_count * sizeof(double));
@@ -72,8 +91,10 @@ rf_answer rf_save(rf_instance *c, void **saved)
 rf_answer rf_restore(rf_instance *c, const void *saved)
 {
     header h;
-    if (!saved || !belongs(c, saved))
-        return refuse(c);
+    if (!saved)
+        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "the FMU state must exist, got none");
+    if (require_own(c, saved) != RF_FINE)
+        return RF_ERROR;
     memcpy(&h, saved, sizeof h);
     memcpy(c->values[RF_PARAMETER], (const char *)saved + sizeof h, c->value_count * sizeof(double));
     c->now = h.now;
@@ -90,16 +111,28 @@ rf_answer rf_restore(rf_instance *c, const void *saved)
 
 rf_answer rf_serialize(rf_instance *c, const void *saved, void *bytes, size_t size)
 {
+    header h;
     if (!saved || !bytes || size < rf_saved_size(c))
-        return refuse(c);
+        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "an FMU state needs %zu bytes, got %zu", rf_saved_size(c),
+                      bytes && saved ? size : 0);
     memcpy(bytes, saved, rf_saved_size(c));
+    memcpy(&h, bytes, sizeof h);
+    h.checksum = seal(bytes, rf_saved_size(c));
+    memcpy(bytes, &h, sizeof h);
     return RF_FINE;
 }
 
 rf_answer rf_deserialize(rf_instance *c, const void *bytes, size_t size, void **saved)
 {
-    if (!bytes || !saved || size != rf_saved_size(c) || !belongs(c, bytes))
-        return refuse(c);
+    header h;
+    if (!bytes || !saved || size != rf_saved_size(c))
+        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "the FMU state must come from this FMU, of %zu bytes, got %zu",
+                      rf_saved_size(c), bytes && saved ? size : 0);
+    memcpy(&h, bytes, sizeof h);
+    if (h.checksum != seal(bytes, size))
+        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "the FMU state is damaged, its checksum is wrong");
+    if (require_own(c, bytes) != RF_FINE)
+        return RF_ERROR;
     void *made = malloc(size);
     if (!made)
         return rf_log(c, RF_ERROR, RF_LOG_ERROR, "no memory for an FMU state");

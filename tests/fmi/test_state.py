@@ -79,13 +79,28 @@ def test_a_state_saved_before_the_start_lets_states_be_set(load, path):
     rotor.fmu.freeFMUstate(saved)
 
 
-@pytest.mark.parametrize("data", [b"\xff\xfe", b"{", b'{"tag": "another"}'])
+@pytest.mark.parametrize("data", [b"\xff\xfe", b"{", bytes(4), b'{"tag": "another"}'])
 def test_the_state_of_something_else_is_refused(rotor, data):
     state = rotor.fmu.deSerializeFMUstate(data)
     with pytest.raises(FMICallException):
         rotor.fmu.setFMUstate(state)
     assert "the FMU state must come from this FMU" in rotor.log[-1][1]
     rotor.fmu.freeFMUstate(state)
+
+
+def test_no_damage_of_a_serialized_state_is_accepted(rotor):
+    saved = rotor.fmu.getFMUstate()
+    before, content = everything(rotor), rotor.fmu.serializeFMUstate(saved)
+    for place in range(len(content)):
+        wrong = content[:place] + bytes([content[place] ^ 1 << place % 7]) + content[place + 1 :]
+        state = rotor.fmu.deSerializeFMUstate(wrong)
+        with pytest.raises(FMICallException):
+            rotor.fmu.setFMUstate(state)
+        rotor.fmu.freeFMUstate(state)
+    rotor.fmu.setFMUstate(saved)
+    assert everything(rotor) == before
+    rotor.fmu.setFMUstate(rotor.fmu.deSerializeFMUstate(content))
+    assert everything(rotor) == before
 
 
 def test_the_state_of_a_film_is_its_input(load, tmp_path):

@@ -1,14 +1,22 @@
 """The checks of an FMU find what is wrong with one, and say what they measured."""
 
+import os
 import re
+import struct
+import subprocess
+import sys
 import zipfile
+from pathlib import Path
 
+import fmpy
 import pytest
 
 from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.cosim import open_fmu
 from rotorfilm.errors import FmuError
 from rotorfilm.films import MapFilm, ShortFilm
 from rotorfilm.fmu import check_fmu, describe_fmu, export_fmu
+from rotorfilm.rotors.rigid import RigidRotor
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm())
 STATE = {"x": 3e-5, "y": -4e-5, "speed": 157.0}
@@ -106,3 +114,78 @@ def test_a_file_that_is_no_fmu_is_refused(tmp_path):
     (tmp_path / "a.fmu").write_text("no zip")
     with pytest.raises(FmuError, match="fmu must be a readable FMU"):
         check_fmu(tmp_path / "a.fmu")
+
+
+LIBRARY = f"binaries/{fmpy.platform}/film{fmpy.sharedLibraryExtension}"
+CHECK = """
+import sys
+from rotorfilm.fmu import check_fmu
+print([(item.check, item.remark) for item in check_fmu(sys.argv[1]) if item.passed is False])
+"""
+
+
+@pytest.fixture
+def second(tmp_path):
+    return export_fmu(BEARING, tmp_path / "film.fmu", component="film", start=STATE)
+
+
+@pytest.mark.parametrize("part", [0.0, 0.001, 0.3, 0.9])
+def test_a_library_that_is_cut_off_is_noticed_before_it_is_loaded(second, part):
+    spoiled = changed(second, LIBRARY, lambda content: content[: int(part * len(content))])
+    # In a process of its own, which the loader would end by a signal.
+    ran = subprocess.run(
+        [sys.executable, "-c", CHECK, str(spoiled)], capture_output=True, text=True, check=True, cwd="/"
+    )
+    assert "('libraries'" in ran.stdout
+    assert "('FMU state'" in ran.stdout
+    with pytest.raises(FmuError, match=f"{LIBRARY} must be"), open_fmu(spoiled):
+        pass
+
+
+def test_a_library_of_another_platform_is_checked_without_being_loaded(second):
+    other = "binaries/win64/film.dll"
+    with zipfile.ZipFile(second, "a") as archive:
+        archive.writestr(other, b"MZ" + bytes(58) + struct.pack("<I", 64) + b"PE\0\0")
+    found = outcomes(second)["libraries"]
+    assert (found.passed, found.figure) == (False, None)
+    assert f"{other} must be whole, got 68 bytes, which end in its headers" in found.remark
+    assert failed(second) == ["libraries"]
+
+
+def test_a_library_for_another_processor_is_refused_and_the_folder_stays(second):
+    foreign = changed(second, LIBRARY, lambda content: content[:18] + struct.pack("<H", 40) + content[20:])
+    here = Path.cwd()
+    with pytest.raises(FmuError, match="FMU 'film' cannot be instantiated"), open_fmu(foreign):
+        pass
+    assert Path(os.curdir).resolve() == here
+
+
+def edited(path, old, new):
+    def edit(content):
+        assert re.search(old, content)
+        return re.sub(old, new, content, count=1)
+
+    return changed(path, "modelDescription.xml", edit)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (b'fmiVersion="2.0"', b'fmiVersion="1.0"', r"fmu must be of FMI 2\.0 or 3\.0, got 1\.0"),
+        (b'fmiVersion="2.0"', b"", r"fmu must be of FMI 2\.0 or 3\.0, got no version"),
+        (b"(?s)<fmi.*", b"<html/>", "the root of modelDescription.xml is html, not fmiModelDescription"),
+        (b"(?s)<fmi.*", b"", "no element found"),
+        (b"(?s)<fmi.*", b"<fmiModelDescription/>", "got no version"),
+        (b' guid="[^"]*"', b"", "has no guid or instantiationToken"),
+        (b' modelIdentifier="[^"]*"', b"", "an interface has no modelIdentifier"),
+        (b' valueReference="3"', b"", "The attribute 'valueReference' is required but missing"),
+        (b' derivative="[0-9]*"', b"", r"der\(r.state_x\) is listed as a derivative, but says not of what"),
+    ],
+)
+def test_a_foreign_description_is_refused_by_the_rule_that_it_breaks(tmp_path, old, new, message):
+    rotor = export_fmu(RigidRotor(mass=50.0, speed=157.0), tmp_path / "r.fmu", component="r")
+    spoiled = edited(rotor, old, new)
+    for use in (check_fmu, describe_fmu, lambda path: open_fmu(path).__enter__()):
+        with pytest.raises(FmuError, match=message) as refused:
+            use(spoiled)
+        assert "NoneType" not in str(refused.value)

@@ -109,6 +109,21 @@ static void prepare(stage *s)
     s->dt = dice(3) ? 1e-3 : number();
 }
 
+/* A state as bytes with one bit changed is refused, and leaves nothing behind. */
+static void damage2(void *c, stage *s)
+{
+    const fmi2Status made = fmi2GetFMUstate(c, &s->saved);
+    fmi2FMUstate none = NULL;
+    fmi2SerializedFMUstateSize(c, s->saved, &s->size);
+    if (made != fmi2OK || fmi2SerializeFMUstate(c, s->saved, (char *)s->bytes, s->size) != fmi2OK)
+        fail("fmi2SerializeFMUstate", made);
+    s->bytes[dice((unsigned)s->size)] ^= (unsigned char)(1u << dice(8));
+    if (fmi2DeSerializeFMUstate(c, (char *)s->bytes, s->size, &none) != fmi2Error || none)
+        fail("fmi2DeSerializeFMUstate of damaged bytes", 0);
+    if (fmi2FreeFMUstate(c, &s->saved) != fmi2OK || (dice(20) == 0 && fmi2Reset(c) != fmi2OK))
+        fail("fmi2FreeFMUstate, fmi2Reset", 0);
+}
+
 static int common2(void *c, stage *s, unsigned which)
 {
     fmi2Status answer;
@@ -259,6 +274,8 @@ static void torture(const char *folder, long calls, int version, int kind)
     for (long i = 0; c && i < calls; ++i) {
         prepare(&s);
         const int common = dice(3) > 0;
+        if (version == 2 && dice(50) == 0)
+            damage2(c, &s);
         const int answer = version == 2 ? (common ? common2(c, &s, dice(17)) : special2(c, &s, dice(20)))
                                         : (common ? common3(c, &s, dice(18)) : special3(c, &s, dice(20)));
         if (answer < 0 || answer > 3)

@@ -1,5 +1,9 @@
 """What an instance answers to right and wrong calls: statuses, messages with values, and nothing changed."""
 
+import struct
+import zlib
+from contextlib import suppress
+
 import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
@@ -317,11 +321,73 @@ def test_a_state_of_another_fmu_or_damaged_bytes_are_refused(unzipped, refused):
     one = unzipped(ROTOR, folder="one").open(FMU2Slave).start()
     other = unzipped(RigidRotor(mass=51.0, speed=100.0), folder="other").open(FMU2Slave).start()
     content = roundtrip(one)[0]()
-    for wrong in (content[:-1], bytes(len(content)), b"RFST" + bytes(len(content) - 4)):
-        with refused(ERROR, "the FMU state must come from this FMU"):
+    with refused(ERROR, f"the FMU state must come from this FMU, of {len(content)} bytes, got"):
+        roundtrip(one)[1](content[:-1])
+    for wrong in (bytes(len(content)), b"RFST" + bytes(len(content) - 4)):
+        with refused(ERROR, "the FMU state is damaged, its checksum is wrong"):
             roundtrip(one)[1](wrong)
     with refused(ERROR, "the FMU state must come from this FMU"):
         roundtrip(other)[1](content)
+
+
+def mutants(content):
+    """Yield a serialized state with one bit changed, at every byte, and of another length."""
+    for place in range(len(content)):
+        yield content[:place] + bytes([content[place] ^ 1 << place % 8]) + content[place + 1 :]
+    yield from (content[:-8], content + bytes(8), b"")
+
+
+def sealed(content):
+    """Return a serialized state with its checksum set right: the magic number, the checksum, the rest."""
+    return content[:4] + struct.pack("<I", zlib.crc32(content[8:])) + content[8:]
+
+
+@ALL
+def test_no_damage_of_a_serialized_state_is_accepted(unzipped, kind):
+    rotor = unzipped(ROTOR).open(kind).start()
+    save, restore = roundtrip(rotor)
+    rotor.set(force_y=400.0, unbalance=2e-3)
+    content, before = save(), rotor.get(*rotor.references)
+    accepted = []
+    for number, wrong in enumerate(mutants(content)):
+        with suppress(FMICallException):
+            restore(wrong)
+            accepted.append(number)
+    assert accepted == []
+    np.testing.assert_array_equal(rotor.get(*rotor.references), before)
+    assert sealed(content) == content
+
+
+@ALL
+@pytest.mark.parametrize("field", ["phase", "phase to return to"])
+def test_unknown_phases_are_refused_and_a_reset_is_possible(unzipped, kind, field, refused):
+    rotor = unzipped(ROTOR).open(kind).start()
+    save, restore = roundtrip(rotor)
+    content = save()
+    place = {"phase": 48, "phase to return to": 88}[field]
+    exchange = kind in (FMU2Model, FMU3Model)
+    (phase,) = struct.unpack_from("<I", content, 48)
+    assert phase == (8 if exchange else 32)
+    for wrong in (0, 3, phase | 1, 32 if exchange else 16, 512, 1 << 31):
+        with refused(ERROR, "a phase of this instance"):
+            restore(sealed(content[:place] + struct.pack("<I", wrong) + content[place + 4 :]))
+    rotor.fmu.reset()
+    rotor.start()
+
+
+def test_reset_and_freeing_states_are_possible_in_every_phase(unzipped, refused):
+    folder = unzipped(ROTOR)
+    third, second = folder.open(FMU3Slave), folder.open(FMU2Slave)
+    third.fmu.enterConfigurationMode()
+    roundtrip(second)[1](roundtrip(third)[0]())  # a phase that FMI 2.0 has no function for
+    with refused(ERROR, "must not be called in the state 'configuration mode'"):
+        second.fmu.enterInitializationMode()
+    other = folder.open(FMU2Slave)
+    state = other.fmu.getFMUstate()
+    second.fmu.freeFMUstate(state)
+    assert not state.value
+    second.fmu.reset()
+    second.start().step(0.0, 0.01)
 
 
 def test_instances_are_independent(unzipped):
