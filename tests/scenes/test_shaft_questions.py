@@ -10,6 +10,7 @@ import pytest
 import scene_battery
 from families import FAMILIES
 
+from rotorfilm.bearings import TabulatedBearing
 from rotorfilm.errors import AbsentError, InputError, SceneError
 from rotorfilm.linear import (
     critical_speeds,
@@ -19,11 +20,11 @@ from rotorfilm.linear import (
     unbalance_response,
 )
 from rotorfilm.nonlinear import periodic_orbit
-from rotorfilm.rotors import mount
+from rotorfilm.rotors import JeffcottRotor, mount
 from rotorfilm.scenes import Scene, parse_scene
 from rotorfilm.scenes.question_table import QuestionTable
 from rotorfilm.scenes.questions import ladder_of
-from rotorfilm.scenes.questions.shaft_events import Critical
+from rotorfilm.scenes.questions.shaft_events import Critical, Threshold
 from rotorfilm.scenes.questions.shaft_films import film_levels
 from rotorfilm.scenes.questions.shaft_models import ShaftModel, shaft_models, split
 from rotorfilm.scenes.questions.shaft_orbit import linear_shaft_orbit, shaft_answers
@@ -373,6 +374,17 @@ def test_a_range_without_such_a_speed_is_an_error():
     damped = parse_scene(text, "damped")
     with pytest.raises(AbsentError, match=r"no whirl threshold in shaft\.speeds, 50 to 900 rad/s: stable"):
         asked("whirl_threshold", 0.1, damped).ask()
+
+
+def test_divergence_is_no_whirl_threshold():
+    rotor = JeffcottRotor(
+        mass=10.0, journal_mass=1.0, stiffness=1e6, speed=1.0, external_damping=10.0, gravity=(0.0, 0.0)
+    )
+    springs = np.array([1e5, -1e5])[:, None, None] * np.eye(2)
+    film = TabulatedBearing(speeds=[10.0, 100.0], stiffness=springs, damping=[100.0 * np.eye(2)] * 2)
+    message = r"10 to 100 rad/s: the rotor departs without whirl \(divergence\) from 55 rad/s on"
+    with pytest.raises(AbsentError, match=message):
+        Threshold().sightings(rotor, {"": film}, np.linspace(10.0, 100.0, 4))
 
 
 def test_a_speed_that_only_a_cheap_model_finds_in_the_range_is_no_answer():
