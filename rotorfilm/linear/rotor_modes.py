@@ -367,7 +367,7 @@ def _whirls(
 def _eigen(
     system: SecondOrder, low: float, high: float
 ) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
-    """Return eigenvalues of low <= Im s < high, rising, and their shapes, but of motion that nothing holds."""
+    """Return eigenvalues of low <= Im s < high, rising, and shapes; not of motion that nothing holds."""
     values, vectors = np.linalg.eig(system.state_matrix())
     shapes = vectors[: len(system.mass)]
     size = np.abs(values)

@@ -62,7 +62,8 @@ def rotor_equilibrium(
     rotor : FlexibleRotor
         Its own speed is not used.
     bearings : mapping of str to Reaction
-        By the name of the station; a station without one is free. Without weight they need not hold the rotor.
+        By the name of the station; a station without one is free. Without weight they need not hold the
+        rotor.
     speed : float [rad/s]
         Angular speed about +z, of either sign.
 
@@ -161,7 +162,7 @@ class _System:
         return forces, self.journals @ q - s * p
 
     def tolerances(self, q: Array, p: Array, s: float) -> tuple[Array, Array]:
-        """Return the residuals at which the rotor rests: of their scale, and roundoff of what cancels in them."""
+        """Return the residuals at which the rotor rests: TOLERANCE, and roundoff of what cancels in them."""
         lengths = np.repeat([min(b.clearance, 1e-4) for b in self.bearings], 2)
         forces = np.abs(self.weight) + np.abs(self.stiffness) @ np.abs(q)
         forces = forces + np.abs(self.journals.T) @ np.abs(self.forces(p))

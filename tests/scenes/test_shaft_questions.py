@@ -12,6 +12,8 @@ from families import FAMILIES
 
 from rotorfilm.bearings import TabulatedBearing
 from rotorfilm.errors import AbsentError, InputError, SceneError
+from rotorfilm.films import MapFilm
+from rotorfilm.films.potential import potential
 from rotorfilm.linear import (
     critical_speeds,
     rotor_equilibrium,
@@ -25,7 +27,7 @@ from rotorfilm.scenes import Scene, parse_scene
 from rotorfilm.scenes.question_table import QuestionTable
 from rotorfilm.scenes.questions import ladder_of
 from rotorfilm.scenes.questions.shaft_events import Critical, Threshold
-from rotorfilm.scenes.questions.shaft_films import film_levels
+from rotorfilm.scenes.questions.shaft_films import REST_BOUNDS, coefficient_bounds, film_levels
 from rotorfilm.scenes.questions.shaft_models import ShaftModel, shaft_models, split
 from rotorfilm.scenes.questions.shaft_orbit import linear_shaft_orbit, shaft_answers
 from rotorfilm.scenes.questions.shaft_remarks import beam_remarks
@@ -135,6 +137,57 @@ def test_threshold_agrees_with_the_whole_eigenproblem():
     assert abs(answer.value / whole.speed - 1.0) <= 2.0 * answer.error_estimate
     finest = ladder_of(scene).rungs[4].answer(None)  # as many elements as the file has
     assert finest.value == pytest.approx(whole.speed, rel=1e-8)
+
+
+def slopes_of_map(chi, slenderness, half=0.02):
+    """Return the error of dF/de and of dF/dw of the map at rest, each by its largest entry.
+
+    With J the potential, F.w = 2 J and F.n = dJ/dangle, n across w: these, dJ/dchi and how they change across
+    rest are all there is to the slopes.
+    """
+    e, off = np.array([chi, 0.0]), []
+    for turn in (-half, half):
+        w, across = np.array([math.sin(turn), -math.cos(turn)]), np.array([math.cos(turn), math.sin(turn)])
+        film = potential(chi, 0.5 * (1.0 + w[0]), slenderness)
+        exact = -math.exp(film.log) * film.force[::-1]
+        near = MapFilm().force(e, w, slenderness) - exact
+        slope = MapFilm().jacobian(e, w, slenderness)[:, 0] @ w + 2.0 * math.exp(film.log) * film.chi_slope
+        off.append([slope, near @ w, near @ across])
+    worst = np.maximum(np.abs(off).max(axis=0), np.abs(np.diff(off, axis=0))[0] / (2.0 * half))
+    whole = np.abs(MapFilm().jacobian(e, np.array([0.0, -1.0]), slenderness))
+    return worst[0] / whole[:, :2].max(), worst[1:].max() / whole[:, 2:].max()
+
+
+@pytest.mark.convergence
+@pytest.mark.parametrize(("chi", "slenderness"), [(0.05, 0.13), (0.5, 0.9), (0.9, 0.25)])
+def test_bound_of_the_map_at_rest_is_that_of_the_solver_behind_it(chi, slenderness):
+    bound = min(bound for reach, bound in REST_BOUNDS if chi <= reach)
+    assert max(slopes_of_map(chi, slenderness)) < 0.5 * bound
+
+
+@pytest.mark.parametrize("quantity", ["critical_speed", "whirl_threshold"])
+def test_bound_of_speeds_is_that_of_the_worst_films_within_theirs(quantity):
+    rung = ladder_of(asked(quantity, 0.1)).rungs[1]
+    whirl = rung.answer(None).solution.whirls[0]
+    structure, random = rung.model.rotor.structure, np.random.default_rng(5)
+    rate = rung.event.rate(value_rate(structure, whirl, rung.films))
+    own, changes = coefficient_bounds(rung.films, whirl.at), []
+    for _ in range(200):
+        off = {name: with_error(film, random) for name, film in whirl.at.coefficients.items()}
+        system = small_motion(structure, on_films(whirl.at, off), abs(whirl.value))
+        value, *_ = mode_near(system, whirl.value, whirl.right)
+        changes.append(abs(rung.event.lead(value, whirl.at.speed) / rate) / whirl.at.speed)
+    # to 1e-3 of the largest entry, where the bounds are those of the films
+    bound = rung._bound(whirl, rate) * 1e-3 / max(own.values())
+    assert 0.3 * bound < max(changes)
+    assert max(changes) < 1.02 * bound * max(own.values()) / min(own.values())
+
+
+def test_bound_of_a_critical_speed_on_maps_serves_tolerances_of_a_thousandth():
+    rung = ladder_of(asked("critical_speed", 1e-3)).rungs[1]
+    about = rung.estimate(rung.answer(None), None, 1e-3)
+    assert about.error < 1e-4
+    assert "2-D" not in about.method
 
 
 def test_derivative_of_an_eigenvalue_by_the_speed():
