@@ -142,8 +142,6 @@ def whirl_rows(threshold: WhirlThreshold | None) -> list[tuple[str, str]]:
     if threshold.speed is None:
         return [("whirl threshold", f"none: {threshold.reason}")]
     speed = f"{threshold.speed:.6g} rad/s = {threshold.speed * 30.0 / math.pi:.6g} rpm"
-    if threshold.whirl_ratio == 0.0:
-        return [("divergence, without whirl", speed)]
     ratio = "" if threshold.whirl_ratio is None else f", whirl ratio {threshold.whirl_ratio:.4g}"
     return [("whirl threshold", speed + ratio)]
 

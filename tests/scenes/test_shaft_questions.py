@@ -23,7 +23,7 @@ from rotorfilm.linear import (
 )
 from rotorfilm.nonlinear import periodic_orbit
 from rotorfilm.rotors import JeffcottRotor, mount
-from rotorfilm.scenes import Scene, parse_scene
+from rotorfilm.scenes import Scene, parse_scene, read_scene
 from rotorfilm.scenes.question_table import QuestionTable
 from rotorfilm.scenes.questions import ladder_of
 from rotorfilm.scenes.questions.shaft_events import Critical, Threshold
@@ -183,11 +183,25 @@ def test_bound_of_speeds_is_that_of_the_worst_films_within_theirs(quantity):
     assert max(changes) < 1.02 * bound * max(own.values()) / min(own.values())
 
 
-def test_bound_of_a_critical_speed_on_maps_serves_tolerances_of_a_thousandth():
-    rung = ladder_of(asked("critical_speed", 1e-3)).rungs[1]
-    about = rung.estimate(rung.answer(None), None, 1e-3)
-    assert about.error < 1e-4
-    assert "2-D" not in about.method
+def test_estimate_is_the_closer_of_the_bound_of_the_map_and_of_its_distance_to_a_grid():
+    drawn = FAMILIES["shaft speed"][1](np.random.default_rng(5))
+    rung = ladder_of(read_scene(drawn.data, "drawn")).rungs[1]
+    found = rung.answer(None)
+    errors = [rung.estimate(found, None, tolerance).error for tolerance in (0.1, 5e-3, 1e-6)]
+    # a bound of 1e-3 on K and C, from grids that are less close, had made it 4.0e-3, 2.7e-4, 2.7e-4
+    assert max(errors) < 1.5e-4
+
+
+def test_a_rung_that_a_bound_alone_would_refuse_asks_the_richer_film():
+    drawn = FAMILIES["shaft whirl"][1](np.random.default_rng(1))
+    rung = ladder_of(read_scene(drawn.data, "drawn")).rungs[1]
+    found = rung.answer(None)
+    loose, tight = (rung.estimate(found, None, tolerance) for tolerance in (0.1, 1e-3))
+    assert loose.bound
+    assert 1.5 * loose.error > 1e-3 > 1.5 * tight.error
+    # the tolerance at which bound and error of the shaft meet it each, and not together
+    between = 1.5 * loose.error * (1.0 - 1e-6)
+    assert rung.estimate(found, None, between).error == pytest.approx(tight.error, rel=1e-9)
 
 
 def test_derivative_of_an_eigenvalue_by_the_speed():

@@ -12,7 +12,7 @@ from ...errors import AbsentError, InputError
 from ...linear import rotor_equilibrium, rotor_modes
 from ...linear.rotor_system import SecondOrder, second_order
 from ...model import Array
-from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Work
+from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Work, beside_bound
 from .films import NOMINAL
 from .shaft_events import Critical, SpeedEvent, Threshold
 from .shaft_films import ShaftFilms, coefficient_bounds, film_levels, rich_coefficients
@@ -138,14 +138,30 @@ class ShaftRung:
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the change of the first critical speed in elements half as long, on richer films.
 
-        The map is its own richer film as long as its verified bound is small enough. Critical speeds that are
-        as near as the error are corrected too, and the lowest is the first.
+        Instead of asking richer films the verified bound of the map is added where that is enough, or closer.
         """
         solution: ShaftSpeed = found.solution
-        structure = self.model.rotor.structure
+        structure, steps = self.model.rotor.structure, {f"steps for {self.name}": 3}
         rates = [self.event.rate(value_rate(structure, one, self.films)) for one in solution.whirls]
         bound = self._bound(solution.whirls[0], rates[0])
-        trusted = SAFETY * bound < tolerance
+        method = f"inverse iteration, {len(self.model.finer.elements)} elements"
+        own, doubt = self._change(found, rates, trusted=True) if math.isfinite(bound) else (0.0, "")
+        by_bound = beside_bound(own, bound, method, steps, doubt)
+        if SAFETY * by_bound.error < tolerance or not self.films.name:
+            return by_bound
+        error, doubt = self._change(found, rates, trusted=False)
+        if by_bound.error < error:
+            return by_bound
+        # grids are less close than maps: most may be their own error
+        is_bound = self.films.bounded and math.isfinite(bound) and own < 0.5 * error
+        return ErrorEstimate(error, f"{method}, {self.films.rich_name}", steps, bound=is_bound, doubt=doubt)
+
+    def _change(self, found: Found, rates: list[float], *, trusted: bool) -> tuple[float, str]:
+        """Return the change of the first critical speed [1], with its roundoff, and why to doubt it.
+
+        Critical speeds that are as near as the error are corrected too, and the lowest is the first.
+        """
+        solution: ShaftSpeed = found.solution
         moved: list[Corrected] = []
         reach = math.inf
         for whirl, rate in zip(solution.whirls, rates, strict=True):
@@ -155,26 +171,14 @@ class ShaftRung:
             error = abs(moved[-1].speed - whirl.at.speed)
             reach = min(reach, moved[0].speed + 2.0 * max(error, abs(moved[0].speed - found.value)))
         best = min(moved, key=lambda one: one.speed)
-        error = abs(best.speed - found.value) / found.value + best.noise
+        error = float(abs(best.speed - found.value) / found.value + best.noise)
         doubt = next((one.doubt for one in moved if one.doubt), "")
         doubt = doubt or self._missed(best.speed * (1.0 - 2.0 * error))
         if error > LARGEST:
             doubt = doubt or f"a change by {error:.0%} is too large to be linear"
         if found.value * (1.0 - SAFETY * error) < self.speeds[0]:
             doubt = doubt or "so near to the first of shaft.speeds that it may be below"
-        method = f"inverse iteration, {len(self.model.finer.elements)} elements"
-        if self.films.name and not trusted:
-            method += f", {self.films.rich_name}"
-        is_bound = bool(self.films.name) and self.films.bounded
-        if is_bound and not trusted:
-            own = self._without_films(solution.whirls[0], rates[0])
-            is_bound = own < 0.5 * error
-            if own + bound < error:
-                error, method = own + bound, f"{method}, verified bound of the map"
-        elif is_bound:
-            is_bound = bound > error
-            error += bound if is_bound else 0.0
-        return ErrorEstimate(float(error), method, {f"steps for {self.name}": 3}, bound=is_bound, doubt=doubt)
+        return error, doubt
 
     def _missed(self, speed: float) -> str:
         """Return why a model of fewer modes than others may have missed one just above a speed [rad/s]."""
@@ -199,11 +203,6 @@ class ShaftRung:
         if abs(one - other) > DISAGREEMENT * abs(other) + noise:
             doubt = doubt or "two steps of inverse iteration disagree on the error"
         return Corrected(whirl.at.speed + other, noise / whirl.at.speed, doubt)
-
-    def _without_films(self, whirl: Whirl, rate: float) -> float:
-        """Return the error [1] of the shaft alone: maps may be closer than grids."""
-        own = self._corrected(whirl, rate, trusted=True)
-        return abs(own.speed / whirl.at.speed - 1.0) + own.noise
 
     def _bound(self, whirl: Whirl, rate: float) -> float:
         """Return the error [1] that the worst K and C within the verified bounds of the films would make."""
