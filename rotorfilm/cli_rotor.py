@@ -57,13 +57,9 @@ def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
     if found.speed is None:
         rows.append(("threshold of stability", found.reason))
     else:
-        assert found.whirl_ratio is not None
-        rows.append(
-            (
-                "threshold of stability",
-                f"{found.speed * RPM:.6g} rpm, whirl at {found.whirl_ratio:.4g} of the speed",
-            )
-        )
+        ratio = found.whirl_ratio
+        how = f"whirl at {ratio:.4g} of the speed" if ratio else "divergence, without whirl"
+        rows.append(("threshold of stability", f"{found.speed * RPM:.6g} rpm, {how}"))
     for name, amplitude in answer.amplitudes.items():
         assert answer.response is not None  # or there are no amplitudes
         k = int(np.argmax(amplitude))

@@ -144,7 +144,7 @@ def threshold_by_fine_mesh(scene: Scene) -> Truth:
     assert scene.shaft is not None
     rotor, films = scene.shaft.build(), true_films(scene.shaft.build_bearings())
     first = rotor_threshold(rotor, films, scene.shaft.speeds.build())
-    if first.speed is None or first.whirl_frequency is None:
+    if first.speed is None or not first.whirl_frequency:
         return Truth(math.inf, 1e-4)
     fine, ratio = finer(rotor, SPLIT_SPEED), first.whirl_frequency / first.speed
     low, high = 0.995 * first.speed, 1.005 * first.speed

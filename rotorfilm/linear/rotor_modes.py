@@ -16,9 +16,15 @@ from ..model import Array, Reaction
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
 from .rotor_rest import rotor_equilibrium
-from .rotor_system import SecondOrder, checked_speeds, second_order, with_hysteresis
+from .rotor_system import SecondOrder, second_order, with_hysteresis
 
 _OSCILLATES = 1e-6
+
+NEUTRAL = 1e-9
+"""Growth rate / frequency that is roundoff."""
+
+_HELD = 1e-12
+"""Stiffness force / the forces that cancel in it, below which nothing holds a shape."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,6 +93,7 @@ class CriticalSpeed:
     Attributes
     ----------
     speed : float [rad/s]
+        Of the sign of the speeds searched.
     log_decrement : float [1]
         Of that whirl.
     direction : float [1]
@@ -100,14 +107,15 @@ class CriticalSpeed:
 
 @dataclass(frozen=True, kw_only=True)
 class RotorThreshold:
-    """The speed at which a whirl of a rotor begins to grow, or the reason why there is none.
+    """The speed at which small motion of a rotor begins to grow, or the reason why there is none.
 
     Attributes
     ----------
     speed : float or None [rad/s]
     whirl_frequency : float or None [rad/s]
+        0 where the rotor departs to one side instead of whirling (divergence).
     whirl_ratio : float or None [1]
-        whirl_frequency / speed.
+        whirl_frequency / |speed|.
     direction : float or None [1]
         As in `RotorModes`.
     reason : str
@@ -130,6 +138,8 @@ def log_decrement(eigenvalues: ArrayLike) -> Array:
 def rotor_modes(rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speed: float) -> RotorModes:
     """Return the whirl modes of a rotor on its films at a speed.
 
+    Motion that nothing holds, as that of a weightless rotor without bearings as a whole, is no whirl.
+
     Parameters
     ----------
     rotor : FlexibleRotor
@@ -137,14 +147,21 @@ def rotor_modes(rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speed: f
     bearings : mapping of str to Reaction
         By the name of the station; linearized at the equilibrium of this speed.
     speed : float [rad/s]
+        Of either sign; a rotor at rest counts as turning about +z.
 
     Raises
     ------
     EquilibriumError
         If there is no equilibrium.
     """
-    at = rotor_equilibrium(rotor, bearings, speed)
-    return _modes(rotor.structure, second_order(rotor.structure, at), at.speed)
+    motions = _motions(rotor, bearings, speed)
+    whirls = _oscillates(motions.eigenvalues)
+    return RotorModes(
+        speed=motions.speed,
+        eigenvalues=motions.eigenvalues[whirls],
+        shapes=motions.shapes[:, whirls],
+        direction=motions.direction[whirls],
+    )
 
 
 def campbell(
@@ -160,7 +177,8 @@ def campbell(
     rotor, bearings
         As in `rotor_modes`.
     speeds : array_like, shape (n,) [rad/s]
-        Positive and rising; so close that modes do not change beyond recognition from one to the next.
+        Rising or falling, of either sign; so close that modes do not change beyond recognition from one to
+        the next.
     highest_frequency : float [rad/s]
         Modes that stay above it are left out.
 
@@ -171,7 +189,7 @@ def campbell(
     EquilibriumError
         If there is no equilibrium at one of the speeds.
     """
-    grid = checked_speeds(speeds)
+    grid = _speeds_in_turn(speeds)
     points = [rotor_modes(rotor, bearings, float(speed)) for speed in grid]
     tracks = _tracks(points, rotor.structure.mass)
     values = np.full((len(tracks), len(grid)), complex(math.nan, math.nan))
@@ -188,19 +206,19 @@ def campbell(
 def critical_speeds(
     rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
 ) -> tuple[CriticalSpeed, ...]:
-    """Return the damped critical speeds: where a whirl frequency equals the speed, rising.
+    """Return the damped critical speeds, rising: where a whirl has the frequency of the rotation.
 
     Parameters
     ----------
     rotor, bearings
         As in `rotor_modes`.
     speeds : array_like, shape (n,) [rad/s]
-        Positive and rising: the range searched, and the steps in which the modes are followed.
+        Rising or falling, of either sign: the range searched, and the steps in which the modes are followed.
     """
     chart = campbell(rotor, bearings, speeds)
     found = []
     for values in chart.eigenvalues:
-        lead = values.imag - chart.speeds
+        lead = values.imag - np.abs(chart.speeds)
         for k in np.flatnonzero(lead[:-1] * lead[1:] <= 0.0):
             found.append(_crossing(rotor, bearings, chart.speeds[k : k + 2], values[k : k + 2]))
     return tuple(sorted(found, key=lambda one: one.speed))
@@ -209,38 +227,67 @@ def critical_speeds(
 def rotor_threshold(
     rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
 ) -> RotorThreshold:
-    """Return the lowest speed at which a rotor on its films loses stability as the speed rises.
+    """Return the first of a range of speeds at which a rotor on its films loses stability.
 
     Parameters
     ----------
     rotor, bearings
         As in `rotor_modes`.
     speeds : array_like, shape (n,) [rad/s]
-        Positive and rising: the range searched; stability lost and regained within one step goes unseen.
+        Rising or falling, of either sign, searched in this order; stability lost and regained within one step
+        goes unseen.
+
+    Notes
+    -----
+    Whirl that grows and divergence, a real eigenvalue above zero, both end stability.
     """
-    grid = checked_speeds(speeds)
-
-    def growth(speed: float) -> float:
-        modes = rotor_modes(rotor, bearings, speed)
-        return float((modes.eigenvalues.real / np.abs(modes.eigenvalues)).max())
-
+    grid = _speeds_in_turn(speeds)
     before = float(grid[0])
-    if growth(before) > 0.0:
-        return RotorThreshold(reason="unstable at the lowest speed given")
+    growth = _growth(_motions(rotor, bearings, before)).max(initial=-1.0)
+    if growth > NEUTRAL:
+        return RotorThreshold(reason="unstable at the first speed given")
     for speed in grid[1:].tolist():
-        if growth(speed) > 0.0:
-            onset = float(brentq(growth, before, speed, rtol=1e-13))
-            modes = rotor_modes(rotor, bearings, onset)
-            k = int(np.argmax(modes.eigenvalues.real / np.abs(modes.eigenvalues)))
-            frequency = float(modes.frequency[k])
-            return RotorThreshold(
-                speed=onset,
-                whirl_frequency=frequency,
-                whirl_ratio=frequency / onset,
-                direction=float(modes.direction[k]),
-            )
+        # whirl that nothing damps or drives has roundoff of either sign
+        level = 0.0 if growth < 0.0 else NEUTRAL
+        growth = _growth(_motions(rotor, bearings, speed)).max(initial=-1.0)
+        if growth > NEUTRAL:
+            return _onset(rotor, bearings, (before, speed), level)
         before = speed
     return RotorThreshold(reason="stable at every speed given")
+
+
+def _speeds_in_turn(speeds: ArrayLike) -> Array:
+    """Return angular speeds [rad/s]; raise InputError unless they rise or fall throughout."""
+    grid = require_finite("speeds", speeds)
+    steps = np.diff(grid) if grid.ndim == 1 else np.zeros(1)
+    if not grid.size or not (np.all(steps > 0.0) or np.all(steps < 0.0)):
+        raise InputError(f"speeds must be a list of rising or of falling numbers, got {speeds!r}")
+    return grid
+
+
+def _growth(motions: RotorModes) -> Array:
+    """Return Re s / |s| of whirls; without whirl Re s / (|s| + |speed|), which divergence takes through 0."""
+    values = motions.eigenvalues
+    size = np.abs(values) + np.where(_oscillates(values), 0.0, abs(motions.speed))
+    return np.asarray(values.real / size)
+
+
+def _onset(
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], ends: tuple[float, float], level: float
+) -> RotorThreshold:
+    """Return the threshold between two speeds, where the growth is at a level."""
+    speed = float(
+        brentq(lambda w: _growth(_motions(rotor, bearings, w)).max(initial=-1.0) - level, *ends, rtol=1e-13)
+    )
+    motions = _motions(rotor, bearings, speed)
+    k = int(np.argmax(_growth(motions)))
+    frequency = float(motions.frequency[k]) if _oscillates(motions.eigenvalues)[k] else 0.0
+    return RotorThreshold(
+        speed=speed,
+        whirl_frequency=frequency,
+        whirl_ratio=frequency / abs(speed),
+        direction=float(motions.direction[k]),
+    )
 
 
 def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 4) -> Array:
@@ -283,40 +330,53 @@ def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 
     return result
 
 
-def _modes(structure: Structure, system: SecondOrder, speed: float) -> RotorModes:
-    values, shapes = _whirls(structure, system, speed)
+def _motions(rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speed: float) -> RotorModes:
+    """Return the whirl modes at a speed, and before them the motions that do not oscillate."""
+    at = rotor_equilibrium(rotor, bearings, speed)
+    structure = rotor.structure
+    values, shapes = _whirls(structure, second_order(structure, at), at.speed)
     n = len(structure.coordinates)
     mass = structure.mass[:n, :n]
     turned = [shapes[:n] + sign * 1j * shapes[n:] for sign in (1.0, -1.0)]
     forward, backward = (np.einsum("ik,ij,jk->k", u.conj(), mass, u).real for u in turned)
-    sense = -1.0 if speed < 0.0 else 1.0
+    sense = -1.0 if at.speed < 0.0 else 1.0
     return RotorModes(
-        speed=speed,
+        speed=at.speed,
         eigenvalues=values,
         shapes=shapes,
         direction=sense * (forward - backward) / (forward + backward),
     )
 
 
+def _oscillates(values: NDArray[np.complex128]) -> NDArray[np.bool_]:
+    return np.asarray(values.imag > _OSCILLATES * np.abs(values))
+
+
 def _whirls(
     structure: Structure, system: SecondOrder, speed: float
 ) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
-    """Return the eigenvalues that oscillate, rising, and their shapes."""
+    """Return the eigenvalues that do not oscillate, those that do, rising, and the shapes of all."""
     if structure.hysteresis is None:
-        return _oscillating(system, 0.0, math.inf)
+        return _eigen(system, 0.0, math.inf)
     turn = abs(speed)
-    slow = _oscillating(with_hysteresis(structure, system, 0.5 * turn, speed), 0.0, turn)
-    fast = _oscillating(with_hysteresis(structure, system, 2.0 * turn + 1.0, speed), turn, math.inf)
+    slow = _eigen(with_hysteresis(structure, system, 0.5 * turn, speed), 0.0, turn)
+    fast = _eigen(with_hysteresis(structure, system, 2.0 * turn + 1.0, speed), turn, math.inf)
     return np.concatenate([slow[0], fast[0]]), np.hstack([slow[1], fast[1]])
 
 
-def _oscillating(
+def _eigen(
     system: SecondOrder, low: float, high: float
 ) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+    """Return eigenvalues of low <= Im s < high, rising, and shapes; not of motion that nothing holds."""
     values, vectors = np.linalg.eig(system.state_matrix())
-    rising = (values.imag > _OSCILLATES * np.abs(values)) & (values.imag >= low) & (values.imag < high)
-    order = np.flatnonzero(rising)[np.argsort(values.imag[rising])]
-    return values[order].astype(complex), vectors[: len(system.mass), order].astype(complex)
+    shapes = vectors[: len(system.mass)]
+    size = np.abs(values)
+    inertia, damping = (np.linalg.norm(m @ shapes, axis=0) for m in (system.mass, system.damping))
+    held = np.linalg.norm(np.abs(system.stiffness) @ np.abs(shapes), axis=0)
+    moves = size * (size * inertia + damping) > _HELD * held
+    chosen = moves & (values.imag >= low) & (values.imag < high)
+    order = np.flatnonzero(chosen)[np.argsort(values.imag[chosen])]
+    return values[order].astype(complex), shapes[:, order].astype(complex)
 
 
 def _tracks(points: list[RotorModes], mass: Array) -> list[dict[int, int]]:
@@ -365,7 +425,7 @@ def _crossing(
 
     def lead(speed: float) -> float:
         modes, k = nearest(speed)
-        return float(modes.frequency[k]) - speed
+        return float(modes.frequency[k]) - abs(speed)
 
     speed = float(brentq(lead, float(ends[0]), float(ends[1]), rtol=1e-12))
     modes, k = nearest(speed)

@@ -17,12 +17,13 @@ from .coefficients import coefficients
 from .equilibrium import equilibrium
 
 TOLERANCE = 1e-10
-"""Largest imbalance of forces, and misfit of displacements, relative to their scale."""
+"""Largest imbalance of forces, and misfit of displacements, relative to their scale, above roundoff."""
 
 CONTINUATION = 8
 """Steps in which the bearings' displacements are handed to the shaft when one step does not converge."""
 
 _NEWTON_STEPS = 40
+_SINGULAR = 1e15
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,7 +40,7 @@ class RotorEquilibrium:
     displacement : ndarray, shape (N,)
         Coordinates of the rotor.
     residual : float [1]
-        Largest imbalance of forces / weight.
+        Largest imbalance of forces / weight; [N] without weight.
     """
 
     speed: float
@@ -61,7 +62,8 @@ def rotor_equilibrium(
     rotor : FlexibleRotor
         Its own speed is not used.
     bearings : mapping of str to Reaction
-        By the name of the station; a station without one is free.
+        By the name of the station; a station without one is free. Without weight they need not hold the
+        rotor.
     speed : float [rad/s]
         Angular speed about +z, of either sign.
 
@@ -83,7 +85,7 @@ def rotor_equilibrium(
     speed = require_number("speed", speed)
     system = _System(rotor.structure, bearings, speed)
     q, loads = system.on_rigid_bearings()
-    p = np.concatenate([system.alone(k, load) for k, load in enumerate(loads.reshape(-1, 2))])
+    p = np.ravel([system.alone(k, load) for k, load in enumerate(loads.reshape(-1, 2))])
     try:
         q, p = system.solve(q, p, 1.0)
     except EquilibriumError:
@@ -119,12 +121,22 @@ class _System:
         scale = np.concatenate([np.full(n, largest**-0.5), np.ones(m)])
         scale[n:] = 1.0 / scale[0]
         matrix = saddle * np.outer(scale, scale)
-        if n and np.linalg.cond(matrix) > 1e15:
-            raise EquilibriumError(
-                f"bearings must hold the rotor, got {self.names} that leave it free to move"
-            )
-        solved = scale * np.linalg.solve(matrix, scale * np.concatenate([self.weight, np.zeros(m)]))
+        wanted = scale * np.concatenate([self.weight, np.zeros(m)])
+        if np.linalg.cond(matrix) < _SINGULAR:
+            solved = scale * np.linalg.solve(matrix, wanted)
+            return solved[:n], solved[n:]
+        if not self.weight.any():
+            return np.zeros(n), np.zeros(m)
+        left, sizes, right = np.linalg.svd(matrix)
+        known = sizes > sizes[0] / _SINGULAR
+        if np.linalg.norm(right[~known, :n]) > 0.5:
+            raise self.free()
+        # Bearings of one node share its load, for a start alike.
+        solved = scale * (right[known].T @ ((left.T @ wanted)[known] / sizes[known]))
         return solved[:n], solved[n:]
+
+    def free(self) -> EquilibriumError:
+        return EquilibriumError(f"bearings must hold the rotor, got {self.names} that leave it free to move")
 
     def alone(self, k: int, load: Array) -> Array:
         """Return the position of one journal under its load."""
@@ -135,7 +147,7 @@ class _System:
 
     def forces(self, p: Array) -> Array:
         pairs = zip(self.bearings, p.reshape(-1, 2), strict=True)
-        return np.concatenate([b.force(at, np.zeros(2), self.speed) for b, at in pairs])
+        return np.ravel([b.force(at, np.zeros(2), self.speed) for b, at in pairs])
 
     def slopes(self, p: Array) -> Array:
         """Return d(forces)/dp, block by block."""
@@ -149,20 +161,31 @@ class _System:
         forces = self.stiffness @ q - self.weight - self.journals.T @ self.forces(p)
         return forces, self.journals @ q - s * p
 
+    def tolerances(self, q: Array, p: Array, s: float) -> tuple[Array, Array]:
+        """Return the residuals at which the rotor rests: TOLERANCE, and roundoff of what cancels in them."""
+        lengths = np.repeat([min(b.clearance, 1e-4) for b in self.bearings], 2)
+        forces = np.abs(self.weight) + np.abs(self.stiffness) @ np.abs(q)
+        forces = forces + np.abs(self.journals.T) @ np.abs(self.forces(p))
+        misfit = np.abs(self.journals) @ np.abs(q) + s * np.abs(p)
+        roundoff = max(len(q), 10) * np.finfo(float).eps
+        return TOLERANCE * self.size + roundoff * forces, TOLERANCE * lengths + roundoff * misfit
+
     def solve(self, q: Array, p: Array, s: float) -> tuple[Array, Array]:
         """Return (q, p) by Newton's method with steps that stay within the clearances."""
         n = len(q)
-        lengths = np.repeat([min(b.clearance, 1e-4) for b in self.bearings], 2)
         for _ in range(_NEWTON_STEPS):
             forces, misfit = self.residual(q, p, s)
-            done = np.abs(forces).max() <= TOLERANCE * self.size
-            if done and np.all(np.abs(misfit) <= TOLERANCE * lengths):
+            force_limit, misfit_limit = self.tolerances(q, p, s)
+            if np.all(np.abs(forces) <= force_limit) and np.all(np.abs(misfit) <= misfit_limit):
                 return q, p
             slopes = self.slopes(p)
             matrix = np.block(
                 [[self.stiffness, -self.journals.T @ slopes], [self.journals, -s * np.eye(len(p))]]
             )
-            step = np.linalg.solve(matrix, -np.concatenate([forces, misfit]))
+            try:
+                step = np.linalg.solve(matrix, -np.concatenate([forces, misfit]))
+            except np.linalg.LinAlgError:
+                raise self.free() from None
             share = self._within(p, step[n:])
             q, p = q + share * step[:n], p + share * step[n:]
         raise EquilibriumError(

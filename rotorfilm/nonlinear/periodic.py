@@ -142,10 +142,11 @@ def periodic_orbit(
     mounted : MountedRotor
         From `mount`, at constant speed.
     start : PeriodicOrbit or Trajectory, optional
-        An orbit nearby, or a run of `simulate_rotor` that ends in one; by default small motion about the rest
-        (orbits of one turn only).
+        An orbit nearby, or a run of `simulate_rotor` that ends in one; by default small motion about the
+        rest, which leads to the orbit of one turn.
     periods : int
-        Turns of the shaft per orbit.
+        Turns of the shaft per orbit: 2 after a period doubling. The orbit of one turn solves these equations
+        too, so that another one needs a start.
     tolerance : float [1]
         Harmonics are added until the last quarter of them is smaller, in clearances.
     stability : bool

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.bearings import JournalBearing, LinearBearing
+from rotorfilm.bearings import JournalBearing, LinearBearing, TabulatedBearing
 from rotorfilm.cosim import critical_macro_step
 from rotorfilm.errors import EquilibriumError, InputError
 from rotorfilm.films import ShortFilm
@@ -290,7 +290,7 @@ def test_threshold_of_internal_damping():
     assert onset.speed == pytest.approx(2.5 * math.sqrt(2e5 / 3.0), rel=1e-5)
     assert onset.whirl_ratio == pytest.approx(0.4, rel=1e-5)
     assert rotor_threshold(rotor, hard, [100.0, 200.0]).reason == "stable at every speed given"
-    assert rotor_threshold(rotor, hard, [800.0, 900.0]).reason == "unstable at the lowest speed given"
+    assert rotor_threshold(rotor, hard, [800.0, 900.0]).reason == "unstable at the first speed given"
 
 
 def light_shaft(**changes):
@@ -353,10 +353,77 @@ def test_hysteresis_has_no_time_domain():
         rotor_system(rotor, rotor_equilibrium(rotor, hard_with_air(0.0), 10.0))
 
 
-@pytest.mark.parametrize("speeds", [[], [0.0, 1.0], [2.0, 1.0], [[1.0]], 5.0])
-def test_speeds_must_be_positive_and_rising(speeds):
-    with pytest.raises(InputError, match="speeds must be"):
+@pytest.mark.closed_form
+def test_divergence_ends_stability():
+    """The spring of the bearing turns negative at 55 rad/s, the elastic shaft in series or not."""
+    rotor = JeffcottRotor(
+        mass=10.0, journal_mass=1.0, stiffness=1e6, speed=1.0, external_damping=10.0, gravity=(0.0, 0.0)
+    )
+    springs = np.array([1e5, -1e5])[:, None, None] * np.eye(2)
+    film = TabulatedBearing(speeds=[10.0, 100.0], stiffness=springs, damping=[100.0 * np.eye(2)] * 2)
+    onset = rotor_threshold(rotor, {"": film}, np.linspace(10.0, 100.0, 8))
+    assert onset.speed == pytest.approx(55.0, rel=1e-9)
+    assert (onset.whirl_frequency, onset.whirl_ratio) == (0.0, 0.0)
+    assert onset.direction == pytest.approx(0.0, abs=1e-9)
+    soft = {"": LinearBearing(stiffness=-1e5, damping=100.0)}
+    assert rotor_threshold(rotor, soft, [10.0, 100.0]).reason == "unstable at the first speed given"
+
+
+@pytest.mark.closed_form
+def test_a_rotor_that_turns_the_other_way_has_the_mirrored_chart_and_threshold():
+    speeds = np.linspace(0.0, 300.0, 7)
+    springs = both(LinearBearing(stiffness=1e6, damping=50.0))
+    forward, backward = (campbell(friswell(), springs, sense * speeds, 1000.0) for sense in (1.0, -1.0))
+    assert_allclose(backward.eigenvalues, forward.eigenvalues, rtol=1e-7)
+    assert_allclose(backward.direction[:, 1:], forward.direction[:, 1:], atol=1e-6)
+    found = critical_speeds(friswell(), springs, -speeds)
+    wanted = critical_speeds(friswell(), springs, speeds)
+    assert len(found) > 2
+    assert_allclose(sorted(-one.speed for one in found), [one.speed for one in wanted], rtol=1e-9)
+    rotor = JeffcottRotor(
+        mass=3.0, journal_mass=0.1, stiffness=2e5, speed=0.0, external_damping=30.0, internal_damping=20.0
+    )
+    onset = rotor_threshold(rotor, {"": LinearBearing(stiffness=1e12)}, [0.0, -400.0, -800.0])
+    assert onset.speed == pytest.approx(-2.5 * math.sqrt(2e5 / 3.0), rel=1e-5)
+    assert onset.whirl_ratio == pytest.approx(0.4, rel=1e-5)
+    assert onset.direction > 0.9
+
+
+def test_whirl_that_nothing_damps_or_drives_is_stable():
+    found = rotor_threshold(friswell(), both(SPRING), np.linspace(0.0, 700.0, 8))
+    assert found.reason == "stable at every speed given"
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("bearings", [{}, {"left": LinearBearing(stiffness=0.0)}])
+def test_free_shaft_has_its_bending_modes_and_no_others(bearings):
+    """A slender steel bar without weight: (4.730040745, 7.853204624)^2 sqrt(E I / (rho A)) / L^2."""
+    piece = ShaftElement(length=1.5, outer_diameter=0.01, material=STEEL, shear_coefficient=math.inf)
+    bar = friswell(elements=piece.split(6), disks=(), unbalances=(), gravity=(0.0, 0.0))
+    modes = rotor_modes(bar, bearings, 0.0)
+    wanted = np.array([4.730040745, 7.853204624]) ** 2 * math.sqrt(211e9 / 7810.0) * 0.01 / 4.0 / 1.5**2
+    assert_allclose(modes.frequency[:4], np.repeat(wanted, 2), rtol=2e-3)
+    assert rotor_threshold(bar, bearings, [0.0, 10.0]).reason == "stable at every speed given"
+
+
+@pytest.mark.closed_form
+def test_free_gyroscope_nutates_at_the_ratio_of_its_inertias():
+    modes = rotor_modes(rigid_shaft(unbalances=(), gravity=(0.0, 0.0)), {}, 100.0)
+    assert_allclose(modes.frequency, [100.0 * 0.5 / 0.8], rtol=1e-9)
+    with pytest.raises(EquilibriumError, match=r"bearings must hold the rotor, got \[\]"):
+        rotor_modes(rigid_shaft(), {}, 100.0)
+
+
+@pytest.mark.parametrize("speeds", [[], [0.0, 0.0], [2.0, 1.0, 3.0], [[1.0]], 5.0])
+def test_speeds_must_rise_or_fall(speeds):
+    with pytest.raises(InputError, match="speeds must be a list of rising or of falling numbers"):
         campbell(friswell(), both(SPRING), speeds)
+    with pytest.raises(InputError, match="speeds must be a list of rising or of falling numbers"):
+        rotor_threshold(friswell(), both(SPRING), speeds)
+
+
+@pytest.mark.parametrize("speeds", [[], [0.0, 1.0], [2.0, 1.0], [[1.0]], 5.0])
+def test_speeds_of_a_response_must_be_positive_and_rising(speeds):
     with pytest.raises(InputError, match="speeds must be"):
         unbalance_response(friswell(), both(SPRING), speeds)
 

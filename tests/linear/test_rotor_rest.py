@@ -111,6 +111,28 @@ def test_no_weight_leaves_the_journals_in_the_middle():
     assert_allclose(at.coefficients["left"].position, 0.0, atol=1e-12)
 
 
+@pytest.mark.closed_form
+@pytest.mark.parametrize(("young", "spring"), [(211e9, 1.0), (1e16, 1e6), (1e18, 1e7)])
+def test_roundoff_of_stiff_shafts_on_soft_springs_is_no_imbalance(young, spring):
+    material = ElasticMaterial(young_modulus=young, shear_modulus=0.4 * young, density=7810.0)
+    rotor = shaft(elements=ShaftElement(length=1.5, outer_diameter=0.05, material=material).split(6))
+    at = rotor_equilibrium(rotor, dict.fromkeys(("left", ""), LinearBearing(stiffness=spring)), SPEED)
+    whole = sum(at.loads.values())
+    assert_allclose(whole, [0.0, -9.80665 * rotor.mass], rtol=1e-6, atol=1e-6)
+    assert_allclose(at.coefficients["left"].position, at.loads["left"] / spring, rtol=1e-9)
+
+
+@pytest.mark.closed_form
+def test_two_bearings_on_one_node_share_its_load():
+    stations = (Station(node=0, name="left"), Station(node=0, name="also"), Station(node=6))
+    at = rotor_equilibrium(shaft(stations=stations), {"left": FILM, "also": FILM, "": WIDE}, SPEED)
+    double = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.2, film=ShortFilm())
+    one = rotor_equilibrium(shaft(), {"left": double, "": WIDE}, SPEED)
+    for name in ("left", "also"):
+        assert_allclose(at.loads[name], one.loads["left"] / 2.0, rtol=1e-8, atol=1e-6)
+        assert_allclose(at.coefficients[name].position, one.coefficients["left"].position, rtol=1e-8)
+
+
 def test_what_cannot_rest_is_refused():
     with pytest.raises(EquilibriumError, match="bearings must hold the rotor, got \\['left'\\]"):
         rotor_equilibrium(shaft(), {"left": FILM}, SPEED)

@@ -86,6 +86,78 @@ def test_period_doubling_of_a_heavier_unbalance(short_rotor):
     assert np.min(np.abs(at.orbit.multipliers + 1.0)) < 1e-5
 
 
+def two_turns(rotor, parameter):
+    """Return where a run from the orbit of one turn ends, as an orbit of two turns, and the run."""
+    one = periodic_orbit(rotor(0.985, unbalance=parameter))
+    times = np.linspace(116.0, 120.0, 257) * one.period
+    run = simulate_rotor(
+        rotor(0.985, unbalance=parameter),
+        duration=times[-1],
+        times=times,
+        initial_state=1.01 * one.state,
+        rtol=1e-8,
+    )
+    return one, periodic_orbit(rotor(0.985, unbalance=parameter), start=run, periods=2), run
+
+
+def subharmonic(orbit):
+    """Return the largest amplitude of the harmonics that one turn has not [m]."""
+    cos, sin = np.split(orbit.series[0, :, 1:], 2, axis=1)
+    return np.hypot(cos[:, ::2], sin[:, ::2]).max()
+
+
+def test_a_run_doubles_its_period_where_the_orbit_of_one_turn_has_lost_stability(short_rotor):
+    one, two, run = two_turns(short_rotor(0.3), 0.15)
+    assert (one.stable, two.stable) == (False, True)
+    assert two.period == pytest.approx(2.0 * one.period, rel=1e-12)
+    assert run.position == pytest.approx(two.position(run.time)[0], abs=1e-7 * 1e-4)
+    back = simulate_rotor(
+        short_rotor(0.3)(0.985, unbalance=0.15),
+        duration=two.period,
+        initial_state=two.state,
+        samples=3,
+        rtol=1e-11,
+    )
+    assert back.position[:, 2] == pytest.approx(two.state[:2], abs=1e-7 * 1e-4)
+    assert np.abs(back.position[:, 1] - two.state[:2]).max() > 0.5 * 1e-4
+
+
+@pytest.mark.convergence
+def test_orbits_of_two_turns_begin_at_the_period_doubling(short_rotor):
+    """Normal form of a flip: amplitude^2 is proportional, 1 - mu_2 = 2 (mu_1^2 - 1) to first order."""
+    rotor = short_rotor(0.3)
+
+    def family(unbalance):
+        return rotor(0.985, unbalance=unbalance)
+
+    curve = continue_orbits(
+        family, periodic_orbit(family(0.3)), parameter=0.3, bounds=(0.28, 0.31), direction=-1, most=12
+    )
+    (event,) = curve.events
+    assert event.kind is Bifurcation.PERIOD_DOUBLING
+    _, two, _ = two_turns(rotor, 0.28)
+    squares, slopes = [], []
+    parameters = np.array([0.2845, 0.287, 0.2884])
+    for parameter in parameters:
+        two = periodic_orbit(family(parameter), start=two, periods=2)
+        first = periodic_orbit(family(parameter)).multipliers.real.min()
+        squares.append(subharmonic(two) ** 2)
+        slopes.append((1.0 - two.multipliers.real.max()) / (first**2 - 1.0))
+    begin = np.polyval(np.polyfit(squares, parameters, 2), 0.0)
+    assert begin == pytest.approx(event.parameter, abs=1e-6)
+    assert slopes[-1] == pytest.approx(2.0, abs=0.01)
+    assert slopes == sorted(slopes)
+
+
+def test_more_turns_than_an_orbit_takes_are_the_same_orbit(short_rotor):
+    mounted = short_rotor(0.3)(0.8, unbalance=0.1)
+    one = periodic_orbit(mounted)
+    three = periodic_orbit(mounted, periods=3)
+    times = np.linspace(0.0, three.period, 50)
+    assert three.position(times) == pytest.approx(one.position(times), abs=1e-9 * 1e-4)
+    assert np.abs(three.multipliers[0]) == pytest.approx(np.abs(one.multipliers[0]) ** 3, rel=1e-6)
+
+
 def test_over_any_parameter(short_rotor):
     rotor = short_rotor(0.3)
     curve = continue_orbits(

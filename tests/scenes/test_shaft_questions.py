@@ -10,7 +10,10 @@ import pytest
 import scene_battery
 from families import FAMILIES
 
+from rotorfilm.bearings import TabulatedBearing
 from rotorfilm.errors import AbsentError, InputError, SceneError
+from rotorfilm.films import MapFilm
+from rotorfilm.films.potential import potential
 from rotorfilm.linear import (
     critical_speeds,
     rotor_equilibrium,
@@ -19,12 +22,12 @@ from rotorfilm.linear import (
     unbalance_response,
 )
 from rotorfilm.nonlinear import periodic_orbit
-from rotorfilm.rotors import mount
-from rotorfilm.scenes import Scene, parse_scene
+from rotorfilm.rotors import JeffcottRotor, mount
+from rotorfilm.scenes import Scene, parse_scene, read_scene
 from rotorfilm.scenes.question_table import QuestionTable
 from rotorfilm.scenes.questions import ladder_of
-from rotorfilm.scenes.questions.shaft_events import Critical
-from rotorfilm.scenes.questions.shaft_films import film_levels
+from rotorfilm.scenes.questions.shaft_events import Critical, Threshold
+from rotorfilm.scenes.questions.shaft_films import REST_BOUNDS, coefficient_bounds, film_levels
 from rotorfilm.scenes.questions.shaft_models import ShaftModel, shaft_models, split
 from rotorfilm.scenes.questions.shaft_orbit import linear_shaft_orbit, shaft_answers
 from rotorfilm.scenes.questions.shaft_remarks import beam_remarks
@@ -134,6 +137,71 @@ def test_threshold_agrees_with_the_whole_eigenproblem():
     assert abs(answer.value / whole.speed - 1.0) <= 2.0 * answer.error_estimate
     finest = ladder_of(scene).rungs[4].answer(None)  # as many elements as the file has
     assert finest.value == pytest.approx(whole.speed, rel=1e-8)
+
+
+def slopes_of_map(chi, slenderness, half=0.02):
+    """Return the error of dF/de and of dF/dw of the map at rest, each by its largest entry.
+
+    With J the potential, F.w = 2 J and F.n = dJ/dangle, n across w: these, dJ/dchi and how they change across
+    rest are all there is to the slopes.
+    """
+    e, off = np.array([chi, 0.0]), []
+    for turn in (-half, half):
+        w, across = np.array([math.sin(turn), -math.cos(turn)]), np.array([math.cos(turn), math.sin(turn)])
+        film = potential(chi, 0.5 * (1.0 + w[0]), slenderness)
+        exact = -math.exp(film.log) * film.force[::-1]
+        near = MapFilm().force(e, w, slenderness) - exact
+        slope = MapFilm().jacobian(e, w, slenderness)[:, 0] @ w + 2.0 * math.exp(film.log) * film.chi_slope
+        off.append([slope, near @ w, near @ across])
+    worst = np.maximum(np.abs(off).max(axis=0), np.abs(np.diff(off, axis=0))[0] / (2.0 * half))
+    whole = np.abs(MapFilm().jacobian(e, np.array([0.0, -1.0]), slenderness))
+    return worst[0] / whole[:, :2].max(), worst[1:].max() / whole[:, 2:].max()
+
+
+@pytest.mark.convergence
+@pytest.mark.parametrize(("chi", "slenderness"), [(0.05, 0.13), (0.5, 0.9), (0.9, 0.25)])
+def test_bound_of_the_map_at_rest_is_that_of_the_solver_behind_it(chi, slenderness):
+    bound = min(bound for reach, bound in REST_BOUNDS if chi <= reach)
+    assert max(slopes_of_map(chi, slenderness)) < 0.5 * bound
+
+
+@pytest.mark.parametrize("quantity", ["critical_speed", "whirl_threshold"])
+def test_bound_of_speeds_is_that_of_the_worst_films_within_theirs(quantity):
+    rung = ladder_of(asked(quantity, 0.1)).rungs[1]
+    whirl = rung.answer(None).solution.whirls[0]
+    structure, random = rung.model.rotor.structure, np.random.default_rng(5)
+    rate = rung.event.rate(value_rate(structure, whirl, rung.films))
+    own, changes = coefficient_bounds(rung.films, whirl.at), []
+    for _ in range(200):
+        off = {name: with_error(film, random) for name, film in whirl.at.coefficients.items()}
+        system = small_motion(structure, on_films(whirl.at, off), abs(whirl.value))
+        value, *_ = mode_near(system, whirl.value, whirl.right)
+        changes.append(abs(rung.event.lead(value, whirl.at.speed) / rate) / whirl.at.speed)
+    # to 1e-3 of the largest entry, where the bounds are those of the films
+    bound = rung._bound(whirl, rate) * 1e-3 / max(own.values())
+    assert 0.3 * bound < max(changes)
+    assert max(changes) < 1.02 * bound * max(own.values()) / min(own.values())
+
+
+def test_estimate_is_the_closer_of_the_bound_of_the_map_and_of_its_distance_to_a_grid():
+    drawn = FAMILIES["shaft speed"][1](np.random.default_rng(5))
+    rung = ladder_of(read_scene(drawn.data, "drawn")).rungs[1]
+    found = rung.answer(None)
+    errors = [rung.estimate(found, None, tolerance).error for tolerance in (0.1, 5e-3, 1e-6)]
+    # a bound of 1e-3 on K and C, from grids that are less close, had made it 4.0e-3, 2.7e-4, 2.7e-4
+    assert max(errors) < 1.5e-4
+
+
+def test_a_rung_that_a_bound_alone_would_refuse_asks_the_richer_film():
+    drawn = FAMILIES["shaft whirl"][1](np.random.default_rng(1))
+    rung = ladder_of(read_scene(drawn.data, "drawn")).rungs[1]
+    found = rung.answer(None)
+    loose, tight = (rung.estimate(found, None, tolerance) for tolerance in (0.1, 1e-3))
+    assert loose.bound
+    assert 1.5 * loose.error > 1e-3 > 1.5 * tight.error
+    # the tolerance at which bound and error of the shaft meet it each, and not together
+    between = 1.5 * loose.error * (1.0 - 1e-6)
+    assert rung.estimate(found, None, between).error == pytest.approx(tight.error, rel=1e-9)
 
 
 def test_derivative_of_an_eigenvalue_by_the_speed():
@@ -373,6 +441,17 @@ def test_a_range_without_such_a_speed_is_an_error():
     damped = parse_scene(text, "damped")
     with pytest.raises(AbsentError, match=r"no whirl threshold in shaft\.speeds, 50 to 900 rad/s: stable"):
         asked("whirl_threshold", 0.1, damped).ask()
+
+
+def test_divergence_is_no_whirl_threshold():
+    rotor = JeffcottRotor(
+        mass=10.0, journal_mass=1.0, stiffness=1e6, speed=1.0, external_damping=10.0, gravity=(0.0, 0.0)
+    )
+    springs = np.array([1e5, -1e5])[:, None, None] * np.eye(2)
+    film = TabulatedBearing(speeds=[10.0, 100.0], stiffness=springs, damping=[100.0 * np.eye(2)] * 2)
+    message = r"10 to 100 rad/s: the rotor departs without whirl \(divergence\) from 55 rad/s on"
+    with pytest.raises(AbsentError, match=message):
+        Threshold().sightings(rotor, {"": film}, np.linspace(10.0, 100.0, 4))
 
 
 def test_a_speed_that_only_a_cheap_model_finds_in_the_range_is_no_answer():

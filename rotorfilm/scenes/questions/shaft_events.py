@@ -11,14 +11,12 @@ import numpy as np
 
 from ...errors import AbsentError
 from ...linear import RotorModes, critical_speeds, rotor_modes, rotor_threshold
+from ...linear.rotor_modes import NEUTRAL
 from ...model import Array, Reaction
 from ...rotors import FlexibleRotor
 
 NEAR = 1.1
 """Critical speeds up to so many times the first are followed with it."""
-
-NEUTRAL = 1e-9
-"""Growth rate / frequency that is roundoff."""
 
 
 class Sighting(NamedTuple):
@@ -89,7 +87,7 @@ class Critical:
 
 @dataclass(frozen=True)
 class Threshold:
-    """A whirl begins to grow."""
+    """A whirl begins to grow; a rotor that departs without whirl before that has no such speed."""
 
     def lead(self, value: complex, speed: float) -> float:
         """Return Re s."""
@@ -108,12 +106,17 @@ class Threshold:
     ) -> list[Sighting]:
         """Return the threshold of stability."""
         span = f"{speeds[0]:.6g} to {speeds[-1]:.6g} rad/s"
-        values = rotor_modes(rotor, bearings, float(speeds[0])).eigenvalues
-        if np.all(np.abs(values.real) < NEUTRAL * np.abs(values)):
-            raise AbsentError(f"no whirl threshold in shaft.speeds, {span}: nothing damps or drives a whirl")
         found = rotor_threshold(rotor, bearings, speeds)
         if found.speed is None or found.whirl_frequency is None:
-            raise AbsentError(f"no whirl threshold in shaft.speeds, {span}: {found.reason}")
+            values = rotor_modes(rotor, bearings, float(speeds[0])).eigenvalues
+            neutral = values.size and np.all(np.abs(values.real) < NEUTRAL * np.abs(values))
+            reason = "nothing damps or drives a whirl" if neutral else found.reason
+            raise AbsentError(f"no whirl threshold in shaft.speeds, {span}: {reason}")
+        if not found.whirl_frequency:
+            raise AbsentError(
+                f"no whirl threshold in shaft.speeds, {span}: the rotor departs without whirl (divergence) "
+                f"from {found.speed:.6g} rad/s on"
+            )
         return [Sighting(found.speed, 1j * found.whirl_frequency)]
 
     def missed(self, own: RotorModes, other: RotorModes) -> str:

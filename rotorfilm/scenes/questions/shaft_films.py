@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -12,11 +13,14 @@ from ...bearings import JournalBearing
 from ...linear import RotorEquilibrium, coefficients, equilibrium
 from ...model import Array, Reaction
 from ...results import Coefficients
-from .films import FINE, FilmRung, extrapolated, film_rungs
+from .films import FINE, FilmRung, extrapolated, film_rungs, has_map
 from .statics import corrected
 
 if TYPE_CHECKING:
     from ..rotor_table import ShaftTable
+
+REST_BOUNDS = ((0.5, 2e-5), (0.95, 5e-5))
+"""Eccentricity ratio up to which, and largest error of K, C of the packaged map at rest."""
 
 LEVELS = ("short film", "2-D 96 x 8 extr.")
 """Films of journals that no map of the package holds and whose file names none."""
@@ -120,13 +124,17 @@ def rich_coefficients(films: ShaftFilms, at: RotorEquilibrium) -> tuple[dict[str
 
 
 def coefficient_bounds(films: ShaftFilms, at: RotorEquilibrium) -> dict[str, float]:
-    """Return the verified relative error of K and C of each film; infinite where there is none."""
+    """Return the verified relative error of K and C of each film at rest; infinite where there is none."""
     return {
-        name: film.bound(
-            float(np.hypot(*at.coefficients[name].position)) / film.bearing.clearance, slopes=True
-        )
+        name: _rest_bound(film, float(np.hypot(*at.coefficients[name].position)) / film.bearing.clearance)
         for name, film in films.journals.items()
     }
+
+
+def _rest_bound(film: FilmRung, eccentricity_ratio: float) -> float:
+    if not (film.bounded and has_map(film.bearing)):
+        return film.bound(eccentricity_ratio, slopes=True)
+    return min((bound for reach, bound in REST_BOUNDS if eccentricity_ratio <= reach), default=math.inf)
 
 
 def coefficient_rates(films: ShaftFilms, at: RotorEquilibrium, step: float) -> dict[str, tuple[Array, Array]]:

@@ -12,7 +12,7 @@ from ...errors import AbsentError, InputError
 from ...linear import rotor_equilibrium, rotor_modes
 from ...linear.rotor_system import SecondOrder, second_order
 from ...model import Array
-from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Work
+from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Work, beside_bound
 from .films import NOMINAL
 from .shaft_events import Critical, SpeedEvent, Threshold
 from .shaft_films import ShaftFilms, coefficient_bounds, film_levels, rich_coefficients
@@ -138,14 +138,30 @@ class ShaftRung:
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the change of the first critical speed in elements half as long, on richer films.
 
-        The map is its own richer film as long as its verified bound is small enough. Critical speeds that are
-        as near as the error are corrected too, and the lowest is the first.
+        Instead of asking richer films the verified bound of the map is added where that is enough, or closer.
         """
         solution: ShaftSpeed = found.solution
-        structure = self.model.rotor.structure
+        structure, steps = self.model.rotor.structure, {f"steps for {self.name}": 3}
         rates = [self.event.rate(value_rate(structure, one, self.films)) for one in solution.whirls]
         bound = self._bound(solution.whirls[0], rates[0])
-        trusted = SAFETY * bound < tolerance
+        method = f"inverse iteration, {len(self.model.finer.elements)} elements"
+        own, doubt = self._change(found, rates, trusted=True) if math.isfinite(bound) else (0.0, "")
+        by_bound = beside_bound(own, bound, method, steps, doubt)
+        if SAFETY * by_bound.error < tolerance or not self.films.name:
+            return by_bound
+        error, doubt = self._change(found, rates, trusted=False)
+        if by_bound.error < error:
+            return by_bound
+        # grids are less close than maps: most may be their own error
+        is_bound = self.films.bounded and math.isfinite(bound) and own < 0.5 * error
+        return ErrorEstimate(error, f"{method}, {self.films.rich_name}", steps, bound=is_bound, doubt=doubt)
+
+    def _change(self, found: Found, rates: list[float], *, trusted: bool) -> tuple[float, str]:
+        """Return the change of the first critical speed [1], with its roundoff, and why to doubt it.
+
+        Critical speeds that are as near as the error are corrected too, and the lowest is the first.
+        """
+        solution: ShaftSpeed = found.solution
         moved: list[Corrected] = []
         reach = math.inf
         for whirl, rate in zip(solution.whirls, rates, strict=True):
@@ -155,22 +171,14 @@ class ShaftRung:
             error = abs(moved[-1].speed - whirl.at.speed)
             reach = min(reach, moved[0].speed + 2.0 * max(error, abs(moved[0].speed - found.value)))
         best = min(moved, key=lambda one: one.speed)
-        error = abs(best.speed - found.value) / found.value + best.noise
+        error = float(abs(best.speed - found.value) / found.value + best.noise)
         doubt = next((one.doubt for one in moved if one.doubt), "")
         doubt = doubt or self._missed(best.speed * (1.0 - 2.0 * error))
         if error > LARGEST:
             doubt = doubt or f"a change by {error:.0%} is too large to be linear"
         if found.value * (1.0 - SAFETY * error) < self.speeds[0]:
             doubt = doubt or "so near to the first of shaft.speeds that it may be below"
-        method = f"inverse iteration, {len(self.model.finer.elements)} elements"
-        if self.films.name and not trusted:
-            method += f", {self.films.rich_name}"
-        is_bound = bool(self.films.name) and self.films.bounded
-        if is_bound:
-            is_bound = bound > error if trusted else self._by_grids(solution.whirls[0], rates[0], error)
-        if trusted and is_bound:
-            error += bound
-        return ErrorEstimate(float(error), method, {f"steps for {self.name}": 3}, bound=is_bound, doubt=doubt)
+        return error, doubt
 
     def _missed(self, speed: float) -> str:
         """Return why a model of fewer modes than others may have missed one just above a speed [rad/s]."""
@@ -196,22 +204,20 @@ class ShaftRung:
             doubt = doubt or "two steps of inverse iteration disagree on the error"
         return Corrected(whirl.at.speed + other, noise / whirl.at.speed, doubt)
 
-    def _by_grids(self, whirl: Whirl, rate: float, error: float) -> bool:
-        """Return whether most of an error is the distance of maps to grids, which are less close."""
-        own = self._corrected(whirl, rate, trusted=True)
-        return abs(own.speed / whirl.at.speed - 1.0) < 0.5 * error
-
     def _bound(self, whirl: Whirl, rate: float) -> float:
         """Return the error [1] that the worst K and C within the verified bounds of the films would make."""
         structure = self.model.rotor.structure
         _, slope = dynamics(second_order(structure, whirl.at), whirl.value)
-        scale = abs(whirl.left.conj() @ slope @ whirl.right)
+        scale = whirl.left.conj() @ slope @ whirl.right
         total = 0.0
         for name, bound in coefficient_bounds(self.films, whirl.at).items():
             rows, film = journal(structure, name), whirl.at.coefficients[name]
-            worst = np.abs(film.stiffness).max() + abs(whirl.value) * np.abs(film.damping).max()
-            total += bound * float(worst * np.abs(rows @ whirl.left).sum() * np.abs(rows @ whirl.right).sum())
-        return total / scale / abs(rate) / whirl.at.speed
+            # what an entry of K, and of C, of this size does to the eigenvalue
+            by_stiffness = np.outer((rows @ whirl.left).conj(), rows @ whirl.right) / scale
+            for change, entries in ((1.0, film.stiffness), (whirl.value, film.damping)):
+                moved = [abs(self.event.lead(complex(one), 0.0)) for one in (change * by_stiffness).flat]
+                total += bound * float(np.abs(entries).max()) * sum(moved)
+        return total / abs(rate) / whirl.at.speed
 
     def expected(self, done: Work) -> Work:
         """Return the linear problems of four speeds."""
