@@ -19,8 +19,8 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from rotorfilm import ApproximateShaft, BushReaction, BushWear, LocalMelting, f4k20_bush, published_stage
+from rotorfilm.bearings.bush.shaft_flux import approximate_flux, exact_flux
 from rotorfilm.charts import new_axes, plot_contact_pressure, plot_critical_speed
-from rotorfilm.films.bush_shaft import approximate_flux, exact_flux
 
 BUSH, HEAT, SPEED, END = f4k20_bush(), 1e8, 12.0, 1.0
 TOLERANCES = {"rtol": 1e-6, "atol": 1e-12}

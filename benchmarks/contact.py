@@ -17,9 +17,9 @@ from itertools import pairwise
 from time import perf_counter, process_time
 
 import numpy as np
+import rotorfilm.films.contact_steps as contact_steps
 from scipy import linalg
 
-import rotorfilm.films.contact_steps as contact_steps
 from rotorfilm import (
     AdaptiveSteps,
     ContactGrid,
@@ -33,10 +33,10 @@ from rotorfilm import (
     reduce_contact,
     ride,
 )
-from rotorfilm.films.contact_linear import SmallMotion
-from rotorfilm.films.contact_newton import NewtonKrylov
-from rotorfilm.films.contact_stationary import HERTZ_LOAD
-from rotorfilm.ladders.contact_motion import decay_time
+from rotorfilm.bearings.contact.film.contact_newton import NewtonKrylov
+from rotorfilm.bearings.contact.film.small_motion import SmallMotion
+from rotorfilm.bearings.contact.film.stationary import HERTZ_LOAD
+from rotorfilm.comparisons.contact.motion_features import decay_time
 
 
 class DenseNewton(NewtonKrylov):

@@ -12,9 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotorfilm.bearings import JournalBearing
-from rotorfilm.films import MapFilm, ShortFilm
-from rotorfilm.ladders.timing import shortest_time
+from rotorfilm.bearings.journal import JournalBearing, MapFilm, ShortFilm
+from rotorfilm.comparisons.journal.timing import shortest_time
 from rotorfilm.linear import coefficients, equilibrium
 
 DIMENSIONS = {"radius": 0.05, "length": 0.05, "clearance": 1e-4, "viscosity": 0.1}

@@ -19,8 +19,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import solveh_banded
 
-from rotorfilm.films import FilmLaw, ShortFilm, SpectralArcFilm, SplittingFilm
-from rotorfilm.ladders.timing import shortest_time
+from rotorfilm.bearings.films.law import FilmLaw
+from rotorfilm.bearings.journal import ShortFilm, SpectralArcFilm, SplittingFilm
+from rotorfilm.comparisons.journal.timing import shortest_time
 
 SLENDERNESS = (0.25, 1.0)
 STATES, COPIES = 12, 8

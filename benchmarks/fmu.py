@@ -23,7 +23,7 @@ from fmpy.fmi3 import FMU3Slave
 
 import rotorfilm.native
 from rotorfilm import JournalBearing, MapFilm, export_fmu
-from rotorfilm.films.map import packaged_table
+from rotorfilm.bearings.journal.map.map_film import packaged_table
 
 HERE = Path(__file__).parent
 NATIVE = Path(rotorfilm.native.__file__).parent

@@ -12,8 +12,8 @@
 #include <time.h>
 
 #include "fmi/fmi2FunctionTypes.h"
-#include "journal_kernel.h"
-#include "map_kernel.h"
+#include "films/journal_kernel.h"
+#include "films/map_kernel.h"
 
 static double now(void)
 {

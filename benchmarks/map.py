@@ -16,23 +16,23 @@ from math import pi, sqrt
 
 import numpy as np
 
-from rotorfilm.bearings import JournalBearing
-from rotorfilm.films import (
+from rotorfilm.bearings.films.law import FilmLaw
+from rotorfilm.bearings.films.map_fit import tabulate_film
+from rotorfilm.bearings.journal import (
     ComplementarityArc,
     ExtrapolatedFilm,
-    FilmLaw,
+    JournalBearing,
     MapFilm,
     ReynoldsFilm,
     RotatingArc,
     ShortFilm,
     SplittingFilm,
-    tabulate_film,
 )
-from rotorfilm.ladders import LARGE, comparison_bearing, random_states
-from rotorfilm.ladders.journal_accuracy import relative_error
-from rotorfilm.ladders.journal_rungs import fitted_bearing
-from rotorfilm.ladders.journal_states import States, reference_force
-from rotorfilm.ladders.timing import film_costs, shortest_time
+from rotorfilm.comparisons import LARGE, comparison_bearing, random_states
+from rotorfilm.comparisons.journal.journal_accuracy import relative_error
+from rotorfilm.comparisons.journal.journal_rungs import fitted_bearing
+from rotorfilm.comparisons.journal.journal_states import States, reference_force
+from rotorfilm.comparisons.journal.timing import film_costs, shortest_time
 
 COUNT = 20000
 RANGES = ((0.0, 0.95), (0.95, 0.99), (0.99, 0.999))

@@ -26,10 +26,11 @@ import numpy as np
 from families import FAMILIES
 from families.drawn import Drawn
 
+from rotorfilm.answers import QuestionAnswer
 from rotorfilm.errors import RotorfilmError
+from rotorfilm.questions import ladder_of
+from rotorfilm.questions.walk import Meter
 from rotorfilm.scenes import read_scene
-from rotorfilm.scenes.ladder import Meter, QuestionAnswer
-from rotorfilm.scenes.questions import ladder_of
 
 SEED, COUNT = 20271, 200
 FACTOR = 2.0

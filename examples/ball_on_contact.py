@@ -10,15 +10,7 @@ from time import perf_counter
 import control
 import numpy as np
 
-from rotorfilm import (
-    ContactGrid,
-    FixedSteps,
-    RollingBall,
-    SineLoad,
-    export_fmu,
-    moving_contact,
-    reduce_ball,
-)
+from rotorfilm import ContactGrid, FixedSteps, RollingBall, SineLoad, export_fmu, moving_contact, reduce_ball
 from rotorfilm.cosim import open_fmu
 
 ball = RollingBall(

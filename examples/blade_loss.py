@@ -12,8 +12,9 @@ import numpy as np
 
 from rotorfilm import synchronous_orbits
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.damper_runs import couple_damper, damper_models, run_damper
-from rotorfilm.scenes.damper_table import ShortSqueezeTable
+from rotorfilm.scenes.damper.damper_models import damper_models
+from rotorfilm.scenes.damper.damper_runs import couple_damper, run_damper
+from rotorfilm.scenes.damper.damper_table import ShortSqueezeTable
 
 scene = Scene.load(Path(__file__).with_name("blade_loss.toml"))
 whole = run_damper(scene)

@@ -14,9 +14,9 @@ import numpy as np
 
 from rotorfilm.cosim import SIExp3, cosimulate, critical_macro_step
 from rotorfilm.errors import CouplingError, CouplingWarning
+from rotorfilm.motion import simulate
 from rotorfilm.scenes import bundled_scene
-from rotorfilm.scenes.export import export_scene, resting_rotor
-from rotorfilm.transient import simulate
+from rotorfilm.scenes.export_scene import export_scene, resting_rotor
 
 scene = bundled_scene()
 bearing, rotor, speed = scene.bearing, resting_rotor(scene), scene.speed

@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 from rotorfilm import Scene, SpeedProfile, mount, reduce_rotor, rotor_equilibrium
 from rotorfilm.charts import new_figure, save
-from rotorfilm.scenes.rotor import solve_rotor
+from rotorfilm.scenes.shaft.solve_shaft import solve_rotor
 
 RPM = math.pi / 30.0
 scene = Scene.load(Path(__file__).with_name("whirl_and_whip.toml"))

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from rotorfilm.bearings import BushWear, f4k20_bush
+from rotorfilm.bearings.bush import BushWear, f4k20_bush
 
 COMPONENT = "bush"
 MELTING_HEAT = 1e8

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.scenes import Scene, bundled_scene
-from rotorfilm.scenes.export import resting_rotor
-from rotorfilm.scenes.film_tables import MapFilmTable
+from rotorfilm.scenes.export_scene import resting_rotor
+from rotorfilm.scenes.journal.film_tables import MapFilmTable
 
 COMPONENT = "bearing"
 

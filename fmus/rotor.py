@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from rotorfilm.rotors.rigid import RigidRotor
 from rotorfilm.scenes import Scene, bundled_scene
-from rotorfilm.scenes.export import resting_rotor
-from rotorfilm.scenes.film_tables import MapFilmTable
+from rotorfilm.scenes.export_scene import resting_rotor
+from rotorfilm.scenes.journal.film_tables import MapFilmTable
 
 COMPONENT = "rotor"
 

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from rotorfilm.bearings import BushReaction, f4k20_bush
+from rotorfilm.bearings.bush import BushReaction, f4k20_bush
 
 COMPONENT = "bush"
 LOAD, SPEED = 3750.0, 12.0

@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from rotorfilm import cli
+from rotorfilm.cli import main as cli
 
 PROPORTIONAL = '''
 """A user's model."""

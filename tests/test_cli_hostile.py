@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from rotorfilm.bearings.contact.film import preconditioner as contact_preconditioner
 from rotorfilm.errors import InputError
-from rotorfilm.films import contact_preconditioner
 from rotorfilm.limits import SCENE_BYTES
 from rotorfilm.scenes import Scene
 from rotorfilm.sweeps import axes

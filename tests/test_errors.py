@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rotorfilm import errors
-from rotorfilm.bearings import JournalBearing
+from rotorfilm.bearings.journal import JournalBearing, ShortFilm
 from rotorfilm.errors import (
     ContactError,
     FilmContactError,
@@ -18,7 +18,6 @@ from rotorfilm.errors import (
     require_positive,
     require_vector,
 )
-from rotorfilm.films import ShortFilm
 
 BAD_NUMBERS = [float("nan"), float("inf"), -float("inf"), "1", None, True, [1.0]]
 

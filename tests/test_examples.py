@@ -11,7 +11,7 @@ import pytest
 
 from rotorfilm.errors import ValidityWarning
 from rotorfilm.scenes import Scene, bundled_scene
-from rotorfilm.scenes.rotor import solve_rotor
+from rotorfilm.scenes.shaft.solve_shaft import solve_rotor
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 README = EXAMPLES.parent / "README.md"

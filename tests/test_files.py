@@ -9,6 +9,7 @@ import sys
 import pytest
 
 from rotorfilm import InputError
+from rotorfilm.bearings.journal.map.map_film import packaged_table
 from rotorfilm.charts import new_axes, save
 from rotorfilm.files import (
     read_sealed,
@@ -18,7 +19,6 @@ from rotorfilm.files import (
     write_whole,
     written_together,
 )
-from rotorfilm.films.map import packaged_table
 from rotorfilm.fmu import export_fmu
 from rotorfilm.results import write_csv
 from rotorfilm.rotors.rigid import RigidRotor

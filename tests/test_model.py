@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotorfilm.bearings import JournalBearing
+from rotorfilm.bearings.journal import JournalBearing
 from rotorfilm.errors import InputError
 from rotorfilm.model import (
     FORCE_OUTPUTS,

@@ -16,7 +16,9 @@ def deprecated(module):
     warnings.warn_explicit("this will go", DeprecationWarning, "file.py", 1, module=module)
 
 
-@pytest.mark.parametrize("module", ["rotorfilm.films.map", __name__, "scene_battery", "fmu_recipe_bush"])
+@pytest.mark.parametrize(
+    "module", ["rotorfilm.bearings.journal.map.map_film", __name__, "scene_battery", "fmu_recipe_bush"]
+)
 def test_what_our_own_modules_cause_is_an_error(module):
     with pytest.raises(DeprecationWarning):
         deprecated(module)

@@ -14,11 +14,11 @@ import sys
 
 import numpy as np
 
-from rotorfilm.films.potential import default_resolution, directed_potential
-from rotorfilm.films.potential_arc import free_arc
-from rotorfilm.films.potential_domain import Source, region
-from rotorfilm.films.potential_grid import grid_potential
-from rotorfilm.films.potential_ritz import solve_region
+from rotorfilm.bearings.journal.map.potential import default_resolution, directed_potential
+from rotorfilm.bearings.journal.map.potential_arc import free_arc
+from rotorfilm.bearings.journal.map.potential_domain import Source, region
+from rotorfilm.bearings.journal.map.potential_grid import grid_potential
+from rotorfilm.bearings.journal.map.potential_ritz import solve_region
 
 LEVELS = ((96, 12), (192, 24), (384, 48))
 """Grids; the errors of J and of its gradient are of order two, what is left of order four."""

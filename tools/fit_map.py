@@ -13,9 +13,9 @@ from pathlib import Path
 import numpy as np
 from scipy.interpolate import make_interp_spline
 
-from rotorfilm.films.map_fit import fit_map_table
-from rotorfilm.films.map_table import MapTable
-from rotorfilm.films.potential_table import eccentricity_ratio
+from rotorfilm.bearings.films.map_fit import fit_map_table
+from rotorfilm.bearings.films.map_table import MapTable
+from rotorfilm.bearings.journal.map.potential_table import eccentricity_ratio
 
 ROOT = Path(__file__).parents[1]
 

@@ -15,9 +15,9 @@ from scipy.optimize import brentq
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
 
-from rotorfilm.bearings import MeltingBush
-from rotorfilm.films.bush_heat import GlobalBalance
-from rotorfilm.films.bush_profile import LocalMelting
+from rotorfilm.bearings.bush import MeltingBush
+from rotorfilm.bearings.bush.heat import GlobalBalance
+from rotorfilm.bearings.bush.worn_profile import LocalMelting
 from rotorfilm.scenes import Scene
 
 from .drawn import Truth

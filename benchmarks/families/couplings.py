@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from rotorfilm.motion import simulate
+from rotorfilm.questions.coupling import CouplingRung, coupling_ladder
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.questions.coupling import CouplingRung, coupling_ladder
-from rotorfilm.transient import simulate
 
 from .dampers import slim, turned
 from .drawn import Drawn, Truth, log_uniform

@@ -10,17 +10,16 @@ import numpy as np
 from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
-from rotorfilm.bearings import PorousDamper, Sprung
+from rotorfilm.bearings.damper import FiniteMapSqueeze, FiniteSqueeze, PorousDamper
+from rotorfilm.bearings.sprung import Sprung
 from rotorfilm.errors import ContactError
-from rotorfilm.films import FiniteMapSqueeze, FiniteSqueeze
 from rotorfilm.model import Reaction
-from rotorfilm.orbits import synchronous_orbits
-from rotorfilm.orbits.curve import orbit_points, orbit_rotor
+from rotorfilm.motion import simulate, synchronous_orbits
+from rotorfilm.motion.circular.orbit_points import orbit_points, orbit_rotor
+from rotorfilm.questions.damper.dampers import damper_ladder
 from rotorfilm.rotors import RigidRotor
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.damper_runs import damper_models
-from rotorfilm.scenes.questions.dampers import damper_ladder
-from rotorfilm.transient import simulate
+from rotorfilm.scenes.damper.damper_models import damper_models
 
 from .drawn import Drawn, Truth, log_uniform
 

@@ -8,14 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from rotorfilm.bearings import JournalBearing
-from rotorfilm.films import MapFilm, ShortFilm
+from rotorfilm.bearings.journal import JournalBearing, MapFilm, ShortFilm
 from rotorfilm.linear import equilibrium, whirl_threshold
+from rotorfilm.questions.journal.blade_loss import blade_loss_ladder
+from rotorfilm.questions.journal.statics import StaticRung
+from rotorfilm.questions.journal.unbalance_orbits import OrbitRung, rotor_of
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.questions.blade_loss import blade_loss_ladder
-from rotorfilm.scenes.questions.films import FilmRung, extrapolated, tangent
-from rotorfilm.scenes.questions.orbits import OrbitRung, rotor_of
-from rotorfilm.scenes.questions.statics import StaticRung
+from rotorfilm.scenes.journal.film_rungs import FilmRung, extrapolated, tangent
 
 from .drawn import Drawn, Truth, log_uniform
 

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from rotorfilm.bearings import JournalBearing
-from rotorfilm.films import Groove, Pad, ReynoldsFilm
+from rotorfilm.bearings.films.geometry import Groove, Pad
+from rotorfilm.bearings.journal import JournalBearing, ReynoldsFilm
 from rotorfilm.linear import equilibrium
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.questions.films import extrapolated, tangent
+from rotorfilm.scenes.journal.film_rungs import extrapolated, tangent
 
 from .drawn import Drawn, Truth, log_uniform
 from .journals import POSITIONS, REFERENCE, SLOPES, journal

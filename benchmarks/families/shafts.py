@@ -10,15 +10,14 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.sparse.linalg import eigs
 
-from rotorfilm.bearings import JournalBearing
-from rotorfilm.films import MapFilm
+from rotorfilm.bearings.journal import JournalBearing, MapFilm
 from rotorfilm.linear import critical_speed_map, critical_speeds, rotor_equilibrium, rotor_threshold
 from rotorfilm.linear.rotor_system import second_order
 from rotorfilm.model import Reaction
-from rotorfilm.nonlinear import periodic_orbit, simulate_rotor
+from rotorfilm.motion import periodic_orbit, simulate_rotor
 from rotorfilm.rotors import FlexibleRotor, FourthOrderBeam, ShaftElement, ShaftRotor, mount
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.rotor_table import ShaftTable
+from rotorfilm.scenes.shaft.shaft_table import ShaftTable
 from rotorfilm.scenes.tables import read_table
 
 from .drawn import Drawn, Truth, log_uniform

@@ -1,59 +1,179 @@
-"""Public bearing models: geometry, parameters and validation over a film law."""
+"""Bearings: physics by family, and what all families share."""
 
-from .ball_support import BallSupport
-from .bush import BushContact, MeltingBush, f4k20_bush
-from .bush_materials import BushGeometry, Friction, LinerMaterial, ShaftMaterial
-from .bush_published import PublishedStage, published_stage
-from .bush_reaction import BushReaction
-from .bush_wear import BushWear
-from .contact import PointContact, perturbed
-from .contact_law import ContactLaw
-from .contact_reduction import interpolate_contact, reduce_ball, reduce_contact
-from .damper import AxialFeed, DamperGroups, PorousCage, PorousDamper, RadialFeed, damper_groups
-from .film_state import FilmState, film_state
-from .groove_map import build_groove_map
-from .journal import JournalBearing
+from .bush import (
+    ApproximateShaft,
+    BushContact,
+    BushGeometry,
+    BushReaction,
+    BushWear,
+    ContactBalance,
+    ExactShaft,
+    Friction,
+    GlobalBalance,
+    LinerMaterial,
+    LocalMelting,
+    MeltingBush,
+    PublishedStage,
+    ShaftMaterial,
+    SharedMelting,
+    f4k20_bush,
+    published_stage,
+)
+from .contact import (
+    AdaptiveSteps,
+    BallSupport,
+    BarusViscosity,
+    ContactGrid,
+    ContactLaw,
+    ContactRun,
+    ContactState,
+    DowsonHigginsonDensity,
+    FixedSteps,
+    MovingContact,
+    PointContact,
+    RoelandsViscosity,
+    RollingBall,
+    SineLoad,
+    StaggeredScheme,
+    StepLoad,
+    UpwindScheme,
+    checkerboard,
+    interpolate_contact,
+    moving_contact,
+    perturbed,
+    reduce_ball,
+    reduce_contact,
+    ride,
+)
+from .damper import (
+    AxialFeed,
+    DamperGroups,
+    FiniteMapSqueeze,
+    FiniteSqueeze,
+    MapSqueeze,
+    PorousCage,
+    PorousDamper,
+    PublishedSqueeze,
+    RadialFeed,
+    ShortSqueeze,
+    damper_groups,
+)
+from .films.cavitation import Cavitation, Complementarity, FullFilm, HalfSommerfeld
+from .films.geometry import FilmGeometry, Groove, Pad
+from .films.law import FilmLaw
+from .films.map_fit import fit_map_table, tabulate_film
+from .films.map_table import MapTable
+from .journal import (
+    ComplementarityArc,
+    ExtrapolatedFilm,
+    FilmState,
+    FixedArc,
+    GroovedMapFilm,
+    GrooveMapTable,
+    JournalBearing,
+    MapFilm,
+    ReynoldsArc,
+    ReynoldsFilm,
+    RotatingArc,
+    Rupture,
+    ShortFilm,
+    SpectralArcFilm,
+    SplittingFilm,
+    bearing_table,
+    build_groove_map,
+    film_state,
+    middle_pressure,
+    tension,
+)
 from .linear import LinearBearing
-from .moving_contact import MovingContact, moving_contact
-from .ride import ride
-from .rolling_ball import RollingBall
 from .sprung import Sprung
 from .tabulated import TabulatedBearing
 
 __all__ = [
+    "AdaptiveSteps",
+    "ApproximateShaft",
     "AxialFeed",
     "BallSupport",
+    "BarusViscosity",
     "BushContact",
     "BushGeometry",
     "BushReaction",
     "BushWear",
+    "Cavitation",
+    "Complementarity",
+    "ComplementarityArc",
+    "ContactBalance",
+    "ContactGrid",
     "ContactLaw",
+    "ContactRun",
+    "ContactState",
     "DamperGroups",
+    "DowsonHigginsonDensity",
+    "ExactShaft",
+    "ExtrapolatedFilm",
+    "FilmGeometry",
+    "FilmLaw",
     "FilmState",
+    "FiniteMapSqueeze",
+    "FiniteSqueeze",
+    "FixedArc",
+    "FixedSteps",
     "Friction",
+    "FullFilm",
+    "GlobalBalance",
+    "Groove",
+    "GrooveMapTable",
+    "GroovedMapFilm",
+    "HalfSommerfeld",
     "JournalBearing",
     "LinearBearing",
     "LinerMaterial",
+    "LocalMelting",
+    "MapFilm",
+    "MapSqueeze",
+    "MapTable",
     "MeltingBush",
     "MovingContact",
+    "Pad",
     "PointContact",
     "PorousCage",
     "PorousDamper",
+    "PublishedSqueeze",
     "PublishedStage",
     "RadialFeed",
+    "ReynoldsArc",
+    "ReynoldsFilm",
+    "RoelandsViscosity",
     "RollingBall",
+    "RotatingArc",
+    "Rupture",
     "ShaftMaterial",
+    "SharedMelting",
+    "ShortFilm",
+    "ShortSqueeze",
+    "SineLoad",
+    "SpectralArcFilm",
+    "SplittingFilm",
     "Sprung",
+    "StaggeredScheme",
+    "StepLoad",
     "TabulatedBearing",
+    "UpwindScheme",
+    "bearing_table",
     "build_groove_map",
+    "checkerboard",
     "damper_groups",
     "f4k20_bush",
     "film_state",
+    "fit_map_table",
     "interpolate_contact",
+    "middle_pressure",
     "moving_contact",
     "perturbed",
     "published_stage",
     "reduce_ball",
     "reduce_contact",
     "ride",
+    "tabulate_film",
+    "tension",
 ]

@@ -10,7 +10,7 @@ import numpy as np
 from ..errors import InputError, require_positive
 from ..model import Array, Reaction, Tangent, prepared_tangent
 from ..native.spec import HasKernel, NativeSpec
-from .damper_kernel import sprung_spec
+from .damper import sprung_spec
 from .reaction import StaticReaction
 
 

@@ -1,13 +1,18 @@
 """Charts: functions from results to matplotlib Axes; nothing here computes physics."""
 
-from .bush import plot_contact_pressure, plot_critical_speed
-from .bush_tiers import plot_bush_tiers, plot_shaft_flux_error
+from .bush_charts import plot_contact_pressure, plot_critical_speed
 from .canvas import new_axes, new_figure, save
-from .contact_cases import plot_contact_cases
-from .contact_ladder import plot_contact_limits, plot_contact_precision
-from .coupling import plot_coupling_cost, plot_coupling_limits
-from .coupling_error import plot_coupling_error
-from .damper import (
+from .comparisons.bush_tier_charts import plot_bush_tiers, plot_shaft_flux_error
+from .comparisons.contact_case_charts import plot_contact_cases
+from .comparisons.contact_ladder import plot_contact_limits, plot_contact_precision
+from .comparisons.coupling_charts import plot_coupling_cost, plot_coupling_limits
+from .comparisons.coupling_error import plot_coupling_error
+from .comparisons.damper_ladder import plot_damper_accuracy
+from .comparisons.limit_charts import plot_limits
+from .comparisons.scene_ladder import RungPoint, plot_scene_ladder
+from .comparisons.whirl_verdicts import plot_journal_stability, plot_thresholds
+from .comparisons.work_precision import plot_force_error, plot_journal_accuracy
+from .damper_charts import (
     plot_bistable,
     plot_damper_run,
     plot_eccentricity,
@@ -15,21 +20,16 @@ from .damper import (
     plot_transmissibility,
     plot_transmitted,
 )
-from .damper_ladder import plot_damper_accuracy
-from .limits import plot_limits
-from .motion import plot_locus, plot_orbits
+from .motion_charts import plot_locus, plot_orbits
 from .page import write_page
-from .rotor import (
+from .rotor_charts import (
     plot_campbell,
     plot_critical_speed_map,
     plot_log_decrement,
     plot_mode_shape,
     plot_unbalance_response,
 )
-from .scene_ladder import RungPoint, plot_scene_ladder
-from .whirl import plot_basin, plot_orbit_curves
-from .whirl_verdicts import plot_journal_stability, plot_thresholds
-from .work_precision import plot_force_error, plot_journal_accuracy
+from .whirl_charts import plot_basin, plot_orbit_curves
 
 __all__ = [
     "RungPoint",

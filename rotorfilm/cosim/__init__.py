@@ -1,24 +1,24 @@
 """Co-simulation of rotor and films: schemes, their stability limits, and the detection of chatter."""
 
-from .adaptive import Adaptive
 from .auto import Auto, choose_scheme
 from .chatter import CouplingReport, inspect_coupling
 from .choice import Choice, Trial
-from .explicit import GaussSeidel, Jacobi
-from .fmu_slave import FmuSlave, open_fmu, open_rotor
-from .implicit import SIExp, SIExp3
-from .master import cosimulate
-from .newton import Newton
-from .run import CoSimulation, couple
-from .scheme import Scheme
-from .slaves import InProcessSlave, Slave
-from .stability import (
+from .cosim_run import CoSimulation, couple
+from .coupling_stability import (
     CouplingStability,
     CriticalMacroStep,
     coupling_stability,
     critical_macro_step,
     squeeze_limit,
 )
+from .fmu_slave import FmuSlave, open_fmu, open_rotor
+from .master import cosimulate
+from .schemes.adaptive import Adaptive
+from .schemes.explicit import GaussSeidel, Jacobi
+from .schemes.implicit import SIExp, SIExp3
+from .schemes.newton import Newton
+from .schemes.scheme import Scheme
+from .slaves import InProcessSlave, Slave
 from .watch import CouplingWatch
 
 __all__ = [

@@ -17,11 +17,11 @@ from ..errors import (
 )
 from ..results import Trajectory, orbit_distance
 from .choice import Choice, Trial
-from .explicit import GaussSeidel
-from .implicit import SIExp3
-from .newton import Newton
-from .run import CoSimulation
-from .scheme import Scheme
+from .cosim_run import CoSimulation
+from .schemes.explicit import GaussSeidel
+from .schemes.implicit import SIExp3
+from .schemes.newton import Newton
+from .schemes.scheme import Scheme
 from .watch import quietly
 
 TRIAL_STEPS = 180

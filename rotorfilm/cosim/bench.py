@@ -13,7 +13,7 @@ from ..errors import FmuError, InputError, UndefinedDerivativeError
 from ..model import FORCE_OUTPUTS, JOURNAL_INPUTS, MOTION_NAMES, Array, Linearization, indices
 from ..rotors.force_law import ForceLaw, held_law
 from ..rotors.structure import station_name, station_names
-from .exponential import Wiring
+from .schemes.exponential import Wiring
 from .slaves import Differentiable, Driven, Restorable, Slave
 
 PROBE = 1e3

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .scheme import Scheme
+from .schemes.scheme import Scheme
 
 
 @dataclass(frozen=True, kw_only=True)

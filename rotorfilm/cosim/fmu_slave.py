@@ -15,12 +15,12 @@ import numpy as np
 from fmpy.fmi1 import FMICallException
 
 from ..errors import FilmContactError, FmuError, InputError
-from ..fmu.described import common_capabilities, nominal_of
-from ..fmu.instance import EventInfo, extracted, instantiated
+from ..fmu.check.described import common_capabilities, nominal_of
+from ..fmu.check.instance import EventInfo, extracted, instantiated
 from ..model import Array, Linearization
 from ..rotors.force_law import BASE_TIME, ForceLaw, law_inputs
 from ..signals import from_fmi_name
-from .exponential import LawIntegrator, Wiring
+from .schemes.exponential import LawIntegrator, Wiring
 
 CONTACT = (FilmContactError.__name__, "inside the clearance")
 """What the log of a film FMU contains when its journal touched the wall, in Python and in C."""

@@ -10,10 +10,10 @@ from os import PathLike
 from ..errors import InputError
 from ..model import Dynamic, Model
 from .auto import Auto, choose_scheme
-from .explicit import GaussSeidel
+from .cosim_run import CoSimulation, couple, require_times
 from .fmu_slave import open_fmu, open_rotor
-from .run import CoSimulation, couple, require_times
-from .scheme import Scheme
+from .schemes.explicit import GaussSeidel
+from .schemes.scheme import Scheme
 from .slaves import InProcessSlave, Slave
 
 Path = str | PathLike[str]

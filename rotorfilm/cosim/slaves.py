@@ -8,11 +8,11 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 
 from ..errors import InputError
-from ..fmu.integrate import advance
+from ..fmu.advance import advance
 from ..model import Array, Dynamic, Kinked, Linearization, Model
 from ..rotors.force_law import ForceLaw
 from ..signals import names
-from .exponential import LawIntegrator, Wiring
+from .schemes.exponential import LawIntegrator, Wiring
 
 
 class Slave(Protocol):

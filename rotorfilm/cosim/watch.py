@@ -11,12 +11,12 @@ import numpy as np
 
 from ..errors import CouplingWarning, RotorfilmError, warn_user
 from ..model import Array
-from .adaptive import Adaptive
 from .bench import Partners, Sample
 from .chatter import WINDOW, inspect_coupling
-from .implicit import defect
-from .scheme import Scheme, extrapolation
-from .stability import Loop, dominant_eigenvalue, squeeze_limit
+from .coupling_stability import Loop, dominant_eigenvalue, squeeze_limit
+from .schemes.adaptive import Adaptive
+from .schemes.implicit import defect
+from .schemes.scheme import Scheme, extrapolation
 
 EVERY = 8
 """Steps between two looks for chatter."""

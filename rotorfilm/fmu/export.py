@@ -15,11 +15,14 @@ from ..files import write_whole
 from ..model import Array, Dynamic, Model, Stepped
 from ..native.spec import HasKernel, NativeSpec
 from .archive import to_zip
-from .bundle import content_hash
-from .description import Description
+from .description.dependencies import delayed_dependencies, dependencies
+from .description.model_description import Description
+from .description.variables import fmi_variables
+from .description.xml2 import to_xml2
+from .description.xml3 import to_xml3
 from .linear_system import from_state_space
 from .narrow import as_exported
-from .native_backend import (
+from .native.native_backend import (
     CATEGORIES,
     INTERFACES,
     Export,
@@ -30,13 +33,10 @@ from .native_backend import (
     resource,
     source_names,
 )
-from .python_backend import CATEGORIES as PYTHON_CATEGORIES
-from .python_backend import INTERFACES as PYTHON_INTERFACES
-from .python_backend import python_files, python_tool
-from .structure import delayed_dependencies, dependencies
-from .variables import fmi_variables
-from .xml2 import to_xml2
-from .xml3 import to_xml3
+from .python.bundle import content_hash
+from .python.python_backend import CATEGORIES as PYTHON_CATEGORIES
+from .python.python_backend import INTERFACES as PYTHON_INTERFACES
+from .python.python_backend import python_files, python_tool
 
 if TYPE_CHECKING:
     import control

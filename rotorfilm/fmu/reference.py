@@ -12,7 +12,7 @@ from scipy.linalg import expm
 
 from ..errors import FmuError
 from ..model import Array, Dynamic, Model
-from .integrate import advance
+from .advance import advance
 from .linear_system import LinearSystem
 
 ROWS = 51

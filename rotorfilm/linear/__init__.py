@@ -7,7 +7,12 @@ from .critical_mass import CriticalMass, critical_mass, damping_has_rank_one
 from .equilibrium import equilibrium
 from .linearize import OperatingPoint, linearize
 from .nonlinear_system import ModelSystem, to_nlsys
-from .orbit import OrbitCoefficients, orbit_coefficients, orbit_system, small_motion_transmissibility
+from .orbit_coefficients import (
+    OrbitCoefficients,
+    orbit_coefficients,
+    orbit_system,
+    small_motion_transmissibility,
+)
 from .rotor_modes import (
     Campbell,
     CriticalSpeed,

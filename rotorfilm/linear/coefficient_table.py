@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..bearings import TabulatedBearing
+from ..bearings.tabulated import TabulatedBearing
 from ..errors import InputError, require_finite
 from ..model import Reaction
 from .coefficients import coefficients

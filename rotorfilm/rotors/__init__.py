@@ -1,11 +1,14 @@
 """Rotors: what a bearing carries, as Dynamic models."""
 
-from .beam import Beam, ClassicalBeam, FourthOrderBeam, cowper_coefficient
 from .force_law import ForceLaw
 from .jeffcott import JeffcottRotor
 from .law_rotor import LawRotor
 from .mounted import MountedRotor, mount
-from .parts import (
+from .profile import SpeedProfile
+from .rigid import RigidRotor
+from .rigid_shaft import RigidShaft
+from .shaft.beam import Beam, ClassicalBeam, FourthOrderBeam, cowper_coefficient
+from .shaft.parts import (
     Coupling,
     Disk,
     ElasticMaterial,
@@ -17,11 +20,9 @@ from .parts import (
     TiltSpring,
     Unbalance,
 )
-from .profile import SpeedProfile
-from .reduced import ReducedRotor
-from .rigid import RigidRotor
-from .rigid_shaft import RigidShaft
-from .shaft import ShaftRotor
+from .shaft.reduce_rotor import Reduction, reduce_rotor
+from .shaft.reduced_rotor import ReducedRotor
+from .shaft.shaft_rotor import ShaftRotor
 from .steady import SteadyRotor
 from .structure import FlexibleRotor
 
@@ -40,6 +41,7 @@ __all__ = [
     "MountedRotor",
     "Probe",
     "ReducedRotor",
+    "Reduction",
     "RigidRotor",
     "RigidShaft",
     "ShaftElement",
@@ -52,4 +54,5 @@ __all__ = [
     "Unbalance",
     "cowper_coefficient",
     "mount",
+    "reduce_rotor",
 ]

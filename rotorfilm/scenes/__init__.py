@@ -1,10 +1,10 @@
 """Scene files: a question in TOML, and its answer."""
 
-from .export_rotor import export_rotor_fmu
-from .ross import RossRotor, read_ross
-from .ross_bearing import to_ross
+from .journal.solve_journal import Answer
 from .scene import Scene, bundled_scene, parse_scene, read_scene
-from .solve import Answer
+from .shaft.export_rotor import export_rotor_fmu
+from .shaft.ross import RossRotor, read_ross
+from .shaft.ross_bearing import to_ross
 
 __all__ = [
     "Answer",

@@ -9,10 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..cosim import critical_macro_step
-from ..errors import InputError
-from ..files import write_whole
-from ..ladders import (
+from ..comparisons import (
     JournalAccuracy,
     JournalStability,
     Rung,
@@ -21,15 +18,18 @@ from ..ladders import (
     journal_rungs,
     journal_stability,
 )
+from ..cosim import critical_macro_step
+from ..errors import InputError
+from ..files import write_whole
 from ..linear import speed_parameter
 from ..model import Array
 from ..progress import Report, part_of, silent
 from ..results import Trajectory, to_plain, write_csv
-from .coupling import CoupledRun, CouplingStudy, study_coupling
-from .export import ExportedScene, export_scene, resting_rotor
-from .locus import attitude_angles
+from .coupling_study import CoupledRun, CouplingStudy, study_coupling
+from .export_scene import ExportedScene, export_scene, resting_rotor
+from .journal.locus import attitude_angles
+from .journal.solve_journal import Answer
 from .scene import Scene
-from .solve import Answer
 
 REFINEMENTS = (0.25, 0.5, 1.0, 2.0)
 """Macro steps of the study, in those of the scene."""

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from ..model import Array
+from ..motion import simulate
 from ..results import Trajectory
-from ..transient import simulate
-from .export import resting_rotor
+from .export_scene import resting_rotor
 from .scene import Scene
 
 REFERENCE_TOLERANCE = 1e-9

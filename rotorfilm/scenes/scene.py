@@ -11,26 +11,26 @@ from os import PathLike
 from pathlib import Path
 from typing import Annotated, Any
 
+from ..answers import QuestionAnswer
 from ..bearings.journal import JournalBearing
 from ..errors import InputError, SceneError, warn_user
 from ..limits import LINE_DOTS, SCENE_BYTES
 from ..printable import brief, shortened
+from ..questions import ask
 from ..rotors.rigid import RigidRotor
 from ..units import STANDARD_GRAVITY
-from .bush import BushAnswer, solve_bush
-from .bush_table import BushTable
-from .contact_table import ContactTable
-from .damper_table import DamperTable
+from .bush.bush_table import BushTable
+from .bush.solve_bush import BushAnswer, solve_bush
+from .contact.contact_table import ContactTable
+from .damper.damper_table import DamperTable
 from .excitation_table import EXCITATIONS, ExcitationTable, UnbalanceTable
-from .ladder import QuestionAnswer
+from .journal.journal_remarks import journal_remarks
+from .journal.solve_journal import Answer, solve
 from .lubricant_table import LubricantTable
 from .question_table import QuestionTable
-from .questions import ask
-from .rotor_table import ShaftTable, require_node, require_place
 from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
-from .solve import Answer, solve
+from .shaft.shaft_table import ShaftTable, require_node, require_place
 from .tables import Table, Variant, read_table, require_no_near_miss, text
-from .validity import journal_remarks
 
 BYTE_ORDER_MARK = "\ufeff"
 """What some editors put before the text of a file."""
@@ -172,7 +172,7 @@ class Scene:
         return answer
 
     def describe(self) -> Answer:
-        """Return equilibrium, coefficients and whirl threshold; see `rotorfilm.scenes.solve.solve`.
+        """Return equilibrium, coefficients and whirl threshold; see `rotorfilm.scenes.journal.solve_journal.solve`.
 
         What the physics of the film leaves out is in `remarks` of the answer.
         """

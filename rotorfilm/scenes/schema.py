@@ -10,13 +10,13 @@ import math
 from dataclasses import dataclass
 from typing import Annotated
 
-from ..bearings.journal import JournalBearing
+from ..bearings.films.geometry import FilmGeometry
+from ..bearings.films.law import FilmLaw
+from ..bearings.journal import GroovedMapFilm, JournalBearing, MapFilm, ReynoldsFilm, is_mappable
 from ..errors import InputError, require_finite, require_positive
-from ..films import FilmGeometry, FilmLaw, GroovedMapFilm, MapFilm, ReynoldsFilm
-from ..films.groove_axis import is_mappable
 from ..limits import STEPS
 from ..rotors.rigid import RigidRotor
-from .film_tables import FILMS, FilmTable, GrooveTable, PadTable
+from .journal.film_tables import FILMS, FilmTable, GrooveTable, PadTable
 from .readers import read_load
 from .tables import Quantity, TableList, Variant
 

@@ -1,5 +1,7 @@
 """Many variants of a scene: a grid or samples of its keys, into one dataset."""
 
-from .run import sweep
+from .sweep_run import sweep
 
-__all__ = ["sweep"]
+__all__ = [
+    "sweep",
+]

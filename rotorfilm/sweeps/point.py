@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from ..answers import QuestionAnswer
 from ..errors import RotorfilmError, ValidityWarning
-from ..scenes.bush import BushAnswer
-from ..scenes.ladder import QuestionAnswer
+from ..scenes.bush.solve_bush import BushAnswer
+from ..scenes.journal.solve_journal import Answer
 from ..scenes.scene import read_scene
-from ..scenes.solve import Answer
 from .axes import varied
 
 Row = dict[str, Any]

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.bearings import JournalBearing, TabulatedBearing
+from rotorfilm.bearings.journal import JournalBearing, ShortFilm
+from rotorfilm.bearings.tabulated import TabulatedBearing
 from rotorfilm.errors import InputError
-from rotorfilm.films import ShortFilm
 from rotorfilm.linear import coefficient_table, coefficients, equilibrium
 from rotorfilm.model import Reaction
 

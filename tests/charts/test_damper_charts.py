@@ -11,7 +11,7 @@ from rotorfilm.charts import (
     plot_transmissibility,
     plot_transmitted,
 )
-from rotorfilm.orbits import BistableMap, OrbitBranch, SynchronousOrbits
+from rotorfilm.motion import BistableMap, OrbitBranch, SynchronousOrbits
 
 UNIT = 2e-3
 

@@ -10,10 +10,10 @@ from rotorfilm.charts import (
     plot_journal_stability,
     plot_thresholds,
 )
+from rotorfilm.charts.comparisons.whirl_verdicts import verdicts
 from rotorfilm.charts.labels import Label, place_labels
 from rotorfilm.charts.palette import BAD, DOUBTFUL, FAMILY_COLORS, FAMILY_WIDTHS, GOOD
-from rotorfilm.charts.whirl_verdicts import verdicts
-from rotorfilm.ladders import (
+from rotorfilm.comparisons import (
     LARGE,
     JournalAccuracy,
     JournalStability,
@@ -21,7 +21,7 @@ from rotorfilm.ladders import (
     RungStability,
     journal_rungs,
 )
-from rotorfilm.ladders.timing import FilmCost
+from rotorfilm.comparisons.journal.timing import FilmCost
 
 
 def accuracy(family, time, error):

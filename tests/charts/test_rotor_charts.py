@@ -4,7 +4,7 @@ import control
 import numpy as np
 import pytest
 
-from rotorfilm.bearings import LinearBearing
+from rotorfilm.bearings.linear import LinearBearing
 from rotorfilm.charts import (
     plot_campbell,
     plot_critical_speed_map,

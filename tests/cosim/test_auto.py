@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
+from rotorfilm.comparisons.coupling.coupling_cost import cost_case
+from rotorfilm.comparisons.coupling.coupling_limits import limit_case, nudged
 from rotorfilm.cosim import Auto, GaussSeidel, Newton, SIExp3, cosimulate
 from rotorfilm.errors import InputError
 from rotorfilm.fmu import export_fmu
-from rotorfilm.ladders.coupling_cost import cost_case
-from rotorfilm.ladders.coupling_limits import limit_case, nudged
-from rotorfilm.transient import simulate
+from rotorfilm.motion import simulate
 
 SPEED = 157.0
 

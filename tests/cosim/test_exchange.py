@@ -5,12 +5,12 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from rotorfilm.bearings.journal import JournalBearing
-from rotorfilm.films import MapFilm
+from rotorfilm.bearings.journal import MapFilm
+from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.fmu import export_fmu
-from rotorfilm.fmu.instance import extracted, instantiated
+from rotorfilm.fmu.check.instance import extracted, instantiated
+from rotorfilm.motion import simulate
 from rotorfilm.rotors import RigidRotor
-from rotorfilm.transient import simulate
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm())
 ROTOR = RigidRotor(mass=53.5, speed=157.0, unbalance=2e-3, position=(2e-5, -4e-5))

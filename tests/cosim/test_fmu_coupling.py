@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.bearings.journal import MapFilm, ShortFilm
+from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.cosim import InProcessSlave, cosimulate, couple, critical_macro_step, open_fmu
 from rotorfilm.errors import ContactError, CouplingError, FilmContactError, FmuError, InputError
-from rotorfilm.films import MapFilm, ShortFilm
 from rotorfilm.fmu import export_fmu
 from rotorfilm.linear import equilibrium
+from rotorfilm.motion import simulate
 from rotorfilm.rotors import RigidRotor, SpeedProfile
-from rotorfilm.transient import simulate
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")
 

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.bearings.journal import MapFilm
+from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.cosim import GaussSeidel, InProcessSlave, Newton, SIExp3, cosimulate, couple
 from rotorfilm.errors import InputError, PartialResultError
-from rotorfilm.films import MapFilm
 from rotorfilm.fmu import export_fmu
+from rotorfilm.motion import simulate
 from rotorfilm.rotors import JeffcottRotor, LawRotor, RigidRotor, RigidShaft, SpeedProfile, SteadyRotor
-from rotorfilm.transient import simulate
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")
 

@@ -7,7 +7,10 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
-from rotorfilm.bearings import PorousDamper, Sprung
+from rotorfilm.bearings.damper import PorousDamper
+from rotorfilm.bearings.films.cavitation import FullFilm
+from rotorfilm.bearings.sprung import Sprung
+from rotorfilm.comparisons.coupling.coupling_limits import limit_case, simulated_limit
 from rotorfilm.cosim import (
     GaussSeidel,
     InProcessSlave,
@@ -20,8 +23,6 @@ from rotorfilm.cosim import (
     critical_macro_step,
 )
 from rotorfilm.errors import PartialResultError
-from rotorfilm.films import FullFilm
-from rotorfilm.ladders.coupling_limits import limit_case, simulated_limit
 from rotorfilm.rotors import RigidRotor
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")

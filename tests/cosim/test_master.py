@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.cosim import GaussSeidel, InProcessSlave, couple
 from rotorfilm.errors import ContactError, CouplingError, FilmContactError, FmuError, FmuRunError, InputError
+from rotorfilm.motion import simulate
 from rotorfilm.rotors import RigidRotor, SpeedProfile
-from rotorfilm.transient import simulate
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")
 

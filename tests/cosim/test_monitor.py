@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotorfilm.comparisons.coupling.coupling_cases import coupling_cases
+from rotorfilm.comparisons.coupling.coupling_limits import limit_case
 from rotorfilm.cosim import GaussSeidel, InProcessSlave, Jacobi, SIExp3, cosimulate, couple
 from rotorfilm.errors import CouplingError, CouplingWarning, PartialResultError
-from rotorfilm.ladders.coupling_cases import coupling_cases
-from rotorfilm.ladders.coupling_limits import limit_case
 from rotorfilm.rotors import RigidRotor
 
 COUNT = 6  # of each kind here; 100 in benchmarks/coupling_monitor.py
@@ -73,7 +73,7 @@ def test_the_distance_from_the_limit_is_step_times_damping_over_mass(make_spring
 def test_a_run_past_the_limit_is_warned_of_at_once_and_stopped():
     rotor, bearing, _ = limit_case(0.7)
     step = 1.2 * np.radians(14.75) / 157.0
-    from rotorfilm.ladders.coupling_limits import nudged
+    from rotorfilm.comparisons.coupling.coupling_limits import nudged
 
     moved = nudged(rotor, 1e-3 * bearing.clearance)
     with (

@@ -7,7 +7,8 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.linalg import expm
 
-from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.bearings.journal import MapFilm
+from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.cosim import (
     Adaptive,
     GaussSeidel,
@@ -21,9 +22,8 @@ from rotorfilm.cosim import (
     squeeze_limit,
 )
 from rotorfilm.errors import ConvergenceError, InputError
-from rotorfilm.films import MapFilm
+from rotorfilm.motion import simulate
 from rotorfilm.rotors import RigidRotor, RigidShaft, SpeedProfile, mount
-from rotorfilm.transient import simulate
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")
 

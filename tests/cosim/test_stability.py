@@ -5,10 +5,10 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
-from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.bearings.journal import ShortFilm
+from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.cosim import InProcessSlave, couple, coupling_stability, critical_macro_step
 from rotorfilm.errors import FilmContactError, InputError, PartialResultError
-from rotorfilm.films import ShortFilm
 from rotorfilm.rotors import RigidRotor
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from rotorfilm.bearings import BushReaction, f4k20_bush
+from rotorfilm.bearings.bush import BushReaction, f4k20_bush
 from rotorfilm.cosim import cosimulate
 from rotorfilm.fmu import export_fmu
+from rotorfilm.motion import simulate
 from rotorfilm.rotors import RigidRotor
-from rotorfilm.transient import simulate
 
 LOAD = 3750.0
 

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 
-from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.bearings.journal import MapFilm, ShortFilm
+from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.errors import FmuError
-from rotorfilm.films import MapFilm, ShortFilm
 from rotorfilm.fmu import export_fmu
-from rotorfilm.fmu.instance import extracted, instantiated
+from rotorfilm.fmu.check.instance import extracted, instantiated
 from rotorfilm.fmu.linear_system import from_state_space
 from rotorfilm.rotors import RigidRotor, SpeedProfile
 

@@ -8,12 +8,12 @@ import fmpy
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.bearings.journal import MapFilm
+from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.cosim import Jacobi, critical_macro_step
-from rotorfilm.films import MapFilm
 from rotorfilm.fmu import export_fmu
+from rotorfilm.motion import simulate
 from rotorfilm.rotors import RigidRotor, mount
-from rotorfilm.transient import simulate
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm())
 ROTOR = RigidRotor(mass=50.0, speed=157.0, gravity=(0.0, 0.0), position=(2e-5, -4e-5))

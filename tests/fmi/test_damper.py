@@ -21,11 +21,11 @@ from rotorfilm import (
     export_fmu,
     simulate,
 )
+from rotorfilm.bearings.films.cavitation import FullFilm
 from rotorfilm.errors import ContactError, FmuError, InputError
-from rotorfilm.films import FullFilm
 from rotorfilm.fmu import check_fmu
-from rotorfilm.fmu.codec import class_modules, decode, encode
-from rotorfilm.fmu.instance import extracted, instantiated
+from rotorfilm.fmu.check.instance import extracted, instantiated
+from rotorfilm.fmu.python.codec import class_modules, decode, encode
 
 CAGE = PorousCage(thickness=2.5e-3, permeability=4e-13, grading=0.1)
 DAMPER = PorousDamper(

@@ -8,7 +8,7 @@ import pytest
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Discard, fmi2Fatal, fmi2LastSuccessfulTime, fmi2Terminated
 
-from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors.rigid import RigidRotor
 

@@ -18,11 +18,11 @@ from fmpy.validation import validate_fmu
 from lxml import etree
 from scipy.linalg import expm
 
-from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.bearings.journal import MapFilm
+from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.errors import FmuError
-from rotorfilm.films import MapFilm
 from rotorfilm.fmu import check_fmu, export_fmu
-from rotorfilm.fmu.instance import extracted, instantiated
+from rotorfilm.fmu.check.instance import extracted, instantiated
 from rotorfilm.linear import equilibrium, linearize
 from rotorfilm.rotors import RigidRotor, SpeedProfile
 

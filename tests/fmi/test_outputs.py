@@ -6,8 +6,8 @@ import fmpy
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.journal import JournalBearing
-from rotorfilm.films import ComplementarityArc, FixedArc, ReynoldsArc, RotatingArc, SplittingFilm
+from rotorfilm.bearings.journal import ComplementarityArc, FixedArc, ReynoldsArc, RotatingArc, SplittingFilm
+from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors.profile import SpeedProfile
 from rotorfilm.rotors.rigid import RigidRotor
@@ -148,7 +148,7 @@ def test_a_users_dataclass_may_extend_a_bearing(write_module, load, tmp_path):
     law = write_module(
         "own_law",
         "from dataclasses import dataclass\n"
-        "from rotorfilm.bearings.journal import JournalBearing\n\n\n"
+        "from rotorfilm.bearings.journal.bearing import JournalBearing\n\n\n"
         "@dataclass(frozen=True, kw_only=True)\n"
         "class Twin(JournalBearing):\n"
         '    """Two bearings side by side."""\n\n'

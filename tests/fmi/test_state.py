@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 
-from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors.rigid import RigidRotor
 

@@ -8,7 +8,7 @@ import pytest
 
 from rotorfilm.errors import FmuError
 from rotorfilm.fmu.binaries import require_whole
-from rotorfilm.fmu.macho import universal
+from rotorfilm.fmu.native.macho import universal
 
 SHIPPED = files("pythonfmu").joinpath("resources", "binaries")
 

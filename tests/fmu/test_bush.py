@@ -9,7 +9,7 @@ from fmpy.validation import validate_fmu
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from rotorfilm.bearings import BushReaction, BushWear, f4k20_bush
+from rotorfilm.bearings.bush import BushReaction, BushWear, f4k20_bush
 from rotorfilm.fmu import export_fmu
 
 WEAR = BushWear(bush=f4k20_bush(), melting_heat=1e8)

@@ -11,10 +11,10 @@ from pathlib import Path
 import fmpy
 import pytest
 
-from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.bearings.journal import MapFilm, ShortFilm
+from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.cosim import open_fmu
 from rotorfilm.errors import FmuError
-from rotorfilm.films import MapFilm, ShortFilm
 from rotorfilm.fmu import check_fmu, describe_fmu, export_fmu
 from rotorfilm.rotors.rigid import RigidRotor
 

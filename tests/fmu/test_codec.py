@@ -11,10 +11,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.bearings.journal import FixedArc, RotatingArc, SplittingFilm
+from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.errors import FmuError
-from rotorfilm.films import FixedArc, RotatingArc, SplittingFilm
-from rotorfilm.fmu.codec import class_modules, decode, encode
+from rotorfilm.fmu.python.codec import class_modules, decode, encode
 from rotorfilm.rotors.rigid import RigidRotor
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from rotorfilm.fmu.bundle import bundle_source
+from rotorfilm.fmu.python.bundle import bundle_source
 
 ASK = """
 from {package}.films import MapFilm, ShortFilm, tabulate_film
@@ -17,7 +17,7 @@ print(film.force(np.array([0.1, 0.0]), np.array([0.0, 1.0]), 0.5)[1] < 0.0)
 
 
 def test_map_film_travels_with_its_library(tmp_path):
-    bundle = bundle_source({"rotorfilm.films.map"})
+    bundle = bundle_source({"rotorfilm.bearings.journal.map.map_film"})
     for name, content in bundle.files.items():
         path = tmp_path / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -47,5 +47,7 @@ def test_a_users_film_over_a_map_travels_with_it(write_module):
 
 def test_other_films_travel_without_it():
     assert not [
-        name for name in bundle_source({"rotorfilm.films.splitting"}).files if name.endswith((".so", ".bin"))
+        name
+        for name in bundle_source({"rotorfilm.bearings.journal.splitting.splitting_film"}).files
+        if name.endswith((".so", ".bin"))
     ]

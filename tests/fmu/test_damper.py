@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rotorfilm import PorousCage, PorousDamper, RigidRotor, Sprung, cosimulate, export_fmu, simulate
-from rotorfilm.fmu.codec import class_modules, decode, encode
+from rotorfilm.fmu.python.codec import class_modules, decode, encode
 
 CAGE = PorousCage(thickness=2.5e-3, permeability=4e-13, grading=0.1)
 DAMPER = PorousDamper(radius=0.05, length=0.025, clearance=1e-4, viscosity=1.2e-3, cage=CAGE)

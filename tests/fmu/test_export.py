@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from fmpy.validation import validate_fmu
 
-from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.bearings.journal import MapFilm, RotatingArc, ShortFilm, SplittingFilm
+from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.errors import FmuError, InputError
-from rotorfilm.films import MapFilm, RotatingArc, ShortFilm, SplittingFilm
 from rotorfilm.fmu import archive, export_fmu
 from rotorfilm.rotors.rigid import RigidRotor
 from rotorfilm.units import UNITS

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rotorfilm.errors import ConvergenceError, FilmContactError
-from rotorfilm.fmu.integrate import advance
+from rotorfilm.fmu.advance import advance
 from rotorfilm.model import Linearization
 from rotorfilm.rotors.rigid import RigidRotor
 from rotorfilm.signals import Signal

@@ -5,7 +5,7 @@ import struct
 import pytest
 
 from rotorfilm.errors import FmuError
-from rotorfilm.fmu.macho import universal
+from rotorfilm.fmu.native.macho import universal
 
 X86_64, ARM64 = 0x01000007, 0x0100000C
 

@@ -6,7 +6,8 @@ import sys
 import pytest
 
 from rotorfilm.errors import FmuError
-from rotorfilm.fmu import export_fmu, platforms
+from rotorfilm.fmu import export_fmu
+from rotorfilm.fmu.native import platforms
 from rotorfilm.rotors import RigidRotor
 
 FOLDERS = {

@@ -4,9 +4,9 @@ import control
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.bearings.journal import MapFilm
+from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.errors import FmuError
-from rotorfilm.films import MapFilm
 from rotorfilm.fmu.linear_system import from_state_space
 from rotorfilm.fmu.reference import reference_table, to_csv
 from rotorfilm.rotors import RigidRotor

@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.bearings.journal import ShortFilm
+from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.errors import UndefinedDerivativeError
-from rotorfilm.films import ShortFilm
-from rotorfilm.fmu.structure import dependencies
+from rotorfilm.fmu.description.dependencies import dependencies
 from rotorfilm.model import static_linearization
 from rotorfilm.rotors.rigid import RigidRotor
 from rotorfilm.signals import Signal

@@ -5,7 +5,7 @@ import ast
 import pytest
 
 from rotorfilm.errors import FmuError
-from rotorfilm.fmu.bundle import bundle_source
+from rotorfilm.fmu.python.bundle import bundle_source
 
 HEADER = "from dataclasses import dataclass\n"
 
@@ -48,7 +48,7 @@ def test_a_name_is_imported_from_where_it_is_defined(write_module):
 def test_a_name_from_the_top_of_the_package_too(write_module):
     write_module("own_law", "from rotorfilm import JournalBearing\n")
     bundle, source = bundled("own_law")
-    assert f"from {bundle.modules['rotorfilm.bearings.journal']} import JournalBearing" in source
+    assert f"from {bundle.modules['rotorfilm.bearings.journal.bearing']} import JournalBearing" in source
 
 
 def test_modules_under_a_name_of_their_own(write_module):

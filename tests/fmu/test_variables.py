@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import pytest
 
-from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.errors import FmuError
 from rotorfilm.fmu import fmi_variables
-from rotorfilm.fmu.variables import structured_name
+from rotorfilm.fmu.description.variables import structured_name
 from rotorfilm.rotors.rigid import RigidRotor
 from rotorfilm.signals import Signal, from_fmi_name, names
 

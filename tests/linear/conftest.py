@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.journal import JournalBearing
-from rotorfilm.films.short import ShortFilm
+from rotorfilm.bearings.journal.bearing import JournalBearing
+from rotorfilm.bearings.journal.short_film import ShortFilm
 from rotorfilm.model import force_outputs, journal_inputs, static_linearization
 
 

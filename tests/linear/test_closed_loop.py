@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from rotorfilm.bearings.journal import RotatingArc, ShortFilm, SplittingFilm
 from rotorfilm.errors import EquilibriumError, InputError
-from rotorfilm.films import RotatingArc, ShortFilm, SplittingFilm
 from rotorfilm.linear import closed_loop, coefficients, equilibrium, transmissibility, whirl_threshold
 from rotorfilm.rotors.rigid import RigidRotor
 

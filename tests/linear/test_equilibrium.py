@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from rotorfilm.bearings.journal import MapFilm, RotatingArc, ShortFilm, SplittingFilm
+from rotorfilm.bearings.journal.map.potential import potential
 from rotorfilm.errors import EquilibriumError, InputError, ValidityWarning
-from rotorfilm.films import MapFilm, RotatingArc, ShortFilm, SplittingFilm
-from rotorfilm.films.potential import potential
 from rotorfilm.linear import equilibrium
 
 SPEED = 1500 * math.pi / 30

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.bearings import LinearBearing
+from rotorfilm.bearings.linear import LinearBearing
 from rotorfilm.linear import critical_speeds, rotor_modes
 from rotorfilm.rotors import ClassicalBeam, Disk, ElasticMaterial, ShaftElement, ShaftRotor, Station
 

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.bearings import JournalBearing, LinearBearing, TabulatedBearing
+from rotorfilm.bearings.journal import JournalBearing, ShortFilm
+from rotorfilm.bearings.linear import LinearBearing
+from rotorfilm.bearings.tabulated import TabulatedBearing
 from rotorfilm.cosim import critical_macro_step
 from rotorfilm.errors import EquilibriumError, InputError
-from rotorfilm.films import ShortFilm
 from rotorfilm.linear import (
     campbell,
     closed_loop,
@@ -28,7 +29,6 @@ from rotorfilm.linear import (
     whirl_threshold,
 )
 from rotorfilm.linear.rotor_modes import log_decrement
-from rotorfilm.reduce import reduce_rotor
 from rotorfilm.rotors import (
     ClassicalBeam,
     Disk,
@@ -43,6 +43,7 @@ from rotorfilm.rotors import (
     Support,
     Unbalance,
     mount,
+    reduce_rotor,
 )
 from rotorfilm.signals import names
 

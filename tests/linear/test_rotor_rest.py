@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.bearings import JournalBearing, LinearBearing
+from rotorfilm.bearings.journal import JournalBearing, ShortFilm
+from rotorfilm.bearings.linear import LinearBearing
 from rotorfilm.errors import EquilibriumError, InputError
-from rotorfilm.films import ShortFilm
 from rotorfilm.linear import equilibrium, rotor_equilibrium
+from rotorfilm.motion import simulate
 from rotorfilm.rotors import (
     ClassicalBeam,
     Disk,
@@ -18,7 +19,6 @@ from rotorfilm.rotors import (
     Support,
     mount,
 )
-from rotorfilm.transient import simulate
 
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
 FILM = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())

@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq, minimize_scalar
 
+from rotorfilm.bearings.journal import SplittingFilm
 from rotorfilm.errors import EquilibriumError, InputError
-from rotorfilm.films import SplittingFilm
 from rotorfilm.linear import coefficients, critical_mass, equilibrium, speed_parameter, whirl_threshold
 
 SPEED = 1500 * math.pi / 30

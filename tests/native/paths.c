@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "resource.h"
+#include "fmi/resource.h"
 
 int main(int argc, char **argv)
 {

@@ -11,10 +11,10 @@ from fmpy.fmi3 import FMU3Model, FMU3Slave
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from rotorfilm.bearings import BushReaction, BushWear, f4k20_bush
-from rotorfilm.bearings.bush_materials import Friction
-from rotorfilm.films.bush_heat import ContactBalance, GlobalBalance
-from rotorfilm.films.bush_profile import LocalMelting, SharedMelting
+from rotorfilm.bearings.bush import BushReaction, BushWear, f4k20_bush
+from rotorfilm.bearings.bush.heat import ContactBalance, GlobalBalance
+from rotorfilm.bearings.bush.materials import Friction
+from rotorfilm.bearings.bush.worn_profile import LocalMelting, SharedMelting
 
 pytestmark = pytest.mark.filterwarnings(
     "ignore:(friction must cover the losses of|load and speed must keep) a worn contact"

@@ -12,7 +12,7 @@ import pytest
 from rotorfilm.native import NativeLibraryError, library
 from rotorfilm.native.spec import LIBRARIES
 
-SOURCES = sorted((Path(__file__).parents[2] / "rotorfilm" / "native").glob("*.c"))
+SOURCES = sorted((Path(__file__).parents[2] / "rotorfilm" / "native").rglob("*.c"))
 COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
 LARGEST = {
     "rotorfilm": 66_000,

@@ -7,7 +7,7 @@ import pytest
 
 @pytest.fixture
 def paths(compiled):
-    return compiled([compiled.here / "paths.c", *sorted(compiled.native.glob("*.c"))])
+    return compiled([compiled.here / "paths.c", *sorted(compiled.native.rglob("*.c"))])
 
 
 def test_uris_and_paths_of_all_systems(paths):

@@ -20,7 +20,7 @@ from rotorfilm import (
     SpeedProfile,
     f4k20_bush,
 )
-from rotorfilm.films.bush_profile import LocalMelting
+from rotorfilm.bearings.bush.worn_profile import LocalMelting
 from rotorfilm.fmu.linear_system import LinearSystem
 from rotorfilm.native import GrooveMapKernel
 from rotorfilm.native.resource import FILE_NAME
@@ -120,7 +120,7 @@ def mutated(good, count):
 
 @pytest.fixture
 def stress(compiled):
-    sources = sorted(compiled.native.glob("*.c"))
+    sources = sorted(compiled.native.rglob("*.c"))
     return compiled([compiled.here / "stress.c", *sources], *SANITIZERS)
 
 

@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 from rotorfilm.errors import InputError
 from rotorfilm.rotors import ClassicalBeam, FourthOrderBeam, ShaftElement, cowper_coefficient
-from rotorfilm.rotors.beam import Section, beam_matrices
+from rotorfilm.rotors.shaft.beam import Section, beam_matrices
 
 BEAMS = [ClassicalBeam(), FourthOrderBeam()]
 

@@ -7,8 +7,8 @@ from scipy.integrate import solve_ivp
 
 from rotorfilm.errors import InputError
 from rotorfilm.fmu import export_fmu
-from rotorfilm.fmu.described import knowns_of, references_of, unknowns_of
-from rotorfilm.fmu.instance import extracted, instantiated
+from rotorfilm.fmu.check.described import knowns_of, references_of, unknowns_of
+from rotorfilm.fmu.check.instance import extracted, instantiated
 from rotorfilm.rotors import (
     ForceLaw,
     JeffcottRotor,

@@ -6,7 +6,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotorfilm.errors import InputError
-from rotorfilm.fmu.codec import decode, encode
+from rotorfilm.fmu.python.codec import decode, encode
 from rotorfilm.model import Dynamic
 from rotorfilm.rotors import (
     ClassicalBeam,

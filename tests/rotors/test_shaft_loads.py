@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import quad
 
-from rotorfilm.bearings import LinearBearing
+from rotorfilm.bearings.linear import LinearBearing
 from rotorfilm.errors import InputError
 from rotorfilm.linear import critical_speed_map, rotor_modes
 from rotorfilm.rotors import (

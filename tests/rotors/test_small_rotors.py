@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.bearings import LinearBearing
+from rotorfilm.bearings.linear import LinearBearing
 from rotorfilm.errors import InputError
 from rotorfilm.rotors import JeffcottRotor, RigidRotor, RigidShaft, mount
 from rotorfilm.signals import names

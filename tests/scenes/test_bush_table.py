@@ -5,11 +5,11 @@ from dataclasses import replace
 
 import pytest
 
-from rotorfilm.bearings import BushReaction, BushWear, f4k20_bush
-from rotorfilm.bearings.bush_materials import Friction
+from rotorfilm.bearings.bush import BushReaction, BushWear, f4k20_bush
+from rotorfilm.bearings.bush.heat import ApproximateShaft, GlobalBalance
+from rotorfilm.bearings.bush.materials import Friction
+from rotorfilm.bearings.bush.worn_profile import LocalMelting
 from rotorfilm.errors import SceneError
-from rotorfilm.films.bush_heat import ApproximateShaft, GlobalBalance
-from rotorfilm.films.bush_profile import LocalMelting
 from rotorfilm.scenes import parse_scene
 
 HEAD = 'schema = 1\n[bush]\nmelting_heat = "1e8 J/m3"\n'

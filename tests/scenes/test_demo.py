@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotorfilm.console import print_demo
+from rotorfilm.bearings.journal import ComplementarityArc, SplittingFilm
+from rotorfilm.cli.demo_pictures import draw_demo
+from rotorfilm.cli.printing import print_demo
 from rotorfilm.errors import InputError
-from rotorfilm.films import ComplementarityArc, SplittingFilm
-from rotorfilm.gallery import draw_demo
 from rotorfilm.linear import equilibrium
 from rotorfilm.scenes import bundled_scene
 from rotorfilm.scenes.demo import plain_results, run_demo

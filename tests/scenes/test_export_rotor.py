@@ -10,12 +10,11 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
-from rotorfilm.bearings import JournalBearing
+from rotorfilm.bearings.journal import JournalBearing
 from rotorfilm.cosim import open_fmu
 from rotorfilm.errors import ConvergenceError, InputError
 from rotorfilm.fmu import export_fmu
 from rotorfilm.linear import rotor_equilibrium, unbalance_response
-from rotorfilm.reduce import reduce_rotor
 from rotorfilm.rotors import (
     Disk,
     ElasticMaterial,
@@ -27,9 +26,10 @@ from rotorfilm.rotors import (
     SteadyRotor,
     Unbalance,
     mount,
+    reduce_rotor,
 )
 from rotorfilm.scenes import bundled_scene, export_rotor_fmu, parse_scene
-from rotorfilm.scenes.export_rotor import export_system
+from rotorfilm.scenes.shaft.export_rotor import export_system
 from rotorfilm.signals import names
 
 SPEED = 1500.0 * np.pi / 30.0

@@ -4,22 +4,20 @@ import math
 
 import pytest
 
-from rotorfilm.errors import SceneError
-from rotorfilm.films import (
+from rotorfilm.bearings.films.cavitation import FullFilm, HalfSommerfeld
+from rotorfilm.bearings.films.geometry import Groove, Pad
+from rotorfilm.bearings.journal import (
     ComplementarityArc,
     FixedArc,
-    FullFilm,
-    Groove,
     GroovedMapFilm,
-    HalfSommerfeld,
     MapFilm,
-    Pad,
     ReynoldsArc,
     ReynoldsFilm,
     RotatingArc,
     ShortFilm,
     SplittingFilm,
 )
+from rotorfilm.errors import SceneError
 from rotorfilm.scenes import Scene, bundled_scene, parse_scene
 from rotorfilm.scenes.excitation_table import BladeLossTable, SineLoadTable, StepLoadTable, UnbalanceTable
 

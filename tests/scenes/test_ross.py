@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.bearings import LinearBearing, TabulatedBearing
+from rotorfilm.bearings.linear import LinearBearing
+from rotorfilm.bearings.tabulated import TabulatedBearing
 from rotorfilm.errors import InputError
 from rotorfilm.linear import rotor_modes
 from rotorfilm.scenes import read_ross

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.bearings import JournalBearing, LinearBearing, TabulatedBearing
+from rotorfilm.bearings.journal import JournalBearing, ShortFilm
+from rotorfilm.bearings.linear import LinearBearing
+from rotorfilm.bearings.tabulated import TabulatedBearing
 from rotorfilm.errors import InputError
-from rotorfilm.films import ShortFilm
 from rotorfilm.linear import (
     coefficient_table,
     critical_speed_map,

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotorfilm.bearings import JournalBearing, LinearBearing
+from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.bearings.linear import LinearBearing
 from rotorfilm.errors import InputError, SceneError
 from rotorfilm.linear import critical_speeds, rotor_threshold, unbalance_response
 from rotorfilm.rotors import (
@@ -26,7 +27,7 @@ from rotorfilm.rotors import (
     Unbalance,
 )
 from rotorfilm.scenes import Scene, bundled_scene, parse_scene
-from rotorfilm.scenes.rotor import campbell_columns, response_columns, solve_rotor
+from rotorfilm.scenes.shaft.solve_shaft import campbell_columns, response_columns, solve_rotor
 
 RPM = math.pi / 30.0
 HEAD = """schema = 1

@@ -9,7 +9,7 @@ import pytest
 from rotorfilm.errors import EquilibriumError, InputError
 from rotorfilm.results import to_plain
 from rotorfilm.scenes import bundled_scene, parse_scene
-from rotorfilm.scenes.film_tables import ShortFilmTable
+from rotorfilm.scenes.journal.film_tables import ShortFilmTable
 
 SCENE = """
 schema = 1

@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from rotorfilm.bearings import JournalBearing
+from rotorfilm.bearings.journal import JournalBearing
 from rotorfilm.scenes import bundled_scene
+from rotorfilm.scenes.journal.journal_remarks import TAYLOR, journal_numbers, journal_remarks
 from rotorfilm.scenes.lubricant_table import LubricantTable
-from rotorfilm.scenes.validity import TAYLOR, journal_numbers, journal_remarks
 
 BEARING = JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.02)
 OIL = LubricantTable(density=900.0, heat_capacity=2000.0, conductivity=0.15, thinning=0.04)

@@ -1,0 +1,163 @@
+"""What a question is answered with: the value, its error, and what became of every rung."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+SAFETY = 1.5
+"""An answer is accepted if so many times its estimated error is below the tolerance."""
+
+DISAGREEMENT = 0.3
+"""Largest relative difference of two propagations of a defect, beyond which neither is trusted."""
+
+Work = Mapping[str, int]
+"""Units of work done, by name."""
+
+
+class Found(NamedTuple):
+    """What a rung answers.
+
+    Attributes
+    ----------
+    value : float or ndarray
+        In SI.
+    work : mapping of str to int
+    solution : object
+        What the rung's own error estimate starts from.
+    """
+
+    value: Any
+    work: Work
+    solution: Any = None
+
+
+class ErrorEstimate(NamedTuple):
+    """How far an answer is off, and how that is known.
+
+    Attributes
+    ----------
+    error : float [1]
+        In the unit of the tolerance.
+    method : str
+    work : mapping of str to int
+    bound : bool
+        Whether the error is at most about this, rather than about this: its largest term is verified, or
+        known to be too large.
+    doubt : str
+        Why the estimate must not be trusted; empty if it may.
+    """
+
+    error: float
+    method: str
+    work: Work = {}  # noqa: RUF012  (never changed)
+    bound: bool = False
+    doubt: str = ""
+
+
+def beside_bound(error: float, bound: float, method: str, work: Work, doubt: str = "") -> ErrorEstimate:
+    """Return an estimated error beside a verified bound of another: their sum where the bound is larger."""
+    if error < bound:
+        return ErrorEstimate(error + bound, method, work, bound=True, doubt=doubt)
+    return ErrorEstimate(error, method, work, doubt=doubt)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RungReport:
+    """What became of one rung.
+
+    Attributes
+    ----------
+    name : str
+    verdict : str
+        "chosen", "refused", "skipped" or "not needed".
+    reason : str
+        Why.
+    value : object
+        None where it was not asked, or had no answer.
+    error_estimate : float or None [1]
+    bound : bool
+        Whether the error is at most about the estimate, rather than about it.
+    doubtful : bool
+        Whether the estimate contradicts itself.
+    method : str
+        Of the estimate.
+    cost, estimate_cost : float or None [s]
+        Of the answer and of the estimate; work times the cost of its units.
+    work : dict of str to int
+        Of the answer.
+    """
+
+    name: str
+    verdict: str
+    reason: str = ""
+    value: Any = None
+    error_estimate: float | None = None
+    bound: bool = False
+    doubtful: bool = False
+    method: str = ""
+    cost: float | None = None
+    estimate_cost: float | None = None
+    work: dict[str, int] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, kw_only=True)
+class QuestionAnswer:
+    """The answer to the question of a scene.
+
+    Attributes
+    ----------
+    quantity : str
+    value : float or ndarray
+        In SI.
+    unit : str
+        Of the value.
+    error_estimate : float [1]
+        In the unit of the tolerance.
+    tolerance : float [1]
+    met : bool
+        Whether the estimate, with its margin, is below the tolerance.
+    model : str
+        The rung that answered; where none meets the tolerance, the one with the smallest estimate.
+    cost, estimate_cost : float [s]
+        Of its answer and of its estimate.
+    total_cost : float [s]
+        Of all that was tried.
+    next_model : str or None
+        The rung above it.
+    next_cost : float or None [s]
+        What that would have cost.
+    rungs : tuple of RungReport
+        The whole ladder, the cheapest first.
+    remarks : tuple of str
+        Limits of the physics of all rungs, in dimensionless numbers.
+    """
+
+    quantity: str
+    value: Any
+    unit: str
+    error_estimate: float
+    tolerance: float
+    met: bool
+    model: str
+    cost: float
+    estimate_cost: float
+    total_cost: float
+    next_model: str | None
+    next_cost: float | None
+    rungs: tuple[RungReport, ...]
+    remarks: tuple[str, ...]
+
+    @property
+    def message(self) -> str:
+        """One line that says whether the tolerance is met."""
+        about = f"{self.error_estimate:.2g}"
+        if self.met:
+            return f"{self.model} meets the tolerance {self.tolerance:.3g}: estimated error {about}"
+        for report in self.rungs:
+            if report.name == self.model and report.doubtful:
+                return f"no rung can be trusted; the closest may be {self.model}: {report.reason}"
+        return (
+            f"no rung meets the tolerance {self.tolerance:.3g}; the closest is {self.model}, off by {about}"
+        )

@@ -1,0 +1,316 @@
+"""The polymer bush worn by melting: contact, heat and critical speed, in SI units.
+
+A. A. Evtushenko and E. V. Kovalenko (1993), "Contact problem on the wear by melting of the liner of a plain
+bearing" (in Russian); equation numbers are theirs. Errata and defects of the source: docs/bush.md.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...errors import InputError, require_finite, require_non_negative, require_number
+from ...model import Array
+from . import contact_arc as contact
+from .heat import ContactBalance, ExactShaft, HeatBalance, ShaftHeat
+from .materials import BushGeometry, Friction, LinerMaterial, ShaftMaterial
+from .melting import MeltingLaw
+
+SCAN = 257
+"""Angles among which the largest critical speed is looked for."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class BushContact:
+    """A loaded bush at its melting point: what `MeltingBush.contact` answers.
+
+    Attributes
+    ----------
+    load : float [N]
+    contact_angle : float [rad]
+        Half the angle over which the shaft touches the liner.
+    settlement : float [m]
+        Displacement of the shaft beyond the clearance; negative while thermal expansion lifts it.
+    mean_pressure, maximum_pressure : float [Pa]
+    shaft_flux, liner_flux : float [W/m2]
+        Heat into shaft and liner, per contact area, that keeps the contact at the melting point.
+    critical_speed : float [rad/s]
+        Speed at which the liner begins to melt.
+    """
+
+    load: float
+    contact_angle: float
+    settlement: float
+    mean_pressure: float
+    maximum_pressure: float
+    shaft_flux: float
+    liner_flux: float
+    critical_speed: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeltingBush:
+    """A rigid shaft that rubs in a thin polymer liner, in a rigid housing.
+
+    Temperatures are above the ambient one. Loads are radial forces on the whole bush; angles, pressures and
+    fluxes are those of a contact at the melting point unless a temperature is given.
+
+    Parameters
+    ----------
+    geometry : BushGeometry
+    liner : LinerMaterial
+    shaft : ShaftMaterial
+    friction : Friction
+    outer_mean, outer_swing : float [K]
+        Temperature D_0 + D_1 cos(phi) of the liner's outer surface, phi from the load line (2.3).
+    shaft_heat : ShaftHeat
+        `ExactShaft()` or, as published, `ApproximateShaft()`.
+    balance : HeatBalance
+        `ContactBalance()` as published, or `GlobalBalance()`.
+
+    Raises
+    ------
+    InputError
+        If a value is out of range, thermal expansion closes the clearance below the melting point,
+        friction vanishes below it, or the outer surface is as hot as it.
+
+    Examples
+    --------
+    >>> bush = f4k20_bush()
+    >>> round(float(bush.contact_angle(3.75e3)), 6)
+    0.200687
+    """
+
+    geometry: BushGeometry
+    liner: LinerMaterial
+    shaft: ShaftMaterial
+    friction: Friction
+    outer_mean: float
+    outer_swing: float
+    shaft_heat: ShaftHeat = field(default_factory=ExactShaft)
+    balance: HeatBalance = field(default_factory=ContactBalance)
+
+    def __post_init__(self) -> None:
+        if isinstance(self.shaft_heat, type) or not isinstance(self.shaft_heat, ShaftHeat):
+            raise InputError(
+                f"shaft_heat must be ExactShaft() or ApproximateShaft(), got {self.shaft_heat!r}"
+            )
+        if isinstance(self.balance, type) or not isinstance(self.balance, HeatBalance):
+            raise InputError(f"balance must be ContactBalance() or GlobalBalance(), got {self.balance!r}")
+        require_number("outer_mean", self.outer_mean)
+        require_non_negative("outer_swing", self.outer_swing)
+        hottest, melting = self.outer_mean + self.outer_swing, self.liner.melting_point
+        if hottest >= melting:
+            raise InputError(
+                f"outer_mean + outer_swing must be below the melting point {melting!r}, got {hottest!r}"
+            )
+        expansion = self.closing * melting
+        if self.clearance_ratio <= expansion:
+            raise InputError(
+                f"radius - shaft_radius must exceed the thermal closing of {expansion:.6g} radii, "
+                f"got {self.clearance_ratio:.6g} radii"
+            )
+        if self.friction.least(melting) <= 0.0:
+            raise InputError(f"friction must be positive up to the melting point, got {self.friction!r}")
+
+    @property
+    def clearance_ratio(self) -> float:
+        """Radial clearance of the cold, unworn bush per liner radius, Delta/R."""
+        return 1.0 - self.geometry.shaft_radius / self.geometry.radius
+
+    @property
+    def thickness_ratio(self) -> float:
+        """Logarithmic thickness of the liner, ln(R_2/R)."""
+        return math.log(self.geometry.outer_radius / self.geometry.radius)
+
+    @property
+    def compliance(self) -> float:
+        """a_1: displacement of the liner's surface per radius, for a pressure of one shear modulus."""
+        nu = self.liner.poisson_ratio
+        return self.thickness_ratio * (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu))
+
+    @property
+    def closing(self) -> float:
+        """Thermal displacement of the liner's surface per radius and kelvin, ln(R_2/R) B [1/K]."""
+        nu = self.liner.poisson_ratio
+        return self.thickness_ratio * self.liner.expansion * (1.0 + nu) / (1.0 - nu)
+
+    @property
+    def force_unit(self) -> float:
+        """G R_1 times the length [N]: the load of which N is the multiple."""
+        return self.liner.shear_modulus * self.geometry.shaft_radius * self.geometry.length
+
+    @property
+    def liner_conductance(self) -> float:
+        """Heat per contact area and kelvin across the liner, lambda_2/(R ln(R_2/R)) [W/(m2 K)]."""
+        return self.liner.conductivity / (self.thickness_ratio * self.geometry.radius)
+
+    @cached_property
+    def shaft_conductance(self) -> float:
+        """Q_1/T_*: mean heat into the shaft per area under the bush and kelvin [W/(m2 K)]."""
+        radius, conductivity = self.geometry.shaft_radius, self.shaft.conductivity
+        cooling = self.shaft.air_transfer * radius / conductivity
+        stubbiness = 2.0 * radius / self.geometry.length
+        return self.shaft_heat.flux(cooling, stubbiness) * conductivity / radius
+
+    @cached_property
+    def law(self) -> MeltingLaw:
+        """The numbers that the inner loops of the melting models need."""
+        return MeltingLaw(
+            clearance=self.clearance_ratio,
+            closing=self.closing,
+            compliance=self.compliance,
+            pressure_work=self.liner.shear_modulus * self.geometry.shaft_radius,
+            shaft=self.shaft_conductance,
+            liner=self.liner_conductance,
+            melting=self.liner.melting_point,
+            friction=(self.friction.f0, self.friction.f1, self.friction.f2),
+            outer=(self.outer_mean, self.outer_swing),
+            balance=self.balance,
+        )
+
+    def gap(self, temperature: ArrayLike) -> Array:
+        """Return the clearance c(T) that is left at a contact temperature [K], per liner radius."""
+        return self.clearance_ratio - self.closing * np.asarray(temperature, dtype=float)
+
+    def contact_angle(self, load: ArrayLike, temperature: ArrayLike | None = None) -> Array:
+        """Return half the contact angle of an unworn bush (2.17).
+
+        Parameters
+        ----------
+        load : array_like, shape (...) [N]
+            Not negative.
+        temperature : array_like, shape (...) [K], optional
+            Of the contact; the melting point by default.
+
+        Returns
+        -------
+        ndarray, shape (...) [rad]
+
+        Raises
+        ------
+        InputError
+            If a load is negative or not finite, or the temperature closes the clearance.
+        """
+        gap = self.gap(self._temperature(temperature))
+        if np.any(gap <= 0.0):
+            raise InputError(f"temperature must leave a clearance, got {temperature!r} K")
+        return contact.arc_angle(self.compliance * self.load_ratio(load) / gap)
+
+    def load_ratio(self, load: ArrayLike) -> Array:
+        """Return N, the load [N] per length, shaft radius and shear modulus."""
+        values = require_finite("load", load)
+        if np.any(values < 0.0):
+            raise InputError(f"load must not be negative, got {load!r}")
+        return values / self.force_unit
+
+    def settlement(self, angle: ArrayLike, temperature: ArrayLike | None = None) -> Array:
+        """Return the settlement beta [m] at which half the contact angle is `angle` [rad] (2.17)."""
+        gap = self.gap(self._temperature(temperature))
+        return self.geometry.radius * (gap / np.cos(angle) - self.clearance_ratio)
+
+    def angle_at(self, settlement: ArrayLike) -> Array:
+        """Return half the contact angle [rad] at a settlement [m], worn or not: the inverse of `settlement`.
+
+        Raises
+        ------
+        InputError
+            If the shaft does not reach the liner at this settlement.
+        """
+        cosine = self.gap(self.liner.melting_point) / (
+            require_finite("settlement", settlement) / self.geometry.radius + self.clearance_ratio
+        )
+        if np.any(cosine > 1.0) or np.any(cosine <= 0.0):
+            least = self.settlement(0.0)
+            raise InputError(
+                f"settlement must be at least {least:.6g} m, where the shaft touches, got {settlement!r}"
+            )
+        return np.arccos(cosine)
+
+    def mean_pressure(self, load: ArrayLike, angle: ArrayLike) -> Array:
+        """Return the mean pressure over the contact [Pa] (2.15)."""
+        return self.liner.shear_modulus * self.load_ratio(load) * contact.mean_weight(angle)
+
+    def maximum_pressure(self, load: ArrayLike, angle: ArrayLike) -> Array:
+        """Return the pressure on the load line [Pa] (2.14)."""
+        return self.liner.shear_modulus * self.load_ratio(load) * contact.peak_weight(angle)
+
+    def shaft_flux(self, angle: ArrayLike) -> Array:
+        """Return the heat into the shaft per contact area at the melting point [W/m2] (2.13)."""
+        return self.balance.share(angle) * self.shaft_conductance * self.liner.melting_point
+
+    def liner_flux(self, angle: ArrayLike) -> Array:
+        """Return the mean heat into the liner per contact area at the melting point [W/m2] (2.5)."""
+        return self.liner_conductance * (self.liner.melting_point - self.outer_temperature(angle))
+
+    def outer_temperature(self, angle: ArrayLike) -> Array:
+        """Return the mean temperature of the liner's outer surface over the contact [K]."""
+        return self.outer_mean + self.outer_swing * contact.sinc(angle)
+
+    def critical_speed(self, load: ArrayLike, angle: ArrayLike | None = None) -> Array:
+        """Return omega_c, the speed at which the liner begins to melt (2.16).
+
+        Parameters
+        ----------
+        load : array_like, shape (...) [N]
+            Positive.
+        angle : array_like, shape (...) [rad], optional
+            Half the contact angle; that of the unworn bush by default.
+
+        Returns
+        -------
+        ndarray, shape (...) [rad/s]
+        """
+        if np.any(self.load_ratio(load) <= 0.0):
+            raise InputError(f"load must be positive for a critical speed, got {load!r}")
+        alpha = self.contact_angle(load) if angle is None else np.asarray(angle, dtype=float)
+        friction = self.friction.at(self.liner.melting_point) * self.mean_pressure(load, alpha)
+        return (self.shaft_flux(alpha) + self.liner_flux(alpha)) / (self.geometry.shaft_radius * friction)
+
+    def onset_speed(self, load: float, settlement: float) -> float:
+        """Return omega_* [rad/s], the largest critical speed on the way to a settlement [m].
+
+        With `ContactBalance` the critical speed grows with the angle, and this is omega_c at the last angle;
+        in general it is the largest of `SCAN` values.
+        """
+        angles = np.linspace(float(self.contact_angle(load)), float(self.angle_at(settlement)), SCAN)
+        return float(self.critical_speed(load, angles).max())
+
+    def contact(self, load: float) -> BushContact:
+        """Return contact, heat and critical speed of the unworn bush under a load [N] > 0."""
+        angle = self.contact_angle(load)
+        return BushContact(
+            load=float(load),
+            contact_angle=float(angle),
+            settlement=float(self.settlement(angle)),
+            mean_pressure=float(self.mean_pressure(load, angle)),
+            maximum_pressure=float(self.maximum_pressure(load, angle)),
+            shaft_flux=float(self.shaft_flux(angle)),
+            liner_flux=float(self.liner_flux(angle)),
+            critical_speed=float(self.critical_speed(load, angle)),
+        )
+
+    def _temperature(self, temperature: ArrayLike | None) -> Array:
+        return require_finite("temperature", self.liner.melting_point if temperature is None else temperature)
+
+
+def f4k20_bush() -> MeltingBush:
+    """Return the example of Evtushenko & Kovalenko (1993), section 4, as a `MeltingBush`.
+
+    Shaft and housing of steel, liner of filled PTFE F4K20. The source calculates with `ApproximateShaft()`;
+    take it by `dataclasses.replace`.
+    """
+    return MeltingBush(
+        geometry=BushGeometry(radius=13e-3, outer_radius=14.5e-3, shaft_radius=12.5e-3, length=0.1),
+        liner=LinerMaterial(
+            shear_modulus=3e8, poisson_ratio=0.4, expansion=8e-5, conductivity=0.39, melting_point=250.0
+        ),
+        shaft=ShaftMaterial(conductivity=25.35, air_transfer=402.0),
+        friction=Friction(f0=0.1),
+        outer_mean=235.0,
+        outer_swing=4.0,
+    )

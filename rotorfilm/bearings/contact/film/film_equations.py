@@ -1,0 +1,236 @@
+"""The discrete equations of a lubricated point contact, their residual and its derivatives.
+
+In units of the Hertzian contact (Panovko 2011, equations 5-7, with the errata listed in `docs/contact.md`)
+
+    H = delta + x^2 + y^2 + (4/pi^2) integral of p/|r - r'| dS',
+    div(rho H^3 grad Phi) - V (rho H)_x - V (rho H)_t = R,    p >= 0,  R <= 0,  p R = 0,
+
+with dPhi/dp = 1/mu(p). The rigid approach delta is the unknown beside the pressure, which keeps the singular
+kernel out of the equation of motion. In time, (rho H)_t = rate * (rho H) + history.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy import sparse
+
+from ....model import Array
+from .contact_grid import ContactGrid
+from .contact_scheme import SLACK, ContactScheme, Sampling, opening, product
+from .film_assembly import Assembly
+from .pressure_fluid import DowsonHigginsonDensity, Piezoviscosity
+
+ZERO = np.zeros(1)
+
+
+class TimeDerivative(NamedTuple):
+    """The rate of what cells hold, as `rate` * (rho H) + `history`; both 0 for a stationary contact."""
+
+    rate: float = 0.0
+    history: Array = ZERO
+
+
+class Derivatives(NamedTuple):
+    """Derivatives of the residual by the pressure at fixed film, (n, n), and by the film, (n, samples)."""
+
+    by_pressure: Any
+    by_film: Any
+
+
+class _Flow(NamedTuple):
+    """Matrices of the flow by pressure: across x and across y."""
+
+    gradient: tuple[Any, Any]
+    outside: tuple[Array, Array]
+    divergence: tuple[Any, Any]
+    mean: tuple[Any, Any]
+    assembly: Assembly
+
+
+@dataclass(frozen=True, kw_only=True)
+class ContactEquations:
+    """The equations of one contact on one grid; arrays over cells and samples are flat.
+
+    Parameters
+    ----------
+    V, Q0 : float [1]
+        Speed parameter and pressure-viscosity coefficient.
+    grid : ContactGrid
+    scheme : ContactScheme
+    viscosity : Piezoviscosity
+    density : DowsonHigginsonDensity or None
+        None for an incompressible lubricant.
+    """
+
+    V: float
+    Q0: float
+    grid: ContactGrid
+    scheme: ContactScheme
+    viscosity: Piezoviscosity
+    density: DowsonHigginsonDensity | None
+
+    @cached_property
+    def sampling(self) -> Sampling:
+        """Samples of the film and their matrices."""
+        return self.scheme.sampling(self.grid)
+
+    @cached_property
+    def area(self) -> float:
+        """Area of a cell and its mirror image: the load is this times the sum of the pressures."""
+        return 2.0 * self.grid.spacing[0] * self.grid.spacing[1]
+
+    def film(self, pressure: Array, delta: float) -> Array:
+        """Return the film thickness H at the samples."""
+        return self.sampling.gap + delta + self.sampling.deflection(pressure)
+
+    def central_film(self, pressure: Array, delta: float) -> float:
+        """Return the film thickness H0 at the origin."""
+        return delta + float(self.sampling.center @ pressure)
+
+    def load(self, pressure: Array) -> float:
+        """Return the integral of the pressure over the plane."""
+        return self.area * float(pressure.sum())
+
+    def stored(self, pressure: Array, film: Array) -> Array:
+        """Return rho H in the cells."""
+        return self.sampling.stored @ (self._density(pressure) * film)
+
+    def residual(self, pressure: Array, film: Array, time: TimeDerivative) -> Array:
+        """Return R, shape (n,)."""
+        carried = self._density(pressure) * film
+        gained = time.rate * (self.sampling.stored @ carried) + time.history
+        flux = [h**3 * g for h, g in zip(self._faces(film), self._gradients(pressure), strict=True)]
+        if self.density is not None:
+            flux = [f * d for f, d in zip(flux, self._face_density(pressure), strict=True)]
+        along, across = self._flow.divergence
+        return along @ flux[0] + across @ flux[1] - self.V * (along @ self._carried(carried) + gained)
+
+    def derivatives(self, pressure: Array, film: Array, rate: complex) -> Derivatives:
+        """Return the exact derivatives of the residual; `rate` may be complex, for harmonic motion."""
+        rho = self._face_density(pressure)
+        heights, slopes = self._faces(film), self._gradients(pressure)
+        flow, bend = self._flow.assembly, self._bending
+        mobile = self.viscosity.mobility(pressure, self.Q0)[flow.columns]
+        conductance = [d * h**3 for d, h in zip(rho, heights, strict=True)]
+        by_pressure = flow.matrix(flow.entries(*conductance) * mobile)
+        density = self._density(pressure)
+        transport = self._transport(density * film, rate)
+        driven = [3.0 * d * h**2 * g for d, h, g in zip(rho, heights, slopes, strict=True)]
+        still = [self._unlimited] * (0 if self.sampling.upstream is None else 2)
+        by_film = bend.matrix(transport * density[bend.columns] + bend.entries(*driven, *still))
+        if self.density is not None:
+            by_pressure = by_pressure + self._by_density(pressure, film, bend.matrix(transport))
+        return Derivatives(by_pressure, by_film)
+
+    def _transport(self, content: Array, rate: complex) -> Array:
+        """Return the entries of the derivative by rho H of what surfaces carry off and cells store."""
+        bend = self._bending
+        carried, stored = bend.fixed
+        if self.sampling.upstream is not None:
+            excess, slope = opening(*(part @ content for part in self.sampling.upstream))
+            unmoved = np.zeros(self._flow.divergence[1].shape[1])
+            acts = (excess > 0.0).astype(float)
+            limited = bend.entries(np.zeros_like(acts), unmoved, slope, acts)
+            return np.asarray(-self.V * (carried - limited + rate * stored))
+        return np.asarray(-self.V * (carried + rate * stored))
+
+    def _by_density(self, pressure: Array, film: Array, transport: Any) -> Any:
+        assert self.density is not None
+        total = transport @ sparse.diags(film) @ self.sampling.spread
+        parts = zip(
+            self._flow.divergence, self._flow.mean, self._faces(film), self._gradients(pressure), strict=True
+        )
+        for divergence, mean, h, slope in parts:
+            total = total + _scaled(divergence, h**3 * slope) @ mean
+        return total @ sparse.diags(self.density.slope(pressure))
+
+    def _carried(self, content: Array) -> Array:
+        """Return what the surfaces carry through the faces across x of rho H at the samples."""
+        flux = self.sampling.carried @ content
+        if self.sampling.upstream is not None:
+            flux -= opening(*(part @ content for part in self.sampling.upstream))[0]
+        return flux
+
+    def _faces(self, film: Array) -> tuple[Array, Array]:
+        return self.sampling.along @ film, self.sampling.across @ film
+
+    def _gradients(self, pressure: Array) -> tuple[Array, Array]:
+        """Return the gradients of Phi on the faces, with that of zero pressure outside the grid."""
+        potential = self.viscosity.potential(pressure, self.Q0)
+        outside = float(self.viscosity.potential(ZERO, self.Q0)[0])
+        along, across = (
+            gradient @ potential - edge * outside
+            for gradient, edge in zip(self._flow.gradient, self._flow.outside, strict=True)
+        )
+        return along, across
+
+    def _density(self, pressure: Array) -> Any:
+        """Return the density at the samples, 1 outside the grid."""
+        if self.density is None:
+            return np.ones(len(self.sampling.gap))
+        return 1.0 + self.sampling.spread @ (self.density.density(pressure) - 1.0)
+
+    def _face_density(self, pressure: Array) -> tuple[Any, Any]:
+        if self.density is None:
+            return 1.0, 1.0
+        excess = self.density.density(pressure) - 1.0
+        along, across = self._flow.mean
+        return 1.0 + along @ excess, 1.0 + across @ excess
+
+    @cached_property
+    def _flow(self) -> _Flow:
+        (nx, m), (dx, dy) = self.grid.shape, self.grid.spacing
+        on_x, on_y = sparse.identity(nx), sparse.identity(m)
+        along = product(_differences(nx, wall=True) / dx, on_y)
+        across = product(on_x, _differences(m, wall=False) / dy)
+        divergence = product(_divergence(nx) / dx, on_y), product(on_x, _divergence(m) / dy)
+        return _Flow(
+            (along, across),
+            (along @ np.ones(nx * m), across @ np.ones(nx * m)),
+            divergence,
+            (product(_means(nx, wall=True), on_y), product(on_x, _means(m, wall=False))),
+            Assembly([(divergence[0], along), (divergence[1], across)]),
+        )
+
+    @cached_property
+    def _bending(self) -> Assembly:
+        """Derivatives by the film: of the flow along and across, and of what limits the carried film."""
+        along, across = self._flow.divergence
+        pairs = [(along, self.sampling.along), (across, self.sampling.across)]
+        if self.sampling.upstream is not None:
+            here, before, after = self.sampling.upstream
+            pairs += [(along, before), (along, after / 3.0 - SLACK * here)]
+        return Assembly(pairs, [along @ self.sampling.carried, self.sampling.stored])
+
+    @cached_property
+    def _unlimited(self) -> Array:
+        return np.zeros(self._flow.divergence[0].shape[1])
+
+
+def _scaled(matrix: Any, columns: Array) -> Any:
+    """Return the matrix with its columns scaled."""
+    return matrix @ sparse.diags(columns)
+
+
+def _differences(n: int, *, wall: bool) -> Any:
+    """Return differences on n + 1 faces of n values, 0 beyond the last face and, at a wall, the first."""
+    faces = sparse.diags([1.0, -1.0], [0, -1], shape=(n + 1, n)).tolil()
+    faces[0, 0] = 2.0 if wall else 0.0
+    faces[n, n - 1] = -2.0
+    return faces.tocsr()
+
+
+def _divergence(n: int) -> Any:
+    return sparse.diags([-1.0, 1.0], [0, 1], shape=(n, n + 1)).tocsr()
+
+
+def _means(n: int, *, wall: bool) -> Any:
+    """Return means on n + 1 faces of n values that vanish on the outer faces."""
+    faces = sparse.diags([0.5, 0.5], [0, -1], shape=(n + 1, n)).tolil()
+    faces[0, 0] = 0.0 if wall else 1.0
+    faces[n, n - 1] = 0.0
+    return faces.tocsr()

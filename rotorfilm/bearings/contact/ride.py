@@ -1,0 +1,186 @@
+"""A ball on its reduced contact law, over time."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from ...errors import ConvergenceError, require_number, require_positive
+from ...model import Array
+from ...results import Trajectory
+from .contact_law import ContactLaw
+from .ride_steps import forces_of, ride_steps
+
+FINEST = 12
+"""Halvings of the steps after which an integration is given up."""
+
+
+class _Part(NamedTuple):
+    """Motion between two jumps of the load, in the units of the contact."""
+
+    time: Array
+    y: Array
+
+
+class _Rider(NamedTuple):
+    """The law and the ball in the units of the contact."""
+
+    W: float
+    matrices: tuple[Array, Array, Array, float]
+    law: Array
+    fastest: float
+    load: Callable[[float], float]
+    time_scale: float
+    force_scale: float
+
+    def part(self, begin: float, end: float, start: Array, tolerance: float) -> _Part:
+        """Return the motion by halving the steps until the answer settles."""
+        n = max(4, math.ceil((end - begin) * self.fastest))
+        pushes = self._pushes(begin, end, 2 * n)
+        rough = self._steps(begin, end, start, pushes)
+        for _ in range(FINEST):
+            between = self._pushes(begin, end, 2 * len(pushes) - 2, odd=True)
+            pushes = np.insert(pushes, np.arange(1, len(pushes)), between)
+            fine = self._steps(begin, end, start, pushes)
+            # Of order four, so the finer answer is some fifteen times better than this.
+            miss = float(np.max(np.abs(fine.y[::2, 0] - rough.y[:, 0])))
+            if miss <= 15.0 * tolerance:
+                return fine
+            rough = fine
+        raise ConvergenceError(
+            f"halving the steps must settle the motion to {tolerance:.1e}, got changes of {miss:.1e} "
+            f"with {len(pushes) // 2} steps"
+        )
+
+    def _pushes(self, begin: float, end: float, intervals: int, *, odd: bool = False) -> Array:
+        """Return the loads at the ends of equal intervals, or at every second of them."""
+        times = np.linspace(begin, end, intervals + 1)
+        times[0] = np.nextafter(begin, end)  # the load after a jump
+        scale, load = self.time_scale, self.load
+        chosen = times[1::2] if odd else times
+        values = [load(t) for t in (scale * chosen).tolist()]
+        return np.array(values, dtype=float) / self.force_scale
+
+    def _steps(self, begin: float, end: float, start: Array, pushes: Array) -> _Part:
+        n = len(pushes) // 2
+        y = ride_steps(start, (end - begin) / n, pushes, self.W, *self.matrices, self.law)
+        return _Part(np.linspace(begin, end, n + 1), y)
+
+    def force(self, y: Array) -> Array:
+        """Return the film's force, shape (n,), for rows of y."""
+        _, _, C, D = self.matrices
+        return np.asarray(forces_of(np.ascontiguousarray(y), C, D, self.law))
+
+
+def ride(
+    law: ContactLaw,
+    *,
+    mass: float,
+    load: Callable[[float], float],
+    start: float,
+    duration: float,
+    velocity: float = 0.0,
+    samples: int = 2001,
+    rtol: float = 1e-6,
+) -> Trajectory:
+    """Return the motion mass z'' = force - load(t) of a ball on a contact law.
+
+    Compiled Runge-Kutta steps of order four, halved until the motion settles.
+
+    Parameters
+    ----------
+    law : ContactLaw
+        In SI, or dimensionless; then mass is W/(2 pi/3) and load is f.
+    mass : float [kg]
+    load : callable
+        Force towards the plane over time [N]; integration stops at its `breakpoints`, if it has that
+        attribute, and it is to return the value before a jump there.
+    start, velocity : float [m, m/s]
+        Approach and its rate at t = 0; the contact has rested at the start until then.
+    duration : float [s]
+    samples : int
+        Instants of the answer.
+    rtol : float
+        Tolerance of the approach, in units of the film thickness.
+
+    Returns
+    -------
+    Trajectory
+        Signals `z`, `vz` and `force_z`.
+
+    Raises
+    ------
+    ConvergenceError
+        If the motion does not settle; `partial` is the motion until the jump before.
+    """
+    require_positive("mass", mass)
+    require_positive("duration", duration)
+    require_number("start", start)
+    rider = _rider(law, mass, load)
+    span = duration / law.time_scale
+    jumps = sorted(t / law.time_scale for t in getattr(load, "breakpoints", ()) if 0.0 < t < duration)
+    delta = start / law.film_scale
+    y = np.array([delta, velocity * law.time_scale / law.film_scale, *law.resting(delta)])
+    parts: list[_Part] = []
+    for begin, end in zip([0.0, *jumps], [*jumps, span], strict=True):
+        try:
+            parts.append(rider.part(begin, end, y, rtol))
+        except ConvergenceError as error:
+            raise ConvergenceError(str(error), _motion(law, rider, parts, samples)) from error
+        y = parts[-1].y[-1]
+    return _motion(law, rider, parts, samples)
+
+
+def _rider(law: ContactLaw, mass: float, load: Callable[[float], float]) -> _Rider:
+    W = mass * law.film_scale / (law.time_scale**2 * law.force_scale)
+    A, B = np.ascontiguousarray(law.A, dtype=float), np.ascontiguousarray(law.B[:, 0], dtype=float)
+    C = np.ascontiguousarray(law.C[0], dtype=float)
+    static = np.array([law.offset, law.span, law.exponent, law.operating])
+    poles = np.abs(np.linalg.eigvals(A)) if law.order else np.zeros(1)
+    natural = math.sqrt(law.exponent / law.span / W)
+    return _Rider(
+        W,
+        (A, B, C, float(law.D[0, 0])),
+        static,
+        max(natural, float(poles.max())),
+        load,
+        law.time_scale,
+        law.force_scale,
+    )
+
+
+def _motion(law: ContactLaw, rider: _Rider, parts: list[_Part], samples: int) -> Trajectory:
+    """Return equally spaced samples of the parts, by interpolation of order four."""
+    if not parts:
+        return Trajectory(time=np.zeros(0), signals={}, work={"steps": 0})
+    time = np.linspace(0.0, parts[-1].time[-1], samples)
+    rows = np.concatenate([_sampled(part, time, k == 0) for k, part in enumerate(parts)])
+    signals = {
+        "z": rows[:, 0] * law.film_scale,
+        "vz": rows[:, 1] * law.film_scale / law.time_scale,
+        "force_z": rider.force(rows) * law.force_scale,
+    }
+    steps = sum(len(part.time) - 1 for part in parts)
+    return Trajectory(time=time * law.time_scale, signals=signals, work={"steps": steps})
+
+
+def _sampled(part: _Part, time: Array, first: bool) -> Array:
+    """Return y at the times within a part."""
+    begin, end = part.time[0], part.time[-1]
+    inside = time[((time > begin) | (first & (time == begin))) & (time <= end)]
+    k = np.minimum(np.searchsorted(part.time, inside, side="right"), len(part.time) - 1) - 1
+    step = part.time[1] - part.time[0]
+    share = ((inside - part.time[k]) / step)[:, None]
+    before, after = part.y[k], part.y[k + 1]
+    rows = np.asarray(before + share * (after - before), dtype=float)
+    # Hermite, where rates are known: of the approach, the velocity.
+    s = share[:, 0]
+    rows[:, 0] = (
+        before[:, 0] * (1.0 + 2.0 * s) * (1.0 - s) ** 2
+        + after[:, 0] * s**2 * (3.0 - 2.0 * s)
+        + step * s * (1.0 - s) * (before[:, 1] * (1.0 - s) - after[:, 1] * s)
+    )
+    return rows

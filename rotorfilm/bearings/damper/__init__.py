@@ -1,0 +1,27 @@
+"""Squeeze-film dampers with a porous cage."""
+
+from .bearing import AxialFeed, DamperGroups, PorousCage, PorousDamper, RadialFeed, damper_groups
+from .damper_kernel import sprung_spec
+from .full_squeeze import SqueezeFilm
+from .mapped_squeeze import FiniteMapSqueeze, MapSqueeze
+from .porous_layer import layer_modes
+from .squeeze_laws import FiniteSqueeze, PublishedSqueeze, ShortSqueeze, SqueezeCase, SqueezeLaw
+
+__all__ = [
+    "AxialFeed",
+    "DamperGroups",
+    "FiniteMapSqueeze",
+    "FiniteSqueeze",
+    "MapSqueeze",
+    "PorousCage",
+    "PorousDamper",
+    "PublishedSqueeze",
+    "RadialFeed",
+    "ShortSqueeze",
+    "SqueezeCase",
+    "SqueezeFilm",
+    "SqueezeLaw",
+    "damper_groups",
+    "layer_modes",
+    "sprung_spec",
+]

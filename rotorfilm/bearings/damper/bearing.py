@@ -1,0 +1,409 @@
+"""The squeeze-film damper with a solid or porous cage, in SI units."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from ...errors import InputError, require_non_negative, require_number, require_positive, warn_user
+from ...model import Array, Tangent, tangent_of
+from ...native.spec import NativeSpec
+from ..films.cavitation import FullFilm, HalfSommerfeld
+from ..reaction import NOMINAL_SPEED, StaticReaction
+from .damper_kernel import damper_spec
+from .full_squeeze import SqueezeFilm
+from .mapped_squeeze import MappedSqueezeFilm, TabulatedSqueeze
+from .porous_layer import LayerModes, PorousLayer, layer_modes
+from .squeeze_laws import ShortSqueeze, SqueezeCase, SqueezeLaw, parabola_mean
+
+LARGEST_RATIO = 0.5
+"""Largest thickness / radius of a layer that may be unrolled to a plane."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PorousCage:
+    """A porous ring around the film, Darcy's law in it: k(y) = permeability exp(grading y/thickness), y <= 0.
+
+    Parameters
+    ----------
+    thickness : float [m]
+        H, radial thickness of the layer.
+    permeability : float [m2]
+        A, through the layer, at its face to the film.
+    grading : float [1]
+        lambda; positive where the layer is tighter at its back.
+    anisotropy : float [1]
+        k_z/k_y: permeability along the layer, per that through it.
+    vented : bool
+        Whether the back of the layer is open to `supply_pressure`; otherwise it is sealed.
+    supply_pressure : float [Pa]
+        Gauge pressure at a vented back.
+    thin : bool
+        Morgan & Cameron's layer in place of Darcy's: no pressure drop through a sealed layer, no flow along a
+        vented one.
+
+    Raises
+    ------
+    InputError
+        If a value breaks its rule, or there is a supply pressure behind a sealed back.
+    """
+
+    thickness: float
+    permeability: float
+    grading: float = 0.0
+    anisotropy: float = 1.0
+    vented: bool = False
+    supply_pressure: float = 0.0
+    thin: bool = False
+
+    def __post_init__(self) -> None:
+        for name in ("thickness", "permeability", "anisotropy"):
+            require_positive(name, getattr(self, name))
+        for name in ("grading", "supply_pressure"):
+            require_number(name, getattr(self, name))
+        if self.supply_pressure and not self.vented:
+            raise InputError(f"supply_pressure must be 0 behind a sealed back, got {self.supply_pressure!r}")
+
+
+@dataclass(frozen=True, kw_only=True)
+class RadialFeed:
+    """Lubricant pressed through the layer: a given velocity at the back of a sealed layer, or at the film.
+
+    What the layer passes from its back to the film, the rest leaving by the layer's ends, follows from
+    Darcy's law (95 % at H/L = 0.1); through a thin layer or a solid cage (jets) it is all.
+
+    Parameters
+    ----------
+    inflow : float [m/s]
+        Velocity towards the film, its largest along the axis; negative for suction.
+    cosine : bool
+        Whether the velocity falls as cos(pi z/length) from the middle to the ends; otherwise it is uniform.
+    at_film : bool
+        Whether it is what enters a film without pressure; otherwise what enters the back of the layer, as in
+        Akhverdiev et al. (11).
+    """
+
+    inflow: float
+    cosine: bool = False
+    at_film: bool = False
+
+    def __post_init__(self) -> None:
+        require_number("inflow", self.inflow)
+
+
+@dataclass(frozen=True, kw_only=True)
+class AxialFeed:
+    """Lubricant fed at the ends of film and layer.
+
+    Parameters
+    ----------
+    start_pressure, end_pressure : float [Pa]
+        Gauge pressure at z = -length/2 and z = length/2. Zero is the pressure at which the film ruptures.
+    """
+
+    start_pressure: float
+    end_pressure: float
+
+    def __post_init__(self) -> None:
+        require_number("start_pressure", self.start_pressure)
+        require_number("end_pressure", self.end_pressure)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PorousDamper(StaticReaction):
+    """A squeeze-film damper: a Reaction whose journal does not spin, so that the speed does not matter.
+
+    Parameters
+    ----------
+    radius, length, clearance : float [m]
+        Of the film.
+    viscosity : float [Pa s]
+        Dynamic viscosity of the lubricant.
+    cage : PorousCage or None
+        None for a solid cage.
+    extent : FullFilm or HalfSommerfeld
+        Full film, tension included, or one whose negative pressures are dropped: without feed the half circle
+        towards which the rotor moves.
+    feed : RadialFeed or AxialFeed, optional
+        Besides a supply pressure at a vented back of the cage.
+    film : SqueezeLaw
+        `ShortSqueeze()`, `FiniteSqueeze()`, their maps `MapSqueeze()` and `FiniteMapSqueeze()`, which also
+        run in C inside an FMU, or, for history, `PublishedSqueeze()`.
+
+    Raises
+    ------
+    InputError
+        If a value breaks its rule, or the film cannot represent the extent or the feed.
+
+    Warns
+    -----
+    ValidityWarning
+        For the short film beyond length / diameter 0.25, with its error.
+
+    Notes
+    -----
+    Cusano & Funk (1977) without the wedge term, which a race that does not spin does not have. Full films
+    have F = -(a w + b (e.w) e + k e), w = velocity/clearance, in closed form: the center is no exception.
+    """
+
+    radius: float
+    length: float
+    clearance: float
+    viscosity: float
+    cage: PorousCage | None = None
+    extent: FullFilm | HalfSommerfeld = field(default_factory=HalfSommerfeld)
+    feed: RadialFeed | AxialFeed | None = None
+    film: SqueezeLaw = field(default_factory=ShortSqueeze)
+
+    def __post_init__(self) -> None:
+        for name in ("radius", "length", "clearance", "viscosity"):
+            require_positive(name, getattr(self, name))
+        if self.clearance >= self.radius:
+            raise InputError(f"clearance must be below the radius {self.radius!r}, got {self.clearance!r}")
+        if self.cage is not None and not isinstance(self.cage, PorousCage):
+            raise InputError(f"cage must be a PorousCage or None, got {self.cage!r}")
+        if not isinstance(self.extent, FullFilm | HalfSommerfeld):
+            raise InputError(f"extent must be FullFilm() or HalfSommerfeld(), got {self.extent!r}")
+        if self.feed is not None and not isinstance(self.feed, RadialFeed | AxialFeed):
+            raise InputError(f"feed must be a RadialFeed, an AxialFeed or None, got {self.feed!r}")
+        if isinstance(self.film, type) or not isinstance(self.film, SqueezeLaw):
+            raise InputError(f"film must be a squeeze film such as ShortSqueeze(), got {self.film!r}")
+        if self._back_is_open and isinstance(self.feed, RadialFeed):
+            raise InputError("feed must not be a RadialFeed where the back of the cage is vented, got both")
+        _ = self.bound_film
+        self._warn()
+
+    @property
+    def slenderness(self) -> float:
+        """Length / diameter [1]."""
+        return self.length / (2.0 * self.radius)
+
+    @property
+    def force_scale(self) -> float:
+        """Viscosity * radius * length^3 / clearance^2 [N s], the film's unit of force per 1/s."""
+        return self.viscosity * self.radius * self.length**3 / self.clearance**2
+
+    @property
+    def nominal_force(self) -> float:
+        """Force of a middling motion at NOMINAL_SPEED [N]."""
+        return self.force_scale * NOMINAL_SPEED
+
+    @property
+    def largest_eccentricity_ratio(self) -> float:
+        """Eccentricity ratio to which the film is meant: the last node of a map, 0.99 for finite length."""
+        return getattr(self.film, "largest_eccentricity_ratio", 1.0)
+
+    @property
+    def is_fed(self) -> bool:
+        """Whether the force has a part that comes from a feed, so that the film has no potential."""
+        case = self._case
+        return bool(np.any(case.feed) or (case.cavitated and np.any(case.ends)))
+
+    @cached_property
+    def layer(self) -> PorousLayer | None:
+        """The cage in the film's units; None for a solid one."""
+        if self.cage is None:
+            return None
+        return PorousLayer(
+            permeability_number=self.cage.permeability * self.cage.thickness / self.clearance**3,
+            grading=self.cage.grading,
+            thickness_ratio=self.cage.thickness / self.length,
+            anisotropy=self.cage.anisotropy,
+            vented=self.cage.vented,
+            thin=self.cage.thin,
+        )
+
+    @cached_property
+    def bound_film(self) -> SqueezeFilm:
+        """The film law in this damper's dimensions."""
+        return self.film.bind(self._case)
+
+    def native(self) -> NativeSpec | None:
+        """Return the kernel of the C library that is this damper; None if its film is no map.
+
+        Nor has a subclass, which may differ from it.
+        """
+        return damper_spec(self) if type(self) is PorousDamper else None
+
+    def portable(self) -> PorousDamper:
+        """Return this damper with a film that carries the table it needs; see `model.Portable`."""
+        film = self.film
+        return replace(self, film=film.tabulated(self._case)) if isinstance(film, TabulatedSqueeze) else self
+
+    @property
+    def _case(self) -> SqueezeCase:
+        modes = layer_modes(self.layer)
+        ends = (
+            self.feed if isinstance(self.feed, AxialFeed) else AxialFeed(start_pressure=0.0, end_pressure=0.0)
+        )
+        rate = self.clearance**2 / (3.0 * self.viscosity * self.length**2)
+        return SqueezeCase(
+            slenderness=self.slenderness,
+            layer=self.layer,
+            modes=modes,
+            feed=self._feed(modes),
+            ends=(ends.start_pressure * rate, ends.end_pressure * rate),
+            cavitated=isinstance(self.extent, HalfSommerfeld),
+        )
+
+    def prepare(self) -> Callable[[float, float, float, float, float], tuple[float, float]]:
+        """Return the force as a function of five numbers; in C for a map. See `StaticReaction.prepare`."""
+        if not isinstance(self.bound_film, MappedSqueezeFilm):
+            return super().prepare()
+        in_c = self.bound_film.bound(clearance=self.clearance, force_scale=self.force_scale).call
+
+        def call(x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
+            return in_c(x, y, vx, vy, 0.0)
+
+        return call
+
+    def prepare_tangent(self) -> Tangent:
+        """Return force and derivatives as a function of five numbers; in C for a map."""
+        if not isinstance(self.bound_film, MappedSqueezeFilm):
+            return tangent_of(self)
+        in_c = self.bound_film.bound(clearance=self.clearance, force_scale=self.force_scale).tangent
+
+        def tangent(
+            x: float, y: float, vx: float, vy: float, speed: float
+        ) -> tuple[float, float, Sequence[float]]:
+            force_x, force_y, slopes = in_c(x, y, vx, vy, 0.0)
+            slopes[4] = slopes[9] = 0.0
+            return force_x, force_y, slopes
+
+        return tangent
+
+    def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `force` for inner loops: float arrays of equal batch shape, inside the clearance."""
+        return self.force_scale * self.bound_film.force(position / self.clearance, velocity / self.clearance)
+
+    def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `jacobian` for inner loops: float arrays of equal batch shape, inside the clearance."""
+        film = self.bound_film.jacobian(position / self.clearance, velocity / self.clearance)
+        by_motion = self.force_scale / self.clearance * film
+        return np.concatenate([by_motion, np.zeros_like(by_motion[:, :1])], axis=1)
+
+    def _feed(self, modes: LayerModes) -> Array:
+        """Return the feed of each group of modes, shape (N,) [1/s]."""
+        if isinstance(self.feed, RadialFeed):
+            passage = np.ones_like(modes.weight) if self.feed.at_film else modes.passage
+            through = modes.weight * passage * self.feed.inflow / self.clearance
+            if not self.feed.cosine:
+                return through
+            if through.size == 1:
+                return through * 24.0 / math.pi**3
+            # cos(pi z/L) is the first mode, with amplitude 1 in place of the uniform profile's 4/pi
+            return through * np.where(np.arange(through.size) == 0, 0.25 * math.pi, 0.0)
+        if not self._back_is_open or self.cage is None:
+            return np.zeros_like(modes.weight)
+        flux = self.cage.permeability * self.cage.supply_pressure / (self.viscosity * self.cage.thickness)
+        return modes.weight * modes.passage * flux / self.clearance
+
+    @property
+    def _back_is_open(self) -> bool:
+        return self.cage is not None and self.cage.vented
+
+    def _warn(self) -> None:
+        limit = getattr(self.film, "slenderness_limit", None)
+        if limit is not None and self.slenderness > limit:
+            excess = 1.0 / parabola_mean(self.slenderness) - 1.0
+            warn_user(
+                f"length / diameter must not exceed {limit} for {self.film!r}, got {self.slenderness:.6g}: "
+                f"the damping of a solid cage is too large by {100.0 * excess:.2g} % in small motion; "
+                "FiniteMapSqueeze() covers it",
+            )
+        if self.cage is not None and self.cage.thickness > LARGEST_RATIO * self.radius:
+            warn_user(
+                f"thickness must not exceed {LARGEST_RATIO} radii of {self.radius!r} m, got "
+                f"{self.cage.thickness!r}: the layer is unrolled to a plane",
+            )
+
+
+@dataclass(frozen=True, kw_only=True)
+class DamperGroups:
+    """The dimensionless groups of a rotor on a damper, w_r being any reference speed.
+
+    Attributes
+    ----------
+    squeeze_number : float
+        Bs = mu R L^3/(m w_r C^3).
+    damper_number : float
+        B = mu R^3 L/(2 m w_r C^3) = Bs/(8 (L/D)^2).
+    permeability_number : float
+        Phi = A H/C^3; 0 for a solid cage.
+    grading : float
+        lambda.
+    thickness_ratio : float
+        H/L.
+    slenderness : float
+        L/D.
+    speed_ratio : float
+        Omega = omega/w_r.
+    spring_ratio : float
+        Omega_s = sqrt(K/m)/w_r, K the stiffness of the retainer springs.
+    unbalance_ratio : float
+        U = u/(m C).
+    """
+
+    squeeze_number: float
+    damper_number: float
+    permeability_number: float
+    grading: float
+    thickness_ratio: float
+    slenderness: float
+    speed_ratio: float
+    spring_ratio: float
+    unbalance_ratio: float
+
+
+def damper_groups(
+    damper: PorousDamper,
+    *,
+    mass: float,
+    speed: float,
+    stiffness: float = 0.0,
+    unbalance: float = 0.0,
+    reference_speed: float | None = None,
+) -> DamperGroups:
+    """Return the dimensionless groups of a rigid rotor on a damper.
+
+    Parameters
+    ----------
+    damper : PorousDamper
+    mass : float [kg]
+        Carried by this damper.
+    speed : float [rad/s]
+        Of the rotor.
+    stiffness : float [N/m]
+        Of the retainer springs.
+    unbalance : float [kg m]
+    reference_speed : float [rad/s], optional
+        w_r; the speed itself by default.
+
+    Raises
+    ------
+    InputError
+        If a value breaks its rule.
+    """
+    reference = abs(speed) if reference_speed is None else reference_speed
+    require_positive("mass", mass)
+    require_number("speed", speed)
+    require_positive("reference_speed", reference)
+    require_non_negative("stiffness", stiffness)
+    require_non_negative("unbalance", unbalance)
+    layer = damper.layer
+    squeeze = damper.force_scale / (damper.clearance * mass * reference)
+    return DamperGroups(
+        squeeze_number=squeeze,
+        damper_number=squeeze / (8.0 * damper.slenderness**2),
+        permeability_number=0.0 if layer is None else layer.permeability_number,
+        grading=0.0 if layer is None else layer.grading,
+        thickness_ratio=0.0 if layer is None else layer.thickness_ratio,
+        slenderness=damper.slenderness,
+        speed_ratio=speed / reference,
+        spring_ratio=math.sqrt(stiffness / mass) / reference,
+        unbalance_ratio=unbalance / (mass * damper.clearance),
+    )

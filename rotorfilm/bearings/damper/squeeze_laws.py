@@ -1,0 +1,128 @@
+"""Which squeeze film a damper has: short, of finite length, or as published."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar, NamedTuple, Protocol, runtime_checkable
+
+import numpy as np
+
+from ...errors import InputError
+from ...model import Array
+from .cavitated_squeeze import CavitatedSqueezeFilm
+from .clipped_squeeze import ClippedSqueezeFilm
+from .finite_squeeze import LARGEST, FiniteSqueezeFilm
+from .full_squeeze import FullSqueezeFilm, SqueezeFilm
+from .porous_layer import LayerModes, PorousLayer
+
+
+class SqueezeCase(NamedTuple):
+    """A damper as its film sees it.
+
+    Attributes
+    ----------
+    slenderness : float [1]
+        L/D.
+    layer : PorousLayer or None
+        None for a solid cage.
+    modes : LayerModes
+        Of the layer.
+    feed : ndarray, shape (N,) [1/s]
+        Feed of each group of modes, weight included.
+    ends : tuple of two floats [1/s]
+        Pressure at both ends times clearance^2/(3 viscosity length^2).
+    cavitated : bool
+    """
+
+    slenderness: float
+    layer: PorousLayer | None
+    modes: LayerModes
+    feed: Array
+    ends: tuple[float, float]
+    cavitated: bool
+
+
+@runtime_checkable
+class SqueezeLaw(Protocol):
+    """A choice of squeeze film."""
+
+    def bind(self, case: SqueezeCase) -> SqueezeFilm:
+        """Return the film of one damper; raise InputError where the law cannot represent it."""
+
+
+@dataclass(frozen=True)
+class ShortSqueeze:
+    """Short film: no flow around the circumference, neither in the film nor in the layer."""
+
+    slenderness_limit: ClassVar[float] = 0.25
+
+    def bind(self, case: SqueezeCase) -> SqueezeFilm:
+        """Return the film of one damper."""
+        if not case.cavitated:
+            return FullSqueezeFilm(case.modes, case.feed)
+        if np.any(case.feed) or np.any(case.ends):
+            return ClippedSqueezeFilm(case.modes, case.feed, case.ends)
+        return CavitatedSqueezeFilm(case.modes)
+
+
+@dataclass(frozen=True)
+class FiniteSqueeze:
+    """Full film of finite length, some milliseconds for a force: the reference of the short film."""
+
+    largest_eccentricity_ratio: ClassVar[float] = LARGEST
+
+    def bind(self, case: SqueezeCase) -> SqueezeFilm:
+        """Return the film of one damper; raise InputError for a cavitated film."""
+        if case.cavitated:
+            raise InputError("extent must be FullFilm() for FiniteSqueeze(), got a cavitated film")
+        return FiniteSqueezeFilm(case.slenderness, case.layer, case.modes, case.feed)
+
+
+@dataclass(frozen=True)
+class PublishedSqueeze:
+    """Historical: small motion as published by Akhverdiev et al., with the signs corrected.
+
+    Full film, linear in eccentricity and velocity. The leak is that of a vented back with the flux number
+    Delta1 = 12 grading/(grading + 6) of the authors' polynomial through the layer: no effect without grading
+    and a trend opposite to that of a real layer. A radial feed passes a film that does not leak. Equations
+    (37)-(40); docs/damper.md has the errata. Not for design.
+    """
+
+    def bind(self, case: SqueezeCase) -> SqueezeFilm:
+        """Return the film of one damper; raise InputError for a cavitated film or a grading below 0."""
+        if case.cavitated:
+            raise InputError("extent must be FullFilm() for PublishedSqueeze(), got a cavitated film")
+        if case.layer is not None and case.layer.grading < 0.0:
+            raise InputError(
+                f"grading must not be negative for PublishedSqueeze(), got {case.layer.grading!r}"
+            )
+        conductance = 1.0 if case.layer is None else published_conductance(case.layer)
+        return _LinearSqueezeFilm(math.pi * conductance, 3.0 * math.pi * float(np.sum(case.feed)))
+
+
+def published_conductance(layer: PorousLayer) -> float:
+    """Return G(1) of the published film: 3 (1 - tanh x/x)/x^2, x^2 = 3 Phi Delta1/(H/L)^2."""
+    flux = 12.0 * layer.grading / (layer.grading + 6.0)
+    return parabola_mean(math.sqrt(3.0 * layer.permeability_number * flux) / layer.thickness_ratio)
+
+
+def parabola_mean(x: float) -> float:
+    """Return 3 (1 - tanh x/x)/x^2, 1 at x = 0: what flow across a boundary leaves of a parabola's mean."""
+    if x < 0.02:
+        return 1.0 - 0.4 * x * x + 17.0 / 105.0 * x**4
+    return 3.0 * (1.0 - math.tanh(x) / x) / (x * x)
+
+
+@dataclass(frozen=True)
+class _LinearSqueezeFilm:
+    damping: float
+    stiffness: float
+
+    def force(self, eccentricity: Array, rate: Array) -> Array:
+        return -self.damping * rate - self.stiffness * eccentricity
+
+    def jacobian(self, eccentricity: Array, rate: Array) -> Array:
+        constant = np.concatenate([-self.stiffness * np.eye(2), -self.damping * np.eye(2)], axis=1)
+        axes = (1,) * (eccentricity.ndim - 1)
+        return np.broadcast_to(constant.reshape(2, 4, *axes), (2, 4, *eccentricity.shape[1:])).copy()

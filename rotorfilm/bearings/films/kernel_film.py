@@ -1,0 +1,155 @@
+"""Film laws of the C library: one dimensionless, and as the film of one bearing in SI units."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...errors import InputError, require_inside, warn_user
+from ...model import Array
+from ...native import FilmKernel, JournalKernel, Status
+from ...native.kernels import Batch
+from .law import vanishing_source, wall_contact
+
+
+class KernelFilm(ABC):
+    """A film law in compiled code: what `ShortFilm`, `MapFilm` and `GroovedMapFilm` have in common."""
+
+    @abstractmethod
+    def _kernel(self, slenderness: float) -> FilmKernel:
+        """Return the compiled film of a bearing."""
+
+    def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
+        """Return the force on the journal, shape (2, ...); see `FilmLaw.force`.
+
+        Raises
+        ------
+        InputError
+            If the film is not for this slenderness, or a state is not finite.
+        FilmContactError
+            If an eccentricity ratio is not below 1.
+        """
+        e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
+        kernel = self._kernel(slenderness)
+        batch = kernel.force(e, w)
+        _report_law(batch, e, w, kernel.error)
+        return batch.values.reshape(eccentricity.shape)
+
+    def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
+        """Return d force / d (eccentricity, source), shape (2, 4, ...); see `FilmLaw.jacobian`.
+
+        Raises
+        ------
+        InputError, FilmContactError
+            As in `force`.
+        UndefinedDerivativeError
+            Where the source vanishes, in a plain bearing off the center only.
+        """
+        e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
+        kernel = self._kernel(slenderness)
+        batch = kernel.jacobian(e, w)
+        _report_law(batch, e, w, kernel.error)
+        return batch.values.reshape(2, 4, *eccentricity.shape[1:])
+
+    def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundKernel:
+        """Return this film in one bearing, in SI units; see `law.BindableFilm`."""
+        return BoundKernel(JournalKernel(self._kernel(slenderness), clearance, force_scale), clearance)
+
+
+@dataclass(frozen=True, eq=False)
+class BoundKernel:
+    """A film of one bearing in SI units: `law.BoundFilm` over the C kernel.
+
+    Parameters
+    ----------
+    kernel : JournalKernel
+        The compiled film of the bearing.
+    clearance : float [m]
+        Its radial clearance.
+    """
+
+    kernel: JournalKernel
+    clearance: float
+
+    def call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
+        """Return (force_x, force_y) [N] for numbers, as fast as Python can ask."""
+        force_x, force_y, status = self.kernel.call(x, y, vx, vy, speed)
+        if status:
+            self._report(status, x, y, vx, vy, speed)
+        return force_x, force_y
+
+    def tangent(
+        self, x: float, y: float, vx: float, vy: float, speed: float
+    ) -> tuple[float, float, list[float]]:
+        """Return (force_x, force_y) [N] and the ten entries of the Jacobian, row by row, for numbers."""
+        force_x, force_y, derivatives, status = self.kernel.tangent(x, y, vx, vy, speed)
+        if status:
+            self._report(status, x, y, vx, vy, speed)
+        return force_x, force_y, derivatives
+
+    def force(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return the force [N], shape (2, ...)."""
+        if position.ndim == 1:
+            x, y = position.tolist()
+            vx, vy = velocity.tolist()
+            return np.array(self.call(x, y, vx, vy, float(speed)))
+        q, v, omega = position.reshape(2, -1), velocity.reshape(2, -1), speed.ravel()
+        batch = self.kernel.force(q, v, omega)
+        self._report_batch(batch, q, v, omega)
+        return batch.values.reshape(position.shape)
+
+    def jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return d force / d (x, y, vx, vy, speed), shape (2, 5, ...)."""
+        if position.ndim == 1:
+            x, y = position.tolist()
+            vx, vy = velocity.tolist()
+            return np.array(self.tangent(x, y, vx, vy, float(speed))[2]).reshape(2, 5)
+        q, v, omega = position.reshape(2, -1), velocity.reshape(2, -1), speed.ravel()
+        batch = self.kernel.jacobian(q, v, omega)
+        self._report_batch(batch, q, v, omega)
+        return batch.values.reshape(2, 5, *position.shape[1:])
+
+    def _report_batch(self, batch: Batch, q: Array, v: Array, omega: Array) -> None:
+        if batch.status:
+            at = np.argmax(np.hypot(*q)) if batch.status == Status.CONTACT else batch.first
+            (x, y), (vx, vy) = q[:, at].tolist(), v[:, at].tolist()
+            self._report(batch.status, x, y, vx, vy, float(np.broadcast_to(omega, q.shape[1:])[at]))
+
+    def _report(self, status: int, x: float, y: float, vx: float, vy: float, speed: float) -> None:
+        """Raise, or warn, about a state that has this status."""
+        if status == Status.NOT_FINITE:
+            raise InputError(
+                "position, velocity and speed must be finite and not overflow, "
+                f"got ({x!r}, {y!r}) m, ({vx!r}, {vy!r}) m/s and {speed!r} rad/s"
+            )
+        if status == Status.CONTACT:
+            require_inside(np.array([x, y]), self.clearance)
+        _report_film(status, float(np.hypot(x, y)) / self.clearance, self.kernel.error)
+
+
+def _report_law(batch: Batch, e: Array, w: Array, error: float) -> None:
+    """Raise, or warn, about the most severe status of a batch of eccentricities and sources (2, n)."""
+    if not batch.status:
+        return
+    at = e[:, batch.first]
+    if batch.status == Status.NOT_FINITE:
+        raise InputError(
+            "eccentricity and source must be finite and not overflow, "
+            f"got {at.tolist()} and {w[:, batch.first].tolist()} 1/s"
+        )
+    _report_film(batch.status, float(np.hypot(*at)), error)
+
+
+def _report_film(status: int, chi: float, error: float) -> None:
+    if status == Status.CONTACT:
+        raise wall_contact(chi)
+    if status == Status.UNDEFINED:
+        raise vanishing_source(chi)
+    how = (
+        f"continued as that of a film at contact, within {error:g} % where no opening is near"
+        if error
+        else "extrapolated there, with an error that is not known"
+    )
+    warn_user(f"eccentricity ratio {chi:.6g} is beyond the map of the film; its force is {how}")

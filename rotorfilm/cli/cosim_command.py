@@ -1,0 +1,89 @@
+"""The command `rotorfilm cosim`: rotor and film of a scene coupled as separate FMUs."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from . import printing as console
+
+if TYPE_CHECKING:
+    from ..scenes.cosimulate_scene import CosimAnswer
+
+COSIM_EXAMPLE = 'Example: rotorfilm cosim examples/friswell.toml --scheme si-exp3 --macro-angle "5 deg"'
+
+
+def cosim(
+    scene: Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file with a rotor.")],
+    scheme: Annotated[
+        str,
+        typer.Option(
+            help="auto, gauss-seidel-0 to -2, jacobi-0 to -2, si-exp, si-exp3, newton or adaptive.",
+            metavar="NAME",
+        ),
+    ] = "auto",
+    macro_angle: Annotated[
+        str | None, typer.Option(help="Rotation between exchanges; else the scene's.", metavar='"5 deg"')
+    ] = None,
+    revolutions: Annotated[
+        float | None, typer.Option(help="Length in turns of the shaft; else the scene's.", min=0.0)
+    ] = None,
+    tolerance: Annotated[float, typer.Option(help="Relative, of auto and adaptive.", min=0.0)] = 1e-2,
+    out: Annotated[Path | None, typer.Option(help="CSV file for the signals.", metavar="FILE.csv")] = None,
+    json: Annotated[bool, typer.Option("--json", help="Print JSON on stdout instead of tables.")] = False,
+) -> None:
+    """Couple the rotor and the film of a scene as FMUs, and say how well: limit, error, film calls."""
+    with console.progress_display() as report:
+        report(0.0, "packages")
+        from ..errors import PartialResultError
+        from ..results import write_csv
+        from ..scenes import Scene
+        from ..scenes.cosimulate_scene import run_scene, scheme_named
+        from ..scenes.tables import Quantity
+
+        loaded = Scene.load(scene)
+        table = loaded.cosimulation
+        if macro_angle is not None:
+            table = replace(table, macro_angle=Quantity("rad")("--macro-angle", macro_angle))
+        if revolutions is not None:
+            table = replace(table, revolutions=revolutions)
+        try:
+            answer, signals = run_scene(
+                replace(loaded, cosimulation=table), scheme_named(scheme, tolerance), report
+            )
+        except PartialResultError as error:
+            if out is not None and error.partial is not None:
+                kept = error.partial.trajectory
+                write_csv(out, {"time": kept.time, **kept.signals})
+            raise
+        if out is not None:
+            write_csv(out, {"time": signals.time, **signals.signals})
+    if json:
+        console.print_json(answer)
+        return
+    for trial in answer.trials:
+        console.print_rows("", [(trial.scheme, trial.reason)])
+    console.print_rows(loaded.title, cosim_rows(answer))
+
+
+def cosim_rows(answer: CosimAnswer) -> list[tuple[str, str]]:
+    """Return the rows that describe a co-simulation."""
+    limit, watch, work = answer.critical_macro_angle, answer.watch, answer.work
+    calls = ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in work.items())
+    rows = [
+        ("scheme", f"{answer.scheme}, order {answer.order}"),
+        ("macro step", f"{math.degrees(answer.macro_angle):.4g} deg"),
+        ("stable at rest up to", "any" if limit is None else f"{math.degrees(limit):.4g} deg"),
+        ("largest eccentricity ratio", f"{answer.eccentricity_ratio:.4g}"),
+        ("orbit error / clearance", f"{answer.orbit_error:.2e} (beside the monolithic solution)"),
+        ("work", calls),
+    ]
+    if watch.local_error is not None:
+        rows.append(("local error / rms force", f"{watch.local_error:.2e}"))
+    if watch.explicit_ratio is not None:
+        rows.append(("macro step * damping / mass", f"{watch.explicit_ratio:.3g} (explicit limit .1 to 2)"))
+    return [*rows, *(("warning", text) for text in watch.warnings)]

@@ -1,0 +1,151 @@
+"""The command `rotorfilm damper`: an unbalanced rigid rotor on a squeeze-film damper."""
+
+from __future__ import annotations
+
+import math
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from . import printing as console
+
+if TYPE_CHECKING:
+    from ..bearings.damper import PorousCage
+    from ..results import CircularOrbit
+    from ..scenes.damper.solve_damper import DamperAnswer
+
+DAMPER_EXAMPLE = (
+    'Example: rotorfilm damper --radius "50 mm" --length "25 mm" --clearance "0.1 mm" '
+    '--viscosity "4.1e-4 Pa s" --mass "10 kg" --speed "400 rad/s" --stiffness "2.56e5 N/m" '
+    '--unbalance "400 g mm" --thickness "2.5 mm" --permeability "0.4 um2"'
+)
+
+
+class Squeeze(StrEnum):
+    """Film laws by their names in scene files."""
+
+    SHORT = "short"
+    MAP = "map"
+    FINITE = "finite"
+    FINITE_MAP = "finite_map"
+    PUBLISHED = "published"
+
+
+def damper(
+    radius: Annotated[str, typer.Option(help="Radius of the film.", metavar='"50 mm"')],
+    length: Annotated[str, typer.Option(help="Axial length.", metavar='"25 mm"')],
+    clearance: Annotated[str, typer.Option(help="Radial clearance.", metavar='"0.1 mm"')],
+    viscosity: Annotated[str, typer.Option(help="Dynamic viscosity.", metavar='"4.1e-4 Pa s"')],
+    mass: Annotated[str, typer.Option(help="Mass on this damper.", metavar='"10 kg"')],
+    speed: Annotated[str, typer.Option(help="Angular speed.", metavar='"400 rad/s"')],
+    unbalance: Annotated[str, typer.Option(help="Mass times eccentricity.", metavar='"400 g mm"')],
+    stiffness: Annotated[str, typer.Option(help="Of the retainer springs.", metavar='"2.56e5 N/m"')] = "0",
+    thickness: Annotated[
+        str | None, typer.Option(help="Of the porous cage; solid without.", metavar='"2.5 mm"')
+    ] = None,
+    permeability: Annotated[
+        str | None, typer.Option(help="Of the porous cage at the film.", metavar='"0.4 um2"')
+    ] = None,
+    grading: Annotated[float, typer.Option(help="lambda of k = A exp(lambda y/H).")] = 0.0,
+    anisotropy: Annotated[float, typer.Option(help="Permeability along the cage / through it.")] = 1.0,
+    vented: Annotated[bool, typer.Option("--vented", help="Open back of the cage.")] = False,
+    full: Annotated[bool, typer.Option("--full", help="Full film, tension included.")] = False,
+    film: Annotated[Squeeze, typer.Option(help="Film law.")] = Squeeze.SHORT,
+    chart: Annotated[Path | None, typer.Option(help="Draw the transmissibility into this PNG.")] = None,
+    json: Annotated[bool, typer.Option("--json", help="Print JSON on stdout instead of tables.")] = False,
+) -> None:
+    """Find the synchronous orbits of an unbalanced rotor on a solid or porous squeeze-film damper."""
+    from ..bearings.damper import PorousDamper
+    from ..bearings.films.cavitation import FullFilm, HalfSommerfeld
+    from ..scenes.damper.damper_table import SQUEEZES
+    from ..scenes.damper.solve_damper import solve_damper
+    from ..scenes.tables import Quantity
+
+    support = PorousDamper(
+        radius=Quantity("m")("--radius", radius),
+        length=Quantity("m")("--length", length),
+        clearance=Quantity("m")("--clearance", clearance),
+        viscosity=Quantity("Pa.s")("--viscosity", viscosity),
+        extent=FullFilm() if full else HalfSommerfeld(),
+        cage=_cage(thickness, permeability, grading, anisotropy, vented),
+        film=SQUEEZES[film.value]().build(),
+    )
+    kilograms = Quantity("kg")("--mass", mass)
+    answer = solve_damper(
+        support,
+        mass=kilograms,
+        speed=Quantity("rad/s")("--speed", speed),
+        unbalance=Quantity("kg.m")("--unbalance", unbalance),
+        stiffness=Quantity("N/m")("--stiffness", stiffness),
+    )
+    if chart is not None:
+        _draw(answer, kilograms * support.clearance, chart)
+    if json:
+        console.print_json(answer)
+        return
+    console.print_rows("rotor on a squeeze-film damper", damper_rows(answer))
+
+
+def damper_rows(answer: DamperAnswer) -> list[tuple[str, str]]:
+    """Return the rows that describe an answer."""
+    groups, small = answer.groups, answer.small_motion
+    folds = ", ".join(
+        f"{'up' if fold.upward else 'down'} at {_mass(fold.unbalance)}" for fold in answer.folds
+    )
+    contact = "none" if answer.contact_unbalance is None else f"from {_mass(answer.contact_unbalance)} on"
+    return [
+        (
+            "squeeze number Bs, permeability number",
+            f"{groups.squeeze_number:.5g}, {groups.permeability_number:.5g}",
+        ),
+        ("spring ratio, unbalance ratio", f"{groups.spring_ratio:.5g}, {groups.unbalance_ratio:.5g}"),
+        (
+            "K, C of an orbit of clearance/100",
+            f"{small.stiffness:.6g} N/m, {small.damping:.6g} N s/m",
+        ),
+        *[("orbit", _orbit(orbit)) for orbit in answer.orbits],
+        *([] if answer.orbits else [("orbit", "none: the rotor hits the wall")]),
+        ("jumps", folds or "none"),
+        ("contact", contact),
+    ]
+
+
+def _orbit(orbit: CircularOrbit) -> str:
+    return (
+        f"eccentricity ratio {orbit.eccentricity_ratio:.5f}, lag {-math.degrees(orbit.phase):.4g} deg, "
+        f"transmissibility {orbit.transmissibility:.5g}, {'stable' if orbit.stable else 'unstable'}"
+    )
+
+
+def _mass(unbalance: float) -> str:
+    return f"{unbalance * 1e6:.5g} g mm"
+
+
+def _cage(
+    thickness: str | None, permeability: str | None, grading: float, anisotropy: float, vented: bool
+) -> PorousCage | None:
+    from ..bearings.damper import PorousCage
+    from ..errors import InputError
+    from ..scenes.tables import Quantity
+
+    if thickness is None and permeability is None:
+        if (grading, anisotropy, vented) != (0.0, 1.0, False):
+            raise InputError("--grading, --anisotropy and --vented need --thickness and --permeability")
+        return None
+    if thickness is None or permeability is None:
+        raise InputError("--thickness and --permeability must be given together")
+    return PorousCage(
+        thickness=Quantity("m")("--thickness", thickness),
+        permeability=Quantity("m2")("--permeability", permeability),
+        grading=grading,
+        anisotropy=anisotropy,
+        vented=vented,
+    )
+
+
+def _draw(answer: DamperAnswer, unit: float, chart: Path) -> None:
+    from ..charts import plot_transmissibility, save
+
+    save(plot_transmissibility({"damper": answer.response}, unit=unit), chart)

@@ -1,0 +1,89 @@
+"""The pictures of the demonstration: its results handed to the charts."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ..charts import (
+    new_figure,
+    plot_coupling_error,
+    plot_force_error,
+    plot_journal_accuracy,
+    plot_journal_stability,
+    plot_locus,
+    plot_orbits,
+    plot_thresholds,
+    save,
+)
+from ..results import Trajectory
+from ..scenes.demo import DemoResult, demo_rungs
+
+OVERVIEW_SIZE, OVERVIEW_DPI = (14.0, 11.2), 100
+"""Size [inch] and resolution of the picture with everything."""
+
+
+def draw_demo(result: DemoResult, folder: Path) -> list[Path]:
+    """Write the charts of a demonstration as PNG into an existing folder; return their paths."""
+    return [
+        save(_draw_overview(result), folder / "demo.png", dpi=OVERVIEW_DPI),
+        save(_draw_orbits(result), folder / "orbit.png"),
+        save(_draw_locus(result), folder / "locus.png"),
+        save(
+            plot_journal_stability(result.stability, point=_working_point(result))[0],
+            folder / "stability.png",
+        ),
+        save(plot_journal_accuracy(result.accuracy)[0], folder / "accuracy.png"),
+        save(_draw_coupling(result), folder / "coupling.png"),
+    ]
+
+
+def _draw_overview(result: DemoResult) -> Axes:
+    """Draw orbits and their error beside the whirl threshold and the force error of every film."""
+    figure = new_figure(size=OVERVIEW_SIZE)
+    (orbits, coupling), (stability, accuracy) = figure.subplots(2, 2, height_ratios=(1.0, 1.25))
+    compared = result.accuracy
+    reference = f"films at L/D = {compared.slenderness:g}, reference: {compared.reference}"
+    figure.suptitle(f"{result.scene.title}\n{reference}")
+    _draw_orbits(result, orbits)
+    orbits.set_title("Orbit of the journal center")
+    _draw_coupling(result, coupling)
+    coupling.set_title("Co-simulation error against macro step")
+    plot_thresholds(result.stability, point=_working_point(result), axes=stability)
+    stability.set(title="Whirl threshold of a rigid rotor (unstable above)", xlabel="eccentricity ratio [1]")
+    accuracy.set_title("Error of the force against its cost")
+    plot_force_error(result.accuracy, axes=accuracy)
+    return orbits
+
+
+def _working_point(result: DemoResult) -> tuple[float, float]:
+    """Return eccentricity ratio and speed parameter."""
+    return result.answer.equilibrium.eccentricity_ratio, result.speed_parameter
+
+
+def _draw_orbits(result: DemoResult, axes: Axes | None = None) -> Axes:
+    """Draw the monolithic orbit, that of the scene's macro step, and one past the stability limit."""
+    orbits: dict[str, Trajectory] = {"monolithic": result.coupling.monolithic}
+    for run in [result.scene_run, *(run for run in result.coupling.runs if run.refused)]:
+        verdict = " (refused)" if run.refused else ""
+        orbits[f"coupled, {math.degrees(run.macro_angle):.3g} deg{verdict}"] = run.trajectory
+    center = result.answer.equilibrium.position
+    return plot_orbits(orbits, clearance=result.scene.bearing.clearance, center=center, axes=axes)
+
+
+def _draw_locus(result: DemoResult) -> Axes:
+    ratios = np.array(result.stability.eccentricity_ratio)
+    families = {rung.name: rung.family for rung in demo_rungs()}
+    curves = {name: (ratios, angles) for name, angles in result.attitude_angle.items()}
+    return plot_locus(curves, families=families)
+
+
+def _draw_coupling(result: DemoResult, axes: Axes | None = None) -> Axes:
+    runs = result.coupling.runs
+    angles = np.array([run.macro_angle for run in runs])
+    errors = np.array([run.orbit_error for run in runs])
+    refused = np.array([bool(run.refused) for run in runs])
+    return plot_coupling_error(angles, errors, refused, limit=result.critical_macro_angle, axes=axes)

@@ -1,0 +1,124 @@
+"""The command `rotorfilm rotor`: a flexible rotor in its bearings, from a scene file."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import numpy as np
+import typer
+
+from . import printing as console
+
+if TYPE_CHECKING:
+    from ..scenes.shaft.solve_shaft import RotorAnswer
+
+ROTOR_EXAMPLE = "Example: rotorfilm rotor examples/flexible_rotor.toml --out pictures"
+
+RPM = 30.0 / math.pi
+"""Turns per minute in one rad/s."""
+
+
+def rotor(
+    scene: Annotated[Path, typer.Argument(help="Scene file with a table shaft.", metavar="SCENE.toml")],
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for pictures (PNG), tables (CSV) and the answer (JSON).")
+    ] = None,
+    json: Annotated[bool, typer.Option("--json", help="Print JSON on stdout instead of tables.")] = False,
+) -> None:
+    """Find critical speeds, whirl modes, the threshold of stability and the unbalance response of a rotor."""
+    from ..scenes import Scene
+    from ..scenes.shaft.solve_shaft import solve_rotor
+
+    loaded = Scene.load(scene)
+    with console.progress_display() as report:
+        answer = solve_rotor(loaded, report)
+    if out is not None:
+        write_rotor(answer, out)
+    if json:
+        console.print_json(plain_rotor(answer))
+        return
+    console.print_rows(answer.title, rotor_rows(answer))
+
+
+def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
+    """Return the rows that describe an answer."""
+    found = answer.threshold
+    rows = [("rotor", f"{answer.mass:.6g} kg, {answer.states} states")]
+    rows += [(f"load on {name}", f"{np.hypot(*load):.6g} N") for name, load in answer.loads.items()]
+    rows += [
+        (
+            "critical speed",
+            f"{one.speed * RPM:.6g} rpm, {_sense(one.direction)}, log decrement {one.log_decrement:.4g}",
+        )
+        for one in answer.critical_speeds
+    ]
+    if found.speed is None:
+        rows.append(("threshold of stability", found.reason))
+    else:
+        ratio = found.whirl_ratio
+        how = f"whirl at {ratio:.4g} of the speed" if ratio else "divergence, without whirl"
+        rows.append(("threshold of stability", f"{found.speed * RPM:.6g} rpm, {how}"))
+    for name, amplitude in answer.amplitudes.items():
+        assert answer.response is not None  # or there are no amplitudes
+        k = int(np.argmax(amplitude))
+        size = f"{amplitude[k]:.4g} N" if "_force_" in name else f"{amplitude[k] * 1e6:.4g} um"
+        turned = float(np.asarray(answer.response.frequency)[k])
+        beyond = found.speed is not None and turned > found.speed
+        remark = ", beyond the threshold" if beyond else ""
+        rows.append((f"largest {name}", f"{size} at {turned * RPM:.6g} rpm{remark}"))
+    return rows
+
+
+def plain_rotor(answer: RotorAnswer) -> dict[str, Any]:
+    """Return an answer as plain lists and numbers; nothing where a mode is overdamped."""
+    from ..results import to_plain
+
+    chart = answer.campbell
+    return {
+        "title": answer.title,
+        "mass": answer.mass,
+        "states": answer.states,
+        "loads": to_plain(dict(answer.loads)),
+        "residual": answer.residual,
+        "critical_speeds": to_plain(list(answer.critical_speeds)),
+        "threshold": to_plain(answer.threshold),
+        "campbell": {
+            "speeds": chart.speeds.tolist(),
+            "frequency": _without_nan(chart.frequency),
+            "log_decrement": _without_nan(chart.log_decrement),
+            "direction": _without_nan(chart.direction),
+        },
+        "response_speeds": [] if answer.response is None else np.asarray(answer.response.frequency).tolist(),
+        "amplitudes": to_plain(dict(answer.amplitudes)),
+    }
+
+
+def write_rotor(answer: RotorAnswer, folder: Path) -> None:
+    """Write the pictures, tables and the JSON of an answer into a folder, which is made if need be."""
+    from ..charts import plot_campbell, plot_log_decrement, plot_unbalance_response, save
+    from ..files import written_together
+    from ..results import write_csv
+    from ..scenes.shaft.solve_shaft import campbell_columns, response_columns
+
+    with written_together(folder) as part:
+        save(plot_campbell(answer.campbell, critical=answer.critical_speeds), part / "campbell.png")
+        save(plot_log_decrement(answer.campbell), part / "log_decrement.png")
+        write_csv(part / "campbell.csv", campbell_columns(answer))
+        if answer.response is not None:
+            shown = [name for name in answer.amplitudes if "_force_" not in name]
+            above, _ = plot_unbalance_response(answer.response, shown)
+            save(above, part / "unbalance_response.png")
+            write_csv(part / "unbalance_response.csv", response_columns(answer))
+        console.write_json(part / "rotor.json", plain_rotor(answer))
+
+
+def _sense(direction: float) -> str:
+    if abs(direction) <= 0.1:
+        return "to and fro"
+    return "forward" if direction > 0.0 else "backward"
+
+
+def _without_nan(table: np.ndarray) -> list[list[float | None]]:
+    return [[None if math.isnan(entry) else entry for entry in row] for row in table.tolist()]

@@ -1,0 +1,107 @@
+"""The command `rotorfilm sweep`: a scene at many values of its keys."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from ..errors import InputError
+from ..limits import SWEEP_POINTS
+from ..printable import brief
+from ..units import whole_number
+from . import printing as console
+
+SWEEP_EXAMPLE = (
+    'Example: rotorfilm sweep examples/question.toml --vary "journal.clearance = 50 um, 60 um, 70 um" '
+    '--vary "operation.speed = 1000 rpm : 3000 rpm : 5" --out sweep.nc'
+)
+
+
+def sweep(
+    scene: Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file of schema 1.")],
+    vary: Annotated[
+        list[str],
+        typer.Option(
+            help="Key and its values: a list, or first : last : count. Once for each key.",
+            metavar='"KEY = VALUES"',
+        ),
+    ],
+    out: Annotated[Path, typer.Option(help="NetCDF file; run again, it goes on where it was interrupted.")],
+    workers: Annotated[int | None, typer.Option(help="Processes; by default one for each core.")] = None,
+    dask: Annotated[str | None, typer.Option(help="Scheduler of a Dask cluster.", metavar="ADDRESS")] = None,
+    json: Annotated[bool, typer.Option("--json", help="Print JSON on stdout instead of tables.")] = False,
+) -> None:
+    """Solve a scene at all combinations of some values of its keys, into a NetCDF file."""
+    from ..sweeps import sweep as run
+
+    parameters: dict[str, list[Any]] = {}
+    for key, values in map(read_variation, vary):
+        if key in parameters:
+            raise InputError(f"--vary must be given once for each key, got {brief(key)} twice")
+        parameters[key] = values
+    with console.progress_display() as report:
+        dataset = run(scene, parameters, path=out, workers=workers, dask=dask, report=report)
+    failed = int((dataset["failure"] != "").sum())
+    answer = {
+        "path": str(out),
+        "points": int(dataset["failure"].size),
+        "failed": failed,
+        "remarks": int((dataset["remarks"] != "").sum()),
+        "sizes": dict(dataset.sizes),
+    }
+    if json:
+        console.print_json(answer)
+        return
+    if answer["remarks"]:
+        answer["remarks"] = f"{answer['remarks']} points: physics left out, or a model beyond its range"
+    console.print_rows("sweep", [(name, str(value)) for name, value in answer.items()])
+
+
+def read_variation(text: str) -> tuple[str, list[Any]]:
+    """Return a key and its values from "key = a, b, c" or "key = first : last : count".
+
+    Raises
+    ------
+    InputError
+        If the text is neither.
+    """
+    key, equals, values = text.partition("=")
+    if not (equals and key.strip() and values.strip()):
+        raise InputError(f'--vary must be "KEY = VALUES", got {brief(text)}')
+    parts = [part.strip() for part in values.split(":")]
+    if len(parts) == 1:
+        return key.strip(), [_value(part.strip()) for part in values.split(",")]
+    count = whole_number(parts[2]) if len(parts) == 3 else None
+    if count is None or not 2 <= count <= SWEEP_POINTS:
+        raise InputError(
+            f'--vary must be "KEY = first : last : count" with a count from 2 to {SWEEP_POINTS}, '
+            f"got {brief(text)}"
+        )
+    return key.strip(), _spread(text, parts[0], parts[1], count)
+
+
+def _spread(text: str, first: str, last: str, count: int) -> list[Any]:
+    import numpy as np
+
+    (low, unit), (high, other) = _split(first), _split(last)
+    if low is None or high is None or unit != other:
+        raise InputError(f"--vary must run between two numbers of one unit, got {brief(text)}")
+    numbers = np.linspace(low, high, count).tolist()
+    return [f"{number!r} {unit}" if unit else number for number in numbers]
+
+
+def _split(text: str) -> tuple[float | None, str]:
+    number, _, unit = text.replace("%", " %").partition(" ")
+    try:
+        value = float(number)
+    except ValueError:
+        return None, ""
+    return (value if math.isfinite(value) else None), unit.strip()
+
+
+def _value(text: str) -> Any:
+    number, unit = _split(text)
+    return text if number is None or unit else number

@@ -1,0 +1,167 @@
+"""Error of a ball's motion against its cost: schemes in time and space, steps, grids, reduced laws."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from time import process_time
+from typing import NamedTuple
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from ...bearings.contact import (
+    HERTZ_LOAD,
+    AdaptiveSteps,
+    ContactGrid,
+    ContactScheme,
+    FixedSteps,
+    PointContact,
+    SineLoad,
+    StaggeredScheme,
+    UpwindScheme,
+    reduce_contact,
+    ride,
+)
+from ...model import Array
+from ...progress import Report, silent
+from .contact_cases import (
+    PRESSURE_COEFFICIENT,
+    PUBLISHED_CELLS,
+    PUBLISHED_STEP,
+    SPEED_PARAMETER,
+    as_published,
+)
+
+LOAD = SineLoad(amplitude=0.5, frequency=2.0)
+INERTIA = 1.0
+RIDES = 5
+"""Runs of a reduced law, the shortest of which counts."""
+
+
+class ContactRung(NamedTuple):
+    """One way to the motion.
+
+    Attributes
+    ----------
+    family, label : str
+    error : float
+        Rms of the error of delta / rms of its change from rest.
+    cost : float
+        Processor time [s] of the motion; building a law not counted.
+    """
+
+    family: str
+    label: str
+    error: float
+    cost: float
+
+
+class ContactPrecision(NamedTuple):
+    """The rungs, and what they were measured against."""
+
+    duration: float
+    reference: str
+    rungs: tuple[ContactRung, ...]
+
+    def columns(self) -> dict[str, list[object]]:
+        """Return the rungs as columns of a table."""
+        headings = {"family": "family", "label": "label", "error": "rms error of delta", "cost": "cost [s]"}
+        return {text: [getattr(rung, name) for rung in self.rungs] for name, text in headings.items()}
+
+
+def contact_precision(
+    cells: int = 64,
+    duration: float = 10.0,
+    tolerance: float = 1e-5,
+    orders: tuple[int, ...] = (2, 3, 5, 8),
+    report: Report = silent,
+) -> ContactPrecision:
+    """Return the ladder for W = 1 under the load 1 + 0.5 sin(2 t) from rest; some minutes.
+
+    Parameters
+    ----------
+    cells : int
+        Cells along each side of the reference; the rungs have a half to three quarters of them.
+    duration : float [1]
+    tolerance : float
+        Of the steps of the reference.
+    orders : tuple of int
+        Of the reduced laws.
+    report : callable
+        Told how far the work is.
+    """
+    report(0.0, "reference")
+    exact = _full(cells, UpwindScheme(), AdaptiveSteps(tolerance=tolerance), duration)()
+    times = np.linspace(0.0, duration, 2001)
+    reference = CubicSpline(*exact)(times)
+    size = float(np.sqrt(np.mean((reference - reference[0]) ** 2)))
+    plan = [*_full_plan(cells, duration), *_law_plan(cells // 2, duration, orders)]
+    rungs = []
+    for number, (family, label, run, repeats) in enumerate(plan):
+        report((number + 1) / (len(plan) + 1), f"{family}, {label}")
+        cost = np.inf
+        for _ in range(repeats):
+            begin = process_time()
+            found = run()
+            cost = min(cost, process_time() - begin)
+        miss = CubicSpline(*found)(times) - reference
+        rungs.append(ContactRung(family, label, float(np.sqrt(np.mean(miss**2))) / size, float(cost)))
+    name = f"BDF2 of tolerance {tolerance:g}, {cells} x {cells} upwind cells"
+    return ContactPrecision(duration, name, tuple(rungs))
+
+
+Series = tuple[Array, Array]
+
+
+def _full_plan(cells: int, duration: float) -> Iterator[tuple[str, str, Callable[[], Series], int]]:
+    coarse, middle = cells // 2, 3 * cells // 4
+    middle -= middle % 2
+    published = FixedSteps(step=PUBLISHED_STEP, order=1)
+    run = _full(PUBLISHED_CELLS, StaggeredScheme(), published, duration)
+    yield "published scheme", f"dt {PUBLISHED_STEP:g}", run, 1
+    for step in (0.2, 0.1, 0.05, 0.025):
+        control = FixedSteps(step=step, order=1)
+        yield f"Euler, {middle} cells", f"dt {step:g}", _full(middle, UpwindScheme(), control, duration), 1
+    for size in (coarse, middle):
+        for step in (0.2, 0.1, 0.05):
+            control = FixedSteps(step=step)
+            yield f"BDF2, {size} cells", f"dt {step:g}", _full(size, UpwindScheme(), control, duration), 1
+        for tolerance in (1e-3, 1e-4):
+            run = _full(size, UpwindScheme(), AdaptiveSteps(tolerance=tolerance), duration)
+            yield f"adaptive, {size} cells", f"tol {tolerance:g}", run, 1
+
+
+def _law_plan(
+    cells: int, duration: float, orders: tuple[int, ...]
+) -> Iterator[tuple[str, str, Callable[[], Series], int]]:
+    contact = _contact(cells, UpwindScheme())
+    for order in orders:
+        law = reduce_contact(contact, order)
+
+        def run(law=law) -> Series:  # type: ignore[no-untyped-def]
+            motion = ride(
+                law, mass=INERTIA / HERTZ_LOAD, load=LOAD, start=law.operating, duration=duration,
+                samples=401, rtol=1e-4,
+            )  # fmt: skip
+            return motion.time, motion["z"]
+
+        yield "reduced law", f"order {order}", run, RIDES
+
+
+def _full(
+    cells: int, scheme: ContactScheme, control: AdaptiveSteps | FixedSteps, duration: float
+) -> Callable[[], Series]:
+    contact = _contact(cells, scheme)
+    rest = contact.stationary()
+
+    def run() -> Series:
+        with as_published():
+            motion = contact.simulate(rest, duration=duration, W=INERTIA, load=LOAD, control=control)
+        return motion.time, motion.delta
+
+    return run
+
+
+def _contact(cells: int, scheme: ContactScheme) -> PointContact:
+    grid = ContactGrid(cells=(cells, cells))
+    return PointContact(V=SPEED_PARAMETER, Q0=PRESSURE_COEFFICIENT, grid=grid, scheme=scheme)

@@ -1,0 +1,239 @@
+"""How long a macro step each coupling scheme stands: by theory, and by runs of the scheme itself."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...bearings.journal import JournalBearing, ShortFilm
+from ...cosim import InProcessSlave, Scheme, couple, critical_macro_step
+from ...cosim.watch import quietly
+from ...errors import PartialResultError
+from ...model import Array, Dynamic
+from ...progress import Report, silent
+from ...rotors.jeffcott import JeffcottRotor
+from ...rotors.rigid import RigidRotor
+from .coupling_schemes import EXPLICIT, IMPLICIT
+
+SPEED = 157.0
+SHAFT = 4.0
+"""Stiffness of the shaft of the rotor with a light journal, in load / clearance."""
+
+SATURATED = 1e-3
+"""Swing of the force, relative to it, where growth may have come to its end."""
+
+DISTURBANCE = 1e-6
+"""Of the start from rest, in clearances."""
+
+SETTLED, COUNTED = 40, 40
+"""Macro steps that are not counted, and those over which growth is."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LimitRow:
+    """The limit of one scheme at one place.
+
+    Attributes
+    ----------
+    scheme : str
+    eccentricity_ratio : float [1]
+        Of the static equilibrium.
+    mass_ratio : float [1]
+        Mass of the journal's station / mass of the rotor; 1 of a rigid rotor.
+    critical_macro_angle : float or None [rad]
+        By linear theory; None where the scheme has no limit.
+    simulated : float or None [rad]
+        From where a run of the scheme grows; None where it was not asked for.
+    """
+
+    scheme: str
+    eccentricity_ratio: float
+    mass_ratio: float
+    critical_macro_angle: float | None
+    simulated: float | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class CouplingLimits:
+    """Limits of all schemes, over the eccentricity ratio and over the mass ratio.
+
+    Attributes
+    ----------
+    speed_parameter : float [1]
+        speed * sqrt(clearance * mass / load).
+    rows : tuple of LimitRow
+    """
+
+    speed_parameter: float
+    rows: tuple[LimitRow, ...]
+
+    def columns(self) -> dict[str, list[object]]:
+        """Return the table, angles in degrees."""
+        return {
+            "scheme": [row.scheme for row in self.rows],
+            "eccentricity_ratio [1]": [row.eccentricity_ratio for row in self.rows],
+            "mass_ratio [1]": [row.mass_ratio for row in self.rows],
+            "critical_macro_angle [deg]": [_degrees(row.critical_macro_angle) for row in self.rows],
+            "simulated [deg]": [_degrees(row.simulated) for row in self.rows],
+        }
+
+
+def coupling_limits(
+    *,
+    eccentricity_ratios: Sequence[float] = tuple(np.linspace(0.1, 0.95, 18)),
+    simulated_at: Sequence[float] = (0.3, 0.5, 0.7, 0.9),
+    mass_ratios: Sequence[float] = tuple(np.geomspace(0.005, 0.5, 9)),
+    simulated_ratios: Sequence[float] = (0.02, 0.2),
+    report: Report = silent,
+) -> CouplingLimits:
+    """Return the limits of all schemes on a short bearing of a rigid rotor, and of one with a light journal.
+
+    Parameters
+    ----------
+    eccentricity_ratios, simulated_at : sequence of float [1]
+        Where theory is asked, and where the scheme is run; a rigid rotor with speed parameter 1.
+    mass_ratios, simulated_ratios : sequence of float [1]
+        The same for a disk on a shaft whose journal has this part of its mass, at eccentricity ratio .7.
+    report : callable, optional
+        Told how far the job is.
+    """
+    jobs: list[tuple[float, float, bool]] = [
+        *((float(e), 1.0, False) for e in eccentricity_ratios),
+        *((float(e), 1.0, True) for e in simulated_at),
+        *((0.7, float(ratio), False) for ratio in mass_ratios),
+        *((0.7, float(ratio), True) for ratio in simulated_ratios),
+    ]
+    schemes = (*EXPLICIT, *IMPLICIT)
+    rows = []
+    for number, (eccentricity, ratio, run) in enumerate(jobs):
+        report(number / len(jobs), f"eccentricity ratio {eccentricity:.2f}, mass ratio {ratio:.3g}")
+        rows += [limit_row(scheme, eccentricity, ratio, run) for scheme in schemes]
+    return CouplingLimits(speed_parameter=1.0, rows=tuple(rows))
+
+
+def limit_row(scheme: Scheme, eccentricity: float, ratio: float, run: bool) -> LimitRow:
+    """Return the limit of a scheme by theory and, if asked, by runs."""
+    rotor, bearing, state = limit_case(eccentricity, ratio)
+    theory = critical_macro_step(rotor, bearing, state=state, scheme=scheme).macro_step
+    found = None if theory is None or not run else simulated_limit(rotor, bearing, scheme, theory)
+    return LimitRow(
+        scheme=scheme.label,
+        eccentricity_ratio=eccentricity,
+        mass_ratio=ratio,
+        critical_macro_angle=None if theory is None else theory * SPEED,
+        simulated=None if found is None else found * SPEED,
+    )
+
+
+def limit_case(
+    eccentricity: float, ratio: float = 1.0, w: float = 1.0
+) -> tuple[Dynamic, JournalBearing, Array]:
+    """Return a rotor at rest in a short bearing, the bearing, and the rotor's state.
+
+    Parameters
+    ----------
+    eccentricity : float [1]
+    ratio : float [1]
+        1 for a rigid rotor; otherwise the share of the mass that a journal on an elastic shaft has.
+    w : float [1]
+        Speed parameter.
+    """
+    bearing = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())
+    c = bearing.clearance
+    rest = np.array([eccentricity * c, 0.0])
+    load = -bearing.force(rest, (0.0, 0.0), SPEED)
+    size = float(np.hypot(*load))
+    mass = size * w**2 / (SPEED**2 * c)
+    if ratio == 1.0:
+        rigid = RigidRotor(
+            mass=mass,
+            speed=SPEED,
+            gravity=(0.0, 0.0),
+            static_force=(float(load[0]), float(load[1])),
+            position=(float(rest[0]), float(rest[1])),
+        )
+        return rigid, bearing, rigid.initial_state
+    # The weight of both masses is the load, so each hangs by its own share.
+    pull = load / mass
+    stiffness = SHAFT * size / c
+    disk = rest + load * (1.0 - ratio) / stiffness
+    state = np.array([disk[0], rest[0], disk[1], rest[1], 0.0, 0.0, 0.0, 0.0])
+    light = JeffcottRotor(
+        mass=(1.0 - ratio) * mass,
+        journal_mass=ratio * mass,
+        stiffness=stiffness,
+        speed=SPEED,
+        gravity=(float(pull[0]), float(pull[1])),
+        initial=tuple(state.tolist()),
+    )
+    return light, bearing, state
+
+
+def simulated_limit(rotor: Dynamic, bearing: JournalBearing, scheme: Scheme, theory: float) -> float | None:
+    """Return the macro step from which a small disturbance of a run grows [s]; None if not near `theory`.
+
+    It is searched for within 4 % of the theory, to 0.5 %.
+    """
+    low, high = 0.96 * theory, 1.04 * theory
+    if _growth(rotor, bearing, scheme, low) > 1.0 or _growth(rotor, bearing, scheme, high) < 1.0:
+        return None
+    while high - low > 5e-3 * theory:
+        middle = 0.5 * (low + high)
+        grows = _growth(rotor, bearing, scheme, middle) > 1.0
+        low, high = (low, middle) if grows else (middle, high)
+    return 0.5 * (low + high)
+
+
+def _growth(rotor: Dynamic, bearing: JournalBearing, scheme: Scheme, step: float) -> float:
+    """Return how much a small alternation of the force grows over some steps, after others."""
+    forces = _disturbed(rotor, bearing, scheme, step)
+    swing = np.hypot(*np.diff(forces, n=2, axis=1))[SETTLED:]
+    half = len(swing) // 2
+    if half < COUNTED // 4 or swing[-1] > SATURATED * np.abs(forces).max():
+        return np.inf
+    return float(np.linalg.norm(swing[half : 2 * half]) / np.linalg.norm(swing[:half]))
+
+
+def _disturbed(rotor: Dynamic, bearing: JournalBearing, scheme: Scheme, step: float) -> Array:
+    try:
+        with quietly():
+            run = couple(
+                InProcessSlave(nudged(rotor, DISTURBANCE * bearing.clearance)),
+                InProcessSlave(bearing),
+                macro_step=step,
+                duration=(SETTLED + COUNTED) * step,
+                scheme=scheme,
+            ).trajectory
+    except PartialResultError as error:
+        run = error.partial.trajectory
+    return np.stack([run["force_x"], run["force_y"]])
+
+
+def nudged(rotor: Dynamic, distance: float) -> Dynamic:
+    """Return the rotor with its journal moved along x [m]."""
+    if isinstance(rotor, RigidRotor):
+        x, y = rotor.position
+        return RigidRotor(
+            mass=rotor.mass,
+            speed=rotor.speed,
+            gravity=rotor.gravity,
+            static_force=rotor.static_force,
+            position=(x + distance, y),
+        )
+    assert isinstance(rotor, JeffcottRotor)
+    initial = np.array(rotor.initial)
+    initial[1] += distance
+    return JeffcottRotor(
+        mass=rotor.mass,
+        journal_mass=rotor.journal_mass,
+        stiffness=rotor.stiffness,
+        speed=rotor.speed,
+        gravity=rotor.gravity,
+        initial=tuple(initial.tolist()),
+    )
+
+
+def _degrees(angle: float | None) -> float | None:
+    return None if angle is None else float(np.degrees(angle))

@@ -1,0 +1,149 @@
+"""The rungs of the journal film: every law, every place where its film may end, several orders."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from ...bearings.films.law import FilmLaw
+from ...bearings.journal import (
+    ComplementarityArc,
+    ExtrapolatedFilm,
+    FixedArc,
+    JournalBearing,
+    MapFilm,
+    ReynoldsArc,
+    ReynoldsFilm,
+    RotatingArc,
+    Rupture,
+    ShortFilm,
+    SpectralArcFilm,
+    SplittingFilm,
+)
+from ...errors import InputError, ValidityWarning, require_positive
+
+SLENDERNESS = (0.1, 4.0)
+"""Smallest and largest length / diameter at which all rungs exist."""
+
+CONVERGED = 24
+"""Degree of the converged films: 4e-8 at eccentricity ratios to 0.99."""
+
+ROTATING_ORDERS = ((1, 1), (2, 1), (2, None), (4, 2), (6, None))
+"""Orders on the rotating arc, from the published first approximation to all but converged."""
+
+PUBLISHED = "published"
+FIXED, ROTATING, REYNOLDS, FREE = "fixed arc", "rotating arc", "Reynolds arc", "free arc"
+SHORT, MAP, GRID, EXTRAPOLATED = "short film", "map", "2-D", "2-D extrapolated"
+
+
+@dataclass(frozen=True, kw_only=True)
+class RungName:
+    """What a rung is called.
+
+    Attributes
+    ----------
+    family : str
+        What it has in common with its neighbors: where the film ends, or how it is solved.
+    label : str
+        What tells it from them; empty if nothing has to.
+    """
+
+    family: str
+    label: str
+
+    @property
+    def name(self) -> str:
+        """Family and label, unique in the ladder."""
+        return f"{self.family} {self.label}".strip()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rung(RungName):
+    """One film law of the ladder.
+
+    Attributes
+    ----------
+    film : FilmLaw
+    """
+
+    film: FilmLaw
+
+
+def journal_rungs() -> tuple[Rung, ...]:
+    """Return the ladder, families from the cheapest to the closest."""
+    return (
+        Rung(family=SHORT, label="", film=ShortFilm()),
+        *(_splitting(PUBLISHED, FixedArc(), n, 1) for n in (1, 2)),
+        *(_splitting(FIXED, FixedArc(), n, None) for n in (2, 6)),
+        _converged(FIXED, FixedArc()),
+        *(_splitting(ROTATING, RotatingArc(), n, m) for n, m in ROTATING_ORDERS),
+        _converged(ROTATING, RotatingArc()),
+        *(_splitting(REYNOLDS, ReynoldsArc(), n, None, constant=True) for n in (4, 6)),
+        *(_splitting(FREE, ComplementarityArc(), n, m, constant=True) for n, m in ((4, 8), (6, None))),
+        _converged(FREE, ComplementarityArc()),
+        *(_grid(*cells) for cells in ((48, 4), (96, 8), (192, 16))),
+        *(_extrapolated(*cells) for cells in ((48, 8), (96, 8), (192, 8), (384, 16))),
+        Rung(family=MAP, label="", film=MapFilm()),
+    )
+
+
+def chosen_rungs(rungs: Sequence[Rung] | None) -> tuple[Rung, ...]:
+    """Return the rungs to compare, the whole ladder for None.
+
+    Raises
+    ------
+    InputError
+        If there is none, one is not a `Rung`, or two have the same name.
+    """
+    if rungs is None:
+        return journal_rungs()
+    chosen = tuple(rungs)
+    if not chosen or not all(isinstance(rung, Rung) for rung in chosen):
+        raise InputError(f"rungs must hold at least one Rung and nothing else, got {rungs!r}")
+    names = [rung.name for rung in chosen]
+    if len(set(names)) < len(names):
+        raise InputError(f"rungs must have different names, got {names!r}")
+    return chosen
+
+
+def comparison_bearing(slenderness: float) -> JournalBearing:
+    """Return the bearing of the comparisons; dimensionless results depend on length / diameter alone.
+
+    Raises
+    ------
+    InputError
+        If length / diameter is outside the range of the ladder.
+    """
+    require_positive("slenderness", slenderness)
+    lowest, highest = SLENDERNESS
+    if not lowest <= slenderness <= highest:
+        raise InputError(f"slenderness (L/D) must be from {lowest} to {highest}, got {slenderness!r}")
+    return JournalBearing(
+        radius=0.05, length=0.1 * slenderness, clearance=1e-4, viscosity=0.1, film=MapFilm()
+    )
+
+
+def fitted_bearing(bearing: JournalBearing, film: FilmLaw) -> JournalBearing:
+    """Return the bearing with another film, which may be meant for other bearings: that is the question."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ValidityWarning)
+        return replace(bearing, film=film)
+
+
+def _splitting(family: str, arc: Rupture, n: int, m: int | None, constant: bool = False) -> Rung:
+    label = f"({n}{'+c' if constant else ''}, {'all' if m is None else m})"
+    return Rung(family=family, label=label, film=SplittingFilm(order=(n, m), constant=constant, rupture=arc))
+
+
+def _converged(family: str, arc: Rupture) -> Rung:
+    return Rung(family=family, label="converged", film=SpectralArcFilm(rupture=arc, degree=CONVERGED))
+
+
+def _grid(around: int, along: int) -> Rung:
+    return Rung(family=GRID, label=f"{around} x {along}", film=ReynoldsFilm(cells=(around, along)))
+
+
+def _extrapolated(around: int, along: int) -> Rung:
+    film = ExtrapolatedFilm(film=ReynoldsFilm(cells=(around, along)))
+    return Rung(family=EXTRAPOLATED, label=f"{around} x {along}", film=film)

@@ -1,0 +1,54 @@
+"""The atlas of limits of all physics: every panel of `limits_*.py`, computed in turn."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+
+from ...errors import InputError, ValidityWarning
+from ...progress import Report, silent
+from . import limits_bush, limits_contact, limits_damper, limits_journal, limits_rotor
+from .limit_panels import Limit, LimitAtlas, PanelCurves
+
+PANELS: dict[str, PanelCurves] = {
+    **limits_journal.PANELS,
+    **limits_rotor.PANELS,
+    **limits_damper.PANELS,
+    **limits_contact.PANELS,
+    **limits_bush.PANELS,
+}
+"""All panels by their names, in the order in which they are drawn."""
+
+PHYSICS = tuple(dict.fromkeys(each.panel.physics for each in PANELS.values()))
+"""What the panels are about."""
+
+
+def limits_atlas(physics: Sequence[str] = PHYSICS, *, report: Report = silent) -> LimitAtlas:
+    """Return the atlas of limits; all of it takes some 12 s of CPU.
+
+    Parameters
+    ----------
+    physics : sequence of str
+        Which of `PHYSICS`.
+    report : callable
+        Called with the fraction done and a text.
+
+    Raises
+    ------
+    InputError
+        If one is not in `PHYSICS`, or there is none.
+    """
+    for name in physics:
+        if name not in PHYSICS:
+            raise InputError(f"physics must be among {', '.join(PHYSICS)}, got {name!r}")
+    chosen = {key: each for key, each in PANELS.items() if each.panel.physics in physics}
+    if not chosen:
+        raise InputError(f"physics must name one of {', '.join(PHYSICS)}, got none")
+    found: list[Limit] = []
+    for number, each in enumerate(chosen.values()):
+        report(number / len(chosen), f"{each.panel.physics}: {each.panel.title}")
+        with warnings.catch_warnings():
+            # That a model is used beyond its range is what the atlas shows.
+            warnings.simplefilter("ignore", ValidityWarning)
+            found += each.curves()
+    return LimitAtlas(panels={key: each.panel for key, each in chosen.items()}, limits=tuple(found))

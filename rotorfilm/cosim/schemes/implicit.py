@@ -1,0 +1,93 @@
+"""Linearly implicit schemes: the rotor carries the films' stiffness and damping through the macro step."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...model import Array
+from ...rotors.force_law import ForceLaw
+from ..bench import Bench, Needs, Sample
+
+
+@dataclass(frozen=True)
+class SIExp:
+    """The rotor integrates F + dF/dq dq + dF/dv dv of its films through the step: one film call, no rollback.
+
+    Stable at every macro step where the coupled system itself is; of second order.
+    """
+
+    order = 2
+    label = "SI-exp"
+    needs = Needs(derivatives=True, laws=True)
+
+    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
+        """Advance by one macro step; see `Scheme`."""
+        motion = bench.drive(t, dt, _law(history, np.zeros_like(history[-1].force)))
+        return bench.evaluate(t, dt, motion, True)
+
+
+@dataclass(frozen=True)
+class SIExp3:
+    """SI-exp, and the parabola in time that the last step left over: of third order at the same price.
+
+    With s = (t - t_n)/H and D = F_(n-1) - F_n - dF/dq (q_(n-1) - q_n) - dF/dv (v_(n-1) - v_n), derivatives at
+    t_n, what is left of the force between the two points is D s^2 to third order, before t_n and after it.
+    Of first order only with a film that has states of its own, which change where nothing moves; and where
+    the speed changes from the start, the first step has not seen it yet.
+    """
+
+    order = 3
+    label = "SI-exp3"
+    needs = Needs(derivatives=True, laws=True)
+
+    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
+        """Advance by one macro step; see `Scheme`."""
+        motion = bench.drive(t, dt, _law(history, _curvature(history)))
+        return bench.evaluate(t, dt, motion, True)
+
+
+def defect(before: Sample, now: Sample) -> Array:
+    """Return D, what the film's tangents at `now` leave of the force at `before`, shape (m,) [N]."""
+    tangents = now.tangents
+    assert tangents is not None  # the scheme asks for them
+    left: Array = (
+        before.force
+        - now.force
+        + tangents.stiffness @ (before.motion.position - now.motion.position)
+        + tangents.damping @ (before.motion.velocity - now.motion.velocity)
+        - tangents.by_speed_change(before.motion.speed - now.motion.speed, now.force)
+    )
+    return left
+
+
+def _curvature(history: Sequence[Sample]) -> Array:
+    if len(history) < 2:
+        return np.zeros_like(history[-1].force)
+    before, now = history[-2:]
+    curvature: Array = defect(before, now) / (now.time - before.time) ** 2
+    return curvature
+
+
+def _law(history: Sequence[Sample], curvature: Array) -> ForceLaw:
+    """Return the law of the tangents at the present point; a change of the speed is carried on."""
+    now = history[-1]
+    tangents = now.tangents
+    assert tangents is not None  # the scheme asks for them
+    slope = np.zeros_like(now.force)
+    if len(history) > 1:
+        before = history[-2]
+        rate = (now.motion.speed - before.motion.speed) / (now.time - before.time)
+        slope = tangents.by_speed_change(rate, now.force)
+    return ForceLaw(
+        now.time,
+        now.force,
+        slope,
+        curvature,
+        tangents.stiffness,
+        tangents.damping,
+        now.motion.position,
+        now.motion.velocity,
+    )

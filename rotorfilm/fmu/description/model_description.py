@@ -1,0 +1,159 @@
+"""What a modelDescription.xml says, and the parts of it that FMI 2.0 and 3.0 share."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+from ...units import DISPLAY_UNITS, UNITS
+from .dependencies import Dependencies
+from .variables import Variable
+
+QUANTITIES = {
+    "m": "Length",
+    "s": "Time",
+    "kg": "Mass",
+    "rad": "Angle",
+    "m/s": "Velocity",
+    "m/s2": "Acceleration",
+    "rad/s": "AngularVelocity",
+    "rad/s2": "AngularAcceleration",
+    "N": "Force",
+    "N/m": "Stiffness",
+    "N.s/m": "Damping",
+    "Pa": "Pressure",
+    "Pa.s": "DynamicViscosity",
+    "kg.m": "Unbalance",
+}
+"""Names of the types, by unit; a unit that is not here has a type without a name."""
+
+SHOWN = {"m": "um", "rad": "deg", "rad/s": "rpm", "N": "kN", "Pa.s": "mPa s", "kg.m": "g mm"}
+"""The unit in which a tool should show values of a unit."""
+
+
+class Description(NamedTuple):
+    """What the XML says.
+
+    Attributes
+    ----------
+    identifier : str
+        C identifier; name of the binary.
+    title : str
+        One line on the model.
+    tool : str
+        Generation tool with versions.
+    copyright : str
+    interfaces : mapping of str to mapping
+        Attributes of ModelExchange and CoSimulation, as the FMI version spells them.
+    categories : mapping of str to str
+        Log categories and what they log.
+    variables : tuple of Variable
+    dependencies : Dependencies
+    stop_time, step_size : float [s]
+        Default experiment.
+    sources : tuple of str
+        C files below `sources/` that make the binary.
+    """
+
+    identifier: str
+    title: str
+    tool: str
+    copyright: str
+    interfaces: Mapping[str, Mapping[str, str]]
+    categories: Mapping[str, str]
+    variables: tuple[Variable, ...]
+    dependencies: Dependencies
+    stop_time: float
+    step_size: float
+    sources: tuple[str, ...] = ()
+
+    @property
+    def tunable(self) -> bool:
+        """Whether a parameter may change while the simulation runs."""
+        return any(variable.variability == "tunable" for variable in self.variables)
+
+
+def header(description: Description, version: str, token: str) -> Element:
+    """Return the root element; `token` is the attribute that FMI calls guid or instantiationToken."""
+    return Element(
+        "fmiModelDescription",
+        {
+            "fmiVersion": version,
+            "modelName": description.identifier,
+            "guid" if version == "2.0" else "instantiationToken": token,
+            "description": description.title,
+            "copyright": description.copyright,
+            "license": "MIT, see documentation/licenses",
+            "generationTool": description.tool,
+            "variableNamingConvention": "structured",
+        },
+    )
+
+
+def add_units(root: Element, variables: tuple[Variable, ...]) -> None:
+    """Add the units in use, each with its SI base units and the unit to show it in."""
+    definitions = SubElement(root, "UnitDefinitions")
+    for name in sorted({variable.unit for variable in variables if variable.unit is not None}):
+        unit = SubElement(definitions, "Unit", name=name)
+        exponents = UNITS[name].exponents
+        SubElement(unit, "BaseUnit", {base: str(power) for base, power in exponents.items()})
+        if name in SHOWN:
+            factor = UNITS[name].factor / DISPLAY_UNITS[SHOWN[name]].factor
+            SubElement(unit, "DisplayUnit", name=SHOWN[name], factor=repr(factor))
+
+
+def type_attributes(variables: tuple[Variable, ...]) -> list[dict[str, str]]:
+    """Return the attributes of the types in use: quantity, unit and display unit, sorted by name."""
+    units = {v.unit for v in variables if v.unit in QUANTITIES}
+    types = [{"quantity": QUANTITIES[unit], "unit": unit, **_shown(unit)} for unit in units if unit]
+    return sorted(types, key=lambda attributes: attributes["quantity"])
+
+
+def value_attributes(variable: Variable) -> dict[str, str]:
+    """Return type, unit, bounds, nominal and start value of a variable."""
+    attributes = {} if variable.unit not in QUANTITIES else {"declaredType": QUANTITIES[variable.unit]}
+    if variable.unit is not None:
+        attributes |= {"unit": variable.unit, **_shown(variable.unit)}
+    numbers = {
+        "min": variable.minimum,
+        "max": variable.maximum,
+        "nominal": variable.nominal,
+        "start": variable.start,
+    }
+    return attributes | {name: repr(float(value)) for name, value in numbers.items() if value is not None}
+
+
+def initial(variable: Variable) -> dict[str, str]:
+    """Return the attribute `initial`, where FMI does not fix it."""
+    if variable.causality in ("input", "independent"):
+        return {}
+    return {"initial": "calculated" if variable.start is None else "exact"}
+
+
+def add_experiment(root: Element, description: Description) -> None:
+    """Add the default experiment."""
+    SubElement(
+        root,
+        "DefaultExperiment",
+        startTime="0.0",
+        stopTime=repr(description.stop_time),
+        stepSize=repr(description.step_size),
+    )
+
+
+def add_categories(root: Element, categories: Mapping[str, str]) -> None:
+    """Add the log categories."""
+    parent = SubElement(root, "LogCategories")
+    for name, text in categories.items():
+        SubElement(parent, "Category", name=name, description=text)
+
+
+def to_bytes(root: Element) -> bytes:
+    """Return the document, indented."""
+    indent(root)
+    return tostring(root, encoding="UTF-8", xml_declaration=True) + b"\n"
+
+
+def _shown(unit: str) -> dict[str, str]:
+    return {"displayUnit": SHOWN[unit]} if unit in SHOWN else {}

@@ -1,0 +1,271 @@
+"""The files of an FMU whose model is a kernel of the C library: FMI 2.0 and 3.0, both interfaces in one."""
+
+from __future__ import annotations
+
+import math
+from importlib.metadata import version as installed_version
+from importlib.resources import files
+from typing import NamedTuple
+
+import numpy as np
+
+from ...errors import FmuError
+from ...model import Array, Dynamic, Model, Switched
+from ...native.resource import FILE_NAME, NativeVariable, Role, pack
+from ...native.spec import NativeSpec, library_of
+from ..archive import licenses
+from ..description.documentation import KERNELS, NATIVE, to_html
+from ..description.variables import Variable, labelled, references, require_unique, structured_name
+from ..description.xml3 import build_description, icon_description
+from ..python.bundle import PACKAGE
+from ..reference import reference_table, to_csv
+from .platforms import all_binaries, foreign_licenses, host_binary, native_sources
+
+_BOTH2 = {
+    "needsExecutionTool": "false",
+    "canBeInstantiatedOnlyOncePerProcess": "false",
+    "canNotUseMemoryManagementFunctions": "true",
+    "canGetAndSetFMUstate": "true",
+    "canSerializeFMUstate": "true",
+    "providesDirectionalDerivative": "true",
+}
+_BOTH3 = {
+    "needsExecutionTool": "false",
+    "canBeInstantiatedOnlyOncePerProcess": "false",
+    "canGetAndSetFMUState": "true",
+    "canSerializeFMUState": "true",
+    "providesDirectionalDerivatives": "true",
+    "providesAdjointDerivatives": "true",
+}
+
+INTERFACES = {
+    "2.0": {
+        "ModelExchange": {**_BOTH2, "completedIntegratorStepNotNeeded": "true"},
+        "CoSimulation": {
+            **_BOTH2,
+            "canHandleVariableCommunicationStepSize": "true",
+            "canInterpolateInputs": "false",
+            "maxOutputDerivativeOrder": "0",
+            "canRunAsynchronuously": "false",
+        },
+    },
+    "3.0": {
+        "ModelExchange": {**_BOTH3, "needsCompletedIntegratorStep": "false"},
+        "CoSimulation": {
+            **_BOTH3,
+            "canHandleVariableCommunicationStepSize": "true",
+            "hasEventMode": "true",
+            "providesIntermediateUpdate": "false",
+            "canReturnEarlyAfterIntermediateUpdate": "false",
+        },
+    },
+}
+"""What the C library can do, as each FMI version spells it."""
+
+CATEGORIES = {
+    "logStatusWarning": "A state where the model is less accurate.",
+    "logStatusDiscard": "A step that could not be made, with its values.",
+    "logStatusError": "A call that failed, with its values.",
+    "logEvents": "Kinks in time.",
+    "logAll": "All messages.",
+}
+
+ICON = "icon.png"
+REFERENCE = "documentation/reference.csv"
+
+RATES = {"1": "1/s", "m": "m/s", "m/s": "m/s2", "rad": "rad/s", "rad/s": "rad/s2"}
+"""Units of derivatives in time, by the unit of the state."""
+
+_ROLES = {
+    "independent": Role.TIME,
+    "parameter": Role.PARAMETER,
+    "input": Role.INPUT,
+    "output": Role.OUTPUT,
+}
+
+
+class Export(NamedTuple):
+    """What is exported, and as what.
+
+    Attributes
+    ----------
+    model : Model
+    spec : NativeSpec
+        Its kernel.
+    component : str
+        Name of the FMU and of its component.
+    title : str
+        One line on the model.
+    inputs : ndarray, shape (n_inputs,)
+        Start values of the inputs.
+    stop_time : float [s]
+        Length of the reference trajectory.
+    version : str
+        "2.0" or "3.0".
+    platforms : str
+        "host" or "all".
+    """
+
+    model: Model
+    spec: NativeSpec
+    component: str
+    title: str
+    inputs: Array
+    stop_time: float
+    version: str
+    platforms: str
+
+
+def native_tool() -> str:
+    """Return what made the FMU, with its version."""
+    return f"{PACKAGE} {installed_version(PACKAGE)}"
+
+
+def copyright_line() -> str:
+    """Return the line of the license that names the holder."""
+    text = licenses((PACKAGE,))[f"documentation/licenses/{PACKAGE}.txt"].decode()
+    return next((line.strip() for line in text.splitlines() if line.startswith("Copyright")), "")
+
+
+def native_model_variables(export: Export) -> tuple[Variable, ...]:
+    """Return time, parameters, inputs, outputs, states, their derivatives, event indicators, in this order.
+
+    Raises
+    ------
+    FmuError
+        If two variables would have the same name.
+    """
+    model, component = export.model, export.component
+    time = Variable("time", "independent", "s", None, "time")
+    parameters = [
+        Variable(
+            name=structured_name(component, p.name),
+            causality="parameter",
+            unit=p.unit,
+            nominal=p.nominal,
+            description=p.description,
+            start=p.value,
+            variability="tunable" if p.tunable else "fixed",
+            minimum=p.minimum if math.isfinite(p.minimum) else None,
+            maximum=p.maximum if math.isfinite(p.maximum) else None,
+        )
+        for p in export.spec.parameters
+    ]
+    inputs = [
+        labelled(component, "input", s, float(value))
+        for s, value in zip(model.inputs, export.inputs, strict=True)
+    ]
+    outputs = [labelled(component, "output", s) for s in model.outputs]
+    before = [time, *parameters, *inputs, *outputs]
+    variables = (*before, *_state_variables(model, component, len(before)), *_switches(export))
+    require_unique(variables)
+    return variables
+
+
+def _state_variables(model: Model, component: str, first: int) -> list[Variable]:
+    initial = model.initial_state if isinstance(model, Dynamic) else np.zeros(0)
+    states = [
+        labelled(component, "local", s, float(value)) for s, value in zip(model.states, initial, strict=True)
+    ]
+    slopes = [
+        Variable(
+            name=f"der({s.name})",
+            causality="local",
+            unit=RATES.get(s.unit or ""),
+            nominal=None,
+            description=f"derivative of {s.name}",
+            state=first + k,
+        )
+        for k, s in enumerate(states)
+    ]
+    return [*states, *slopes]
+
+
+def _switches(export: Export) -> list[Variable]:
+    """Return the event indicators of a model that has switching functions."""
+    if not (isinstance(export.model, Switched) and isinstance(export.model, Dynamic)):
+        return []
+    count = len(export.model.events(0.0, export.model.initial_state, export.inputs))
+    text = "event indicator: the model is smooth while it keeps its sign"
+    return [
+        Variable(structured_name(export.component, f"event_{k}"), "local", None, None, text, switch=True)
+        for k in range(count)
+    ]
+
+
+def native_files(export: Export, variables: tuple[Variable, ...]) -> dict[str, bytes]:
+    """Return all files of the FMU but the XML and the resource, by path.
+
+    Raises
+    ------
+    FmuError
+        If the library is missing or cannot be compiled, or the model has no reference trajectory.
+    """
+    fill = all_binaries if export.platforms == "all" else host_binary
+    sources = native_sources()
+    return {
+        **fill(export.component, export.version, library_of(export.spec.kernel)),
+        **{f"sources/{name}": content for name, content in sources.items()},
+        **licenses((PACKAGE,)),
+        **foreign_licenses(),
+        **_pictures(export),
+        "documentation/index.html": _page(export, variables),
+        REFERENCE: _reference(export, variables),
+        **({"sources/buildDescription.xml": _build(export)} if export.version == "3.0" else {}),
+    }
+
+
+def source_names() -> tuple[str, ...]:
+    """Return the C files that make the library."""
+    return tuple(name for name in native_sources() if name.endswith(".c"))
+
+
+def resource(export: Export, variables: tuple[Variable, ...], token: str) -> dict[str, bytes]:
+    """Return the file that the C library reads, by its path."""
+    return {f"resources/{FILE_NAME}": pack(export.spec, token, [_native(v) for v in variables])}
+
+
+def _native(variable: Variable) -> NativeVariable:
+    local = Role.STATE if variable.state is None else Role.DERIVATIVE
+    local = Role.SWITCH if variable.switch else local
+    return NativeVariable(
+        role=_ROLES.get(variable.causality, local),
+        name=variable.name,
+        start=0.0 if variable.start is None else variable.start,
+        nominal=1.0 if variable.nominal is None else variable.nominal,
+        minimum=-math.inf if variable.minimum is None else variable.minimum,
+        maximum=math.inf if variable.maximum is None else variable.maximum,
+        tunable=variable.variability == "tunable",
+    )
+
+
+def _build(export: Export) -> bytes:
+    return build_description(export.component, source_names())
+
+
+def _page(export: Export, variables: tuple[Variable, ...]) -> bytes:
+    texts = {**KERNELS[export.spec.kernel], **NATIVE}
+    rows = [f"{p.name} = {p.value!r} {p.unit}: {p.description}" for p in export.spec.parameters]
+    tables = [f"{name}: table of shape {np.shape(table)}" for name, table in export.spec.tables.items()]
+    return to_html(export.title, variables, texts, "\n".join([*rows, *tables]))
+
+
+def _reference(export: Export, variables: tuple[Variable, ...]) -> bytes:
+    chosen = [0, *references(variables, "input"), *references(variables, "output")]
+    table = reference_table(export.model, export.inputs, export.stop_time)
+    return to_csv([variables[k].name for k in chosen], table)
+
+
+def _pictures(export: Export) -> dict[str, bytes]:
+    name = f"{export.spec.kernel}.png"
+    picture = files(__package__ or "").joinpath("data", name)
+    if not picture.is_file():
+        raise FmuError(f"the picture {name} of the package is missing; install {PACKAGE} again")
+    content = picture.read_bytes()
+    if export.version == "2.0":
+        return {"model.png": content}
+    return {
+        f"terminalsAndIcons/{ICON}": content,
+        "terminalsAndIcons/terminalsAndIcons.xml": icon_description(),
+        f"documentation/{ICON}": content,
+    }

@@ -1,0 +1,145 @@
+"""Models as readable data: frozen dataclasses of plain values to JSON and back, exactly."""
+
+from __future__ import annotations
+
+import dataclasses
+import importlib
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from ...errors import FmuError
+from ...model import Portable
+
+PLAIN_DTYPES = {"|b1", "<i4", "<i8", "<u4", "<u8", "<f4", "<f8"}
+"""Array types that JSON numbers hold exactly."""
+
+SHOWN = 50
+"""Longest array that is shown to people."""
+
+
+def encode(value: Any, name: str = "model") -> Any:
+    """Return `value` as JSON data from which `decode` makes an equal value.
+
+    What is `Portable` goes with what it would otherwise make on first use.
+
+    Parameters
+    ----------
+    value : Any
+        A number, bool, string, None, tuple, list, numpy array of numbers, or a dataclass of such values.
+    name : str
+        What messages call the value, as `model.film.rupture`.
+
+    Raises
+    ------
+    FmuError
+        If the value or a field of it is anything else; the message names the field.
+    """
+    if isinstance(value, np.generic):
+        value = value.item()
+    if value is None or type(value) in (bool, int, str):
+        return value
+    if type(value) is float:
+        return value if math.isfinite(value) else {"float": repr(value)}
+    if type(value) is list:
+        return _encode_items(value, name)
+    if type(value) is tuple:
+        return {"tuple": _encode_items(value, name)}
+    if isinstance(value, np.ndarray):
+        return _encode_array(value, name)
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        return _encode_dataclass(value, name)
+    raise FmuError(
+        f"{name} must be a number, bool, string, None, tuple, list, numpy array of numbers or a dataclass "
+        f"of such values, got {value!r} of type {type(value).__qualname__}"
+    )
+
+
+def decode(data: Any, modules: Mapping[str, str]) -> Any:
+    """Return the value that `encode` turned into `data`.
+
+    Parameters
+    ----------
+    data : Any
+        JSON data.
+    modules : mapping of str to str
+        Modules that stand in for those of the encoded classes; a module that is absent stands for itself.
+    """
+    if isinstance(data, list):
+        return [decode(item, modules) for item in data]
+    if not isinstance(data, dict):
+        return data
+    if "float" in data:
+        return float(data["float"])
+    if "tuple" in data:
+        return tuple(decode(item, modules) for item in data["tuple"])
+    if "array" in data:
+        values = [decode(item, modules) for item in data["array"]]
+        return np.array(values, dtype=data["dtype"]).reshape(data["shape"])
+    fields = {name: decode(field, modules) for name, field in data["fields"].items()}
+    return _load_class(data["class"], modules)(**fields)
+
+
+def shortened(data: Any) -> Any:
+    """Return encoded data for people: of long arrays only how long they are."""
+    if isinstance(data, dict) and len(data.get("array", ())) > SHOWN:
+        return {**data, "array": f"{len(data['array'])} numbers"}
+    if isinstance(data, dict):
+        return {name: shortened(value) for name, value in data.items()}
+    return [shortened(item) for item in data] if isinstance(data, list) else data
+
+
+def class_modules(data: Any) -> set[str]:
+    """Return the names of the modules whose classes occur in encoded data."""
+    return {name.partition(":")[0] for name in _class_names(data)}
+
+
+def _encode_items(items: list[Any] | tuple[Any, ...], name: str) -> list[Any]:
+    return [encode(item, f"{name}[{index}]") for index, item in enumerate(items)]
+
+
+def _encode_array(array: np.ndarray, name: str) -> dict[str, Any]:
+    if array.dtype.str not in PLAIN_DTYPES:
+        raise FmuError(f"{name} must be an array of real numbers or bools, got dtype {array.dtype}")
+    return {
+        "array": _encode_items(array.ravel().tolist(), name),
+        "dtype": array.dtype.str,
+        "shape": list(array.shape),
+    }
+
+
+def _encode_dataclass(value: Any, name: str) -> dict[str, Any]:
+    value = value.portable() if isinstance(value, Portable) else value
+    cls = type(value)
+    if cls.__module__ == "__main__" or "<locals>" in cls.__qualname__:
+        raise FmuError(
+            f"{name} must be of a class defined at the top of an importable module, because the FMU carries "
+            f"that module's source; got {cls.__module__}.{cls.__qualname__}"
+        )
+    # Fields outside __init__ follow from the others in __post_init__.
+    fields = {
+        field.name: encode(getattr(value, field.name), f"{name}.{field.name}")
+        for field in dataclasses.fields(value)
+        if field.init
+    }
+    return {"class": f"{cls.__module__}:{cls.__qualname__}", "fields": fields}
+
+
+def _load_class(name: str, modules: Mapping[str, str]) -> Any:
+    module, _, qualname = name.partition(":")
+    found: Any = importlib.import_module(modules.get(module, module))
+    for part in qualname.split("."):
+        found = getattr(found, part)
+    return found
+
+
+def _class_names(data: Any) -> Iterator[str]:
+    if isinstance(data, dict):
+        if "class" in data:
+            yield data["class"]
+        data = list(data.values())
+    if isinstance(data, list):
+        for item in data:
+            yield from _class_names(item)

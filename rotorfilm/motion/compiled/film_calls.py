@@ -1,0 +1,104 @@
+"""The force of a bearing as a compiled function behind an address, for loops that must not enter Python.
+
+Every such function is that of the C library (native/journal_kernel.h),
+
+    int f(const void *bearing, const double state[5], double force[2], double jacobian[2][5]),
+
+with state = (x, y, vx, vy, speed). Journal bearings on a film of that library bring it along, `LinearBearing`
+has one here, and any other reaction is called back in Python: slower, with the same result.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from ctypes import CFUNCTYPE, POINTER, c_double, c_int, c_void_p
+from typing import Any, NamedTuple
+
+import numpy as np
+from llvmlite import ir
+from numba import types
+from numba.core import cgutils
+from numba.extending import intrinsic
+
+from ...bearings.films.kernel_film import BoundKernel
+from ...bearings.journal import JournalBearing
+from ...bearings.linear import LinearBearing
+from ...errors import FilmContactError, RotorfilmError, UndefinedDerivativeError
+from ...model import Reaction
+from ...native import Status
+from ...native.library import functions
+from .linear_kernel import linear_bearing
+
+CONTACT = int(Status.CONTACT)
+UNDEFINED = int(Status.UNDEFINED)
+OUTSIDE = int(Status.OUTSIDE)
+NOT_FINITE = int(Status.NOT_FINITE)
+
+_CALLBACK = CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double))
+
+
+class FilmCall(NamedTuple):
+    """Where the compiled force of a bearing is.
+
+    Attributes
+    ----------
+    address : int
+        Of the function.
+    data : int
+        Its first argument.
+    owner : object
+        What must live as long as both.
+    """
+
+    address: int
+    data: int
+    owner: Any
+
+
+def film_call(reaction: Reaction) -> FilmCall:
+    """Return the compiled force of a reaction without states."""
+    if type(reaction) is JournalBearing:
+        bound = reaction.bound_film
+        if isinstance(bound, BoundKernel):
+            struct = bound.kernel._struct
+            address = ctypes.cast(functions()["rf_journal_at"], c_void_p).value or 0
+            return FilmCall(address=address, data=ctypes.addressof(struct), owner=bound)
+    if type(reaction) is LinearBearing:
+        values = np.concatenate([np.ravel(reaction.stiffness), np.ravel(reaction.damping)])
+        return FilmCall(address=linear_bearing.address, data=values.ctypes.data, owner=values)
+    return _called_back(reaction)
+
+
+def _called_back(reaction: Reaction) -> FilmCall:
+    def answer(_: Any, state: Any, force: Any, jacobian: Any) -> int:
+        position, velocity = np.array(state[:2]), np.array(state[2:4])
+        try:
+            for i, value in enumerate(np.asarray(reaction.force(position, velocity, state[4])).tolist()):
+                force[i] = value
+            slopes = np.asarray(reaction.jacobian(position, velocity, state[4]))[:, :5]
+            for i, value in enumerate(slopes.ravel().tolist()):
+                jacobian[i] = value
+        except FilmContactError:
+            return CONTACT
+        except UndefinedDerivativeError:
+            return UNDEFINED
+        except RotorfilmError:
+            return NOT_FINITE
+        return 0
+
+    function = _CALLBACK(answer)
+    return FilmCall(address=ctypes.cast(function, c_void_p).value or 0, data=0, owner=(function, reaction))
+
+
+@intrinsic
+def call_film(typing, address, data, state, force, jacobian):  # type: ignore[no-untyped-def]
+    """Call a film by address, inside compiled code; all arguments are addresses. Returns the status."""
+    signature = types.int32(types.intp, types.intp, types.intp, types.intp, types.intp)
+
+    def generate(context, builder, signature, arguments):  # type: ignore[no-untyped-def]
+        pointer = cgutils.voidptr_t
+        kind = ir.FunctionType(ir.IntType(32), [pointer] * 4)
+        function = builder.inttoptr(arguments[0], kind.as_pointer())
+        return builder.call(function, [builder.inttoptr(value, pointer) for value in arguments[1:]])
+
+    return signature, generate

@@ -1,0 +1,191 @@
+"""A rotor and a film joined into one system of ordinary differential equations."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import NamedTuple
+
+import numpy as np
+
+from ...errors import ConvergenceError, InputError, UndefinedDerivativeError, require_inside
+from ...model import (
+    FORCE_OUTPUTS,
+    JOURNAL_INPUTS,
+    Array,
+    Dynamic,
+    Linearization,
+    Reaction,
+    indices,
+    static_linearization,
+)
+from ...signals import names
+
+NUDGE = 1e-6
+"""Velocity, in nominal velocities, at which a derivative is taken where the film has none."""
+
+
+class Wiring(NamedTuple):
+    """Which rotor outputs feed the film, and which rotor inputs take its force, as indices."""
+
+    motion: list[int]
+    force: list[int]
+
+
+def connect(rotor: Dynamic, reaction: Reaction) -> Wiring:
+    """Return the wiring of a rotor and a film by the names of their signals.
+
+    Raises
+    ------
+    InputError
+        If the rotor lacks an output that the film needs or an input for its force, has a further input,
+        which nobody would drive, or the film has states and such an input or no derivative.
+    """
+    inputs = names(rotor.inputs)
+    motion = indices("rotor must have the outputs", names(rotor.outputs), JOURNAL_INPUTS)
+    force = indices("rotor must have the inputs", inputs, FORCE_OUTPUTS)
+    if len(inputs) > len(force):
+        raise InputError(f"rotor must have no inputs but {list(FORCE_OUTPUTS)}, got {inputs}")
+    if reaction.states and not isinstance(reaction, Dynamic):
+        raise InputError(f"reaction must have a derivative for its states, got {reaction!r}")
+    if reaction.states and names(reaction.inputs) != list(JOURNAL_INPUTS):
+        raise InputError(
+            f"reaction must have no inputs but {list(JOURNAL_INPUTS)}, got {names(reaction.inputs)}"
+        )
+    return Wiring(motion, force)
+
+
+class Coupled:
+    """dx/dt = g(t, x) of a rotor whose only input is the film force, with its exact Jacobian.
+
+    x holds the states of the rotor, and after them those of a film that has states.
+
+    Parameters
+    ----------
+    rotor : Dynamic
+    reaction : Reaction
+
+    Attributes
+    ----------
+    work : Counter
+        Work so far: film_evaluations, jacobians, steps, restarts.
+    furthest : float [s]
+        Latest time at which `derivative` was asked for; reset it at will.
+    """
+
+    def __init__(self, rotor: Dynamic, reaction: Reaction) -> None:
+        self.rotor = rotor
+        self.reaction = reaction
+        self.wiring = connect(rotor, reaction)
+        self.work: Counter[str] = Counter(film_evaluations=0, jacobians=0, steps=0, restarts=0)
+        self.furthest = 0.0
+        self._no_force = np.zeros(len(self.wiring.force))
+        self._split = len(rotor.states)
+
+    @property
+    def initial_state(self) -> Array:
+        """The state of rotor and film at t = 0."""
+        film = self.reaction.initial_state if isinstance(self.reaction, Dynamic) else np.zeros(0)
+        return np.concatenate([self.rotor.initial_state, film])
+
+    def scale(self) -> Array:
+        """Return the magnitude of each state: the film's nominal value where it has the same signal."""
+        nominal = {signal.name: signal.nominal for signal in self.reaction.inputs}
+        rotor = [nominal.get(signal.name, signal.nominal) for signal in self.rotor.states]
+        return np.array([*rotor, *(signal.nominal for signal in self.reaction.states)])
+
+    def motion(self, t: float, x: Array) -> Array:
+        """Return (x, y, vx, vy, speed) of the journal at a state."""
+        return self.rotor.output(t, x[: self._split], self._no_force)[self.wiring.motion]
+
+    def gap(self, t: float, x: Array) -> float:
+        """Return the clearance left on the closest side, relative to the radial clearance [1]."""
+        journal = self.motion(t, x)
+        return 1.0 - float(np.hypot(journal[0], journal[1])) / self.reaction.clearance
+
+    def derivative(self, t: float, x: Array) -> Array:
+        """Return dx/dt at a state.
+
+        Raises
+        ------
+        FilmContactError
+            If the journal is not inside the clearance.
+        ConvergenceError
+            If the film answers with something that is not finite.
+        """
+        self.furthest = max(self.furthest, t)
+        journal = self.motion(t, x)
+        rotor = self.rotor.derivative(t, x[: self._split], self._input(t, x, journal))
+        if not isinstance(self.reaction, Dynamic):
+            return rotor
+        return np.concatenate([rotor, self.reaction.derivative(t, x[self._split :], journal)])
+
+    def jacobian(self, t: float, x: Array) -> Array:
+        """Return d(dx/dt)/dx: the rotor's own, plus the film's through the wiring."""
+        self.work["jacobians"] += 1
+        journal = self.motion(t, x)
+        u = self._input(t, x, journal)
+        rotor = self.rotor.linearization(t, x[: self._split], u)
+        try:
+            film = self._film_derivatives(t, x, journal)
+        except UndefinedDerivativeError:
+            film = self._film_derivatives(t, x, self._nudged(t, x, u, journal))
+        push, motion, rows = rotor.B[:, self.wiring.force], rotor.C[self.wiring.motion], len(FORCE_OUTPUTS)
+        return np.block(
+            [[rotor.A + push @ film.D[:rows] @ motion, push @ film.C[:rows]], [film.B @ motion, film.A]]
+        )
+
+    def film_outputs(self, time: Array, journal: Array, film: Array) -> Array:
+        """Return what the film adds to a trajectory: its outputs and its states, shape (n_signals, n).
+
+        Parameters
+        ----------
+        time, journal, film : ndarray, shapes (n,), (5, n) and (n_film_states, n)
+        """
+        if not len(film):
+            return self.reaction.force(journal[:2], journal[2:4], journal[4])
+        outputs = [self.reaction.output(t, x, u) for t, x, u in zip(time, film.T, journal.T, strict=True)]
+        return np.concatenate([np.reshape(outputs, (len(time), -1)).T, film])
+
+    def film_names(self) -> list[str]:
+        """Return the names of the signals of `film_outputs`."""
+        if not self.reaction.states:
+            return list(FORCE_OUTPUTS)
+        return [*names(self.reaction.outputs), *names(self.reaction.states)]
+
+    def _input(self, t: float, x: Array, journal: Array) -> Array:
+        """Return the rotor's input at a journal state: the film force, in the rotor's order."""
+        require_inside(journal[:2], self.reaction.clearance, f" at t = {t:.9g} s")
+        self.work["film_evaluations"] += 1
+        force = self._film_force(t, x, journal)
+        if not np.all(np.isfinite(force)):
+            raise ConvergenceError(f"film force must be finite, got {force} at t = {t:.9g} s")
+        u = np.empty(len(self.wiring.force))
+        u[self.wiring.force] = force
+        return u
+
+    def _film_force(self, t: float, x: Array, journal: Array) -> Array:
+        if self.reaction.states:
+            return self.reaction.output(t, x[self._split :], journal)[: len(FORCE_OUTPUTS)]
+        return self.reaction.force(journal[:2], journal[2:4], journal[4])
+
+    def _film_derivatives(self, t: float, x: Array, journal: Array) -> Linearization:
+        if self.reaction.states:
+            return self.reaction.linearization(t, x[self._split :], journal)
+        return static_linearization(self.reaction.jacobian(journal[:2], journal[2:4], journal[4]))
+
+    def _nudged(self, t: float, x: Array, u: Array, journal: Array) -> Array:
+        """Return the journal state with a trace of the velocity that it is about to have.
+
+        A film without source has no derivative, but one along every direction of departure: the journal
+        leaves along its acceleration, read from the change of the outputs along dx/dt.
+        """
+        own = x[: self._split]
+        rotor = self.rotor.linearization(t, own, u)
+        rate = rotor.C[self.wiring.motion] @ self.rotor.derivative(t, own, u)
+        acceleration = rate[2:4]
+        norm = float(np.hypot(*acceleration))
+        direction = acceleration / norm if norm > 0.0 else np.array([1.0, 0.0])
+        nominal = self.reaction.inputs[2].nominal
+        nudged = journal.copy()
+        nudged[2:4] += NUDGE * nominal * direction
+        return nudged

@@ -1,0 +1,125 @@
+"""Time integration of a rotor on a film as one system: the monolithic reference of every coupling."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.integrate import OdeSolver, Radau
+
+from ...errors import ContactError, ConvergenceError, InputError, require_finite, require_positive
+from ...model import FORCE_OUTPUTS, Array, Dynamic, Reaction, stops
+from ...results import Trajectory
+from ...signals import names
+from .coupled import Coupled
+from .integration import CONTACT_GAP, Integration, integrate
+from .times import require_longest_step, sample_times
+
+
+def simulate(
+    rotor: Dynamic,
+    reaction: Reaction,
+    *,
+    duration: float,
+    samples: int = 1001,
+    times: ArrayLike | None = None,
+    initial_state: ArrayLike | None = None,
+    rtol: float = 1e-8,
+    max_step: float = np.inf,
+    method: Callable[..., OdeSolver] = Radau,
+) -> Trajectory:
+    """Return the motion of a rotor on a film from t = 0.
+
+    Rotor and film are connected by the names of their signals and integrated together, with the exact
+    Jacobian of both, so no coupling error arises. The integration stops at the kinks of a `Kinked` rotor.
+
+    Parameters
+    ----------
+    rotor : Dynamic
+        With outputs x, y, vx, vy, speed and inputs force_x, force_y.
+    reaction : Reaction
+        The film; one with states is a Dynamic too, as `BushReaction`.
+    duration : float [s]
+    samples : int
+        Number of samples at equal distance, from 0 to `duration` inclusive.
+    times : array_like, shape (n,) [s], optional
+        Increasing sample times within [0, duration], instead of `samples`.
+    initial_state : array_like, shape (n_states,), optional
+        State at t = 0, instead of the models' own: that of the rotor, then that of a film with states.
+    rtol : float [1]
+        Relative local error of a step; the absolute one is rtol times the nominal value of each state.
+    max_step : float [s]
+        Longest step of the integrator.
+    method : a class derived from scipy.integrate.OdeSolver
+        Stiff methods are given the exact Jacobian.
+
+    Returns
+    -------
+    Trajectory
+        Signals: every output of the rotor, the film force on the journal [N], and of a film with states
+        its further outputs and its states. Work:
+        film_evaluations, jacobians, steps, restarts (steps cut short at the wall).
+
+    Raises
+    ------
+    InputError
+        If an argument is out of range, or the signals do not fit.
+    ContactError
+        If the journal reaches the wall; carries the trajectory until then.
+    ConvergenceError
+        If the integrator gives up or the film force is not finite; carries the trajectory until then.
+    """
+    require_positive("duration", duration)
+    require_positive("rtol", rtol)
+    system = Coupled(rotor, reaction)
+    grid = sample_times(duration, samples, times)
+    state = _initial(system, system.initial_state if initial_state is None else initial_state)
+    require_longest_step(max_step)
+    settings = Integration(method=method, rtol=rtol, max_step=max_step)
+    kept: list[tuple[float, Array]] = [(0.0, state)] if grid.size and grid[0] == 0.0 else []
+    try:
+        for step in integrate(system, state, stops(rotor, 0.0, duration), settings):
+            for t in grid[len(kept) : int(np.searchsorted(grid, step.end, side="right"))]:
+                kept.append((float(t), step.path(t)))
+                _require_gap(system, *kept[-1])
+            _require_gap(system, step.end, step.state)
+    except ContactError as contact:
+        raise ContactError(str(contact), _trajectory(system, kept)) from contact
+    except ConvergenceError as failure:
+        raise ConvergenceError(str(failure), _trajectory(system, kept)) from failure
+    return _trajectory(system, kept)
+
+
+def _initial(system: Coupled, initial_state: ArrayLike) -> Array:
+    """Return the state at t = 0, checked for its shape and for contact."""
+    state = require_finite("initial_state", initial_state)
+    expected = system.initial_state.shape
+    if state.shape != expected:
+        raise InputError(f"initial_state must have shape {expected}, got {state.shape}")
+    _require_gap(system, 0.0, state)
+    return state
+
+
+def _require_gap(system: Coupled, t: float, state: Array) -> None:
+    gap = system.gap(t, state)
+    if gap <= CONTACT_GAP:
+        raise ContactError(
+            f"journal reached the wall at t = {t:.9g} s: {gap:.3g} of the clearance "
+            f"{system.reaction.clearance!r} m is left"
+        )
+
+
+def _trajectory(system: Coupled, kept: list[tuple[float, Array]]) -> Trajectory:
+    """Return the signals at the kept samples, without one that lies beyond the wall."""
+    inside = [(t, state) for t, state in kept if system.gap(t, state) > 0.0]
+    no_force = np.zeros(len(FORCE_OUTPUTS))
+    split, time = len(system.rotor.states), np.array([t for t, _ in inside])
+    outputs = np.array([system.rotor.output(t, state[:split], no_force) for t, state in inside])
+    outputs = outputs.reshape(len(inside), len(system.rotor.outputs)).T
+    states = np.array([state[split:] for _, state in inside]).reshape(len(inside), -1).T
+    film = system.film_outputs(time, outputs[system.wiring.motion], states)
+    labels = [*names(system.rotor.outputs), *system.film_names()]
+    return Trajectory(
+        time=time, signals=dict(zip(labels, [*outputs, *film], strict=True)), work=dict(system.work)
+    )

@@ -1,0 +1,109 @@
+/* Kernel "damper": a cavitated squeeze film over its impedance map, and retainer springs beside it.
+
+   Parameters of a journal (journal_model.h) and stiffness [N/m]; inputs x, y [m], vx, vy [m/s]; outputs force_x, force_y [N].
+   Forces of the film are in units of viscosity * radius * length^3 / clearance^2 per 1/s. Tables: coefficients (x, t), center (1),
+   reach (1), contact (2: length/diameter and share of the film at contact, rf_map). What of the dimensions the map holds for is up to the bounds of the parameters. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "../films/journal_model.h"
+#include "../films/map_kernel.h"
+
+enum { RADIUS, LENGTH, STIFFNESS = 4, PARAMETERS, INPUTS = 4 };
+
+typedef struct model {
+    rf_journal journal; /* first, as journal_model.h asks */
+    rf_map map;
+    double stiffness;
+} model;
+
+static int take_tables(model *self, const rf_tables *tables, rf_message *why)
+{
+    const rf_table *c = rf_find_table(tables, "coefficients", 2, why);
+    const rf_table *center = c ? rf_find_table(tables, "center", 1, why) : NULL;
+    const rf_table *reach = center ? rf_find_table(tables, "reach", 1, why) : NULL;
+    const rf_table *contact = reach ? rf_find_table(tables, "contact", 1, why) : NULL;
+    if (!contact)
+        return RF_INVALID;
+    const uint32_t x = c->extent[0], t = c->extent[1];
+    if (x < 6 || t < 6 || x > 10000 || t > 10000 || center->extent[0] != 1 || reach->extent[0] != 1
+        || !(reach->numbers[0] > 0.0) || contact->extent[0] != 2)
+        return rf_say(why, RF_INVALID, "the tables of a damper must fit each other, got %u x %u", (unsigned)x,
+                      (unsigned)t);
+    const rf_map map = {(int32_t)x - 5, (int32_t)t - 5, reach->numbers[0], center->numbers[0],
+                        c->numbers, 0.0, 0.0};
+    self->map = map;
+    rf_map_contact(&self->map, contact->numbers[0], contact->numbers[1]);
+    return RF_OK;
+}
+
+static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
+{
+    model *self = calloc(1, sizeof *self);
+    if (!self) {
+        rf_say(why, RF_MEMORY, "no memory for a damper");
+        return NULL;
+    }
+    if (take_tables(self, tables, why) != RF_OK) {
+        free(self);
+        return NULL;
+    }
+    self->journal.film = rf_map_film;
+    self->journal.map = &self->map;
+    self->journal.error = rf_map_error(&self->map);
+    const rf_sizes own = {PARAMETERS, INPUTS, 2, 0, 0};
+    *sizes = own;
+    return self;
+}
+
+static int set_parameters(void *kernel, const double *p, rf_message *why)
+{
+    model *self = kernel;
+    const double slimness = p[LENGTH] / p[RADIUS];
+    if (!(p[STIFFNESS] >= 0.0 && p[STIFFNESS] < HUGE_VAL))
+        return rf_say(why, RF_INVALID, "stiffness must be finite and not negative, got %.9g", p[STIFFNESS]);
+    if (rf_scale_journal(&self->journal, p, why) != RF_OK)
+        return RF_INVALID;
+    self->journal.force_scale *= slimness * slimness;
+    self->stiffness = p[STIFFNESS];
+    return RF_OK;
+}
+
+/* Force and, unless NULL, D[2][4]. The race does not spin: speed 0. */
+static int answer(const void *kernel, const rf_point *at, double *y, double *D, rf_message *why)
+{
+    const model *self = kernel;
+    const double k = self->stiffness, u[5] = {at->u[0], at->u[1], at->u[2], at->u[3], 0.0};
+    const rf_point still = {at->t, at->x, u};
+    double jacobian[10];
+    rf_jacobian film = {NULL, NULL, NULL, jacobian};
+    const int status = D ? rf_journal_derivatives(kernel, &still, &film, why)
+                         : rf_journal_output(kernel, &still, y, why);
+    for (int i = 0; i < 2; ++i) {
+        if (!D)
+            y[i] -= k * u[i];
+        for (int j = 0; D && j < INPUTS; ++j)
+            D[INPUTS * i + j] = jacobian[5 * i + j] - (i == j ? k : 0.0);
+    }
+    return status;
+}
+
+static int output(const void *kernel, const rf_point *at, double *y, rf_message *why)
+{
+    return answer(kernel, at, y, NULL, why);
+}
+
+static int derivatives(const void *kernel, const rf_point *at, rf_jacobian *given, rf_message *why)
+{
+    return answer(kernel, at, NULL, given->D, why);
+}
+
+extern const rf_kernel_type rf_damper_type;
+const rf_kernel_type rf_damper_type = {
+    .name = "damper",
+    .create = create,
+    .destroy = free,
+    .set_parameters = set_parameters,
+    .output = output,
+    .jacobian = derivatives,
+};

@@ -1,0 +1,116 @@
+/* Kernel "journal": a plain journal bearing over the universal impedance map.
+
+   Parameters, inputs and outputs as in journal_model.h. Tables: coefficients (s, x, t), center (s), range (2: smallest and largest
+   length/diameter), reach (1). */
+#include <stdlib.h>
+
+#include "../films/journal_model.h"
+#include "../films/map_kernel.h"
+#include "../films/map_table.h"
+
+typedef struct model {
+    rf_journal journal; /* first, as journal_model.h asks */
+    rf_map map;
+    rf_map_table table;
+    double slenderness; /* of the map; 0 as long as there is none */
+    double *slice, *spare;
+} model;
+
+static void destroy(void *kernel)
+{
+    model *self = kernel;
+    free(self->slice);
+    free(self->spare);
+    free(self);
+}
+
+static int take_tables(model *self, const rf_tables *tables, rf_message *why)
+{
+    const rf_table *c = rf_find_table(tables, "coefficients", 3, why);
+    const rf_table *center = c ? rf_find_table(tables, "center", 1, why) : NULL;
+    const rf_table *range = center ? rf_find_table(tables, "range", 1, why) : NULL;
+    const rf_table *reach = range ? rf_find_table(tables, "reach", 1, why) : NULL;
+    if (!reach)
+        return RF_INVALID;
+    const uint32_t layers = c->extent[0], x = c->extent[1], t = c->extent[2];
+    if (x < 6 || t < 6 || x > 10000 || t > 10000 || layers > 10000 || center->extent[0] != layers
+        || !(layers == 1 || layers >= 6) || range->extent[0] != 2 || reach->extent[0] != 1)
+        return rf_say(why, RF_INVALID, "the tables of a journal must fit each other, got %u x %u x %u and %u",
+                      (unsigned)layers, (unsigned)x, (unsigned)t, (unsigned)center->extent[0]);
+    const double low = range->numbers[0], high = range->numbers[1];
+    if (!(low > 0.0 && (layers == 1 ? high >= low : high > low) && reach->numbers[0] > 0.0))
+        return rf_say(why, RF_INVALID, "range must be positive and ascending, got %.9g and %.9g", low, high);
+    const rf_map_table table = {layers == 1 ? 0 : (int32_t)layers - 5,
+                                (int32_t)x - 5,
+                                (int32_t)t - 5,
+                                low,
+                                high,
+                                center->numbers,
+                                c->numbers};
+    self->table = table;
+    self->map.cells_x = table.cells_x;
+    self->map.cells_t = table.cells_t;
+    self->map.x_end = reach->numbers[0];
+    return RF_OK;
+}
+
+static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
+{
+    model *self = calloc(1, sizeof *self);
+    if (!self) {
+        rf_say(why, RF_MEMORY, "no memory for a journal");
+        return NULL;
+    }
+    if (take_tables(self, tables, why) != RF_OK) {
+        destroy(self);
+        return NULL;
+    }
+    const size_t count = (size_t)(self->table.cells_x + 5) * (size_t)(self->table.cells_t + 5);
+    self->slice = malloc(count * sizeof *self->slice);
+    self->spare = malloc(count * sizeof *self->spare);
+    if (!self->slice || !self->spare) {
+        rf_say(why, RF_MEMORY, "no memory for the map of a journal");
+        destroy(self);
+        return NULL;
+    }
+    self->journal.film = rf_map_film;
+    self->journal.map = &self->map;
+    *sizes = RF_JOURNAL_SIZES;
+    return self;
+}
+
+static int set_parameters(void *kernel, const double *p, rf_message *why)
+{
+    model *self = kernel;
+    rf_journal scaled = self->journal;
+    if (rf_scale_journal(&scaled, p, why) != RF_OK)
+        return RF_INVALID;
+    const double slenderness = rf_slenderness(p);
+    if (slenderness != self->slenderness) {
+        double center;
+        if (rf_map_slice(&self->table, slenderness, self->spare, &center) != RF_OK)
+            return rf_say(why, RF_INVALID,
+                          "length/diameter must be within the table of the film, %.9g to %.9g, got %.9g",
+                          self->table.low, self->table.high, slenderness);
+        double *const old = self->slice;
+        self->slice = self->spare;
+        self->spare = old;
+        self->slenderness = slenderness;
+        self->map.center = center;
+        self->map.coefficients = self->slice;
+        rf_map_contact(&self->map, slenderness, 1.0);
+        scaled.error = rf_map_error(&self->map);
+    }
+    self->journal = scaled;
+    return RF_OK;
+}
+
+extern const rf_kernel_type rf_journal_type;
+const rf_kernel_type rf_journal_type = {
+    .name = "journal",
+    .create = create,
+    .destroy = destroy,
+    .set_parameters = set_parameters,
+    .output = rf_journal_output,
+    .jacobian = rf_journal_derivatives,
+};

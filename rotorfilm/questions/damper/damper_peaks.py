@@ -1,0 +1,308 @@
+"""How far a rotor on a squeeze-film damper goes after a blade is lost, or over a run-up."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...answers import DISAGREEMENT, ErrorEstimate, Found, Work
+from ...errors import FilmContactError, InputError
+from ...model import Array, Reaction, Tangent, prepared_tangent
+from ...motion.transient.equal_steps import ORDER, Motion, linear_march, march, peak
+from ...rotors import RigidRotor
+from ...scenes.damper.damper_films import NO_RICHER, DamperFilm, damper_films, quiet, sprung
+from ...scenes.damper.damper_models import damper_models
+from ...scenes.damper.damper_remarks import scene_remarks
+from ...scenes.damper.damper_table import DamperTable
+from ...scenes.excitation_table import BladeLossTable, RunUpTable
+from ...scenes.journal.film_rungs import NOMINAL
+from ..walk import Ladder
+
+if TYPE_CHECKING:
+    from ...scenes.scene import Scene
+
+STEPS = (48, 96, 192, 384, 768)
+"""Steps over a turn of the nonlinear rungs."""
+
+CHEAP_STEPS = (48, 192)
+"""Those of films that leave out the layer or the flow around the circumference."""
+
+FED_STEPS = (24, 48, 96)
+"""Those of films with feed, which have no map: a force takes some tenths to thousandths of a second."""
+
+LINEAR_STEPS = 192
+"""Those of the linear motion."""
+
+SAMPLED = 48
+"""States over a turn at which the defect is taken."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class DamperPeakRung:
+    """The peak by one film, linear about the center or nonlinear in so many steps over a turn.
+
+    Attributes
+    ----------
+    film : DamperFilm
+    rotor : RigidRotor
+        At rest in the center.
+    stiffness : float [N/m]
+        Of the retainer springs.
+    duration : float [s]
+    steps : int
+        Over a turn at the highest speed; 0 for the linear motion.
+    """
+
+    film: DamperFilm
+    rotor: RigidRotor
+    stiffness: float
+    duration: float
+    steps: int
+
+    @property
+    def name(self) -> str:
+        """Linear, or the number of steps and the film."""
+        how = f"nonlinear, {self.steps} steps" if self.steps else "linear"
+        return f"{how}, {self.film.name}"
+
+    @property
+    def prior(self) -> float:
+        """Order of magnitude of the error of the steps, and of the film."""
+        return max(0.3 * self.film.prior, 3.0 / self.steps**2 if self.steps else 0.0)
+
+    @property
+    def tangents(self) -> str:
+        """Name of one force of this film with derivatives."""
+        return f"tangents of {self.film.name}"
+
+    @cached_property
+    def support(self) -> Reaction:
+        """Film and springs, the film on its map where it has one."""
+        return sprung(self.film.moving, self.stiffness)
+
+    @cached_property
+    def tangent(self) -> Tangent:
+        """Force and derivatives of film and springs for plain numbers."""
+        return prepared_tangent(self.support)
+
+    @cached_property
+    def rich(self) -> Reaction | None:
+        """The richer film and the springs; None if there is none."""
+        found = self.film.rich_moving
+        return None if found is None else sprung(found, self.stiffness)
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the largest distance from the center [m]; raises FilmContactError at the wall."""
+        if not self.steps:
+            motion = self._linear(LINEAR_STEPS)
+            if np.hypot(*motion.position).max() >= self.support.clearance:
+                raise FilmContactError("the linear motion leaves the clearance")
+            half = self._linear(LINEAR_STEPS // 2)
+            return Found(
+                peak(motion.position), {"linear steps": motion.time.size}, (motion, peak(half.position))
+            )
+        made = self.film.work
+        motion, calls = self._march(self.steps)
+        coarse = self._known(before)
+        if math.isnan(coarse):
+            other, more = self._march(self.steps // 2)
+            coarse, calls = peak(other.position), calls + more
+        return Found(peak(motion.position), {self.tangents: calls, **made}, (motion, coarse))
+
+    def _known(self, before: Found | None) -> float:
+        """Return the peak in steps twice as long, if the rung below has it."""
+        if before is None or self.tangents not in before.work:
+            return math.nan
+        twice = before.solution[0].time.size - 1 == self._count(self.steps // 2)
+        return float(before.value) if twice else math.nan
+
+    def _count(self, steps: int) -> int:
+        """Return an even number of steps, so that one ends where a run-up turns back."""
+        fastest = max(abs(speed) for speed in self.rotor.profile.speeds)
+        return 2 * math.ceil(self.duration * fastest * steps / (4.0 * math.pi))
+
+    def _march(self, steps: int) -> tuple[Motion, int]:
+        count = self._count(steps)
+        return march(
+            self.support, self.rotor.mass, 0.0, self._pull, np.zeros(2), self.duration / count, count
+        )
+
+    def _pull(self, t: float) -> tuple[float, float]:
+        x, y = self.rotor.unbalance_force(t).tolist()
+        return x, y
+
+    def _linear(self, steps: int) -> Motion:
+        """Return the motion by the film's stiffness and damping in the center, by average acceleration."""
+        count, (K, C) = self._count(steps), self._small
+        step, m = self.duration / count, self.rotor.mass
+        time = np.asarray(step * np.arange(count + 1))
+        pulls = [complex(*self._pull(t)) for t in time]
+        path, rates = np.zeros(count + 1, complex), np.zeros(count + 1, complex)
+        q, v, a = 0j, 0j, pulls[0] / m
+        k2, k1 = 4.0 / step**2, 2.0 / step
+        whole = m * k2 + k1 * C + K
+        for n in range(1, count + 1):
+            new = (pulls[n] + m * (k2 * (q + step * v) + a) + C * (k1 * q + v)) / whole
+            a, v, q = k2 * (new - q - step * v) - a, k1 * (new - q) - v, new
+            path[n], rates[n] = q, v
+        return Motion(
+            time=time,
+            position=np.array([path.real, path.imag]),
+            velocity=np.array([rates.real, rates.imag]),
+        )
+
+    @cached_property
+    def _small(self) -> tuple[float, float]:
+        """Stiffness and damping in the center: there also a cavitated film is linear in the velocity."""
+        c, center = self.support.clearance, np.zeros(2)
+        rate = c * abs(self.rotor.profile.speeds[-1] or 1.0)
+        damping = -float(self.support.force(center, np.array([rate, 0.0]), 0.0)[0]) / rate
+        fed = self.film.is_fed
+        own = -float(self.film.damper.jacobian(center, center, 0.0)[0, 0]) if fed else 0.0
+        return self.stiffness + own, damping
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the error of the steps (order increment), and of the film by its defect along the motion."""
+        motion, coarse = found.solution
+        steps = (found.value - coarse) / (2.0**ORDER - 1.0) / found.value
+        if self.film.rich_law is None and not math.isfinite(self.film.bound):
+            return ErrorEstimate(math.inf, "order increment", doubt=NO_RICHER)
+        reach = float(np.hypot(*motion.position).max()) / self.support.clearance
+        limit = _reach(self.rich or self.support)
+        if reach >= limit:
+            return ErrorEstimate(math.inf, "defect", doubt=_beyond(reach, limit))
+        if self.film.rich_law is None and self.steps:
+            return self._by_bound(motion, found.value, steps)
+        change, doubt, calls = self._by_defect(motion, found.value, self.rich or self.support)
+        # Errors of opposite signs cancel only as far as each is known: to a tenth, or to second order.
+        largest = max(abs(change), abs(steps))
+        error = max(abs(change + steps), largest * max(0.1, min(1.0, largest)))
+        name = "its own film" if self.rich is None else "the film of finite length"
+        work = {"defects of a richer film": calls, **self.film.rich_work}
+        return ErrorEstimate(error, f"order increment; defect of {name}", work, doubt=doubt)
+
+    def _by_bound(self, motion: Motion, value: float, steps: float) -> ErrorEstimate:
+        """Return the error of the steps, and what the verified error of the film could do all along."""
+        q, v, step = self._sampled(motion)
+        slopes = self.support.jacobian(q, v, 0.0)
+        film = self.film.bound * (self.support.force(q, v, 0.0) + self.stiffness * q)
+        moved = linear_march(self.rotor.mass, -slopes[:, :2], -slopes[:, 2:4], film, step)
+        bound = float(np.hypot(*moved).max()) / value
+        method = "order increment; verified bound of the film, propagated"
+        return ErrorEstimate(abs(steps) + bound, method, {self.tangents: q.shape[1]}, abs(steps) < bound)
+
+    def _sampled(self, motion: Motion) -> tuple[Array, Array, float]:
+        """Return position, velocity and step of the samples of a motion; the first is off the rest."""
+        # With feed the richer film takes milliseconds for a force.
+        samples = SAMPLED // 2 if self.film.is_fed else SAMPLED
+        stride = max(1, (self.steps or LINEAR_STEPS) // samples)
+        q, v = motion.position[:, ::stride].copy(), motion.velocity[:, ::stride].copy()
+        # A cavitated film has no derivative at rest: the direction in which the rotor starts.
+        v[:, 0] = 1e-3 * v[:, 1]
+        return q, v, float(motion.time[stride] - motion.time[0])
+
+    def _by_defect(self, motion: Motion, value: float, rich: Reaction) -> tuple[float, str, int]:
+        """Return the relative change of the peak that the richer film would make, and why not to trust it."""
+        q, v, step = self._sampled(motion)
+        slopes = rich.jacobian(q, v, 0.0)
+        if self.steps:
+            own = self.support.jacobian(q, v, 0.0)
+            cheap, K, C = self.support.force(q, v, 0.0), -own[:, :2], -own[:, 2:4]
+        else:
+            stiffness, damping = self._small
+            cheap = -stiffness * q - damping * v
+            K, C = (np.repeat(part * np.eye(2)[:, :, None], q.shape[1], axis=2) for part in self._small)
+        defect = rich.force(q, v, 0.0) - cheap
+        moved = linear_march(self.rotor.mass, -slopes[:, :2], -slopes[:, 2:4], defect, step)
+        other = linear_march(self.rotor.mass, K, C, defect, step)
+        size = float(np.linalg.norm(moved))
+        apart = float(np.linalg.norm(moved - other)) / size if size else 0.0
+        reach, limit = float(np.hypot(*(q + moved)).max()) / self.support.clearance, _reach(rich)
+        if reach >= 1.0:
+            doubt = "with its error the rotor would leave the clearance: a jump, or contact, and not linear"
+            return math.inf, doubt, q.shape[1]
+        doubt = f"the slopes of both films disagree on the error by {apart:.0%}: not linear"
+        doubt = _beyond(reach, limit) if reach >= limit else doubt if apart > DISAGREEMENT else ""
+        return (peak(q + moved) - peak(q)) / value, doubt, q.shape[1]
+
+    def expected(self, done: Work) -> Work:
+        """Return three tangents for each step."""
+        return {self.tangents: 3 * self._count(self.steps)} if self.steps else {}
+
+
+def _reach(reaction: Reaction) -> float:
+    return min(0.999, getattr(reaction, "largest_eccentricity_ratio", 1.0))
+
+
+def _beyond(reach: float, limit: float) -> str:
+    return (
+        f"the rotor goes to {reach:.4g} of the clearance and the film is known to {limit:.4g}: it may touch "
+        "the wall"
+    )
+
+
+@quiet()
+def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
+    """Return the ladder of the largest distance after a blade is lost, or over a run-up, in a damper.
+
+    Raises
+    ------
+    InputError
+        If the scene loses no blade and does not run up, has no rotor, or does not turn.
+    """
+    if not isinstance(scene.excitation, BladeLossTable | RunUpTable):
+        got = "none" if scene.excitation is None else f"{scene.excitation!r}"
+        raise InputError(f'excitation of kind "blade_loss" or "run_up" is required for {quantity}, got {got}')
+    assert scene.damper is not None  # or the ladder is another one
+    models = damper_models(scene)
+    rungs = tuple(
+        DamperPeakRung(
+            film=film,
+            rotor=models.rotor,
+            stiffness=scene.damper.stiffness,
+            duration=models.duration,
+            steps=steps,
+        )
+        for film, steps in _choices(scene.damper)
+    )
+    units = {rung.tangents: _one(rung, scene.speed) for rung in rungs if rung.steps}
+    remarks = scene_remarks(scene, models.rotor, steady=False)
+    refined = {rung.name: rung.film.name for rung in rungs if rung.steps}
+    return Ladder(rungs=rungs, unit="m", units=units, nominal=NOMINAL, refined=refined, remarks=remarks)
+
+
+def _choices(table: DamperTable) -> list[tuple[DamperFilm, int]]:
+    """Return films and steps of the rungs, 0 for the linear motion, the cheapest first."""
+    films = damper_films(table)
+    # `own` is the richest film beside that of finite length: it has the whole cage, gives the small motion,
+    # and is the last one where there is feed, for which a motion in the finite film takes minutes.
+    *cheap, own = films if len(films) < 2 or films[-1].rich_law is not None else films[:-1]
+    top = films[-1]
+    fed = own.is_fed
+    choices = [(film, steps) for film in cheap for steps in CHEAP_STEPS]
+    if fed:
+        # Where nothing is known of the film's error, a third run would tell no more.
+        choices += [(own, steps) for steps in (FED_STEPS if own.rich_law is not None else FED_STEPS[:2])]
+    else:
+        choices += [(own, steps) for steps in CHEAP_STEPS if own is not top]
+        choices += [(top, steps) for steps in STEPS]
+    if fed and own.rich_law is None:
+        return choices
+    # Without a film named, with the damping of the richer film, which the estimate needs anyway.
+    small = own
+    if own.rich_law is not None and table.film is None:
+        small = replace(own, law=own.rich_law)
+    return [(replace(small, name="small motion"), 0), *choices]
+
+
+def _one(rung: DamperPeakRung, speed: float) -> Callable[[], object]:
+    def one() -> object:
+        x, v = 0.5 * rung.support.clearance, abs(speed) * rung.support.clearance
+        return rung.tangent(x, 0.0, 0.1 * v, 0.5 * v, 0.0)
+
+    return one

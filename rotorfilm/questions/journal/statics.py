@@ -1,0 +1,218 @@
+"""Static questions about a journal bearing: where it rests, and its stiffness and damping there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Work
+from ...bearings.journal import JournalBearing
+from ...linear import coefficients, equilibrium
+from ...linear.equilibrium import MAXIMUM_ECCENTRICITY
+from ...model import Array, prepared_tangent
+from ...results import Equilibrium
+from ...scenes.counted import Counted
+from ...scenes.journal.film_rungs import NOMINAL, FilmRung, point_films, tangent
+from ...scenes.journal.journal_remarks import journal_remarks
+from ..walk import Ladder
+
+if TYPE_CHECKING:
+    from ...scenes.scene import Scene
+
+ANGLE, MATRIX = "attitude_angle", {"stiffness": 0, "damping": 2}
+UNITS = {
+    "eccentricity_ratio": "1",
+    "minimum_film": "m",
+    ANGLE: "rad",
+    "stiffness": "N/m",
+    "damping": "N s/m",
+}
+"""Static quantities and their units."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class StaticRung:
+    """The equilibrium by one film.
+
+    Attributes
+    ----------
+    film : FilmRung
+    quantity : str
+        A key of `UNITS`.
+    load : (float, float) [N]
+    speed : float [rad/s]
+    """
+
+    film: FilmRung
+    quantity: str
+    load: tuple[float, float]
+    speed: float
+
+    @property
+    def name(self) -> str:
+        """Name of the film."""
+        return self.film.name
+
+    @property
+    def prior(self) -> float:
+        """Order of magnitude of the film's error."""
+        return self.film.slope_prior if self.quantity in MATRIX else self.film.position_prior
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the quantity at the equilibrium of this film."""
+        made = self.film.prepare()
+        counted = Counted(self.film.bearing)
+        at = equilibrium(counted, self.load, self.speed)
+        if self.quantity in MATRIX:
+            found = coefficients(counted, at.position, self.speed)
+            value: Array | float = found.stiffness if self.quantity == "stiffness" else found.damping
+        else:
+            value = self.scalar(at.position)
+        return Found(value, {self.film.tangents: counted.tangents, **made}, at)
+
+    def scalar(self, position: Array) -> float:
+        """Return a quantity that follows from the position (2,) [m] alone."""
+        distance = float(np.hypot(*position))
+        if self.quantity == "eccentricity_ratio":
+            return distance / self.film.bearing.clearance
+        if self.quantity == "minimum_film":
+            return self.film.bearing.clearance - distance
+        (x, y), (load_x, load_y) = position, self.load
+        turned = math.atan2(load_x * y - load_y * x, load_x * x + load_y * y)
+        return math.copysign(1.0, self.speed) * turned
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the verified bound if that is enough, else the change that the richer film would make."""
+        bound = self._bound(found)
+        if SAFETY * bound < tolerance:
+            return ErrorEstimate(bound, "verified bound of the map", bound=True)
+        return self._by_defect(found)
+
+    def _bound(self, found: Found) -> float:
+        at: Equilibrium = found.solution
+        slopes = self.quantity in MATRIX
+        bound = self.film.bound(at.eccentricity_ratio, slopes=slopes)
+        if slopes or not math.isfinite(bound):
+            return bound
+        stiffness = coefficients(self.film.bearing, at.position, self.speed).stiffness
+        moved = bound * math.hypot(*self.load) * float(np.linalg.norm(np.linalg.inv(stiffness), 2))
+        return moved / self._length(at)
+
+    def _length(self, at: Equilibrium) -> float:
+        """Return the change of position [m] that is an error of 1 at most."""
+        return at.minimum_film if self.quantity == "minimum_film" else float(np.hypot(*at.position))
+
+    def _by_defect(self, found: Found) -> ErrorEstimate:
+        at: Equilibrium = found.solution
+        slopes = self.quantity in MATRIX
+        moved = corrected(self.film, at, np.array(self.load), smooth=slopes)
+        if self.quantity in MATRIX:
+            first = MATRIX[self.quantity]
+            better: Array | float = -moved.slopes[:, first : first + 2]
+        else:
+            better = self.scalar(moved.position)
+        scale = 1.0 if self.quantity == ANGLE else float(np.max(np.abs(better)))
+        error = float(np.max(np.abs(np.asarray(better) - found.value))) / scale
+        return ErrorEstimate(
+            error,
+            f"defect of {self.film.rich_name}",
+            {self.film.defects(smooth=slopes): 1, self.film.tangents: 2},
+            bound=self.film.bounded,
+            doubt=moved.doubt,
+        )
+
+    def expected(self, done: Work) -> Work:
+        """Return as many tangents as a lower rung took."""
+        return self.film.expected(sum(done.values()))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Corrected:
+    """Where the richer film would have its equilibrium, by one linear step from another's.
+
+    Attributes
+    ----------
+    position : ndarray, shape (2,) [m]
+    slopes : ndarray, shape (2, 4)
+        d force/d(x, y, vx, vy) of the richer film there.
+    doubt : str
+        Why it must not be trusted.
+    """
+
+    position: Array
+    slopes: Array
+    doubt: str
+
+
+def corrected(film: FilmRung, at: Equilibrium, load: Array, *, smooth: bool) -> Corrected:
+    """Return the equilibrium of the richer film as far as its defect tells.
+
+    With the defect d = F_rich + W at the equilibrium of the cheap film the position moves by K^-1 d; two more
+    defects there, with the same K, take out what is of second and third order. The first step is tried with
+    both films' K: where the results disagree by more than 30 % it is too long to be linear. The slopes are
+    those of the richer film where that ends.
+    """
+    force, rich = tangent(film.rich, at.position, at.speed, smooth=False)
+    cheap = film.bearing.jacobian(at.position, np.zeros(2), at.speed)[:, :4]
+    step, other = (np.linalg.solve(-slopes[:, :2], force + load) for slopes in (rich, cheap))
+    doubt = ""
+    gap, longest = float(np.hypot(*(step - other))), float(max(np.hypot(*step), np.hypot(*other)))
+    if gap > DISAGREEMENT * longest:
+        doubt = f"the stiffnesses of both films disagree on the error by {gap / longest:.0%}: not linear"
+    position = at.position
+    for further in range(3):
+        if further:
+            step = np.linalg.solve(-rich[:, :2], film.rich.force(position, np.zeros(2), at.speed) + load)
+        position = position + step
+        if float(np.hypot(*position)) >= MAXIMUM_ECCENTRICITY * film.bearing.clearance:
+            return Corrected(position=at.position, slopes=rich, doubt="the error is larger than the gap")
+    slopes = tangent(film.rich, position, at.speed, smooth=smooth)[1] if smooth else rich
+    return Corrected(position=position, slopes=slopes, doubt=doubt)
+
+
+def film_units(films: tuple[FilmRung, ...], speed: float) -> dict[str, Callable[[], object]]:
+    """Return one unit of work of each film, at half the clearance."""
+    units: dict[str, Callable[[], object]] = {}
+    for film in films:
+        units[film.tangents] = _one_tangent(film.bearing, speed)
+        for smooth in (False, True):
+            units[film.defects(smooth=smooth)] = _one_defect(film.rich, speed, smooth=smooth)
+    return units
+
+
+def _one_tangent(bearing: JournalBearing, speed: float) -> Callable[[], object]:
+    return lambda: prepared_tangent(bearing)(
+        0.3 * bearing.clearance, 0.4 * bearing.clearance, 0.0, 0.0, speed
+    )
+
+
+def _one_defect(bearing: JournalBearing, speed: float, *, smooth: bool) -> Callable[[], object]:
+    position = np.array([0.3, 0.4]) * bearing.clearance
+
+    def one() -> None:
+        tangent(bearing, position, speed, smooth=False)
+        for _ in range(2):
+            bearing.force(position, np.zeros(2), speed)
+        if smooth:
+            tangent(bearing, position, speed, smooth=True)
+
+    return one
+
+
+def static_ladder(scene: Scene, quantity: str) -> Ladder:
+    """Return the ladder of a static quantity of a journal bearing."""
+    films = point_films(scene.bearing, fixed=scene.film_is_given)
+    rungs = tuple(
+        StaticRung(film=film, quantity=quantity, load=scene.static_load, speed=scene.speed) for film in films
+    )
+    return Ladder(
+        rungs=rungs,
+        unit=UNITS[quantity],
+        units=film_units(films, scene.speed),
+        nominal=NOMINAL,
+        remarks=journal_remarks(scene),
+    )

@@ -1,0 +1,150 @@
+"""The bearings of a flexible rotor: which films may stand in its journals, and what is richer."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...bearings.journal import JournalBearing
+from ...linear import RotorEquilibrium, coefficients, equilibrium
+from ...model import Array, Reaction
+from ...results import Coefficients
+from ...scenes.journal.film_rungs import FINE, FilmRung, extrapolated, film_rungs, has_map
+from ..journal.statics import corrected
+
+if TYPE_CHECKING:
+    from ...scenes.shaft.shaft_table import ShaftTable
+
+REST_BOUNDS = ((0.5, 2e-5), (0.95, 5e-5))
+"""Eccentricity ratio up to which, and largest error of K, C of the packaged map at rest."""
+
+LEVELS = ("short film", "2-D 96 x 8 extr.")
+"""Films of journals that no map of the package holds and whose file names none."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShaftFilms:
+    """A film for each journal of a shaft, beside its springs and dampers.
+
+    Attributes
+    ----------
+    journals : dict of str to FilmRung
+        By station.
+    springs : dict of str to Reaction
+        Bearings without a film, by station.
+    """
+
+    journals: Mapping[str, FilmRung]
+    springs: Mapping[str, Reaction]
+
+    @property
+    def name(self) -> str:
+        """Names of the films, each once; empty without journals."""
+        return " and ".join(dict.fromkeys(film.name for film in self.journals.values()))
+
+    @property
+    def rich_name(self) -> str:
+        """Names of the richer films, each once; empty without journals."""
+        return " and ".join(dict.fromkeys(film.rich_name for film in self.journals.values()))
+
+    @property
+    def bounded(self) -> bool:
+        """Whether every film has a verified bound."""
+        return all(film.bounded for film in self.journals.values())
+
+    @property
+    def reactions(self) -> dict[str, Reaction]:
+        """All bearings by station, with these films."""
+        return {**self.springs, **{name: film.bearing for name, film in self.journals.items()}}
+
+    @property
+    def rich(self) -> dict[str, Reaction]:
+        """All bearings by station, with the richer films."""
+        return {**self.springs, **{name: film.rich for name, film in self.journals.items()}}
+
+    def prepare(self) -> dict[str, int]:
+        """Make the maps that are not there yet, and return the work of that."""
+        made: dict[str, int] = {}
+        for film in self.journals.values():
+            for unit, count in film.prepare().items():
+                made[unit] = made.get(unit, 0) + count
+        return made
+
+
+def film_levels(shaft: ShaftTable) -> tuple[ShaftFilms, ...]:
+    """Return what may stand in the journals of a shaft, the cheapest first; one level if all is settled."""
+    springs = {one.name: one.build() for one in shaft.bearings if one.journal is None}
+    choices = {
+        one.name: _choices(one.journal.build(), fixed=one.journal.film is not None)
+        for one in shaft.bearings
+        if one.journal is not None
+    }
+    count = max((len(each) for each in choices.values()), default=1)
+    return tuple(
+        ShaftFilms(
+            journals={name: each[min(level, len(each) - 1)] for name, each in choices.items()},
+            springs=springs,
+        )
+        for level in range(count)
+    )
+
+
+def _choices(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
+    films = tuple(_with_quick_check(film) for film in film_rungs(bearing, fixed=fixed))
+    if len(films) == 1 or (films[0].bounded and not films[0].makes_map):
+        return films[:1]
+    return tuple(film for film in films if film.name in LEVELS)
+
+
+def _with_quick_check(film: FilmRung) -> FilmRung:
+    """Return a rung whose map is compared with a grid that may be solved for several bearings."""
+    if not film.bounded:
+        return film
+    return replace(film, rich=extrapolated(film.bearing, FINE), rich_name="2-D 384 x 16 extr.")
+
+
+def rich_coefficients(films: ShaftFilms, at: RotorEquilibrium) -> tuple[dict[str, Coefficients], str]:
+    """Return K and C of all bearings by the richer films at their own equilibria, and why to doubt them."""
+    found, doubt = dict(at.coefficients), ""
+    for name, film in films.journals.items():
+        load = at.loads[name]
+        moved = corrected(film, equilibrium(film.bearing, load, at.speed), load, smooth=True)
+        found[name] = Coefficients(
+            stiffness=-moved.slopes[:, :2],
+            damping=-moved.slopes[:, 2:],
+            position=moved.position,
+            speed=at.speed,
+        )
+        doubt = doubt or moved.doubt
+    return found, doubt
+
+
+def coefficient_bounds(films: ShaftFilms, at: RotorEquilibrium) -> dict[str, float]:
+    """Return the verified relative error of K and C of each film at rest; infinite where there is none."""
+    return {
+        name: _rest_bound(film, float(np.hypot(*at.coefficients[name].position)) / film.bearing.clearance)
+        for name, film in films.journals.items()
+    }
+
+
+def _rest_bound(film: FilmRung, eccentricity_ratio: float) -> float:
+    if not (film.bounded and has_map(film.bearing)):
+        return film.bound(eccentricity_ratio, slopes=True)
+    return min((bound for reach, bound in REST_BOUNDS if eccentricity_ratio <= reach), default=math.inf)
+
+
+def coefficient_rates(films: ShaftFilms, at: RotorEquilibrium, step: float) -> dict[str, tuple[Array, Array]]:
+    """Return d K/d speed and d C/d speed of each film under its load, from speeds a relative step apart."""
+    rates = {}
+    for name, film in films.journals.items():
+        low, high = (
+            coefficients(film.bearing, equilibrium(film.bearing, at.loads[name], speed).position, speed)
+            for speed in (at.speed * (1.0 - step), at.speed * (1.0 + step))
+        )
+        width = 2.0 * step * at.speed
+        rates[name] = ((high.stiffness - low.stiffness) / width, (high.damping - low.damping) / width)
+    return rates

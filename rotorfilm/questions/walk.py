@@ -1,0 +1,276 @@
+"""The walk up a ladder: from the cheapest rung to the first whose estimated error meets the tolerance.
+
+A rung is any model, discretization or scheme that answers one question. It says what it did by counters of
+work; what a unit of work costs is measured in the same run.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from time import perf_counter
+from typing import Any, Protocol
+
+import numpy as np
+
+from ..answers import (
+    SAFETY,
+    ErrorEstimate,
+    Found,
+    QuestionAnswer,
+    RungReport,
+    Work,
+)
+from ..errors import AbsentError, FilmContactError, RotorfilmError, ValidityWarning, require_positive
+
+STALLED = 0.05
+"""Relative change of the error over a refinement, below which another one does not help."""
+
+REPEATS = 3
+"""Measurements of a unit of work, of which the shortest counts."""
+
+
+class NoAnswerError(AbsentError):
+    """It does not exist by a model close enough to say so: dearer ones need not be asked."""
+
+
+class Rung(Protocol):
+    """One way to answer a question."""
+
+    @property
+    def name(self) -> str:
+        """What it is called in print."""
+
+    @property
+    def prior(self) -> float:
+        """Order of magnitude of its error known beforehand [1]; 0 where nothing is known."""
+
+    def answer(self, before: Found | None) -> Found:
+        """Return its answer, from that of a lower rung or alone; raises RotorfilmError where it has none.
+
+        NoAnswerError where none has.
+        """
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the error of its answer without running a richer model.
+
+        A verified bound is enough where it is below the tolerance. `before` is the answer of a lower rung.
+        """
+
+    def expected(self, done: Work) -> Work:
+        """Return the work of an answer, where a lower rung has done this much."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ladder:
+    """The rungs of one question, the cheapest first.
+
+    Attributes
+    ----------
+    rungs : tuple of Rung
+    units : mapping of str to callable
+        By the name of a unit of work, a call that does one; work without one is timed while it is done.
+    unit : str
+        Of the value.
+    nominal : mapping of str to float [s]
+        Costs of units that are too dear to be tried for a prediction.
+    refined : mapping of str to str
+        By the name of a rung, what its steps refine: rungs of the same differ in nothing else.
+    remarks : tuple of str
+        What the physics of all rungs leaves out and should not.
+    """
+
+    rungs: tuple[Rung, ...]
+    unit: str
+    units: Mapping[str, Callable[[], object]] = field(default_factory=dict)
+    nominal: Mapping[str, float] = field(default_factory=dict)
+    refined: Mapping[str, str] = field(default_factory=dict)
+    remarks: tuple[str, ...] = ()
+
+
+class Meter:
+    """Costs of work: units are measured once, when they are first needed."""
+
+    def __init__(self, ladder: Ladder) -> None:
+        self._units = ladder.units
+        self._nominal = ladder.nominal
+        self._costs: dict[str, float] = {}
+
+    def timed(self, call: Callable[[], Any]) -> tuple[Any, float]:
+        """Return what a call returns, and how long it took [s]."""
+        begin = perf_counter()
+        result = call()
+        return result, perf_counter() - begin
+
+    def cost(self, work: Work, seconds: float) -> float:
+        """Return the cost of work [s] that took so long; units without a call share the time."""
+        unknown = sum(number for unit, number in work.items() if unit not in self._units)
+        for unit in work:
+            if unit not in self._units and unknown:
+                self._costs[unit] = seconds / unknown
+        return self.predict(work)
+
+    def predict(self, work: Work) -> float:
+        """Return the cost of work not done yet [s]; nan where a unit was never seen."""
+        return sum(number * self._unit(unit) for unit, number in work.items())
+
+    def _unit(self, unit: str) -> float:
+        if unit not in self._costs and unit in self._units:
+            call = self._units[unit]
+            self._costs[unit] = min(self.timed(call)[1] for _ in range(REPEATS))
+        return self._costs.get(unit, self._nominal.get(unit, math.nan))
+
+
+def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
+    """Return the answer of the first rung that meets the tolerance.
+
+    Parameters
+    ----------
+    quantity : str
+    ladder : Ladder
+    tolerance : float [1]
+
+    Raises
+    ------
+    InputError
+        If the tolerance is not positive.
+    AbsentError, FilmContactError
+        If the last rung that found anything finds that there is no such value, or contact.
+    RotorfilmError
+        What the last rung raised, if none has an answer.
+
+    Notes
+    -----
+    Which rung answers depends on the tolerance through one comparison per rung only, so that a tighter one
+    never chooses a rung with a larger estimate: what is skipped depends on the rungs below alone.
+    """
+    require_positive("tolerance", tolerance)
+    meter = Meter(ladder)
+    reports: list[RungReport] = []
+    failure: RotorfilmError | None = None
+    absent = False
+    before: Found | None = None
+    for rung in ladder.rungs:
+        if reports and reports[-1].verdict == "chosen":
+            break
+        idle = _refused_more_accurate(rung, reports) or _refined_in_vain(rung, ladder, reports)
+        if idle:
+            reports.append(RungReport(name=rung.name, verdict="skipped", reason=idle))
+            continue
+        try:
+            report, before = _tried(rung, before, meter, tolerance)
+            reports.append(report)
+            absent = False
+        except RotorfilmError as error:
+            if isinstance(error, NoAnswerError) and before is None:
+                raise
+            # A search that fails says nothing against contact, or an absence, found below it.
+            if isinstance(error, AbsentError | FilmContactError):
+                failure, absent = error, True
+            elif not absent:
+                failure = error
+            reports.append(RungReport(name=rung.name, verdict="refused", reason=str(error)))
+    if absent:
+        # By the richest model that was tried; what cheaper ones say instead is no answer.
+        assert failure is not None
+        raise failure
+    return _answer(quantity, ladder, meter, reports, tolerance, failure)
+
+
+def _tried(rung: Rung, before: Found | None, meter: Meter, tolerance: float) -> tuple[RungReport, Found]:
+    with warnings.catch_warnings():
+        # A rung outside its range is judged by its error, not by its warnings.
+        warnings.simplefilter("ignore", ValidityWarning)
+        found, seconds = meter.timed(lambda: rung.answer(before))
+        cost = meter.cost(found.work, seconds)
+        about, seconds = meter.timed(lambda: rung.estimate(found, before, tolerance))
+        estimate_cost = meter.cost(about.work, seconds)
+    reason = _why_refused(about, tolerance)
+    report = RungReport(
+        name=rung.name,
+        verdict="refused" if reason else "chosen",
+        reason=reason,
+        value=found.value,
+        error_estimate=about.error,
+        bound=about.bound,
+        doubtful=bool(about.doubt),
+        method=about.method,
+        cost=cost,
+        estimate_cost=estimate_cost,
+        work=dict(found.work),
+    )
+    return report, found
+
+
+def _why_refused(about: ErrorEstimate, tolerance: float) -> str:
+    if about.doubt:
+        return about.doubt
+    if SAFETY * about.error < tolerance:
+        return ""
+    return f"{SAFETY:g} x {about.error:.2g} is above the tolerance {tolerance:.3g}"
+
+
+def _refused_more_accurate(rung: Rung, reports: Sequence[RungReport]) -> str | None:
+    """Return why a rung need not be tried: one that is known to be closer was refused."""
+    for report in reports:
+        if not report.doubtful and rung.prior >= (report.error_estimate or math.inf):
+            return f"known to be off by about {rung.prior:.0e}; {report.name} is closer and was refused"
+    return None
+
+
+def _refined_in_vain(rung: Rung, ladder: Ladder, reports: Sequence[RungReport]) -> str | None:
+    """Return why finer steps do not help: the last refinement of the same model changed nothing."""
+    model = ladder.refined.get(rung.name)
+    coarser = [r for r in reports if model and ladder.refined.get(r.name) == model]
+    known = [r for r in coarser if r.error_estimate is not None and math.isfinite(r.error_estimate)][-2:]
+    if len(known) < 2 or known[0].doubtful != known[1].doubtful:
+        return None
+    before, after = (float(r.error_estimate or 0.0) for r in known)
+    if abs(before - after) > STALLED * after:
+        return None
+    return f"finer steps do not help: {known[0].name} is off by {before:.2g}, {known[1].name} by {after:.2g}"
+
+
+def _answer(
+    quantity: str,
+    ladder: Ladder,
+    meter: Meter,
+    reports: list[RungReport],
+    tolerance: float,
+    failure: RotorfilmError | None,
+) -> QuestionAnswer:
+    tried = [report for report in reports if report.error_estimate is not None]
+    if not tried:
+        assert failure is not None  # a ladder has at least one rung, and that was asked
+        raise failure
+    best = tried[-1]
+    if best.verdict != "chosen":
+        best = min(reversed(tried), key=_trusted_error)
+    above = ladder.rungs[len(reports) :]
+    upper = above[0] if best.verdict == "chosen" and above else None
+    next_cost = meter.predict(upper.expected(best.work)) if upper is not None else math.nan
+    waiting = [RungReport(name=rung.name, verdict="not needed") for rung in above]
+    return QuestionAnswer(
+        quantity=quantity,
+        value=best.value,
+        unit=ladder.unit,
+        error_estimate=float(best.error_estimate or 0.0),
+        tolerance=tolerance,
+        met=best.verdict == "chosen",
+        model=best.name,
+        cost=float(best.cost or 0.0),
+        estimate_cost=float(best.estimate_cost or 0.0),
+        total_cost=float(np.nansum([[each.cost, each.estimate_cost] for each in tried])),
+        next_model=upper.name if upper is not None else None,
+        next_cost=next_cost if math.isfinite(next_cost) else None,
+        rungs=(*reports, *waiting),
+        remarks=ladder.remarks,
+    )
+
+
+def _trusted_error(report: RungReport) -> float:
+    """Return the error by which the closest of refused rungs is found: one in doubt comes last."""
+    error = report.error_estimate
+    return math.inf if error is None or report.doubtful or not math.isfinite(error) else error

@@ -1,0 +1,200 @@
+"""From the parts of a shaft to its matrices."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+
+from ...errors import InputError
+from ...model import Array
+from ...signals import Signal
+from ..structure import (
+    NOMINAL_LENGTH,
+    Coordinate,
+    Readout,
+    Structure,
+    across_planes,
+    both_planes,
+    checked_stations,
+    displacements,
+    station_name,
+    unbalance_columns,
+)
+from .beam import Beam
+from .parts import Coupling, Disk, LayeredElement, Probe, ShaftElement, Station, TiltSpring, Unbalance
+
+ShaftPiece = ShaftElement | LayeredElement | Coupling
+"""What joins one node to the next."""
+
+
+def assemble(
+    *,
+    elements: Sequence[ShaftPiece],
+    disks: Sequence[Disk],
+    stations: Sequence[Station],
+    tilt_springs: Sequence[TiltSpring],
+    probes: Sequence[Probe],
+    unbalances: Sequence[Unbalance],
+    internal_damping: float,
+    loss_factor: float,
+    gravity: tuple[float, float],
+    beam: Beam,
+) -> Structure:
+    """Return the matrices of a shaft; the parameters are those of `ShaftRotor`.
+
+    Coordinates of a plane: deflection and tilt of node 0, 1, ..., those inside the elements, and the
+    displacement of each support.
+    """
+    coordinates = [
+        *_node_coordinates(elements),
+        *_inner_coordinates(elements, beam),
+        *(Coordinate(station_name(s.name, "support_{}"), "m", NOMINAL_LENGTH) for s in stations if s.support),
+    ]
+    size = len(coordinates)
+    mass, polar, stiffness, geometric, twist = _chain(elements, beam, size)
+    _add_disks(mass, polar, disks)
+    bending, damping = both_planes(stiffness), np.zeros((2 * size, 2 * size))
+    held = bending + both_planes(geometric) + across_planes(twist)
+    for spring in tilt_springs:
+        places = [2 * spring.node + 1, 2 * spring.node + 1 + size]
+        tilts = np.ix_(places, places)
+        held[tilts] += spring.stiffness
+        damping[tilts] += spring.damping
+    supported = [s for s in stations if s.support]
+    housings = _housings(stations, size)
+    for place, station in enumerate(supported, start=size - len(supported)):
+        assert station.support is not None
+        pair = np.ix_([place, place + size], [place, place + size])
+        mass[place, place] = station.support.mass
+        held[pair] += station.support.stiffness
+        damping[pair] += station.support.damping
+    return Structure(
+        mass=both_planes(mass),
+        damping=damping + internal_damping * bending,
+        gyroscopic=across_planes(polar),
+        stiffness=held,
+        circulation=internal_damping * across_planes(stiffness),
+        stations=checked_stations([station.name for station in stations]),
+        journals=_journals(stations, size) - housings,
+        weight=both_planes(mass) @ _translation(elements, len(supported), size, gravity),
+        unbalance=_unbalance(unbalances, size),
+        coordinates=tuple(coordinates),
+        readouts=(
+            *(r for p in probes for r in displacements(p.name, (2 * p.node, 2 * p.node + size), 2 * size)),
+            *_support_readouts(supported, size),
+        ),
+        supports=tuple(range(size - len(supported), size)),
+        housings=housings if supported else None,
+        hysteresis=loss_factor * stiffness if loss_factor else None,
+    )
+
+
+def _node_coordinates(elements: Sequence[ShaftPiece]) -> Iterator[Coordinate]:
+    tilt = NOMINAL_LENGTH / sum(element.length for element in elements)
+    for node in range(len(elements) + 1):
+        yield Coordinate(f"{{}}_{node}", "m", NOMINAL_LENGTH)
+        yield Coordinate(f"tilt_{{}}_{node}", "rad", tilt)
+
+
+def _inner_coordinates(elements: Sequence[ShaftPiece], beam: Beam) -> Iterator[Coordinate]:
+    tilt = NOMINAL_LENGTH / sum(element.length for element in elements)
+    for number, element in enumerate(elements):
+        for k in range(_inner(element, beam)):
+            yield Coordinate(f"inner_{{}}_{number}_{k}", "rad", tilt)
+
+
+def _inner(element: ShaftPiece, beam: Beam) -> int:
+    return 0 if isinstance(element, Coupling) else beam.internal
+
+
+def _chain(elements: Sequence[ShaftPiece], beam: Beam, size: int) -> Array:
+    """Return mass, polar, stiffness, geometric stiffness and twist of one plane, shape (5, size, size)."""
+    total = np.zeros((5, size, size))
+    inside = 2 * (len(elements) + 1)
+    for number, element in enumerate(elements):
+        ends = list(range(2 * number, 2 * number + 4))
+        inner = _inner(element, beam)
+        places = ends + list(range(inside, inside + inner))
+        inside += inner
+        scales = (1.0, 1.0, 1.0, element.axial_force, element.torque)
+        for matrix, scale, part in zip(total, scales, element.matrices(beam), strict=True):
+            matrix[np.ix_(places, places)] += scale * part
+    return total
+
+
+def _add_disks(mass: Array, polar: Array, disks: Sequence[Disk]) -> None:
+    for disk in disks:
+        w, theta = 2 * disk.node, 2 * disk.node + 1
+        mass[w, w] += disk.mass
+        mass[theta, theta] += disk.diametral_inertia
+        polar[theta, theta] += disk.polar_inertia
+
+
+def _journals(stations: Sequence[Station], size: int) -> Array:
+    """Return the displacement of each journal, shape (2 n_stations, 2 size)."""
+    rows = np.zeros((2 * len(stations), 2 * size))
+    for k, station in enumerate(stations):
+        for axis in range(2):
+            rows[2 * k + axis, axis * size + 2 * station.node] = 1.0
+    return rows
+
+
+def _housings(stations: Sequence[Station], size: int) -> Array:
+    """Return the displacement of each housing, shape (2 n_stations, 2 size); 0 where it is rigid."""
+    rows = np.zeros((2 * len(stations), 2 * size))
+    place = size - sum(station.support is not None for station in stations)
+    for k, station in enumerate(stations):
+        if station.support:
+            for axis in range(2):
+                rows[2 * k + axis, axis * size + place] = 1.0
+            place += 1
+    return rows
+
+
+def _translation(elements: Sequence[ShaftPiece], supports: int, size: int, by: tuple[float, float]) -> Array:
+    """Return the coordinates of a translation of the whole rotor, shape (2 size,)."""
+    plane = np.zeros(size)
+    plane[0 : 2 * (len(elements) + 1) : 2] = 1.0
+    plane[size - supports :] = 1.0
+    return np.concatenate([by[0] * plane, by[1] * plane])
+
+
+def _unbalance(unbalances: Sequence[Unbalance], size: int) -> Array:
+    columns = np.zeros((2 * size, 2))
+    for item in unbalances:
+        rows = [2 * item.node, 2 * item.node + size]
+        columns[rows] += unbalance_columns(item.unbalance, item.unbalance_angle)
+    return columns
+
+
+def _support_readouts(supported: Sequence[Station], size: int) -> Iterator[Readout]:
+    """Yield the forces of the supports on the ground."""
+    for place, station in enumerate(supported, start=size - len(supported)):
+        assert station.support is not None
+        for axis, letter in enumerate("xy"):
+            row = np.zeros(4 * size)
+            pair = [place, place + size]
+            row[pair] = np.asarray(station.support.stiffness)[axis]
+            row[[2 * size + i for i in pair]] = np.asarray(station.support.damping)[axis]
+            nominal = float(np.abs(row[pair]).max()) * NOMINAL_LENGTH or 1.0
+            yield Readout(
+                Signal(
+                    name=station_name(station.name, f"ground_force_{letter}"),
+                    unit="N",
+                    nominal=nominal,
+                    description=f"force of the support on the ground along {letter}",
+                ),
+                row,
+            )
+
+
+def check_nodes(
+    count: int, parts: Mapping[str, Sequence[Disk | Station | TiltSpring | Probe | Unbalance]]
+) -> None:
+    """Raise InputError unless every part sits on one of `count` nodes."""
+    for name, items in parts.items():
+        for item in items:
+            node = item.node
+            if not isinstance(node, int) or isinstance(node, bool) or not 0 <= node < count:
+                raise InputError(f"{name} must be on a node 0 to {count - 1}, got node {node!r}")

@@ -1,0 +1,176 @@
+"""`[bush]`: a polymer bush that wears by melting, by default the example of Evtushenko & Kovalenko (1993)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+from typing import Annotated, Any
+
+from ...bearings.bush import (
+    ApproximateShaft,
+    BushReaction,
+    BushWear,
+    ContactBalance,
+    ExactShaft,
+    Friction,
+    GlobalBalance,
+    LocalMelting,
+    MeltingBush,
+    SharedMelting,
+    f4k20_bush,
+)
+from ...errors import SceneError
+from ...limits import WORN_NODES
+from ...printable import brief
+from ..readers import Count
+from ..tables import Quantity, choose
+
+MATERIALS = {"f4k20": f4k20_bush}
+"""Bushes whose data a scene may take, by name: filled PTFE F4K20 on a steel shaft, Evtushenko & Kovalenko
+(1993), section 4."""
+
+SHAFT_HEATS = {"exact": ExactShaft, "approximate": ApproximateShaft}
+BALANCES = {"contact": ContactBalance, "global": GlobalBalance}
+MELTINGS = {"shared": SharedMelting, "local": LocalMelting}
+
+
+def _read_material(where: str, value: Any) -> str:
+    choose(where, value, MATERIALS)  # type: ignore[arg-type]
+    return str(value)
+
+
+def _read_shaft_heat(where: str, value: Any) -> ExactShaft | ApproximateShaft:
+    return choose(where, value, SHAFT_HEATS)()
+
+
+def _read_balance(where: str, value: Any) -> ContactBalance | GlobalBalance:
+    return choose(where, value, BALANCES)()
+
+
+def _read_melting(where: str, value: Any) -> SharedMelting | LocalMelting:
+    return choose(where, value, MELTINGS)()
+
+
+def _read_friction(where: str, value: Any) -> Friction:
+    """Read a coefficient of friction: one number, or f0, f1 [1/K], f2 [1/K2] of f0 + f1 T + f2 T^2."""
+    numbers = value if isinstance(value, list) else [value]
+    if not 1 <= len(numbers) <= 3:
+        raise SceneError(f"{where} must be one number or up to three, [f0, f1, f2], got {brief(value)}")
+    units = ("1", "1/K", "1/K2")
+    f = [Quantity(unit)(f"{where}[{k}]", x) for k, (unit, x) in enumerate(zip(units, numbers, strict=False))]
+    return Friction(f0=f[0], f1=f[1] if len(f) > 1 else 0.0, f2=f[2] if len(f) > 2 else 0.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class BushTable:
+    """`[bush]`: a polymer bush; what is left out is that of its material.
+
+    Parameters
+    ----------
+    melting_heat : float [J/m3]
+        Heat that melts a unit of volume of the liner; the source does not give it.
+    material : str
+        A name of `MATERIALS`, which gives all data that the table does not.
+    radius, outer_radius, shaft_radius, length : float or None [m]
+        Inner and outer radius of the liner, radius of the shaft, axial length.
+    shear_modulus : float or None [Pa]
+    poisson_ratio : float or None [1]
+    expansion : float or None [1/K]
+        Coefficient of linear thermal expansion.
+    liner_conductivity, shaft_conductivity : float or None [W/(m K)]
+    melting_point : float or None [K]
+        Above the ambient temperature, as all temperatures here.
+    air_transfer : float or None [W/(m2 K)]
+        Heat transfer from the shaft outside the bush to the air.
+    friction : Friction or None
+        In a file one number or `[f0, f1, f2]`.
+    outer_mean, outer_swing : float or None [K]
+        Temperature of the liner's outer surface, its mean and by how much it is warmer on the load line.
+    shaft_heat : ShaftHeat
+        In a file "exact" or "approximate".
+    balance : HeatBalance
+        In a file "contact" or "global".
+    melting : MeltingRule
+        In a file "shared" or "local".
+    nodes : int
+        Of the worn profile.
+    center, extent : float [rad]
+        Middle and width of the arc of nodes.
+    retardation : float [s]
+    """
+
+    melting_heat: Annotated[float, Quantity("J/m3")]
+    material: Annotated[str, _read_material] = "f4k20"
+    radius: Annotated[float | None, Quantity("m")] = None
+    outer_radius: Annotated[float | None, Quantity("m")] = None
+    shaft_radius: Annotated[float | None, Quantity("m")] = None
+    length: Annotated[float | None, Quantity("m")] = None
+    shear_modulus: Annotated[float | None, Quantity("Pa")] = None
+    poisson_ratio: Annotated[float | None, Quantity("1")] = None
+    expansion: Annotated[float | None, Quantity("1/K")] = None
+    liner_conductivity: Annotated[float | None, Quantity("W/(m.K)")] = None
+    shaft_conductivity: Annotated[float | None, Quantity("W/(m.K)")] = None
+    melting_point: Annotated[float | None, Quantity("K")] = None
+    air_transfer: Annotated[float | None, Quantity("W/(m2.K)")] = None
+    friction: Annotated[Friction | None, _read_friction] = None
+    outer_mean: Annotated[float | None, Quantity("K")] = None
+    outer_swing: Annotated[float | None, Quantity("K")] = None
+    shaft_heat: Annotated[ExactShaft | ApproximateShaft, _read_shaft_heat] = field(default_factory=ExactShaft)
+    balance: Annotated[ContactBalance | GlobalBalance, _read_balance] = field(default_factory=ContactBalance)
+    melting: Annotated[SharedMelting | LocalMelting, _read_melting] = field(default_factory=SharedMelting)
+    nodes: Annotated[int, Count(WORN_NODES)] = 64
+    center: Annotated[float, Quantity("rad")] = -0.5 * math.pi
+    extent: Annotated[float, Quantity("rad")] = 2.0
+    retardation: Annotated[float, Quantity("s")] = 0.0
+
+    def __post_init__(self) -> None:
+        self.reaction()
+
+    def build(self) -> MeltingBush:
+        """Return the bush; raise InputError where a value breaks its rule."""
+        of = MATERIALS[self.material]()
+
+        def given(part: Any, **values: Any) -> Any:
+            return replace(part, **{name: value for name, value in values.items() if value is not None})
+
+        bush: MeltingBush = given(
+            of,
+            geometry=given(
+                of.geometry,
+                radius=self.radius,
+                outer_radius=self.outer_radius,
+                shaft_radius=self.shaft_radius,
+                length=self.length,
+            ),
+            liner=given(
+                of.liner,
+                shear_modulus=self.shear_modulus,
+                poisson_ratio=self.poisson_ratio,
+                expansion=self.expansion,
+                conductivity=self.liner_conductivity,
+                melting_point=self.melting_point,
+            ),
+            shaft=given(of.shaft, conductivity=self.shaft_conductivity, air_transfer=self.air_transfer),
+            friction=self.friction,
+            outer_mean=self.outer_mean,
+            outer_swing=self.outer_swing,
+            shaft_heat=self.shaft_heat,
+            balance=self.balance,
+        )
+        return bush
+
+    def wear(self) -> BushWear:
+        """Return the model with one state, for a load that does not fall."""
+        return BushWear(bush=self.build(), melting_heat=self.melting_heat)
+
+    def reaction(self) -> BushReaction:
+        """Return the model with a worn profile, a bearing for a rotor."""
+        return BushReaction(
+            bush=self.build(),
+            melting_heat=self.melting_heat,
+            nodes=self.nodes,
+            center=self.center,
+            extent=self.extent,
+            melting=self.melting,
+            retardation=self.retardation,
+        )

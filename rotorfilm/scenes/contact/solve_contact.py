@@ -1,0 +1,252 @@
+"""The answer to one lubricated contact: film, approach, stiffness, and its response to a load over time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from ...bearings.contact import (
+    HERTZ_LOAD,
+    ContactLaw,
+    ContactRun,
+    ContactState,
+    PointContact,
+    RollingBall,
+    SineLoad,
+    StepLoad,
+    moes_parameters,
+    reduce_contact,
+    ride,
+)
+from ...errors import ValidityWarning, require_positive, warn_user
+from ...model import Array
+from ...progress import Report, silent
+
+
+class ContactCase(NamedTuple):
+    """A contact with the inertia of its ball and its units; all of them 1 without a ball.
+
+    Attributes
+    ----------
+    contact : PointContact
+    W : float [1]
+    ball : RollingBall or None
+    film_scale, time_scale, force_scale, pressure_scale : float [m, s, N, Pa]
+    """
+
+    contact: PointContact
+    W: float
+    ball: RollingBall | None = None
+    film_scale: float = 1.0
+    time_scale: float = 1.0
+    force_scale: float = 1.0
+    pressure_scale: float = 1.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class ContactAnswer:
+    """A stationary contact; in SI for a ball, else in units of the Hertzian contact.
+
+    Attributes
+    ----------
+    V, Q0, W : float [1]
+    moes : dict of str to float
+        M and L.
+    approach : float
+        Of the ball's center beyond first touch, negative in contact.
+    central_film, minimum_film : float
+    maximum_pressure : float
+    checkerboard : float [1]
+    stiffness, damping : float
+        -dF/dz at rest and in slow motion.
+    static_error, damping_error : float [1]
+        Of the reduced law.
+    published : dict of str to float
+        Film thicknesses by published formulas, in the same unit.
+    """
+
+    V: float
+    Q0: float
+    W: float
+    moes: dict[str, float]
+    approach: float
+    central_film: float
+    minimum_film: float
+    maximum_pressure: float
+    checkerboard: float
+    stiffness: float
+    damping: float
+    static_error: float
+    damping_error: float
+    published: dict[str, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ContactResponse:
+    """The motion of the ball under a load over time, in the units of `ContactAnswer`.
+
+    Attributes
+    ----------
+    model : str
+        "full film" or "reduced law".
+    complete : bool
+        Whether it reached its end.
+    time, approach, force : ndarray, shape (n,)
+    central_film : ndarray, shape (n,), or None
+        The reduced law has none.
+    work : dict of str to int
+    """
+
+    model: str
+    complete: bool
+    time: Array
+    approach: Array
+    force: Array
+    central_film: Array | None
+    work: dict[str, int]
+
+
+def case_of(ball: RollingBall, contact: PointContact) -> ContactCase:
+    """Return the contact of a ball with its units."""
+    scales = ball.film_scale, ball.time_scale, ball.load, ball.contact_pressure
+    return ContactCase(contact, ball.W, ball, *scales)
+
+
+def solve_contact(case: ContactCase, order: int, report: Report = silent) -> tuple[ContactAnswer, ContactLaw]:
+    """Return the stationary contact, and its dimensionless law.
+
+    Raises
+    ------
+    ConvergenceError
+        If the contact is not found.
+    """
+    report(0.0, "stationary contact")
+    state = case.contact.stationary()
+    report(0.3, "reduced law")
+    law = reduce_contact(case.contact, order)
+    report(1.0, "done")
+    return _answer(case, state, law), law
+
+
+def respond(
+    case: ContactCase, law: ContactLaw, load: Callable[[float], float], *, duration: float
+) -> ContactResponse:
+    """Return the response by the reduced law; load f(t) and duration are dimensionless.
+
+    Warns
+    -----
+    ValidityWarning
+        If the force leaves the range of the law.
+    """
+    motion = ride(
+        law, mass=case.W / HERTZ_LOAD, load=load, start=law.operating, duration=duration, samples=1001
+    )
+    lowest, highest = (bound / law.force_scale for bound in law.load_range)
+    carried = motion["force_z"]
+    if carried.min() < lowest or carried.max() > highest:
+        warn_user(
+            f"force must stay within {lowest:g} and {highest:g} static loads, to which the reduced law was "
+            f"fitted, got {carried.min():.3g} to {carried.max():.3g}: compare with the full film",
+            ValidityWarning,
+        )
+    return ContactResponse(
+        model="reduced law",
+        complete=True,
+        time=motion.time * case.time_scale,
+        approach=motion["z"] * case.film_scale,
+        force=motion["force_z"] * case.force_scale,
+        central_film=None,
+        work=motion.work,
+    )
+
+
+def run_full(
+    case: ContactCase,
+    load: Callable[[float], float],
+    *,
+    duration: float,
+    start: ContactState | ContactRun | None = None,
+    keep: Path | None = None,
+    report: Report = silent,
+) -> ContactRun:
+    """Return the response by the full film, dimensionless; an interruption returns what there is.
+
+    A run as start is gone on with; `keep` is as in `PointContact.simulate`.
+
+    Raises
+    ------
+    ConvergenceError
+        If a step fails; its `partial` is the run up to there.
+    """
+    begin = case.contact.stationary() if start is None else start
+    at = float(begin.time[0]) if isinstance(begin, ContactRun) else begin.t
+    told = _Told(load, at, duration, report)
+    return case.contact.simulate(begin, duration=duration, W=case.W, load=told, keep=keep)
+
+
+def response_of(case: ContactCase, run: ContactRun) -> ContactResponse:
+    """Return a run of the full film in the units of the case."""
+    return ContactResponse(
+        model="full film",
+        complete=run.complete,
+        time=run.time * case.time_scale,
+        approach=run.delta * case.film_scale,
+        force=run.carried_load * case.force_scale,
+        central_film=run.central_film * case.film_scale,
+        work=run.work,
+    )
+
+
+def load_over_time(step: float | None, sine: float | None, frequency: float) -> StepLoad | SineLoad:
+    """Return f(t) of a jump at t = 0 or of a swing, by their amplitudes relative to the static load."""
+    if sine is not None:
+        require_positive("frequency", frequency)
+        return SineLoad(amplitude=sine, frequency=frequency)
+    return StepLoad(amplitude=0.0 if step is None else step)
+
+
+class _Told:
+    """A load that tells how far the run is."""
+
+    def __init__(self, load: Callable[[float], float], start: float, duration: float, report: Report) -> None:
+        self.load, self.start, self.duration, self.report = load, start, duration, report
+        self.breakpoints = tuple(getattr(load, "breakpoints", ()))
+
+    def __repr__(self) -> str:
+        return repr(self.load)
+
+    def __call__(self, t: float) -> float:
+        self.report(min(max((t - self.start) / self.duration, 0.0), 1.0), "full film over time")
+        return self.load(t)
+
+
+def _answer(case: ContactCase, state: ContactState, law: ContactLaw) -> ContactAnswer:
+    film, stiff = case.film_scale, case.force_scale / case.film_scale
+    return ContactAnswer(
+        V=case.contact.V,
+        Q0=case.contact.Q0,
+        W=case.W,
+        moes=moes_parameters(case.contact.V, case.contact.Q0)._asdict(),
+        approach=state.delta * film,
+        central_film=state.central_film * film,
+        minimum_film=state.minimum_film * film,
+        maximum_pressure=float(np.max(state.pressure)) * case.pressure_scale,
+        checkerboard=state.checkerboard,
+        stiffness=law.stiffness * stiff,
+        damping=law.damping * stiff * case.time_scale,
+        static_error=law.static_error,
+        damping_error=law.damping_error,
+        published=_published(case),
+    )
+
+
+def _published(case: ContactCase) -> dict[str, float]:
+    if case.ball is not None:
+        return case.ball.published_films._asdict()
+    moes = moes_parameters(case.contact.V, case.contact.Q0)
+    # The other formulas need a speed beside M and L.
+    return {"nijenbanning_venner_moes": moes.central_film * 2.0 / (1.5 * moes.M) ** (2.0 / 3.0)}

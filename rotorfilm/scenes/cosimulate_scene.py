@@ -1,0 +1,202 @@
+"""A scene as a co-simulation: its FMUs coupled by a scheme, the limit of that scheme, and the error."""
+
+from __future__ import annotations
+
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..cosim import (
+    Adaptive,
+    Auto,
+    CoSimulation,
+    CouplingWatch,
+    GaussSeidel,
+    Jacobi,
+    Newton,
+    Scheme,
+    SIExp,
+    SIExp3,
+    cosimulate,
+    critical_macro_step,
+)
+from ..errors import ContactError, InputError
+from ..progress import Report, part_of, silent
+from ..results import Trajectory, orbit_distance
+from .export_scene import export_scene, resting_rotor
+from .monolithic import monolithic_solution
+from .scene import Scene
+from .schema import require_steps
+
+SCHEMES: dict[str, Scheme] = {
+    **{f"gauss-seidel-{degree}": GaussSeidel(degree=degree) for degree in range(3)},
+    **{f"jacobi-{degree}": Jacobi(degree=degree) for degree in range(3)},
+    "si-exp": SIExp(),
+    "si-exp3": SIExp3(),
+    "newton": Newton(),
+    "adaptive": Adaptive(),
+}
+"""Schemes by their names on the command line."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrialRow:
+    """A trial of `Auto`, for print; the fields are those of `cosim.Trial`.
+
+    Attributes
+    ----------
+    scheme : str
+    orbit_error, spectral_radius, film_calls : float or None [1]
+    reason : str
+    """
+
+    scheme: str
+    orbit_error: float | None
+    spectral_radius: float | None
+    film_calls: float | None
+    reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class CosimAnswer:
+    """What a co-simulation of a scene says.
+
+    Attributes
+    ----------
+    scheme : str
+        The scheme that ran.
+    order : int
+        Its order of convergence.
+    macro_angle : float [rad]
+        Shaft rotation between two exchanges.
+    critical_macro_angle : float or None [rad]
+        Where the scheme becomes unstable at the static equilibrium; None where it does not.
+    orbit_error : float [1]
+        Largest distance from the monolithic solution / clearance.
+    eccentricity_ratio : float [1]
+        Largest one met.
+    hold_defect : float [1]
+        See `CouplingReport`.
+    watch : CouplingWatch
+    work : dict of str to int
+        Counters.
+    trials : tuple of TrialRow
+        Why this scheme, if it was asked for.
+    """
+
+    scheme: str
+    order: int
+    macro_angle: float
+    critical_macro_angle: float | None
+    orbit_error: float
+    eccentricity_ratio: float
+    hold_defect: float
+    watch: CouplingWatch
+    work: dict[str, int]
+    trials: tuple[TrialRow, ...]
+
+
+def scheme_named(name: str, tolerance: float) -> Scheme | Auto:
+    """Return the scheme of a name; `auto` and `adaptive` take the tolerance.
+
+    Raises
+    ------
+    InputError
+        If there is no such scheme.
+    """
+    if name == "auto":
+        return Auto(tolerance=tolerance)
+    if name == "adaptive":
+        return Adaptive(tolerance=tolerance)
+    if name not in SCHEMES:
+        raise InputError(f"--scheme must be one of {['auto', *SCHEMES]}, got {name!r}")
+    return SCHEMES[name]
+
+
+def run_scene(scene: Scene, scheme: Scheme | Auto, report: Report = silent) -> tuple[CosimAnswer, Trajectory]:
+    """Couple the FMUs of a scene; return what that says, and the signals.
+
+    A film without a kernel in the C library runs as a model in this process, because its FMU would not tell
+    its derivatives.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a rotor.
+    scheme : Scheme or Auto
+    report : callable, optional
+        Told how far the job is.
+
+    Raises
+    ------
+    InputError
+        If the scene has no rotor, or see `cosimulate`.
+    CouplingError, ContactError, ConvergenceError
+        See `cosimulate`.
+    """
+    require_steps("operation.duration", scene.duration * abs(scene.speed), scene.cosimulation)
+    report(0.0, "equilibrium, FMUs")
+    result = _coupled(scene, scheme, part_of(report, 0.05, 0.75))
+    report(0.75, "monolithic solution")
+    answer = _answer(scene, result)
+    report(1.0, "done")
+    return answer, result.trajectory
+
+
+def _coupled(scene: Scene, scheme: Scheme | Auto, report: Report) -> CoSimulation:
+    def progress(t: float) -> None:
+        report(min(1.0, t / scene.duration), "coupled run")
+
+    with tempfile.TemporaryDirectory() as folder:
+        native = scene.bearing.native() is not None
+        rotor, film = resting_rotor(scene), scene.bearing
+        fmus = export_scene(scene, Path(folder)) if native else None
+        return cosimulate(
+            rotor if fmus is None else fmus.rotor,
+            film if fmus is None else fmus.film,
+            macro_step=scene.macro_step,
+            duration=scene.duration,
+            scheme=scheme,
+            progress=progress,
+        )
+
+
+def _answer(scene: Scene, result: CoSimulation) -> CosimAnswer:
+    rotor, own, clearance = resting_rotor(scene), result.trajectory, scene.bearing.clearance
+    limit = None
+    if not isinstance(result.scheme, Adaptive):
+        found = critical_macro_step(
+            rotor, scene.bearing, state=rotor.initial_state, scheme=result.scheme
+        ).macro_step
+        limit = None if found is None else found * abs(scene.speed)
+    times = np.minimum(own.time, scene.duration)
+    try:
+        whole = monolithic_solution(scene, times)
+    except ContactError as wall:
+        raise ContactError(f"the monolithic solution: {wall}", result) from wall
+    choice = result.choice
+    return CosimAnswer(
+        scheme=result.scheme.label,
+        order=result.scheme.order,
+        macro_angle=scene.cosimulation.macro_angle,
+        critical_macro_angle=limit,
+        orbit_error=orbit_distance(own, whole) / clearance,
+        eccentricity_ratio=float(np.hypot(*own.position).max()) / clearance,
+        hold_defect=result.coupling.hold_defect,
+        watch=result.watch,
+        work=own.work,
+        trials=()
+        if choice is None
+        else tuple(
+            TrialRow(
+                scheme=trial.scheme.label,
+                orbit_error=trial.orbit_error,
+                spectral_radius=trial.spectral_radius,
+                film_calls=trial.film_calls,
+                reason=trial.reason,
+            )
+            for trial in choice.trials
+        ),
+    )

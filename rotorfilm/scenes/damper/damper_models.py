@@ -1,0 +1,76 @@
+"""Rotor and damper of a scene, as they are run."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ...bearings.damper import PorousDamper
+from ...bearings.sprung import Sprung
+from ...errors import InputError
+from ...rotors import RigidRotor
+from ..excitation_table import BladeLossTable, RunUpTable, UnbalanceTable
+from ..schema import require_steps
+
+if TYPE_CHECKING:
+    from ..scene import Scene
+
+
+class DamperScene(NamedTuple):
+    """The models of a scene with a damper.
+
+    Attributes
+    ----------
+    rotor : RigidRotor
+        At the center of the damper, at rest.
+    support : PorousDamper or Sprung
+    start : float [s]
+        When the excitation begins: until then nothing moves, and the run counts from there.
+    duration : float [s]
+    step : float [s]
+        Time between samples, or exchanges of a coupled run.
+    """
+
+    rotor: RigidRotor
+    support: PorousDamper | Sprung
+    start: float
+    duration: float
+    step: float
+
+
+def damper_models(scene: Scene) -> DamperScene:
+    """Return rotor and damper of a scene.
+
+    An unbalance is that of `[rigid_rotor]`, there from the start, or that of the excitation: `unbalance`,
+    `blade_loss` or `run_up`.
+
+    Raises
+    ------
+    InputError
+        If the scene lacks a damper or a rotor, has two unbalances, or another excitation.
+    """
+    excitation = scene.excitation
+    if scene.damper is None or scene.rigid_rotor is None:
+        raise InputError("damper and rigid_rotor are required for a run on a damper, got a scene without")
+    rotor, start, duration = scene.rigid_rotor.build(scene.speed, (0.0, 0.0)), 0.0, 0.0
+    if excitation is not None:
+        if not isinstance(excitation, UnbalanceTable):
+            raise InputError(f"excitation must be an unbalance, a blade_loss or a run_up, got {excitation!r}")
+        if rotor.unbalance:
+            raise InputError(
+                "rigid_rotor.unbalance must be 0 where [excitation] has the unbalance, "
+                f"got {rotor.unbalance:g} beside {excitation.unbalance:g} kg m"
+            )
+        turned = excitation.unbalance_angle
+        rotor = replace(rotor, unbalance=excitation.unbalance, unbalance_angle=turned)
+    if isinstance(excitation, BladeLossTable):
+        start, duration = excitation.start, scene.time_of(2.0 * np.pi * excitation.revolutions)
+        rotor = replace(rotor, unbalance_angle=turned + scene.speed * start)
+    if isinstance(excitation, RunUpTable):
+        profile = excitation.profile(scene.speed)
+        rotor, duration = replace(rotor, speed=profile), profile.times[-1]
+    duration = duration or scene.duration
+    require_steps("excitation", duration * abs(scene.speed), scene.cosimulation)
+    return DamperScene(rotor, scene.damper.support(), start, duration, scene.macro_step)

@@ -1,0 +1,119 @@
+"""What every squeeze film of a damper leaves out, judged by dimensionless numbers."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from ...bearings.damper import PorousDamper, layer_modes
+from ...bearings.films.cavitation import FullFilm
+from ..journal.journal_remarks import ATMOSPHERE, NOTABLE
+from ..lubricant_table import LubricantTable
+
+NOTABLE_MASS = 0.05
+"""Mass of the moving film / mass of the rotor that is worth a word."""
+
+
+class DamperNumbers(NamedTuple):
+    """Dimensionless numbers of a squeeze film on a circular orbit.
+
+    Attributes
+    ----------
+    inertia : float
+        Pressure of the film's inertia over the viscous one, squeeze Reynolds number speed c^2/nu / 10.
+    added_mass : float
+        Mass with which the film follows the rotor / mass of the rotor.
+    peclet : float
+        speed c^2/diffusivity: heat carried along over heat conducted across the film.
+    warming : float [K]
+        Rise of temperature, of the oil squeezed out (Peclet number above 1) or between cold walls.
+    thinning : float
+        Relative loss of viscosity by that.
+    tension : float
+        Ambient pressure over the largest pressure of the film: a full film carries as much tension; and the
+        part of a cavity that ambient pressure fills again within a turn is of this order.
+    compression : float
+        Largest pressure over the bulk modulus.
+    """
+
+    inertia: float
+    added_mass: float
+    peclet: float
+    warming: float
+    thinning: float
+    tension: float
+    compression: float
+
+
+def damper_numbers(
+    damper: PorousDamper, oil: LubricantTable, mass: float, speed: float, eccentricity_ratio: float
+) -> DamperNumbers:
+    """Return the numbers of a film whose rotor [kg] whirls on a circle at a speed [rad/s].
+
+    With a parabolic profile the momentum of the flow is 6/5 of that of its mean, so that the pressure
+    gradient is 12 viscosity/h^2 (1 + i Re/10) times the mean velocity, Re = speed h^2/nu. The film's power
+    heats what is squeezed out, 2 radius length e speed, or, if it stays, the middle of a slab between cold
+    walls, by power/volume c^2/(8 conductivity). The pressure is that of the short film in its middle.
+    """
+    R, L, c, omega = damper.radius, damper.length, damper.clearance, abs(speed)
+    e = eccentricity_ratio * c
+    volumetric = oil.density * oil.heat_capacity
+    tangential = float(damper.force([e, 0.0], [0.0, omega * e], omega)[1])
+    inertia = omega * c**2 * oil.density / damper.viscosity / 10.0
+    power = -tangential * omega * e
+    peclet = omega * c**2 * volumetric / oil.conductivity
+    adiabatic = power / (volumetric * 2.0 * R * L * e * omega)
+    conducted = power * c / (2.0 * math.pi * R * L * 8.0 * oil.conductivity)
+    warming = adiabatic if peclet > 1.0 else min(adiabatic, conducted)
+    largest = largest_pressure(damper, omega, eccentricity_ratio)
+    return DamperNumbers(
+        inertia=inertia,
+        added_mass=inertia * -tangential / (omega**2 * e * mass),
+        peclet=peclet,
+        warming=warming,
+        thinning=-math.expm1(-oil.thinning * warming),
+        tension=ATMOSPHERE / largest,
+        compression=largest / oil.bulk_modulus,
+    )
+
+
+def largest_pressure(damper: PorousDamper, speed: float, eccentricity_ratio: float) -> float:
+    """Return the largest pressure [Pa] of a short film on a circular orbit, in the middle of its length.
+
+    (3/2) viscosity (L/c)^2 speed max of eps sin(theta) G(h): the parabola of a film without flow around.
+    """
+    theta = np.linspace(0.0, math.pi, 721)
+    h = 1.0 + eccentricity_ratio * np.cos(theta)
+    modes = layer_modes(damper.layer)
+    G = modes.weight @ (1.0 / (h**3 + modes.leak[:, None]))
+    source = eccentricity_ratio * speed * np.sin(theta)
+    scale = 1.5 * damper.viscosity * (damper.length / damper.clearance) ** 2
+    return scale * float(np.max(source * G))
+
+
+def damper_remarks(
+    damper: PorousDamper, oil: LubricantTable, mass: float, speed: float, eccentricity_ratio: float
+) -> tuple[str, ...]:
+    """Return what is left out and should not be, one line each, for an orbit of an eccentricity ratio."""
+    n = damper_numbers(damper, oil, mass, speed, eccentricity_ratio)
+    full = isinstance(damper.extent, FullFilm)
+    orbit = f"on an orbit of eccentricity ratio {eccentricity_ratio:.2g}"
+    lines = {
+        f"inertia of the film: {n.inertia:.2g} of the viscous pressure (squeeze Reynolds number "
+        f"{10.0 * n.inertia:.2g})": n.inertia > NOTABLE,
+        f"inertia of the film: it moves along as {n.added_mass:.1%} of the rotor's mass": (
+            n.added_mass > NOTABLE_MASS
+        ),
+        f"cavitation: {orbit} the full film carries a tension of {1.0 / n.tension:.2g} times the ambient "
+        "pressure, where oil ruptures": full and n.tension < 1.0,
+        f"cavitation: {orbit} the pressure is {1.0 / n.tension:.2g} of the ambient one only, so that the oil "
+        "may not rupture where this film does": not full and n.tension > 1.0 / NOTABLE,
+        f"cavitation: {orbit} the pressure is {1.0 / n.tension:.2g} times the ambient one, which does not "
+        "fill the cavity again within a turn; no film conserves its mass": not full and n.tension < NOTABLE,
+        f"heat: {orbit} the oil warms by about {n.warming:.2g} K (Peclet number {n.peclet:.2g}), which takes "
+        f"{n.thinning:.0%} of its viscosity": n.thinning > NOTABLE,
+        f"compressibility: {n.compression:.2%} by the largest pressure": n.compression > 0.01,
+    }
+    return tuple(line for line, applies in lines.items() if applies)

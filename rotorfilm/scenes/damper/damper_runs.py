@@ -1,0 +1,128 @@
+"""Runs of a scene with a damper, as a lost blade or a run-up: as one system, or as two FMUs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...cosim import CoSimulation, cosimulate
+from ...errors import ContactError
+from ...files import written_together
+from ...fmu import export_fmu
+from ...model import Array, Model
+from ...motion import simulate
+from ...results import Trajectory
+from .damper_models import DamperScene, damper_models
+
+if TYPE_CHECKING:
+    from ..scene import Scene
+
+RTOL = 1e-6
+
+
+@dataclass(frozen=True, kw_only=True)
+class DamperRun:
+    """A motion on a damper.
+
+    Attributes
+    ----------
+    trajectory : Trajectory
+        Up to contact, if there is one.
+    eccentricity_ratio : ndarray, shape (n,) [1]
+    peak_eccentricity_ratio : float [1]
+    peak_force : float [N]
+        Greatest force on the housing, of film and springs.
+    contact_time : float or None [s]
+        When the rotor left the film's range, up to the wall for a short film; None if it never did.
+    """
+
+    trajectory: Trajectory
+    eccentricity_ratio: Array
+    peak_eccentricity_ratio: float
+    peak_force: float
+    contact_time: float | None
+
+    @property
+    def force(self) -> Array:
+        """Force on the housing, of film and springs, shape (n,) [N]."""
+        signals = self.trajectory.signals
+        return np.asarray(np.hypot(signals["force_x"], signals["force_y"]))
+
+
+def run_damper(scene: Scene) -> DamperRun:
+    """Return the motion by integrating rotor and damper as one system; contact ends it and is no error."""
+    models = damper_models(scene)
+    times = np.append(np.arange(0.0, models.duration, models.step), models.duration)
+    try:
+        run = simulate(models.rotor, models.support, duration=models.duration, times=times, rtol=RTOL)
+    except ContactError as contact:
+        return _run(models, contact.partial, touched=True)
+    return _run(models, run, touched=False)
+
+
+def couple_damper(scene: Scene, folder: Path, version: str = "2.0") -> DamperRun:
+    """Return the motion by coupling `rotor.fmu` and `damper.fmu`, written into a folder, through fmpy.
+
+    Parameters
+    ----------
+    scene : Scene
+    folder : Path
+    version : str
+        FMI version; a damper whose film is no map has 2.0 only.
+    """
+    models = damper_models(scene)
+    rotor, damper = export_damper(scene, folder, version)
+    try:
+        run = cosimulate(rotor, damper, macro_step=models.step, duration=models.duration)
+    except ContactError as contact:
+        return _run(models, _partial(contact), touched=True)
+    return _run(models, run.trajectory, touched=False)
+
+
+def export_damper(
+    scene: Scene, folder: Path, version: str = "2.0", *, backend: str | None = None, platforms: str = "host"
+) -> tuple[Path, Path]:
+    """Write `rotor.fmu` and `damper.fmu` of a scene at rest in the center, both or none; see `export_fmu`."""
+    models = damper_models(scene)
+
+    def write(model: Model, name: str) -> None:
+        export_fmu(
+            model,
+            part / f"{name}.fmu",
+            version,
+            backend,
+            platforms=platforms,
+            component=name,
+            step_size=models.step,
+            stop_time=models.duration,
+        )
+
+    with written_together(folder) as part:
+        write(models.rotor, "rotor")
+        write(models.support, "damper")
+    return folder / "rotor.fmu", folder / "damper.fmu"
+
+
+def _partial(contact: ContactError) -> Trajectory:
+    partial = contact.partial
+    return partial.trajectory if isinstance(partial, CoSimulation) else partial
+
+
+def _run(models: DamperScene, run: Trajectory, *, touched: bool) -> DamperRun:
+    """Return what a trajectory shows, in the time of the scene."""
+    eps = np.hypot(*run.position) / models.support.clearance
+    beyond = np.nonzero(eps >= models.support.largest_eccentricity_ratio)[0]
+    first = int(beyond[0]) if beyond.size else len(eps) - 1
+    shown = slice(0, first + 1)
+    signals = {name: values[shown] for name, values in run.signals.items()}
+    time = models.start + run.time[shown]
+    return DamperRun(
+        trajectory=Trajectory(time=time, signals=signals, work=run.work),
+        eccentricity_ratio=eps[shown],
+        peak_eccentricity_ratio=float(eps[shown].max()),
+        peak_force=float(np.hypot(signals["force_x"], signals["force_y"]).max()),
+        contact_time=float(time[-1]) if touched or beyond.size else None,
+    )

@@ -1,0 +1,65 @@
+"""What an answer repeats of the question: the bearing in SI, and the film law that answered."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+
+from ...bearings.films.geometry import Groove, Pad
+from ...bearings.films.law import FilmLaw
+from ...bearings.journal import JournalBearing
+
+_GEOMETRY = "geometry"
+"""Parameter of the films that are fitted to a bearing: the bearing itself shows it."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class BearingData:
+    """A journal bearing as it was understood.
+
+    Attributes
+    ----------
+    radius, length, clearance : float [m]
+    slenderness : float [1]
+        Length / diameter.
+    viscosity : float [Pa s]
+    pads : tuple of Pad
+        Empty for the full circumference; angles in the bearing frame [rad].
+    grooves : tuple of Groove
+        Angles in the bearing frame [rad].
+    supply_pressure : float [Pa]
+        Gauge pressure in the grooves.
+    """
+
+    radius: float
+    length: float
+    slenderness: float
+    clearance: float
+    viscosity: float
+    pads: tuple[Pad, ...]
+    grooves: tuple[Groove, ...]
+    supply_pressure: float
+
+
+def bearing_data(bearing: JournalBearing) -> BearingData:
+    """Return what a journal bearing is, without its film."""
+    return BearingData(
+        radius=bearing.radius,
+        length=bearing.length,
+        slenderness=bearing.slenderness,
+        clearance=bearing.clearance,
+        viscosity=bearing.viscosity,
+        pads=bearing.pads,
+        grooves=bearing.grooves,
+        supply_pressure=bearing.supply_pressure,
+    )
+
+
+def film_name(film: FilmLaw) -> str:
+    """Return a film law as Python would make it, without its geometry and what is None."""
+    name = type(film).__name__
+    if not dataclasses.is_dataclass(film):
+        return name
+    values = {f.name: getattr(film, f.name) for f in dataclasses.fields(film) if f.repr}
+    shown = [f"{key}={value!r}" for key, value in values.items() if value is not None and key != _GEOMETRY]
+    return f"{name}({', '.join(shown)})"

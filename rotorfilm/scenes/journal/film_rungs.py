@@ -1,0 +1,271 @@
+"""The rungs of a journal film: which films can answer a scene, the cheapest first, and what is richer."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...bearings.films.law import FilmLaw
+from ...bearings.journal import (
+    ComplementarityArc,
+    ExtrapolatedFilm,
+    GroovedMapFilm,
+    JournalBearing,
+    MapFilm,
+    ReynoldsFilm,
+    RotatingArc,
+    ShortFilm,
+    SplittingFilm,
+    is_mappable,
+)
+from ...errors import ValidityWarning
+from ...model import Array
+from .echo import film_name
+
+TABLE_RANGE = (0.1, 4.0)
+"""Length / diameter of the map that is there from the start; other bearings have to make theirs."""
+
+MAP_BOUNDS = ((0.95, 2e-5, 1e-3), (0.999, 4e-4, math.inf))
+"""Eccentricity ratio up to which, and largest error of a position and of K, C there: docs/accuracy.md."""
+
+STEP = 0.05
+"""Step of differences of a two-dimensional film in its source, relative to the wedge; less in a thin film.
+
+Its own derivative in the source belongs to cells that are full or empty, and jumps when one changes sides;
+a difference over many such jumps does not. The pressure at the wall is as wide as the square root of the gap,
+and so is the squeeze, relative to the wedge, that moves its edge.
+"""
+
+MAP_MADE = "maps made"
+"""Unit of the work of making a map."""
+
+NOMINAL = {MAP_MADE: 20.0}
+"""What a map costs about [s], where none was made in this run."""
+
+MEDIUM, FINE, FINEST = (192, 16), (384, 16), (768, 32)
+
+
+@dataclass(frozen=True, kw_only=True)
+class FilmRung:
+    """A film that may answer, and the richer one that its defect is sampled with.
+
+    Attributes
+    ----------
+    name : str
+    bearing : JournalBearing
+        With this film.
+    rich : JournalBearing
+        With the richer one.
+    rich_name : str
+    position_prior, slope_prior : float [1]
+        Orders of magnitude of the error of a position, and of stiffness and damping; 0 if unknown.
+    bounded : bool
+        Whether the error has a verified bound, `MAP_BOUNDS`.
+    makes_map : bool
+        Whether its first force makes a map, which takes seconds to minutes.
+    """
+
+    name: str
+    bearing: JournalBearing
+    rich: JournalBearing
+    rich_name: str
+    position_prior: float
+    slope_prior: float
+    bounded: bool = False
+    makes_map: bool = False
+
+    def prepare(self) -> dict[str, int]:
+        """Make what the first force would make, and return the work of that."""
+        if not self.makes_map:
+            return {}
+        self.bearing.force([0.5 * self.bearing.clearance, 0.0], [0.0, 0.0], 1.0)
+        return {MAP_MADE: 1}
+
+    def expected(self, tangents: int) -> dict[str, int]:
+        """Return the work of so many forces with derivatives."""
+        return {self.tangents: tangents, **({MAP_MADE: 1} if self.makes_map else {})}
+
+    @property
+    def tangents(self) -> str:
+        """Name of one force with derivatives."""
+        return f"tangents of {self.name}"
+
+    def defects(self, *, smooth: bool) -> str:
+        """Return the name of the defects that correct one state, with exact or with smooth slopes."""
+        return f"defects{' and slopes' if smooth else ''} of {self.rich_name}"
+
+    def bound(self, eccentricity_ratio: float, *, slopes: bool) -> float:
+        """Return the verified bound of its error at an eccentricity ratio, infinite where there is none."""
+        if self.bounded:
+            for reach, position, slope in MAP_BOUNDS:
+                if eccentricity_ratio <= reach:
+                    return slope if slopes else position
+        return math.inf
+
+
+def film_rungs(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
+    """Return the films that can answer for a bearing, the cheapest first.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+    fixed : bool
+        Whether the scene names the film of the bearing, so that no other may answer.
+    """
+    plain, tabulated = not (bearing.grooves or bearing.pads), has_map(bearing)
+    if fixed:
+        rungs = [_named(bearing, tabulated)]
+    elif tabulated:
+        rungs = [_map(bearing), *_plain_films(bearing, tabulated), *_grids(bearing, tabulated)]
+    elif plain:
+        low, high = MapFilm().slenderness_range
+        own = [_map(bearing)] if low <= bearing.slenderness <= high else []
+        rungs = [*_plain_films(bearing, tabulated), *_grids(bearing, tabulated), *own]
+    else:
+        low, high = GroovedMapFilm().slenderness_range
+        mapped = is_mappable(bearing.geometry) and low <= bearing.slenderness <= high
+        rungs = [*_grids(bearing, tabulated), *([_grooved_map(bearing)] if mapped else [])]
+    return tuple(rungs)
+
+
+def point_films(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
+    """Return the films for some equilibria: a map that must be made first costs more than any grid."""
+    films = film_rungs(bearing, fixed=fixed)
+    return tuple(film for film in films if fixed or not film.makes_map)
+
+
+def with_film(bearing: JournalBearing, film: FilmLaw) -> JournalBearing:
+    """Return the bearing with another film, whether or not that is meant for it."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ValidityWarning)
+        return replace(bearing, film=film)
+
+
+def extrapolated(bearing: JournalBearing, cells: tuple[int, int]) -> JournalBearing:
+    """Return the bearing with the film in two dimensions, extrapolated from two grids."""
+    return with_film(bearing, ExtrapolatedFilm(film=ReynoldsFilm(cells=cells)))
+
+
+def is_grid(bearing: JournalBearing) -> bool:
+    """Return whether the film of a bearing lives on a grid in two dimensions."""
+    return isinstance(bearing.film, ReynoldsFilm | ExtrapolatedFilm)
+
+
+def tangent(bearing: JournalBearing, position: Array, speed: float, *, smooth: bool) -> tuple[Array, Array]:
+    """Return force (2,) [N] at rest, and d force/d(x, y, vx, vy) (2, 4).
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+    position : ndarray, shape (2,) [m]
+    speed : float [rad/s]
+    smooth : bool
+        Whether the derivatives of a film on a grid in its source are taken from differences, `STEP`.
+    """
+    rest = np.zeros(2)
+    slopes = bearing.jacobian(position, rest, speed)[:, :4]
+    if not (smooth and is_grid(bearing)):
+        return bearing.force(position, rest, speed), slopes
+    distance = float(np.hypot(*position))
+    thin = math.sqrt(1.0 - distance / bearing.clearance)
+    rate = STEP * min(1.0, 2.0 * thin) * 0.5 * abs(speed) * distance
+    velocities = rate * np.concatenate([np.zeros((2, 1)), *(k * np.eye(2) for k in (-2, -1, 1, 2))], axis=1)
+    force = bearing.force(np.repeat(position[:, None], 9, axis=1), velocities, np.full(9, speed))
+    low2, low, high, high2 = np.split(force[:, 1:], 4, axis=1)
+    by_velocity = (low2 - 8.0 * low + 8.0 * high - high2) / (12.0 * rate)
+    # The wedge moves with the journal, w = v/c - (speed/2) z^ x e, so its share follows.
+    change = by_velocity - slopes[:, 2:]
+    by_position = slopes[:, :2] - 0.5 * speed * np.stack([change[:, 1], -change[:, 0]], axis=1)
+    return force[:, 0], np.concatenate([by_position, by_velocity], axis=1)
+
+
+def _map(bearing: JournalBearing) -> FilmRung:
+    rung = _rung("map", bearing, MapFilm(), (FINEST, "2-D 768 x 32 extr."), 1e-6, 1e-4, bounded=True)
+    return replace(rung, makes_map=not has_map(bearing))
+
+
+def _grooved_map(bearing: JournalBearing) -> FilmRung:
+    rung = _rung("map with grooves", bearing, GroovedMapFilm(), (FINE, "2-D 384 x 16 extr."), 1e-5, 1e-3)
+    return replace(rung, makes_map=True)
+
+
+def has_map(bearing: JournalBearing) -> bool:
+    """Return whether the map that comes with the package holds a bearing."""
+    low, high = TABLE_RANGE
+    return not (bearing.grooves or bearing.pads) and low <= bearing.slenderness <= high
+
+
+def _plain_films(bearing: JournalBearing, tabulated: bool) -> list[FilmRung]:
+    """Return films of closed form: they are for bearings without openings."""
+    slim = min(bearing.slenderness**2, 1.0)
+    films: tuple[tuple[str, FilmLaw, float, float], ...] = (
+        ("short film", ShortFilm(), 0.1 * slim, 0.1 * slim),
+        ("splitting (2, all)", SplittingFilm(order=(2, None), rupture=RotatingArc()), 2e-3, 5e-3),
+        ("splitting (6, all)", SplittingFilm(order=(6, None), rupture=RotatingArc()), 1e-3, 3e-3),
+    )
+    rich = _rich(tabulated, FINE)
+    return [_rung(name, bearing, film, rich, *priors) for name, film, *priors in films]
+
+
+def _grids(bearing: JournalBearing, tabulated: bool) -> list[FilmRung]:
+    rich = _rich(tabulated, MEDIUM)
+    coarse = _rung("2-D 48 x 4", bearing, ReynoldsFilm(cells=(48, 4)), rich, 1e-3, 1e-3)
+    levels = (
+        ((48, 8), FINE, 3e-5, 1e-3),
+        ((96, 8), FINE, 5e-6, 3e-4),
+        ((192, 16), FINEST, 1e-6, 1e-4),
+        ((384, 16), FINEST, 5e-7, 5e-5),
+    )
+    finer = [
+        _rung(
+            f"2-D {cells[0]} x {cells[1]} extr.",
+            bearing,
+            ExtrapolatedFilm(film=ReynoldsFilm(cells=cells)),
+            _rich(tabulated, above),
+            *priors,
+        )
+        for cells, above, *priors in levels
+    ]
+    if not tabulated:  # the free arc is found for length / diameter .1 to 4
+        return [coarse, *finer]
+    free = SplittingFilm(order=(6, None), constant=True, rupture=ComplementarityArc())
+    arc = _rung("free arc (6+c, all)", bearing, free, _rich(tabulated, FINE), 1e-5, 1e-4)
+    return [coarse, *finer[:2], arc, *finer[2:]]
+
+
+def _named(bearing: JournalBearing, tabulated: bool) -> FilmRung:
+    """Return the one rung of a scene that names its film."""
+    film = bearing.fitted_film
+    fine = isinstance(film, MapFilm) or (isinstance(film, ReynoldsFilm) and film.cells[0] > 96)
+    rich = _rich(tabulated and not isinstance(film, MapFilm), FINEST if fine else FINE)
+    return _rung(film_name(film), bearing, film, rich, 0.0, 0.0, bounded=isinstance(film, MapFilm))
+
+
+def _rich(tabulated: bool, cells: tuple[int, int]) -> tuple[tuple[int, int] | None, str]:
+    """Return the cells of the richer film, None for the map where there is one, and its name."""
+    return (None, "map") if tabulated else (cells, f"2-D {cells[0]} x {cells[1]} extr.")
+
+
+def _rung(
+    name: str,
+    bearing: JournalBearing,
+    film: FilmLaw,
+    rich: tuple[tuple[int, int] | None, str],
+    position_prior: float,
+    slope_prior: float,
+    *,
+    bounded: bool = False,
+) -> FilmRung:
+    cells, rich_name = rich
+    return FilmRung(
+        name=name,
+        bearing=with_film(bearing, film),
+        rich=with_film(bearing, MapFilm()) if cells is None else extrapolated(bearing, cells),
+        rich_name=rich_name,
+        position_prior=position_prior,
+        slope_prior=slope_prior,
+        bounded=bounded,
+    )

@@ -1,0 +1,71 @@
+"""Answer a scene: equilibrium, stiffness and damping, whirl."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ...bearings.journal import JournalBearing
+from ...linear import CriticalMass, coefficients, critical_mass, equilibrium, whirl_threshold
+from ...results import Coefficients, Equilibrium, WhirlThreshold
+from .echo import BearingData, bearing_data, film_name
+
+
+@dataclass(frozen=True, kw_only=True)
+class Answer:
+    """What a scene has been answered with.
+
+    Attributes
+    ----------
+    bearing : BearingData
+        The bearing that was asked about.
+    model : str
+        The film law that answered.
+    equilibrium : Equilibrium
+    coefficients : Coefficients
+        Stiffness [N/m] and damping [N s/m] at the equilibrium.
+    critical_mass : CriticalMass
+        Heaviest rigid rotor that is stable at the equilibrium.
+    whirl_threshold : WhirlThreshold or None
+        Onset of self-excited whirl; None when the scene has no rotor.
+    remarks : tuple of str
+        What the physics of the film leaves out, in dimensionless numbers; only a scene knows.
+    """
+
+    bearing: BearingData
+    model: str
+    equilibrium: Equilibrium
+    coefficients: Coefficients
+    critical_mass: CriticalMass
+    whirl_threshold: WhirlThreshold | None
+    remarks: tuple[str, ...] = ()
+
+
+def solve(
+    bearing: JournalBearing, *, load: tuple[float, float], speed: float, mass: float | None = None
+) -> Answer:
+    """Answer the static and the linear questions about a bearing at a working point.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+    load : (float, float) [N]
+        Whole static force on the journal.
+    speed : float [rad/s]
+    mass : float, optional [kg]
+        Mass carried; without it there is no whirl threshold.
+
+    Raises
+    ------
+    EquilibriumError
+        If the film cannot carry the load.
+    """
+    at = equilibrium(bearing, load, speed)
+    derivatives = coefficients(bearing, at.position, speed)
+    return Answer(
+        bearing=bearing_data(bearing),
+        model=film_name(bearing.fitted_film),
+        equilibrium=at,
+        coefficients=derivatives,
+        critical_mass=critical_mass(derivatives),
+        whirl_threshold=None if mass is None else whirl_threshold(bearing, load, mass),
+    )

@@ -1,0 +1,283 @@
+"""Rotors saved by ROSS: `rotor.save("rotor.toml")` there, `read_ross("rotor.toml")` here.
+
+For the TOML and JSON files of ROSS 1 and 2 (https://github.com/petrobras/ross); tested with 2.3.0. Its axes
+and its sense of rotation are those used here: x to the right, y up, rotation from x to y.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import groupby
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...bearings.linear import LinearBearing
+from ...bearings.tabulated import TabulatedBearing
+from ...errors import InputError
+from ...rotors import (
+    ClassicalBeam,
+    Coupling,
+    Disk,
+    ElasticMaterial,
+    LayeredElement,
+    ShaftElement,
+    ShaftRotor,
+    SpeedProfile,
+    Station,
+    Support,
+)
+
+ABSENT = ("alpha", "beta")
+"""Numbers of a shaft element that must be zero: what a ShaftRotor cannot have."""
+
+PRESENT = ("rotary_inertia", "gyroscopic")
+"""Effects that a ShaftRotor always has."""
+
+RossTable = Mapping[str, Any]
+
+
+@dataclass(frozen=True, kw_only=True)
+class RossRotor:
+    """What a file of ROSS holds.
+
+    Attributes
+    ----------
+    rotor : ShaftRotor
+        With a station for each bearing, in the order of the file, and the classical beam element.
+    bearings : dict of str to Reaction
+        By station: LinearBearing, or TabulatedBearing where the file has a table over speed.
+    """
+
+    rotor: ShaftRotor
+    bearings: dict[str, LinearBearing | TabulatedBearing]
+
+
+def read_ross(path: str | Path, *, speed: float | SpeedProfile = 0.0) -> RossRotor:
+    """Return the rotor in a TOML or JSON file that ROSS saved.
+
+    Parameters
+    ----------
+    path : str or Path
+        JSON if it ends in `.json`, as for ROSS.
+    speed : float or SpeedProfile [rad/s]
+        Of the rotor; the file has none.
+
+    Raises
+    ------
+    InputError
+        If the file is no such file, or has something that a ShaftRotor cannot represent: proportional
+        damping, no rotary inertia, bearing masses, couplings that damp, supports over speed.
+
+    Notes
+    -----
+    A bearing with `n_link`, the point mass and the bearing on that node become a `Support` in series. Two
+    shaft elements between the same nodes become one `LayeredElement`, whose layers stay together along their
+    whole length; those of ROSS are tied at the nodes only, which is a little softer on a coarse mesh.
+    """
+    file = Path(path)
+    form, read = ("JSON", json.loads) if file.suffix.lower() == ".json" else ("TOML", tomllib.loads)
+    try:
+        data = read(file.read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, json.JSONDecodeError) as wrong:
+        raise InputError(f"{file} must be {form}, got {wrong}") from None
+    try:
+        return _read(file, data, speed)
+    except KeyError as missing:
+        raise InputError(f"{file} must have the key {missing} in each of its elements") from None
+
+
+def _read(file: Path, data: RossTable, speed: float | SpeedProfile) -> RossRotor:
+    tables = {name: table for name, table in data.items() if isinstance(table, dict) and name != "parameters"}
+    couplings = _of(tables, "CouplingElement")
+    pieces: list[tuple[int, ShaftElement | Coupling]] = [
+        *((table["n"], _element(name, table)) for name, table in _of(tables, "ShaftElement").items()),
+        *((table["n"], _coupling(name, table)) for name, table in couplings.items()),
+    ]
+    chain = _chain(file, pieces)
+    known = ("ShaftElement_", "CouplingElement_", "DiskElement_", "PointMass_")
+    rest = {n: t for n, t in tables.items() if not n.startswith(known)}
+    housings = _supports(chain, _of(tables, "PointMass"), rest)
+    stations = {
+        _identifier(name, k): (name, table)
+        for k, (name, table) in enumerate(rest.items())
+        if table.get("n") not in housings
+    }
+    bearings = {label: _bearing(name, table) for label, (name, table) in stations.items()}
+    rotor = ShaftRotor(
+        elements=chain,
+        disks=(*_disks(_of(tables, "DiskElement")), *_flanges(couplings)),
+        stations=tuple(
+            Station(node=table["n"], name=label, support=_support_of(name, table, housings))
+            for label, (name, table) in stations.items()
+        ),
+        speed=speed,
+        beam=ClassicalBeam(),
+    )
+    return RossRotor(rotor=rotor, bearings=bearings)
+
+
+def _of(tables: Mapping[str, dict[str, Any]], kind: str) -> dict[str, dict[str, Any]]:
+    return {name: table for name, table in tables.items() if name.startswith(f"{kind}_")}
+
+
+def _disks(tables: Mapping[str, RossTable]) -> list[Disk]:
+    return [
+        Disk(node=int(t["n"]), mass=t["m"], diametral_inertia=t["Id"], polar_inertia=t["Ip"])
+        for t in tables.values()
+    ]
+
+
+def _flanges(tables: Mapping[str, RossTable]) -> list[Disk]:
+    """Return both sides of each coupling as disks."""
+    return [
+        Disk(
+            node=t["n"] + side,
+            mass=t[f"m_{end}"],
+            diametral_inertia=t[f"Id_{end}"],
+            polar_inertia=t[f"Ip_{end}"],
+        )
+        for t in tables.values()
+        for side, end in enumerate("lr")
+    ]
+
+
+def _coupling(name: str, table: RossTable) -> Coupling:
+    for kind in ("kt", "kr"):
+        if table[f"{kind}_x"] != table[f"{kind}_y"]:
+            raise InputError(f"{kind}_x must be {kind}_y, got {table[f'{kind}_x']!r} in {name!r}")
+    damped = [key for key in ("ct_x", "ct_y", "cr_x", "cr_y") if table.get(key)]
+    if damped:
+        raise InputError(f"{damped[0]} must be 0, got {table[damped[0]]!r} in {name!r}")
+    return Coupling(stiffness=table["kt_x"], tilt_stiffness=table["kr_x"])
+
+
+def _element(name: str, table: RossTable) -> ShaftElement:
+    for key in ABSENT:
+        if table.get(key, 0.0):
+            raise InputError(f"{key} must be 0, got {table[key]!r} in {name!r}")
+    for key in PRESENT:
+        if not table.get(key, True):
+            raise InputError(f"{key} must be true, got {table[key]!r} in {name!r}")
+    shears = table.get("shear_effects", True)
+    if shears and table.get("shear_method_calc", "cowper") != "cowper":
+        raise InputError(
+            f"shear_method_calc must be 'cowper', got {table['shear_method_calc']!r} in {name!r}"
+        )
+    material = table["material"]
+    return ShaftElement(
+        length=table["L"],
+        outer_diameter=table["odl"],
+        inner_diameter=table["idl"],
+        end_outer_diameter=table["odr"],
+        end_inner_diameter=table["idr"],
+        material=ElasticMaterial(
+            young_modulus=material["E"], shear_modulus=material["G_s"], density=material["rho"]
+        ),
+        shear_coefficient=None if shears else math.inf,
+        axial_force=table.get("axial_force", 0.0),
+        torque=table.get("torque", 0.0),
+    )
+
+
+def _chain(
+    file: Path, pieces: list[tuple[int, ShaftElement | Coupling]]
+) -> tuple[ShaftElement | LayeredElement | Coupling, ...]:
+    """Return the elements from node to node; those between the same two nodes are layers of one."""
+    ordered = sorted(pieces, key=lambda item: item[0])
+    chain: list[ShaftElement | LayeredElement | Coupling] = []
+    for node, group in groupby(ordered, key=lambda item: item[0]):
+        between = [piece for _, piece in group]
+        layers = tuple(piece for piece in between if isinstance(piece, ShaftElement))
+        if node != len(chain):
+            raise InputError(f"{file} must have a ShaftElement at every node, got none at node {len(chain)}")
+        if len(between) > 1 and len(layers) < len(between):
+            raise InputError(f"{file} must have a coupling alone between its nodes, got more at node {node}")
+        chain.append(LayeredElement(layers=layers) if len(layers) > 1 else between[0])
+    if not chain:
+        raise InputError(f"{file} must have a ShaftElement, got none")
+    return tuple(chain)
+
+
+def _supports(
+    chain: tuple[ShaftElement | LayeredElement | Coupling, ...],
+    masses: Mapping[str, RossTable],
+    bearings: Mapping[str, RossTable],
+) -> dict[int, Support]:
+    """Return the housings that carry bearings, by the node that ROSS gives them beyond the shaft's."""
+    found = {}
+    for mass_name, mass in masses.items():
+        node = mass["n"]
+        if node <= len(chain):
+            raise InputError(
+                f"n must be beyond the shaft's nodes for a point mass, got {node!r} in {mass_name!r}"
+            )
+        if mass["mx"] != mass["my"]:
+            raise InputError(f"mx must be my, got {mass['mx']!r} and {mass['my']!r} in {mass_name!r}")
+        below = [(name, table) for name, table in bearings.items() if table.get("n") == node]
+        if len(below) != 1:
+            raise InputError(
+                f"n of one bearing to the ground must be that of {mass_name!r}, got {len(below)}"
+            )
+        spring = _bearing(*below[0])
+        if not isinstance(spring, LinearBearing):
+            raise InputError(f"frequency must be absent for a support, got a table in {below[0][0]!r}")
+        found[node] = Support(mass=mass["mx"], stiffness=spring.stiffness, damping=spring.damping)
+    return found
+
+
+def _support_of(name: str, table: RossTable, supports: Mapping[int, Support]) -> Support | None:
+    link = table.get("n_link")
+    if link is None:
+        return None
+    if link not in supports:
+        raise InputError(
+            f"n_link must be the node of a point mass {sorted(supports)}, got {link!r} in {name!r}"
+        )
+    return supports[link]
+
+
+def _bearing(name: str, table: RossTable) -> LinearBearing | TabulatedBearing:
+    if "kxx" not in table:
+        raise InputError(
+            f"{name!r} must be a shaft element, a disk or have the coefficient kxx, got {list(table)}"
+        )
+    masses = [table.get(f"m{entry}", 0.0) for entry in ("xx", "xy", "yx", "yy")]
+    if any(np.any(np.asarray(mass)) for mass in masses):
+        raise InputError(f"mxx, mxy, myx, myy must be 0, got {masses} in {name!r}")
+    stiffness, damping = (_entries(table, letter) for letter in "kc")
+    if len(stiffness) == len(damping) == 1:
+        return LinearBearing(stiffness=stiffness[0], damping=damping[0])
+    speeds = np.asarray(table.get("frequency", ()), dtype=float)
+    if len(speeds) < 2:
+        raise InputError(
+            f"frequency must go with the coefficients, got {table.get('frequency')!r} in {name!r}"
+        )
+    whole = [np.broadcast_to(t, (len(speeds), 2, 2)) for t in (stiffness, damping)]
+    return TabulatedBearing(speeds=speeds, stiffness=whole[0], damping=whole[1])
+
+
+def _entries(table: RossTable, letter: str) -> np.ndarray:
+    """Return the coefficients k or c, shape (n, 2, 2); ROSS leaves out what it can guess."""
+    main = table[f"{letter}xx"]
+    cross = np.zeros_like(np.atleast_1d(main))
+    found = [
+        table.get(f"{letter}xx"),
+        table.get(f"{letter}xy", cross),
+        table.get(f"{letter}yx", cross),
+        table.get(f"{letter}yy", main),
+    ]
+    columns = np.broadcast_arrays(*(np.atleast_1d(np.asarray(entry, dtype=float)) for entry in found))
+    return np.stack(columns, axis=-1).reshape(-1, 2, 2)
+
+
+def _identifier(name: str, number: int) -> str:
+    """Return the name of a station for `BearingElement_Drive end`: `drive_end`."""
+    tag = re.sub(r"\W+", "_", name.partition("_")[2]).strip("_").lower()
+    return tag if tag.isidentifier() else f"bearing_{number}"

@@ -1,0 +1,179 @@
+"""What a scene with a flexible rotor is asked: modes over speed, critical speeds, stability, response."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import control
+import numpy as np
+
+from ...errors import InputError
+from ...linear import (
+    Campbell,
+    CriticalSpeed,
+    RotorThreshold,
+    campbell,
+    critical_speeds,
+    rotor_equilibrium,
+    rotor_threshold,
+    unbalance_response,
+)
+from ...model import Array
+from ...progress import Report, silent
+from ..excitation_table import UnbalanceTable
+
+if TYPE_CHECKING:
+    from ..scene import Scene
+
+
+PEAK_SPEEDS = 21
+"""Speeds across a resonance, two half-widths to each side."""
+
+LEAST_DECREMENT = 1e-6
+"""Logarithmic decrement below which a resonance counts as undamped."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RotorAnswer:
+    """A flexible rotor in its bearings over a range of speeds.
+
+    Attributes
+    ----------
+    title : str
+    mass : float [kg]
+        Of shaft and disks.
+    states : int
+    loads : dict of str to ndarray, shape (2,) [N]
+        Static load on each bearing, at the first speed.
+    residual : float [1]
+        Largest imbalance of forces / weight there.
+    critical_speeds : tuple of CriticalSpeed
+    threshold : RotorThreshold
+    campbell : Campbell
+    amplitudes : dict of str to ndarray, shape (n_response,)
+        Over the frequencies of `response`, which are closer about the critical speeds.
+        Of each displacement [m] and force on a housing [N] under the unbalance; empty without one.
+    response : control.FrequencyResponseData or None
+        The same with phases.
+    """
+
+    title: str
+    mass: float
+    states: int
+    loads: Mapping[str, Array]
+    residual: float
+    critical_speeds: tuple[CriticalSpeed, ...]
+    threshold: RotorThreshold
+    campbell: Campbell
+    amplitudes: Mapping[str, Array]
+    response: control.FrequencyResponseData | None = field(repr=False)
+
+
+def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
+    """Return what the shaft of a scene does over its speeds.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a shaft; an unbalance as excitation is added to those of the shaft.
+    report : callable
+        Is told the progress.
+
+    Raises
+    ------
+    InputError
+        If the scene has no shaft, or an excitation of another kind.
+    EquilibriumError
+        If there is no equilibrium at one of the speeds.
+    """
+    if scene.shaft is None:
+        raise InputError("shaft is required for the analyses of a flexible rotor, got no such table")
+    rotor, bearings = scene.shaft.build(extra=added_unbalance(scene)), scene.shaft.build_bearings()
+    speeds = scene.shaft.speeds.build()
+    highest = scene.shaft.highest_frequency or 2.0 * float(speeds[-1])
+    report(0.0, "equilibrium")
+    at = rotor_equilibrium(rotor, bearings, float(speeds[0]))
+    report(0.05, "modes over speed")
+    chart = campbell(rotor, bearings, speeds, highest)
+    report(0.35, "critical speeds")
+    critical = critical_speeds(rotor, bearings, speeds)
+    report(0.65, "threshold of stability")
+    threshold = rotor_threshold(rotor, bearings, speeds)
+    report(0.85, "unbalance response")
+    turned = _with_peaks(speeds, critical)
+    response = unbalance_response(rotor, bearings, turned) if rotor.structure.unbalance.any() else None
+    report(1.0, "done")
+    return RotorAnswer(
+        title=scene.title,
+        mass=rotor.mass,
+        states=len(rotor.states),
+        loads=at.loads,
+        residual=at.residual,
+        critical_speeds=critical,
+        threshold=threshold,
+        campbell=chart,
+        amplitudes={} if response is None else _amplitudes(response),
+        response=response,
+    )
+
+
+def campbell_columns(answer: RotorAnswer) -> dict[str, list[float | None]]:
+    """Return the columns of a table of the modes over speed; None where one is overdamped."""
+    chart = answer.campbell
+    columns: dict[str, list[float | None]] = {"speed [rad/s]": chart.speeds.tolist()}
+    for k in range(len(chart.eigenvalues)):
+        columns[f"frequency {k} [rad/s]"] = _known(chart.frequency[k])
+        columns[f"log decrement {k} [1]"] = _known(chart.log_decrement[k])
+        columns[f"direction {k} [1]"] = _known(chart.direction[k])
+    return columns
+
+
+def response_columns(answer: RotorAnswer) -> dict[str, list[float]]:
+    """Return the columns of a table of amplitude and phase over speed."""
+    if answer.response is None:
+        raise InputError("unbalance is required for a response, got a rotor without one")
+    columns = {"speed [rad/s]": np.asarray(answer.response.frequency).tolist()}
+    for k, name in enumerate(answer.response.output_labels):
+        phasor = np.asarray(answer.response.complex)[k, 0]
+        unit = _unit(name)
+        columns[f"{name} [{unit}]"] = np.abs(phasor).tolist()
+        columns[f"{name} phase [rad]"] = np.angle(phasor).tolist()
+    return columns
+
+
+def _known(values: Array) -> list[float | None]:
+    return [None if math.isnan(value) else value for value in values.tolist()]
+
+
+def _with_peaks(speeds: Array, critical: Sequence[CriticalSpeed]) -> Array:
+    """Return the speeds with more of them across the resonances between them."""
+    width = np.linspace(-2.0, 2.0, PEAK_SPEEDS)
+    # Without damping a peak has no height.
+    damped = [one for one in critical if abs(one.log_decrement) > LEAST_DECREMENT]
+    near = [one.speed * (1.0 + width * abs(one.log_decrement) / (2.0 * np.pi)) for one in damped]
+    every = np.unique(np.concatenate([speeds, *near]))
+    within: Array = every[(every >= speeds[0]) & (every <= speeds[-1])]
+    return within
+
+
+def _amplitudes(response: control.FrequencyResponseData) -> dict[str, Array]:
+    values = np.abs(np.asarray(response.complex)[:, 0])
+    return {name: values[k] for k, name in enumerate(response.output_labels) if _unit(name) != "m/s"}
+
+
+def _unit(name: str) -> str:
+    if "_force_" in name:
+        return "N"
+    return "m/s" if name.rpartition("_")[2] in ("vx", "vy") else "m"
+
+
+def added_unbalance(scene: Scene) -> tuple[UnbalanceTable, ...]:
+    """Return the unbalance that excites a shaft; raise InputError for an excitation of another kind."""
+    if scene.excitation is None:
+        return ()
+    if type(scene.excitation) is not UnbalanceTable:
+        raise InputError(f"excitation.kind must be 'unbalance' for a shaft, got {scene.excitation!r}")
+    return (scene.excitation,)

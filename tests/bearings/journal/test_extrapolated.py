@@ -1,0 +1,52 @@
+"""The extrapolated two-dimensional film: closer than its finer grid, exact derivatives, clear mistakes."""
+
+import numpy as np
+import pytest
+
+from rotorfilm.bearings.films.cavitation import FullFilm
+from rotorfilm.bearings.films.geometry import Groove
+from rotorfilm.bearings.journal import ExtrapolatedFilm, JournalBearing, MapFilm, ReynoldsFilm
+from rotorfilm.errors import InputError
+
+E, W = np.array([0.5, 0.2]), np.array([-0.4, 0.6])
+
+
+@pytest.mark.parametrize("cells", [(48, 8), (96, 8), (192, 16)])
+def test_extrapolation_is_closer_than_its_finer_grid(cells):
+    exact = MapFilm().force(E, W, 0.5)
+    plain, film = ReynoldsFilm(cells=cells), ExtrapolatedFilm(film=ReynoldsFilm(cells=cells))
+    gap, rest = (np.hypot(*(law.force(E, W, 0.5) - exact)) for law in (plain, film))
+    assert rest < 0.2 * gap
+
+
+def test_derivatives_are_those_of_the_force():
+    # A full film, so that no edge jumps from node to node within the step of the differences. Those are along
+    # with the lines, the derivatives beside them: what is left of either by the extrapolation differs.
+    film = ExtrapolatedFilm(film=ReynoldsFilm(cells=(48, 8), cavitation=FullFilm()))
+    jacobian, state, step = film.jacobian(E, W, 0.5), np.concatenate([E, W]), 1e-4
+    for k, unit in enumerate(np.eye(4)):
+        ahead, behind = (film.force(*np.split(state + s * step * unit, 2), 0.5) for s in (1.0, -1.0))
+        np.testing.assert_allclose(jacobian[:, k], (ahead - behind) / (2.0 * step), rtol=1e-4, atol=1e-7)
+
+
+def test_grooves_reach_both_grids():
+    dimensions = {"radius": 0.05, "length": 0.05, "clearance": 1e-4, "viscosity": 0.1}
+    film = ExtrapolatedFilm(film=ReynoldsFilm(cells=(96, 8)))
+    grooved = JournalBearing(**dimensions, film=film, grooves=(Groove(center=0.4, width=0.3),))
+    state = 1e-4 * E, 1e-2 * W, 100.0
+    assert grooved.fitted_film.coarse.geometry == grooved.geometry
+    exact = JournalBearing(
+        **dimensions, film=ReynoldsFilm(cells=(384, 32)), grooves=(Groove(center=0.4, width=0.3),)
+    ).force(*state)
+    assert np.hypot(*(grooved.force(*state) - exact)) < 0.02 * np.hypot(*exact)
+
+
+@pytest.mark.parametrize("cells", [(36, 8), (48, 4), (16, 8)])
+def test_cells_that_cannot_be_halved_are_refused(cells):
+    with pytest.raises(InputError, match=r"cells must be multiples of 8, at least \(32, 8\)"):
+        ExtrapolatedFilm(film=ReynoldsFilm(cells=cells))
+
+
+def test_other_films_are_refused():
+    with pytest.raises(InputError, match="film must be a ReynoldsFilm, got MapFilm"):
+        ExtrapolatedFilm(film=MapFilm())

@@ -1,0 +1,539 @@
+"""The command line: its numbers, its JSON, its exit codes, and one clear line for each mistake."""
+
+import json
+import math
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from functools import partial
+from importlib.metadata import version
+from pathlib import Path
+from zipfile import ZipFile
+
+import numpy as np
+import pytest
+from fmpy import read_model_description
+from typer.main import get_command
+
+import rotorfilm
+from rotorfilm import comparisons as ladders
+from rotorfilm import scenes
+from rotorfilm.cli import main as cli
+from rotorfilm.fmu import export_fmu
+from rotorfilm.rotors import RigidRotor
+from rotorfilm.scenes.journal.film_tables import FILMS, RUPTURES
+
+SCENE = """
+schema = 1
+[journal]
+diameter = "100 mm"
+length = "30 mm"
+clearance = "0.1 mm"
+viscosity = "0.1 Pa s"
+[operation]
+speed = "1500 rpm"
+load = "525 N"
+[rigid_rotor]
+mass = "53.535 kg"
+"""
+GEOMETRY = {
+    "--radius": "50 mm",
+    "--length": "30 mm",
+    "--clearance": "0.1 mm",
+    "--viscosity": "0.1 Pa s",
+    "--load": "525 N",
+    "--speed": "1500 rpm",
+}
+
+
+SHORT = ("--film", "short")
+
+
+def coefficients(**changes):
+    options = GEOMETRY | {f"--{name}": value for name, value in changes.items()}
+    return ["coefficients", *(word for pair in options.items() for word in pair)]
+
+
+@pytest.fixture
+def scene(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(SCENE, encoding="utf-8")
+    return path
+
+
+@pytest.mark.literature
+def test_coefficients_are_those_of_the_book(run):
+    # Friswell et al. (2010), example 5.9.6
+    code, out, err = run(*coefficients(), *SHORT, "--json")
+    assert (code, err) == (0, "")
+    stiffness = json.loads(out)["coefficients"]["stiffness"]
+    assert [int(k) for row in stiffness for k in row] == [12807959, 16393593, -25060393, 8815302]
+
+
+def test_solve_gives_the_same_numbers_as_coefficients(run, scene):
+    solved = json.loads(run("solve", scene, "--json")[1])
+    direct = json.loads(run(*coefficients(), "--json")[1])
+    for matrix in ("stiffness", "damping"):
+        np.testing.assert_allclose(solved["coefficients"][matrix], direct["coefficients"][matrix], rtol=1e-12)
+    assert solved["whirl_threshold"]["speed"] > 0.0
+
+
+def test_solve_prints_what_people_read(run, scene):
+    scene.write_text(SCENE.replace("[operation]", 'film = { name = "short" }\n[operation]'), encoding="utf-8")
+    code, out, _ = run("solve", scene)
+    assert code == 0
+    assert "0.266298" in out  # eccentricity ratio
+    assert "70.62 deg" in out
+    assert "1500 rpm" in out
+
+
+def test_print_outs_repeat_the_bearing(run, scene):
+    code, out, _ = run("solve", scene)
+    assert code == 0
+    assert "R 50 mm, L 30 mm, L/D 0.3, c 100 um" in out
+    assert "MapFilm()" in out
+    told = [json.loads(run(*arguments, "--json")[1]) for arguments in (("solve", scene), coefficients())]
+    assert told[0]["bearing"] == told[1]["bearing"]
+    assert told[0]["bearing"]["slenderness"] == pytest.approx(0.3)
+    assert told[0]["model"] == told[1]["model"] == "MapFilm()"
+
+
+def test_splitting_film_takes_its_options(run):
+    options = ("--film", "splitting", "--order", "2,inf", "--rupture", "rotating", "--json")
+    code, out, _ = run(*coefficients(), *options)
+    assert code == 0
+    assert json.loads(out)["model"].startswith("SplittingFilm(order=(2, None)")
+    assert "RotatingArc()" in json.loads(out)["model"]
+
+
+def test_reynolds_film_takes_its_cells(run):
+    code, out, _ = run(*coefficients(), "--film", "reynolds", "--cells", "48,4", "--json")
+    coarse, mapped = json.loads(out), json.loads(run(*coefficients(), "--json")[1])
+    assert code == 0
+    assert coarse["model"].startswith("ReynoldsFilm(cells=(48, 4), cavitation=Complementarity()")
+    assert mapped["model"] == "MapFilm()"
+    np.testing.assert_allclose(
+        coarse["equilibrium"]["position"], mapped["equilibrium"]["position"], atol=0.01 * 1e-4
+    )
+
+
+def test_complementary_arc_takes_the_constant_function(run):
+    options = (
+        "--film",
+        "splitting",
+        "--order",
+        "4,8",
+        "--constant",
+        "--rupture",
+        "complementarity",
+        "--json",
+    )
+    code, out, err = run(*coefficients(), *options)
+    assert (code, err) == (0, "")
+    at = json.loads(out)["equilibrium"]
+    mapped = json.loads(run(*coefficients(), "--json")[1])["equilibrium"]
+    np.testing.assert_allclose(at["position"], mapped["position"], atol=2e-3 * 1e-4)
+
+
+def test_help_names_every_film_and_rupture(run):
+    words = run("coefficients", "--help")[1].replace(",", " ").replace(".", " ").split()
+    assert {*FILMS, *RUPTURES} <= set(words)
+
+
+def test_load_vector_turns_the_answer(run):
+    down = json.loads(run(*coefficients(), "--json")[1])["equilibrium"]
+    aside = json.loads(run(*coefficients(load="525 N,0 N"), "--json")[1])["equilibrium"]
+    assert aside["position"][0] == pytest.approx(-down["position"][1], rel=1e-9)
+    assert aside["position"][1] == pytest.approx(down["position"][0], rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "message"),
+    [
+        (
+            coefficients(clearance="-0.1 mm"),
+            2,
+            "error: --clearance must be finite and positive, got -0.0001",
+        ),
+        (coefficients(clearance="nan"), 2, "error: --clearance: quantity must be finite, got 'nan'"),
+        (
+            coefficients(load="0 N"),
+            2,
+            "error: --load must not be zero, got '0 N': an unloaded journal has no",
+        ),
+        (coefficients(load="0,0"), 2, "error: load must not be zero, got [0, 0]: an unloaded journal has no"),
+        (coefficients(radius="50 parsec"), 2, "got 'parsec' in '50 parsec'"),
+        (coefficients(load="1,2,3"), 2, "error: --load must be one magnitude or two components [x, y]"),
+        ([*coefficients(), "--film", "splitting"], 2, "error: --order is required and missing"),
+        ([*coefficients(), "--film", "splitting", "--order", "2"], 2, "error: --order must be [n, m]"),
+        (
+            [*coefficients(), "--order", "2,1"],
+            2,
+            "error: --order must not be given with --film map, got [2, 1]",
+        ),
+        (
+            [*coefficients(), *SHORT, "--cells", "96,8"],
+            2,
+            "error: --cells must not be given with --film short",
+        ),
+        (
+            [*coefficients(), "--film", "reynolds", "--cells", "96"],
+            2,
+            "error: --cells must be [around, along]",
+        ),
+        ([*coefficients(), "--film", "shirt"], 2, "got 'shirt'; did you mean 'short'?"),
+        (coefficients(load="1e20 N"), 1, "error: load must be within the film's capacity"),
+        (coefficients(speed="0 rpm"), 1, "error: speed must make the film carry load"),
+        (["solve", "absent.toml"], 2, "error: absent.toml: scene file cannot be read"),
+    ],
+)
+def test_mistake_gives_one_line_and_its_exit_code(run, arguments, code, message):
+    actual, out, err = run(*arguments)
+    assert actual == code
+    assert out == ""
+    assert message in err
+    assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize("arguments", [["coefficients"], ["solve"], ["frobnicate"]])
+def test_wrong_usage_exits_with_2(run, arguments):
+    code, out, err = run(*arguments)
+    assert (code, out) == (2, "")
+    assert "Usage" in err
+
+
+def test_unknown_key_in_a_scene_is_named(run, scene):
+    scene.write_text(SCENE.replace("clearance", "clearence"), encoding="utf-8")
+    code, _, err = run("solve", scene)
+    assert code == 2
+    assert "journal.clearence is no known key" in err
+    assert "did you mean 'clearance'?" in err
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        "solve",
+        "coefficients",
+        "fmu build",
+        "fmu check",
+        "fmu info",
+        "groove-map",
+        "demo",
+        "chart damper",
+        "chart journal",
+        "chart stability",
+    ],
+)
+def test_help_shows_an_example(run, command):
+    code, out, _ = run(*command.split(), "--help")
+    assert code == 0
+    assert f"Example: rotorfilm {command}" in out
+    assert "--json" in out
+
+
+def _commands(group, path=()):
+    """Yield the words of every command and group below one."""
+    yield path
+    for name, command in getattr(group, "commands", {}).items():
+        yield from _commands(command, (*path, name))
+
+
+def test_every_command_and_group_shows_an_example(run):
+    every = list(_commands(get_command(cli.app)))
+    assert ("chart", "limits") in every
+    for words in every:
+        code, out, _ = run(*words, "--help")
+        assert code == 0
+        assert "Example: rotorfilm" in out, words
+
+
+def test_installed_command_answers_without_heavy_imports(tmp_path):
+    script = Path(sys.executable).with_name("rotorfilm")
+    done = subprocess.run(
+        [str(script), "--help"], capture_output=True, text=True, check=False, cwd=tmp_path, env=os.environ
+    )
+    assert done.returncode == 0
+    assert "coefficients" in done.stdout
+    check = "import sys, rotorfilm.cli.main; print([m for m in ('control', 'matplotlib', 'fmpy') if m in sys.modules])"
+    loaded = subprocess.run(
+        [sys.executable, "-c", check], capture_output=True, text=True, check=True, cwd=tmp_path
+    )
+    assert loaded.stdout.strip() == "[]"
+
+
+def test_fmu_writes_two_fmus_that_fit_together(run, scene, tmp_path):
+    code, out, err = run("fmu", "build", scene, "--out", tmp_path / "fmus", "--json")
+    assert (code, err) == (0, "")
+    files = json.loads(out)
+    film, rotor = (read_model_description(files[name]) for name in ("film", "rotor"))
+    assert (film.modelName, rotor.modelName) == ("film", "rotor")
+    inputs = {v.name.removeprefix("film.") for v in film.modelVariables if v.causality == "input"}
+    outputs = {v.name.removeprefix("rotor.") for v in rotor.modelVariables if v.causality == "output"}
+    assert inputs == outputs == {"x", "y", "vx", "vy", "speed"}
+
+
+def test_fmu_check_measures_and_fails_with_1(run, tmp_path):
+    path = export_fmu(RigidRotor(mass=50.0, speed=157.0), tmp_path / "rotor.fmu", "3.0")
+    code, out, err = run("fmu", "check", path, "--json")
+    assert (code, err) == (0, "")
+    items = {item["check"]: item for item in json.loads(out)}
+    assert all(item["passed"] for item in items.values())
+    assert items["reference, Model Exchange"]["figure"] < 1e-10
+    spoiled = tmp_path / "spoiled.fmu"
+    with ZipFile(path) as before, ZipFile(spoiled, "w") as after:
+        for name in before.namelist():
+            content = before.read(name)
+            after.writestr(name, content.replace(b"0.1", b"0.2") if name.endswith(".csv") else content)
+    code, out, _ = run("fmu", "check", spoiled)
+    assert code == 1
+    assert "FAILED" in out
+
+
+def test_fmu_info_lists_variables(run, tmp_path):
+    path = export_fmu(RigidRotor(mass=50.0, speed=157.0), tmp_path / "rotor.fmu", component="rotor")
+    code, out, _ = run("fmu", "info", path, "--json")
+    found = json.loads(out)
+    assert (code, found["fmi_version"], found["interfaces"]) == (0, "2.0", ["CoSimulation", "ModelExchange"])
+    assert "providesDirectionalDerivative" in found["capabilities"]
+    assert {"name": "rotor.mass", "start": "50.0"}.items() <= found["variables"][1].items()
+    assert "rotor.mass" in run("fmu", "info", path)[1]
+
+
+@pytest.mark.parametrize("command", ["check", "info"])
+def test_a_file_that_is_no_fmu_is_bad_input(run, scene, command):
+    code, out, err = run("fmu", command, scene)
+    assert (code, out) == (2, "")
+    assert "fmu must be a readable FMU" in err
+    code, out, err = run("fmu", command, "absent.fmu")
+    assert (code, out) == (2, "")
+    assert err == "error: fmu must be a readable FMU, got 'absent.fmu': no such file\n"
+
+
+def test_version_is_that_of_the_package(run):
+    assert run("--version") == (0, f"rotorfilm {rotorfilm.__version__}\n", "")
+    assert rotorfilm.__version__ == version("rotorfilm")
+
+
+def test_fmu_of_a_scene_without_rotor_is_refused(run, scene):
+    scene.write_text(SCENE.partition("[rigid_rotor]")[0], encoding="utf-8")
+    code, _, err = run("fmu", "build", scene)
+    assert code == 2
+    assert "rigid_rotor is required" in err
+
+
+def test_folder_that_cannot_be_made_is_named(run, scene, tmp_path):
+    code, _, err = run("fmu", "build", scene, "--out", scene / "below-a-file")
+    assert code == 2
+    assert "below-a-file" in err
+    assert err.count("\n") == 1
+
+
+def test_demo_prints_json_alone_on_stdout(run, tmp_path, monkeypatch):
+    bundled = scenes.bundled_scene()
+    short = replace(bundled, cosimulation=replace(bundled.cosimulation, revolutions=0.5))
+    monkeypatch.setattr(scenes, "bundled_scene", lambda: short)
+    code, out, err = run("demo", "--out", tmp_path / "demo", "--json")
+    assert code == 0
+    assert "done" in err
+    result = json.loads(out)
+    assert [(tmp_path / "demo" / chart).exists() for chart in result["charts"]] == [True] * 6
+    assert result["coupling"]["runs"][-1]["refused"]
+
+
+def test_warning_is_one_line_on_stderr_and_is_shown_once(scene):
+    # In a process of its own, under the warning filters of a user.
+    long = SCENE.replace('"30 mm"', '"60 mm"').replace(
+        "[operation]", 'film = { name = "short" }\n[operation]'
+    )
+    scene.write_text(long, encoding="utf-8")
+    command = [Path(sys.executable).with_name("rotorfilm"), "solve", scene, "--json"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=scene.parent)
+    assert done.stderr.startswith("warning: length / diameter must not exceed 0.5 for ShortFilm(), got 0.6")
+    assert done.stderr.count("\n") == 1
+    json.loads(done.stdout)
+
+
+def test_map_film_from_the_command_line(run):
+    geometry = ("--radius", "50 mm", "--length", "30 mm", "--clearance", "0.1 mm", "--viscosity", "0.1 Pa s")
+    code, out, err = run(
+        "coefficients", *geometry, "--load", "525 N", "--speed", "1500 rpm", "--film", "map", "--json"
+    )
+    assert (code, err) == (0, "")
+    # Between the short film, .2663, and a longer film that carries more.
+    assert 0.2 < json.loads(out)["equilibrium"]["eccentricity_ratio"] < 0.35
+
+
+FEW = [rung for rung in ladders.journal_rungs() if rung.name in ("published (1, 1)", "2-D 48 x 4", "map")]
+
+
+def test_chart_of_accuracy_writes_picture_and_table(run, tmp_path, monkeypatch):
+    quick = partial(ladders.journal_accuracy, rungs=FEW, cells=(128, 16), rounds=1)
+    monkeypatch.setattr(ladders, "journal_accuracy", quick)
+    options = ("--ld", "0.25", "--states", "6", "--seed", "5", "--motion", "small", "--out", tmp_path)
+    code, out, err = run("chart", "journal", *options, "--json")
+    assert code == 0
+    assert "done" in err
+    result = json.loads(out)
+    assert (result["slenderness"], result["states"], result["seed"]) == (0.25, 6, 5)
+    assert result["ranges"]["squeeze"] == 0.05
+    assert (tmp_path / "chart_journal.png").read_bytes().startswith(b"\x89PNG")
+    table = (tmp_path / "chart_journal.csv").read_text(encoding="utf-8").splitlines()
+    assert len(table) == 1 + len(FEW)
+    assert "force in a batch [s]" in table[0]
+    code, out, _ = run("chart", "journal", *options)
+    assert code == 0
+    assert "2-D 48 x 4" in out
+
+
+def test_chart_of_dampers_writes_picture_and_tables(run, tmp_path, monkeypatch):
+    monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path))
+    module = sys.modules[
+        "rotorfilm.comparisons.damper_accuracy"
+    ]  # the package shows the function of this name
+    monkeypatch.setattr(module, "SERIES", (1, 3))
+    monkeypatch.setattr(module, "FiniteMapSqueeze", partial(rotorfilm.FiniteMapSqueeze, (6, 8)))
+    monkeypatch.setattr(ladders, "damper_accuracy", partial(ladders.damper_accuracy, rounds=1))
+    options = ("--ld", "0.2", "--permeability", "0.01", "--states", "5", "--out", tmp_path)
+    code, out, _ = run("chart", "damper", *options, "--json")
+    assert code == 0
+    result = json.loads(out)
+    assert result == json.loads((tmp_path / "chart_damper.json").read_text(encoding="utf-8"))
+    assert (result["slenderness"], result["permeability_number"], result["states"]) == (0.2, 0.01, 5)
+    rungs = {(rung["name"], rung["cavitated"]): rung for rung in result["rungs"]}
+    for cavitated in (True, False):
+        one, three = (rungs[f"series, {count}", cavitated]["series_error"] for count in (1, 3))
+        assert one > 3.0 * three > 0.0
+        assert rungs["series, whole", cavitated]["series_error"] == 0.0
+        assert rungs["map", cavitated]["series_error"] < 1e-4
+    assert rungs["finite length", False]["high_error"] == 0.0
+    assert (tmp_path / "chart_damper.png").read_bytes().startswith(b"\x89PNG")
+    table = (tmp_path / "chart_damper.csv").read_text(encoding="utf-8").splitlines()
+    assert len(table) == 1 + len(rungs)
+    code, out, err = run("chart", "damper", "--permeability", "0", "--out", tmp_path)
+    assert (code, out) == (2, "")
+    assert "permeability_number must be finite and positive, got 0.0" in err
+
+
+def test_chart_of_stability_writes_picture_and_table(run, tmp_path, monkeypatch):
+    quick = partial(ladders.journal_stability, rungs=FEW, cells=(128, 16), eccentricity_ratio=(0.3, 0.6, 0.9))
+    monkeypatch.setattr(ladders, "journal_stability", quick)
+    code, out, _ = run("chart", "stability", "--out", tmp_path, "--json")
+    assert code == 0
+    published = json.loads(out)["rungs"][0]
+    assert published["speed_parameter"] == [None, None, None]
+    assert (tmp_path / "chart_stability.png").exists()
+    assert len((tmp_path / "chart_stability.csv").read_text(encoding="utf-8").splitlines()) == 1 + 3 * len(
+        FEW
+    )
+    code, out, _ = run("chart", "stability", "--out", tmp_path)
+    assert code == 0
+    assert "rank-1 damping" in out
+
+
+def test_chart_of_a_bearing_beyond_the_ladder_is_refused(run, tmp_path):
+    code, out, err = run("chart", "journal", "--ld", "9", "--out", tmp_path)
+    assert (code, out) == (2, "")
+    assert "slenderness (L/D) must be from 0.1 to 4.0, got 9.0" in err
+
+
+def test_groove_map_is_made_and_kept(run, tmp_path, monkeypatch):
+    monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path / "cache"))
+    grooves = ("--groove", "90 deg, 20 deg", "--groove", "270 deg, 20 deg")
+    coarse = ("--cells", "32,4", "--nodes", "6,12,12", "--out", tmp_path / "map.bin")
+    code, out, _ = run("groove-map", "--slenderness", "0.5", *grooves, *coarse, "--json")
+    assert code == 0
+    assert json.loads(out)["largest_eccentricity_ratio"] == pytest.approx(0.97)
+    (kept,) = (tmp_path / "cache").iterdir()
+    assert kept.read_bytes() == (tmp_path / "map.bin").read_bytes()
+
+
+COARSE_SCENE = SCENE.replace(
+    "[operation]",
+    """film = { name = "grooved_map", cells = [32, 4], nodes = [6, 12, 12], largest_eccentricity_ratio = 0.9 }
+grooves = [{ center = "90 deg", width = "20 deg" }]
+[operation]""",
+)
+
+
+def test_groove_map_of_a_scene_is_that_which_the_scene_takes(run, scene, tmp_path, monkeypatch):
+    monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path / "cache"))
+    scene.write_text(COARSE_SCENE, encoding="utf-8")
+    code, out, err = run("groove-map", scene, "--json")
+    assert code == 0
+    assert "map of the grooved bearing" in err
+    assert json.loads(out)["largest_eccentricity_ratio"] == pytest.approx(0.9)
+    (kept,) = (tmp_path / "cache").iterdir()
+    code, out, err = run("solve", scene, "--json")
+    assert (code, err) == (0, "")
+    assert json.loads(out)["model"].startswith("GroovedMapFilm(cells=(32, 4), nodes=(6, 12, 12)")
+    assert json.loads(out)["bearing"]["grooves"][0]["center"] == pytest.approx(math.pi / 2.0)
+    assert "90 deg, 20 deg wide" in run("solve", scene)[1]
+    assert list((tmp_path / "cache").iterdir()) == [kept]
+    code, out, err = run("groove-map", scene, "--cells", "32,4")
+    assert (code, out) == (2, "")
+    assert "--cells must not be given with a scene, got '32,4'" in err
+
+
+def test_solve_shows_how_far_the_map_is(run, scene, tmp_path, monkeypatch):
+    monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path / "cache"))
+    scene.write_text(COARSE_SCENE, encoding="utf-8")
+    code, out, err = run("solve", scene, "--json")
+    assert code == 0
+    assert "map of the grooved bearing" in err
+    json.loads(out)
+
+
+def test_coefficients_take_grooves(run):
+    cells = ("--film", "reynolds", "--cells", "48,4", "--json")
+    grooves = ("--groove", "0 deg, 20 deg", "--groove", "180 deg, 70 deg")
+    _, plain, _ = run(*coefficients(), *cells)
+    code, grooved, _ = run(*coefficients(), *cells, *grooves)
+    assert code == 0
+    ratios = [json.loads(out)["equilibrium"]["eccentricity_ratio"] for out in (plain, grooved)]
+    assert ratios[1] > ratios[0] + 0.01
+    code, out, err = run(*coefficients(), *SHORT, *grooves)
+    assert (code, out) == (2, "")
+    assert "which ShortFilm cannot" in err
+
+
+def test_groove_map_without_a_bearing_is_refused(run):
+    code, _, err = run("groove-map", "--slenderness", "0.5")
+    assert code == 2
+    assert "groove-map must have SCENE.toml, or --slenderness and --groove" in err
+
+
+@pytest.mark.parametrize(
+    ("option", "message"),
+    [
+        (("--groove", "90 deg"), "--groove must be a center and a width"),
+        (("--groove", "90 deg, 70 deg"), "openings must not be wider than 60 deg"),
+        (
+            ("--groove", "0, 0.1", "--nodes", "6,x,12"),
+            "--nodes[1] must be a whole number from 1 to 1048576, got 'x'",
+        ),
+    ],
+)
+def test_impossible_groove_map_is_refused(run, option, message):
+    code, out, err = run("groove-map", "--slenderness", "0.5", *option)
+    assert (code, out) == (2, "")
+    assert message in err
+
+
+def test_an_error_is_said_in_json_too_where_that_is_asked_for(run, tmp_path):
+    missing = str(tmp_path / "none.toml")
+    code, out, err = run("solve", missing, "--json")
+    assert code == 2
+    assert json.loads(out)["error"] == "SceneError"
+    assert json.loads(out)["message"] in err.replace("\n", " ")
+    assert run("solve", missing)[1] == ""
+
+
+def test_a_question_that_a_scene_cannot_be_asked_names_the_file(run, tmp_path):
+    text = (Path(__file__).parents[2] / "examples" / "question.toml").read_text(encoding="utf-8")
+    path = tmp_path / "asked.toml"
+    path.write_text(text.replace('"eccentricity_ratio"', '"whirl_threshold"'), encoding="utf-8")
+    code, _, err = run("solve", str(path))
+    assert code == 2
+    assert "asked.toml: rigid_rotor is required for whirl_threshold" in err.replace("\n", "")

@@ -1,0 +1,65 @@
+"""The command `rotorfilm sweep`."""
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from rotorfilm.cli.main import app
+from rotorfilm.cli.sweep_command import read_variation
+from rotorfilm.errors import InputError
+
+xarray = pytest.importorskip("xarray")
+pytest.importorskip("h5netcdf")
+SHORT = Path(__file__).parents[2] / "examples" / "short.toml"
+
+
+def test_a_sweep_becomes_netcdf(tmp_path):
+    out = tmp_path / "out.nc"
+    vary = [
+        "--vary",
+        "journal.clearance = 90 um, 100 um",
+        "--vary",
+        "operation.speed = 1000 rpm : 2000 rpm : 3",
+    ]
+    arguments = ["sweep", str(SHORT), *vary, "--out", str(out), "--workers", "1", "--json"]
+    ran = CliRunner().invoke(app, arguments, catch_exceptions=False)
+    assert ran.exit_code == 0
+    assert json.loads(ran.stdout)["points"] == 6
+    assert json.loads(ran.stdout)["remarks"] == 6  # all of them hot
+    with xarray.open_dataset(out, engine="h5netcdf") as found:
+        assert found["eccentricity_ratio"].shape == (2, 3)
+
+
+def test_help_has_an_example():
+    ran = CliRunner().invoke(app, ["sweep", "--help"])
+    assert "Example" in ran.stdout
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("a.b = 1 mm, 2 mm", ("a.b", ["1 mm", "2 mm"])),
+        ("a.b=1,2.5", ("a.b", [1.0, 2.5])),
+        ("a = 0 rpm : 1 rpm : 3", ("a", ["0.0 rpm", "0.5 rpm", "1.0 rpm"])),
+        ("film.name = short, map", ("film.name", ["short", "map"])),
+    ],
+)
+def test_variations_are_read(text, expected):
+    assert read_variation(text) == expected
+
+
+@pytest.mark.parametrize(
+    "text", ["a", "a =", "= 1", "a = 1 : 2", "a = 1 : 2 : 1", "a = 1 mm : 2 m : 3", "a = x : y : 3"]
+)
+def test_other_texts_are_named(text):
+    with pytest.raises(InputError, match="--vary must"):
+        read_variation(text)
+
+
+def test_points_with_remarks_are_counted(tmp_path):
+    arguments = ["sweep", str(SHORT), "--vary", "journal.clearance = 90 um, 100 um"]
+    arguments += ["--out", str(tmp_path / "out.nc"), "--workers", "1"]
+    ran = CliRunner().invoke(app, arguments, catch_exceptions=False)
+    assert "2 points: physics left out" in " ".join(ran.stdout.split())

@@ -1,0 +1,50 @@
+"""Compiled forces behind an address equal those in Python."""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from rotorfilm import JournalBearing, LinearBearing, ShortFilm, Sprung
+from rotorfilm.motion.compiled import rotor_kernels as kernels
+from rotorfilm.motion.compiled.film_calls import film_call
+
+SIZES = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}
+MAP, SHORT = JournalBearing(**SIZES), JournalBearing(**SIZES, film=ShortFilm())
+SPRING = LinearBearing(stiffness=((1e6, 2e5), (-3e5, 2e6)), damping=((900.0, 5.0), (7.0, 400.0)))
+BEARINGS = [MAP, SHORT, SPRING, Sprung(reaction=MAP, stiffness=1e6)]
+
+
+def answer(bearing, state):
+    call = film_call(bearing)
+    films = np.array([[call.address, call.data]], dtype=np.intp)
+    supports = np.zeros(2), np.zeros(2), np.array([1e-4])
+    status, force, slope = kernels.film_batch(films, supports, state[:2, None], state[2:4, None], state[4])
+    return status, force[:, 0], slope[:, :, 0]
+
+
+@pytest.mark.parametrize("bearing", BEARINGS, ids=["map", "short", "linear", "called back"])
+@settings(deadline=None, max_examples=60)
+@given(
+    chi=st.floats(0.0, 0.97),
+    angle=st.floats(0.0, 6.3),
+    velocity=st.tuples(st.floats(-0.02, 0.02), st.floats(-0.02, 0.02)),
+    speed=st.sampled_from([-300.0, 20.0, 157.08]),
+)
+def test_compiled_force_is_that_of_the_bearing(bearing, chi, angle, velocity, speed):
+    position = 1e-4 * chi * np.array([np.cos(angle), np.sin(angle)])
+    state = np.array([*position, *velocity, speed])
+    source = state[2:4] / 1e-4 + 0.5 * speed * np.array([position[1], -position[0]]) / 1e-4
+    assume(np.hypot(*source) >= 1e-3)  # no derivative there
+    _, force, slope = answer(bearing, state)
+    exact = bearing.force(position, state[2:4], speed)
+    slopes = bearing.jacobian(position, state[2:4], speed)[:, :4]
+    assert force == pytest.approx(exact, rel=1e-8, abs=1e-8 * np.abs(exact).max())
+    size = np.abs(slopes[:, :2]).max(), np.abs(slopes[:, 2:]).max()
+    assert slope[:, :2] == pytest.approx(slopes[:, :2], abs=2e-7 * size[0])
+    assert slope[:, 2:] == pytest.approx(slopes[:, 2:], abs=2e-7 * size[1])
+
+
+@pytest.mark.parametrize("bearing", [MAP, SHORT, BEARINGS[3]], ids=["map", "short", "called back"])
+def test_wall_is_a_status(bearing):
+    assert answer(bearing, np.array([1e-4, 0.0, 0.0, 0.0, 100.0]))[0] == kernels.CONTACT

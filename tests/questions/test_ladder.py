@@ -1,0 +1,159 @@
+"""The walk up a ladder, on rungs made for it: what is chosen, refused, skipped, and what it costs."""
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rotorfilm.answers import ErrorEstimate, Found, beside_bound
+from rotorfilm.errors import FilmContactError, InputError, RotorfilmError
+from rotorfilm.questions.walk import Ladder, Meter, walk
+
+
+class Made:
+    """A rung with a given error and work."""
+
+    def __init__(self, name, error, prior=0.0, work=1, doubt="", fails=False):
+        self.name, self.error, self.prior, self.work, self.doubt, self.fails = (
+            name,
+            error,
+            prior,
+            work,
+            doubt,
+            fails,
+        )
+        self.asked = 0
+
+    def answer(self, before):
+        self.asked += 1
+        if self.fails:
+            raise self.fails if isinstance(self.fails, RotorfilmError) else RotorfilmError("the film cannot")
+        return Found(1.0 + self.error, {"calls": self.work})
+
+    def estimate(self, found, before, tolerance):
+        return ErrorEstimate(self.error, "by construction", doubt=self.doubt)
+
+    def expected(self, done):
+        return {"calls": 10 * sum(done.values())}
+
+
+def ladder(*rungs, refined=""):
+    models = {rung.name: "one film" for rung in rungs if rung.name in refined}
+    return Ladder(rungs=rungs, unit="m", units={"calls": lambda: None}, refined=models)
+
+
+def test_first_rung_below_the_tolerance_is_chosen_and_the_rest_is_not_asked():
+    rungs = [Made("a", 1e-1), Made("b", 1e-2), Made("c", 1e-3), Made("d", 1e-4)]
+    answer = walk("wear", ladder(*rungs), 2e-3)
+    assert (answer.model, answer.met, answer.error_estimate) == ("c", True, 1e-3)
+    assert [report.verdict for report in answer.rungs] == ["refused", "refused", "chosen", "not needed"]
+    assert rungs[3].asked == 0
+    assert answer.next_model == "d"
+    assert "1.5 x 0.1 is above the tolerance 0.002" in answer.rungs[0].reason
+
+
+def test_margin_of_the_estimate_is_kept():
+    assert not walk("wear", ladder(Made("a", 1e-3)), 1.4e-3).met
+    assert walk("wear", ladder(Made("a", 1e-3)), 1.6e-3).met
+
+
+def test_doubtful_estimate_is_refused_however_small():
+    answer = walk("wear", ladder(Made("a", 1e-6, doubt="not linear"), Made("b", 1e-3)), 1e-2)
+    assert answer.model == "b"
+    assert answer.rungs[0].reason == "not linear"
+
+
+def test_rung_without_an_answer_is_passed_over_with_its_reason():
+    answer = walk("wear", ladder(Made("a", 0.0, fails=True), Made("b", 1e-3)), 1e-2)
+    assert (answer.model, answer.rungs[0].reason) == ("b", "the film cannot")
+    with pytest.raises(RotorfilmError, match="the film cannot"):
+        walk("wear", ladder(Made("a", 0.0, fails=True)), 1e-2)
+
+
+def test_rung_known_to_be_worse_than_a_refused_one_is_skipped():
+    rungs = [Made("a", 1e-3), Made("b", 5e-2, prior=1e-2), Made("c", 1e-5, prior=1e-6)]
+    answer = walk("wear", ladder(*rungs), 1e-4)
+    assert answer.model == "c"
+    assert rungs[1].asked == 0
+    assert answer.rungs[1].verdict == "skipped"
+    assert "a is closer and was refused" in answer.rungs[1].reason
+
+
+def test_where_no_rung_meets_the_tolerance_the_closest_answers_and_says_so():
+    answer = walk("wear", ladder(Made("a", 1e-2), Made("b", 1e-5), Made("c", 1e-4)), 1e-9)
+    assert (answer.met, answer.model, answer.value) == (False, "b", 1.0 + 1e-5)
+    assert answer.message == "no rung meets the tolerance 1e-09; the closest is b, off by 1e-05"
+    assert answer.next_model is None
+
+
+def test_closest_of_refused_rungs_is_not_one_in_doubt():
+    answer = walk("wear", ladder(Made("a", 1e-6, doubt="not linear"), Made("b", 1e-3)), 1e-9)
+    assert answer.model == "b"
+
+
+def test_cost_is_work_times_unit_cost():
+    meter = Meter(
+        Ladder(rungs=(), unit="m", units={"calls": lambda: sum(range(20000))}, nominal={"maps": 7.0})
+    )
+    one = meter.predict({"calls": 1})
+    assert one > 0.0
+    assert meter.cost({"calls": 5}, 99.0) == pytest.approx(5.0 * one)
+    assert meter.predict({"maps": 2}) == 14.0
+    assert math.isnan(meter.predict({"unknown": 1}))
+    assert meter.cost({"grids": 4}, 2.0) == pytest.approx(2.0)
+    assert meter.predict({"grids": 6}) == pytest.approx(3.0)
+
+
+def test_cost_of_the_next_rung_is_predicted_from_the_work_done():
+    answer = walk("wear", ladder(Made("a", 1e-3, work=4), Made("b", 1e-5)), 1e-2)
+    assert answer.next_cost == pytest.approx(10.0 * answer.cost)
+
+
+@given(
+    errors=st.lists(st.floats(1e-9, 1.0), min_size=1, max_size=8),
+    factors=st.lists(st.floats(1e-3, 3.0), min_size=8, max_size=8),
+    refined=st.text("01234567"),
+    tolerances=st.tuples(st.floats(1e-9, 1.0), st.floats(1e-9, 1.0)),
+)
+def test_tighter_tolerance_never_chooses_a_less_accurate_rung(errors, factors, refined, tolerances):
+    rungs = [Made(str(k), error, prior=error * factors[k]) for k, error in enumerate(errors)]
+    loose, tight = (
+        walk("wear", ladder(*rungs, refined=refined), t) for t in (max(tolerances), min(tolerances))
+    )
+    if loose.met:
+        assert tight.error_estimate <= loose.error_estimate
+        assert int(tight.model) >= int(loose.model) or not tight.met
+
+
+def test_steps_are_not_refined_where_that_no_longer_helps():
+    rungs = [Made("a", 0.5), Made("b", 0.3), Made("c", 0.296), Made("d", 0.29), Made("e", 0.2)]
+    answer = walk("wear", ladder(*rungs, refined="abcd"), 0.1)
+    assert [report.verdict for report in answer.rungs] == [
+        "refused",
+        "refused",
+        "refused",
+        "skipped",
+        "refused",
+    ]
+    assert answer.rungs[3].reason == "finer steps do not help: b is off by 0.3, c by 0.3"
+    assert [rung.asked for rung in rungs] == [1, 1, 1, 0, 1]
+
+
+def test_contact_found_by_the_richest_rung_that_found_anything_is_the_answer():
+    below, wall = Made("a", 0.5), Made("b", 0.1, fails=FilmContactError("to the wall"))
+    with pytest.raises(FilmContactError, match="to the wall"):
+        walk("wear", ladder(below, wall, Made("c", 0.1, fails=True)), 1e-2)
+    assert walk("wear", ladder(below, wall, Made("d", 1e-3)), 1e-2).model == "d"
+
+
+def test_two_errors_of_a_bound_add_up():
+    kept = beside_bound(9e-4, 1e-3, "defect", {})
+    assert (kept.error, kept.bound) == (pytest.approx(1.9e-3), True)
+    about = beside_bound(2e-3, 1e-3, "defect", {})
+    assert (about.error, about.bound) == (2e-3, False)
+
+
+def test_tolerance_must_be_positive():
+    with pytest.raises(InputError, match=r"tolerance must be finite and positive, got 0.0"):
+        walk("wear", ladder(Made("a", 1.0)), 0.0)

@@ -1,0 +1,35 @@
+"""The whole ladder of a scene, as a table and as a chart."""
+
+import csv
+import json
+from pathlib import Path
+
+from typer.testing import CliRunner
+
+from rotorfilm.cli.main import app
+from rotorfilm.questions.whole import whole_ladder
+from rotorfilm.scenes import Scene
+
+QUESTION = Path(__file__).parents[2] / "examples" / "question.toml"
+
+
+def test_the_chosen_rung_is_the_one_that_answers():
+    scene = Scene.load(QUESTION)
+    answer, whole = scene.ask(), whole_ladder(scene)
+    assert [row.name for row in whole.rungs if row.chosen] == [answer.model]
+    assert [row.name for row in whole.rungs] == [rung.name for rung in answer.rungs]
+    above = whole.rungs[[row.chosen for row in whole.rungs].index(True) + 1 :]
+    known = [row for row in above if row.error_estimate is not None]
+    assert known  # rungs that the question did not need are on the chart too
+
+
+def test_chart_of_a_scene_has_picture_table_and_json(tmp_path):
+    arguments = ["chart", "scene", str(QUESTION), "--out", str(tmp_path), "--json"]
+    ran = CliRunner().invoke(app, arguments, catch_exceptions=False)
+    assert ran.exit_code == 0
+    found = json.loads(ran.stdout)
+    assert sum(row["chosen"] for row in found["rungs"]) == 1
+    assert (tmp_path / "chart_question.png").read_bytes().startswith(b"\x89PNG")
+    with (tmp_path / "chart_question.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert [row["model"] for row in rows] == [row["name"] for row in found["rungs"]]
