@@ -172,7 +172,7 @@ class Scene:
         return answer
 
     def describe(self) -> Answer:
-        """Return equilibrium, coefficients and whirl threshold; see `rotorfilm.scenes.journal.solve_journal.solve`.
+        """Return equilibrium, coefficients and whirl threshold; see `solve_journal`.
 
         What the physics of the film leaves out is in `remarks` of the answer.
         """

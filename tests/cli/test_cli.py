@@ -256,7 +256,9 @@ def test_installed_command_answers_without_heavy_imports(tmp_path):
     )
     assert done.returncode == 0
     assert "coefficients" in done.stdout
-    check = "import sys, rotorfilm.cli.main; print([m for m in ('control', 'matplotlib', 'fmpy') if m in sys.modules])"
+    check = (
+        "import sys, rotorfilm.cli; print([m for m in ('control', 'matplotlib', 'fmpy') if m in sys.modules])"
+    )
     loaded = subprocess.run(
         [sys.executable, "-c", check], capture_output=True, text=True, check=True, cwd=tmp_path
     )
@@ -389,9 +391,7 @@ def test_chart_of_accuracy_writes_picture_and_table(run, tmp_path, monkeypatch):
 
 def test_chart_of_dampers_writes_picture_and_tables(run, tmp_path, monkeypatch):
     monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path))
-    module = sys.modules[
-        "rotorfilm.comparisons.damper_accuracy"
-    ]  # the package shows the function of this name
+    module = sys.modules["rotorfilm.comparisons.damper_accuracy"]  # its package shows a function of this name
     monkeypatch.setattr(module, "SERIES", (1, 3))
     monkeypatch.setattr(module, "FiniteMapSqueeze", partial(rotorfilm.FiniteMapSqueeze, (6, 8)))
     monkeypatch.setattr(ladders, "damper_accuracy", partial(ladders.damper_accuracy, rounds=1))
@@ -511,7 +511,7 @@ def test_groove_map_without_a_bearing_is_refused(run):
         (("--groove", "90 deg, 70 deg"), "openings must not be wider than 60 deg"),
         (
             ("--groove", "0, 0.1", "--nodes", "6,x,12"),
-            "--nodes[1] must be a whole number from 1 to 1048576, got 'x'",
+            "--nodes must be 3 whole numbers, as 24,12, got '6,x,12'",
         ),
     ],
 )

@@ -10,7 +10,6 @@ import hashlib
 import io
 from collections.abc import Iterator
 from dataclasses import replace
-from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -18,6 +17,7 @@ import numpy as np
 
 from ...errors import InputError, warn_user
 from ...model import Array
+from ...sources import source_digest
 from ..films.table_cache import cache_folder, cached, read_kept
 from .film.checkerboard import checkerboard
 from .film.contact_newton import Contact
@@ -34,18 +34,6 @@ FREQUENCIES = np.geomspace(0.05, 6.0, 32)
 
 SLOW = 1e-6
 """Frequency that stands for 0, where the linearized equations have their static stiffness."""
-
-NOT_DECIDING = (
-    "contact_between.py",
-    "contact_files.py",
-    "contact_levels.py",
-    "contact_loads.py",
-    "contact_run.py",
-    "contact_state.py",
-    "contact_static.py",
-    "contact_steps.py",
-)
-"""Modules of the contact that have no part in a point; all others decide its content."""
 
 _FIELDS = ("V", "Q0", "delta", "central_film", "stiffness", "checkerboard")
 
@@ -173,15 +161,7 @@ def _family(equations: ContactEquations) -> str:
         ]
     if equations.density is not None:
         fluid.append(f"{equations.density.pressure_ratio / equations.Q0:.9g}")
-    return _digest(repr((_sources(), equations.grid, equations.scheme, fluid)))
-
-
-@cache
-def _sources() -> str:
-    found = sorted(Path(__file__).parent.glob("contact_*.py"))
-    return hashlib.sha256(
-        b"".join(path.read_bytes() for path in found if path.name not in NOT_DECIDING)
-    ).hexdigest()
+    return _digest(repr((source_digest(__name__), equations.grid, equations.scheme, fluid)))
 
 
 def _digest(key: str) -> str:

@@ -11,9 +11,9 @@ import numpy as np
 
 from ...errors import InputError
 from ...model import Array
+from ...sources import source_digest
 from ..films.map_fit import fit_map_table, node_eccentricities, tabulate_film
 from ..films.map_table import VERSION, MapTable
-from ..films.solver_digest import source_digest
 from ..films.table_cache import cache_folder, cached_table
 from .cavitated_squeeze import CavitatedSqueezeFilm
 from .finite_squeeze import FiniteSqueezeFilm
@@ -31,19 +31,6 @@ FULL = 3
 
 RATIO = 1.0
 """The slenderness that a table of a damper says it is for: the damper's own is in its numbers."""
-
-SOURCES = (
-    "map_fit.py",
-    "map_table.py",
-    "porous_layer.py",
-    "quintic.py",
-    "squeeze.py",
-    "squeeze_arc.py",
-    "squeeze_finite.py",
-    "squeeze_potential.py",
-    "squeeze_table.py",
-)
-"""What decides the content of a table."""
 
 
 @dataclass(frozen=True)
@@ -121,7 +108,7 @@ def table_path(
     slenderness: float, layer: PorousLayer | None, cavitated: bool, cells: tuple[int, int]
 ) -> Path:
     """Return where a table lies; the name is a digest of all that decides its content."""
-    key = repr((VERSION, source_digest(*SOURCES), slenderness, layer, cavitated, cells))
+    key = repr((VERSION, source_digest(__name__), slenderness, layer, cavitated, cells))
     return cache_folder() / f"damper-{hashlib.sha256(key.encode()).hexdigest()[:24]}.bin"
 
 

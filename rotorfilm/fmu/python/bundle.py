@@ -4,28 +4,24 @@ from __future__ import annotations
 
 import ast
 import hashlib
-from collections.abc import Iterable, Iterator, Mapping
-from importlib.util import resolve_name
-from pathlib import Path
+from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 from ...native.library import library_path
+from ...sources import PACKAGE, ROOT, import_closure, imported_names, module_path, source_of
 from .usermodule import read_user_module, renamed_source
 
-ROOT = Path(__file__).parents[1]
-PACKAGE = __name__.partition(".")[0]
-
-SHELVES = {PACKAGE, f"{PACKAGE}.fmu"}
+SHELVES = {PACKAGE, f"{PACKAGE}.bearings", f"{PACKAGE}.fmu"}
 """Packages whose __init__ only gathers names, from far more than an FMU needs: they go empty."""
 
-SLAVE = f"{PACKAGE}.fmu.slave"
-STEPPED_SLAVE = f"{PACKAGE}.fmu.stepped_slave"
-API = f"{PACKAGE}.fmu.pythonfmu_api"
+SLAVE = f"{PACKAGE}.fmu.python.slave"
+STEPPED_SLAVE = f"{PACKAGE}.fmu.python.stepped_slave"
+API = f"{PACKAGE}.fmu.python.pythonfmu_api"
 
 LIBRARY = f"{PACKAGE}.native"
 """What a module imports that calls the compiled library."""
 
-COMPANIONS = "films/data/*"
+COMPANIONS = "bearings/journal/map/data/*"
 """Files, below the package, that such a module reads at run time, beside the library.
 
 They go along where the model, or a user's module, names such a module, not wherever the import closure holds
@@ -62,7 +58,7 @@ def bundle_source(modules: Iterable[str], slave: str = SLAVE) -> Bundle:
     own = {name for name in modules if name.partition(".")[0] == PACKAGE}
     users = sorted(set(modules) - own)
     read = {name: read_user_module(name, users, PACKAGE) for name in users}
-    sources = _closure({slave, *own}.union(*(module.needs for module in read.values())))
+    sources = import_closure({slave, *own}.union(*(module.needs for module in read.values())), SHELVES)
     companions = _companions(own.union(*(module.needs for module in read.values())))
     # Two FMUs in one process share modules of one name, hence also what those read from their folder.
     package = f"{PACKAGE}_{content_hash({**sources, **companions})}"
@@ -70,7 +66,7 @@ def bundle_source(modules: Iterable[str], slave: str = SLAVE) -> Bundle:
     texts = {name: ast.unparse(module.tree).encode() for name, module in read.items()}
     tag = content_hash({**texts, package: b""})
     names.update({name: f"{name.replace('.', '_')}_{tag}" for name in users})
-    files = {_path(name).replace(PACKAGE, package, 1): source for name, source in sources.items()}
+    files = {module_path(name).replace(PACKAGE, package, 1): source for name, source in sources.items()}
     files.update({f"{package}/{name}": content for name, content in companions.items()})
     files.update({f"{names[name]}.py": renamed_source(read[name].tree, names).encode() for name in users})
     return Bundle(files, names)
@@ -85,23 +81,9 @@ def content_hash(contents: Mapping[str, bytes]) -> str:
     return digest.hexdigest()[:16]
 
 
-def _closure(modules: Iterable[str]) -> dict[str, bytes]:
-    """Return the source of `modules` and of all that they import from this package, by module name."""
-    sources: dict[str, bytes] = {}
-    waiting = list(modules)
-    while waiting:
-        name = waiting.pop()
-        if name in sources:
-            continue
-        sources[name] = b"" if name in SHELVES else (ROOT.parent / _path(name)).read_bytes()
-        waiting += [found for found in _imported(name, sources[name]) if _is_module(found)]
-        waiting += [name.rpartition(".")[0]] if "." in name else []
-    return sources
-
-
 def _companions(modules: Iterable[str]) -> dict[str, bytes]:
-    sources = {name: (ROOT.parent / _path(name)).read_bytes() for name in modules}
-    if not any(LIBRARY in _imported(name, source) for name, source in sources.items()):
+    sources = {name: source_of(name) for name in modules}
+    if not any(LIBRARY in imported_names(name, source) for name, source in sources.items()):
         return {}
     found = sorted(path for path in ROOT.glob(COMPANIONS) if path.is_file())
     library = library_path("rotorfilm")
@@ -109,23 +91,3 @@ def _companions(modules: Iterable[str]) -> dict[str, bytes]:
         **{path.relative_to(ROOT).as_posix(): path.read_bytes() for path in found},
         f"native/{library.name}": library.read_bytes(),
     }
-
-
-def _imported(name: str, source: bytes) -> Iterator[str]:
-    """Yield the names that relative imports in `source` may mean; not all of them are modules."""
-    package = name if _path(name).endswith("__init__.py") else name.rpartition(".")[0]
-    for node in ast.walk(ast.parse(source)):
-        if isinstance(node, ast.ImportFrom) and node.level:
-            base = resolve_name("." * node.level + (node.module or ""), package)
-            yield base
-            yield from (f"{base}.{alias.name}" for alias in node.names)
-
-
-def _is_module(name: str) -> bool:
-    return (ROOT.parent / _path(name)).is_file()
-
-
-def _path(name: str) -> str:
-    """Return the path of a module of this package, below the folder that holds the package."""
-    path = name.replace(".", "/")
-    return f"{path}/__init__.py" if (ROOT.parent / path).is_dir() else f"{path}.py"
