@@ -118,9 +118,7 @@ _HOMES = {
         "UndefinedDerivativeError",
         "ValidityWarning",
     ),
-    "fmu": (
-        "export_fmu",
-    ),
+    "fmu": ("export_fmu",),
     "linear": (
         "Campbell",
         "CriticalMass",
@@ -220,12 +218,8 @@ _HOMES = {
         "read_ross",
         "to_ross",
     ),
-    "signals": (
-        "Signal",
-    ),
-    "sweeps": (
-        "sweep",
-    ),
+    "signals": ("Signal",),
+    "sweeps": ("sweep",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 

@@ -1,6 +1,7 @@
-"""Imports point down only: the layers of the package are read from its source by ast."""
+"""The house: imports point down, families stand apart, and every file has a name and a place of its own."""
 
 import ast
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -8,42 +9,108 @@ import pytest
 import rotorfilm
 
 PACKAGE = Path(rotorfilm.__file__).parent
-LEAVES = ["printable", "limits", "errors", "units", "signals", "model", "results", "progress", "files"]
+MODULES = sorted(PACKAGE.rglob("*.py"))
+MOST_MODULES = 16
+
+LEAVES = [
+    "errors",
+    "units",
+    "signals",
+    "model",
+    "results",
+    "progress",
+    "sources",
+    "answers",
+    "files",
+    "limits",
+    "printable",
+]
 LAYERS = [
     LEAVES,
     ["native"],
-    ["films"],
     ["bearings", "rotors"],
-    ["linear", "reduce", "transient", "orbits", "cosim", "fmu"],
-    ["nonlinear"],
-    ["ladders"],
-    ["scenes", "charts"],
+    ["linear"],
+    ["motion", "fmu"],
+    ["cosim"],
+    ["comparisons"],
+    ["scenes"],
+    ["questions", "charts"],
     ["sweeps"],
-    ["console"],
-    ["console_ladder", "gallery"],
-    ["chart_commands", "cli_contact", "cli_cosim", "cli_damper", "cli_damper_run", "cli_rotor", "cli_sweep"],
     ["cli"],
-    ["__main__"],
+    ["films", "transient", "orbits", "nonlinear", "__main__"],
 ]
+"""What may import what: a part imports only from those above it in this list."""
+
+FACES = {"films", "transient", "orbits", "nonlinear"}
+"""Public names under roofs that hold nothing else."""
+
+PARTS = {
+    "bearings": [["films"], ["journal"], ["damper", "contact", "bush"]],
+    "bearings/films": [["ring"]],
+    "bearings/journal": [["rupture"], ["map", "splitting"], ["grooves"]],
+    "bearings/contact": [["film"], ["motion"]],
+    "rotors": [["shaft"]],
+    "motion": [["transient", "circular"], ["compiled"], ["periodic"]],
+    "cosim": [["schemes"]],
+    "fmu": [["description"], ["python", "check"], ["native"]],
+    "scenes": [["journal"], ["damper", "contact", "bush", "shaft"]],
+    "questions": [["journal"], ["damper", "contact", "bush", "shaft"]],
+    "comparisons": [["journal", "contact", "coupling"], ["limits"]],
+    "charts": [["comparisons"]],
+    "native": [],
+}
+"""The same among the folders of a part."""
+
+FAMILIES = {"journal", "damper", "contact", "bush"}
+BETWEEN_FAMILIES = {
+    # The film of a damper over a map is the film of a journal that does not turn.
+    ("damper", "journal"),
+}
+
+SAME_NAME = {"bearing"}
+"""Files that every family may have."""
+
 RANK = {name: rank for rank, layer in enumerate(LAYERS) for name in layer}
-SIDEWAYS = {("cosim", "fmu")}
-MODULES = sorted(PACKAGE.rglob("*.py"))
 
 
-def part_of(path):
-    """Return the top-level part of rotorfilm that a file belongs to; '' for the package itself."""
-    first = path.relative_to(PACKAGE).parts[0]
-    return first.removesuffix(".py").replace("__init__", "")
+def name_of(path):
+    """Return the dotted name of a module, without that of the package."""
+    parts = path.relative_to(PACKAGE).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
 
-def relative_targets(path):
-    """Return the parts of rotorfilm that a file imports from."""
-    package = path.relative_to(PACKAGE).parts[:-1]
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+NAMES = {name_of(path): path for path in MODULES}
+
+
+def is_package(name):
+    return NAMES[name].name == "__init__.py"
+
+
+def imports_of(name):
+    """Yield (module, name in it) of every relative import of a module, wherever in it that stands."""
+    package = name.split(".") if name else []
+    package = package if is_package(name) else package[:-1]
+    for node in ast.walk(ast.parse(NAMES[name].read_text(encoding="utf-8"))):
         if isinstance(node, ast.ImportFrom) and node.level:
-            above = package[: len(package) - node.level + 1]
-            below = node.module.split(".") if node.module else [alias.name for alias in node.names]
-            yield (*above, *below)[0]
+            base = package[: len(package) - node.level + 1]
+            target = ".".join(base + (node.module.split(".") if node.module else []))
+            for alias in node.names:
+                inner = f"{target}.{alias.name}".lstrip(".")
+                is_module = inner in NAMES and not is_shown(target, alias.name)
+                yield (inner, "") if is_module else (target, alias.name)
+
+
+def is_shown(package, name):
+    """Return whether a package shows something of that name, which then hides the module."""
+    tree = ast.parse(NAMES[package].read_text(encoding="utf-8"))
+    return any(
+        name in {alias.asname or alias.name for alias in node.names}
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom)
+    )
+
+
+TARGETS = {name: sorted({target for target, _ in imports_of(name)} - {name}) for name in NAMES}
 
 
 def absolute_imports(path):
@@ -55,49 +122,151 @@ def absolute_imports(path):
             yield node.module
 
 
-def identify(path):
-    return path.relative_to(PACKAGE).as_posix()
-
-
-def is_allowed(source, target):
-    if source == "":  # the package itself may show anything
+def is_below(source, target):
+    """Return whether a module may import another by the layers of the top level."""
+    source, target = source.split(".")[0], target.split(".")[0]
+    if source in {"", "__main__"} or source == target:
         return True
-    among_leaves = source in LEAVES and target in LEAVES
-    return source == target or among_leaves or (source, target) in SIDEWAYS or RANK[target] < RANK[source]
+    return (source in LEAVES and target in LEAVES) or RANK[target] < RANK[source]
+
+
+def is_below_inside(source, target):
+    """Return whether a module may import another by the layers of the folders that they share."""
+    ours, theirs = source.split("."), target.split(".")
+    shared = next((k for k, (a, b) in enumerate(zip(ours, theirs, strict=False)) if a != b), None)
+    if not shared:
+        return True
+    ranks = {
+        name: rank for rank, layer in enumerate(PARTS.get("/".join(ours[:shared]), [])) for name in layer
+    }
+    here, there = ranks.get(ours[shared]), ranks.get(theirs[shared])
+    return here is None or there is None or there < here
+
+
+def circles():
+    """Return the sets of modules that import one another in a circle (Tarjan, 1972)."""
+    index, low, stack, found = {}, {}, [], []
+
+    def visit(name):
+        index[name] = low[name] = len(index)
+        stack.append(name)
+        for target in TARGETS[name]:
+            if target not in index:
+                visit(target)
+            if target in stack:
+                low[name] = min(low[name], low[target])
+        if low[name] == index[name]:
+            circle = stack[stack.index(name) :]
+            del stack[stack.index(name) :]
+            if len(circle) > 1:
+                found.append(sorted(circle))
+
+    for name in NAMES:
+        if name not in index:
+            visit(name)
+    return found
+
+
+def family_of(name):
+    parts = name.split(".")
+    return parts[1] if parts[0] == "bearings" and len(parts) > 1 and parts[1] in FAMILIES else None
 
 
 def test_every_part_has_a_layer():
-    assert {part_of(path) for path in MODULES} - {""} <= set(RANK)
+    assert {name.split(".")[0] for name in NAMES} - {"", "__main__"} <= set(RANK)
+    for folder in PACKAGE.rglob("__init__.py"):
+        place = folder.parent.relative_to(PACKAGE).as_posix()
+        inside = {path.parent.name for path in folder.parent.glob("*/__init__.py")}
+        if place != ".":
+            assert inside == {name for layer in PARTS.get(place, []) for name in layer}, place
 
 
-@pytest.mark.parametrize("path", MODULES, ids=identify)
-def test_imports_point_down(path):
-    source = part_of(path)
-    wrong = [target for target in relative_targets(path) if not is_allowed(source, target)]
-    assert not wrong, f"{identify(path)} imports upward or sideways: {wrong}"
+@pytest.mark.parametrize("name", NAMES)
+def test_imports_point_down(name):
+    wrong = [
+        target for target in TARGETS[name] if not (is_below(name, target) and is_below_inside(name, target))
+    ]
+    assert not wrong, f"{name} imports upward or sideways: {wrong}"
 
 
-@pytest.mark.parametrize("path", MODULES, ids=identify)
+def test_no_circle_of_files():
+    assert not circles()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_family_imports_only_what_is_common(name):
+    ours = family_of(name)
+    theirs = {family_of(target) for target in TARGETS[name]} - {None, ours}
+    if ours:
+        assert {(ours, family) for family in theirs} <= BETWEEN_FAMILIES
+    foreign = [target for target in TARGETS[name] if family_of(target) not in {None, ours}]
+    inner = [target for target in foreign if target.count(".") > 1]
+    assert not inner, f"{name} must import from the folder of a family, not from its inner modules {inner}"
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_what_is_private_stays_in_its_folder(name):
+    folder = name if is_package(name) else name.rpartition(".")[0]
+    private = [
+        (target, item)
+        for target, item in imports_of(name)
+        if item.startswith("_") and target.rpartition(".")[0] != folder
+    ]
+    assert not private
+
+
+def test_a_folder_holds_few_modules():
+    folders = {path.parent for path in PACKAGE.rglob("*") if path.suffix in {".py", ".c", ".h"}}
+    for folder in folders:
+        modules = {path.stem for path in folder.glob("*") if path.suffix in {".py", ".c", ".h"}}
+        vendored = {path.stem for path in folder.glob("fmi[23]*.h")} - {"fmi2", "fmi3"}
+        assert len(modules - vendored - {"__init__", "__main__"}) <= MOST_MODULES, folder
+
+
+def test_every_file_has_a_name_of_its_own():
+    names = Counter(path.stem for path in MODULES if path.name != "__init__.py")
+    folders = Counter(path.parent.name for path in MODULES if path.name == "__init__.py")
+    assert not {name for name, count in names.items() if count > 1} - SAME_NAME
+    assert folders.total() > 10
+
+
+def test_every_public_class_has_a_name_of_its_own():
+    classes = Counter(
+        node.name
+        for path in MODULES
+        for node in ast.parse(path.read_text(encoding="utf-8")).body
+        if isinstance(node, ast.ClassDef) and not node.name.startswith("_")
+    )
+    assert not {name for name, count in classes.items() if count > 1}
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: path.relative_to(PACKAGE).as_posix())
 def test_package_imports_itself_relatively(path):
     # An exported FMU carries the package under another name, where an absolute import would find a stranger.
     named = [name for name in absolute_imports(path) if name.split(".")[0] == "rotorfilm"]
-    assert not named, f"{identify(path)} must import relatively, got {named}"
+    assert not named, f"{path} must import relatively, got {named}"
 
 
 @pytest.mark.parametrize("name", LEAVES)
 def test_leaves_need_numpy_only(name):
     outside = {target.split(".")[0] for target in absolute_imports(PACKAGE / f"{name}.py")}
     allowed = {"numpy", "__future__", "dataclasses", "typing", "math", "re", "keyword", "collections"}
-    allowed |= {"csv", "pathlib", "sys", "unicodedata", "warnings"}
-    allowed |= {"contextlib", "errno", "hashlib", "io", "os", "shutil", "struct", "uuid"}
+    allowed |= {"csv", "pathlib", "sys", "warnings", "ast", "hashlib", "functools", "importlib"}
+    allowed |= {"unicodedata", "io", "contextlib", "errno", "os", "shutil", "struct", "uuid"}
     assert outside <= allowed
 
 
-def test_the_rule_sees_a_wrong_import():
-    assert not is_allowed("films", "bearings")
-    assert not is_allowed("model", "films")
-    assert not is_allowed("linear", "transient")
-    assert not is_allowed("fmu", "cosim")
-    assert not is_allowed("scenes", "charts")
-    assert is_allowed("cosim", "fmu")
-    assert is_allowed("cli", "charts")
+@pytest.mark.parametrize("name", sorted(FACES))
+def test_a_face_only_shows(name):
+    tree = ast.parse(NAMES[name].read_text(encoding="utf-8"))
+    assert all(isinstance(node, ast.Expr | ast.ImportFrom | ast.Assign) for node in tree.body)
+
+
+def test_the_rules_see_a_wrong_import():
+    assert not is_below("bearings.journal.bearing", "linear.whirl")
+    assert not is_below("model", "native.spec")
+    assert not is_below("scenes.scene", "questions.registry")
+    assert not is_below_inside("bearings.films.law", "bearings.journal.bearing")
+    assert not is_below_inside("bearings.contact.film.krylov", "bearings.contact.motion.loads")
+    assert is_below("cosim.master", "fmu.export")
+    assert is_below("cli.main", "charts.canvas")

@@ -16,9 +16,10 @@ def deprecated(module):
     warnings.warn_explicit("this will go", DeprecationWarning, "file.py", 1, module=module)
 
 
-@pytest.mark.parametrize(
-    "module", ["rotorfilm.bearings.journal.map.map_film", __name__, "scene_battery", "fmu_recipe_bush"]
-)
+MODULES = ["rotorfilm.bearings.journal.map.map_film", __name__, "scene_battery", "fmu_recipe_bush"]
+
+
+@pytest.mark.parametrize("module", MODULES)
 def test_what_our_own_modules_cause_is_an_error(module):
     with pytest.raises(DeprecationWarning):
         deprecated(module)

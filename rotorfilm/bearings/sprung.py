@@ -10,7 +10,6 @@ import numpy as np
 from ..errors import InputError, require_positive
 from ..model import Array, Reaction, Tangent, prepared_tangent
 from ..native.spec import HasKernel, NativeSpec
-from .damper import sprung_spec
 from .reaction import StaticReaction
 
 
@@ -58,10 +57,11 @@ class Sprung(StaticReaction):
         return self.reaction.outputs[0].nominal
 
     def native(self) -> NativeSpec | None:
-        """Return the kernel of a damper with these springs; None for other reactions."""
+        """Return the kernel of the reaction with these springs; None where it takes none."""
         if type(self) is not Sprung or not isinstance(self.reaction, HasKernel):
             return None
-        return sprung_spec(self.reaction.native(), self.stiffness)
+        spec = self.reaction.native()
+        return None if spec is None else spec.stiffened(self.stiffness)
 
     def prepare_tangent(self) -> Tangent:
         """Return force and derivatives as a function of five numbers; see `prepared_tangent`."""

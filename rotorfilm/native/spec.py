@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -90,6 +90,8 @@ class NativeSpec:
         Finite numbers of at most four axes, by the name that the kernel asks for.
     inputs : tuple of str or None
         Inputs of the model that the kernel takes, in its order; the others have no effect. None for all.
+    spring : str
+        Parameter that is a stiffness [N/m] beside the model, along either axis; empty where there is none.
 
     Raises
     ------
@@ -101,6 +103,7 @@ class NativeSpec:
     parameters: tuple[NativeParameter, ...] = ()
     tables: Mapping[str, Array] = field(default_factory=dict)
     inputs: tuple[str, ...] | None = None
+    spring: str = ""
 
     def __post_init__(self) -> None:
         names = [parameter.name for parameter in self.parameters]
@@ -109,6 +112,16 @@ class NativeSpec:
         for name, table in self.tables.items():
             if np.ndim(table) > 4 or not np.isfinite(table).all():
                 raise InputError(f"table {name} must be finite with at most four axes, got {np.shape(table)}")
+
+    def stiffened(self, stiffness: float) -> NativeSpec | None:
+        """Return this kernel with more stiffness [N/m] beside the model; None if it takes none."""
+        if not self.spring:
+            return None
+        parameters = tuple(
+            replace(p, value=p.value + stiffness, nominal=stiffness) if p.name == self.spring else p
+            for p in self.parameters
+        )
+        return replace(self, parameters=parameters)
 
 
 @runtime_checkable

@@ -19,7 +19,6 @@ from ..linear import equilibrium
 from ..model import Reaction
 from ..rotors import RigidRotor
 from ..scenes.journal.film_rungs import has_map, with_film
-from ..scenes.journal.journal_remarks import journal_remarks
 from .walk import Ladder
 
 if TYPE_CHECKING:
@@ -166,7 +165,7 @@ def coupling_ladder(scene: Scene, quantity: str) -> Ladder:
         rungs=tuple(rungs),
         unit="1",
         units=_units(case),
-        remarks=() if scene.journal is None else journal_remarks(scene),
+        remarks=() if scene.journal is None else scene.film_remarks,
     )
 
 

@@ -6,7 +6,7 @@ import math
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
-from importlib import resources
+from importlib import import_module, resources
 from os import PathLike
 from pathlib import Path
 from typing import Annotated, Any
@@ -16,7 +16,6 @@ from ..bearings.journal import JournalBearing
 from ..errors import InputError, SceneError, warn_user
 from ..limits import LINE_DOTS, SCENE_BYTES
 from ..printable import brief, shortened
-from ..questions import ask
 from ..rotors.rigid import RigidRotor
 from ..units import STANDARD_GRAVITY
 from .bush.bush_table import BushTable
@@ -24,7 +23,7 @@ from .bush.solve_bush import BushAnswer, solve_bush
 from .contact.contact_table import ContactTable
 from .damper.damper_table import DamperTable
 from .excitation_table import EXCITATIONS, ExcitationTable, UnbalanceTable
-from .journal.journal_remarks import journal_remarks
+from .journal.journal_remarks import film_remarks
 from .journal.solve_journal import Answer, solve
 from .lubricant_table import LubricantTable
 from .question_table import QuestionTable
@@ -166,7 +165,8 @@ class Scene:
         ValidityWarning
             Where the physics of all rungs leaves out what matters in this scene.
         """
-        answer = ask(self)
+        # Found late: questions stand above scenes.
+        answer = import_module("...questions", __package__).ask(self)
         for remark in answer.remarks:
             warn_user(f"left out: {remark}")
         return answer
@@ -177,15 +177,19 @@ class Scene:
         What the physics of the film leaves out is in `remarks` of the answer.
         """
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
-        remarks = journal_remarks(self)
         answer = solve(self.bearing, load=self.static_load, speed=self.speed, mass=mass)
-        return replace(answer, remarks=remarks)
+        return replace(answer, remarks=self.film_remarks)
 
     def melting(self) -> BushAnswer:
         """Return contact and critical speeds of the unworn bush; raises InputError if the scene has none."""
         if self.bush is None:
             raise InputError("bush is required for a critical speed of melting, got no such table")
         return solve_bush(self.bush.build(), math.hypot(*self.static_load), self.speed, 0.0)
+
+    @property
+    def film_remarks(self) -> tuple[str, ...]:
+        """What the physics of the journal's film leaves out and should not, one line each."""
+        return film_remarks(self.bearing, self.lubricant, self.speed, self.static_load)
 
     @property
     def film_is_given(self) -> bool:

@@ -511,7 +511,7 @@ def test_groove_map_without_a_bearing_is_refused(run):
         (("--groove", "90 deg, 70 deg"), "openings must not be wider than 60 deg"),
         (
             ("--groove", "0, 0.1", "--nodes", "6,x,12"),
-            "--nodes must be 3 whole numbers, as 24,12, got '6,x,12'",
+            "--nodes[1] must be a whole number from 1 to 1048576, got 'x'",
         ),
     ],
 )

@@ -7,7 +7,7 @@ import pytest
 
 from rotorfilm.bearings.journal import JournalBearing
 from rotorfilm.scenes import bundled_scene
-from rotorfilm.scenes.journal.journal_remarks import TAYLOR, journal_numbers, journal_remarks
+from rotorfilm.scenes.journal.journal_remarks import TAYLOR, journal_numbers
 from rotorfilm.scenes.lubricant_table import LubricantTable
 
 BEARING = JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.02)
@@ -71,4 +71,4 @@ def test_warming_is_that_between_cold_walls_where_heat_is_conducted_away():
 
 
 def test_remarks_name_what_is_left_out():
-    assert [remark.partition(":")[0] for remark in journal_remarks(bundled_scene())] == ["heat"]
+    assert [remark.partition(":")[0] for remark in bundled_scene().film_remarks] == ["heat"]

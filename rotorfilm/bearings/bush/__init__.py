@@ -3,7 +3,7 @@
 from .bearing import BushContact, MeltingBush, f4k20_bush
 from .bush_reaction import BushReaction
 from .bush_wear import BushWear
-from .contact_arc import arc_angle
+from .contact_arc import arc_angle, mean_weight, peak_weight
 from .heat import ApproximateShaft, ContactBalance, ExactShaft, GlobalBalance, ShaftHeat
 from .materials import BushGeometry, Friction, LinerMaterial, ShaftMaterial
 from .moments import WIDEST, Path, Stage, Wearing, end_of_wear, wear_by_one_moment, wear_by_two_moments
@@ -42,6 +42,8 @@ __all__ = [
     "end_of_wear",
     "exact_flux",
     "f4k20_bush",
+    "mean_weight",
+    "peak_weight",
     "published_stage",
     "wear_at_nodes",
     "wear_by_one_moment",

@@ -153,7 +153,7 @@ class BallSupport:
         """Return the kernel `contact`; None for more balls than it takes."""
         if len(self.angles) > MOST_CONTACTS:
             return None
-        return contact_spec(self.law, self._motion, self._push, self.gap)
+        return contact_spec(self.law.in_si, self._motion, self._push, self.gap)
 
     @cached_property
     def _motion(self) -> Array:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -10,19 +10,34 @@ from scipy.linalg import block_diag
 from ...model import Array
 from ...native.spec import NativeParameter, NativeSpec
 
-if TYPE_CHECKING:
-    from .contact_law import ContactLaw
-
 MOST_CONTACTS = 64
 """Contacts that the kernel takes (`native/kernel_contact.c`)."""
 
 
-def contact_spec(law: ContactLaw, motion: Array, push: Array, gap: float) -> NativeSpec:
+class LawNumbers(NamedTuple):
+    """A reduced law as the kernel takes it, in SI.
+
+    Attributes
+    ----------
+    matrices : dict of str to ndarray
+        A, B, C and D of the law.
+    static : tuple of float
+        Offset, span, exponent, force, operating approach and the range of loads.
+    film : float [m]
+        Unit of film thickness.
+    """
+
+    matrices: dict[str, Array]
+    static: tuple[float, ...]
+    film: float
+
+
+def contact_spec(law: LawNumbers, motion: Array, push: Array, gap: float) -> NativeSpec:
     """Return the kernel `contact` for contacts of one law.
 
     Parameters
     ----------
-    law : ContactLaw
+    law : LawNumbers
     motion : ndarray, shape (n_contacts, n_inputs)
         Approach of each contact per input.
     push : ndarray, shape (n_outputs, n_contacts)
@@ -30,15 +45,7 @@ def contact_spec(law: ContactLaw, motion: Array, push: Array, gap: float) -> Nat
     gap : float [m]
         Approach of every contact where all inputs vanish.
     """
-    film, time, force = law.film_scale, law.time_scale, law.force_scale
-    scaled = {
-        "A": law.A / time,
-        "B": law.B / (time * film),
-        "C": law.C * force,
-        "D": law.D * force / film,
-    }
-    numbers = [law.offset * film, law.span * film, law.exponent, force, law.operating * film, *law.load_range]
-    tables = {name: block_diag(*[matrix] * len(motion)) for name, matrix in scaled.items()}
+    tables = {name: block_diag(*[matrix] * len(motion)) for name, matrix in law.matrices.items()}
     return NativeSpec(
         kernel="contact",
         parameters=(
@@ -47,9 +54,9 @@ def contact_spec(law: ContactLaw, motion: Array, push: Array, gap: float) -> Nat
                 unit="m",
                 value=float(gap),
                 tunable=True,
-                nominal=2.0 * film,
+                nominal=2.0 * law.film,
                 description="approach of the contact where the displacement vanishes",
             ),
         ),
-        tables={**tables, "motion": motion, "push": push, "law": np.array(numbers)},
+        tables={**tables, "motion": motion, "push": push, "law": np.array(law.static)},
     )

@@ -12,7 +12,7 @@ from ...errors import InputError, require_finite, require_positive
 from ...model import Array, Linearization
 from ...native.spec import NativeSpec
 from ...signals import Signal
-from .contact_kernel import contact_spec
+from .contact_kernel import LawNumbers, contact_spec
 from .operating_points import FREQUENCIES, LOADS
 from .static_law import StaticLaw
 
@@ -171,7 +171,20 @@ class ContactLaw:
 
     def native(self) -> NativeSpec:
         """Return the kernel `contact`."""
-        return contact_spec(self, np.ones((1, 1)), np.ones((1, 1)), 0.0)
+        return contact_spec(self.in_si, np.ones((1, 1)), np.ones((1, 1)), 0.0)
+
+    @property
+    def in_si(self) -> LawNumbers:
+        """The numbers of the law as its kernel takes them."""
+        film, time, force = self.film_scale, self.time_scale, self.force_scale
+        matrices = {
+            "A": self.A / time,
+            "B": self.B / (time * film),
+            "C": self.C * force,
+            "D": self.D * force / film,
+        }
+        static = (self.offset * film, self.span * film, self.exponent, force, self.operating * film)
+        return LawNumbers(matrices, (*static, *self.load_range), film)
 
     def resting(self, delta: float) -> Array:
         """Return the state in which the contact has long rested at an approach delta [1]."""

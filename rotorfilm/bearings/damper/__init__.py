@@ -1,7 +1,6 @@
 """Squeeze-film dampers with a porous cage."""
 
 from .bearing import AxialFeed, DamperGroups, PorousCage, PorousDamper, RadialFeed, damper_groups
-from .damper_kernel import sprung_spec
 from .full_squeeze import SqueezeFilm
 from .mapped_squeeze import FiniteMapSqueeze, MapSqueeze
 from .porous_layer import layer_modes
@@ -23,5 +22,4 @@ __all__ = [
     "SqueezeLaw",
     "damper_groups",
     "layer_modes",
-    "sprung_spec",
 ]

@@ -14,7 +14,7 @@ from ...model import Array, Tangent, tangent_of
 from ...native.spec import NativeSpec
 from ..films.cavitation import FullFilm, HalfSommerfeld
 from ..reaction import NOMINAL_SPEED, StaticReaction
-from .damper_kernel import damper_spec
+from .damper_kernel import DIMENSIONS, damper_spec
 from .full_squeeze import SqueezeFilm
 from .mapped_squeeze import MappedSqueezeFilm, TabulatedSqueeze
 from .porous_layer import LayerModes, PorousLayer, layer_modes
@@ -227,7 +227,11 @@ class PorousDamper(StaticReaction):
 
         Nor has a subclass, which may differ from it.
         """
-        return damper_spec(self) if type(self) is PorousDamper else None
+        if type(self) is not PorousDamper:
+            return None
+        dimensions = {name: getattr(self, name) for name, _, _ in DIMENSIONS}
+        caged = self.cage is not None
+        return damper_spec(self.bound_film, dimensions, caged=caged, nominal_force=self.nominal_force)
 
     def portable(self) -> PorousDamper:
         """Return this damper with a film that carries the table it needs; see `model.Portable`."""

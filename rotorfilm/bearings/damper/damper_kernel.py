@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
 
 from ...model import MOTION_NAMES
 from ...native.spec import NativeParameter, NativeSpec
+from .full_squeeze import SqueezeFilm
 from .mapped_squeeze import MappedSqueezeFilm
 
-if TYPE_CHECKING:
-    from .bearing import PorousDamper
-
 KERNEL = "damper"
-SPRING = "stiffness"
 
-_DIMENSIONS = (
+DIMENSIONS = (
     ("radius", "m", "radius of the film"),
     ("length", "m", "axial length of the film"),
     ("clearance", "m", "radial clearance"),
@@ -24,28 +20,38 @@ _DIMENSIONS = (
 )
 
 
-def damper_spec(damper: PorousDamper) -> NativeSpec | None:
+def damper_spec(
+    film: SqueezeFilm, dimensions: Mapping[str, float], *, caged: bool, nominal_force: float
+) -> NativeSpec | None:
     """Return the kernel of a damper; None if its film is no map.
 
     What the map holds for is fixed: the ratios L/D of a film of finite length, H/L and A H/C^3 of a cage.
+
+    Parameters
+    ----------
+    film : SqueezeFilm
+    dimensions : mapping of str to float
+        Radius, length, clearance [m] and viscosity [Pa s].
+    caged : bool
+        Whether it has a porous cage.
+    nominal_force : float [N]
     """
-    film = damper.bound_film
     if not isinstance(film, MappedSqueezeFilm):
         return None
     held = {"radius", "length"} if film.one_slenderness else set()
-    if damper.cage is not None:
+    if caged:
         held |= {"length", "clearance"}
     parameters = [
-        _dimension(name, unit, text, float(getattr(damper, name)), fixed=name in held)
-        for name, unit, text in _DIMENSIONS
+        _dimension(name, unit, text, float(dimensions[name]), fixed=name in held)
+        for name, unit, text in DIMENSIONS
     ]
     spring = NativeParameter(
-        name=SPRING,
+        name="stiffness",
         unit="N/m",
         value=0.0,
         tunable=True,
         minimum=0.0,
-        nominal=damper.nominal_force / damper.clearance,
+        nominal=nominal_force / dimensions["clearance"],
         description="of the retainer springs along either axis, whose force is part of the output",
     )
     return NativeSpec(
@@ -53,19 +59,7 @@ def damper_spec(damper: PorousDamper) -> NativeSpec | None:
         parameters=(*parameters, spring),
         tables=film.native_tables(),
         inputs=MOTION_NAMES,
-    )
-
-
-def sprung_spec(spec: NativeSpec | None, stiffness: float) -> NativeSpec | None:
-    """Return the kernel of a damper with more springs [N/m] beside it; None if it is no damper."""
-    if spec is None or spec.kernel != KERNEL:
-        return None
-    return replace(
-        spec,
-        parameters=tuple(
-            replace(p, value=p.value + stiffness, nominal=stiffness) if p.name == SPRING else p
-            for p in spec.parameters
-        ),
+        spring="stiffness",
     )
 
 

@@ -15,8 +15,9 @@ from ...model import Array, Tangent, force_outputs, journal_inputs
 from ...native.spec import NativeParameter, NativeSpec
 from ...signals import Signal
 from ..films.geometry import FilmGeometry, Groove, Pad
-from ..films.law import CENTER, BindableFilm, BoundFilm, FilmLaw, FittedFilm, NativeFilm, TabulatedFilm
+from ..films.law import CENTER, BindableFilm, BoundFilm, FilmLaw, NativeFilm, TabulatedFilm
 from ..reaction import NOMINAL_SPEED, Feedthrough, broadcast_state
+from .fitting import fitted_film
 from .map.map_film import MapFilm
 
 NATIVE_PARAMETERS = (
@@ -104,11 +105,6 @@ class JournalBearing(Feedthrough):
         _require_tuple("grooves", self.grooves, Groove)
         if self.supply_pressure > 0.0 and not self.grooves:
             raise InputError(f"supply_pressure must be 0 without grooves, got {self.supply_pressure!r}")
-        if not self.geometry.plain and not isinstance(self.film, FittedFilm):
-            raise InputError(
-                f"film must represent the bearing's geometry, which {type(self.film).__name__} cannot: "
-                f"got {self.geometry!r}; ReynoldsFilm and, without supply, MapFilm can"
-            )
         # Fitted here so that a geometry that is beyond the film is refused at once.
         film = self.fitted_film
         low, high = getattr(film, "slenderness_range", (0.0, math.inf))
@@ -157,7 +153,7 @@ class JournalBearing(Feedthrough):
     @cached_property
     def fitted_film(self) -> FilmLaw:
         """The film law in this bearing's geometry."""
-        return self.film.fitted(self.geometry) if isinstance(self.film, FittedFilm) else self.film
+        return fitted_film(self.film, self.geometry)
 
     @property
     def inputs(self) -> tuple[Signal, ...]:

@@ -16,7 +16,6 @@ from ...model import Array, Reaction
 from ...motion.transient.equal_steps import ORDER, Motion, linear_march, march, peak
 from ...scenes.excitation_table import BladeLossTable
 from ...scenes.journal.film_rungs import MAP_BOUNDS, NOMINAL, FilmRung
-from ...scenes.journal.journal_remarks import journal_remarks
 from ..walk import Ladder
 from .unbalance_orbits import film_batch_units, orbit_films, require_one_unbalance
 
@@ -198,5 +197,5 @@ def blade_loss_ladder(scene: Scene, quantity: str) -> Ladder:
         units=film_batch_units(films, scene.speed),
         nominal=NOMINAL,
         refined={rung.name: rung.film.name for rung in rungs if rung.steps},
-        remarks=journal_remarks(scene),
+        remarks=scene.film_remarks,
     )

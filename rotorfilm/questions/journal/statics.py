@@ -17,7 +17,6 @@ from ...model import Array, prepared_tangent
 from ...results import Equilibrium
 from ...scenes.counted import Counted
 from ...scenes.journal.film_rungs import NOMINAL, FilmRung, point_films, tangent
-from ...scenes.journal.journal_remarks import journal_remarks
 from ..walk import Ladder
 
 if TYPE_CHECKING:
@@ -214,5 +213,5 @@ def static_ladder(scene: Scene, quantity: str) -> Ladder:
         unit=UNITS[quantity],
         units=film_units(films, scene.speed),
         nominal=NOMINAL,
-        remarks=journal_remarks(scene),
+        remarks=scene.film_remarks,
     )

@@ -27,7 +27,6 @@ from ...motion.periodic.sampled_orbit import (
 from ...rotors import RigidRotor
 from ...scenes.excitation_table import UnbalanceTable
 from ...scenes.journal.film_rungs import FINE, MAP_BOUNDS, NOMINAL, FilmRung, extrapolated, film_rungs
-from ...scenes.journal.journal_remarks import journal_remarks
 from ..walk import Ladder
 
 if TYPE_CHECKING:
@@ -232,7 +231,7 @@ def orbit_ladder(scene: Scene, quantity: str) -> Ladder:
         units=film_batch_units(films, scene.speed),
         nominal=NOMINAL,
         refined={rung.name: rung.film.name for rung in rungs if rung.samples},
-        remarks=journal_remarks(scene),
+        remarks=scene.film_remarks,
     )
 
 

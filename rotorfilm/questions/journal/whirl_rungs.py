@@ -15,7 +15,6 @@ from ...model import Array
 from ...results import Equilibrium
 from ...scenes.counted import Counted
 from ...scenes.journal.film_rungs import NOMINAL, FilmRung, is_grid, point_films
-from ...scenes.journal.journal_remarks import journal_remarks
 from ..walk import Ladder, NoAnswerError
 from .statics import corrected, film_units
 
@@ -158,5 +157,5 @@ def whirl_ladder(scene: Scene, quantity: str) -> Ladder:
         unit="rad/s",
         units=film_units(films, math.sqrt(math.hypot(*scene.static_load) / (mass * scene.bearing.clearance))),
         nominal=NOMINAL,
-        remarks=journal_remarks(scene),
+        remarks=scene.film_remarks,
     )

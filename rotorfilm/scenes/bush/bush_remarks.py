@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from ...bearings.bush import contact_arc as arc
-from ...bearings.bush import end_of_local_wear, end_of_wear, wear_by_one_moment
+from ...bearings.bush import end_of_local_wear, end_of_wear, peak_weight, wear_by_one_moment
 from ...errors import ConvergenceError
 from .bush_run import BushRun
 
@@ -60,7 +59,7 @@ def bush_numbers(run: BushRun) -> BushNumbers:
     load = max(stage.load_ratio for stage in run.stages)
     duration = sum(stage.duration for stage in run.stages)
     alpha = bush.angle(0.0, load)
-    peak = load * float(arc.peak_weight(alpha))
+    peak = load * float(peak_weight(alpha))
     thickness = geometry.outer_radius - geometry.radius
     end, _ = end_of_wear(bush, load)
     rate = float(bush.surplus(alpha, bush.shaped_total(alpha, load)))

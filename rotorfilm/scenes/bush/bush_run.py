@@ -19,8 +19,9 @@ from ...bearings.bush import (
     ShaftHeat,
     Stage,
     Wearing,
+    mean_weight,
+    peak_weight,
 )
-from ...bearings.bush import contact_arc as arc
 from ...errors import FilmContactError, InputError
 from ..excitation_table import StepLoadTable
 
@@ -91,7 +92,7 @@ class BushRun:
         margins = []
         for stage in self.stages:
             alpha = bush.angle(0.0, stage.load_ratio)
-            weight = arc.peak_weight(alpha) if self.local else arc.mean_weight(alpha)
+            weight = peak_weight(alpha) if self.local else mean_weight(alpha)
             margins.append(bush.work * stage.load_ratio * float(weight) / float(bush.losses(alpha)) - 1.0)
         return max(margins)
 

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from ...bearings.journal import JournalBearing
 from ..lubricant_table import LubricantTable
-
-if TYPE_CHECKING:
-    from ..scene import Scene
 
 TAYLOR = 41.2
 """Reynolds number times sqrt(c/R) from which vortices grow between cylinders, the inner one turning.
@@ -85,15 +82,10 @@ def journal_numbers(
     )
 
 
-def journal_remarks(scene: Scene) -> tuple[str, ...]:
-    """Return what is left out and should not be, one line each, for the journal bearing of a scene."""
-    return film_remarks(scene.bearing, scene.lubricant, scene.speed, scene.static_load)
-
-
 def film_remarks(
     bearing: JournalBearing, oil: LubricantTable, speed: float, load: tuple[float, float]
 ) -> tuple[str, ...]:
-    """Return the same for one bearing at a speed [rad/s] and a load [N]."""
+    """Return what is left out and should not be, one line each, at a speed [rad/s] and a load [N]."""
     n = journal_numbers(bearing, oil, speed, load)
     tilt = 2.0 * bearing.clearance / bearing.length
     lines = {

@@ -2,21 +2,37 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
 from ....model import Array
+from ..cavitation import Cavitation
 from ..film_field import FilmField
 from .ring_coefficients import Coefficients, ring_angles
 from .ring_forces import film_force, film_source, finest
-from .ring_grids import Grid, axial_nodes
-
-if TYPE_CHECKING:
-    from ...journal import ReynoldsFilm
+from .ring_grids import Grid, Spans, axial_nodes
 
 
-def film_field(film: ReynoldsFilm, eccentricity: Array, source: Array, slenderness: float) -> FilmField:
+class GridFilm(Protocol):
+    """A film on rings of cells, as `ReynoldsFilm`."""
+
+    @property
+    def cells(self) -> tuple[int, int]:
+        """Cells around, and along half the bearing."""
+
+    @property
+    def cavitation(self) -> Cavitation:
+        """Where the film ends."""
+
+    def grids(self, slenderness: float) -> tuple[Spans, tuple[Grid, ...]]:
+        """Return the edges and the grids, finest first."""
+
+    def extrapolated(self, e: Array, w: Array, slenderness: float) -> tuple[Array, Array]:
+        """Return the extrapolated force and the error of the force."""
+
+
+def film_field(film: GridFilm, eccentricity: Array, source: Array, slenderness: float) -> FilmField:
     """Return the solution of one state; see `ReynoldsFilm.solve`."""
     e, w = np.asarray(eccentricity, dtype=float), np.asarray(source, dtype=float)
     extrapolated, error = film.extrapolated(e, w, slenderness)

@@ -6,20 +6,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ....errors import InputError, RotorfilmError
 from ....model import Array
 from ....native import MapKernel
-from ...films.geometry import FilmGeometry
 from ...films.kernel_film import KernelFilm
 from ...films.map_table import MapTable
 from .own_tables import OWN_RANGE, bearing_table
-
-if TYPE_CHECKING:
-    from ..grooves.grooved_film import GroovedMapFilm
 
 TABLE = "journal_map.bin"
 """The universal table of the package, in `films/data`."""
@@ -62,27 +57,6 @@ class MapFilm(KernelFilm):
     def slenderness_range(self) -> tuple[float, float]:
         """Smallest and largest length/diameter that this film takes in a plain bearing."""
         return OWN_RANGE if self.table is None else self.table.slenderness_range
-
-    def fitted(self, geometry: FilmGeometry) -> MapFilm | GroovedMapFilm:
-        """Return this film in a plain bearing, and the `GroovedMapFilm` of one with openings.
-
-        Raises
-        ------
-        InputError
-            If there is a supply pressure, an opening wider than 60 deg, or the table of a plain bearing
-            is given where there are openings.
-        """
-        if geometry.plain:
-            return self
-        if self.table is not None:
-            raise InputError(
-                "table must be that of the bearing, got a MapTable, which is for no openings; take MapFilm() "
-                "or GroovedMapFilm(table=...)"
-            )
-        # Imported here because that film is a plain one where there is no opening.
-        from ..grooves.grooved_film import GroovedMapFilm
-
-        return GroovedMapFilm(geometry=geometry)
 
     def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
         """Return the kernel and its tables; see `law.NativeFilm`."""

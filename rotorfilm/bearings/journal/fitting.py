@@ -1,0 +1,35 @@
+"""Which film law a bearing really has: the one that is given, in the bearing's geometry."""
+
+from __future__ import annotations
+
+from ...errors import InputError
+from ..films.geometry import FilmGeometry
+from ..films.law import FilmLaw, FittedFilm
+from .grooves.grooved_film import GroovedMapFilm
+from .map.map_film import MapFilm
+
+
+def fitted_film(film: FilmLaw, geometry: FilmGeometry) -> FilmLaw:
+    """Return a film law in a bearing of this geometry; a `MapFilm` with openings is a `GroovedMapFilm`.
+
+    Raises
+    ------
+    InputError
+        If the law cannot represent the geometry: it has no place for openings, or, of maps, if there is a
+        supply pressure, an opening wider than 60 deg, or a table of a plain bearing beside openings.
+    """
+    if isinstance(film, MapFilm) and not geometry.plain:
+        if film.table is not None:
+            raise InputError(
+                "table must be that of the bearing, got a MapTable, which is for no openings; take MapFilm() "
+                "or GroovedMapFilm(table=...)"
+            )
+        film = GroovedMapFilm()
+    if isinstance(film, FittedFilm):
+        return film.fitted(geometry)
+    if not geometry.plain:
+        raise InputError(
+            f"film must represent the bearing's geometry, which {type(film).__name__} cannot: "
+            f"got {geometry!r}; ReynoldsFilm and, without supply, MapFilm can"
+        )
+    return film
