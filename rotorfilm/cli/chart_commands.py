@@ -36,7 +36,7 @@ Json = Annotated[bool, typer.Option("--json", help="Print JSON on stdout instead
 OUT = Path("rotorfilm-charts")
 
 
-class Motion(StrEnum):
+class MotionOption(StrEnum):
     """Ranges of random states."""
 
     LARGE = "large"
@@ -55,7 +55,9 @@ def journal(
     ld: Slenderness = 0.5,
     states: Annotated[int, typer.Option(help="Random states.", min=1, max=CHART_STATES)] = 300,
     seed: Annotated[int, typer.Option(help="Seed of the random states.", min=0)] = 1978,
-    motion: Annotated[Motion, typer.Option(help="Range of the states' velocities.")] = Motion.LARGE,
+    motion: Annotated[
+        MotionOption, typer.Option(help="Range of the states' velocities.")
+    ] = MotionOption.LARGE,
     out: Folder = OUT,
     json: Json = False,
 ) -> None:
@@ -65,7 +67,7 @@ def journal(
         from ..charts import plot_journal_accuracy
         from ..comparisons import LARGE, SMALL, journal_accuracy
 
-        ranges = LARGE if motion is Motion.LARGE else SMALL
+        ranges = LARGE if motion is MotionOption.LARGE else SMALL
         result = journal_accuracy(ld, states=states, ranges=ranges, seed=seed, report=report)
         files = _write(out, "chart_journal", result, plot_journal_accuracy(result))
         report(1.0, "done")

@@ -8,7 +8,7 @@ from .coupling.coupling_cost import CostRow, CouplingCost, coupling_cost
 from .coupling.coupling_limits import CouplingLimits, LimitRow, coupling_limits
 from .damper_accuracy import DamperAccuracy, DamperRung, damper_accuracy, damper_rungs
 from .journal.journal_accuracy import JournalAccuracy, RungAccuracy, journal_accuracy, pareto_front
-from .journal.journal_rungs import Rung, comparison_bearing, fitted_bearing, journal_rungs
+from .journal.journal_rungs import ComparedFilm, comparison_bearing, fitted_bearing, journal_rungs
 from .journal.journal_stability import journal_stability
 from .journal.journal_states import LARGE, SMALL, StateRange, random_states
 from .journal.journal_thresholds import JournalStability, RungStability
@@ -20,6 +20,7 @@ __all__ = [
     "SMALL",
     "BushTier",
     "BushTiers",
+    "ComparedFilm",
     "CostRow",
     "CouplingCost",
     "CouplingLimits",
@@ -32,7 +33,6 @@ __all__ = [
     "LimitAtlas",
     "LimitRow",
     "Panel",
-    "Rung",
     "RungAccuracy",
     "RungStability",
     "ShaftFluxError",

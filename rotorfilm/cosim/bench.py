@@ -20,7 +20,7 @@ PROBE = 1e3
 """Force of a trial step [N]; a linear rotor tells the same with any."""
 
 
-class Motion(NamedTuple):
+class StationMotion(NamedTuple):
     """What a rotor gives to its films.
 
     Attributes
@@ -64,7 +64,7 @@ class Sample(NamedTuple):
     Attributes
     ----------
     time : float [s]
-    motion : Motion
+    motion : StationMotion
     force : ndarray, shape (m, ...) [N]
         Forces of the films.
     tangents : Tangents or None
@@ -74,7 +74,7 @@ class Sample(NamedTuple):
     """
 
     time: float
-    motion: Motion
+    motion: StationMotion
     force: Array
     tangents: Tangents | None
     outputs: dict[str, float]
@@ -83,10 +83,10 @@ class Sample(NamedTuple):
 class Bench(Protocol):
     """What a scheme may do with rotor and films."""
 
-    def drive(self, t: float, dt: float, law: ForceLaw) -> Motion:
+    def drive(self, t: float, dt: float, law: ForceLaw) -> StationMotion:
         """Advance the rotor from t to t + dt [s] under a force law."""
 
-    def evaluate(self, t: float, dt: float, motion: Motion, derive: bool) -> Sample:
+    def evaluate(self, t: float, dt: float, motion: StationMotion, derive: bool) -> Sample:
         """Step the films from t to t + dt [s] with this motion at the end; derivatives if asked."""
 
     def sensitivity(self, t: float, dt: float) -> Array:
@@ -159,7 +159,7 @@ class Partners:
             film.start(self._values(station, motion))
         return self._sample(0.0, motion, self._needs.derivatives)
 
-    def drive(self, t: float, dt: float, law: ForceLaw) -> Motion:
+    def drive(self, t: float, dt: float, law: ForceLaw) -> StationMotion:
         """Advance the rotor; see `Bench`."""
         self.work["rotor_steps"] += 1
         if self._driven is not None:
@@ -169,7 +169,7 @@ class Partners:
             self.rotor.step(t, dt)
         return self._motion(t + dt)
 
-    def evaluate(self, t: float, dt: float, motion: Motion, derive: bool) -> Sample:
+    def evaluate(self, t: float, dt: float, motion: StationMotion, derive: bool) -> Sample:
         """Step the films; see `Bench`."""
         for station, film in self.films.items():
             film.set(self._values(station, motion))
@@ -245,7 +245,7 @@ class Partners:
         motion = [self.rotor.outputs.index(n) for n in (*self.wiring.position, *self.wiring.velocity)]
         return Linearization(found.A, found.B[:, forces], found.C[motion], found.D[np.ix_(motion, forces)])
 
-    def _sample(self, t: float, motion: Motion, derive: bool) -> Sample:
+    def _sample(self, t: float, motion: StationMotion, derive: bool) -> Sample:
         self.work["film_evaluations"] += 1
         outputs: dict[str, float] = {}
         forces: list[float] = []
@@ -264,16 +264,16 @@ class Partners:
             size = 2 * len(self.films)
             return Tangents(np.zeros((size, size)), np.zeros((size, size)), np.zeros(size))
 
-    def _motion(self, t: float) -> Motion:
+    def _motion(self, t: float) -> StationMotion:
         outputs = _finite("rotor", t, self.rotor.get())
-        return Motion(
+        return StationMotion(
             np.array([outputs[name] for name in self.wiring.position]),
             np.array([outputs[name] for name in self.wiring.velocity]),
             outputs.get("speed", 0.0),
             outputs,
         )
 
-    def _values(self, station: str, motion: Motion) -> dict[str, float]:
+    def _values(self, station: str, motion: StationMotion) -> dict[str, float]:
         """Return the inputs of a film: its journal's motion and the speed as given, others as they are."""
         first = 2 * self.wiring.stations.index(station)
         own = [*motion.position[first : first + 2], *motion.velocity[first : first + 2], motion.speed]

@@ -55,7 +55,7 @@ GROWTH = 100.0
 """Growth of a small disturbance over a run beyond which the run need not be made."""
 
 
-class CoupledRun(NamedTuple):
+class PilotRun(NamedTuple):
     """A coupled run and the force laws of its macro steps.
 
     Attributes
@@ -73,12 +73,12 @@ class Pilot(NamedTuple):
 
     Attributes
     ----------
-    run : CoupledRun
+    run : PilotRun
     scheme : Scheme
     macro_angle : float [rad]
     """
 
-    run: CoupledRun
+    run: PilotRun
     scheme: Scheme
     macro_angle: float
 
@@ -121,7 +121,7 @@ class CouplingCase:
         """Return the number of macro steps [rad] in a run."""
         return math.ceil(2.0 * math.pi * self.revolutions / angle * (1.0 - 1e-12))
 
-    def run(self, scheme: Scheme, angle: float) -> CoupledRun:
+    def run(self, scheme: Scheme, angle: float) -> PilotRun:
         """Return a coupled run at a macro step [rad].
 
         Raises
@@ -138,9 +138,9 @@ class CouplingCase:
                 duration=2.0 * math.pi * self.revolutions / speed,
                 scheme=scheme,
             )
-        return CoupledRun(outcome, rotor.laws)
+        return PilotRun(outcome, rotor.laws)
 
-    def drift(self, run: CoupledRun) -> Drift:
+    def drift(self, run: PilotRun) -> Drift:
         """Return how far a run is off; raises FilmContactError where it is at the wall within a step."""
         own = run.outcome.trajectory
         motion = inner_motion(self.rotor, run.laws, own.position[:, :-1], own.velocity[:, :-1], own.time)

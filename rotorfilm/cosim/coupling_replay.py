@@ -11,7 +11,7 @@ from ..errors import UndefinedDerivativeError
 from ..model import Array, Reaction
 from ..results import Trajectory
 from ..rotors.force_law import ForceLaw
-from .bench import Bench, Motion, Needs, Sample, Tangents
+from .bench import Bench, Needs, Sample, StationMotion, Tangents
 from .schemes.scheme import MEMORY, Scheme, started
 
 
@@ -53,12 +53,12 @@ class _Replay:
         self._following = following
         self.law: ForceLaw | None = None
 
-    def drive(self, t: float, dt: float, law: ForceLaw) -> Motion:
+    def drive(self, t: float, dt: float, law: ForceLaw) -> StationMotion:
         """Keep the law; the motion is the known one."""
         self.law = law
         return self._following.motion
 
-    def evaluate(self, t: float, dt: float, motion: Motion, derive: bool) -> Sample:
+    def evaluate(self, t: float, dt: float, motion: StationMotion, derive: bool) -> Sample:
         """Return the known forces."""
         return self._following
 
@@ -88,7 +88,7 @@ def samples_of(reaction: Reaction, run: Trajectory, speed: float) -> list[Sample
     return [
         Sample(
             float(time[n]),
-            Motion(q[:, n], v[:, n], speed, {}),
+            StationMotion(q[:, n], v[:, n], speed, {}),
             forces[:, n],
             Tangents(-slopes[:, :2, n], -slopes[:, 2:4, n], slopes[:, 4, n]),
             {},

@@ -23,7 +23,7 @@ from ..model import FORCE_OUTPUTS, JOURNAL_INPUTS, Array, Dynamic, Linearization
 from ..rotors.force_law import ForceLaw
 from ..rotors.structure import station_name, station_names
 from ..signals import names
-from .bench import Motion, Sample, Tangents
+from .bench import Sample, StationMotion, Tangents
 from .schemes.explicit import GaussSeidel
 from .schemes.newton import Newton
 from .schemes.scheme import Scheme
@@ -237,7 +237,7 @@ def sampled_matrix(loop: Loop, macro_step: float, scheme: Scheme) -> Array:
     x, before, earlier, *forces = np.split(unit, split)
     bench = _LinearBench(loop, x)
     now = bench.motion()
-    motions = [Motion(part[:m], part[m:], 0.0, {}) for part in (earlier, before)]
+    motions = [StationMotion(part[:m], part[m:], 0.0, {}) for part in (earlier, before)]
     history = [
         Sample(-k * macro_step, motion, force, bench.tangents, {})
         for k, motion, force in zip((2, 1, 0), (*motions, now), reversed(forces), strict=True)
@@ -255,11 +255,11 @@ class _LinearBench:
         self._loop, self.x = loop, x
         self.tangents = Tangents(loop.stiffness, loop.damping, np.zeros(len(loop.damping)))
 
-    def motion(self) -> Motion:
+    def motion(self) -> StationMotion:
         """Return the motion at present."""
-        return Motion(self._loop.position @ self.x, self._loop.velocity @ self.x, 0.0, {})
+        return StationMotion(self._loop.position @ self.x, self._loop.velocity @ self.x, 0.0, {})
 
-    def drive(self, t: float, dt: float, law: ForceLaw) -> Motion:
+    def drive(self, t: float, dt: float, law: ForceLaw) -> StationMotion:
         """Advance the rotor exactly."""
         loop = self._loop
         M = loop.A - loop.B @ (law.stiffness @ loop.position + law.damping @ loop.velocity)
@@ -269,7 +269,7 @@ class _LinearBench:
         self.x = free @ self.x + sum(a @ b for a, b in zip(driven, powers, strict=True))
         return self.motion()
 
-    def evaluate(self, t: float, dt: float, motion: Motion, derive: bool) -> Sample:
+    def evaluate(self, t: float, dt: float, motion: StationMotion, derive: bool) -> Sample:
         """Return the forces F = -K q - C v."""
         force = -self._loop.stiffness @ motion.position - self._loop.damping @ motion.velocity
         return Sample(t + dt, motion, force, self.tangents, {})

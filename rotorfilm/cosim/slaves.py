@@ -86,7 +86,7 @@ class Driven(Protocol):
         """Return the exact derivatives of the rotor at present, if it knows them."""
 
 
-class ModelSystem:
+class SlaveSystem:
     """A Dynamic model as the system that the exponential integrates; see `exponential.System`."""
 
     def __init__(self, model: Dynamic) -> None:
@@ -180,7 +180,7 @@ class InProcessSlave:
     def drive(self, t: float, dt: float, law: ForceLaw, wiring: Wiring) -> None:
         """Advance the states from t to t + dt [s] under a force law."""
         if self._integrator is None:
-            self._integrator = LawIntegrator(ModelSystem(self._dynamic()), wiring, self._u.copy())
+            self._integrator = LawIntegrator(SlaveSystem(self._dynamic()), wiring, self._u.copy())
         self._x, self._t = self._integrator.advance(t, self._x, dt, law), t + dt
 
     def linear(self, t: float) -> Linearization | None:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import control
 
 
-class Label(NamedTuple):
+class SignalLabel(NamedTuple):
     """A signal of which python-control knows the name only; its magnitude counts as 1.
 
     Attributes
@@ -55,17 +55,17 @@ class LinearSystem:
     @property
     def inputs(self) -> tuple[Any, ...]:
         """The input labels as signals."""
-        return tuple(Label(name, description="input of the system") for name in self.input_labels)
+        return tuple(SignalLabel(name, description="input of the system") for name in self.input_labels)
 
     @property
     def outputs(self) -> tuple[Any, ...]:
         """The output labels as signals."""
-        return tuple(Label(name, description="output of the system") for name in self.output_labels)
+        return tuple(SignalLabel(name, description="output of the system") for name in self.output_labels)
 
     @property
     def states(self) -> tuple[Any, ...]:
         """The state labels as signals."""
-        return tuple(Label(name, description="state of the system") for name in self.state_labels)
+        return tuple(SignalLabel(name, description="state of the system") for name in self.state_labels)
 
     @property
     def initial_state(self) -> Array:

@@ -13,7 +13,7 @@ import numpy as np
 from ..answers import ErrorEstimate, Found, Work
 from ..bearings.journal import ReynoldsFilm
 from ..cosim import Scheme
-from ..cosim.coupling_case import SCHEMES, CoupledRun, CouplingCase
+from ..cosim.coupling_case import SCHEMES, CouplingCase, PilotRun
 from ..errors import CouplingError, InputError, RotorfilmError
 from ..linear import equilibrium
 from ..model import Reaction
@@ -90,7 +90,7 @@ class CouplingRung:
         """The film, or the damper with its springs."""
         return self.case.reaction
 
-    def run(self) -> CoupledRun:
+    def run(self) -> PilotRun:
         """Return the coupled run; raises CouplingError where it is no answer."""
         return self.case.run(self.scheme, self.macro_angle)
 

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from ..comparisons import (
+    ComparedFilm,
     JournalAccuracy,
     JournalStability,
-    Rung,
     comparison_bearing,
     journal_accuracy,
     journal_rungs,
@@ -182,7 +182,7 @@ def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
     return result
 
 
-def demo_rungs() -> tuple[Rung, ...]:
+def demo_rungs() -> tuple[ComparedFilm, ...]:
     """Return the films that the demonstration compares."""
     return tuple(rung for rung in journal_rungs() if rung.name in RUNGS)
 

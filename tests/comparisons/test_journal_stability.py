@@ -9,7 +9,7 @@ from scipy.integrate import quad
 
 from rotorfilm.bearings.journal import ComplementarityArc, FixedArc, ReynoldsFilm, RotatingArc, SplittingFilm
 from rotorfilm.bearings.journal.splitting.published_film import second_approximation
-from rotorfilm.comparisons import Rung, journal_rungs, journal_stability
+from rotorfilm.comparisons import ComparedFilm, journal_rungs, journal_stability
 from rotorfilm.comparisons.journal.averaged_film import AveragedFilm
 from rotorfilm.errors import InputError
 from rotorfilm.results import write_csv
@@ -95,7 +95,9 @@ def test_converged_films_agree_with_another_method():
     arcs = {"fixed": FixedArc(), "rotating": RotatingArc(), "free": ComplementarityArc()}
     rungs = [rung for rung in journal_rungs() if rung.label == "converged"]
     rungs += [
-        Rung(family=name, label="flux", film=SplittingFilm(order=(12, None), constant=True, rupture=arc))
+        ComparedFilm(
+            family=name, label="flux", film=SplittingFilm(order=(12, None), constant=True, rupture=arc)
+        )
         for name, arc in arcs.items()
     ]
     result = journal_stability(0.5, eccentricity_ratio=RATIOS[:3], rungs=rungs, cells=(64, 16))

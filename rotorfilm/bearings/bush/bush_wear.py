@@ -23,7 +23,7 @@ from ...signals import Signal
 from . import contact_arc as arc
 from .bearing import MeltingBush
 from .bush_kernel import bush_parameters, bush_table, has_kernel
-from .melting import Contact, MeltingLaw
+from .melting import MeltingContact, MeltingLaw
 
 NOMINAL_LOAD = 1e-2
 """Typical load in units of `MeltingBush.force_unit`."""
@@ -209,7 +209,7 @@ class BushWear:
         output = self._output_slopes(at, slopes, *point[1:]) @ chain
         return Linearization(rate[:, :1], rate[:, 1:], output[:, :1], output[:, 1:])
 
-    def _rate_slopes(self, at: Contact, slopes: Array, load_ratio: float, speed: float) -> Array:
+    def _rate_slopes(self, at: MeltingContact, slopes: Array, load_ratio: float, speed: float) -> Array:
         """Return d(dW/dt)/d(W, N, |speed|), shape (1, 3)."""
         if not at.melting:
             return np.zeros((1, 3))
@@ -218,12 +218,12 @@ class BushWear:
         by = self._surplus_slopes(at, slopes, load_ratio, speed) - surplus * weight_slope * slopes[0]
         return (by / self._heat_per_moment(at.alpha))[None]
 
-    def _surplus_slopes(self, at: Contact, slopes: Array, load_ratio: float, speed: float) -> Array:
+    def _surplus_slopes(self, at: MeltingContact, slopes: Array, load_ratio: float, speed: float) -> Array:
         """Return d(friction heat - losses at T_*)/d(W, N, |speed|), shape (3,)."""
         heat = self._law.heat_slopes(at.alpha, self._law.melting, load_ratio, speed)
         return -(heat[0] * slopes[0] + np.array([0.0, heat[2], heat[3]]))
 
-    def _output_slopes(self, at: Contact, slopes: Array, load_ratio: float, speed: float) -> Array:
+    def _output_slopes(self, at: MeltingContact, slopes: Array, load_ratio: float, speed: float) -> Array:
         """Return d(outputs)/d(W, N, |speed|), shape (7, 3)."""
         law, modulus, radius = self._law, self.bush.liner.shear_modulus, self.bush.geometry.radius
         alpha, temperature = slopes

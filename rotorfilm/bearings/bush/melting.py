@@ -21,7 +21,7 @@ MAX_ITERATIONS = 200
 """Steps of the safeguarded Newton method; bisection alone would need about 60."""
 
 
-class Contact(NamedTuple):
+class MeltingContact(NamedTuple):
     """The contact that belongs to a wear moment, a load and a speed.
 
     Attributes
@@ -118,7 +118,7 @@ class MeltingLaw(NamedTuple):
         """Return half the contact angle [rad] at the melting point, the widest there can be."""
         return float(arc.arc_angle((self.compliance * load_ratio + moment) / self.gap(self.melting)))
 
-    def contact(self, moment: float, load_ratio: float, speed: float) -> Contact:
+    def contact(self, moment: float, load_ratio: float, speed: float) -> MeltingContact:
         """Return the contact for a wear moment W, a load N and a speed [rad/s].
 
         Raises
@@ -130,11 +130,11 @@ class MeltingLaw(NamedTuple):
         alpha = self.hot_angle(moment, load_ratio)
         if alpha == 0.0:
             # No contact, as in the limit of no load: there is no friction heat.
-            return Contact(0.0, self._idle_temperature(), False)
+            return MeltingContact(0.0, self._idle_temperature(), False)
         if self.steady_temperature(alpha, load_ratio, speed) >= self.melting:
-            return Contact(alpha, self.melting, True)
+            return MeltingContact(alpha, self.melting, True)
         alpha = self._cold_angle(moment, load_ratio, speed, alpha)
-        return Contact(alpha, self.steady_temperature(alpha, load_ratio, speed), False)
+        return MeltingContact(alpha, self.steady_temperature(alpha, load_ratio, speed), False)
 
     def excess(self, moment: float, load_ratio: float, speed: float) -> float:
         """Return by how much the steady temperature is above the melting point [K], at most T_* itself."""
@@ -144,7 +144,7 @@ class MeltingLaw(NamedTuple):
         )
         return min(steady - self.melting, self.melting)
 
-    def surplus(self, at: Contact, load_ratio: float, speed: float) -> float:
+    def surplus(self, at: MeltingContact, load_ratio: float, speed: float) -> float:
         """Return the heat per contact area that melts the liner [W/m2], not negative."""
         if not at.melting:
             return 0.0
@@ -206,7 +206,7 @@ class MeltingLaw(NamedTuple):
         )
         return by_alpha, by_temperature, -unit * rate * weight, -unit * load_ratio * weight
 
-    def contact_slopes(self, at: Contact, load_ratio: float, speed: float) -> Array:
+    def contact_slopes(self, at: MeltingContact, load_ratio: float, speed: float) -> Array:
         """Return d(alpha, T)/d(W, N, |speed|), shape (2, 3), at a contact with alpha > 0."""
         by_alpha, by_temperature, _ = self._residual_slopes(*at[:2], load_ratio, speed)
         balance = np.array([[by_alpha, by_temperature], [0.0, 1.0]])

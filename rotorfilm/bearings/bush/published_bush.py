@@ -60,8 +60,8 @@ class PublishedStage:
         return _groups(self.bush, self.speed)[0]
 
     @property
-    def _stage(self) -> stage.Stage:
-        return stage.Stage(self.times, self.contact_angle, self.level, self.removed)
+    def _stage(self) -> stage.StageShape:
+        return stage.StageShape(self.times, self.contact_angle, self.level, self.removed)
 
 
 def published_stage(bush: MeltingBush, load: ArrayLike, speed: float, times: ArrayLike) -> PublishedStage:

@@ -16,7 +16,7 @@ from ...model import Array
 from .contact_arc import arc_angle, sinc
 
 
-class Stage(NamedTuple):
+class StageShape(NamedTuple):
     """The history of the contact.
 
     Attributes
@@ -37,7 +37,7 @@ class Stage(NamedTuple):
 
 def step_method(
     *, times: Array, load: Array, gap: float, compliance: float, rate: float, losses: float
-) -> Stage:
+) -> StageShape:
     """Return the melting stage by the step method (3.7)-(3.9); first order in the step.
 
     Parameters
@@ -76,10 +76,10 @@ def step_method(
                 f"load must keep the contact growing, got {alpha[i + 1]:.6g} rad after {alpha[i]:.6g} rad "
                 f"at t = {t!r}"
             )
-    return Stage(times, alpha, level, removed)
+    return StageShape(times, alpha, level, removed)
 
 
-def pressure(stage: Stage, phi: Array, *, compliance: float, rate: float) -> Array:
+def pressure(stage: StageShape, phi: Array, *, compliance: float, rate: float) -> Array:
     """Return the pressure q at angles phi (k,) from the load line, shape (n, k), in shear moduli.
 
     a_1 q = g - a_2 int q dt from first contact on, g = f (cos(phi)/cos(alpha) - 1): (3.6), solved by its
@@ -98,7 +98,7 @@ def pressure(stage: Stage, phi: Array, *, compliance: float, rate: float) -> Arr
     return (driving - memory) / compliance
 
 
-def wear(stage: Stage, phi: Array, *, compliance: float, rate: float) -> Array:
+def wear(stage: StageShape, phi: Array, *, compliance: float, rate: float) -> Array:
     """Return the wear depth v by (3.3) at angles phi (k,), shape (n, k), per radius; it can be negative."""
     driving = stage.level[:, None] * np.maximum(np.cos(phi) / np.cos(stage.alpha)[:, None] - 1.0, 0.0)
     # a_2 int q dt = g - a_1 q.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from matplotlib.axes import Axes
 
-from ...comparisons.contact.contact_cases import ContactCases, Solution
+from ...comparisons.contact.contact_cases import CaseSolution, ContactCases
 from ...model import Array
 from ..canvas import new_figure
 
@@ -74,7 +74,7 @@ def _draw_series(row: list[Axes], cases: ContactCases, section: str) -> list[Axe
     return _dressed(row, (TITLES[section], ""), ("central film H0", "approach -delta"), "time")
 
 
-def _shown(cases: ContactCases) -> list[Solution]:
+def _shown(cases: ContactCases) -> list[CaseSolution]:
     return [solution for solution in cases.solutions if solution.name in SHOWN]
 
 

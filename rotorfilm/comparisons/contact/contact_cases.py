@@ -46,7 +46,7 @@ SHARE = -0.2
 """By which pressure and approach are off at the start of case 4.1."""
 
 
-class Solution(NamedTuple):
+class CaseSolution(NamedTuple):
     """One way to solve the cases: name, contact, its rest under f = 1 and under f = 1.7, and its steps."""
 
     name: str
@@ -66,7 +66,7 @@ class CaseRun(NamedTuple):
 class ContactCases(NamedTuple):
     """Solutions, curves by section of the paper, and the statements of its text."""
 
-    solutions: tuple[Solution, ...]
+    solutions: tuple[CaseSolution, ...]
     curves: dict[str, list[CaseRun]]
     statements: list[Statement]
 
@@ -126,7 +126,7 @@ def as_published() -> Iterator[None]:
         yield
 
 
-def _curves(solutions: tuple[Solution, ...], settle: float, report: Report) -> dict[str, list[CaseRun]]:
+def _curves(solutions: tuple[CaseSolution, ...], settle: float, report: Report) -> dict[str, list[CaseRun]]:
     plan = [(section, *case) for section, cases in case_plan(settle).items() for case in cases]
     curves: dict[str, list[CaseRun]] = {}
     count = len(plan) * len(solutions)
@@ -139,7 +139,7 @@ def _curves(solutions: tuple[Solution, ...], settle: float, report: Report) -> d
     return curves
 
 
-def _as_far_as_it_goes(run: Callable[[Solution], ContactRun], solution: Solution) -> ContactRun:
+def _as_far_as_it_goes(run: Callable[[CaseSolution], ContactRun], solution: CaseSolution) -> ContactRun:
     """Return a run, or what there is of it where its steps fail."""
     try:
         return run(solution)
@@ -148,7 +148,7 @@ def _as_far_as_it_goes(run: Callable[[Solution], ContactRun], solution: Solution
         return partial
 
 
-def free_motion(solution: Solution, W: float, duration: float = 30.0) -> ContactRun:
+def free_motion(solution: CaseSolution, W: float, duration: float = 30.0) -> ContactRun:
     """Return case 4.1: pressure and approach 20 % too small."""
     start = perturbed(solution.contact, solution.rest, SHARE)
     return solution.contact.simulate(
@@ -157,7 +157,7 @@ def free_motion(solution: Solution, W: float, duration: float = 30.0) -> Contact
 
 
 def loaded_motion(
-    solution: Solution, W: float, load: Callable[[float], float], duration: float = 30.0
+    solution: CaseSolution, W: float, load: Callable[[float], float], duration: float = 30.0
 ) -> ContactRun:
     """Return the motion from rest under a load."""
     return solution.contact.simulate(
@@ -165,7 +165,7 @@ def loaded_motion(
     )
 
 
-def case_plan(settle: float) -> dict[str, list[tuple[str, Callable[[Solution], ContactRun]]]]:
+def case_plan(settle: float) -> dict[str, list[tuple[str, Callable[[CaseSolution], ContactRun]]]]:
     """Return the curves of each section: name and run."""
     slow = SineLoad(amplitude=0.2, frequency=1.0)
     return {
@@ -185,11 +185,13 @@ def case_plan(settle: float) -> dict[str, list[tuple[str, Callable[[Solution], C
     }
 
 
-def _solution(name: str, cells: int, scheme: ContactScheme, control: AdaptiveSteps | FixedSteps) -> Solution:
+def _solution(
+    name: str, cells: int, scheme: ContactScheme, control: AdaptiveSteps | FixedSteps
+) -> CaseSolution:
     grid = ContactGrid(cells=(cells, cells))
     contact = PointContact(V=SPEED_PARAMETER, Q0=PRESSURE_COEFFICIENT, grid=grid, scheme=scheme)
     rest = contact.stationary()
-    return Solution(name, contact, rest, contact.stationary(1.0 + STEP["amplitude"], near=rest), control)
+    return CaseSolution(name, contact, rest, contact.stationary(1.0 + STEP["amplitude"], near=rest), control)
 
 
 def _lists(*series: Array) -> Sequence[list[float]]:

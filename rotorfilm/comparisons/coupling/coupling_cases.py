@@ -36,7 +36,7 @@ HIGHEST = 0.95
 
 
 @dataclass(frozen=True, kw_only=True)
-class CouplingCase:
+class ComparedCase:
     """One run for the monitor.
 
     Attributes
@@ -71,7 +71,7 @@ class CouplingCase:
         return orbit_distance(trajectory, self.reference) / self.bearing.clearance
 
 
-def coupling_cases(count: int, *, bad: bool, seed: int = 2026) -> list[CouplingCase]:
+def coupling_cases(count: int, *, bad: bool, seed: int = 2026) -> list[ComparedCase]:
     """Return so many cases, all good or all bad; the same for the same seed, whatever the count before.
 
     Parameters
@@ -80,7 +80,7 @@ def coupling_cases(count: int, *, bad: bool, seed: int = 2026) -> list[CouplingC
     bad : bool
     seed : int
     """
-    found: list[CouplingCase] = []
+    found: list[ComparedCase] = []
     number = 0
     while len(found) < count:
         case = _drawn(np.random.default_rng([seed, int(bad), number]), bad)
@@ -89,7 +89,7 @@ def coupling_cases(count: int, *, bad: bool, seed: int = 2026) -> list[CouplingC
     return found
 
 
-def _drawn(random: np.random.Generator, bad: bool) -> CouplingCase | None:
+def _drawn(random: np.random.Generator, bad: bool) -> ComparedCase | None:
     """Return a case, or None where the draw has no steady motion within the clearance."""
     slenderness, eccentricity, w = (
         random.uniform(*bounds) for bounds in (SLENDERNESS, ECCENTRICITY_RATIOS, SPEED_PARAMETERS)
@@ -128,7 +128,7 @@ def _checked(
     share: float,
     angle: float,
     bad: bool,
-) -> CouplingCase | None:
+) -> ComparedCase | None:
     state = np.array([*rest, 0.0, 0.0])
     limited = scheme if scheme in EXPLICIT else GaussSeidel()
     limit = critical_macro_step(rotor, bearing, state=state, scheme=limited).macro_step
@@ -139,7 +139,7 @@ def _checked(
     if not bad:
         limit *= min(1.0, at_rest / _fastest(rotor, bearing, reference))
     step = share * limit if scheme in EXPLICIT else angle / SPEED
-    return CouplingCase(
+    return ComparedCase(
         rotor=rotor,
         bearing=bearing,
         scheme=scheme,

@@ -11,7 +11,7 @@ from ...bearings.journal import JournalBearing, tension
 from ...errors import require_count
 from ...model import Array
 from ...progress import Report, part_of, silent
-from .journal_rungs import Rung, RungName, chosen_rungs, comparison_bearing, fitted_bearing
+from .journal_rungs import ComparedFilm, RungName, chosen_rungs, comparison_bearing, fitted_bearing
 from .journal_states import (
     LARGE,
     REFERENCE_CELLS,
@@ -122,7 +122,7 @@ def journal_accuracy(
     states: int = 300,
     ranges: StateRange = LARGE,
     seed: int = SEED,
-    rungs: Sequence[Rung] | None = None,
+    rungs: Sequence[ComparedFilm] | None = None,
     cells: tuple[int, int] = REFERENCE_CELLS,
     rounds: int = ROUNDS,
     report: Report = silent,
@@ -139,7 +139,7 @@ def journal_accuracy(
         Where they are drawn from.
     seed : int
         Of the random numbers.
-    rungs : sequence of Rung, optional
+    rungs : sequence of ComparedFilm, optional
         `journal_rungs()` by default.
     cells : tuple of int
         Cells of the finest grid of the reference, multiples of 16 and at least (64, 16).
@@ -192,7 +192,7 @@ def relative_error(force: Array, reference: Array) -> Array:
 
 
 def _measured(
-    rung: Rung, bearing: JournalBearing, sample: States, reference: ReferenceForce, cost: FilmCost
+    rung: ComparedFilm, bearing: JournalBearing, sample: States, reference: ReferenceForce, cost: FilmCost
 ) -> RungAccuracy:
     error = relative_error(bearing.force(*sample), reference.force)
     pulled = tension(rung.film, *bearing.kinematics(*sample), bearing.slenderness)

@@ -59,7 +59,7 @@ class RungName:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rung(RungName):
+class ComparedFilm(RungName):
     """One film law of the ladder.
 
     Attributes
@@ -70,10 +70,10 @@ class Rung(RungName):
     film: FilmLaw
 
 
-def journal_rungs() -> tuple[Rung, ...]:
+def journal_rungs() -> tuple[ComparedFilm, ...]:
     """Return the ladder, families from the cheapest to the closest."""
     return (
-        Rung(family=SHORT, label="", film=ShortFilm()),
+        ComparedFilm(family=SHORT, label="", film=ShortFilm()),
         *(_splitting(PUBLISHED, FixedArc(), n, 1) for n in (1, 2)),
         *(_splitting(FIXED, FixedArc(), n, None) for n in (2, 6)),
         _converged(FIXED, FixedArc()),
@@ -84,11 +84,11 @@ def journal_rungs() -> tuple[Rung, ...]:
         _converged(FREE, ComplementarityArc()),
         *(_grid(*cells) for cells in ((48, 4), (96, 8), (192, 16))),
         *(_extrapolated(*cells) for cells in ((48, 8), (96, 8), (192, 8), (384, 16))),
-        Rung(family=MAP, label="", film=MapFilm()),
+        ComparedFilm(family=MAP, label="", film=MapFilm()),
     )
 
 
-def chosen_rungs(rungs: Sequence[Rung] | None) -> tuple[Rung, ...]:
+def chosen_rungs(rungs: Sequence[ComparedFilm] | None) -> tuple[ComparedFilm, ...]:
     """Return the rungs to compare, the whole ladder for None.
 
     Raises
@@ -99,7 +99,7 @@ def chosen_rungs(rungs: Sequence[Rung] | None) -> tuple[Rung, ...]:
     if rungs is None:
         return journal_rungs()
     chosen = tuple(rungs)
-    if not chosen or not all(isinstance(rung, Rung) for rung in chosen):
+    if not chosen or not all(isinstance(rung, ComparedFilm) for rung in chosen):
         raise InputError(f"rungs must hold at least one Rung and nothing else, got {rungs!r}")
     names = [rung.name for rung in chosen]
     if len(set(names)) < len(names):
@@ -131,19 +131,21 @@ def fitted_bearing(bearing: JournalBearing, film: FilmLaw) -> JournalBearing:
         return replace(bearing, film=film)
 
 
-def _splitting(family: str, arc: Rupture, n: int, m: int | None, constant: bool = False) -> Rung:
+def _splitting(family: str, arc: Rupture, n: int, m: int | None, constant: bool = False) -> ComparedFilm:
     label = f"({n}{'+c' if constant else ''}, {'all' if m is None else m})"
-    return Rung(family=family, label=label, film=SplittingFilm(order=(n, m), constant=constant, rupture=arc))
+    return ComparedFilm(
+        family=family, label=label, film=SplittingFilm(order=(n, m), constant=constant, rupture=arc)
+    )
 
 
-def _converged(family: str, arc: Rupture) -> Rung:
-    return Rung(family=family, label="converged", film=SpectralArcFilm(rupture=arc, degree=CONVERGED))
+def _converged(family: str, arc: Rupture) -> ComparedFilm:
+    return ComparedFilm(family=family, label="converged", film=SpectralArcFilm(rupture=arc, degree=CONVERGED))
 
 
-def _grid(around: int, along: int) -> Rung:
-    return Rung(family=GRID, label=f"{around} x {along}", film=ReynoldsFilm(cells=(around, along)))
+def _grid(around: int, along: int) -> ComparedFilm:
+    return ComparedFilm(family=GRID, label=f"{around} x {along}", film=ReynoldsFilm(cells=(around, along)))
 
 
-def _extrapolated(around: int, along: int) -> Rung:
+def _extrapolated(around: int, along: int) -> ComparedFilm:
     film = ExtrapolatedFilm(film=ReynoldsFilm(cells=(around, along)))
-    return Rung(family=EXTRAPOLATED, label=f"{around} x {along}", film=film)
+    return ComparedFilm(family=EXTRAPOLATED, label=f"{around} x {along}", film=film)

@@ -15,7 +15,7 @@ from ...progress import Report, silent
 from ...results import Coefficients
 from .averaged_film import PLACES, AveragedFilm
 from .journal_accuracy import TENSION
-from .journal_rungs import Rung, chosen_rungs, comparison_bearing, fitted_bearing
+from .journal_rungs import ComparedFilm, chosen_rungs, comparison_bearing, fitted_bearing
 from .journal_states import LARGE, SPEED, States, random_states, require_cells
 from .journal_thresholds import HIGHEST, JournalStability, RungStability
 
@@ -33,7 +33,7 @@ def journal_stability(
     slenderness: float,
     *,
     eccentricity_ratio: Sequence[float] = ECCENTRICITY_RATIOS,
-    rungs: Sequence[Rung] | None = None,
+    rungs: Sequence[ComparedFilm] | None = None,
     cells: tuple[int, int] = THRESHOLD_CELLS,
     report: Report = silent,
 ) -> JournalStability:
@@ -45,7 +45,7 @@ def journal_stability(
         Length / diameter, 0.1 to 4.
     eccentricity_ratio : sequence of float [1]
         Each above 0 and below 1.
-    rungs : sequence of Rung, optional
+    rungs : sequence of ComparedFilm, optional
         `journal_rungs()` by default.
     cells : tuple of int
         Cells of the finest grid of the reference, multiples of 16 and at least (64, 16).
@@ -133,7 +133,7 @@ def _parameter(mass: float | None, clearance: float, load: Array) -> float | Non
 
 
 def _judged(
-    rung: Rung,
+    rung: ComparedFilm,
     bearing: JournalBearing,
     ratios: Array,
     exact: tuple[float | None, ...],

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..bench import Bench, Motion, Needs, Sample
+from ..bench import Bench, Needs, Sample, StationMotion
 from .scheme import extrapolated_law, extrapolation, require_degree, started
 
 
@@ -86,7 +86,7 @@ class Jacobi(_Extrapolating):
         return seen._replace(motion=motion)
 
 
-def _ahead(latest: Sequence[Sample], t: float) -> Motion:
+def _ahead(latest: Sequence[Sample], t: float) -> StationMotion:
     """Return the motion extrapolated to t."""
     times, elapsed = [sample.time for sample in latest], t - latest[-1].time
     powers = (1.0, elapsed, elapsed * elapsed)
@@ -95,7 +95,7 @@ def _ahead(latest: Sequence[Sample], t: float) -> Motion:
         parts = extrapolation(times, series)
         return np.asarray(sum(power * part for power, part in zip(powers, parts, strict=True)))
 
-    return Motion(
+    return StationMotion(
         at([sample.motion.position for sample in latest]),
         at([sample.motion.velocity for sample in latest]),
         float(at([np.array(sample.motion.speed) for sample in latest])),

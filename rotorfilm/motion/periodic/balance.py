@@ -27,7 +27,7 @@ OVERSAMPLING = 4
 """Samples over an orbit per harmonic."""
 
 
-class Basis(NamedTuple):
+class HarmonicBasis(NamedTuple):
     """Series to samples and back.
 
     Attributes
@@ -43,12 +43,12 @@ class Basis(NamedTuple):
 
 
 @lru_cache(maxsize=32)
-def basis(harmonics: int, samples: int) -> Basis:
+def basis(harmonics: int, samples: int) -> HarmonicBasis:
     """Return the series at equal distance in the phase."""
     values, slopes = series_rows(harmonics, 2.0 * np.pi * np.arange(samples) / samples)
     back = values.T * (2.0 / samples)
     back[0] *= 0.5
-    return Basis(values, slopes, back)
+    return HarmonicBasis(values, slopes, back)
 
 
 def series_rows(harmonics: int, phase: Array) -> tuple[Array, Array]:
@@ -90,7 +90,7 @@ class Balance(NamedTuple):
         return int(2 ** np.ceil(np.log2(OVERSAMPLING * (2 * self.harmonics + 1) / 2.0 + 8)))
 
     @property
-    def basis(self) -> Basis:
+    def basis(self) -> HarmonicBasis:
         """The series at the samples."""
         return basis(self.harmonics, self.samples)
 

@@ -24,14 +24,14 @@ NUDGE = 1e-6
 """Velocity, in nominal velocities, at which a derivative is taken where the film has none."""
 
 
-class Wiring(NamedTuple):
+class LoopWiring(NamedTuple):
     """Which rotor outputs feed the film, and which rotor inputs take its force, as indices."""
 
     motion: list[int]
     force: list[int]
 
 
-def connect(rotor: Dynamic, reaction: Reaction) -> Wiring:
+def connect(rotor: Dynamic, reaction: Reaction) -> LoopWiring:
     """Return the wiring of a rotor and a film by the names of their signals.
 
     Raises
@@ -51,7 +51,7 @@ def connect(rotor: Dynamic, reaction: Reaction) -> Wiring:
         raise InputError(
             f"reaction must have no inputs but {list(JOURNAL_INPUTS)}, got {names(reaction.inputs)}"
         )
-    return Wiring(motion, force)
+    return LoopWiring(motion, force)
 
 
 class Coupled:

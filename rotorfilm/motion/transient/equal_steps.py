@@ -24,7 +24,7 @@ NEAR = 0.9999
 
 
 @dataclass(frozen=True, kw_only=True)
-class Motion:
+class MarchMotion:
     """Motion at equal steps.
 
     Attributes
@@ -44,7 +44,7 @@ Pull = Callable[[float], tuple[float, float]]
 
 def march(
     reaction: Reaction, mass: float, speed: float, pull: Pull, rest: Array, step: float, count: int
-) -> tuple[Motion, int]:
+) -> tuple[MarchMotion, int]:
     """Return the motion from rest by average acceleration, and the number of tangents.
 
     With v' = (a + a')/2 and q' = q + dt v + dt^2 (a + a')/4, m a' = F(q', v') + pull(t') is solved for q' by
@@ -89,7 +89,7 @@ def march(
         ax, ay = k2 * (qx - x - step * vx) - ax, k2 * (qy - y - step * vy) - ay
         x, y, vx, vy = qx, qy, wx, wy
         path[:, n], rates[:, n] = (x, y), (vx, vy)
-    return Motion(time=np.asarray(step * np.arange(count + 1)), position=path, velocity=rates), calls
+    return MarchMotion(time=np.asarray(step * np.arange(count + 1)), position=path, velocity=rates), calls
 
 
 def _share(x: float, y: float, dx: float, dy: float, clearance: float, time: float) -> float:

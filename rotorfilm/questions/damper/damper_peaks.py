@@ -13,7 +13,7 @@ import numpy as np
 from ...answers import DISAGREEMENT, ErrorEstimate, Found, Work
 from ...errors import FilmContactError, InputError
 from ...model import Array, Reaction, Tangent, prepared_tangent
-from ...motion.transient.equal_steps import ORDER, Motion, linear_march, march, peak
+from ...motion.transient.equal_steps import ORDER, MarchMotion, linear_march, march, peak
 from ...rotors import RigidRotor
 from ...scenes.damper.damper_films import NO_RICHER, DamperFilm, damper_films, quiet, sprung
 from ...scenes.damper.damper_models import damper_models
@@ -126,7 +126,7 @@ class DamperPeakRung:
         fastest = max(abs(speed) for speed in self.rotor.profile.speeds)
         return 2 * math.ceil(self.duration * fastest * steps / (4.0 * math.pi))
 
-    def _march(self, steps: int) -> tuple[Motion, int]:
+    def _march(self, steps: int) -> tuple[MarchMotion, int]:
         count = self._count(steps)
         return march(
             self.support, self.rotor.mass, 0.0, self._pull, np.zeros(2), self.duration / count, count
@@ -136,7 +136,7 @@ class DamperPeakRung:
         x, y = self.rotor.unbalance_force(t).tolist()
         return x, y
 
-    def _linear(self, steps: int) -> Motion:
+    def _linear(self, steps: int) -> MarchMotion:
         """Return the motion by the film's stiffness and damping in the center, by average acceleration."""
         count, (K, C) = self._count(steps), self._small
         step, m = self.duration / count, self.rotor.mass
@@ -150,7 +150,7 @@ class DamperPeakRung:
             new = (pulls[n] + m * (k2 * (q + step * v) + a) + C * (k1 * q + v)) / whole
             a, v, q = k2 * (new - q - step * v) - a, k1 * (new - q) - v, new
             path[n], rates[n] = q, v
-        return Motion(
+        return MarchMotion(
             time=time,
             position=np.array([path.real, path.imag]),
             velocity=np.array([rates.real, rates.imag]),
@@ -186,7 +186,7 @@ class DamperPeakRung:
         work = {"defects of a richer film": calls, **self.film.rich_work}
         return ErrorEstimate(error, f"order increment; defect of {name}", work, doubt=doubt)
 
-    def _by_bound(self, motion: Motion, value: float, steps: float) -> ErrorEstimate:
+    def _by_bound(self, motion: MarchMotion, value: float, steps: float) -> ErrorEstimate:
         """Return the error of the steps, and what the verified error of the film could do all along."""
         q, v, step = self._sampled(motion)
         slopes = self.support.jacobian(q, v, 0.0)
@@ -196,7 +196,7 @@ class DamperPeakRung:
         method = "order increment; verified bound of the film, propagated"
         return ErrorEstimate(abs(steps) + bound, method, {self.tangents: q.shape[1]}, abs(steps) < bound)
 
-    def _sampled(self, motion: Motion) -> tuple[Array, Array, float]:
+    def _sampled(self, motion: MarchMotion) -> tuple[Array, Array, float]:
         """Return position, velocity and step of the samples of a motion; the first is off the rest."""
         # With feed the richer film takes milliseconds for a force.
         samples = SAMPLED // 2 if self.film.is_fed else SAMPLED
@@ -206,7 +206,7 @@ class DamperPeakRung:
         v[:, 0] = 1e-3 * v[:, 1]
         return q, v, float(motion.time[stride] - motion.time[0])
 
-    def _by_defect(self, motion: Motion, value: float, rich: Reaction) -> tuple[float, str, int]:
+    def _by_defect(self, motion: MarchMotion, value: float, rich: Reaction) -> tuple[float, str, int]:
         """Return the relative change of the peak that the richer film would make, and why not to trust it."""
         q, v, step = self._sampled(motion)
         slopes = rich.jacobian(q, v, 0.0)

@@ -34,7 +34,7 @@ UNITS = {UP: "kg m", DOWN: "kg m", "transmissibility": "1", "unbalance_amplitude
 
 
 @dataclass(frozen=True, kw_only=True)
-class DamperRung:
+class DamperCurveRung:
     """One film and one model of its cage.
 
     Attributes
@@ -262,7 +262,7 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
         raise InputError(f"rigid_rotor.unbalance must be positive for {quantity}, got 0.0")
     stiffness = scene.damper.stiffness
     rungs = tuple(
-        DamperRung(film=film, rotor=rotor, stiffness=stiffness, quantity=quantity)
+        DamperCurveRung(film=film, rotor=rotor, stiffness=stiffness, quantity=quantity)
         for film in damper_films(scene.damper)
         if not _endless(film, quantity, is_named=scene.damper.film is not None)
     )
@@ -286,7 +286,7 @@ def _endless(film: DamperFilm, quantity: str, *, is_named: bool) -> bool:
     return slow and not is_named and quantity in (UP, DOWN)
 
 
-def _one(rung: DamperRung, speed: float) -> Callable[[], object]:
+def _one(rung: DamperCurveRung, speed: float) -> Callable[[], object]:
     def force() -> object:
         radius = 0.5 * rung.support.clearance
         return rung.support.force([radius, 0.0], [0.0, speed * radius], speed)

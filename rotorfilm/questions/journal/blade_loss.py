@@ -13,7 +13,7 @@ from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Work, beside_
 from ...errors import InputError
 from ...linear import coefficients, equilibrium
 from ...model import Array, Reaction
-from ...motion.transient.equal_steps import ORDER, Motion, linear_march, march, peak
+from ...motion.transient.equal_steps import ORDER, MarchMotion, linear_march, march, peak
 from ...scenes.excitation_table import BladeLossTable
 from ...scenes.journal.film_rungs import MAP_BOUNDS, NOMINAL, FilmRung
 from ..walk import Ladder
@@ -85,14 +85,14 @@ class BladeLossRung:
         """Return the peak in steps twice as long, if the rung below has it."""
         if before is None or not isinstance(before.solution, tuple):
             return math.nan
-        motion: Motion = before.solution[0]
+        motion: MarchMotion = before.solution[0]
         twice = motion.time.size - 1 == self._count(self.steps // 2)
         return float(before.value) if twice and self.film.tangents in before.work else math.nan
 
     def _count(self, steps: int) -> int:
         return math.ceil(steps * self.excitation.revolutions)
 
-    def _march(self, steps: int) -> tuple[Motion, int]:
+    def _march(self, steps: int) -> tuple[MarchMotion, int]:
         step = 2.0 * math.pi / (abs(self.speed) * steps)
         rest, *_ = self.rest
         return march(self.film.bearing, self.mass, self.speed, self._pull, rest, step, self._count(steps))
@@ -102,7 +102,7 @@ class BladeLossRung:
         force = self.excitation.unbalance * self.speed**2
         return self.load[0] + force * math.cos(angle), self.load[1] + force * math.sin(angle)
 
-    def _linear(self) -> Motion:
+    def _linear(self) -> MarchMotion:
         rest, stiffness, damping = self.rest
         count = self._count(SAMPLED * 4) + 1
         step = 2.0 * math.pi / (abs(self.speed) * SAMPLED * 4)
@@ -110,7 +110,7 @@ class BladeLossRung:
         pull = np.array([self._pull(t) for t in time]).T - np.array(self.load)[:, None]
         stiff, damp = _constant(stiffness, count), _constant(damping, count)
         moved = linear_march(self.mass, stiff, damp, pull, step)
-        return Motion(
+        return MarchMotion(
             time=time, position=rest[:, None] + moved, velocity=np.gradient(moved, step, axis=1, edge_order=2)
         )
 
@@ -132,7 +132,7 @@ class BladeLossRung:
         method = f"{how}defect of {self.film.name if own else self.film.rich_name}"
         return beside_bound(change + steps, bound if own else 0.0, method, work, doubt)
 
-    def _by_defect(self, motion: Motion, value: float, rich: Reaction) -> tuple[float, str, int]:
+    def _by_defect(self, motion: MarchMotion, value: float, rich: Reaction) -> tuple[float, str, int]:
         """Return the relative change of the peak that the richer film would make, and why not to trust it."""
         stride = max(1, (self.steps or SAMPLED * 4) // SAMPLED)
         q, v = motion.position[:, ::stride], motion.velocity[:, ::stride]

@@ -66,7 +66,7 @@ class ShaftSpeed:
         ]
 
 
-class Corrected(NamedTuple):
+class CorrectedSpeed(NamedTuple):
     """A critical speed [rad/s] after a step, its roundoff [1], and why to doubt it."""
 
     speed: float
@@ -163,7 +163,7 @@ class ShaftRung:
         Critical speeds that are as near as the error are corrected too, and the lowest is the first.
         """
         solution: ShaftSpeed = found.solution
-        moved: list[Corrected] = []
+        moved: list[CorrectedSpeed] = []
         reach = math.inf
         for whirl, rate in zip(solution.whirls, rates, strict=True):
             if whirl.at.speed > reach:
@@ -190,7 +190,7 @@ class ShaftRung:
         own, other = (rotor_modes(model.rotor, films, speed) for model in (self.model, widest))
         return self.event.missed(own, other)
 
-    def _corrected(self, whirl: Whirl, rate: float, *, trusted: bool) -> Corrected:
+    def _corrected(self, whirl: Whirl, rate: float, *, trusted: bool) -> CorrectedSpeed:
         """Return a critical speed after steps of inverse iteration with the shift that this rung gives."""
         coefficients, doubt = (
             (whirl.at.coefficients, "") if trusted else rich_coefficients(self.films, whirl.at)
@@ -203,7 +203,7 @@ class ShaftRung:
         noise = _roundoff(system, *last) / abs(rate)
         if abs(one - other) > DISAGREEMENT * abs(other) + noise:
             doubt = doubt or "two steps of inverse iteration disagree on the error"
-        return Corrected(whirl.at.speed + other, noise / whirl.at.speed, doubt)
+        return CorrectedSpeed(whirl.at.speed + other, noise / whirl.at.speed, doubt)
 
     def _bound(self, whirl: Whirl, rate: float) -> float:
         """Return the error [1] that the worst K and C within the verified bounds of the films would make."""

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...bearings.journal import JournalBearing
-from ...comparisons import Rung, fitted_bearing
+from ...comparisons import ComparedFilm, fitted_bearing
 from ...comparisons.journal.journal_states import SPEED
 from ...model import Array
 
@@ -26,7 +26,7 @@ def attitude_angle(bearing: JournalBearing, eccentricity_ratio: Array) -> Array:
 
 
 def attitude_angles(
-    bearing: JournalBearing, rungs: Sequence[Rung], eccentricity_ratio: Array
+    bearing: JournalBearing, rungs: Sequence[ComparedFilm], eccentricity_ratio: Array
 ) -> dict[str, Array]:
     """Return the attitude angles (n,) [rad] of the bearing with the film of each rung, by its name."""
     return {

@@ -8,7 +8,7 @@ from scipy.integrate import quad
 
 from rotorfilm.bearings.journal import ShortFilm
 from rotorfilm.bearings.journal.map.potential import default_resolution, directed_potential, potential
-from rotorfilm.bearings.journal.map.potential_domain import Resolution, Source
+from rotorfilm.bearings.journal.map.potential_domain import RitzResolution, Source
 from rotorfilm.bearings.journal.map.potential_grid import grid_potential, richardson_potential
 from rotorfilm.errors import ConvergenceError, InputError
 
@@ -158,7 +158,7 @@ def test_two_discretizations_agree(chi, turn, slenderness):
 @pytest.mark.parametrize(("chi", "slenderness"), [(0.5, 1.0), (0.999, 1.0)])
 def test_truncation(chi, slenderness):
     for turn in (0.1, 0.95):
-        fine = potential(chi, turn, slenderness, Resolution(40, 20, 5))
+        fine = potential(chi, turn, slenderness, RitzResolution(40, 20, 5))
         assert potential(chi, turn, slenderness).log == pytest.approx(fine.log, abs=1e-6)
 
 

@@ -24,7 +24,7 @@ CROWDING = 0.35
 """The distance of lines at the minimum film falls as its thickness to this power; measured to be the best."""
 
 
-class Coefficients(NamedTuple):
+class CellCoefficients(NamedTuple):
     """Coefficients on N lines; the face i lies between the lines i and i + 1.
 
     Attributes
@@ -81,7 +81,7 @@ def _preimage(theta: float, a: complex) -> float:
 
 
 @compiled
-def ring_coefficients(e: Array, slenderness: float, spans: Spans, grid: Grid) -> Coefficients:
+def ring_coefficients(e: Array, slenderness: float, spans: Spans, grid: Grid) -> CellCoefficients:
     """Return the coefficients of a grid at the eccentricity e."""
     theta = ring_angles(e, spans, grid.span, grid.line)
     face = ring_angles(e, spans, grid.span, grid.face)
@@ -99,7 +99,7 @@ def ring_coefficients(e: Array, slenderness: float, spans: Spans, grid: Grid) ->
         along[i], along_slope[i] = conductance * film**3, 3.0 * conductance * film**2 * film_slope
         normal[i, 0] = np.sin(face[i]) - np.sin(face[before])
         normal[i, 1] = np.cos(face[before]) - np.cos(face[i])
-    return Coefficients(around, along, normal, around_slope, along_slope, theta)
+    return CellCoefficients(around, along, normal, around_slope, along_slope, theta)
 
 
 @compiled

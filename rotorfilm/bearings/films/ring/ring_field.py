@@ -9,7 +9,7 @@ import numpy as np
 from ....model import Array
 from ..cavitation import Cavitation
 from ..film_field import FilmField
-from .ring_coefficients import Coefficients, ring_angles
+from .ring_coefficients import CellCoefficients, ring_angles
 from .ring_forces import film_force, film_source, finest
 from .ring_grids import Grid, Spans, axial_nodes
 
@@ -64,7 +64,7 @@ def _shear(e: Array, theta: Array, face: Array, film: np.ndarray) -> float:
     return float(np.sum(film * width / _thickness(e, face)))
 
 
-def _side_flow(coefficients: Coefficients, grid: Grid, w: Array, pressure: Array) -> float:
+def _side_flow(coefficients: CellCoefficients, grid: Grid, w: Array, pressure: Array) -> float:
     """Return the flow out of the ends of the film, by the balance of the half cells that end there.
 
     Openings are left out, and so is what a film in tension draws in.

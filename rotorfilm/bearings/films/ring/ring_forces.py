@@ -15,7 +15,7 @@ import numpy as np
 
 from ....model import Array
 from ..compiled import compiled
-from .ring_coefficients import Coefficients, ring_coefficients
+from .ring_coefficients import CellCoefficients, ring_coefficients
 from .ring_grids import Grid, Spans
 from .ring_solver import Factor, film_equations_slope, solve_film, solve_free
 
@@ -98,7 +98,7 @@ def film_batch(
 @compiled
 def finest(
     e: Array, w: Array, slenderness: float, spans: Spans, grids: tuple[Grid, ...], searched: bool
-) -> tuple[Coefficients, Array, bool]:
+) -> tuple[CellCoefficients, Array, bool]:
     """Return coefficients, pressure and success on the finest grid for one state (2,)."""
     free = np.zeros((0, 0), dtype=np.bool_)
     for level in range(len(grids) - 1, -1, -1):
@@ -115,7 +115,7 @@ def finest(
 
 @compiled
 def derivative(
-    coefficients: Coefficients,
+    coefficients: CellCoefficients,
     grid: Grid,
     pressure: Array,
     factor: Factor,

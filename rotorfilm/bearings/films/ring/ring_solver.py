@@ -13,7 +13,7 @@ import numpy as np
 
 from ....model import Array
 from ..compiled import compiled, compiled_sums
-from .ring_coefficients import Coefficients
+from .ring_coefficients import CellCoefficients
 from .ring_grids import Grid
 
 MAX_SWEEPS = 200
@@ -44,13 +44,15 @@ class Factor(NamedTuple):
 
 
 @compiled
-def film_equations(coefficients: Coefficients, grid: Grid, pressure: Array) -> Array:
+def film_equations(coefficients: CellCoefficients, grid: Grid, pressure: Array) -> Array:
     """Return A P, the flow out of each cell, shape (N, M)."""
     return _flow(coefficients.around, coefficients.along, grid, pressure)
 
 
 @compiled
-def film_equations_slope(coefficients: Coefficients, grid: Grid, pressure: Array, component: int) -> Array:
+def film_equations_slope(
+    coefficients: CellCoefficients, grid: Grid, pressure: Array, component: int
+) -> Array:
     """Return (dA/de_component) P, shape (N, M)."""
     around = coefficients.around_slope[:, component].copy()
     along = coefficients.along_slope[:, component].copy()
@@ -76,7 +78,7 @@ def _flow(around: Array, along: Array, grid: Grid, pressure: Array) -> Array:
 
 
 @compiled
-def factorize(coefficients: Coefficients, grid: Grid, free: np.ndarray) -> Factor:
+def factorize(coefficients: CellCoefficients, grid: Grid, free: np.ndarray) -> Factor:
     """Return the factor of the equations of the free nodes."""
     lines, nodes = free.shape
     cut = _emptiest_line(free)
@@ -103,7 +105,7 @@ def _emptiest_line(free: np.ndarray) -> int:
 
 @compiled
 def _assemble(
-    coefficients: Coefficients,
+    coefficients: CellCoefficients,
     grid: Grid,
     free: np.ndarray,
     cut: int,
@@ -142,7 +144,7 @@ def _assemble(
 
 
 @compiled
-def _diagonal(coefficients: Coefficients, grid: Grid, i: int, j: int) -> float:
+def _diagonal(coefficients: CellCoefficients, grid: Grid, i: int, j: int) -> float:
     around = coefficients.around[i] + coefficients.around[i - 1]
     inward = grid.conductance[j - 1] if j > 0 else 0.0
     return around * grid.width[j] + coefficients.along[i] * (grid.conductance[j] + inward)
@@ -242,7 +244,7 @@ def held_pressure(grid: Grid) -> Array:
 
 @compiled
 def solve_film(
-    coefficients: Coefficients, grid: Grid, source: Array, free: np.ndarray, searched: bool
+    coefficients: CellCoefficients, grid: Grid, source: Array, free: np.ndarray, searched: bool
 ) -> tuple[Array, Factor, bool]:
     """Return pressure (N, M) for a source (N, M), factor, and whether the search for the film ended.
 

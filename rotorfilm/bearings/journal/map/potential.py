@@ -16,7 +16,7 @@ import numpy as np
 from ....errors import ConvergenceError, InputError
 from ....model import Array
 from .potential_arc import free_arc
-from .potential_domain import Region, Resolution, Source, local_film, region
+from .potential_domain import Region, RitzResolution, Source, local_film, region
 from .potential_ritz import RitzFilm, solve_region
 from .potential_shape import end_state, remainder, shape_step
 
@@ -52,7 +52,7 @@ class Potential(NamedTuple):
     chi_slope: float
 
 
-def default_resolution(chi: float, slenderness: float) -> Resolution:
+def default_resolution(chi: float, slenderness: float) -> RitzResolution:
     """Return what converges L to about 1e-7.
 
     A long film near contact has thin layers at its axial ends, of relative thickness sqrt(1 - chi)/(L/D);
@@ -60,10 +60,12 @@ def default_resolution(chi: float, slenderness: float) -> Resolution:
     """
     layer = math.sqrt(1.0 - chi) / slenderness
     along = min(max(math.ceil(2.0 / math.sqrt(layer)), 10), 24)
-    return Resolution(32 if chi < 0.98 else 40, along, 4)
+    return RitzResolution(32 if chi < 0.98 else 40, along, 4)
 
 
-def potential(chi: float, turn: float, slenderness: float, resolution: Resolution | None = None) -> Potential:
+def potential(
+    chi: float, turn: float, slenderness: float, resolution: RitzResolution | None = None
+) -> Potential:
     """Return the potential of a full film with Reynolds rupture.
 
     Parameters
@@ -74,7 +76,7 @@ def potential(chi: float, turn: float, slenderness: float, resolution: Resolutio
         T = (1 + g_c/|g|)/2 in [0, 1]: 0 journal leaving the wall, 1/2 rotation only, 1 approaching it.
     slenderness : float [1]
         Bearing length / diameter.
-    resolution : Resolution, optional
+    resolution : RitzResolution, optional
         Numbers of trial functions; `default_resolution` by default.
 
     Returns
@@ -95,7 +97,7 @@ def potential(chi: float, turn: float, slenderness: float, resolution: Resolutio
     return directed_potential(source, resolution or default_resolution(chi, slenderness))
 
 
-def directed_potential(source: Source, resolution: Resolution) -> Potential:
+def directed_potential(source: Source, resolution: RitzResolution) -> Potential:
     """Return the potential for any g, of unit magnitude or not; `log` is then that of the whole J.
 
     See Also
@@ -128,7 +130,7 @@ class _Attempt(NamedTuple):
     step: Array
 
 
-def _attempt(source: Source, series: Array, resolution: Resolution) -> _Attempt:
+def _attempt(source: Source, series: Array, resolution: RitzResolution) -> _Attempt:
     area = region(series, resolution)
     if np.any(np.ptp(local_film(source, area.end).gamma, axis=0) > 2.0 * math.pi):
         raise ConvergenceError("the film must leave a dry gap on every circle, got none: bearing too long")

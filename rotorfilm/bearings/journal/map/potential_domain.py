@@ -11,7 +11,7 @@ from ....model import Array
 from .potential_basis import end_shapes
 
 
-class Resolution(NamedTuple):
+class RitzResolution(NamedTuple):
     """Numbers of circumferential functions, axial functions, and even polynomials that shape an end."""
 
     around: int
@@ -89,7 +89,7 @@ class Region(NamedTuple):
         return left * self.end[0] + right * self.end[1], left * self.slope[0] + right * self.slope[1]
 
 
-def region(coefficients: Array, resolution: Resolution) -> Region:
+def region(coefficients: Array, resolution: RitzResolution) -> Region:
     """Return the region whose ends are the even Legendre series `coefficients`, shape (2, S)."""
     value, slope = end_shapes(resolution.along, resolution.shapes)
     return Region(coefficients @ value.T, coefficients @ slope.T)

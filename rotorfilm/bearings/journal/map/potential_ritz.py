@@ -9,7 +9,7 @@ from scipy.linalg import cho_factor, cho_solve
 
 from ....model import Array
 from .potential_basis import along, around, end_slopes
-from .potential_domain import Film, Region, Resolution, Source, local_film
+from .potential_domain import Film, Region, RitzResolution, Source, local_film
 
 
 class RitzFilm(NamedTuple):
@@ -43,7 +43,7 @@ class _Mesh(NamedTuple):
     half: Array
 
 
-def solve_region(source: Source, area: Region, resolution: Resolution) -> RitzFilm:
+def solve_region(source: Source, area: Region, resolution: RitzResolution) -> RitzFilm:
     """Return the film that minimizes the energy among pressures that vanish at the edge of the region.
 
     The unknown is v = H^1.5 u (Liouville), which stays of one order of magnitude where u grows as H^-3.
@@ -62,14 +62,14 @@ def solve_region(source: Source, area: Region, resolution: Resolution) -> RitzFi
     return RitzFilm(6.0 * float(np.sum(drive * v)), force, _chi_slope(mesh, v, resolution), end_slope)
 
 
-def _mesh(source: Source, area: Region, resolution: Resolution) -> _Mesh:
+def _mesh(source: Source, area: Region, resolution: RitzResolution) -> _Mesh:
     x, z = around(resolution.around), along(resolution.along)
     y, skew = area.points(x.node)
     half, film = area.half_width, local_film(source, y)
     return _Mesh(film, np.outer(x.weight, z.weight * half), film.thickness**-1.5, skew, half)
 
 
-def _stiffness(mesh: _Mesh, resolution: Resolution) -> Array:
+def _stiffness(mesh: _Mesh, resolution: RitzResolution) -> Array:
     """Return the energy's matrix.
 
     H^1.5 u_y = v_xi/half - growth v, and H^1.5 u_zeta at fixed y is v_zeta - skew v_xi/half.
@@ -108,7 +108,7 @@ def _products(left: Array, right: Array) -> Array:
     return (left[:, :, None] * right[:, None, :]).reshape(left.shape[0], -1)
 
 
-def _chi_slope(mesh: _Mesh, v: Array, resolution: Resolution) -> float:
+def _chi_slope(mesh: _Mesh, v: Array, resolution: RitzResolution) -> float:
     """Return dJ/dchi: both conductances scale with H^3 at fixed gamma, d ln H^3/dchi = 3 cos gamma/H."""
     x, z = around(resolution.around), along(resolution.along)
     v_y = x.slope @ v @ z.value.T / mesh.half

@@ -14,7 +14,7 @@ import numpy as np
 
 from ....model import Array
 from .potential_basis import along, end_shapes
-from .potential_domain import Region, Resolution, Source, local_film
+from .potential_domain import Region, RitzResolution, Source, local_film
 
 FLOOR = 0.02
 """Least curvature in the remainder, relative to the largest at that end: it vanishes with the slope."""
@@ -34,7 +34,7 @@ def end_state(source: Source, area: Region) -> EndState:
     return EndState(source.at(film.gamma) * film.rate / conductance, conductance)
 
 
-def shape_step(slope: Array, state: EndState, resolution: Resolution) -> Array:
+def shape_step(slope: Array, state: EndState, resolution: RitzResolution) -> Array:
     """Return the change of the ends' series (2, S): slope = kappa delta in least squares."""
     value, _ = end_shapes(resolution.along, resolution.shapes)
     root = np.sqrt(along(resolution.along).weight)[:, None]
@@ -46,7 +46,7 @@ def shape_step(slope: Array, state: EndState, resolution: Resolution) -> Array:
     return np.stack(steps)
 
 
-def remainder(slope: Array, state: EndState, resolution: Resolution) -> tuple[float, float]:
+def remainder(slope: Array, state: EndState, resolution: RitzResolution) -> tuple[float, float]:
     """Return the change of J by the slopes left at the ends, and the same with all slopes positive."""
     weight = along(resolution.along).weight
     kappa = np.maximum(state.curvature, FLOOR * state.curvature.max(axis=1, keepdims=True))
