@@ -1,4 +1,4 @@
-"""Build the table of the film at contact, `rotorfilm/native/contact_table.c`; a few minutes.
+"""Build the table of the film at contact, `rotorfilm/native/films/contact_table.c`; a few minutes.
 
 Near the wall the film is that between a plane and a parabola, h = 1 + tau^2, of the length l, all in
 units of the film's width there. Its potential for the source u_c + u_s tau,
@@ -23,7 +23,7 @@ import numpy as np
 from rotorfilm.bearings.films.quintic import quintic_coefficients
 from rotorfilm.bearings.journal.map.potential_grid import GridEnergy, complementary_pressure
 
-OUT = Path(__file__).parents[1] / "rotorfilm" / "native" / "contact_table.c"
+OUT = Path(__file__).parents[1] / "rotorfilm" / "native" / "films" / "contact_table.c"
 CELLS_Q, CELLS_L, END_Q = 24, 16, 9.6
 SHORT, LONG = 0.1, 200.0
 GRID = (192, 16)

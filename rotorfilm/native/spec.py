@@ -14,7 +14,7 @@ from ..model import Array
 from ..units import UNITS
 
 LIBRARIES = ("rotorfilm", "rotorfilm_states", "rotorfilm_systems", "rotorfilm_bushes")
-"""The compiled libraries, in the order of RF_SUBSET in `native/kernels.c`; an FMU carries one of them."""
+"""The compiled libraries, in the order of RF_SUBSET in `native/kernels/kernels.c`; an FMU carries one of them."""
 
 _IN_STATES = {"contact", "linear", "rigid_rotor"}
 _IN_SYSTEMS = {"rotor_system"}
@@ -83,7 +83,7 @@ class NativeSpec:
     Parameters
     ----------
     kernel : str
-        Name in `native/kernels.c`.
+        Name in `native/kernels/kernels.c`.
     parameters : tuple of NativeParameter
         In the order of the kernel.
     tables : mapping of str to ndarray

@@ -13,7 +13,7 @@ from .rigid import RigidRotor
 from .structure import FlexibleRotor, Operators, station_name
 
 KINDS = ("journal", "grooved_journal", "short_journal")
-"""Kernels that may be a bearing of a system, in the order of `native/kernel_rotor_system.c`."""
+"""Kernels that may be a bearing of a system, in the order of `native/kernels/kernel_rotor_system.c`."""
 
 
 def system_kernel(

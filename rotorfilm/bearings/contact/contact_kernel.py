@@ -11,7 +11,7 @@ from ...model import Array
 from ...native.spec import NativeParameter, NativeSpec
 
 MOST_CONTACTS = 64
-"""Contacts that the kernel takes (`native/kernel_contact.c`)."""
+"""Contacts that the kernel takes (`native/kernels/kernel_contact.c`)."""
 
 
 class LawNumbers(NamedTuple):

@@ -1,6 +1,6 @@
 """The impedance map of every plain journal bearing as one table: collapsing, saving, loading.
 
-With J(e, w) = min over films of the dissipation potential (`native/map_kernel.h`),
+With J(e, w) = min over films of the dissipation potential (`native/films/map_kernel.h`),
 
     ln(-J/|w|^2) = L0(S) + chi M(X, T, S),   X = chi/(1 - chi^2)^(1/4),   T = (1 + cos)/2,   S = ln(L/D),
 

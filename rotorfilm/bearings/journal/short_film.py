@@ -19,7 +19,7 @@ class ShortFilm(KernelFilm):
     (F_t, F_r) = -4 (L/D)^2 <(sin, cos)^T (sin, cos)> (g_s, g_c) with weight H^-3
     (Ocvirk 1952; Szeri 2011, section 4.4). The pressure vanishes with g at both ends, so the turning arc
     adds nothing to the derivative and the damping matrix is symmetric. In closed form, with exact
-    derivatives, in C (`native/short_kernel.h`).
+    derivatives, in C (`native/films/short_kernel.h`).
 
     Against the converged film on the same arc, at random states of large motion, the force is off by 6 %
     (median) and 28 % (90th percentile) at length / diameter 0.25, and by 23 % and 97 % at 0.5. A bearing

@@ -1,6 +1,6 @@
 """The force of a bearing as a compiled function behind an address, for loops that must not enter Python.
 
-Every such function is that of the C library (native/journal_kernel.h),
+Every such function is that of the C library (native/films/journal_kernel.h),
 
     int f(const void *bearing, const double state[5], double force[2], double jacobian[2][5]),
 

@@ -7,7 +7,7 @@
 #define SERIES_LIMIT 0.5
 #define TERMS 9
 
-/* Of both functions by odd powers of a, from the third (films/bush_contact.py). */
+/* Of both functions by odd powers of a, from the third (bearings/bush/contact_arc.py). */
 static const double SEGMENT[TERMS] = {2.0 / 3,      -2.0 / 15,       4.0 / 315,         -2.0 / 2835,
                                       4.0 / 155925, -4.0 / 6081075,  8.0 / 638512875,   -2.0 / 10854718875,
                                       4.0 / 1856156927625};

@@ -1,4 +1,4 @@
-/* A polymer bush worn by melting (bearings/bush.py): what both of its kernels know. */
+/* A polymer bush worn by melting (bearings/bush/bearing.py): what both of its kernels know. */
 #ifndef ROTORFILM_BUSH_H
 #define ROTORFILM_BUSH_H
 

@@ -1,4 +1,4 @@
-/* Kernel "bush_reaction": a polymer bush with a worn profile at nodes (bearings/bush_reaction.py).
+/* Kernel "bush_reaction": a polymer bush with a worn profile at nodes (bearings/bush/bush_reaction.py).
 
    Parameters and table "bush" in bush.h. Table "profile": nodes, center and extent of their arc [rad], and
    whether each point melts by itself (LocalMelting). Inputs x, y [m], vx, vy [m/s], speed [rad/s]; states the wear

@@ -1,4 +1,4 @@
-/* Kernel "bush_wear": a polymer bush under a load, worn by melting, with one state (bearings/bush_wear.py).
+/* Kernel "bush_wear": a polymer bush under a load, worn by melting, with one state (bearings/bush/bush_wear.py).
 
    Parameters and table in bush.h. Inputs load [N], speed [rad/s]; state the wear moment W; outputs contact_angle
    [rad], settlement [m], temperature [K], maximum_pressure [Pa], friction_torque [N m], melt_rate [m/s],

@@ -1,4 +1,4 @@
-/* Kernel "contact": lubricated contacts by their static law and a state space, as bearings/contact_law.py.
+/* Kernel "contact": lubricated contacts by their static law and a state space, as bearings/contact/contact_law.py.
 
    Of each contact the approach is d = gap + (motion u), the force max(0, s(d) + y), where s(d) is the static
    law scale ((offset - d)/span)^exponent and y the answer of the state space (A, B, C, D), driven by

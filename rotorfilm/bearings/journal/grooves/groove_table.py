@@ -1,6 +1,6 @@
 """The impedance map of one bearing with axial openings as a table: saving, loading.
 
-With J(e, w) = min over films of the dissipation potential (`native/groove_kernel.h`),
+With J(e, w) = min over films of the dissipation potential (`native/films/groove_kernel.h`),
 
     ln(-J/|w|^2) = L0(phi) + chi M(X, theta, s),
     X = chi/(1 - chi^2)^(1/4),   tan s = crowding tan(phi - theta),

@@ -38,7 +38,7 @@ class GroovedMapFilm(KernelFilm):
     """Finite-length film with Reynolds rupture in a bearing with axial grooves or several pads.
 
     The openings are at ambient pressure. As in `MapFilm` the force is F = dJ/dw of a tabulated potential
-    J(e, w), here over two angles (`native/groove_kernel.h`): the damping matrix is symmetric, and the
+    J(e, w), here over two angles (`native/films/groove_kernel.h`): the damping matrix is symmetric, and the
     derivatives are exact. `MapFilm()` becomes this film in a bearing with openings, and this one `MapFilm()`
     in a plain bearing: by name it is needed for its parameters only.
 
@@ -47,7 +47,7 @@ class GroovedMapFilm(KernelFilm):
     and then kept in the folder that the environment variable ROTORFILM_CACHE names, or the platform's cache.
     `build_groove_map` makes it beforehand and says how far it is.
 
-    Beyond the largest eccentricity ratio J goes on as the film at contact (`native/contact.h`), as far as the
+    Beyond the largest eccentricity ratio J goes on as the film at contact (`native/films/contact.h`), as far as the
     openings leave it, with a ValidityWarning: within 5 % where no opening is near, by factors at an edge.
 
     Parameters
