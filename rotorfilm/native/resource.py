@@ -1,4 +1,4 @@
-"""The file `resources/rotorfilm.bin` of a native FMU: all that the C library reads (`native/fmi/resource.h`)."""
+"""The file `resources/rotorfilm.bin` of a native FMU, which the C library reads (`native/fmi/resource.h`)."""
 
 from __future__ import annotations
 

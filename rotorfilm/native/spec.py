@@ -14,7 +14,7 @@ from ..model import Array
 from ..units import UNITS
 
 LIBRARIES = ("rotorfilm", "rotorfilm_states", "rotorfilm_systems", "rotorfilm_bushes")
-"""The compiled libraries, in the order of RF_SUBSET in `native/kernels/kernels.c`; an FMU carries one of them."""
+"""The compiled libraries, by RF_SUBSET in `native/kernels/kernels.c`; an FMU carries one of them."""
 
 _IN_STATES = {"contact", "linear", "rigid_rotor"}
 _IN_SYSTEMS = {"rotor_system"}
