@@ -48,7 +48,8 @@ class GroovedMapFilm(KernelFilm):
     `build_groove_map` makes it beforehand and says how far it is.
 
     Beyond the largest eccentricity ratio J goes on as the film at contact (`native/films/contact.h`), as far
-    as the openings leave it, with a ValidityWarning: within 5 % where no opening is near, by factors at an edge.
+    as the openings leave it, with a ValidityWarning: within 5 % where no opening is near, by factors at an
+    edge.
 
     Parameters
     ----------
