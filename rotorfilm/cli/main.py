@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ..errors import InputError, RotorfilmError, SceneError, ValidityWarning
-from ..limits import FILM_CELLS, MAP_NODES
 from ..printable import brief
 from ..units import whole_number
 from . import printing as console
@@ -416,17 +415,17 @@ def _map_of_options(
 ) -> GrooveMapTable:
     from ..bearings.films.geometry import FilmGeometry
     from ..bearings.journal import GroovedMapFilm
-    from ..scenes.readers import read_counts
+    from ..scenes.journal.film_tables import read_cells, read_nodes
 
     if slenderness is None or not groove:
         raise InputError("groove-map must have SCENE.toml, or --slenderness and --groove, got neither")
     geometry = FilmGeometry(grooves=tuple(_groove(text) for text in groove))
     film = GroovedMapFilm(geometry=geometry)
     if cells is not None:
-        around, along = read_counts("--cells", _numbers(cells), 2, FILM_CELLS)
+        around, along = read_cells("--cells", _numbers(cells))
         film = replace(film, cells=(around, along))
     if nodes is not None:
-        over, turning, moving = read_counts("--nodes", _numbers(nodes), 3, MAP_NODES)
+        over, turning, moving = read_nodes("--nodes", _numbers(nodes))
         film = replace(film, nodes=(over, turning, moving))
     with console.progress_display() as report:
         return film.built_table(slenderness, report)

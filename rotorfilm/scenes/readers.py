@@ -49,10 +49,10 @@ class Count(NamedTuple):
         return value
 
 
-def read_counts(where: str, value: Any, size: int, most: int) -> tuple[int, ...]:
-    """Read a list of positive whole numbers whose product is at most `most`."""
-    if not isinstance(value, list) or len(value) != size:
-        raise SceneError(f"{where} must be a list of {size} whole numbers, got {brief(value)}")
+def read_counts(where: str, value: Any, names: tuple[str, ...], most: int) -> tuple[int, ...]:
+    """Read a list of positive whole numbers, with these names, whose product is at most `most`."""
+    if not isinstance(value, list) or len(value) != len(names):
+        raise SceneError(f"{where} must be [{', '.join(names)}], got {brief(value)}")
     counts = tuple(Count(most)(f"{where}[{index}]", entry) for index, entry in enumerate(value))
     if math.prod(counts) > most:
         raise SceneError(f"{where} must multiply to at most {most}, got {brief(value)}")

@@ -38,9 +38,10 @@ EXTREMES = [
         ["x" * 9999] * 9,
     ),
 ]
+NAMES = st.text("ab_\N{LATIN SMALL LETTER E WITH ACUTE}", min_size=1, max_size=5)
 VALUES = st.recursive(
     st.integers() | st.floats() | st.booleans() | st.text(max_size=20),
-    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=5), inner, max_size=3),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(NAMES, inner, max_size=3),
     max_leaves=6,
 )
 

@@ -191,14 +191,14 @@ def test_pads_arrive_in_si():
             'film = { name = "reynolds" }\ngrooves = [{ center = 0, width = 2 }, { center = 1, width = 2 }]',
             "grooves and gaps between pads must not overlap",
         ),
-        ('film = { name = "reynolds", cells = 96 }', r"film.cells must be a list of 2 whole numbers, got 96"),
+        ('film = { name = "reynolds", cells = 96 }', r"film.cells must be \[around, along\], got 96"),
         (
             'film = { name = "reynolds", cells = [90, 8] }',
             r"film.cells must be two multiples of 4, at least \(16, 4\), got \(90, 8\)",
         ),
         (
             'film = { name = "grooved_map", nodes = [8, 48] }',
-            r"film.nodes must be a list of 3 whole numbers, got \[8, 48\]",
+            r"film.nodes must be \[over, turning, moving\], got \[8, 48\]",
         ),
         (
             'film = { name = "grooved_map", nodes = [8, 48, 31] }',

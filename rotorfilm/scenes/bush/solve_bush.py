@@ -8,6 +8,7 @@ from typing import Any
 
 from ...bearings.bush import BushContact, BushWear, MeltingBush, f4k20_bush
 from ...errors import InputError
+from ...printable import brief
 from ...units import parse_quantity
 
 SETTINGS: dict[str, tuple[str, str]] = {
@@ -107,6 +108,8 @@ def solve_bush(bush: MeltingBush, load: float, speed: float | None, settlement: 
 
 def _number(name: str, text: str, unit: str) -> float:
     try:
-        return parse_quantity(text, unit or "1")
+        return parse_quantity(text, unit) if unit else parse_quantity(float(text), "1")
     except InputError as error:
         raise InputError(f"{name}: {error}") from None
+    except ValueError:
+        raise InputError(f"{name} must be a plain SI number, got {brief(text)}") from None

@@ -37,13 +37,13 @@ def read_order(where: str, value: Any) -> tuple[int, int | None]:
 
 def read_cells(where: str, value: Any) -> tuple[int, int]:
     """Read the cells [around, along] of a two-dimensional film."""
-    around, along = read_counts(where, value, 2, FILM_CELLS)
+    around, along = read_counts(where, value, ("around", "along"), FILM_CELLS)
     return around, along
 
 
 def read_nodes(where: str, value: Any) -> tuple[int, int, int]:
     """Read the nodes of a map with openings."""
-    over, turning, moving = read_counts(where, value, 3, MAP_NODES)
+    over, turning, moving = read_counts(where, value, ("over", "turning", "moving"), MAP_NODES)
     return over, turning, moving
 
 
