@@ -321,7 +321,7 @@ def test_a_state_of_another_fmu_or_damaged_bytes_are_refused(unzipped, refused):
     one = unzipped(ROTOR, folder="one").open(FMU2Slave).start()
     other = unzipped(RigidRotor(mass=51.0, speed=100.0), folder="other").open(FMU2Slave).start()
     content = roundtrip(one)[0]()
-    with refused(ERROR, f"the FMU state must come from this FMU, of {len(content)} bytes, got"):
+    with refused(ERROR, f"the FMU state must come from this FMU, of {len(content)} bytes"):
         roundtrip(one)[1](content[:-1])
     for wrong in (bytes(len(content)), b"RFST" + bytes(len(content) - 4)):
         with refused(ERROR, "the FMU state is damaged, its checksum is wrong"):

@@ -62,7 +62,7 @@ rf_answer rf_set_logging(rf_instance *c, int on, size_t count, const char *const
 
 rf_answer rf_allow(rf_instance *c, const char *function, unsigned phases)
 {
-    if (c->now.phase & phases || phases == (unsigned)RF_ALWAYS) {
+    if (c->now.phase & phases || phases == RF_ALWAYS) {
         if (c->categories & 1u << RF_LOG_ALL)
             rf_log(c, RF_FINE, RF_LOG_ALL, "%s at t = %.17g", function, c->now.time);
         return RF_FINE;

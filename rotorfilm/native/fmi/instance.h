@@ -20,9 +20,10 @@ typedef enum rf_phase {
     RF_STEPPING = 32,
     RF_STEP_FAILED = 64,
     RF_RECONFIGURING = 128,
-    RF_TERMINATED = 256,
-    RF_ALWAYS = -1 /* the rule of what mends an instance */
+    RF_TERMINATED = 256
 } rf_phase;
+
+#define RF_ALWAYS (~0u) /* the rule of what mends an instance */
 
 typedef enum rf_category {
     RF_LOG_WARNING,

@@ -1,5 +1,4 @@
 /* Saving, restoring and serializing the condition of an instance: one block of bytes for all three. */
-#include <inttypes.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
@@ -40,25 +39,29 @@ static int is_phase(uint32_t phase, int co_simulation)
     return (phase & known) && !(phase & (phase - 1));
 }
 
+static rf_answer refuse(rf_instance *c)
+{
+    return rf_log(c, RF_ERROR, RF_LOG_ERROR, "the FMU state must come from this FMU, of %zu bytes",
+                  rf_saved_size(c));
+}
+
 static rf_answer require_own(rf_instance *c, const void *bytes)
 {
     header h;
     double value;
     memcpy(&h, bytes, sizeof h);
-    if (h.magic != MAGIC || h.resource != c->resource->checksum || h.size != rf_saved_size(c)
-        || h.co_simulation != c->co_simulation)
-        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "the FMU state must come from this FMU, of %zu bytes",
-                      rf_saved_size(c));
-    if (!is_phase(h.now.phase, c->co_simulation) || !is_phase(h.resume, c->co_simulation))
-        return rf_log(c, RF_ERROR, RF_LOG_ERROR,
-                      "the FMU state must have a phase of this instance, got %" PRIu32 " and %" PRIu32,
-                      h.now.phase, h.resume);
-    int finite = isfinite(h.now.time);
-    for (size_t i = 0; i < c->value_count; ++i) {
+    int own = h.magic == MAGIC && h.resource == c->resource->checksum && h.size == rf_saved_size(c)
+           && h.co_simulation == c->co_simulation && isfinite(h.now.time);
+    for (size_t i = 0; own && i < c->value_count; ++i) {
         memcpy(&value, (const char *)bytes + sizeof h + i * sizeof value, sizeof value);
-        finite = finite && isfinite(value);
+        own = isfinite(value);
     }
-    return finite ? RF_FINE : rf_log(c, RF_ERROR, RF_LOG_ERROR, "the FMU state must be finite");
+    if (!own)
+        return refuse(c);
+    if (is_phase(h.now.phase, c->co_simulation) && is_phase(h.resume, c->co_simulation))
+        return RF_FINE;
+    return rf_log(c, RF_ERROR, RF_LOG_ERROR, "the FMU state must have a phase of this instance, got %u",
+                  (unsigned)h.now.phase);
 }
 
 rf_answer rf_save(rf_instance *c, void **saved)
@@ -91,10 +94,9 @@ rf_answer rf_save(rf_instance *c, void **saved)
 rf_answer rf_restore(rf_instance *c, const void *saved)
 {
     header h;
-    if (!saved)
-        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "the FMU state must exist, got none");
-    if (require_own(c, saved) != RF_FINE)
-        return RF_ERROR;
+    const rf_answer answer = saved ? require_own(c, saved) : refuse(c);
+    if (answer != RF_FINE)
+        return answer;
     memcpy(&h, saved, sizeof h);
     memcpy(c->values[RF_PARAMETER], (const char *)saved + sizeof h, c->value_count * sizeof(double));
     c->now = h.now;
@@ -113,8 +115,7 @@ rf_answer rf_serialize(rf_instance *c, const void *saved, void *bytes, size_t si
 {
     header h;
     if (!saved || !bytes || size < rf_saved_size(c))
-        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "an FMU state needs %zu bytes, got %zu", rf_saved_size(c),
-                      bytes && saved ? size : 0);
+        return refuse(c);
     memcpy(bytes, saved, rf_saved_size(c));
     memcpy(&h, bytes, sizeof h);
     h.checksum = seal(bytes, rf_saved_size(c));
@@ -126,8 +127,7 @@ rf_answer rf_deserialize(rf_instance *c, const void *bytes, size_t size, void **
 {
     header h;
     if (!bytes || !saved || size != rf_saved_size(c))
-        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "the FMU state must come from this FMU, of %zu bytes, got %zu",
-                      rf_saved_size(c), bytes && saved ? size : 0);
+        return refuse(c);
     memcpy(&h, bytes, sizeof h);
     if (h.checksum != seal(bytes, size))
         return rf_log(c, RF_ERROR, RF_LOG_ERROR, "the FMU state is damaged, its checksum is wrong");
