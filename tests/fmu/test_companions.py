@@ -50,3 +50,13 @@ def test_a_users_film_over_a_map_travels_with_it(write_module):
 def test_other_films_travel_without_it():
     files = bundle_source({"rotorfilm.bearings.journal.splitting.splitting_film"}).files
     assert not [name for name in files if name.endswith((".so", ".bin"))]
+
+
+def test_fmus_of_other_models_share_no_modules():
+    # The second would look for its table in the folder of the first, which may be gone.
+    bearing = "rotorfilm.bearings.journal"
+    short, mapped = (
+        bundle_source({f"{bearing}.bearing", f"{bearing}.{film}"}) for film in ("short_film", "map.map_film")
+    )
+    assert set(short.modules) == set(mapped.modules)
+    assert short.modules["rotorfilm"] != mapped.modules["rotorfilm"]

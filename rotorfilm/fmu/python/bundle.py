@@ -60,8 +60,10 @@ def bundle_source(modules: Iterable[str], slave: str = SLAVE) -> Bundle:
     read = {name: read_user_module(name, users, PACKAGE) for name in users}
     sources = import_closure({slave, *own}.union(*(module.needs for module in read.values())), SHELVES)
     companions = _companions(own.union(*(module.needs for module in read.values())))
-    # Two FMUs in one process share modules of one name, hence also what those read from their folder.
-    package = f"{PACKAGE}_{content_hash({**sources, **companions})}"
+    # Two FMUs in one process share modules of one name, hence also what those read from their folder: only
+    # FMUs of the same models, which read the same before the folder of the first is gone.
+    models = {"models": " ".join(sorted(own)).encode()}
+    package = f"{PACKAGE}_{content_hash({**sources, **companions, **models})}"
     names = {name: name.replace(PACKAGE, package, 1) for name in sources}
     texts = {name: ast.unparse(module.tree).encode() for name, module in read.items()}
     tag = content_hash({**texts, package: b""})
