@@ -17,7 +17,6 @@ from scipy.optimize import root
 from ..errors import ConvergenceError
 from ..model import Array
 from .porous_layer import (
-    LAST_MODE,
     LayerModes,
     PorousLayer,
     axial_numbers,
@@ -169,7 +168,7 @@ class CavitatedPotential:
             share = 1.0 - np.sum(6.0 / axial_numbers()[:AXIAL_MODES] ** 4)
             return modes._replace(weight=np.array([share]))
         rest = slice(AXIAL_MODES, None)
-        return LayerModes(modes.weight[rest], modes.leak[rest], modes.passage[rest], np.array([LAST_MODE]))
+        return LayerModes(modes.weight[rest], modes.leak[rest], modes.passage[rest])
 
     @cached_property
     def _leak(self) -> float:
