@@ -144,8 +144,8 @@ def _require_range(law: ContactLaw, force: Array) -> None:
     lowest, highest = law.load_range
     if force.min() < lowest or force.max() > highest:
         warn_user(
-            f"force must stay within {lowest:.6g} and {highest:.6g}, the loads to which the law was fitted, got "
-            f"{force.min():.3g} to {force.max():.3g}: take the law about a load of its middle "
+            f"force must stay within {lowest:.6g} and {highest:.6g}, the loads to which the law was fitted, "
+            f"got {force.min():.3g} to {force.max():.3g}: take the law about a load of its middle "
             "(reduce_contact and reduce_ball: load), or the full film"
         )
 

@@ -28,7 +28,7 @@ from .rotor_table import ShaftTable, require_place
 from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
 from .solve import Answer, solve
 from .tables import Table, Variant, read_table, require_no_near_miss, text
-from .validity import journal_remarks
+from .validity import film_remarks
 
 BUNDLED = "friswell_5_9_6.toml"
 """The scene file that ships with the package."""
@@ -170,7 +170,7 @@ class Scene:
         What the physics of the film leaves out is in `remarks` of the answer.
         """
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
-        remarks = journal_remarks(self)
+        remarks = film_remarks(self.bearing, self.lubricant, self.speed, self.static_load)
         answer = solve(self.bearing, load=self.static_load, speed=self.speed, mass=mass)
         return replace(answer, remarks=remarks)
 

@@ -67,7 +67,7 @@ def test_a_mistake_is_named(old, new, message):
 
 def test_a_response_beyond_the_loads_of_its_law_is_that_of_a_law_about_a_larger_load():
     # A warning is an error here: the law about the load of the test leaves its range.
-    case = ContactCase(PointContact(V=0.1, Q0=5.0, grid=ContactGrid(cells=(20, 20))), 1.0)
+    case = ContactCase(PointContact(V=0.1, Q0=5.0, grid=ContactGrid(cells=(40, 40))), 1.0)
     law = reduce_contact(case.contact, 3)
     response = respond(case, law, StepLoad(amplitude=1.2), duration=10.0)
     assert response.force.max() > 1.1 * law.load_range[1]
