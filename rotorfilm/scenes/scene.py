@@ -170,8 +170,9 @@ class Scene:
         What the physics of the film leaves out is in `remarks` of the answer.
         """
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
-        remarks = film_remarks(self.bearing, self.lubricant, self.speed, self.static_load)
-        answer = solve(self.bearing, load=self.static_load, speed=self.speed, mass=mass)
+        bearing = self.bearing
+        remarks = film_remarks(bearing, self.lubricant, self.speed, self.static_load)
+        answer = solve(bearing, load=self.static_load, speed=self.speed, mass=mass)
         return replace(answer, remarks=remarks)
 
     def melting(self) -> BushAnswer:

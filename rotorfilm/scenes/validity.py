@@ -119,10 +119,10 @@ def film_loss(bearing: JournalBearing, speed: float, load: tuple[float, float]) 
     concentric = 2.0 * math.pi * drag * speed, 0.0
     if not speed or not any(load):
         return concentric
-    film = bearing.film if isinstance(bearing.film, ReynoldsFilm) else ReynoldsFilm()
+    film = replace(bearing.film if isinstance(bearing.film, ReynoldsFilm) else ReynoldsFilm(), cells=COARSE)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ValidityWarning)
-        grid = replace(bearing, film=replace(film, cells=COARSE))
+        grid = replace(bearing, film=film)
         try:
             at = equilibrium(grid, load, speed)
         except EquilibriumError:
@@ -131,7 +131,7 @@ def film_loss(bearing: JournalBearing, speed: float, load: tuple[float, float]) 
         return concentric
     (x, y), (force_x, force_y) = at.position, (-load[0], -load[1])
     state = grid.kinematics(np.array([x, y]), np.zeros(2), np.array(speed))
-    field = grid.fitted_film.solve(*state, grid.slenderness)
+    field = film.fitted(grid.geometry).solve(*state, grid.slenderness)
     flow = c * R * L * field.side_flow
     torque = drag * field.shear + 0.5 * float(x * force_y - y * force_x)
     return speed * torque + bearing.supply_pressure * flow, flow
@@ -145,9 +145,8 @@ def film_remarks(
     tilt = 2.0 * bearing.clearance / bearing.length
     lines = {
         f"heat: the oil warms by about {n.warming:.2g} K ({n.power:.3g} W in the film, {n.side_flow:.3g} m3/s "
-        f"out of its ends, Peclet number {n.peclet:.2g}), which takes {n.thinning:.0%} of its viscosity": (
-            n.thinning > NOTABLE
-        ),
+        f"out of its ends, Peclet number {n.peclet:.2g}), "
+        f"which takes {n.thinning:.0%} of its viscosity": n.thinning > NOTABLE,
         f"turbulence: Taylor vortices above {TAYLOR}, the film has {n.taylor:.3g}": n.taylor > TAYLOR,
         f"inertia of the film: {n.inertia:.2g} of the viscous stress": n.inertia > 1.0,
         f"cavitation: the load makes {1.0 / n.tension:.2g} times the ambient pressure, so that the oil may "

@@ -161,7 +161,7 @@ def coupling_ladder(scene: Scene, quantity: str) -> Ladder:
         for scheme in SCHEMES
     ]
     rungs.sort(key=lambda rung: rung.calls)
-    remarks = ()
+    remarks: tuple[str, ...] = ()
     if scene.journal is not None:
         remarks = film_remarks(scene.bearing, scene.lubricant, scene.speed, scene.static_load)
     return Ladder(
