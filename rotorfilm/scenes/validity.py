@@ -144,8 +144,8 @@ def film_remarks(
     n = journal_numbers(bearing, oil, speed, load)
     tilt = 2.0 * bearing.clearance / bearing.length
     lines = {
-        f"heat: the oil warms by about {n.warming:.2g} K ({n.power:.3g} W in the film, {n.side_flow:.3g} m3/s "
-        f"out of its ends, Peclet number {n.peclet:.2g}), "
+        f"heat: the oil warms by about {n.warming:.2g} K ({n.power:.3g} W in the film, {n.side_flow:.3g} "
+        f"m3/s out of its ends, Peclet number {n.peclet:.2g}), "
         f"which takes {n.thinning:.0%} of its viscosity": n.thinning > NOTABLE,
         f"turbulence: Taylor vortices above {TAYLOR}, the film has {n.taylor:.3g}": n.taylor > TAYLOR,
         f"inertia of the film: {n.inertia:.2g} of the viscous stress": n.inertia > 1.0,
