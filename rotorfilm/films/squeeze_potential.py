@@ -93,7 +93,9 @@ class CavitatedPotential:
 
         for beyond in STARTS:
             start = heading + np.array([-0.5, 0.5]) * (np.pi + beyond * self.slenderness)
-            found = root(slopes, start, tol=1e-7)
+            # A search that goes astray may try a film without length; the next start goes on.
+            with np.errstate(divide="ignore", invalid="ignore"):
+                found = root(slopes, start, tol=1e-7)
             if np.all(np.abs(found.x - start) < FARTHEST) and np.abs(found.fun).max() < RESIDUAL:
                 return self._potential(self._film(eps, heading, found.x))
         raise ConvergenceError(
