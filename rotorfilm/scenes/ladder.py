@@ -17,6 +17,9 @@ import numpy as np
 
 from ..errors import AbsentError, FilmContactError, RotorfilmError, ValidityWarning, require_positive
 
+ISOTHERMAL = "isothermal films"
+"""`within` of what rests on a film of one temperature."""
+
 SAFETY = 1.5
 """An answer is accepted if so many times its estimated error is below the tolerance."""
 
@@ -128,6 +131,8 @@ class Ladder:
         By the name of a rung, what its steps refine: rungs of the same differ in nothing else.
     remarks : tuple of str
         What the physics of all rungs leaves out and should not.
+    within : str
+        The physics that all rungs share, in which the tolerance is meant; may be empty.
     """
 
     rungs: tuple[Rung, ...]
@@ -136,6 +141,7 @@ class Ladder:
     nominal: Mapping[str, float] = field(default_factory=dict)
     refined: Mapping[str, str] = field(default_factory=dict)
     remarks: tuple[str, ...] = ()
+    within: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -207,6 +213,8 @@ class QuestionAnswer:
         The whole ladder, the cheapest first.
     remarks : tuple of str
         Limits of the physics of all rungs, in dimensionless numbers.
+    within : str
+        The physics in which the tolerance is meant, such as "isothermal films".
     """
 
     quantity: str
@@ -223,13 +231,15 @@ class QuestionAnswer:
     next_cost: float | None
     rungs: tuple[RungReport, ...]
     remarks: tuple[str, ...]
+    within: str = ""
 
     @property
     def message(self) -> str:
         """One line that says whether the tolerance is met."""
         about = f"{self.error_estimate:.2g}"
         if self.met:
-            return f"{self.model} meets the tolerance {self.tolerance:.3g}: estimated error {about}"
+            within = f" within {self.within}" if self.within else ""
+            return f"{self.model} meets the tolerance {self.tolerance:.3g}{within}: estimated error {about}"
         for report in self.rungs:
             if report.name == self.model and report.doubtful:
                 return f"no rung can be trusted; the closest may be {self.model}: {report.reason}"
@@ -415,6 +425,7 @@ def _answer(
         next_cost=next_cost if math.isfinite(next_cost) else None,
         rungs=(*reports, *waiting),
         remarks=ladder.remarks,
+        within=ladder.within,
     )
 
 

@@ -30,7 +30,7 @@ from .rotor_table import ShaftTable, require_node, require_place
 from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
 from .solve import Answer, solve
 from .tables import Table, Variant, read_table, require_no_near_miss, text
-from .validity import journal_remarks
+from .validity import film_remarks
 
 BYTE_ORDER_MARK = "\ufeff"
 """What some editors put before the text of a file."""
@@ -177,8 +177,9 @@ class Scene:
         What the physics of the film leaves out is in `remarks` of the answer.
         """
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
-        remarks = journal_remarks(self)
-        answer = solve(self.bearing, load=self.static_load, speed=self.speed, mass=mass)
+        bearing = self.bearing
+        remarks = film_remarks(bearing, self.lubricant, self.speed, self.static_load)
+        answer = solve(bearing, load=self.static_load, speed=self.speed, mass=mass)
         return replace(answer, remarks=remarks)
 
     def melting(self) -> BushAnswer:

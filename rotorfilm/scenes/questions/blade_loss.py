@@ -13,8 +13,8 @@ from ...errors import InputError
 from ...linear import coefficients, equilibrium
 from ...model import Array, Reaction
 from ..excitation_table import BladeLossTable
-from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Work, beside_bound
-from ..validity import journal_remarks
+from ..ladder import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Ladder, Work, beside_bound
+from ..validity import film_remarks
 from .equal_steps import ORDER, Motion, linear_march, march, peak
 from .films import MAP_BOUNDS, NOMINAL, FilmRung
 from .orbits import film_batch_units, orbit_films, require_one_unbalance
@@ -197,5 +197,6 @@ def blade_loss_ladder(scene: Scene, quantity: str) -> Ladder:
         units=film_batch_units(films, scene.speed),
         nominal=NOMINAL,
         refined={rung.name: rung.film.name for rung in rungs if rung.steps},
-        remarks=journal_remarks(scene),
+        remarks=film_remarks(scene.bearing, scene.lubricant, scene.speed, scene.static_load),
+        within=ISOTHERMAL,
     )

@@ -16,8 +16,8 @@ from ...films import ReynoldsFilm
 from ...linear import equilibrium
 from ...model import Reaction
 from ...rotors import RigidRotor
-from ..ladder import ErrorEstimate, Found, Ladder, Work
-from ..validity import journal_remarks
+from ..ladder import ISOTHERMAL, ErrorEstimate, Found, Ladder, Work
+from ..validity import film_remarks
 from .coupling_case import SCHEMES, CoupledRun, CouplingCase
 from .films import has_map, with_film
 
@@ -161,11 +161,15 @@ def coupling_ladder(scene: Scene, quantity: str) -> Ladder:
         for scheme in SCHEMES
     ]
     rungs.sort(key=lambda rung: rung.calls)
+    remarks: tuple[str, ...] = ()
+    if scene.journal is not None:
+        remarks = film_remarks(scene.bearing, scene.lubricant, scene.speed, scene.static_load)
     return Ladder(
         rungs=tuple(rungs),
         unit="1",
         units=_units(case),
-        remarks=() if scene.journal is None else journal_remarks(scene),
+        remarks=remarks,
+        within=ISOTHERMAL,
     )
 
 

@@ -16,7 +16,7 @@ from ...rotors import RigidRotor
 from ..damper_models import damper_models
 from ..damper_table import DamperTable
 from ..excitation_table import BladeLossTable, RunUpTable
-from ..ladder import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work
+from ..ladder import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Ladder, Work
 from .damper_films import NO_RICHER, DamperFilm, damper_films, quiet, sprung
 from .damper_remarks import scene_remarks
 from .equal_steps import ORDER, Motion, linear_march, march, peak
@@ -272,7 +272,15 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     units = {rung.tangents: _one(rung, scene.speed) for rung in rungs if rung.steps}
     remarks = scene_remarks(scene, models.rotor, steady=False)
     refined = {rung.name: rung.film.name for rung in rungs if rung.steps}
-    return Ladder(rungs=rungs, unit="m", units=units, nominal=NOMINAL, refined=refined, remarks=remarks)
+    return Ladder(
+        rungs=rungs,
+        unit="m",
+        units=units,
+        nominal=NOMINAL,
+        refined=refined,
+        remarks=remarks,
+        within=ISOTHERMAL,
+    )
 
 
 def _choices(table: DamperTable) -> list[tuple[DamperFilm, int]]:

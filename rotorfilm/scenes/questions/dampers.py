@@ -19,7 +19,7 @@ from ...orbits.curve import OrbitRotor, orbit_points, orbit_rotor, orbit_slope
 from ...rotors import RigidRotor
 from ..counted import Counted
 from ..damper_models import damper_models
-from ..ladder import DISAGREEMENT, ErrorEstimate, Found, Ladder, Work
+from ..ladder import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Ladder, Work
 from .damper_films import NO_RICHER, DamperFilm, damper_films, quiet, sprung
 from .damper_remarks import scene_remarks
 from .films import MAP_MADE, NOMINAL
@@ -273,6 +273,7 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
         units=units,
         nominal=NOMINAL,
         remarks=scene_remarks(scene, asked, steady=quantity not in (UP, DOWN)),
+        within=ISOTHERMAL,
     )
 
 

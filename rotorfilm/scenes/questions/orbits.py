@@ -14,8 +14,8 @@ from ...linear import coefficients, equilibrium
 from ...model import Array, Reaction
 from ...rotors import RigidRotor
 from ..excitation_table import UnbalanceTable
-from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Work, beside_bound
-from ..validity import journal_remarks
+from ..ladder import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Ladder, Work, beside_bound
+from ..validity import film_remarks
 from .films import FINE, MAP_BOUNDS, NOMINAL, FilmRung, extrapolated, film_rungs
 from .orbit_curve import (
     SampledOrbit,
@@ -231,7 +231,8 @@ def orbit_ladder(scene: Scene, quantity: str) -> Ladder:
         units=film_batch_units(films, scene.speed),
         nominal=NOMINAL,
         refined={rung.name: rung.film.name for rung in rungs if rung.samples},
-        remarks=journal_remarks(scene),
+        remarks=film_remarks(scene.bearing, scene.lubricant, scene.speed, scene.static_load),
+        within=ISOTHERMAL,
     )
 
 

@@ -31,7 +31,7 @@ from .shaft_orbit import (
     shaft_forces,
     wave_of,
 )
-from .shaft_remarks import shaft_remarks, stability_remark
+from .shaft_remarks import shaft_physics, shaft_remarks, stability_remark
 
 if TYPE_CHECKING:
     from ..scene import Scene
@@ -326,6 +326,7 @@ def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
             *shaft_remarks(scene, scene.speed),
             *stability_remark(rotor, levels[0].reactions, scene.speed),
         ),
+        within=shaft_physics(scene),
     )
 
 

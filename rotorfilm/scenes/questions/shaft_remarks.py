@@ -12,6 +12,7 @@ from ...errors import RotorfilmError
 from ...linear import rotor_equilibrium, rotor_modes
 from ...model import Reaction
 from ...rotors import ShaftElement, ShaftRotor
+from ..ladder import ISOTHERMAL
 from ..validity import film_remarks
 
 if TYPE_CHECKING:
@@ -43,6 +44,13 @@ def shaft_remarks(scene: Scene, speed: float) -> tuple[str, ...]:
             found = film_remarks(bearing, scene.lubricant, speed, (x, y))
             lines += [f"{name}, at {speed:.4g} rad/s: {line}" for line in found]
     return tuple(lines)
+
+
+def shaft_physics(scene: Scene) -> str:
+    """Return the physics in which the answers of a shaft are meant: that of its films, if it has some."""
+    assert scene.shaft is not None
+    bearings = scene.shaft.build_bearings().values()
+    return ISOTHERMAL if any(isinstance(bearing, JournalBearing) for bearing in bearings) else ""
 
 
 def beam_remarks(rotor: ShaftRotor) -> tuple[str, ...]:

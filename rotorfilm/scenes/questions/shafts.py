@@ -17,7 +17,7 @@ from .films import NOMINAL
 from .shaft_events import Critical, SpeedEvent, Threshold
 from .shaft_films import ShaftFilms, coefficient_bounds, film_levels, rich_coefficients
 from .shaft_models import ShaftModel, shaft_models
-from .shaft_remarks import shaft_remarks
+from .shaft_remarks import shaft_physics, shaft_remarks
 from .shaft_whirl import (
     Start,
     Whirl,
@@ -253,4 +253,5 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
         unit="rad/s",
         nominal=NOMINAL,
         remarks=shaft_remarks(scene, float(speeds[-1])),
+        within=shaft_physics(scene),
     )

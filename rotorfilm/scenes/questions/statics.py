@@ -15,8 +15,8 @@ from ...linear.equilibrium import MAXIMUM_ECCENTRICITY
 from ...model import Array, prepared_tangent
 from ...results import Equilibrium
 from ..counted import Counted
-from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, Work
-from ..validity import journal_remarks
+from ..ladder import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Ladder, Work
+from ..validity import film_remarks
 from .films import NOMINAL, FilmRung, point_films, tangent
 
 if TYPE_CHECKING:
@@ -213,5 +213,6 @@ def static_ladder(scene: Scene, quantity: str) -> Ladder:
         unit=UNITS[quantity],
         units=film_units(films, scene.speed),
         nominal=NOMINAL,
-        remarks=journal_remarks(scene),
+        remarks=film_remarks(scene.bearing, scene.lubricant, scene.speed, scene.static_load),
+        within=ISOTHERMAL,
     )

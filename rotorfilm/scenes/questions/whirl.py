@@ -13,8 +13,8 @@ from ...linear import coefficients, equilibrium, whirl_threshold
 from ...model import Array
 from ...results import Equilibrium
 from ..counted import Counted
-from ..ladder import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Ladder, NoAnswerError, Work
-from ..validity import journal_remarks
+from ..ladder import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Ladder, NoAnswerError, Work
+from ..validity import film_remarks
 from .films import NOMINAL, FilmRung, is_grid, point_films
 from .statics import corrected, film_units
 
@@ -157,5 +157,6 @@ def whirl_ladder(scene: Scene, quantity: str) -> Ladder:
         unit="rad/s",
         units=film_units(films, math.sqrt(math.hypot(*scene.static_load) / (mass * scene.bearing.clearance))),
         nominal=NOMINAL,
-        remarks=journal_remarks(scene),
+        remarks=film_remarks(scene.bearing, scene.lubricant, scene.speed, scene.static_load),
+        within=ISOTHERMAL,
     )
