@@ -6,6 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
+ISOTHERMAL = "isothermal films"
+"""`within` of what rests on a film of one temperature."""
+
 SAFETY = 1.5
 """An answer is accepted if so many times its estimated error is below the tolerance."""
 
@@ -132,6 +135,8 @@ class QuestionAnswer:
         The whole ladder, the cheapest first.
     remarks : tuple of str
         Limits of the physics of all rungs, in dimensionless numbers.
+    within : str
+        The physics in which the tolerance is meant, such as "isothermal films".
     """
 
     quantity: str
@@ -148,13 +153,15 @@ class QuestionAnswer:
     next_cost: float | None
     rungs: tuple[RungReport, ...]
     remarks: tuple[str, ...]
+    within: str = ""
 
     @property
     def message(self) -> str:
         """One line that says whether the tolerance is met."""
         about = f"{self.error_estimate:.2g}"
         if self.met:
-            return f"{self.model} meets the tolerance {self.tolerance:.3g}: estimated error {about}"
+            within = f" within {self.within}" if self.within else ""
+            return f"{self.model} meets the tolerance {self.tolerance:.3g}{within}: estimated error {about}"
         for report in self.rungs:
             if report.name == self.model and report.doubtful:
                 return f"no rung can be trusted; the closest may be {self.model}: {report.reason}"

@@ -188,6 +188,8 @@ def coefficients(
     from ..linear import coefficients as film_coefficients
     from ..linear import equilibrium
     from ..scenes.journal.echo import bearing_data, film_name
+    from ..scenes.journal.journal_remarks import film_remarks
+    from ..scenes.lubricant_table import LubricantTable
 
     geometry = {"radius": radius, "length": length, "clearance": clearance, "viscosity": viscosity}
     bearing = _journal(geometry, _film(film, order, constant, rupture, cells), groove or []).build()
@@ -196,11 +198,14 @@ def coefficients(
     at = equilibrium(bearing, force, rate)
     derivatives = film_coefficients(bearing, at.position, rate)
     data, name = bearing_data(bearing), film_name(bearing.fitted_film)
+    remarks = film_remarks(bearing, LubricantTable(), rate, force)
     if json:
-        console.print_json({"bearing": data, "model": name, "equilibrium": at, "coefficients": derivatives})
+        found = {"bearing": data, "model": name, "equilibrium": at, "coefficients": derivatives}
+        console.print_json({**found, "remarks": remarks})
         return
     rows = [*console.bearing_rows(data), ("film", name), *console.equilibrium_rows(at)]
-    console.print_rows("journal bearing", rows + console.coefficient_rows(derivatives))
+    rows += [*console.coefficient_rows(derivatives), *console.remark_rows(remarks)]
+    console.print_rows("journal bearing", rows)
 
 
 @fmu.command(epilog="Example: rotorfilm fmu build examples/friswell.toml --out fmus --fmi 3.0")

@@ -153,12 +153,17 @@ def whirl_rows(threshold: WhirlThreshold | None) -> list[tuple[str, str]]:
     return [("whirl threshold", speed + ratio)]
 
 
+def remark_rows(remarks: tuple[str, ...]) -> list[tuple[str, str]]:
+    """Return the rows of what the physics of a film leaves out."""
+    return [("left out", remark) for remark in remarks]
+
+
 def print_answer(title: str, answer: Answer) -> None:
     """Print equilibrium, coefficients and whirl threshold."""
     rows = [*bearing_rows(answer.bearing), ("film", answer.model), *equilibrium_rows(answer.equilibrium)]
     rows += coefficient_rows(answer.coefficients)
     rows += whirl_rows(answer.whirl_threshold)
-    print_rows(title, rows + [("left out", remark) for remark in answer.remarks])
+    print_rows(title, rows + remark_rows(answer.remarks))
 
 
 def print_bush(answer: BushAnswer) -> None:

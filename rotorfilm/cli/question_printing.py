@@ -37,6 +37,7 @@ def print_question(title: str, answer: QuestionAnswer, *, explain: bool) -> None
 
 def _summary(answer: QuestionAnswer) -> list[tuple[str, str]]:
     verdict = "met" if answer.met else "NOT met by any rung"
+    verdict += f" within {answer.within}" if answer.within else ""
     share = "at most about" if chosen_report(answer).bound else "about"
     price = "cost not known" if answer.next_cost is None else _seconds(answer.next_cost)
     above = "none" if answer.next_model is None else f"{answer.next_model}: {price}"

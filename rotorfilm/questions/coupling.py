@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..answers import ErrorEstimate, Found, Work
+from ..answers import ISOTHERMAL, ErrorEstimate, Found, Work
 from ..bearings.journal import ReynoldsFilm
 from ..cosim import Scheme
 from ..cosim.coupling_case import SCHEMES, CouplingCase, PilotRun
@@ -166,6 +166,7 @@ def coupling_ladder(scene: Scene, quantity: str) -> Ladder:
         unit="1",
         units=_units(case),
         remarks=() if scene.journal is None else scene.film_remarks,
+        within=ISOTHERMAL,
     )
 
 

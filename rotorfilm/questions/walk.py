@@ -80,6 +80,8 @@ class Ladder:
         By the name of a rung, what its steps refine: rungs of the same differ in nothing else.
     remarks : tuple of str
         What the physics of all rungs leaves out and should not.
+    within : str
+        The physics that all rungs share, in which the tolerance is meant; may be empty.
     """
 
     rungs: tuple[Rung, ...]
@@ -88,6 +90,7 @@ class Ladder:
     nominal: Mapping[str, float] = field(default_factory=dict)
     refined: Mapping[str, str] = field(default_factory=dict)
     remarks: tuple[str, ...] = ()
+    within: str = ""
 
 
 class Meter:
@@ -267,6 +270,7 @@ def _answer(
         next_cost=next_cost if math.isfinite(next_cost) else None,
         rungs=(*reports, *waiting),
         remarks=ladder.remarks,
+        within=ladder.within,
     )
 
 

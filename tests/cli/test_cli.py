@@ -71,6 +71,12 @@ def test_coefficients_are_those_of_the_book(run):
     assert [int(k) for row in stiffness for k in row] == [12807959, 16393593, -25060393, 8815302]
 
 
+def test_coefficients_say_what_the_film_leaves_out(run):
+    (remark,) = json.loads(run(*coefficients(), "--json")[1])["remarks"]
+    assert remark.startswith("heat: the oil warms by about 52 K")
+    assert "left out" in run(*coefficients())[1]
+
+
 def test_solve_gives_the_same_numbers_as_coefficients(run, scene):
     solved = json.loads(run("solve", scene, "--json")[1])
     direct = json.loads(run(*coefficients(), "--json")[1])

@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from rotorfilm import SceneError
+from rotorfilm import ContactGrid, PointContact, SceneError, StepLoad, reduce_contact
+from rotorfilm.scenes.contact import ContactCase, respond
 from rotorfilm.scenes.scene import parse_scene
 
 TEXT = """
@@ -62,3 +63,12 @@ def test_the_support_is_preloaded():
 def test_a_mistake_is_named(old, new, message):
     with pytest.raises(SceneError, match=message):
         parse_scene(TEXT.replace(old, new), "x.toml")
+
+
+def test_a_response_beyond_the_loads_of_its_law_is_that_of_a_law_about_a_larger_load():
+    # A warning is an error here: the law about the load of the test leaves its range.
+    case = ContactCase(PointContact(V=0.1, Q0=5.0, grid=ContactGrid(cells=(40, 40))), 1.0)
+    law = reduce_contact(case.contact, 3)
+    response = respond(case, law, StepLoad(amplitude=1.2), duration=10.0)
+    assert response.force.max() > 1.1 * law.load_range[1]
+    assert response.approach[0] == pytest.approx(law.operating, abs=0.02)

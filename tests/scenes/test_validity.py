@@ -1,13 +1,15 @@
 """Dimensionless numbers of what films leave out."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.journal import JournalBearing
+from rotorfilm.bearings.journal import JournalBearing, ShortFilm
+from rotorfilm.linear import equilibrium
 from rotorfilm.scenes import bundled_scene
-from rotorfilm.scenes.journal.journal_remarks import TAYLOR, journal_numbers
+from rotorfilm.scenes.journal.journal_remarks import TAYLOR, film_loss, journal_numbers
 from rotorfilm.scenes.lubricant_table import LubricantTable
 
 BEARING = JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.02)
@@ -58,9 +60,7 @@ def test_numbers_by_hand():
     assert n.taylor == pytest.approx(100.0 * 0.05 * 1e-4 * 900.0 / 0.02 * math.sqrt(1e-4 / 0.05))
     assert n.inertia == pytest.approx(100.0 * 1e-8 * 900.0 / 0.02)
     assert n.peclet == pytest.approx(100.0 * 1e-8 * 1.8e6 / 0.15)
-    # power 2 pi mu w^2 R^3 L/c over the heat of the flow w R c L/2
-    power, flow = 2.0 * math.pi * 0.02 * 1e4 * 0.05**3 * 0.05 / 1e-4, 100.0 * 0.05 * 1e-4 * 0.05 / 2.0
-    assert n.warming == pytest.approx(power / (1.8e6 * flow))
+    assert n.warming == pytest.approx(n.power / (1.8e6 * n.side_flow))
     assert n.tension == pytest.approx(1e5 / (5000.0 / (0.1 * 0.05)))
 
 
@@ -72,3 +72,36 @@ def test_warming_is_that_between_cold_walls_where_heat_is_conducted_away():
 
 def test_remarks_name_what_is_left_out():
     assert [remark.partition(":")[0] for remark in bundled_scene().film_remarks] == ["heat"]
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("speed", [300.0, -300.0])
+def test_loss_and_flow_of_a_short_film(speed):
+    # L/D -> 0: side flow eps |speed| R c L, shear 2 pi/sqrt(1 - eps^2), and the moment of film force and load
+    bearing = JournalBearing(radius=0.05, length=0.008, clearance=1e-4, viscosity=0.02)
+    at = equilibrium(replace(bearing, film=ShortFilm()), (0.0, -150.0), speed)
+    eps, x = at.eccentricity_ratio, at.position[0]
+    power, flow = film_loss(bearing, speed, (0.0, -150.0))
+    assert flow == pytest.approx(eps * 300.0 * 0.05 * 1e-4 * 0.008, rel=0.02)
+    drag = 0.02 * 300.0 * 0.05**3 * 0.008 / 1e-4 * 2.0 * math.pi / math.sqrt(1.0 - eps**2)
+    assert power == pytest.approx(300.0 * (drag + 0.5 * abs(x) * 150.0), rel=0.02)
+
+
+@pytest.mark.literature
+@pytest.mark.parametrize(
+    ("sommerfeld", "friction"), [(0.0446, 1.70), (0.121, 3.2), (0.264, 5.79), (0.631, 12.8), (1.33, 26.4)]
+)
+def test_loss_is_the_friction_of_raimondi_and_boyd(sommerfeld, friction):
+    # Raimondi & Boyd (1958), L/D = 1: f R/c over S = viscosity N/P (R/c)^2, in turns per second
+    bearing = replace(BEARING, length=0.1)
+    turns = 20.0
+    load = 0.02 * turns * 500.0**2 / sommerfeld * 0.1 * 0.1
+    power, _ = film_loss(bearing, 2.0 * math.pi * turns, (0.0, -load))
+    assert power / (2.0 * math.pi * turns * 0.05 * load) * 500.0 == pytest.approx(friction, rel=0.03)
+
+
+def test_an_unloaded_film_has_no_flow_and_one_beyond_any_load_no_number():
+    assert film_loss(BEARING, 100.0, (0.0, 0.0))[1] == film_loss(BEARING, 100.0, (0.0, -1e-9))[1] == 0.0
+    n = journal_numbers(BEARING, OIL, 100.0, (0.0, 0.0))
+    assert n.warming == pytest.approx(0.02 * (100.0 * 0.05) ** 2 / (8.0 * 0.15))
+    assert math.isnan(journal_numbers(BEARING, OIL, 100.0, (0.0, -1e14)).warming)

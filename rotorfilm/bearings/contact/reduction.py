@@ -75,9 +75,12 @@ def interpolate_contact(contact: PointContact, order: int = 5, load: float = 1.0
     )
 
 
-def reduce_ball(ball: RollingBall, contact: PointContact, order: int = 5) -> ContactLaw:
-    """Return the law of a rolling ball in SI, from its contact (`ball.contact(...)`)."""
-    return in_si(ball, contact, reduce_contact(contact, order))
+def reduce_ball(ball: RollingBall, contact: PointContact, order: int = 5, load: float = 1.0) -> ContactLaw:
+    """Return the law of a rolling ball in SI, from its contact (`ball.contact(...)`).
+
+    `load` is relative to that of the ball; for it and the others see `reduce_contact`.
+    """
+    return in_si(ball, contact, reduce_contact(contact, order, load))
 
 
 def in_si(ball: RollingBall, contact: PointContact, law: ContactLaw) -> ContactLaw:

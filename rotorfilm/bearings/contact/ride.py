@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...errors import ConvergenceError, require_number, require_positive
+from ...errors import ConvergenceError, require_number, require_positive, warn_user
 from ...model import Array
 from ...results import Trajectory
 from .contact_law import ContactLaw
@@ -115,6 +115,11 @@ def ride(
     ------
     ConvergenceError
         If the motion does not settle; `partial` is the motion until the jump before.
+
+    Warns
+    -----
+    ValidityWarning
+        If the force leaves the `load_range` of the law.
     """
     require_positive("mass", mass)
     require_positive("duration", duration)
@@ -131,7 +136,18 @@ def ride(
         except ConvergenceError as error:
             raise ConvergenceError(str(error), _motion(law, rider, parts, samples)) from error
         y = parts[-1].y[-1]
+    _require_range(law, np.concatenate([rider.force(part.y) for part in parts]) * law.force_scale)
     return _motion(law, rider, parts, samples)
+
+
+def _require_range(law: ContactLaw, force: Array) -> None:
+    lowest, highest = law.load_range
+    if force.min() < lowest or force.max() > highest:
+        warn_user(
+            f"force must stay within {lowest:.6g} and {highest:.6g}, the loads to which the law was fitted, "
+            f"got {force.min():.3g} to {force.max():.3g}: take the law about a load of its middle "
+            "(reduce_contact and reduce_ball: load), or the full film"
+        )
 
 
 def _rider(law: ContactLaw, mass: float, load: Callable[[float], float]) -> _Rider:

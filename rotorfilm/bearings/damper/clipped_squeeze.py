@@ -157,7 +157,7 @@ class ClippedSqueezeFilm:
     def _axial(self) -> tuple[Array, Array, Array]:
         """Axial nodes and weights, shape (J,), and the groups' pressures there, (N, J)."""
         Z, weights = np.polynomial.legendre.leggauss(AXIAL_NODES)
-        return Z, weights, axial_shapes(self.modes.numbers, Z)
+        return Z, weights, axial_shapes(self.modes, Z)
 
     @cached_property
     def _depth(self) -> float:

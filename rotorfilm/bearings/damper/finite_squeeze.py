@@ -99,7 +99,7 @@ class FiniteSqueezeFilm:
 
     def _response(self, chi: Array) -> tuple[PolarResponse, Array, Array]:
         """Return the polar matrix, the lift per eccentricity and its slope at eccentricity ratios (B,)."""
-        if np.any(chi > LARGEST):
+        if np.any(chi > LARGEST * (1.0 + 1e-12)):
             warn_user(
                 f"eccentricity ratio must not exceed {LARGEST} for a film of finite length, got "
                 f"{chi.max():.6g}: its harmonics no longer resolve the pressure",

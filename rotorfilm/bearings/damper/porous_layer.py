@@ -14,6 +14,8 @@ After Cusano & Funk (1977); see docs/damper.md for the errata of Akhverdiev et a
 from __future__ import annotations
 
 import math
+from functools import cache
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -23,11 +25,14 @@ from ...model import Array
 SINGLE_MODES = 12
 """Axial modes that are kept one by one; those beyond are gathered in blocks."""
 
-BLOCK_GROWTH = 1.3
-"""Ratio of the mode numbers at both ends of a block."""
-
 LAST_MODE = 3000
 """Last mode; those beyond weigh less than 1e-12."""
+
+BLOCKS = (SINGLE_MODES, 24, 62, 215, 957, LAST_MODE)
+"""Last modes of the blocks, the first entry that before them."""
+
+BLOCK_NODES = 4
+"""Values of a_n that stand for the modes of a block."""
 
 
 class LayerModes(NamedTuple):
@@ -42,14 +47,11 @@ class LayerModes(NamedTuple):
     passage : ndarray, shape (N,) [1]
         Part of a flux entering at the back of a sealed layer that reaches the film, or the flux into the
         film, times H/A and per pressure at a vented back.
-    numbers : ndarray, shape (N + 1,) of int
-        First mode of each group, and the one after the last.
     """
 
     weight: Array
     leak: Array
     passage: Array
-    numbers: np.ndarray
 
 
 class PorousLayer(NamedTuple):
@@ -82,21 +84,15 @@ class PorousLayer(NamedTuple):
 
 def layer_modes(layer: PorousLayer | None) -> LayerModes:
     """Return the groups of axial modes of a film on a layer; None for a solid cage, one film without leak."""
-    one = LayerModes(np.ones(1), np.zeros(1), np.ones(1), np.array([1, LAST_MODE + 1]))
+    one = LayerModes(np.ones(1), np.zeros(1), np.ones(1))
     if layer is None:
         return one
     if layer.thin and not layer.vented:
         return one._replace(leak=leakage(layer, np.ones(1)))
-    a2 = axial_numbers() ** 2
-    share = 6.0 / a2**2
-    numbers = _groups()
-    starts = numbers[:-1] - 1
-    weight = np.add.reduceat(share, starts)
-    leak, passage = (
-        np.add.reduceat(share * values, starts) / weight
-        for values in (leakage(layer, a2) / a2, _passage(layer, a2))
-    )
-    return LayerModes(weight / weight.sum(), leak, passage, numbers)
+    groups = _groups()
+    k2 = groups.numbers**2
+    weight = groups.shares @ (6.0 / axial_numbers() ** 4)
+    return LayerModes(weight / weight.sum(), leakage(layer, k2) / k2, _exchange(layer, k2)[1])
 
 
 def leakage(layer: PorousLayer, k2: Array) -> Array:
@@ -120,17 +116,16 @@ def mean_permeability(grading: float) -> float:
     return -math.expm1(-grading) / grading if grading else 1.0
 
 
-def axial_shapes(numbers: np.ndarray, Z: Array) -> Array:
+def axial_shapes(modes: LayerModes, Z: Array) -> Array:
     """Return each group's pressure along the axis, shape (N, points); their sum is (1 - Z^2)/2."""
+    whole = 0.5 * (1.0 - Z * Z)
+    if len(modes.weight) == 1:
+        return whole[None]
     a = axial_numbers()[:, None]
     signs = (-1.0) ** np.arange(LAST_MODE)[:, None]
-    shapes = np.add.reduceat(2.0 * signs / a**3 * np.cos(a * Z), numbers[:-1] - 1, axis=0)
-    shapes[-1] += 0.5 * (1.0 - Z * Z) - shapes.sum(axis=0)
-    return shapes
-
-
-def _passage(layer: PorousLayer, k2: Array) -> Array:
-    return _exchange(layer, k2)[1]
+    shapes = _groups().shares @ (2.0 * signs / a**3 * np.cos(a * Z))
+    shapes[-1] += whole - shapes.sum(axis=0)
+    return np.asarray(shapes)
 
 
 def _exchange(layer: PorousLayer, k2: Array) -> tuple[Array, Array]:
@@ -150,9 +145,30 @@ def _exchange(layer: PorousLayer, k2: Array) -> tuple[Array, Array]:
     return q2 * span / below, np.exp(-plus) / below
 
 
-def _groups() -> np.ndarray:
-    """Return the first mode of each group: single modes, then blocks, then the end."""
-    numbers = list(range(1, SINGLE_MODES + 1))
-    while numbers[-1] < LAST_MODE:
-        numbers.append(min(max(numbers[-1] + 1, int(numbers[-1] * BLOCK_GROWTH)), LAST_MODE))
-    return np.array([*numbers, LAST_MODE + 1])
+class _Groups(NamedTuple):
+    """The a_n that stand for the groups of modes, (N,), and how much of each mode is in which, (N, modes)."""
+
+    numbers: Array
+    shares: Array
+
+
+@cache
+def _groups() -> _Groups:
+    """Return single modes, then blocks by Gauss quadrature of their modes over log a_n, 6/a_n^4 the weight.
+
+    What multiplies a mode is interpolated in log a_n from the nodes of its block. 1/(h^3 + c_n) is smooth
+    there whatever the layer, though c_n itself falls by decades.
+    """
+    a = axial_numbers()
+    numbers, shares = [a[:SINGLE_MODES]], [np.eye(SINGLE_MODES, LAST_MODE)]
+    for first, last in pairwise(BLOCKS):
+        low, high = math.log(a[first]), math.log(a[last - 1])
+        x = (2.0 * np.log(a[first:last]) - low - high) / (high - low)
+        powers = np.vander(x, BLOCK_NODES)
+        basis = np.linalg.qr(powers / a[first:last, None] ** 2)[0]
+        nodes = np.linalg.eigvalsh(basis.T @ (x[:, None] * basis))
+        share = np.zeros((BLOCK_NODES, LAST_MODE))
+        share[:, first:last] = np.linalg.solve(np.vander(nodes).T, powers.T)
+        numbers.append(np.exp(0.5 * (low + high + (high - low) * nodes)))
+        shares.append(share)
+    return _Groups(np.concatenate(numbers), np.concatenate(shares))

@@ -18,7 +18,6 @@ from ...errors import ConvergenceError
 from ...model import Array
 from .cavitated_squeeze import arc_nodes
 from .porous_layer import (
-    LAST_MODE,
     LayerModes,
     PorousLayer,
     axial_numbers,
@@ -94,7 +93,9 @@ class CavitatedPotential:
 
         for beyond in STARTS:
             start = heading + np.array([-0.5, 0.5]) * (np.pi + beyond * self.slenderness)
-            found = root(slopes, start, tol=1e-7)
+            # A search that goes astray may try a film without length; the next start goes on.
+            with np.errstate(divide="ignore", invalid="ignore"):
+                found = root(slopes, start, tol=1e-7)
             if np.all(np.abs(found.x - start) < FARTHEST) and np.abs(found.fun).max() < RESIDUAL:
                 return self._potential(self._film(eps, heading, found.x))
         raise ConvergenceError(
@@ -169,7 +170,7 @@ class CavitatedPotential:
             share = 1.0 - np.sum(6.0 / axial_numbers()[:AXIAL_MODES] ** 4)
             return modes._replace(weight=np.array([share]))
         rest = slice(AXIAL_MODES, None)
-        return LayerModes(modes.weight[rest], modes.leak[rest], modes.passage[rest], np.array([LAST_MODE]))
+        return LayerModes(modes.weight[rest], modes.leak[rest], modes.passage[rest])
 
     @cached_property
     def _leak(self) -> float:

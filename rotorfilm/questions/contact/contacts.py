@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ...answers import ErrorEstimate, Found, Work
+from ...answers import ISOTHERMAL, ErrorEstimate, Found, Work
 from ...errors import ConvergenceError, InputError
 from ...scenes.contact.contact_remarks import contact_remarks
 from ...scenes.contact.contact_rest import INLETS, OUTLET, REACH, SPACINGS, RestingFilms, unknowns
@@ -235,10 +235,10 @@ def contact_ladder(scene: Scene, quantity: str) -> Ladder:
     films = RestingFilms(table=scene.contact, quantity=quantity)
     remarks = contact_remarks(scene)
     if scene.excitation is not None:
-        return Ladder(rungs=motion_rungs(scene, films), unit="m", remarks=remarks)
+        return Ladder(rungs=motion_rungs(scene, films), unit="m", remarks=remarks, within=ISOTHERMAL)
     formula = () if quantity == "minimum_film" else (FormulaRung(films=films),)
     grids = tuple(GridRung(films=films, cells=cells) for cells in CELLS)
     wide = (UnboundedRung(films=films, place=1, cells=96), UnboundedRung(films=films, place=2, cells=160))
     hard = HARD[0] < films.ball.V and HARD[1] < films.ball.Q0
     rungs: tuple[Rung, ...] = (*formula, *grids, *wide[: 1 if hard else 2])
-    return Ladder(rungs=rungs, unit="m", remarks=remarks)
+    return Ladder(rungs=rungs, unit="m", remarks=remarks, within=ISOTHERMAL)

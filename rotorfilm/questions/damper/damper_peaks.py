@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, ErrorEstimate, Found, Work
+from ...answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Work
 from ...errors import FilmContactError, InputError
 from ...model import Array, Reaction, Tangent, prepared_tangent
 from ...motion.transient.equal_steps import ORDER, MarchMotion, linear_march, march, peak
@@ -273,7 +273,15 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     units = {rung.tangents: _one(rung, scene.speed) for rung in rungs if rung.steps}
     remarks = scene_remarks(scene, models.rotor, steady=False)
     refined = {rung.name: rung.film.name for rung in rungs if rung.steps}
-    return Ladder(rungs=rungs, unit="m", units=units, nominal=NOMINAL, refined=refined, remarks=remarks)
+    return Ladder(
+        rungs=rungs,
+        unit="m",
+        units=units,
+        nominal=NOMINAL,
+        refined=refined,
+        remarks=remarks,
+        within=ISOTHERMAL,
+    )
 
 
 def _choices(table: DamperTable) -> list[tuple[DamperFilm, int]]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.optimize import brentq
 
-from ...answers import DISAGREEMENT, ErrorEstimate, Found, Work
+from ...answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Work
 from ...bearings.damper import FiniteSqueeze
 from ...errors import AbsentError, FilmContactError, InputError, RotorfilmError
 from ...model import Array, Reaction
@@ -274,6 +274,7 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
         units=units,
         nominal=NOMINAL,
         remarks=scene_remarks(scene, asked, steady=quantity not in (UP, DOWN)),
+        within=ISOTHERMAL,
     )
 
 

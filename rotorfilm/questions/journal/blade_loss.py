@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Work, beside_bound
+from ...answers import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work, beside_bound
 from ...errors import InputError
 from ...linear import coefficients, equilibrium
 from ...model import Array, Reaction
@@ -198,4 +198,5 @@ def blade_loss_ladder(scene: Scene, quantity: str) -> Ladder:
         nominal=NOMINAL,
         refined={rung.name: rung.film.name for rung in rungs if rung.steps},
         remarks=scene.film_remarks,
+        within=ISOTHERMAL,
     )

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Work
+from ...answers import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work
 from ...bearings.journal import JournalBearing
 from ...linear import coefficients, equilibrium
 from ...linear.equilibrium import MAXIMUM_ECCENTRICITY
@@ -214,4 +214,5 @@ def static_ladder(scene: Scene, quantity: str) -> Ladder:
         units=film_units(films, scene.speed),
         nominal=NOMINAL,
         remarks=scene.film_remarks,
+        within=ISOTHERMAL,
     )

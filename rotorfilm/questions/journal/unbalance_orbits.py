@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Work, beside_bound
+from ...answers import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work, beside_bound
 from ...errors import InputError, RotorfilmError
 from ...linear import coefficients, equilibrium
 from ...model import Array, Reaction
@@ -232,6 +232,7 @@ def orbit_ladder(scene: Scene, quantity: str) -> Ladder:
         nominal=NOMINAL,
         refined={rung.name: rung.film.name for rung in rungs if rung.samples},
         remarks=scene.film_remarks,
+        within=ISOTHERMAL,
     )
 
 

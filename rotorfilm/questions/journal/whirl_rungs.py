@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Work
+from ...answers import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work
 from ...errors import InputError, RotorfilmError
 from ...linear import coefficients, equilibrium, whirl_threshold
 from ...model import Array
@@ -158,4 +158,5 @@ def whirl_ladder(scene: Scene, quantity: str) -> Ladder:
         units=film_units(films, math.sqrt(math.hypot(*scene.static_load) / (mass * scene.bearing.clearance))),
         nominal=NOMINAL,
         remarks=scene.film_remarks,
+        within=ISOTHERMAL,
     )

@@ -29,7 +29,7 @@ from ...motion.periodic.sampled_shaft_orbit import (
 from ...rotors.shaft.shaft_models import ShaftModel, shaft_models
 from ...scenes.excitation_table import UnbalanceTable
 from ...scenes.journal.film_rungs import NOMINAL
-from ...scenes.shaft.shaft_remarks import shaft_remarks, stability_remark
+from ...scenes.shaft.shaft_remarks import shaft_physics, shaft_remarks, stability_remark
 from ..journal.unbalance_orbits import FORCE, PHASE, UNITS
 from ..walk import Ladder
 from .shaft_films import ShaftFilms, film_levels
@@ -327,6 +327,7 @@ def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
             *shaft_remarks(scene, scene.speed),
             *stability_remark(rotor, levels[0].reactions, scene.speed),
         ),
+        within=shaft_physics(scene),
     )
 
 

@@ -15,7 +15,7 @@ from ...linear.rotor_system import SecondOrder, second_order
 from ...model import Array
 from ...rotors.shaft.shaft_models import ShaftModel, shaft_models
 from ...scenes.journal.film_rungs import NOMINAL
-from ...scenes.shaft.shaft_remarks import shaft_remarks
+from ...scenes.shaft.shaft_remarks import shaft_physics, shaft_remarks
 from ..walk import Ladder
 from .shaft_events import Critical, SpeedEvent, Threshold
 from .shaft_films import ShaftFilms, coefficient_bounds, film_levels, rich_coefficients
@@ -254,4 +254,5 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
         unit="rad/s",
         nominal=NOMINAL,
         remarks=shaft_remarks(scene, float(speeds[-1])),
+        within=shaft_physics(scene),
     )

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...answers import ISOTHERMAL
 from ...bearings.journal import JournalBearing
 from ...bearings.linear import LinearBearing
 from ...errors import RotorfilmError
@@ -44,6 +45,13 @@ def shaft_remarks(scene: Scene, speed: float) -> tuple[str, ...]:
             found = film_remarks(bearing, scene.lubricant, speed, (x, y))
             lines += [f"{name}, at {speed:.4g} rad/s: {line}" for line in found]
     return tuple(lines)
+
+
+def shaft_physics(scene: Scene) -> str:
+    """Return the physics in which the answers of a shaft are meant: that of its films, if it has some."""
+    assert scene.shaft is not None
+    bearings = scene.shaft.build_bearings().values()
+    return ISOTHERMAL if any(isinstance(bearing, JournalBearing) for bearing in bearings) else ""
 
 
 def beam_remarks(rotor: ShaftRotor) -> tuple[str, ...]:

@@ -15,6 +15,7 @@ from rotorfilm import (
     RollingBall,
     SineLoad,
     StepLoad,
+    ValidityWarning,
     linearize,
     reduce_ball,
     reduce_contact,
@@ -121,6 +122,7 @@ def test_forced_motion_is_that_of_the_full_model(law, resting):
     assert np.sqrt(np.mean(error**2) / np.mean((full.delta - resting.delta) ** 2)) < 0.05
 
 
+@pytest.mark.filterwarnings("ignore:force must stay within")
 @pytest.mark.parametrize("load", [SineLoad(amplitude=0.5, frequency=2.0), StepLoad(amplitude=0.7, start=1.3)])
 def test_ride_integrates_the_law(law, load):
     # An independent integrator on the law's own output and derivative.
@@ -145,7 +147,8 @@ def test_ride_integrates_the_law(law, load):
 @pytest.mark.closed_form
 def test_ball_that_has_left_falls_freely(law):
     load = StepLoad(amplitude=-1.8, start=0.5)
-    motion = ride(law, mass=0.3, load=load, start=law.operating, duration=4.0, samples=401)
+    with pytest.warns(ValidityWarning, match=r"force must stay within 0\.2 and 3, .* got 0 to "):
+        motion = ride(law, mass=0.3, load=load, start=law.operating, duration=4.0, samples=401)
     away = motion["z"] > law.offset + 1.0
     assert away.sum() > 20
     slope = np.polyfit(motion.time[away], motion["vz"][away], 1)[0]
@@ -202,6 +205,7 @@ def test_a_ball_that_leaves_is_neither_pulled_nor_felt(law):
     assert law.events(0.0, x, [away[1]])[0] == pytest.approx(1.0 / law.span)
 
 
+@pytest.mark.filterwarnings("ignore:force must stay within")
 def test_a_bounce_is_that_of_the_full_film(law, resting):
     load = StepLoad(amplitude=-1.2, start=1.0, end=2.5)
     full = CONTACT.simulate(resting, duration=8.0, W=1.0, load=load, control=FixedSteps(step=0.05))
@@ -212,6 +216,22 @@ def test_a_bounce_is_that_of_the_full_film(law, resting):
     error = np.interp(full.time, reduced.time, reduced["z"]) - full.delta
     assert np.sqrt(np.mean(error**2) / np.mean((full.delta - resting.delta) ** 2)) < 0.06
     assert reduced["force_z"].min() == 0.0
+
+
+def test_a_motion_beyond_the_loads_of_the_law_is_said_and_better_on_a_law_about_a_larger_load(resting):
+    load = StepLoad(amplitude=1.2)
+    full = CONTACT.simulate(resting, duration=10.0, W=1.0, load=load, control=FixedSteps(step=0.05))
+
+    def miss(law):
+        options = {"mass": 1.0 / HERTZ_LOAD, "load": load, "start": resting.delta, "duration": 10.0}
+        motion = ride(law, **options, samples=full.time.size)
+        error = np.interp(full.time, motion.time, motion["z"]) - full.delta
+        return np.sqrt(np.mean(error**2) / np.mean((full.delta - full.delta.mean()) ** 2))
+
+    with pytest.warns(ValidityWarning, match=r"got \S* to 3\.[0-9]*: take the law about"):
+        beyond = miss(reduce_contact(CONTACT))
+    # about the load that the ball swings around; it needs no warning
+    assert miss(reduce_contact(CONTACT, load=1.6)) < 0.5 * beyond
 
 
 def test_a_law_about_another_load():
