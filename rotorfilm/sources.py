@@ -34,8 +34,8 @@ def import_closure(modules: Iterable[str], shelves: Collection[str] = ()) -> dic
 def source_digest(module: str, below: str = "bearings") -> str:
     """Return a digest of a module and of all that it imports from the folder `below`."""
     inside = f"{PACKAGE}.{below}."
-    packages = {name for name in import_closure([module]) if module_path(name).endswith("__init__.py")}
-    deciding = import_closure([module], shelves=packages)
+    folders = (path.parent.relative_to(ROOT.parent) for path in ROOT.rglob("__init__.py"))
+    deciding = import_closure([module], shelves={".".join(folder.parts) for folder in folders})
     content = b"".join(deciding[name] for name in sorted(deciding) if name.startswith(inside))
     return hashlib.sha256(content).hexdigest()[:12]
 

@@ -1,9 +1,7 @@
 """Operating points of the contact: the law of similarity, points on disk, points between points."""
 
 import math
-import re
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -114,16 +112,6 @@ def test_points_of_another_grid_or_lubricant_are_kept_apart():
     )
     assert kept_points(contact(density=DowsonHigginsonDensity(pressure_ratio=0.8)).equations) == []
     assert isinstance(contact().piezoviscosity, BarusViscosity)
-
-
-def test_modules_that_have_no_part_in_a_point_are_not_imported_by_those_that_have():
-    folder = Path(contact_points.__file__).parent
-    assert all((folder / name).is_file() for name in contact_points.NOT_DECIDING)
-    aside = {name.removesuffix(".py") for name in contact_points.NOT_DECIDING}
-    deciding = [path for path in folder.glob("contact_*.py") if path.name not in contact_points.NOT_DECIDING]
-    assert {"contact_newton.py", "contact_linear.py"} <= {path.name for path in deciding}
-    for path in deciding:
-        assert not aside & set(re.findall(r"^from \.(contact_\w+) import", path.read_text(), re.MULTILINE))
 
 
 def test_a_law_between_points_is_as_good_as_it_says(lattice, monkeypatch):

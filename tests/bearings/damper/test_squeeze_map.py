@@ -1,7 +1,6 @@
 """Cavitated squeeze films as maps: against the law they tabulate, the journal's map, and the short limit."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -128,7 +127,6 @@ def test_map_of_finite_length_is_made_once(kept, monkeypatch):
         squeeze_table.table_path(one.slenderness, one.layer, True, (6, 12)),
     }
     assert len(others | {path}) == 5
-    assert all((Path(squeeze_table.__file__).parent / name).is_file() for name in squeeze_table.SOURCES)
 
 
 def test_damaged_map_on_disk_is_made_again(kept):

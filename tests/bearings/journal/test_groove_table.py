@@ -1,9 +1,7 @@
 """Tables of grooved bearings: bytes, damage, and the cache on disk."""
 
-import ast
 import dataclasses
 import os
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,7 +10,6 @@ from rotorfilm.bearings.films.geometry import FilmGeometry, Groove
 from rotorfilm.bearings.films.quintic import periodic_quintic, periodic_quintic_coefficients
 from rotorfilm.bearings.films.table_cache import cache_folder, cached_table
 from rotorfilm.bearings.journal import GrooveMapTable
-from rotorfilm.bearings.journal.grooves import groove_cache
 from rotorfilm.bearings.journal.grooves.groove_build import Resolution
 from rotorfilm.bearings.journal.grooves.groove_cache import cache_path
 from rotorfilm.bearings.journal.grooves.groove_table import DIRECTIONS
@@ -140,18 +137,6 @@ def test_table_under_the_name_of_another_is_built_anew(tmp_path):
     (tmp_path / "other.bin").rename(tmp_path / "map.bin")
     with pytest.warns(RuntimeWarning, match="must be what its name says"):
         assert cached_table(GrooveMapTable, tmp_path / "map.bin", some_table) == some_table()
-
-
-def test_sources_that_decide_the_content_are_there():
-    folder = Path(groove_cache.__file__).parent
-    assert all((folder / name).is_file() for name in groove_cache.SOURCES)
-    # What the maker of a map imports from its folder decides the content too.
-    tree = ast.parse((folder / "groove_build.py").read_text(encoding="utf-8"))
-    imported = {
-        node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.level == 1
-    }
-    covered = {name.removesuffix(".py") for name in groove_cache.SOURCES}
-    assert {name for name in imported if not name.startswith("ring")} <= covered
 
 
 def test_name_in_the_cache_tells_what_decides_the_content(tmp_path, monkeypatch):
