@@ -63,4 +63,5 @@ def is_module(name: str) -> bool:
 def module_path(name: str) -> str:
     """Return the path of a module of this package, below the folder that holds the package."""
     path = name.replace(".", "/")
-    return f"{path}/__init__.py" if (ROOT.parent / path).is_dir() else f"{path}.py"
+    folder = f"{path}/__init__.py"
+    return folder if (ROOT.parent / folder).is_file() else f"{path}.py"

@@ -1,6 +1,14 @@
 """Thin view of the C library, whose kernels Python and the native FMUs share."""
 
-from .kernels import FilmKernel, GrooveMapKernel, JournalKernel, MapKernel, ShortKernel, Status, slice_table
+from .film_kernels import (
+    FilmKernel,
+    GrooveMapKernel,
+    JournalKernel,
+    MapKernel,
+    ShortKernel,
+    Status,
+    slice_table,
+)
 from .library import NativeLibraryError
 from .spec import HasKernel, NativeParameter, NativeSpec
 

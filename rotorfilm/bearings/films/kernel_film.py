@@ -10,7 +10,7 @@ import numpy as np
 from ...errors import InputError, require_inside, warn_user
 from ...model import Array
 from ...native import FilmKernel, JournalKernel, Status
-from ...native.kernels import Batch
+from ...native.film_kernels import Batch
 from .law import vanishing_source, wall_contact
 
 
