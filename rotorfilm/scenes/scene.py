@@ -177,8 +177,10 @@ class Scene:
         What the physics of the film leaves out is in `remarks` of the answer.
         """
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
-        answer = solve(self.bearing, load=self.static_load, speed=self.speed, mass=mass)
-        return replace(answer, remarks=self.film_remarks)
+        bearing = self.bearing  # once: making it may warn
+        answer = solve(bearing, load=self.static_load, speed=self.speed, mass=mass)
+        remarks = film_remarks(bearing, self.lubricant, self.speed, self.static_load)
+        return replace(answer, remarks=remarks)
 
     def melting(self) -> BushAnswer:
         """Return contact and critical speeds of the unworn bush; raises InputError if the scene has none."""

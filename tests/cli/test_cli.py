@@ -452,7 +452,8 @@ def test_groove_map_is_made_and_kept(run, tmp_path, monkeypatch):
     assert code == 0
     assert json.loads(out)["largest_eccentricity_ratio"] == pytest.approx(0.97)
     (kept,) = (tmp_path / "cache").iterdir()
-    assert kept.read_bytes() == (tmp_path / "map.bin").read_bytes()
+    # In the cache the same bytes lie under a seal.
+    assert kept.read_bytes().startswith((tmp_path / "map.bin").read_bytes())
 
 
 COARSE_SCENE = SCENE.replace(
