@@ -166,7 +166,7 @@ class Scene:
             Where the physics of all rungs leaves out what matters in this scene.
         """
         # Found late: questions stand above scenes.
-        answer = import_module("...questions", __package__).ask(self)
+        answer = import_module("..questions", __package__).ask(self)
         for remark in answer.remarks:
             warn_user(f"left out: {remark}")
         return answer
