@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...errors import InputError, ValidityWarning, require_number, require_positive, warn_user
+from ...errors import FileWarning, InputError, ValidityWarning, require_number, require_positive, warn_user
 from .film.contact_grid import ContactGrid
 from .film.contact_newton import Contact
 from .film.contact_scheme import ContactScheme, UpwindScheme
@@ -177,7 +177,7 @@ class PointContact:
 
         Warns
         -----
-        RuntimeWarning
+        FileWarning
             If the run cannot be saved on its way.
         """
         force = load if callable(load) else _Constant(require_number("load", load))
@@ -227,7 +227,7 @@ class PointContact:
         try:
             self.save(run, path)
         except OSError as error:  # what has been computed is worth more
-            warn_user(f"the run could not be saved: {error}", RuntimeWarning)
+            warn_user(f"the run could not be saved: {error}", FileWarning)
 
     def _start(self, state: ContactState) -> ContactState:
         if not isinstance(state, ContactState) or state.pressure.shape != self.grid.shape:
