@@ -152,7 +152,8 @@ class PointContact:
         ----------
         start : ContactState or ContactRun
             From `stationary`, `state` or an earlier run. A run that is not complete, with the other arguments
-            of the first time, goes on to its end, to the last bit as if it had not been interrupted.
+            of the first time, goes on to its end, to the last bit as if it had not been interrupted;
+            snapshots from before are missing where it was read from a file, which does not hold them.
         duration : float [1]
             Of the run as a whole.
         W : float [1]
@@ -171,7 +172,7 @@ class PointContact:
         Raises
         ------
         InputError
-            If a run to go on with was begun with other arguments.
+            If a run to go on with was begun with other arguments, or under another load until now.
         ConvergenceError
             If a step fails; its `partial` is the run up to there.
 
