@@ -107,6 +107,7 @@ _HOMES = {
         "CouplingError",
         "CouplingWarning",
         "EquilibriumError",
+        "FileWarning",
         "FilmContactError",
         "FmuError",
         "FmuFileError",

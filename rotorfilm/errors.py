@@ -84,6 +84,10 @@ class ValidityWarning(UserWarning):
     """A model is used outside the range in which it was verified."""
 
 
+class FileWarning(RuntimeWarning):
+    """A file of ours is damaged or cannot be written, so that work is done again or may be lost."""
+
+
 class CouplingWarning(ValidityWarning):
     """A co-simulation is near its stability limit, or past it."""
 

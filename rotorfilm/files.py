@@ -31,6 +31,8 @@ _LINE = 16
 def write_whole(path: str | os.PathLike[str], content: bytes) -> Path:
     """Write a file that is either whole or as it was before, whoever else writes it; return the path.
 
+    A file that was there keeps its mode, and is refused where it is not to be written.
+
     Raises
     ------
     OSError
@@ -58,8 +60,13 @@ def failures_named(path: Path) -> Iterator[None]:
 def _replace(target: Path, content: bytes) -> None:
     # Not by tempfile, whose files are for one user alone: the mode of this one follows the umask.
     part = target.with_name(f"{target.stem}-{uuid4().hex}.part")
+    there = target.exists()
+    if there and not os.access(target, os.W_OK):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(target))
     try:
         with part.open("wb") as file:
+            if there:
+                shutil.copymode(target, part)
             file.write(content)
             file.flush()
             os.fsync(file.fileno())
@@ -70,7 +77,10 @@ def _replace(target: Path, content: bytes) -> None:
 
 @contextlib.contextmanager
 def written_together(folder: Path) -> Iterator[Path]:
-    """Yield a folder to write files into; they move to `folder`, made if absent, if all goes well, else none.
+    """Yield a folder to write files into; they move to `folder`, made if absent, once all are written.
+
+    None moves where one of them cannot be written, or is a folder already. They move one after another: a
+    move that fails all the same leaves those before it in place, and folders above `folder` stay where made.
 
     Raises
     ------
@@ -133,8 +143,10 @@ def read_sealed(path: str | os.PathLike[str], settings: str, rule: str) -> bytes
     if _digest(sealed) != data[-_CHECKSUM:]:
         raise InputError(f"{name} must hold what was written: its checksum does not fit, it is damaged")
     _, version, length, owner = _SEAL.unpack(head)
-    if (version, length) != (VERSION, len(content)):
+    if version != VERSION:
         raise InputError(f"{name} must have a seal of version {VERSION}, got {version}")
+    if length != len(content):
+        raise InputError(f"{name} must hold {length} bytes before its seal, got {len(content)}")
     if owner != _digest(settings.encode()):
         raise InputError(f"{rule}, got {name}")
     return content

@@ -1,7 +1,8 @@
 """The largest inputs that scene files and the command line take, each with its reason.
 
-Beyond them lies a slip of the pen, or more memory and time than a machine has. The classes themselves have no
-such limits: what Python code asks for, it may have.
+Beyond them lies a slip of the pen, or more memory and time than a machine has. The classes of models
+have no such limits: what Python code asks of them, it may have. Quantities given as text (MAGNITUDE) and
+`sweep` (SWEEP_POINTS, WORKERS) have them from Python too.
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
 """Files: whole or as they were, sealed, and all of several or none."""
 
 import errno
+import hashlib
 import os
 import stat
 import subprocess
@@ -123,6 +124,30 @@ def test_links_and_devices_stay_what_they_are(tmp_path):
     script = "from rotorfilm.files import write_whole; write_whole('/dev/stdout', b'through')"
     ran = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, check=True)
     assert ran.stdout == b"through"
+
+
+@posix
+def test_a_file_keeps_its_mode_and_one_that_is_read_only_is_refused(tmp_path, monkeypatch):
+    path = write_whole(tmp_path / "a", b"before")
+    path.chmod(0o640)
+    write_whole(path, b"after")
+    assert (path.read_bytes(), stat.S_IMODE(path.stat().st_mode)) == (b"after", 0o640)
+    path.chmod(0o400)
+    # The superuser may write everything, and is no one to test this with.
+    monkeypatch.setattr(os, "access", lambda path, mode: not mode & os.W_OK)
+    with pytest.raises(PermissionError, match=r"Permission denied: '.*a'"):
+        write_whole(path, b"other")
+    assert path.read_bytes() == b"after"
+    assert len(list(tmp_path.iterdir())) == 1
+
+
+def test_a_seal_of_another_length_says_so(tmp_path):
+    content = b"longer content"
+    whole = write_sealed(tmp_path / "a", content, "settings").read_bytes()
+    head = whole[len(content) : -32]
+    (tmp_path / "a").write_bytes(content[1:] + head + hashlib.sha256(content[1:] + head).digest())
+    with pytest.raises(InputError, match=r"must hold 14 bytes before its seal, got 13"):
+        read_sealed(tmp_path / "a", "settings", "rule")
 
 
 def test_a_missing_folder_is_named(tmp_path):

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ..errors import InputError, RotorfilmError, SceneError, ValidityWarning
+from ..errors import FileWarning, InputError, RotorfilmError, SceneError, ValidityWarning
 from ..printable import brief
 from ..units import whole_number
 from . import printing as console
@@ -437,8 +437,8 @@ def _map_of_options(
 
 
 def _show_warning(message: Warning | str, category: type[Warning], *_: Any) -> None:
-    """Show what a model says of itself; what other packages warn of is for their developers."""
-    if issubclass(category, ValidityWarning):
+    """Show what a model says of itself and of its files; others warn their developers."""
+    if issubclass(category, ValidityWarning | FileWarning):
         console.complain("warning", message)
 
 

@@ -97,11 +97,17 @@ def _macho(content: bytes, header: int) -> int:
     return max(ends)
 
 
-def _fat(content: bytes) -> int:
-    """Return the end of a universal file: of its parts and of what these name."""
+def _fat(content: bytes) -> int | None:
+    """Return the end of a universal file: of its parts and of what these name.
+
+    None where a part is universal again: such a file could hold itself.
+    """
     (count,) = struct.unpack_from(">4xI", content)
     end = 8 + 20 * count
     for k in range(min(count, len(content) // 20)):
         start, size = struct.unpack_from(">8xII", content, 8 + 20 * k)
-        end = max(end, start + size, start + (_end(content[start : start + size]) or 0))
+        part = content[start : start + size]
+        if part[:4] == content[:4]:
+            return None
+        end = max(end, start + size, start + (_end(part) or 0))
     return end

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 from typing import Any
-from xml.etree.ElementTree import ParseError, parse
-from zipfile import BadZipFile, ZipFile
+from xml.etree.ElementTree import parse
+from zipfile import ZipFile
 
 import fmpy
 from fmpy.model_description import ValidationError
@@ -39,8 +39,9 @@ def _require_version(path: str) -> None:
     try:
         with ZipFile(path) as archive, archive.open("modelDescription.xml") as file:
             root = parse(file).getroot()
-    except (BadZipFile, KeyError, NotImplementedError, OSError, ParseError, RuntimeError) as error:
-        raise _unreadable(path, str(error)) from error
+    except Exception as error:
+        # Damaged archives raise what their decompressors do, and an EOFError without a word.
+        raise _unreadable(path, str(error) or type(error).__name__) from error
     if root.tag != ROOT:
         raise _unreadable(path, f"the root of modelDescription.xml is {root.tag}, not {ROOT}")
     version = root.get("fmiVersion", "no version")

@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 from typing import IO
 
-from ..errors import InputError, warn_user
+from ..errors import FileWarning, InputError, warn_user
 from ..files import failures_named, sealed_line, unsealed_line, write_whole
 from .point import Row
 
@@ -32,7 +32,7 @@ class Store:
 
     Warns
     -----
-    RuntimeWarning
+    FileWarning
         Of damaged rows, which are left out.
     """
 
@@ -47,7 +47,7 @@ class Store:
             self._require_same(whole[0] if whole else content)
         kept = [line for line in whole[1:] if self._read(line)]
         if lost := len(whole[1:]) - len(kept):
-            warn_user(f"{lost} damaged rows of {str(path)!r} are computed again", RuntimeWarning)
+            warn_user(f"{lost} damaged rows of {str(path)!r} are computed again", FileWarning)
         if (found := head + b"".join(kept)) != content:
             write_whole(path, found)
         self._file: IO[bytes] = path.open("ab")

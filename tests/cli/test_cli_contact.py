@@ -1,11 +1,9 @@
 """The rolling ball at the command line: its numbers, responses, files, and one line for each mistake."""
 
 import json
-import os
 import signal
 import subprocess
 import sys
-import time
 
 import numpy as np
 import pytest
@@ -103,12 +101,19 @@ def test_the_full_film_is_saved_and_resumed(run, tmp_path):
     assert responses[1]["approach"][-1] == pytest.approx(whole.delta[-1], abs=1e-3)
 
 
-KEPT = """
-import sys
-import rotorfilm.films.contact_run as contact_run
-from rotorfilm import cli
+KILLED = """
+import os, signal, sys
+from rotorfilm.bearings.contact import PointContact
+from rotorfilm.bearings.contact.motion import contact_run
+from rotorfilm.cli.main import main
 contact_run.EVERY = -1.0
-cli.main(sys.argv[1:])
+save = PointContact.save
+def save_and_die(self, run, path):
+    save(self, run, path)
+    if len(run.time) > 5:
+        os.kill(os.getpid(), signal.SIGKILL)
+PointContact.save = save_and_die
+main(sys.argv[1:])
 """
 
 
@@ -118,14 +123,8 @@ def test_a_killed_run_goes_on_to_the_last_bit(run, tmp_path):
     assert run([*command, "--save", tmp_path / "whole.nc"])[0] == 0
     part = tmp_path / "part.nc"
     # Not from the checkout, whose package would hide the installed one.
-    running = subprocess.Popen([sys.executable, "-c", KEPT, *command, "--save", str(part)], cwd=tmp_path)
-    deadline = time.monotonic() + 120.0
-    while not part.is_file():
-        assert running.poll() is None, "the run ended before it could be killed"
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
-    os.kill(running.pid, signal.SIGKILL)
-    running.wait()
+    killed = subprocess.run([sys.executable, "-c", KILLED, *command, "--save", str(part)], cwd=tmp_path)
+    assert killed.returncode == -signal.SIGKILL
     code, out, _ = run([*command, "--save", part, "--resume", part, "--json"])
     response = json.loads(out)["response"]
     assert code == 0
@@ -138,6 +137,20 @@ def test_a_damaged_file_is_named(run, tmp_path):
     code, out, err = run([*PLAIN, "--resume", tmp_path / "run.nc"])
     assert (code, out) == (2, "")
     assert "run.nc' must end with the seal of rotorfilm: it is cut off, or another file" in err
+
+
+@pytest.mark.filterwarnings("default::rotorfilm.errors.FileWarning")
+def test_a_spoiled_cache_and_a_run_that_could_not_be_saved_are_told(run, tmp_path, monkeypatch):
+    monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path / "cache"))
+    assert "warning" not in run(PLAIN)[2]
+    (path,) = (tmp_path / "cache").glob("contact-*.npz")
+    path.write_bytes(path.read_bytes()[:-1])
+    code, _, err = run(PLAIN)
+    assert code == 0
+    assert "warning: the operating point is made again: " in " ".join(err.split())
+    save = ["--save", tmp_path / "absent" / "run.nc"]
+    _, _, err = run([*PLAIN, "--step", "0.2", "--duration", "0.1", *save])
+    assert "warning: the run could not be saved: " in " ".join(err.split())
 
 
 def test_tables_for_people(run):

@@ -63,6 +63,13 @@ def test_the_interpreter_is_whole(written):
         require_whole(written(program.read()))
 
 
+def test_a_universal_file_within_a_universal_file_is_refused(written):
+    content = bytearray(universal([macho(True), macho(True, 12)]))
+    struct.pack_into(">II", content, 16, 0, len(content))
+    with pytest.raises(FmuError, match="must be an ELF, PE or Mach-O file"):
+        require_whole(written(content))
+
+
 @pytest.mark.parametrize("content", [b"", b"#!/bin/sh\n", b"MZ" + bytes(200), b"\x7fEL"])
 def test_what_is_no_library_is_refused(content, written):
     with pytest.raises(FmuError, match="must be an ELF, PE or Mach-O file, got one that starts with"):

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import zipfile
 from pathlib import Path
+from zipfile import ZIP_DEFLATED, ZipFile
 
 import fmpy
 import pytest
@@ -16,6 +17,7 @@ from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.cosim import open_fmu
 from rotorfilm.errors import FmuError
 from rotorfilm.fmu import check_fmu, describe_fmu, export_fmu
+from rotorfilm.fmu.reading import read_description
 from rotorfilm.rotors.rigid import RigidRotor
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm())
@@ -114,6 +116,24 @@ def test_a_file_that_is_no_fmu_is_refused(tmp_path):
     (tmp_path / "a.fmu").write_text("no zip")
     with pytest.raises(FmuError, match="fmu must be a readable FMU"):
         check_fmu(tmp_path / "a.fmu")
+
+
+def test_a_damaged_description_is_refused(tmp_path):
+    def refused(content):
+        (tmp_path / "a.fmu").write_bytes(content)
+        with pytest.raises(FmuError, match=r"fmu must be a readable FMU, got '.*a\.fmu': \S"):
+            read_description(str(tmp_path / "a.fmu"))
+
+    with ZipFile(tmp_path / "a.fmu", "w", ZIP_DEFLATED) as archive:
+        archive.writestr("modelDescription.xml", "".join(f"<a b='{k}'>" for k in range(40)))
+        (entry,) = archive.infolist()
+        begin, end = entry.header_offset + 30 + len(entry.filename), archive.start_dir
+    whole = (tmp_path / "a.fmu").read_bytes()
+    for place in range(begin, end):
+        refused(whole[:place] + bytes([whole[place] ^ 0x55]) + whole[place + 1 :])
+    with ZipFile(tmp_path / "a.fmu", "w") as archive:
+        archive.writestr("modelDescription.xml", '<?xml version="1.0" encoding="bogus"?><a/>')
+    refused((tmp_path / "a.fmu").read_bytes())
 
 
 LIBRARY = f"binaries/{fmpy.platform}/film{fmpy.sharedLibraryExtension}"

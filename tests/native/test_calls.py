@@ -369,10 +369,22 @@ def test_unknown_phases_are_refused_and_a_reset_is_possible(unzipped, kind, fiel
     (phase,) = struct.unpack_from("<I", content, 48)
     assert phase == (8 if exchange else 32)
     for wrong in (0, 3, phase | 1, 32 if exchange else 16, 512, 1 << 31):
-        with refused(ERROR, "a phase of this instance"):
+        with refused(ERROR, f"a phase of this instance, got {wrong}"):
             restore(sealed(content[:place] + struct.pack("<I", wrong) + content[place + 4 :]))
     rotor.fmu.reset()
     rotor.start()
+
+
+@ALL
+def test_a_state_that_is_not_finite_is_refused_by_its_value(unzipped, kind, refused):
+    rotor = unzipped(ROTOR).open(kind).start()
+    save, restore = roundtrip(rotor)
+    content, wrong = save(), struct.pack("<d", np.inf)
+    with refused(ERROR, "time of the FMU state must be finite, got inf"):
+        restore(sealed(content[:24] + wrong + content[32:]))
+    last = (len(content) - 96) // 8 - 1  # behind the header
+    with refused(ERROR, f"value {last} of the FMU state must be finite, got inf"):
+        restore(sealed(content[:-8] + wrong))
 
 
 def test_reset_and_freeing_states_are_possible_in_every_phase(unzipped, refused):

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...errors import InputError, warn_user
+from ...errors import FileWarning, InputError, warn_user
 from ...model import Array
 from ...sources import source_digest
 from ..films.table_cache import cache_folder, cached, read_kept
@@ -89,7 +89,7 @@ def operating_point(equations: ContactEquations) -> ContactPoint:
 
     Warns
     -----
-    RuntimeWarning
+    FileWarning
         If the point on disk is damaged, or cannot be written: it will be computed again next time.
     """
     return cached(
@@ -106,7 +106,7 @@ def kept_points(equations: ContactEquations) -> list[ContactPoint]:
 
     Warns
     -----
-    RuntimeWarning
+    FileWarning
         Of a damaged point, which is left out.
     """
     found = []
@@ -114,7 +114,7 @@ def kept_points(equations: ContactEquations) -> list[ContactPoint]:
         try:
             found.append(_point(read_kept(path)))
         except (OSError, InputError) as error:
-            warn_user(f"an operating point is left out: {error}", RuntimeWarning)
+            warn_user(f"an operating point is left out: {error}", FileWarning)
     return sorted(found, key=lambda point: (point.V, point.Q0))
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...errors import InputError, ValidityWarning, require_number, require_positive, warn_user
+from ...errors import FileWarning, InputError, ValidityWarning, require_number, require_positive, warn_user
 from .film.contact_grid import ContactGrid
 from .film.contact_newton import Contact
 from .film.contact_scheme import ContactScheme, UpwindScheme
@@ -152,7 +152,8 @@ class PointContact:
         ----------
         start : ContactState or ContactRun
             From `stationary`, `state` or an earlier run. A run that is not complete, with the other arguments
-            of the first time, goes on to its end, to the last bit as if it had not been interrupted.
+            of the first time, goes on to its end, to the last bit as if it had not been interrupted;
+            snapshots from before are missing where it was read from a file, which does not hold them.
         duration : float [1]
             Of the run as a whole.
         W : float [1]
@@ -171,13 +172,13 @@ class PointContact:
         Raises
         ------
         InputError
-            If a run to go on with was begun with other arguments.
+            If a run to go on with was begun with other arguments, or under another load until now.
         ConvergenceError
             If a step fails; its `partial` is the run up to there.
 
         Warns
         -----
-        RuntimeWarning
+        FileWarning
             If the run cannot be saved on its way.
         """
         force = load if callable(load) else _Constant(require_number("load", load))
@@ -227,7 +228,7 @@ class PointContact:
         try:
             self.save(run, path)
         except OSError as error:  # what has been computed is worth more
-            warn_user(f"the run could not be saved: {error}", RuntimeWarning)
+            warn_user(f"the run could not be saved: {error}", FileWarning)
 
     def _start(self, state: ContactState) -> ContactState:
         if not isinstance(state, ContactState) or state.pressure.shape != self.grid.shape:

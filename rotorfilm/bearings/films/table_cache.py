@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
-from ...errors import RotorfilmError, warn_user
+from ...errors import FileWarning, RotorfilmError, warn_user
 from ...files import read_sealed, write_sealed
 from .table_bytes import StoredTable
 
@@ -54,7 +54,7 @@ def cached(
 
     Warns
     -----
-    RuntimeWarning
+    FileWarning
         If the file is damaged or cannot be read, so that it is built again, or if it cannot be written.
     """
     try:
@@ -62,7 +62,7 @@ def cached(
     except (FileNotFoundError, NotADirectoryError):
         pass
     except (OSError, RotorfilmError) as error:
-        warn_user(f"{what} is made again: {error}", RuntimeWarning)
+        warn_user(f"{what} is made again: {error}", FileWarning)
     made = build()
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -70,7 +70,7 @@ def cached(
     except OSError as error:
         warn_user(
             f"{what} could not be kept in {path.parent} ({error}); {FOLDER_VARIABLE} names another folder",
-            RuntimeWarning,
+            FileWarning,
         )
     return made
 

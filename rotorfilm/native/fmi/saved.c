@@ -51,17 +51,22 @@ static rf_answer require_own(rf_instance *c, const void *bytes)
     double value;
     memcpy(&h, bytes, sizeof h);
     int own = h.magic == MAGIC && h.resource == c->resource->checksum && h.size == rf_saved_size(c)
-           && h.co_simulation == c->co_simulation && isfinite(h.now.time);
-    for (size_t i = 0; own && i < c->value_count; ++i) {
-        memcpy(&value, (const char *)bytes + sizeof h + i * sizeof value, sizeof value);
-        own = isfinite(value);
-    }
+           && h.co_simulation == c->co_simulation;
     if (!own)
         return refuse(c);
-    if (is_phase(h.now.phase, c->co_simulation) && is_phase(h.resume, c->co_simulation))
+    if (!isfinite(h.now.time))
+        return rf_log(c, RF_ERROR, RF_LOG_ERROR, "time of the FMU state must be finite, got %.9g", h.now.time);
+    for (size_t i = 0; i < c->value_count; ++i) {
+        memcpy(&value, (const char *)bytes + sizeof h + i * sizeof value, sizeof value);
+        if (!isfinite(value))
+            return rf_log(c, RF_ERROR, RF_LOG_ERROR, "value %zu of the FMU state must be finite, got %.9g", i,
+                          value);
+    }
+    const uint32_t phase = is_phase(h.now.phase, c->co_simulation) ? h.resume : h.now.phase;
+    if (is_phase(phase, c->co_simulation))
         return RF_FINE;
     return rf_log(c, RF_ERROR, RF_LOG_ERROR, "the FMU state must have a phase of this instance, got %u",
-                  (unsigned)h.now.phase);
+                  (unsigned)phase);
 }
 
 rf_answer rf_save(rf_instance *c, void **saved)

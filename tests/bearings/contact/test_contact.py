@@ -1,5 +1,7 @@
 """The point contact: stationary solution, motion in time, small motions, files."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline, RectBivariateSpline
@@ -348,6 +350,20 @@ def test_interrupted_run_keeps_what_it_has_and_is_resumed(coarse, resting, tmp_p
         coarse.simulate(read, duration=1.0, W=0.6, load=load, control=control)
     with pytest.raises(InputError, match="that is not complete, got a complete run"):
         coarse.simulate(whole, duration=1.0, W=0.5, load=load, control=control)
+
+
+def test_a_run_goes_on_under_its_own_load_only(coarse, resting):
+    asked = {"duration": 0.5, "W": 1.0, "snapshots": tuple(np.arange(0.01, 0.5, 0.01))}
+    whole = coarse.simulate(resting, **asked, load=lambda t: 1.0 + 0.3 * t)
+    part = replace(whole, complete=False)
+    # The same until then: what comes later is not known of a function.
+    assert coarse.simulate(part, **asked, load=lambda t: 1.0 + 0.3 * t).complete
+    with pytest.raises(InputError, match=r"driven by 1\.00\d+ at t = 0\.0\d+, got 1\.00\d+$"):
+        coarse.simulate(part, **asked, load=lambda t: 1.0 + 0.4 * t)
+    other = {**asked, "snapshots": (*asked["snapshots"], 0.49)}
+    with pytest.raises(InputError, match=r"as it was begun, by .*got") as caught:
+        coarse.simulate(part, **other, load=lambda t: 1.0 + 0.3 * t)
+    assert len(str(caught.value)) < 400
 
 
 def test_a_run_goes_on_to_the_last_bit_from_every_step(coarse, resting, tmp_path, monkeypatch):

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Sequence
+from itertools import takewhile
 from time import monotonic
 
 import numpy as np
 
 from ....errors import ConvergenceError, InputError
+from ....printable import shortened
 from ..film.film_equations import ContactEquations
 from ..film.stationary import HERTZ_LOAD
 from .contact_state import ContactRun, ContactState, state_of
@@ -85,7 +87,7 @@ def run_contact(
     Raises
     ------
     InputError
-        If a run to go on with was asked for otherwise.
+        If a run to go on with was asked for otherwise, or was driven otherwise until now.
     ConvergenceError
         If a step fails; its `partial` is the run up to there.
     """
@@ -93,8 +95,8 @@ def run_contact(
     now = start.final if isinstance(start, ContactRun) else start
     end = duration + float(now.t if begun is None else begun.time[0])
     asked = _ADDRESS.sub("", f"{motion!r}, {control!r}, end={end!r}, snapshots={tuple(snapshots)!r}")
-    if begun is not None and begun.asked != asked:
-        raise InputError(f"start must be gone on with as it was begun, by {begun.asked}, got {asked}")
+    if begun is not None:
+        _require_same(begun, asked, motion)
     stepper = Stepper(equations, motion, control, None if begun is None else begun.memory)
     recorder = _Recorder(stepper, asked, snapshots)
     if begun is None:
@@ -103,6 +105,25 @@ def run_contact(
         recorder.go_on(begun)
     ends = [t for t in sorted({*motion.breakpoints, *snapshots, end}) if now.t < t <= end]
     return _finished(recorder, stepper.advance(now.levels, ends), keep or _forget)
+
+
+def _require_same(begun: ContactRun, asked: str, motion: ContactMotion) -> None:
+    if begun.asked != asked:
+        same = sum(
+            1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(begun.asked, asked, strict=False))
+        )
+        at = asked.rfind(" ", 0, same) + 1  # where they part, for the whole may be long
+        raise InputError(
+            f"start must be gone on with as it was begun, by {shortened(begun.asked[at:])}, "
+            f"got {shortened(asked[at:])}"
+        )
+    # Functions do not say what they are: they are compared where the run has been.
+    for t, driven in zip(begun.time.tolist(), begun.driven.tolist(), strict=True):
+        if (drive := motion.drive(t)) != driven:
+            raise InputError(
+                f"start must be gone on with as it was begun, driven by {driven!r} at t = {t:.6g}, "
+                f"got {drive!r}"
+            )
 
 
 def _finished(

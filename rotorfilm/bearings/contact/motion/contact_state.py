@@ -58,7 +58,7 @@ class ContactRun:
     driven : ndarray [1]
         Load f, or approach of a driven contact, at those times.
     snapshots : tuple of ContactState
-        States at the times asked for.
+        States at the times asked for; of a run that was read from a file, those after it was cut off.
     final : ContactState
         Where the run ended; another run may start from it.
     complete : bool
