@@ -51,12 +51,15 @@ class FilmKernel:
         What its rf_film reads.
     error : float [%]
         Largest error of a force beyond the film's table that was measured; 0 where none is known.
+    openings : bool
+        Whether that holds only where no opening is near.
     """
 
     _function: ClassVar[str]
     _arguments: tuple[Any, ...]
     struct: Any
     error: float = 0.0
+    openings: ClassVar[bool] = False
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._arguments
@@ -155,6 +158,7 @@ class GrooveMapKernel(MapKernel):
     """
 
     _function: ClassVar[str] = "rf_groove_film"
+    openings: ClassVar[bool] = True
 
     def __init__(
         self,
@@ -173,7 +177,7 @@ class GrooveMapKernel(MapKernel):
         places = self.log_center.ctypes.data, self.coefficients.ctypes.data
         counts = cells_x, cells_e, cells_s, len(log_center)
         self.struct = GrooveMapStruct(*counts, reach, crowding, axis, *places, slenderness)
-        self.error = functions()["rf_groove_error"]()
+        self.error = functions()["rf_groove_error"](byref(self.struct))
 
 
 class JournalKernel:
@@ -191,9 +195,9 @@ class JournalKernel:
 
     def __init__(self, kernel: FilmKernel, clearance: float, force_scale: float) -> None:
         self._arguments = (kernel, clearance, force_scale)
-        self.error = kernel.error
+        self.film = kernel
         self._struct = JournalStruct(
-            kernel.film, addressof(kernel.struct), clearance, force_scale, kernel.error
+            kernel.film, addressof(kernel.struct), clearance, force_scale, kernel.error, kernel.openings
         )
         self._reference = byref(self._struct)
         self._call = functions()["rf_journal_call"]

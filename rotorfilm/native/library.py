@@ -58,6 +58,7 @@ class JournalStruct(ctypes.Structure):
         ("clearance", c_double),
         ("force_scale", c_double),
         ("error", c_double),
+        ("openings", c_int),
     ]
 
 
@@ -106,7 +107,7 @@ _SCALAR: dict[str, list[Any]] = {
     "rf_map_slice": [c_void_p, c_double, c_void_p, c_void_p],
     "rf_map_contact": [c_void_p, c_double, c_double],
     "rf_map_error": [c_void_p],
-    "rf_groove_error": [],
+    "rf_groove_error": [c_void_p],
 }
 
 

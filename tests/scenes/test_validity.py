@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
-from rotorfilm.linear import equilibrium
+from rotorfilm.errors import ConvergenceError, EquilibriumError, FilmContactError
+from rotorfilm.linear import coefficients, equilibrium
 from rotorfilm.scenes import bundled_scene
-from rotorfilm.scenes.journal.journal_remarks import TAYLOR, film_loss, journal_numbers
+from rotorfilm.scenes.journal import journal_remarks
+from rotorfilm.scenes.journal.journal_remarks import TAYLOR, film_loss, film_remarks, journal_numbers
 from rotorfilm.scenes.lubricant_table import LubricantTable
 
 BEARING = JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.02)
@@ -81,7 +83,7 @@ def test_loss_and_flow_of_a_short_film(speed):
     bearing = JournalBearing(radius=0.05, length=0.008, clearance=1e-4, viscosity=0.02)
     at = equilibrium(replace(bearing, film=ShortFilm()), (0.0, -150.0), speed)
     eps, x = at.eccentricity_ratio, at.position[0]
-    power, flow = film_loss(bearing, speed, (0.0, -150.0))
+    power, flow, _ = film_loss(bearing, speed, (0.0, -150.0))
     assert flow == pytest.approx(eps * 300.0 * 0.05 * 1e-4 * 0.008, rel=0.02)
     drag = 0.02 * 300.0 * 0.05**3 * 0.008 / 1e-4 * 2.0 * math.pi / math.sqrt(1.0 - eps**2)
     assert power == pytest.approx(300.0 * (drag + 0.5 * abs(x) * 150.0), rel=0.02)
@@ -96,7 +98,7 @@ def test_loss_is_the_friction_of_raimondi_and_boyd(sommerfeld, friction):
     bearing = replace(BEARING, length=0.1)
     turns = 20.0
     load = 0.02 * turns * 500.0**2 / sommerfeld * 0.1 * 0.1
-    power, _ = film_loss(bearing, 2.0 * math.pi * turns, (0.0, -load))
+    power, *_ = film_loss(bearing, 2.0 * math.pi * turns, (0.0, -load))
     assert power / (2.0 * math.pi * turns * 0.05 * load) * 500.0 == pytest.approx(friction, rel=0.03)
 
 
@@ -105,3 +107,30 @@ def test_an_unloaded_film_has_no_flow_and_one_beyond_any_load_no_number():
     n = journal_numbers(BEARING, OIL, 100.0, (0.0, 0.0))
     assert n.warming == pytest.approx(0.02 * (100.0 * 0.05) ** 2 / (8.0 * 0.15))
     assert math.isnan(journal_numbers(BEARING, OIL, 100.0, (0.0, -1e14)).warming)
+
+
+@pytest.mark.parametrize("failure", [ConvergenceError("no"), FilmContactError("no"), EquilibriumError("no")])
+def test_a_coarse_film_without_an_answer_leaves_the_heat_unknown(monkeypatch, failure):
+    def fail(*_):
+        raise failure
+
+    monkeypatch.setattr(journal_remarks, "equilibrium", fail)
+    remarks = film_remarks(BEARING, OIL, 100.0, (0.0, -5000.0))
+    assert [remark[:15] for remark in remarks if remark.startswith("heat")] == ["heat: not known"]
+
+
+@pytest.mark.parametrize("speed", [20.0, 3000.0])
+def test_warming_passes_from_conduction_to_the_oil_that_leaves(speed):
+    conducted = 0.02 * (speed * 0.05) ** 2 / (8.0 * 0.15)
+    stiff = math.hypot(*coefficients(BEARING, [0.0, 0.0], speed).stiffness[0])
+    numbers = [
+        journal_numbers(BEARING, OIL, speed, (0.0, -stiff * 1e-4 * ratio))
+        for ratio in (5e-4, 1.1e-3, 0.01, 0.03, 0.06, 0.099, 0.101, 0.12)
+    ]
+    warming = [n.warming for n in numbers]
+    assert warming[0] == pytest.approx(conducted)
+    assert numbers[1].side_flow > 0.0
+    most = max(warming[-1], conducted)
+    assert abs(warming[1] - warming[0]) < 0.02 * most
+    assert abs(warming[-2] - warming[-3]) < 0.05 * most
+    assert max(warming) < 1.3 * most

@@ -195,13 +195,13 @@ class BushReaction:
             nominal=float(self._melting_point),
             description="temperature at which the contact is held, above ambient",
         )
-        local = float(isinstance(self.melting, LocalMelting))
+        flags = isinstance(self.melting, LocalMelting), self.temperature is not None
         return NativeSpec(
             kernel="bush_reaction",
             parameters=(*bush_parameters(self.bush, self.melting_heat), retardation, held),
             tables={
                 "bush": bush_table(self.bush),
-                "profile": np.array([self.nodes, self.center, self.extent, local]),
+                "profile": np.array([self.nodes, self.center, self.extent, *map(float, flags)]),
             },
         )
 

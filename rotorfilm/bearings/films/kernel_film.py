@@ -10,7 +10,7 @@ import numpy as np
 from ...errors import InputError, require_inside, warn_user
 from ...model import Array
 from ...native import FilmKernel, JournalKernel, Status
-from ...native.film_kernels import Batch
+from ...native.film_kernels import Batch, MapKernel
 from .law import vanishing_source, wall_contact
 
 
@@ -34,7 +34,7 @@ class KernelFilm(ABC):
         e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
         kernel = self._kernel(slenderness)
         batch = kernel.force(e, w)
-        _report_law(batch, e, w, kernel.error)
+        _report_law(batch, e, w, kernel)
         return batch.values.reshape(eccentricity.shape)
 
     def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
@@ -50,7 +50,7 @@ class KernelFilm(ABC):
         e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
         kernel = self._kernel(slenderness)
         batch = kernel.jacobian(e, w)
-        _report_law(batch, e, w, kernel.error)
+        _report_law(batch, e, w, kernel)
         return batch.values.reshape(2, 4, *eccentricity.shape[1:])
 
     def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundKernel:
@@ -72,6 +72,11 @@ class BoundKernel:
 
     kernel: JournalKernel
     clearance: float
+
+    @property
+    def beyond(self) -> str:
+        """How the force goes on beyond the map of the film; empty where it has none."""
+        return continued(self.kernel.film) if isinstance(self.kernel.film, MapKernel) else ""
 
     def call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
         """Return (force_x, force_y) [N] for numbers, as fast as Python can ask."""
@@ -126,10 +131,10 @@ class BoundKernel:
             )
         if status == Status.CONTACT:
             require_inside(np.array([x, y]), self.clearance)
-        _report_film(status, float(np.hypot(x, y)) / self.clearance, self.kernel.error)
+        _report_film(status, float(np.hypot(x, y)) / self.clearance, self.kernel.film)
 
 
-def _report_law(batch: Batch, e: Array, w: Array, error: float) -> None:
+def _report_law(batch: Batch, e: Array, w: Array, kernel: FilmKernel) -> None:
     """Raise, or warn, about the most severe status of a batch of eccentricities and sources (2, n)."""
     if not batch.status:
         return
@@ -139,17 +144,20 @@ def _report_law(batch: Batch, e: Array, w: Array, error: float) -> None:
             "eccentricity and source must be finite and not overflow, "
             f"got {at.tolist()} and {w[:, batch.first].tolist()} 1/s"
         )
-    _report_film(batch.status, float(np.hypot(*at)), error)
+    _report_film(batch.status, float(np.hypot(*at)), kernel)
 
 
-def _report_film(status: int, chi: float, error: float) -> None:
+def _report_film(status: int, chi: float, kernel: FilmKernel) -> None:
     if status == Status.CONTACT:
         raise wall_contact(chi)
     if status == Status.UNDEFINED:
         raise vanishing_source(chi)
-    how = (
-        f"continued as that of a film at contact, within {error:g} % where no opening is near"
-        if error
-        else "extrapolated there, with an error that is not known"
-    )
-    warn_user(f"eccentricity ratio {chi:.6g} is beyond the map of the film; its force is {how}")
+    warn_user(f"eccentricity ratio {chi:.6g} is beyond the map of the film; its force is {continued(kernel)}")
+
+
+def continued(kernel: FilmKernel) -> str:
+    """Return how the force of a film goes on beyond its map, and how far it is off there."""
+    if not kernel.error:
+        return "extrapolated there, with an error that is not known"
+    where = " where no opening is near" if kernel.openings else ""
+    return f"continued as that of a film at contact, within {kernel.error:g} %{where}"

@@ -93,8 +93,9 @@ KERNELS = {
         "Validity": (
             "M and L0 are splines over X, T and ln(length / (2 radius)), fitted to converged solutions: one "
             "force within 1e-4 up to an eccentricity ratio of 0.97, length / diameter from 0.1 to 4; beyond "
-            "a ratio of 0.999 extrapolated, with a warning. Laminar, isothermal, aligned, without grooves. "
-            "Where w vanishes off the center the force is zero and has no derivative."
+            "the last node of the map it goes on as the film near the wall, or, where the map is no such film, "
+            "as a power of X, with a warning that says how far it may be off. Laminar, isothermal, aligned, "
+            "without grooves. Where w vanishes off the center the force is zero and has no derivative."
         ),
     },
     "grooved_journal": {
@@ -114,9 +115,9 @@ KERNELS = {
         "Validity": (
             "M and L0 are splines over X and the angles, made for these openings and this length / diameter: "
             "radius and length are fixed, clearance and viscosity tunable. The table `map` is length / "
-            "diameter, the last X, squeeze and the axis [rad]; beyond the last X the force is extrapolated, "
-            "with a warning. Laminar, isothermal, aligned. Where w vanishes the force is zero and has no "
-            "derivative."
+            "diameter, the last X, squeeze and the axis [rad]; beyond the last X the force goes on as that "
+            "of the film near the wall, as far as the openings leave it, with a warning. Laminar, isothermal, "
+            "aligned. Where w vanishes the force is zero and has no derivative."
         ),
     },
     "short_journal": {
@@ -155,8 +156,10 @@ KERNELS = {
             "M is a spline over X and T, made for this damper. Fixed is what it holds for: length and "
             "clearance where the cage is porous, radius and length where the film is of finite length. The "
             "springs are preloaded so that they carry the static load. Beyond the last X, the table reach, "
-            "the force is extrapolated, with a warning. Laminar, isothermal, aligned, without oil inertia. "
-            "Where the rotor is at rest off the center the film force is zero and has no derivative."
+            "the force goes on as that of the film near the wall, or, where the map is no such film (porous "
+            "cages, films without rupture), as a power of X, with a warning. Laminar, isothermal, aligned, "
+            "without oil inertia. Where the rotor is at rest off the center the film force is "
+            "zero and has no derivative."
         ),
     },
     "rigid_rotor": {

@@ -48,11 +48,14 @@ class FilmCall(NamedTuple):
         Its first argument.
     owner : object
         What must live as long as both.
+    beyond : str
+        How the force goes on beyond the map of its film; empty where it has none.
     """
 
     address: int
     data: int
     owner: Any
+    beyond: str = ""
 
 
 def film_call(reaction: Reaction) -> FilmCall:
@@ -62,7 +65,7 @@ def film_call(reaction: Reaction) -> FilmCall:
         if isinstance(bound, BoundKernel):
             struct = bound.kernel._struct
             address = ctypes.cast(functions()["rf_journal_at"], c_void_p).value or 0
-            return FilmCall(address=address, data=ctypes.addressof(struct), owner=bound)
+            return FilmCall(address=address, data=ctypes.addressof(struct), owner=bound, beyond=bound.beyond)
     if type(reaction) is LinearBearing:
         values = np.concatenate([np.ravel(reaction.stiffness), np.ravel(reaction.damping)])
         return FilmCall(address=linear_bearing.address, data=values.ctypes.data, owner=values)

@@ -147,7 +147,8 @@ class March:
     def warn(self) -> None:
         """Warn if a film was asked beyond its map."""
         if self._counts[4]:
-            warn_user("a journal went beyond the map of its film, which is extrapolated there")
+            how = " or ".join(dict.fromkeys(c.beyond for c in self.modal.calls if c.beyond))
+            warn_user(f"a journal went beyond the map of its film; its force is {how}")
 
     def _failure(self, reason: int, kept: Complex) -> ContactError | ConvergenceError:
         at = f"at t = {self.time:.9g} s"

@@ -1,6 +1,8 @@
 #include "contact.h"
 
 #define FACTOR 48.0
+#define MEASURED 1.96 /* X just below that of .97, the last node farthest from the wall beyond which forces were measured */
+#define NEAR 4.5      /* X between those of .99 and .999: from the latter on the film at contact errs less */
 #define LARGEST 1e15 /* tangent where the film at contact is far from the wall and E is nothing */
 
 static RF_ONCE void values(double u, double b[RF_ORDER])
@@ -113,4 +115,9 @@ void rf_set_film(const rf_frame *at, const rf_potential *e, double side, double 
                             per * (side_turn - e->turn_turn)};
     rf_set_columns(at, at->rx, at->ry, by_e, 0, jacobian);
     rf_set_damping(at, e->value, turn, e->turn_turn / e->value - turn * turn, jacobian);
+}
+
+int rf_contact_error(double x_end)
+{
+    return x_end < MEASURED ? 0 : x_end < NEAR ? 5 : 2;
 }

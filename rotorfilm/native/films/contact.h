@@ -34,6 +34,10 @@ void rf_contact_gain(double slenderness, double chi_end, double chi, double cos,
 /* Add a share of the gain to E of a map at its last node. */
 void rf_add_gain(const rf_potential *gain, double share, rf_potential *e);
 
+/* Largest error of a force that was measured beyond a last node x_end of a map [%] (docs/map.md): 0 for last nodes
+   nearer the center than any that was. */
+int rf_contact_error(double x_end);
+
 /* Force and Jacobian of J = |w|^2 E. E may depend on the direction of e by itself: side and side_turn are its
    derivative, and that of its turn, where e and w turn together. */
 void rf_set_film(const rf_frame *at, const rf_potential *e, double side, double side_turn, double *f, double *jacobian);

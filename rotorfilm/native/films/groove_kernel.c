@@ -182,9 +182,9 @@ static int beyond(const rf_groove_map *map, const rf_frame *at, double x, double
     return rf_judge(x, map->x_end, f, jacobian);
 }
 
-int rf_groove_error(void)
+int rf_groove_error(const rf_groove_map *map)
 {
-    return 5;
+    return rf_contact_error(map->x_end);
 }
 
 int rf_groove_film(const void *of, const double *e, const double *w, double *f, double *jacobian)

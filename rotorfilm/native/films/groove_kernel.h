@@ -38,6 +38,6 @@ typedef struct rf_groove_map {
 RF_EXPORT int rf_groove_film(const void *map, const double *e, const double *w, double *f, double *jacobian);
 
 /* As rf_map_error, where no opening is near. */
-RF_EXPORT int rf_groove_error(void);
+RF_EXPORT int rf_groove_error(const rf_groove_map *map);
 
 #endif

@@ -12,6 +12,7 @@ typedef struct rf_journal {
     double clearance;   /* m */
     double force_scale; /* viscosity * length * radius^3 / clearance^2 [N s] */
     double error;       /* of the force where the film answers RF_OUTSIDE [%]; 0 where none is known */
+    int openings;       /* whether that holds only where no opening is near */
 } rf_journal;
 
 /* The force and, unless `jacobian` is NULL, jacobian[2][5] = d f/d(x, y, vx, vy, speed) [N/m, N s/m,

@@ -37,8 +37,8 @@ static int explain(const rf_journal *journal, int status, const double *u, rf_me
         return journal->error > 0.0
                    ? rf_say(why, status,
                             "eccentricity ratio %.6g is beyond the map of the film; its force is continued as that "
-                            "of a film at contact, within %g %% where no opening is near",
-                            e / c, journal->error)
+                            "of a film at contact, within %g %%%s",
+                            e / c, journal->error, journal->openings ? " where no opening is near" : "")
                    : rf_say(why, status,
                             "eccentricity ratio %.6g is beyond the map of the film; its force is extrapolated "
                             "there, with an error that is not known",

@@ -117,7 +117,7 @@ void rf_map_contact(rf_map *map, double slenderness, double share)
 
 int rf_map_error(const rf_map *map)
 {
-    return map->slenderness > 0.0 ? (map->x_end > 4.5 ? 2 : 5) : 0;
+    return map->slenderness > 0.0 ? rf_contact_error(map->x_end) : 0;
 }
 
 int rf_map_film(const void *of, const double *e, const double *w, double *f, double *jacobian)

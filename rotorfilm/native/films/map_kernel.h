@@ -34,7 +34,7 @@ RF_EXPORT int rf_map_film(const void *map, const double *e, const double *w, dou
    it; else as a power of X. */
 RF_EXPORT void rf_map_contact(rf_map *map, double slenderness, double share);
 
-/* Largest error of a force beyond the last node that was measured [%]; 0 where none is known. */
+/* Largest error of a force beyond the last node that was measured [%]; 0 where none was measured. */
 RF_EXPORT int rf_map_error(const rf_map *map);
 
 #endif

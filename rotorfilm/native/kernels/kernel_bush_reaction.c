@@ -1,7 +1,7 @@
 /* Kernel "bush_reaction": a polymer bush with a worn profile at nodes (bearings/bush/bush_reaction.py).
 
-   Parameters and table "bush" in bush.h. Table "profile": nodes, center and extent of their arc [rad], and
-   whether each point melts by itself (LocalMelting). Inputs x, y [m], vx, vy [m/s], speed [rad/s]; states the wear
+   Parameters and table "bush" in bush.h. Table "profile": nodes, center and extent of their arc [rad], whether
+   each point melts by itself (LocalMelting), and whether the temperature was given. Inputs x, y [m], vx, vy [m/s], speed [rad/s]; states the wear
    depths [m]; outputs force_x, force_y [N], friction_torque [N m], contact_angle [rad], maximum_pressure [Pa].
    Events: depths at the nodes, margins of melting, speed. */
 #include <math.h>
@@ -25,7 +25,7 @@ enum { ARRAYS = 8, WORK = 9 + ROWS };
 typedef struct model {
     rf_bush bush;
     rf_bush_profile profile; /* scratch, as are the arrays behind it */
-    int local;
+    int local, given; /* each point melts by itself; the temperature is one that the model was given */
     double center, extent, retardation;
     double held, gap, grip; /* temperature of the contact, clearance and friction there */
     double unit, friction; /* force of a unit of load; friction with its sign */
@@ -152,7 +152,7 @@ static int require_heat(const model *m, const double *wear, rf_message *why)
     int worn = 0;
     for (size_t i = 0; i < m->profile.n; ++i)
         worn |= wear[i] > 0.0;
-    if (!worn || !melts(m) || !(m->profile.angle > 0.0) || covered(m) >= 1.0 - COVERED_TO)
+    if (!worn || m->given || !melts(m) || !(m->profile.angle > 0.0) || covered(m) >= 1.0 - COVERED_TO)
         return RF_OK;
     return rf_say(why, RF_OUTSIDE,
                   "friction must cover the losses of a worn contact at its melting point, got about %.0f %% of "
@@ -417,13 +417,14 @@ static int take_profile(model *m, const rf_tables *tables, rf_message *why)
     if (!table)
         return RF_INVALID;
     const double *is = table->numbers;
-    if (table->extent[0] != 4 || !(is[0] >= 3.0 && is[0] <= MOST_NODES && is[2] > 0.0 && is[2] <= FULL_TURN))
+    if (table->extent[0] != 5 || !(is[0] >= 3.0 && is[0] <= MOST_NODES && is[2] > 0.0 && is[2] <= FULL_TURN))
         return rf_say(why, RF_INVALID, "the table of a profile must have 3 to %d nodes on 2 pi at most",
                       MOST_NODES);
     m->profile.n = (size_t)is[0];
     m->center = is[1];
     m->extent = is[2];
     m->local = is[3] != 0.0;
+    m->given = is[4] != 0.0;
     m->profile.closed = is[2] >= FULL_TURN;
     return RF_OK;
 }

@@ -54,7 +54,8 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
     }
     self->journal.film = rf_groove_film;
     self->journal.map = &self->map;
-    self->journal.error = rf_groove_error();
+    self->journal.error = rf_groove_error(&self->map);
+    self->journal.openings = 1;
     *sizes = RF_JOURNAL_SIZES;
     return self;
 }

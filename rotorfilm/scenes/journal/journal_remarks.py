@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...bearings.journal import JournalBearing, ReynoldsFilm
-from ...errors import EquilibriumError, ValidityWarning
+from ...errors import RotorfilmError, ValidityWarning
 from ...linear import equilibrium
 from ..lubricant_table import LubricantTable
 
@@ -37,6 +37,9 @@ COARSE = (48, 4)
 CONCENTRIC = 1e-3
 """Eccentricity ratio below which nothing to speak of flows out of a film."""
 
+SLIGHT = 0.1
+"""Eccentricity ratio below which the oil that leaves is too little to take all heat along."""
+
 
 class Numbers(NamedTuple):
     """Dimensionless numbers of a journal bearing at work.
@@ -50,8 +53,8 @@ class Numbers(NamedTuple):
     peclet : float
         speed c^2/diffusivity: heat carried along over heat conducted across the film.
     power : float [W]
-        Loss in the film, at rest and at the viscosity of the bearing; not-a-number where no grid film carries
-        the load.
+        Loss in the film, at rest and at the viscosity of the bearing; not-a-number, as side_flow, warming and
+        thinning are, where the coarse film has no answer.
     side_flow : float [m3/s]
         Oil that leaves at both ends.
     warming : float [K]
@@ -82,15 +85,18 @@ def journal_numbers(
 
     The oil that leaves carries the power that the film takes, both of an isothermal film under the load.
     Between cold walls, and where nothing flows, the middle of the film is warmer by viscosity U^2/(8
-    conductivity).
+    conductivity). Between an eccentricity ratio of `SLIGHT` and the center one passes into the other with the
+    square of the ratio, since power/flow grows as its inverse.
     """
     R, c, mu, omega = bearing.radius, bearing.clearance, bearing.viscosity, abs(speed)
     kinematic = mu / oil.density
     volumetric = oil.density * oil.heat_capacity
     peclet = omega * c**2 * volumetric / oil.conductivity
-    power, flow = film_loss(bearing, speed, load)
+    power, flow, eccentricity_ratio = film_loss(bearing, speed, load)
     conducted = mu * (omega * R) ** 2 / (8.0 * oil.conductivity)
-    warming = power / (volumetric * flow) if flow else conducted
+    carried = power / (volumetric * flow) if flow else conducted
+    share = min(eccentricity_ratio / SLIGHT, 1.0) ** 2
+    warming = min(carried, conducted + share * (carried - conducted))
     if peclet <= 1.0:
         warming = min(warming, conducted)
     mean = math.hypot(*load) / (2.0 * R * bearing.length)
@@ -107,15 +113,16 @@ def journal_numbers(
     )
 
 
-def film_loss(bearing: JournalBearing, speed: float, load: tuple[float, float]) -> tuple[float, float]:
-    """Return the power [W] that an isothermal film takes at rest and its side flow [m3/s], by a coarse grid.
+def film_loss(bearing: JournalBearing, speed: float, load: tuple[float, float]) -> tuple[float, float, float]:
+    """Return power [W], side flow [m3/s] and eccentricity ratio of an isothermal film at rest, by a coarse grid.
 
     speed * torque on the journal, viscosity speed R^3 L/c * shear + (position x force)/2, with the whole gap
     full (streamers in the ruptured zone take 3 to 22 % less), and what the supply pressure puts in.
+    Not-a-number, all three, where that film has no answer under the load.
     """
     R, L, c = bearing.radius, bearing.length, bearing.clearance
     drag = bearing.viscosity * speed * R**3 * L / c
-    concentric = 2.0 * math.pi * drag * speed, 0.0
+    concentric = 2.0 * math.pi * drag * speed, 0.0, 0.0
     if not speed or not any(load):
         return concentric
     film = replace(bearing.film if isinstance(bearing.film, ReynoldsFilm) else ReynoldsFilm(), cells=COARSE)
@@ -124,16 +131,16 @@ def film_loss(bearing: JournalBearing, speed: float, load: tuple[float, float]) 
         grid = replace(bearing, film=film)
         try:
             at = equilibrium(grid, load, speed)
-        except EquilibriumError:
-            return math.nan, math.nan
-    if at.eccentricity_ratio < CONCENTRIC:
-        return concentric
+            if at.eccentricity_ratio < CONCENTRIC:
+                return concentric
+            state = grid.kinematics(at.position, np.zeros(2), np.array(speed))
+            field = film.fitted(grid.geometry).solve(*state, grid.slenderness)
+        except RotorfilmError:
+            return math.nan, math.nan, math.nan
     (x, y), (force_x, force_y) = at.position, (-load[0], -load[1])
-    state = grid.kinematics(np.array([x, y]), np.zeros(2), np.array(speed))
-    field = film.fitted(grid.geometry).solve(*state, grid.slenderness)
     flow = c * R * L * field.side_flow
     torque = drag * field.shear + 0.5 * float(x * force_y - y * force_x)
-    return speed * torque + bearing.supply_pressure * flow, flow
+    return speed * torque + bearing.supply_pressure * flow, flow, at.eccentricity_ratio
 
 
 def film_remarks(
@@ -146,6 +153,9 @@ def film_remarks(
         f"heat: the oil warms by about {n.warming:.2g} K ({n.power:.3g} W in the film, {n.side_flow:.3g} "
         f"m3/s out of its ends, Peclet number {n.peclet:.2g}), "
         f"which takes {n.thinning:.0%} of its viscosity": n.thinning > NOTABLE,
+        "heat: not known, as the coarse film that would tell it has no answer under this load": math.isnan(
+            n.warming
+        ),
         f"turbulence: Taylor vortices above {TAYLOR}, the film has {n.taylor:.3g}": n.taylor > TAYLOR,
         f"inertia of the film: {n.inertia:.2g} of the viscous stress": n.inertia > 1.0,
         f"cavitation: the load makes {1.0 / n.tension:.2g} times the ambient pressure, so that the oil may "

@@ -142,14 +142,15 @@ def test_beyond_the_last_node_the_film_is_that_at_contact(two_grooves, chi):
     for turn in np.radians([0.0, 60.0, 85.0, -90.0, 95.0]):
         w = unit(axis + 0.5 * np.pi + turn)
         expected = exact.extrapolated(e, w, slenderness)[0]
-        error = np.linalg.norm(film.force(e, w, slenderness) - expected) / np.linalg.norm(expected)
+        with pytest.warns(ValidityWarning, match="within 5 % where no opening is near$"):
+            error = np.linalg.norm(film.force(e, w, slenderness) - expected) / np.linalg.norm(expected)
         assert error < 0.01
 
 
 def test_jacobian_beyond_the_last_node_equals_differences(one_groove):
     film, slenderness = mapped(one_groove)
     z, h = np.array([0.8, 0.55, -0.3, 0.7]), 1e-6
-    with pytest.warns(ValidityWarning, match=r"eccentricity ratio 0\.97\d* is beyond the map"):
+    with pytest.warns(ValidityWarning, match=r"ratio 0\.97\d* is beyond the map.* not known$"):
         jacobian = film.jacobian(z[:2], z[2:], slenderness)
     for column in range(4):
         d = np.zeros(4)

@@ -5,6 +5,7 @@ import logging
 import numpy as np
 import pytest
 
+from rotorfilm.bearings.films.map_fit import tabulate_film
 from rotorfilm.bearings.journal import JournalBearing, MapFilm, ReynoldsFilm, ShortFilm, bearing_table
 from rotorfilm.bearings.journal.map.potential import potential
 from rotorfilm.errors import InputError, ValidityWarning
@@ -70,6 +71,17 @@ def test_beyond_the_last_node_the_film_is_that_at_contact(slenderness, chi):
         with pytest.warns(ValidityWarning, match="as that of a film at contact, within 2 %"):
             force = MapFilm().force(np.array([chi, 0.0]), w, slenderness)
         assert error(force, converged_force([chi, 0.0], w, slenderness)) < 1e-2
+
+
+@pytest.mark.parametrize(
+    ("reach", "how"), [(0.8, "that is not known"), (0.985, "within 5 %"), (0.999, "within 2 %")]
+)
+def test_an_error_beyond_the_last_node_is_told_where_it_was_measured(reach, how):
+    table = tabulate_film(
+        MapFilm(), slenderness_range=(1.0, 1.0), cells=(16, 48, 1), largest_eccentricity_ratio=reach
+    )
+    with pytest.warns(ValidityWarning, match=f"{how}$"):
+        MapFilm(table=table).force(np.array([0.9995, 0.0]), np.array([1.0, 0.0]), 1.0)
 
 
 @pytest.mark.filterwarnings("ignore:eccentricity ratio .* is beyond the map")

@@ -19,6 +19,7 @@ from rotorfilm import (
     SpeedProfile,
     Station,
     Unbalance,
+    ValidityWarning,
     mount,
     periodic_orbit,
     reduce_rotor,
@@ -172,6 +173,13 @@ def test_rest_stays_at_rest():
     run = simulate_rotor(mount(rotor, films), duration=0.1, initial_state=start)
     assert np.ptp(run["left_x"]) < 1e-8 * 1e-4
     assert run["left_force_y"] == pytest.approx(-at.loads["left"][1], rel=1e-6)
+
+
+@pytest.mark.filterwarnings("ignore:eccentricity ratio .* is beyond the map")
+def test_a_journal_beyond_its_map_is_told_with_the_error_of_its_film():
+    thrown = rigid(position=(0.9995e-4, 0.0), gravity=(0.0, 0.0))
+    with pytest.warns(ValidityWarning, match=r"journal went beyond .* film at contact, within 2 %$"):
+        simulate_rotor(mount(thrown, {"": BEARING}), duration=1e-4)
 
 
 def test_wall_keeps_the_partial_result(cubic_bearing):
