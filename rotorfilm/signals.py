@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import keyword
+import math
 from dataclasses import dataclass
 
 from .errors import InputError, require_positive
@@ -10,7 +11,27 @@ from .units import UNITS
 
 
 @dataclass(frozen=True, kw_only=True)
-class Signal:
+class Quantity:
+    """What is said of one scalar, wherever it is from.
+
+    Parameters
+    ----------
+    name : str
+    unit : str or None
+        SI unit, None where it is not known.
+    nominal : float or None
+        Typical magnitude [unit], None where it is not known.
+    description : str
+    """
+
+    name: str
+    unit: str | None
+    nominal: float | None
+    description: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Signal(Quantity):
     """One scalar quantity that enters or leaves a model.
 
     Parameters
@@ -30,10 +51,8 @@ class Signal:
         If the name is no identifier, the unit is unknown or the nominal value is not positive.
     """
 
-    name: str
     unit: str
     nominal: float
-    description: str
 
     def __post_init__(self) -> None:
         if not self.name.isidentifier() or keyword.iskeyword(self.name):
@@ -41,6 +60,50 @@ class Signal:
         if self.unit not in UNITS:
             raise InputError(f"unit must be one of {sorted(UNITS)}, got {self.unit!r}")
         require_positive("nominal", self.nominal)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Variable(Quantity):
+    """One variable of an FMU; its value reference is its place in the list.
+
+    Parameters
+    ----------
+    name : str
+        Structured name, `component.signal`; states are `component.state_signal`.
+    unit, nominal, description
+        As of a `Quantity`.
+    causality : str
+        "input", "output", "local" (a state, its derivative, an event indicator), "parameter" or
+        "independent" (the time), as FMI spells them.
+    start : float or None
+        Start value [unit]; of a state, the initial state. None for what is calculated.
+    minimum, maximum : float
+        Bounds of a parameter; infinite where there is none.
+    tunable : bool
+        Of a parameter: whether it may be set between steps.
+    state : int or None
+        Of the derivative of a state, the index of the state in the list.
+    switch : bool
+        Whether it is the value of a switching function, an event indicator.
+    """
+
+    unit: str | None = None
+    nominal: float | None = None
+    description: str = ""
+    causality: str
+    start: float | None = None
+    minimum: float = -math.inf
+    maximum: float = math.inf
+    tunable: bool = False
+    state: int | None = None
+    switch: bool = False
+
+    @property
+    def variability(self) -> str:
+        """As FMI spells it: "continuous", or "tunable" and "fixed" for parameters."""
+        if self.causality != "parameter":
+            return "continuous"
+        return "tunable" if self.tunable else "fixed"
 
 
 def names(signals: tuple[Signal, ...]) -> list[str]:

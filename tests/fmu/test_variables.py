@@ -29,7 +29,7 @@ def test_fmi_names_and_signals_are_a_bijection(model):
     expected = [*names(model.inputs), *names(model.outputs), *("state_" + n for n in names(model.states))]
     assert [from_fmi_name(v.name) for v in variables] == [("part", name) for name in expected]
     signals = [*model.inputs, *model.outputs, *model.states]
-    assert [v[2:5] for v in variables] == [(s.unit, s.nominal, s.description) for s in signals]
+    assert [(v.unit, v.nominal, v.description) for v in variables] == [(s.unit, s.nominal, s.description) for s in signals]
 
 
 def test_states_start_where_the_model_starts():
