@@ -11,8 +11,8 @@ from .units import UNITS
 
 
 @dataclass(frozen=True, kw_only=True)
-class Quantity:
-    """What is said of one scalar, wherever it is from.
+class Scalar:
+    """What Signal, NativeParameter and Variable say of one number.
 
     Parameters
     ----------
@@ -22,16 +22,22 @@ class Quantity:
     nominal : float or None
         Typical magnitude [unit], None where it is not known.
     description : str
+        What it is and its sign.
+    minimum, maximum : float
+        Both allowed [unit]; infinite where there is no bound. An FMU tells them; of parameters it enforces
+        them.
     """
 
     name: str
     unit: str | None
     nominal: float | None
     description: str
+    minimum: float = -math.inf
+    maximum: float = math.inf
 
 
 @dataclass(frozen=True, kw_only=True)
-class Signal(Quantity):
+class Signal(Scalar):
     """One scalar quantity that enters or leaves a model.
 
     Parameters
@@ -42,8 +48,8 @@ class Signal(Quantity):
         SI unit, a key of `rotorfilm.units.UNITS` (`"N"`, `"m/s"`, `"1"`).
     nominal : float
         Positive typical magnitude [unit]; scales difference steps, tolerances and FMI nominal values.
-    description : str
-        What the quantity is and its sign.
+    description, minimum, maximum
+        As of a `Scalar`.
 
     Raises
     ------
@@ -63,22 +69,20 @@ class Signal(Quantity):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Variable(Quantity):
+class Variable(Scalar):
     """One variable of an FMU; its value reference is its place in the list.
 
     Parameters
     ----------
     name : str
         Structured name, `component.signal`; states are `component.state_signal`.
-    unit, nominal, description
-        As of a `Quantity`.
+    unit, nominal, description, minimum, maximum
+        As of a `Scalar`.
     causality : str
         "input", "output", "local" (a state, its derivative, an event indicator), "parameter" or
         "independent" (the time), as FMI spells them.
     start : float or None
         Start value [unit]; of a state, the initial state. None for what is calculated.
-    minimum, maximum : float
-        Bounds of a parameter; infinite where there is none.
     tunable : bool
         Of a parameter: whether it may be set between steps.
     state : int or None
@@ -92,8 +96,6 @@ class Variable(Quantity):
     description: str = ""
     causality: str
     start: float | None = None
-    minimum: float = -math.inf
-    maximum: float = math.inf
     tunable: bool = False
     state: int | None = None
     switch: bool = False

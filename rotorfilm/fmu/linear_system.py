@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from ..errors import FmuError
 from ..model import Array, Linearization
 from ..native.spec import NativeSpec
-from ..signals import Quantity
+from ..signals import Scalar
 
 if TYPE_CHECKING:
     import control
@@ -37,19 +37,19 @@ class LinearSystem:
     state_labels: tuple[str, ...]
 
     @property
-    def inputs(self) -> tuple[Quantity, ...]:
+    def inputs(self) -> tuple[Scalar, ...]:
         """The input labels as signals."""
-        return tuple(_quantity(name, "input") for name in self.input_labels)
+        return tuple(_scalar(name, "input") for name in self.input_labels)
 
     @property
-    def outputs(self) -> tuple[Quantity, ...]:
+    def outputs(self) -> tuple[Scalar, ...]:
         """The output labels as signals."""
-        return tuple(_quantity(name, "output") for name in self.output_labels)
+        return tuple(_scalar(name, "output") for name in self.output_labels)
 
     @property
-    def states(self) -> tuple[Quantity, ...]:
+    def states(self) -> tuple[Scalar, ...]:
         """The state labels as signals."""
-        return tuple(_quantity(name, "state") for name in self.state_labels)
+        return tuple(_scalar(name, "state") for name in self.state_labels)
 
     @property
     def initial_state(self) -> Array:
@@ -100,6 +100,6 @@ def from_state_space(system: control.StateSpace) -> LinearSystem:
     )
 
 
-def _quantity(name: str, kind: str) -> Quantity:
+def _scalar(name: str, kind: str) -> Scalar:
     """Return a signal of which python-control knows the name only; its magnitude counts as 1."""
-    return Quantity(name=name, unit=None, nominal=1.0, description=f"{kind} of the system")
+    return Scalar(name=name, unit=None, nominal=1.0, description=f"{kind} of the system")

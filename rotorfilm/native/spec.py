@@ -20,14 +20,12 @@ class NativeParameter(Signal):
 
     Parameters
     ----------
-    name, unit, nominal, description
+    name, unit, nominal, description, minimum, maximum
         As of a `Signal`; the name is unique within the kernel.
     value : float
         Its value in the model, the start value.
     tunable : bool
         Whether it may be set between steps; otherwise only before and during initialization.
-    minimum, maximum : float
-        Both allowed; infinite where there is no bound.
 
     Raises
     ------
@@ -37,8 +35,6 @@ class NativeParameter(Signal):
 
     value: float
     tunable: bool
-    minimum: float = -math.inf
-    maximum: float = math.inf
     nominal: float = 1.0
     description: str = ""
 

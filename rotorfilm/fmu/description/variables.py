@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from ...errors import FmuError
 from ...model import Dynamic, Model, Stepped
-from ...signals import Quantity, Variable, to_fmi_name
+from ...signals import Scalar, Variable, to_fmi_name
 
 ELEMENT = re.compile(r"[A-Za-z_]\w*\[\d+\]", re.ASCII)
 """An element of an array, as FMI spells it: python-control's default labels."""
@@ -44,7 +44,7 @@ def fmi_variables(model: Model | Stepped, component: str, start: Mapping[str, fl
     return variables
 
 
-def labelled(component: str, causality: str, signal: Quantity, start: float | None = None) -> Variable:
+def labelled(component: str, causality: str, signal: Scalar, start: float | None = None) -> Variable:
     """Return the variable of a signal of `component`; the name of a state begins with `state_`."""
     prefix = "state_" if causality == "local" else ""
     return Variable(
@@ -53,6 +53,8 @@ def labelled(component: str, causality: str, signal: Quantity, start: float | No
         unit=signal.unit,
         nominal=signal.nominal,
         description=signal.description,
+        minimum=signal.minimum,
+        maximum=signal.maximum,
         start=start,
     )
 

@@ -133,12 +133,7 @@ def native_model_variables(export: Export) -> tuple[Variable, ...]:
     model, component = export.model, export.component
     time = Variable(name="time", causality="independent", unit="s", description="time")
     parameters = [
-        replace(
-            labelled(component, "parameter", p, p.value),
-            minimum=p.minimum,
-            maximum=p.maximum,
-            tunable=p.tunable,
-        )
+        replace(labelled(component, "parameter", p, p.value), tunable=p.tunable)
         for p in export.spec.parameters
     ]
     inputs = [
