@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import keyword
+import math
 from dataclasses import dataclass
 
 from .errors import InputError, require_positive
@@ -10,7 +11,33 @@ from .units import UNITS
 
 
 @dataclass(frozen=True, kw_only=True)
-class Signal:
+class Scalar:
+    """What Signal, NativeParameter and Variable say of one number.
+
+    Parameters
+    ----------
+    name : str
+    unit : str or None
+        SI unit, None where it is not known.
+    nominal : float or None
+        Typical magnitude [unit], None where it is not known.
+    description : str
+        What it is and its sign.
+    minimum, maximum : float
+        Both allowed [unit]; infinite where there is no bound. An FMU tells them; of parameters it enforces
+        them.
+    """
+
+    name: str
+    unit: str | None
+    nominal: float | None
+    description: str
+    minimum: float = -math.inf
+    maximum: float = math.inf
+
+
+@dataclass(frozen=True, kw_only=True)
+class Signal(Scalar):
     """One scalar quantity that enters or leaves a model.
 
     Parameters
@@ -21,8 +48,8 @@ class Signal:
         SI unit, a key of `rotorfilm.units.UNITS` (`"N"`, `"m/s"`, `"1"`).
     nominal : float
         Positive typical magnitude [unit]; scales difference steps, tolerances and FMI nominal values.
-    description : str
-        What the quantity is and its sign.
+    description, minimum, maximum
+        As of a `Scalar`.
 
     Raises
     ------
@@ -30,10 +57,8 @@ class Signal:
         If the name is no identifier, the unit is unknown or the nominal value is not positive.
     """
 
-    name: str
     unit: str
     nominal: float
-    description: str
 
     def __post_init__(self) -> None:
         if not self.name.isidentifier() or keyword.iskeyword(self.name):
@@ -41,6 +66,46 @@ class Signal:
         if self.unit not in UNITS:
             raise InputError(f"unit must be one of {sorted(UNITS)}, got {self.unit!r}")
         require_positive("nominal", self.nominal)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Variable(Scalar):
+    """One variable of an FMU; its value reference is its place in the list.
+
+    Parameters
+    ----------
+    name : str
+        Structured name, `component.signal`; states are `component.state_signal`.
+    unit, nominal, description, minimum, maximum
+        As of a `Scalar`.
+    causality : str
+        "input", "output", "local" (a state, its derivative, an event indicator), "parameter" or
+        "independent" (the time), as FMI spells them.
+    start : float or None
+        Start value [unit]; of a state, the initial state. None for what is calculated.
+    tunable : bool
+        Of a parameter: whether it may be set between steps.
+    state : int or None
+        Of the derivative of a state, the index of the state in the list.
+    switch : bool
+        Whether it is the value of a switching function, an event indicator.
+    """
+
+    unit: str | None = None
+    nominal: float | None = None
+    description: str = ""
+    causality: str
+    start: float | None = None
+    tunable: bool = False
+    state: int | None = None
+    switch: bool = False
+
+    @property
+    def variability(self) -> str:
+        """As FMI spells it: "continuous", or "tunable" and "fixed" for parameters."""
+        if self.causality != "parameter":
+            return "continuous"
+        return "tunable" if self.tunable else "fixed"
 
 
 def names(signals: tuple[Signal, ...]) -> list[str]:

@@ -1,4 +1,4 @@
-"""Draw the pictures that native FMUs carry, one for each kernel, into rotorfilm/fmu/data/.
+"""Draw the pictures that native/kernels/kernel_list.h names, into rotorfilm/fmu/native/data/.
 
     python tools/draw_icons.py
 
@@ -13,7 +13,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, FancyArrow, Rectangle
 
-OUT = Path(__file__).parents[1] / "rotorfilm" / "fmu" / "data"
+from rotorfilm.native.kernel_table import kernel_table
+
+OUT = Path(__file__).parents[1] / "rotorfilm" / "fmu" / "native" / "data"
 STEEL, OIL, INK = "#7a8794", "#f2b233", "#1d2b36"
 
 
@@ -100,30 +102,16 @@ def draw_linear(axes: Axes) -> None:
     axes.plot(-0.75 + 1.5 * t, -0.55 + 0.65 * response, color=OIL, lw=2.5)
 
 
-DRAWN = {
-    "contact": draw_contact,
-    "bush_reaction": draw_worn_bush,
-    "bush_wear": draw_bush,
-    "damper": draw_damper,
-    "grooved_journal": draw_grooved_journal,
-    "journal": draw_journal,
-    "linear": draw_linear,
-    "rigid_rotor": draw_rotor,
-    "rotor_system": draw_rotor_system,
-    "short_journal": draw_short_journal,
-}
-
-
 def main() -> None:
-    """Draw all of them, 96 pixels wide."""
+    """Draw all of them, 96 pixels wide, each by the function of its name."""
     OUT.mkdir(exist_ok=True)
     mpl.rcParams["savefig.transparent"] = True
-    for name, draw in DRAWN.items():
+    for name in sorted({row.picture for row in kernel_table().values()}):
         figure = Figure(figsize=(1, 1), dpi=96)
         axes = figure.add_axes((0, 0, 1, 1))
         axes.set(xlim=(-1, 1), ylim=(-1, 1), aspect="equal")
         axes.axis("off")
-        draw(axes)
+        globals()[f"draw_{name}"](axes)
         figure.savefig(OUT / f"{name}.png", metadata={"Software": None})
         print(OUT / f"{name}.png")
 

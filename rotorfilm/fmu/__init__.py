@@ -1,8 +1,9 @@
 """FMU export: native FMUs of models with a kernel, FMI 2.0 and 3.0; any other model through PythonFMU."""
 
+from ..signals import Variable
 from .check.check_fmu import CheckItem, check_fmu
 from .check.described import describe_fmu
-from .description.variables import Variable, fmi_variables
+from .description.variables import fmi_variables
 from .export import export_fmu
 
 __all__ = [

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,26 +11,10 @@ from numpy.typing import ArrayLike
 from ..errors import FmuError
 from ..model import Array, Linearization
 from ..native.spec import NativeSpec
+from ..signals import Scalar
 
 if TYPE_CHECKING:
     import control
-
-
-class SignalLabel(NamedTuple):
-    """A signal of which python-control knows the name only; its magnitude counts as 1.
-
-    Attributes
-    ----------
-    name : str
-    unit : None
-    nominal : float
-    description : str
-    """
-
-    name: str
-    unit: None = None
-    nominal: float = 1.0
-    description: str = ""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -53,19 +37,19 @@ class LinearSystem:
     state_labels: tuple[str, ...]
 
     @property
-    def inputs(self) -> tuple[Any, ...]:
+    def inputs(self) -> tuple[Scalar, ...]:
         """The input labels as signals."""
-        return tuple(SignalLabel(name, description="input of the system") for name in self.input_labels)
+        return tuple(_scalar(name, "input") for name in self.input_labels)
 
     @property
-    def outputs(self) -> tuple[Any, ...]:
+    def outputs(self) -> tuple[Scalar, ...]:
         """The output labels as signals."""
-        return tuple(SignalLabel(name, description="output of the system") for name in self.output_labels)
+        return tuple(_scalar(name, "output") for name in self.output_labels)
 
     @property
-    def states(self) -> tuple[Any, ...]:
+    def states(self) -> tuple[Scalar, ...]:
         """The state labels as signals."""
-        return tuple(SignalLabel(name, description="state of the system") for name in self.state_labels)
+        return tuple(_scalar(name, "state") for name in self.state_labels)
 
     @property
     def initial_state(self) -> Array:
@@ -114,3 +98,8 @@ def from_state_space(system: control.StateSpace) -> LinearSystem:
         output_labels=tuple(system.output_labels),
         state_labels=tuple(system.state_labels),
     )
+
+
+def _scalar(name: str, kind: str) -> Scalar:
+    """Return a signal of which python-control knows the name only; its magnitude counts as 1."""
+    return Scalar(name=name, unit=None, nominal=1.0, description=f"{kind} of the system")

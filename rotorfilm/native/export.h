@@ -2,7 +2,9 @@
 #ifndef ROTORFILM_EXPORT_H
 #define ROTORFILM_EXPORT_H
 
-#if defined(RF_SUBSET) && RF_SUBSET != 1
+#include "kernels/kernel_list.h"
+
+#if defined(RF_SUBSET) && RF_SUBSET != RF_ROTORFILM
 #define RF_EXPORT
 #elif defined(_WIN32)
 #define RF_EXPORT __declspec(dllexport)

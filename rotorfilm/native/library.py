@@ -139,7 +139,7 @@ def _typed(loader: type[ctypes.CDLL], signatures: dict[str, list[Any]]) -> dict[
 
 
 def library_path(name: str) -> Path:
-    """Return where one of `spec.LIBRARIES` lies.
+    """Return where one of `kernel_table.libraries` lies.
 
     That is beside this module; for a source tree without one, in the installed distribution, if its C
     sources are those of the tree.

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import math
 import struct
 import zlib
 from collections.abc import Iterator, Sequence
 from enum import IntEnum
-from typing import NamedTuple
 
 import numpy as np
 
 from ..errors import InputError
 from ..model import Array
+from ..signals import Variable
 from .spec import NativeSpec
 
 FILE_NAME = "rotorfilm.bin"
@@ -39,33 +38,22 @@ class Role(IntEnum):
     SWITCH = 6
 
 
-class NativeVariable(NamedTuple):
-    """One variable of the file; its value reference is its place in the list.
-
-    Attributes
-    ----------
-    role : Role
-    name : str
-        For messages: at most 47 bytes are kept.
-    start : float
-        Start value; of a state, the initial state. Not used for outputs and derivatives.
-    nominal : float
-    minimum, maximum : float
-        Bounds, enforced for parameters.
-    tunable : bool
-        Of a parameter: whether it may be set between steps.
-    """
-
-    role: Role
-    name: str
-    start: float = 0.0
-    nominal: float = 1.0
-    minimum: float = -math.inf
-    maximum: float = math.inf
-    tunable: bool = False
+_ROLES = {
+    "independent": Role.TIME,
+    "parameter": Role.PARAMETER,
+    "input": Role.INPUT,
+    "output": Role.OUTPUT,
+}
 
 
-def pack(spec: NativeSpec, token: str, variables: Sequence[NativeVariable]) -> bytes:
+def role_of(variable: Variable) -> Role:
+    """Return what a variable is to the kernel."""
+    if variable.switch:
+        return Role.SWITCH
+    return _ROLES.get(variable.causality, Role.STATE if variable.state is None else Role.DERIVATIVE)
+
+
+def pack(spec: NativeSpec, token: str, variables: Sequence[Variable]) -> bytes:
     """Return the content of the file.
 
     Parameters
@@ -73,8 +61,9 @@ def pack(spec: NativeSpec, token: str, variables: Sequence[NativeVariable]) -> b
     spec : NativeSpec
     token : str
         FMI 2 guid, FMI 3 instantiationToken: what the simulator must present. At most 127 bytes.
-    variables : sequence of NativeVariable
-        In the order of their value references, roles ascending.
+    variables : sequence of Variable
+        In the order of their value references, roles ascending. Of a name, which serves messages, at most 47
+        bytes are kept.
 
     Raises
     ------
@@ -97,8 +86,8 @@ def pack(spec: NativeSpec, token: str, variables: Sequence[NativeVariable]) -> b
     return _HEADER.pack(MAGIC, VERSION, zlib.crc32(body), _HEADER.size + len(body)) + body
 
 
-def _require_order(spec: NativeSpec, variables: Sequence[NativeVariable]) -> None:
-    roles = [variable.role for variable in variables]
+def _require_order(spec: NativeSpec, variables: Sequence[Variable]) -> None:
+    roles = [role_of(variable) for variable in variables]
     counts = {role: roles.count(role) for role in Role}
     if roles != sorted(roles) or counts[Role.TIME] != 1:
         raise InputError(
@@ -110,12 +99,13 @@ def _require_order(spec: NativeSpec, variables: Sequence[NativeVariable]) -> Non
         )
 
 
-def _variables(variables: Sequence[NativeVariable]) -> Iterator[bytes]:
+def _variables(variables: Sequence[Variable]) -> Iterator[bytes]:
     seen = dict.fromkeys(Role, 0)
-    for role, name, start, nominal, minimum, maximum, tunable in variables:
-        kept = name.encode()[:47].decode(errors="ignore").encode()
-        flags = _TUNABLE if tunable else 0
-        yield _VARIABLE.pack(role, seen[role], flags, 0, start, minimum, maximum, nominal, kept)
+    for v in variables:
+        role, kept = role_of(v), v.name.encode()[:47].decode(errors="ignore").encode()
+        start, nominal = 0.0 if v.start is None else v.start, v.nominal or 1.0
+        flags = _TUNABLE if v.tunable else 0
+        yield _VARIABLE.pack(role, seen[role], flags, 0, start, v.minimum, v.maximum, nominal, kept)
         seen[role] += 1
 
 

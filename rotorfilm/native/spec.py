@@ -9,44 +9,23 @@ from typing import Protocol, runtime_checkable
 
 import numpy as np
 
-from ..errors import InputError, require_positive
+from ..errors import InputError
 from ..model import Array
-from ..units import UNITS
-
-LIBRARIES = ("rotorfilm", "rotorfilm_states", "rotorfilm_systems", "rotorfilm_bushes")
-"""The compiled libraries, by RF_SUBSET in `native/kernels/kernels.c`; an FMU carries one of them."""
-
-_IN_STATES = {"contact", "linear", "rigid_rotor"}
-_IN_SYSTEMS = {"rotor_system"}
-_IN_BUSHES = {"bush_reaction", "bush_wear"}
-
-
-def library_of(kernel: str) -> str:
-    """Return which of `LIBRARIES` holds a kernel."""
-    groups = zip(LIBRARIES[1:], (_IN_STATES, _IN_SYSTEMS, _IN_BUSHES), strict=True)
-    return next((library for library, kernels in groups if kernel in kernels), LIBRARIES[0])
+from ..signals import Signal
 
 
 @dataclass(frozen=True, kw_only=True)
-class NativeParameter:
+class NativeParameter(Signal):
     """A number of a kernel that a simulator may set.
 
     Parameters
     ----------
-    name : str
-        Identifier, unique within the kernel.
-    unit : str
-        SI unit, a key of `rotorfilm.units.UNITS`.
+    name, unit, nominal, description, minimum, maximum
+        As of a `Signal`; the name is unique within the kernel.
     value : float
         Its value in the model, the start value.
     tunable : bool
         Whether it may be set between steps; otherwise only before and during initialization.
-    minimum, maximum : float
-        Both allowed; infinite where there is no bound.
-    nominal : float
-        Positive typical magnitude.
-    description : str
-        What it is and its sign.
 
     Raises
     ------
@@ -54,26 +33,18 @@ class NativeParameter:
         If the value is not finite or outside its bounds, or a field breaks its rule.
     """
 
-    name: str
-    unit: str
     value: float
     tunable: bool
-    minimum: float = -math.inf
-    maximum: float = math.inf
     nominal: float = 1.0
     description: str = ""
 
     def __post_init__(self) -> None:
-        if not self.name.isidentifier():
-            raise InputError(f"name must be an identifier without dots, got {self.name!r}")
-        if self.unit not in UNITS:
-            raise InputError(f"unit must be one of {sorted(UNITS)}, got {self.unit!r}")
+        super().__post_init__()
         if not (math.isfinite(self.value) and self.minimum <= self.value <= self.maximum):
             raise InputError(
                 f"value of {self.name} must be within {self.minimum!r} and {self.maximum!r}, "
                 f"got {self.value!r}"
             )
-        require_positive("nominal", self.nominal)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -83,7 +54,7 @@ class NativeSpec:
     Parameters
     ----------
     kernel : str
-        Name in `native/kernels/kernels.c`.
+        Name in `native/kernels/kernel_list.h`.
     parameters : tuple of NativeParameter
         In the order of the kernel.
     tables : mapping of str to ndarray

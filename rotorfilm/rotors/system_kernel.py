@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -101,14 +102,9 @@ def _equal(one: NativeSpec, other: NativeSpec) -> bool:
 
 def _parameters(bearings: Mapping[str, Reaction], specs: Sequence[NativeSpec]) -> tuple[NativeParameter, ...]:
     return tuple(
-        NativeParameter(
+        replace(
+            p,
             name=station_name(station, p.name),
-            unit=p.unit,
-            value=p.value,
-            tunable=p.tunable,
-            minimum=p.minimum,
-            maximum=p.maximum,
-            nominal=p.nominal,
             description=f"{p.description} of {station}" if station else p.description,
         )
         for station, spec in zip(bearings, specs, strict=True)

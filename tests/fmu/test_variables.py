@@ -1,13 +1,15 @@
 """FMI names: one for each signal, and back."""
 
 from dataclasses import dataclass
+from operator import attrgetter
 
 import pytest
 
 from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.errors import FmuError
 from rotorfilm.fmu import fmi_variables
-from rotorfilm.fmu.description.variables import structured_name
+from rotorfilm.fmu.description.model_description import value_attributes
+from rotorfilm.fmu.description.variables import labelled, structured_name
 from rotorfilm.rotors.rigid import RigidRotor
 from rotorfilm.signals import Signal, from_fmi_name, names
 
@@ -29,7 +31,8 @@ def test_fmi_names_and_signals_are_a_bijection(model):
     expected = [*names(model.inputs), *names(model.outputs), *("state_" + n for n in names(model.states))]
     assert [from_fmi_name(v.name) for v in variables] == [("part", name) for name in expected]
     signals = [*model.inputs, *model.outputs, *model.states]
-    assert [v[2:5] for v in variables] == [(s.unit, s.nominal, s.description) for s in signals]
+    said = attrgetter("unit", "nominal", "description", "minimum", "maximum")
+    assert [said(v) for v in variables] == [said(s) for s in signals]
 
 
 def test_states_start_where_the_model_starts():
@@ -47,6 +50,13 @@ def test_states_start_where_the_model_starts():
 
 def test_outputs_have_no_start_value():
     assert {v.start for v in fmi_variables(ROTOR, "rotor", {}) if v.causality == "output"} == {None}
+
+
+def test_bounds_of_a_signal_are_told():
+    load = Signal(name="load", unit="N", nominal=1.0, description="", minimum=0.0)
+    attributes = value_attributes(labelled("part", "input", load, 2.0))
+    assert (attributes["min"], attributes["start"]) == ("0.0", "2.0")
+    assert "max" not in attributes
 
 
 def test_signals_of_equal_name_are_refused():

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from fmpy.fmi3 import FMU3Model, FMU3Slave
 
-from rotorfilm.model import Switched
+from rotorfilm.fmu.native.native_backend import Export, native_model_variables
+from rotorfilm.native.kernel_table import kernel_row
 from rotorfilm.native.library import library_path
-from rotorfilm.native.resource import FILE_NAME, NativeVariable, Role, pack
-from rotorfilm.native.spec import library_of
+from rotorfilm.native.resource import FILE_NAME, pack
 
 TOKEN = "{8c4e810f-3df3-4a00-8276-176fa3c9f000}"
 NATIVE = Path(__file__).parents[2] / "rotorfilm" / "native"
@@ -91,25 +91,8 @@ class Folder(NamedTuple):
 
 def native_variables(model, spec, start):
     """Return time, parameters, inputs, outputs, states and derivatives of a model that is called m."""
-    initial = getattr(model, "initial_state", np.zeros(0))
-    states = [
-        NativeVariable(Role.STATE, f"m.state_{s.name}", float(value), s.nominal)
-        for s, value in zip(model.states, initial, strict=True)
-    ]
-    u = [float(start.get(s.name, 0.0)) for s in model.inputs]
-    events = len(model.events(0.0, initial, u)) if isinstance(model, Switched) else 0
-    return (
-        NativeVariable(Role.TIME, "time"),
-        *(
-            NativeVariable(Role.PARAMETER, f"m.{p.name}", p.value, p.nominal, p.minimum, p.maximum, p.tunable)
-            for p in spec.parameters
-        ),
-        *(NativeVariable(Role.INPUT, f"m.{s.name}", float(start.get(s.name, 0.0))) for s in model.inputs),
-        *(NativeVariable(Role.OUTPUT, f"m.{s.name}") for s in model.outputs),
-        *states,
-        *(NativeVariable(Role.DERIVATIVE, f"der({state.name})") for state in states),
-        *(NativeVariable(Role.SWITCH, f"m.event_{k}") for k in range(events)),
-    )
+    inputs = np.array([float(start.get(s.name, 0.0)) for s in model.inputs])
+    return native_model_variables(Export(model, spec, "m", "", inputs, 1.0, "2.0", "host"))
 
 
 @pytest.fixture
@@ -124,7 +107,7 @@ def unzipped(tmp_path):
         for name in FOLDERS:
             (root / name).mkdir(parents=True, exist_ok=True)
         for name in FOLDERS[:2]:
-            shutil.copy(library_path(library_of(spec.kernel)), root / name / "m.so")
+            shutil.copy(library_path(kernel_row(spec.kernel).library), root / name / "m.so")
         (root / "resources" / FILE_NAME).write_bytes(pack(spec, token, variables))
         references = {variable.name: reference for reference, variable in enumerate(variables)}
         return Folder(root, references, clients)

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from rotorfilm.native import NativeLibraryError, library
-from rotorfilm.native.spec import LIBRARIES
+from rotorfilm.native.kernel_table import libraries
 
 SOURCES = sorted((Path(__file__).parents[2] / "rotorfilm" / "native").rglob("*.c"))
 COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
@@ -38,7 +38,7 @@ def test_there_is_something_to_compile():
 
 
 @pytest.mark.skipif(not shutil.which("nm"), reason="no nm")
-@pytest.mark.parametrize("name", LIBRARIES)
+@pytest.mark.parametrize("name", libraries())
 def test_only_the_interface_is_visible(name):
     built = library.library_path(name)
     listed = subprocess.run(
@@ -53,7 +53,7 @@ def test_only_the_interface_is_visible(name):
 @pytest.mark.skipif(
     (sys.platform, platform.machine()) != ("linux", "x86_64"), reason="the bound is that of Linux on x86_64"
 )
-@pytest.mark.parametrize("name", LIBRARIES)
+@pytest.mark.parametrize("name", libraries())
 def test_every_fmu_carries_little(name):
     assert library.library_path(name).stat().st_size <= LARGEST[name]
 

@@ -7,12 +7,14 @@ import pytest
 
 from rotorfilm.errors import InputError
 from rotorfilm.native import NativeParameter, NativeSpec
-from rotorfilm.native.resource import NativeVariable, Role, pack
+from rotorfilm.native.resource import pack
+from rotorfilm.signals import Variable
 
-TIME = NativeVariable(Role.TIME, "time")
+TIME = Variable(name="time", causality="independent")
 MASS = NativeParameter(name="mass", unit="kg", value=2.0, tunable=True, minimum=0.0)
 SPEC = NativeSpec(kernel="rigid_rotor", parameters=(MASS,))
-PARAMETER = NativeVariable(Role.PARAMETER, "mass", 2.0)
+PARAMETER = Variable(name="mass", causality="parameter", start=2.0)
+STATE = Variable(name="x", causality="local", start=0.0)
 
 
 @pytest.mark.parametrize(
@@ -46,7 +48,7 @@ def test_specs_are_checked():
         (SPEC, "t", (PARAMETER, TIME), "variables must be time, parameters"),
         (SPEC, "t", (PARAMETER,), "variables must be time, parameters"),
         (SPEC, "t", (TIME,), "variables must have 1 parameters and one derivative per state"),
-        (SPEC, "t", (TIME, PARAMETER, NativeVariable(Role.STATE, "x")), "one derivative per state"),
+        (SPEC, "t", (TIME, PARAMETER, STATE), "one derivative per state"),
         (SPEC, "t" * 128, (TIME, PARAMETER), "token must have less than 128 bytes"),
         (NativeSpec(kernel="k" * 32), "t", (TIME,), "kernel must have less than 32 bytes"),
         (NativeSpec(kernel="k", tables={"a" * 32: np.zeros(1)}), "t", (TIME,), "table must have less than"),
@@ -58,7 +60,7 @@ def test_what_does_not_fit_is_not_packed(spec, token, variables, message):
 
 
 def test_equal_content_gives_equal_bytes_and_long_names_are_cut_between_characters():
-    long = NativeVariable(Role.PARAMETER, "ä" * 40, 2.0)
+    long = Variable(name="ä" * 40, causality="parameter", start=2.0)
     content = pack(SPEC, "t", (TIME, long))
     assert content == pack(SPEC, "t", (TIME, long))
     assert "ä".encode() * 23 + b"\0\0" in content

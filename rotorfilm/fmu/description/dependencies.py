@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model import Array, Dynamic, Model, Stepped
-from .variables import Variable, derivative_references, references
+from ...signals import Variable
+from .variables import derivative_references, references
 
 SAMPLES = 8
 """Generic points at which a derivative must vanish exactly before an output counts as independent."""

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import NamedTuple
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
+from ...signals import Variable
 from ...units import DISPLAY_UNITS, UNITS
 from .dependencies import Dependencies
-from .variables import Variable
 
 QUANTITIES = {
     "m": "Length",
@@ -115,13 +116,11 @@ def value_attributes(variable: Variable) -> dict[str, str]:
     attributes = {} if variable.unit not in QUANTITIES else {"declaredType": QUANTITIES[variable.unit]}
     if variable.unit is not None:
         attributes |= {"unit": variable.unit, **_shown(variable.unit)}
-    numbers = {
-        "min": variable.minimum,
-        "max": variable.maximum,
-        "nominal": variable.nominal,
-        "start": variable.start,
-    }
-    return attributes | {name: repr(float(value)) for name, value in numbers.items() if value is not None}
+    bounds = {"min": variable.minimum, "max": variable.maximum}
+    numbers = {name: bound for name, bound in bounds.items() if math.isfinite(bound)}
+    rest = {"nominal": variable.nominal, "start": variable.start}
+    numbers |= {name: value for name, value in rest.items() if value is not None}
+    return attributes | {name: repr(float(value)) for name, value in numbers.items()}
 
 
 def initial(variable: Variable) -> dict[str, str]:

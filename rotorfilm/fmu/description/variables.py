@@ -4,77 +4,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple, Protocol
 
 from ...errors import FmuError
 from ...model import Dynamic, Model, Stepped
-from ...signals import to_fmi_name
+from ...signals import Scalar, Variable, to_fmi_name
 
 ELEMENT = re.compile(r"[A-Za-z_]\w*\[\d+\]", re.ASCII)
 """An element of an array, as FMI spells it: python-control's default labels."""
 
 QUOTABLE = re.compile(r"[\w!#$%&()*+,\-./:;<>=?@\[\]^{}|~ ]+", re.ASCII)
 """What may stand between the quotes of an FMI name."""
-
-
-class Variable(NamedTuple):
-    """One FMI variable; its value reference is its index in the list.
-
-    Attributes
-    ----------
-    name : str
-        Structured name, `component.signal`; states are `component.state_signal`.
-    causality : str
-        "input", "output", "local" (a state, its derivative, an event indicator), "parameter" or
-        "independent" (the time), as FMI spells them.
-    unit : str or None
-        SI unit, None where it is not known.
-    nominal : float or None
-        Typical magnitude [unit].
-    description : str
-    start : float or None
-        Start value [unit]; None for what is calculated.
-    variability : str
-        "continuous", or "tunable" and "fixed" for parameters.
-    minimum, maximum : float or None
-        Bounds of a parameter.
-    state : int or None
-        Of the derivative of a state, the index of the state in the list.
-    switch : bool
-        Whether it is the value of a switching function, an event indicator.
-    """
-
-    name: str
-    causality: str
-    unit: str | None
-    nominal: float | None
-    description: str
-    start: float | None = None
-    variability: str = "continuous"
-    minimum: float | None = None
-    maximum: float | None = None
-    state: int | None = None
-    switch: bool = False
-
-
-class Labelled(Protocol):
-    """What a signal says of itself, also one whose name or unit is none of this package's."""
-
-    @property
-    def name(self) -> str:
-        """Its name within the model."""
-
-    @property
-    def unit(self) -> str | None:
-        """Its SI unit, if known."""
-
-    @property
-    def nominal(self) -> float | None:
-        """Its typical magnitude [unit], if known."""
-
-    @property
-    def description(self) -> str:
-        """What it is."""
 
 
 def fmi_variables(model: Model | Stepped, component: str, start: Mapping[str, float]) -> tuple[Variable, ...]:
@@ -105,7 +44,7 @@ def fmi_variables(model: Model | Stepped, component: str, start: Mapping[str, fl
     return variables
 
 
-def labelled(component: str, causality: str, signal: Labelled, start: float | None = None) -> Variable:
+def labelled(component: str, causality: str, signal: Scalar, start: float | None = None) -> Variable:
     """Return the variable of a signal of `component`; the name of a state begins with `state_`."""
     prefix = "state_" if causality == "local" else ""
     return Variable(
@@ -114,6 +53,8 @@ def labelled(component: str, causality: str, signal: Labelled, start: float | No
         unit=signal.unit,
         nominal=signal.nominal,
         description=signal.description,
+        minimum=signal.minimum,
+        maximum=signal.maximum,
         start=start,
     )
 

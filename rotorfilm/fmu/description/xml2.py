@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from xml.etree.ElementTree import Element, SubElement
 
+from ...signals import Variable
 from .dependencies import Unknown, initial_unknowns, running_unknowns
 from .model_description import (
     Description,
@@ -17,7 +18,7 @@ from .model_description import (
     type_attributes,
     value_attributes,
 )
-from .variables import Variable, derivative_references, switch_references
+from .variables import derivative_references, switch_references
 
 
 def to_xml2(description: Description, guid: str) -> bytes:

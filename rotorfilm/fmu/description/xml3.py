@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from xml.etree.ElementTree import Element, SubElement
 
+from ...signals import Variable
 from .dependencies import Unknown, initial_unknowns, running_unknowns
 from .model_description import (
     Description,
@@ -16,7 +17,7 @@ from .model_description import (
     type_attributes,
     value_attributes,
 )
-from .variables import Variable, derivative_references, switch_references
+from .variables import derivative_references, switch_references
 
 VERSION = "3.0"
 

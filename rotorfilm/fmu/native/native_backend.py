@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+from dataclasses import replace
 from importlib.metadata import version as installed_version
 from importlib.resources import files
 from typing import NamedTuple
@@ -11,11 +11,13 @@ import numpy as np
 
 from ...errors import FmuError
 from ...model import Array, Dynamic, Model, Switched
-from ...native.resource import FILE_NAME, NativeVariable, Role, pack
-from ...native.spec import NativeSpec, library_of
+from ...native.kernel_table import kernel_row, kernel_texts
+from ...native.resource import FILE_NAME, pack
+from ...native.spec import NativeSpec
+from ...signals import Variable
 from ..archive import licenses
-from ..description.documentation import KERNELS, NATIVE, to_html
-from ..description.variables import Variable, labelled, references, require_unique, structured_name
+from ..description.documentation import NATIVE, to_html
+from ..description.variables import labelled, references, require_unique, structured_name
 from ..description.xml3 import build_description, icon_description
 from ..python.bundle import PACKAGE
 from ..reference import reference_table, to_csv
@@ -76,13 +78,6 @@ REFERENCE = "documentation/reference.csv"
 RATES = {"1": "1/s", "m": "m/s", "m/s": "m/s2", "rad": "rad/s", "rad/s": "rad/s2"}
 """Units of derivatives in time, by the unit of the state."""
 
-_ROLES = {
-    "independent": Role.TIME,
-    "parameter": Role.PARAMETER,
-    "input": Role.INPUT,
-    "output": Role.OUTPUT,
-}
-
 
 class Export(NamedTuple):
     """What is exported, and as what.
@@ -136,19 +131,9 @@ def native_model_variables(export: Export) -> tuple[Variable, ...]:
         If two variables would have the same name.
     """
     model, component = export.model, export.component
-    time = Variable("time", "independent", "s", None, "time")
+    time = Variable(name="time", causality="independent", unit="s", description="time")
     parameters = [
-        Variable(
-            name=structured_name(component, p.name),
-            causality="parameter",
-            unit=p.unit,
-            nominal=p.nominal,
-            description=p.description,
-            start=p.value,
-            variability="tunable" if p.tunable else "fixed",
-            minimum=p.minimum if math.isfinite(p.minimum) else None,
-            maximum=p.maximum if math.isfinite(p.maximum) else None,
-        )
+        replace(labelled(component, "parameter", p, p.value), tunable=p.tunable)
         for p in export.spec.parameters
     ]
     inputs = [
@@ -172,7 +157,6 @@ def _state_variables(model: Model, component: str, first: int) -> list[Variable]
             name=f"der({s.name})",
             causality="local",
             unit=RATES.get(s.unit or ""),
-            nominal=None,
             description=f"derivative of {s.name}",
             state=first + k,
         )
@@ -187,10 +171,8 @@ def _switches(export: Export) -> list[Variable]:
         return []
     count = len(export.model.events(0.0, export.model.initial_state, export.inputs))
     text = "event indicator: the model is smooth while it keeps its sign"
-    return [
-        Variable(structured_name(export.component, f"event_{k}"), "local", None, None, text, switch=True)
-        for k in range(count)
-    ]
+    names = [structured_name(export.component, f"event_{k}") for k in range(count)]
+    return [Variable(name=name, causality="local", description=text, switch=True) for name in names]
 
 
 def native_files(export: Export, variables: tuple[Variable, ...]) -> dict[str, bytes]:
@@ -204,7 +186,7 @@ def native_files(export: Export, variables: tuple[Variable, ...]) -> dict[str, b
     fill = all_binaries if export.platforms == "all" else host_binary
     sources = native_sources()
     return {
-        **fill(export.component, export.version, library_of(export.spec.kernel)),
+        **fill(export.component, export.version, kernel_row(export.spec.kernel).library),
         **{f"sources/{name}": content for name, content in sources.items()},
         **licenses((PACKAGE,)),
         **foreign_licenses(),
@@ -222,21 +204,7 @@ def source_names() -> tuple[str, ...]:
 
 def resource(export: Export, variables: tuple[Variable, ...], token: str) -> dict[str, bytes]:
     """Return the file that the C library reads, by its path."""
-    return {f"resources/{FILE_NAME}": pack(export.spec, token, [_native(v) for v in variables])}
-
-
-def _native(variable: Variable) -> NativeVariable:
-    local = Role.STATE if variable.state is None else Role.DERIVATIVE
-    local = Role.SWITCH if variable.switch else local
-    return NativeVariable(
-        role=_ROLES.get(variable.causality, local),
-        name=variable.name,
-        start=0.0 if variable.start is None else variable.start,
-        nominal=1.0 if variable.nominal is None else variable.nominal,
-        minimum=-math.inf if variable.minimum is None else variable.minimum,
-        maximum=math.inf if variable.maximum is None else variable.maximum,
-        tunable=variable.variability == "tunable",
-    )
+    return {f"resources/{FILE_NAME}": pack(export.spec, token, variables)}
 
 
 def _build(export: Export) -> bytes:
@@ -244,7 +212,7 @@ def _build(export: Export) -> bytes:
 
 
 def _page(export: Export, variables: tuple[Variable, ...]) -> bytes:
-    texts = {**KERNELS[export.spec.kernel], **NATIVE}
+    texts = {**kernel_texts(export.spec.kernel), **NATIVE}
     rows = [f"{p.name} = {p.value!r} {p.unit}: {p.description}" for p in export.spec.parameters]
     tables = [f"{name}: table of shape {np.shape(table)}" for name, table in export.spec.tables.items()]
     return to_html(export.title, variables, texts, "\n".join([*rows, *tables]))
@@ -257,7 +225,7 @@ def _reference(export: Export, variables: tuple[Variable, ...]) -> bytes:
 
 
 def _pictures(export: Export) -> dict[str, bytes]:
-    name = f"{export.spec.kernel}.png"
+    name = f"{kernel_row(export.spec.kernel).picture}.png"
     picture = files(__package__ or "").joinpath("data", name)
     if not picture.is_file():
         raise FmuError(f"the picture {name} of the package is missing; install {PACKAGE} again")

@@ -17,7 +17,6 @@ from typing import NamedTuple
 from ...bearings.films.table_cache import cache_folder, cached
 from ...errors import FmuError
 from ...native.library import library_path
-from ...native.spec import LIBRARIES
 from .macho import universal
 
 NATIVE = f"{__name__.partition('.')[0]}.native"
@@ -88,7 +87,7 @@ def foreign_licenses() -> dict[str, bytes]:
 
 
 def host_binary(identifier: str, fmi_version: str, library: str) -> dict[str, bytes]:
-    """Return a library (`native.spec.LIBRARIES`) of this machine by its path in the FMU.
+    """Return a library (`native.kernel_table.libraries`) of this machine by its path in the FMU.
 
     Raises
     ------
@@ -156,7 +155,7 @@ def _compile(target: Target, sources: Mapping[str, bytes], library: str) -> byte
         units = [path for path in sources if path.endswith(".c")]
         output = f"rotorfilm.{target.suffix}"
         command = [sys.executable, "-m", "ziglang", "cc", "-target", target.triple, *OPTIONS, "-I."]
-        command += [f"-DRF_SUBSET={LIBRARIES.index(library) + 1}", *_TRIMMED.get(target.suffix, ())]
+        command += [f"-DRF_SUBSET=RF_{library.upper()}", *_TRIMMED.get(target.suffix, ())]
         command += ["-fPIC"] if target.suffix == "so" else []
         command += [*units, "-o", output, "-lm"]
         ran = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)

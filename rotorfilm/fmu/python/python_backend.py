@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 
 from ...errors import FmuError
 from ...model import Model, Stepped
+from ...signals import Variable
 from ..archive import binaries, licenses, require_verified_version
 from ..description.documentation import PYTHON, PYTHON_STEPPED, to_html
-from ..description.variables import Variable
 from .bundle import API, PACKAGE, SLAVE, STEPPED_SLAVE, Bundle, bundle_source, content_hash
 from .codec import class_modules, decode, encode, shortened
 

@@ -19,8 +19,9 @@ import numpy as np
 
 from ...errors import FmuError, InputError
 from ...model import Array, Dynamic
+from ...signals import Variable
 from ..advance import advance
-from ..description.variables import Variable, fmi_variables
+from ..description.variables import fmi_variables
 from .codec import decode
 from .pythonfmu_api import Fmi2Slave, LogMessage, abort
 

@@ -132,7 +132,7 @@ static int fits(const rf_instance *c, rf_message *why)
     rf_say(why, RF_INVALID,
            "the variables must be those of the kernel %s: %zu parameters, %zu inputs, %zu outputs, "
            "%zu states, got %zu, %zu, %zu, %zu",
-           c->type->name, c->sizes.parameters, c->sizes.inputs, c->sizes.outputs, c->sizes.states,
+           c->resource->kernel, c->sizes.parameters, c->sizes.inputs, c->sizes.outputs, c->sizes.states,
            count[RF_PARAMETER], count[RF_INPUT], count[RF_OUTPUT], count[RF_STATE]);
     return 0;
 }

@@ -1,6 +1,6 @@
 /* A kernel: the physics of one kind of model behind one table of functions. It knows no simulator.
 
-   A new kernel is one file with an rf_kernel_type and one line in kernels.c. Functions that a kernel does
+   A new kernel is one file with an rf_kernel_type and one row in kernel_list.h. Functions that a kernel does
    not need are NULL. Every function answers an rf_status and writes `why` unless that is RF_OK; what it
    answers together with RF_UNDEFINED or worse is not to be used. */
 #ifndef ROTORFILM_KERNEL_H
@@ -46,8 +46,6 @@ typedef struct rf_jacobian {
 } rf_jacobian;
 
 typedef struct rf_kernel_type {
-    const char *name;
-
     /* Make a kernel from its tables, which outlive it. NULL with the message where they do not fit. */
     void *(*create)(const rf_tables *tables, rf_sizes *sizes, rf_message *why);
     void (*destroy)(void *kernel);
@@ -78,7 +76,10 @@ typedef struct rf_kernel_type {
     double (*next_event)(const void *kernel, double t);
 } rf_kernel_type;
 
-/* The kernel of this name, NULL if there is none. */
+#define RF_KERNEL(name, libraries, picture) extern const rf_kernel_type rf_##name##_type;
+#include "kernel_list.h"
+
+/* The kernel of this name, NULL if this library has none. */
 const rf_kernel_type *rf_find_kernel(const char *name);
 
 #endif

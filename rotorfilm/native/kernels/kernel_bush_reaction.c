@@ -4,6 +4,24 @@
    each point melts by itself (LocalMelting), and whether the temperature was given. Inputs x, y [m], vx, vy [m/s], speed [rad/s]; states the wear
    depths [m]; outputs force_x, force_y [N], friction_torque [N m], contact_angle [rad], maximum_pressure [Pa].
    Events: depths at the nodes, margins of melting, speed. */
+
+/* Documentation of the FMU
+
+   Model: Force and friction torque of a polymer bush on the shaft in it, with wear depths at nodes of the
+   liner: loads may fall and turn, the shaft may leave the liner and come back. The contact is held at the
+   melting point. Where the depth d of the shaft in the liner is positive it carries pressure q; what
+   friction heat leaves over melts the liner. In Co-Simulation the wear is advanced by extrapolated implicit
+   Euler steps with error control under held inputs; nodes that enter or leave the contact, melting, and the
+   sense of rotation are event indicators.
+
+   Equations:
+   q = (G/a_1) max(0, d),  d = (e.n - Delta)/R + ln(R_2/R) B T_* - v/R
+   e = (x, y) + retardation (vx, vy)
+   dv/dt = q f omega R_1 (1 - omega_c/omega)/melting_heat where the contact melts
+
+   Validity: Evtushenko & Kovalenko (1993), re-derived. Second order in the distance of the nodes. Below the
+   critical speed a real contact is colder and carries less. The tables `bush` and `profile` hold what is
+   fixed. No abrasive wear, no heat stored. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -478,9 +496,7 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     return RF_OK;
 }
 
-extern const rf_kernel_type rf_bush_reaction_type;
 const rf_kernel_type rf_bush_reaction_type = {
-    .name = "bush_reaction",
     .create = create,
     .destroy = destroy,
     .set_parameters = set_parameters,

@@ -3,6 +3,24 @@
    Parameters and table in bush.h. Inputs load [N], speed [rad/s]; state the wear moment W; outputs contact_angle
    [rad], settlement [m], temperature [K], maximum_pressure [Pa], friction_torque [N m], melt_rate [m/s],
    speed_ratio. Events: steady temperature less melting point, speed. */
+
+/* Documentation of the FMU
+
+   Model: A rigid shaft that rubs in a thin polymer liner and wears it by melting, under a load that does
+   not fall. Temperatures are above the ambient one. Half the contact angle alpha and the contact
+   temperature T follow from load, speed and the wear moment W; q_m is what friction heat has left over at
+   the melting point. In Co-Simulation W is advanced by an implicit step of fourth order with error control;
+   beginning and end of melting and the change of the sense of rotation are event indicators.
+
+   Equations:
+   c(T) F(alpha) = a_1 N + W,  F = (alpha - sin(2 alpha)/2)/cos(alpha),  N = load/force unit
+   T = min(melting point, temperature at which losses equal friction heat)
+   dW/dt = q_m N/(melting_heat radius qbar),  q_m = max(0, omega R_1 f qbar - Q_1 - Q_2)
+
+   Validity: Evtushenko & Kovalenko (1993), re-derived. Contact pressure of the shape cos(phi) - cos(alpha).
+   The table `bush` holds what is fixed: clearance, thermal closing, a_1, G R_1, conductances of shaft and
+   liner, melting point, whether heat leaves the whole shaft, radii, thickness, force unit, shear modulus.
+   No abrasive wear, no heat stored. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -404,9 +422,7 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     return rf_bush_parameters(kernel, p, why);
 }
 
-extern const rf_kernel_type rf_bush_wear_type;
 const rf_kernel_type rf_bush_wear_type = {
-    .name = "bush_wear",
     .create = create,
     .destroy = free,
     .set_parameters = set_parameters,

@@ -5,6 +5,24 @@
    min(d, offset) - operating. Outputs are `push` times the forces. Tables: A, B, C, D; motion (contacts,
    inputs); push (outputs, contacts); law (7: offset, span [m], exponent, scale [N], operating [m], smallest and
    largest load of the fit [N]). Parameter: gap [m]. */
+
+/* Documentation of the FMU
+
+   Model: Lubricated rolling contacts of balls by their reduced law. The approach d of a contact is gap +
+   (motion u): the distance of the ball's center beyond first touch, negative in contact. The force of a
+   contact is that of the stationary contact, and what the dynamic stiffness of the film adds to it; a film
+   does not pull, and a ball beyond `offset` no longer drives the states. The outputs are push times the
+   forces:
+
+   Equations:
+   dx/dt = A x + B (min(d, offset) - operating)
+   force = max(0, scale ((offset - d)/span)^exponent + C x + D (min(d, offset) - operating))
+   output = push force,  d = gap + motion u
+
+   Validity: The table `law` is offset, span [m], exponent, scale [N], operating [m], and the smallest and
+   largest load [N] of the fit; beyond these loads there is a warning. The state space is the linearized
+   film under the load `scale`, fitted to six radians per transit time; its errors are those of the model
+   that was exported. Isothermal, smooth surfaces, one rolling speed. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,7 +48,6 @@ typedef struct contacts {
     int near[MOST];                               /* whether the state space is driven */
 } contacts;
 
-extern const rf_kernel_type rf_linear_type;
 
 static void destroy(void *kernel)
 {
@@ -219,9 +236,7 @@ static int jacobian(const void *kernel, const rf_point *at, rf_jacobian *answer,
     return status;
 }
 
-extern const rf_kernel_type rf_contact_type;
 const rf_kernel_type rf_contact_type = {
-    .name = "contact",
     .create = create,
     .destroy = destroy,
     .set_parameters = set_parameters,

@@ -3,6 +3,25 @@
    Parameters of a journal (journal_model.h) and stiffness [N/m]; inputs x, y [m], vx, vy [m/s]; outputs force_x, force_y [N].
    Forces of the film are in units of viscosity * radius * length^3 / clearance^2 per 1/s. Tables: coefficients (x, t), center (1),
    reach (1), contact (2: length/diameter and share of the film at contact, rf_map). What of the dimensions the map holds for is up to the bounds of the parameters. */
+
+/* Documentation of the FMU
+
+   Model: Force of a squeeze-film damper with a solid or porous cage, and of its retainer springs, on the
+   rotor. The race does not spin: there is no speed. x and y are Cartesian from the bearing center. With the
+   eccentricity e = (x, y)/clearance and its rate w = (vx, vy)/clearance, the film minimizes a quadratic
+   functional, so that its force is a gradient:
+
+   Equations:
+   F = viscosity radius length^3 / clearance^2  dJ/dw - stiffness (x, y)
+   J(e, w) = -|w|^2 exp(L0 + chi M(X, T)),  chi = |e|
+   X = chi / (1 - chi^2)^(1/4),  T = (1 + cos(e, w)) / 2
+
+   Validity: M is a spline over X and T, made for this damper. Fixed is what it holds for: length and
+   clearance where the cage is porous, radius and length where the film is of finite length. The springs are
+   preloaded so that they carry the static load. Beyond the last X, the table reach, the force goes
+   on as that of the film near the wall, or, where the map is no such film (porous cages, films without
+   rupture), as a power of X, with a warning. Laminar, isothermal, aligned, without oil inertia. Where the
+   rotor is at rest off the center the film force is zero and has no derivative. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -98,9 +117,7 @@ static int derivatives(const void *kernel, const rf_point *at, rf_jacobian *give
     return answer(kernel, at, NULL, given->D, why);
 }
 
-extern const rf_kernel_type rf_damper_type;
 const rf_kernel_type rf_damper_type = {
-    .name = "damper",
     .create = create,
     .destroy = free,
     .set_parameters = set_parameters,

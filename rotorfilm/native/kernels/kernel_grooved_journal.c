@@ -3,6 +3,25 @@
    Parameters, inputs and outputs as in journal_model.h; length/diameter must be that of the map. Tables:
    coefficients (x, theta, s) and center (phi), in the angles the last five repeating the first; map (4:
    length/diameter, reach, squeeze, axis [rad]). */
+
+/* Documentation of the FMU
+
+   Model: Film force of a cylindrical journal bearing of finite length with axial grooves or several pads,
+   open to ambient pressure; Reynolds equation with Reynolds rupture. x and y are Cartesian from the bearing
+   center, rotation is positive about +z (from x to y), the force acts on the journal. With the eccentricity
+   e = (x, y)/clearance at the angle theta and the source w = (vx, vy)/clearance - (speed/2) z^ x e at the
+   angle phi, both from the axis of the openings, the film minimizes a quadratic functional, so that its
+   force is a gradient:
+
+   Equations:
+   F = viscosity length radius^3 / clearance^2  dJ/dw
+   J(e, w) = -|w|^2 exp(L0(phi) + chi M(X, theta, s)),  chi = |e|
+   X = chi / (1 - chi^2)^(1/4),  tan s = squeeze tan(phi - theta)
+
+   Validity: M and L0 are splines over X and the angles, made for these openings and this length / diameter:
+   radius and length are fixed, clearance and viscosity tunable. The table `map` is length / diameter, the
+   last X, squeeze and the axis [rad]; beyond the last X the force goes on as that of the film near the
+   wall, as far as the openings leave it, with a warning. Laminar, isothermal, aligned. Where w vanishes the force is zero and has no derivative. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -74,9 +93,7 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     return RF_OK;
 }
 
-extern const rf_kernel_type rf_grooved_journal_type;
 const rf_kernel_type rf_grooved_journal_type = {
-    .name = "grooved_journal",
     .create = create,
     .destroy = free,
     .set_parameters = set_parameters,

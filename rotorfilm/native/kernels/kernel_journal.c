@@ -2,6 +2,25 @@
 
    Parameters, inputs and outputs as in journal_model.h. Tables: coefficients (s, x, t), center (s), range (2: smallest and largest
    length/diameter), reach (1). */
+
+/* Documentation of the FMU
+
+   Model: Film force of a full cylindrical journal bearing of finite length, Reynolds equation with Reynolds
+   rupture. x and y are Cartesian from the bearing center, rotation is positive about +z (from x to y), the
+   force acts on the journal. With the eccentricity e = (x, y)/clearance and the source w = (vx,
+   vy)/clearance - (speed/2) z^ x e, the film minimizes a quadratic functional, so that its force is a
+   gradient:
+
+   Equations:
+   F = viscosity length radius^3 / clearance^2  dJ/dw
+   J(e, w) = -|w|^2 exp(L0 + chi M(X, T)),  chi = |e|
+   X = chi / (1 - chi^2)^(1/4),  T = (1 + cos(e, w)) / 2
+
+   Validity: M and L0 are splines over X, T and ln(length / (2 radius)), fitted to converged solutions: one
+   force within 1e-4 up to an eccentricity ratio of 0.97, length / diameter from 0.1 to 4; beyond the
+   last node of the map it goes on as the film near the wall, or, where the map is no such film, as a power of
+   X, with a warning that says how far it may be off. Laminar, isothermal, aligned, without grooves. Where w
+   vanishes off the center the force is zero and has no derivative. */
 #include <stdlib.h>
 
 #include "../films/journal_model.h"
@@ -105,9 +124,7 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     return RF_OK;
 }
 
-extern const rf_kernel_type rf_journal_type;
 const rf_kernel_type rf_journal_type = {
-    .name = "journal",
     .create = create,
     .destroy = destroy,
     .set_parameters = set_parameters,

@@ -1,5 +1,15 @@
 /* Kernel "linear": a state space dx' = A x + B u, y = C x + D u of any size, stepped by the exact solution
    under held inputs. Tables A (n, n), B (n, m), C (p, n), D (p, m); no parameters. */
+
+/* Documentation of the FMU
+
+   Model: Linear time-invariant system, exported from python-control.
+
+   Equations:
+   dx/dt = A x + B u
+   y = C x + D u
+
+   Validity: That of the linearization the matrices come from. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -144,9 +154,7 @@ static int step(void *kernel, const rf_point *at, double dt, double *x, rf_messa
     return RF_OK;
 }
 
-extern const rf_kernel_type rf_linear_type;
 const rf_kernel_type rf_linear_type = {
-    .name = "linear",
     .create = create,
     .destroy = destroy,
     .output = output,

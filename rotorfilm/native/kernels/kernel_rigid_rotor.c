@@ -6,6 +6,19 @@
    x, y [m], vx, vy [m/s]; outputs x, y, vx, vy, speed. With a table law (any number) the force is
    force + slope T + curvature T^2 - K (q - q0) - C (v - v0), T = t - t0, and slope_x, slope_y, curvature_x,
    curvature_y, K and C (row by row), q0, v0, t0 are inputs too (rotors/force_law.py). */
+
+/* Documentation of the FMU
+
+   Model: One journal's share of a rigid rotor that moves without tilting. x and y are Cartesian, rotation
+   is positive about +z (from x to y); the inputs are the film force on the journal. With the angle p(t) of
+   the unbalance, w = dp/dt and alpha = dw/dt:
+
+   Equations:
+   mass d2x/dt2 = force_x + mass gravity_x + static_force_x + unbalance (w^2 cos p + alpha sin p)
+   mass d2y/dt2 = force_y + mass gravity_y + static_force_y + unbalance (w^2 sin p - alpha cos p)
+
+   Validity: Small displacements, no tilting, a speed given over time (piecewise linear). The rotor knows no
+   wall: the bearing's film ends the motion there. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -155,9 +168,7 @@ static double next_event(const void *kernel, double t)
     return rf_next_point(&((const model *)kernel)->profile, t);
 }
 
-extern const rf_kernel_type rf_rigid_rotor_type;
 const rf_kernel_type rf_rigid_rotor_type = {
-    .name = "rigid_rotor",
     .create = create,
     .destroy = destroy,
     .set_parameters = set_parameters,

@@ -9,6 +9,22 @@
    (4 bearings, 2N); times, speeds: the profile of the speed; bearings (b, 2): kind, as in KINDS, and set k of
    its tables, which are named "k.name". Parameters: those of the bearings in turn; constant_speed where the
    profile has one point. Outputs: sense x, w, f. */
+
+/* Documentation of the FMU
+
+   Model: A rotor and the film bearings it runs in, as one system. x and y are Cartesian, rotation is
+   positive about +z (from x to y); a film force acts on the journal. With the angular speed w, the angle
+   p(t) turned, w = dp/dt, a = dw/dt, and the motion of the journals in their housings:
+
+   Equations:
+   q'' = (steady + w spin) (q, q') + push u + carry f + weight
+         + unbalance (w^2 cos p + a sin p, w^2 sin p - a cos p)
+   f = film force of each bearing at (motion (q, q'), w)
+
+   Validity: Small displacements of the rotor, a speed given over time (piecewise linear); each film as the
+   FMU of that bearing says. q are the coordinates of the rotor, reduced or not. Co-Simulation integrates
+   rotor and films together by RODAS, of order 4, L-stable, with the exact Jacobian: no macro step is too
+   long for stability. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,7 +36,6 @@
 
 #define MOST 500
 
-extern const rf_kernel_type rf_grooved_journal_type, rf_journal_type, rf_short_journal_type;
 static const rf_kernel_type *const KINDS[] = {&rf_journal_type, &rf_grooved_journal_type,
                                               &rf_short_journal_type};
 enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS };
@@ -425,9 +440,7 @@ static double next_event(const void *kernel, double t)
     return rf_next_point(&((const model *)kernel)->profile, t);
 }
 
-extern const rf_kernel_type rf_rotor_system_type;
 const rf_kernel_type rf_rotor_system_type = {
-    .name = "rotor_system",
     .create = create,
     .destroy = destroy,
     .set_parameters = set_parameters,

@@ -1,6 +1,23 @@
 /* Kernel "short_journal": a plain journal bearing with the short-bearing film.
 
    Parameters, inputs and outputs as in journal_model.h; no tables. */
+
+/* Documentation of the FMU
+
+   Model: Film force of a full cylindrical journal bearing that is short: flow along the axis only, pressure
+   on the half circle on which the film is fed (Ocvirk). x and y are Cartesian from the bearing center,
+   rotation is positive about +z (from x to y), the force acts on the journal. With the eccentricity e = (x,
+   y)/clearance and the source w = (vx, vy)/clearance - (speed/2) z^ x e, and a, b the parts of e along w
+   and across it, the force is the gradient of a closed form:
+
+   Equations:
+   F = viscosity length^3 radius / clearance^2  dJ/dw
+   J(e, w) = -|w|^2 I(a, b) / 2,  q^2 = 1 - a^2 - b^2
+   I = atan2(q, -a) (q^2 + 3 a^2) / q^5 + 3 a / q^4
+
+   Validity: For length / (2 radius) up to about 0.25, 0.5 for static forces at small eccentricity: in large
+   motion the force is off by 6 % (median) at 0.25, by 23 % at 0.5. Laminar, isothermal, aligned, without
+   grooves. Where w vanishes off the center the force is zero and has no derivative. */
 #include <stdlib.h>
 
 #include "../films/journal_model.h"
@@ -35,9 +52,7 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     return RF_OK;
 }
 
-extern const rf_kernel_type rf_short_journal_type;
 const rf_kernel_type rf_short_journal_type = {
-    .name = "short_journal",
     .create = create,
     .destroy = free,
     .set_parameters = set_parameters,

@@ -4,41 +4,17 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The kernels of this library. Compiled without RF_SUBSET, as from the sources in an FMU, it has all. */
-extern const rf_kernel_type rf_bush_reaction_type, rf_bush_wear_type, rf_contact_type, rf_damper_type;
-extern const rf_kernel_type rf_grooved_journal_type, rf_journal_type, rf_linear_type, rf_rigid_rotor_type,
-    rf_rotor_system_type, rf_short_journal_type;
-
-static const rf_kernel_type *const KERNELS[] = {
-#if !defined(RF_SUBSET) || RF_SUBSET == 1
-    &rf_damper_type,
+#ifndef RF_SUBSET
+#define RF_SUBSET ~0
 #endif
-#if !defined(RF_SUBSET) || RF_SUBSET == 2
-    &rf_contact_type,
-    &rf_linear_type,
-    &rf_rigid_rotor_type,
-#endif
-#if !defined(RF_SUBSET) || RF_SUBSET == 4
-    &rf_bush_reaction_type,
-    &rf_bush_wear_type,
-#endif
-#if !defined(RF_SUBSET) || RF_SUBSET == 1 || RF_SUBSET == 3
-    &rf_grooved_journal_type,
-    &rf_journal_type,
-    &rf_short_journal_type,
-#endif
-#if !defined(RF_SUBSET) || RF_SUBSET == 3
-    &rf_rotor_system_type,
-#endif
-    NULL,
-};
 
 const rf_kernel_type *rf_find_kernel(const char *name)
 {
-    const rf_kernel_type *const *kernel = KERNELS;
-    while (*kernel && strcmp((*kernel)->name, name) != 0)
-        ++kernel;
-    return *kernel;
+#define RF_KERNEL(kernel, libraries, picture)                                                              \
+    if (((libraries) & (RF_SUBSET)) != 0 && strcmp(name, #kernel) == 0)                                    \
+        return &rf_##kernel##_type;
+#include "kernel_list.h"
+    return NULL;
 }
 
 const rf_table *rf_find_table(const rf_tables *tables, const char *name, uint32_t axes, rf_message *why)
