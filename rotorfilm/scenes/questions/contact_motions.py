@@ -201,6 +201,7 @@ class FilmMotionRung:
     Attributes
     ----------
     followed : FollowedFilm
+        The film over time.
     cells : int
         Along each side.
     extrapolated : bool
