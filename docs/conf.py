@@ -1,4 +1,4 @@
-"""The documentation site: `sphinx-build docs docs/_build`, with every example executed."""
+"""The documentation site: `python -m sphinx docs docs/_build`, with every example executed."""
 
 import re
 import shutil
@@ -9,6 +9,7 @@ from pathlib import Path
 import rotorfilm
 
 sys.path.insert(0, str(Path(__file__).parent))
+import glossary
 from pictures import Pictures
 
 HERE = Path(__file__).parent
@@ -26,6 +27,9 @@ extensions = [
     "sphinx_gallery.gen_gallery",
 ]
 html_theme = "furo"
+html_title = "rotorfilm"
+html_static_path = ["_css"]
+html_css_files = ["tables.css"]
 exclude_patterns = ["_build", "_examples"]
 myst_heading_anchors = 3
 autosummary_generate = True
@@ -80,8 +84,29 @@ sphinx_gallery_conf = {
     "download_all_examples": False,
     "remove_config_comments": True,
     "show_memory": False,
+    "write_computation_times": False,
 }
 write_interface(HERE / "interface.rst")
+glossary.write(HERE)
+
+PAGES = {"fmus/README.md": "fmus.md", "CONTRIBUTING.md": "contributing.md"}
+"""Pages of the site that are files of the tree."""
+
+
+def included(match: re.Match[str]) -> str:
+    """Return the text of a file of the tree, or one of its parts, its links as they are in this folder."""
+    text = (HERE.parent / match[1]).read_text(encoding="utf-8")
+    if match[2] is not None:
+        text = text.split("<!-- part -->\n")[int(match[2])]
+    return re.sub(r"\]\((?:\.\./)?docs/", "](", text)
+
+
+def adapt(app, docname, source) -> None:
+    """Put files of the tree where a page asks for them, and let links lead to their pages."""
+    text = re.sub(r"<!-- include (\S+)(?: part (\d))? -->", included, source[0])
+    for path, page in PAGES.items():
+        text = re.sub(rf"\]\((?:\.\./)?{re.escape(path)}", f"]({page}", text)
+    source[0] = text
 
 
 def setup(app) -> None:
@@ -91,3 +116,4 @@ def setup(app) -> None:
         lines[:] = [line.replace("|", r"\|") for line in lines]
 
     app.connect("autodoc-process-docstring", escape, priority=1000)
+    app.connect("source-read", adapt)

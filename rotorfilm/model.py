@@ -68,7 +68,17 @@ class Model(Protocol):
         """The state signals, in the order of x."""
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return the output, shape (n_outputs,)."""
+        """Return the output, shape (n_outputs,).
+
+        Parameters
+        ----------
+        t : float [s]
+            Time.
+        x : array_like, shape (n_states,)
+            State, in the SI units of `states`.
+        u : array_like, shape (n_inputs,)
+            Input, in the SI units of `inputs`.
+        """
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives at (t, x, u)."""
@@ -91,7 +101,17 @@ class Dynamic(Model, Protocol):
         """The state at t = 0, shape (n_states,)."""
 
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return dx/dt, shape (n_states,)."""
+        """Return dx/dt, shape (n_states,).
+
+        Parameters
+        ----------
+        t : float [s]
+            Time.
+        x : array_like, shape (n_states,)
+            State, in the SI units of `states`.
+        u : array_like, shape (n_inputs,)
+            Input, in the SI units of `inputs`.
+        """
 
 
 @runtime_checkable
@@ -108,7 +128,17 @@ class Switched(Protocol):
     """What a Dynamic may add, if clamps or contacts make it smooth only piece by piece."""
 
     def events(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return the switching functions, shape (n_events,): the model is smooth while none changes sign."""
+        """Return the switching functions, shape (n_events,): the model is smooth while none changes sign.
+
+        Parameters
+        ----------
+        t : float [s]
+            Time.
+        x : array_like, shape (n_states,)
+            State, in the SI units of the states.
+        u : array_like, shape (n_inputs,)
+            Input, in the SI units of the inputs.
+        """
 
 
 @runtime_checkable
@@ -133,6 +163,17 @@ class Stepped(Protocol):
         """Advance from t by dt under u; return the new state, the output and a report.
 
         Where it raises, the old state is still good.
+
+        Parameters
+        ----------
+        state : object
+            As `start` or an earlier step returned it.
+        t : float [s]
+            Time at the start of the step.
+        u : array_like, shape (n_inputs,)
+            Input, in the SI units of `inputs`, held over the step.
+        dt : float [s]
+            Length of the step.
         """
 
     def answer(self, state: Any) -> Array:
@@ -142,7 +183,13 @@ class Stepped(Protocol):
         """Return a state as bytes, to the last bit."""
 
     def unpack(self, content: bytes) -> Any:
-        """Return the state in bytes that `pack` made."""
+        """Return the state in bytes that `pack` made.
+
+        Parameters
+        ----------
+        content : bytes
+            A state, as `pack` made it.
+        """
 
 
 @runtime_checkable
@@ -157,7 +204,17 @@ class Reaction(Model, Protocol):
         """Radial clearance [m]: the journal center stays within this distance of the origin."""
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return the force on the journal [N], shape (2, ...)."""
+        """Return the force on the journal [N], shape (2, ...).
+
+        Parameters
+        ----------
+        position : array_like, shape (2, ...) [m]
+            Journal center from the bearing center.
+        velocity : array_like, shape (2, ...) [m/s]
+            Of the journal center.
+        speed : array_like, shape (...) [rad/s]
+            Angular speed about +z, either sign.
+        """
 
     def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return d(force_x, force_y)/d(x, y, vx, vy, speed), shape (2, 5, ...)."""

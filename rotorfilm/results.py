@@ -112,6 +112,7 @@ class Trajectory:
     Attributes
     ----------
     time : ndarray, shape (n,) [s]
+        Times of the samples.
     signals : dict of str to ndarray, shape (n,)
         One series for each signal name, in the SI unit of the signal.
     work : dict of str to int

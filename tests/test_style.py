@@ -1,10 +1,8 @@
-"""House style that no linter checks: the glossary, and the length of functions and files."""
+"""House style that no linter checks: the length of functions and files."""
 
 import ast
 import io
-import re
 import tokenize
-from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -12,7 +10,6 @@ import pytest
 import rotorfilm
 
 PACKAGE = Path(rotorfilm.__file__).parent
-README = Path(__file__).parents[1] / "README.md"
 MODULES = sorted(PACKAGE.rglob("*.py"))
 MAX_FILE_LINES = 500
 MAX_FUNCTION_LINES = 60
@@ -26,44 +23,6 @@ def identify(path):
 
 def parse(path):
     return ast.parse(path.read_text(encoding="utf-8"))
-
-
-def is_dataclass(node):
-    calls = [d.func if isinstance(d, ast.Call) else d for d in node.decorator_list]
-    return any(getattr(call, "id", getattr(call, "attr", "")) == "dataclass" for call in calls)
-
-
-def exported_names():
-    """Return the names that the package or one of its parts lists in __all__."""
-    packages = [path.parent.relative_to(PACKAGE.parent).parts for path in PACKAGE.rglob("__init__.py")]
-    return {name for parts in packages for name in getattr(import_module(".".join(parts)), "__all__", ())}
-
-
-def public_fields(path):
-    """Return the names of the fields of public dataclasses, and of named tuples in an __all__."""
-    for node in ast.walk(parse(path)):
-        if not isinstance(node, ast.ClassDef) or node.name.startswith("_"):
-            continue
-        is_record = "NamedTuple" in map(ast.unparse, node.bases) and node.name in exported_names()
-        if is_dataclass(node) or is_record:
-            for item in node.body:
-                if isinstance(item, ast.AnnAssign) and isinstance(item.target, ast.Name):
-                    yield item.target.id
-
-
-def protocol_arguments(path):
-    """Return the names of the arguments of the methods of the protocols that the package shows."""
-    for node in ast.walk(parse(path)):
-        if isinstance(node, ast.ClassDef) and "Protocol" in map(ast.unparse, node.bases):
-            for method in node.body:
-                if isinstance(method, ast.FunctionDef) and node.name in rotorfilm.__all__:
-                    yield from (argument.arg for argument in method.args.args[1:])
-
-
-def glossary():
-    """Return the names in backticks in the first column of the tables of the README."""
-    rows = [line for line in README.read_text(encoding="utf-8").splitlines() if line.startswith("|")]
-    return {name for row in rows for name in re.findall(r"`(\w+)`", row.split("|")[1])}
 
 
 def code_lines(source):
@@ -85,28 +44,6 @@ def function_lengths(path):
             body = node.body[1:] if ast.get_docstring(node) else node.body
             if body:
                 yield node.name, len(lines & set(range(body[0].lineno, node.end_lineno + 1)))
-
-
-def test_glossary_has_one_row_for_each_name():
-    text = README.read_text(encoding="utf-8").partition("## Glossary")[2].partition("\n## ")[0]
-    rows = [line.split("|")[1] for line in text.splitlines() if line.startswith("|")]
-    names = [name for row in rows for name in re.findall(r"`(\w+)`", row)]
-    assert len(names) > 100
-    assert sorted(name for name in set(names) if names.count(name) > 1) == []
-
-
-def test_every_public_field_is_in_the_glossary():
-    fields = {name for path in MODULES for name in public_fields(path) if not name.startswith("_")}
-    assert {"clearance", "A"} <= fields
-    missing = sorted(fields - glossary())
-    assert not missing, f"README.md has no glossary row for: {missing}"
-
-
-def test_every_argument_of_a_protocol_is_in_the_glossary():
-    arguments = {name for path in MODULES for name in protocol_arguments(path)}
-    assert {"position", "source"} <= arguments
-    missing = sorted(arguments - glossary())
-    assert not missing, f"README.md has no glossary row for: {missing}"
 
 
 @pytest.mark.parametrize("path", MODULES, ids=identify)

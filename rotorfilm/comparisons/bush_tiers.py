@@ -60,7 +60,7 @@ class BushTier:
     name : str
     family : str
         Tiers of one family differ in a number of steps or nodes.
-    error : float
+    error : float [1]
         Largest relative error of the contact angle.
     cost : float [s]
         Time of the run.
@@ -77,7 +77,17 @@ class BushTier:
 
 @dataclass(frozen=True, kw_only=True)
 class ShaftFluxError:
-    """Relative error of the closed form (2.13) of the heat into the shaft at one pair of its numbers."""
+    """Relative error of the closed form (2.13) of the heat into the shaft at one pair of its numbers.
+
+    Attributes
+    ----------
+    cooling : float [1]
+        Biot number of the shaft, air_transfer radius / conductivity.
+    stubbiness : float [1]
+        Radius of the shaft / half length of the bush.
+    error : float [1]
+        Relative.
+    """
 
     cooling: float
     stubbiness: float
@@ -93,9 +103,11 @@ class BushTiers:
     reference : str
         What errors are measured against.
     times : tuple of floats [s]
+        Times at which the tiers are compared.
     exact : tuple of floats [rad]
         Half the contact angle of the reference at these times.
     tiers : tuple of BushTier
+        The models of the bush.
     shaft : tuple of ShaftFluxError
     """
 

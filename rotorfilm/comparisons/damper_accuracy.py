@@ -68,6 +68,7 @@ class DamperRung:
     ----------
     name : str
     cavitated : bool
+        Whether the film ruptures.
     median_error, high_error : float [1]
         Median and 99th percentile of |force - reference| / |reference|, the film of finite length.
     series_error : float [1]

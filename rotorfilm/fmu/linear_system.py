@@ -26,6 +26,7 @@ class LinearSystem:
     A, B, C, D : ndarray
         Matrices (n, n), (n, m), (p, n), (p, m).
     input_labels, output_labels, state_labels : tuple of str
+        Names of the signals, as python-control has them.
     """
 
     A: Array

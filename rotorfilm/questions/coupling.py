@@ -51,6 +51,7 @@ class CouplingRung:
     Attributes
     ----------
     case : CouplingCase
+        Rotor and films that are coupled.
     scheme : Scheme
     macro_angle : float [rad]
     tolerance : float [1]

@@ -34,6 +34,7 @@ class CoupledRun:
     orbit_error : float [1]
         Largest distance of the orbits / clearance; no error estimate where `refused` says why.
     wall_time : float [s]
+        Time that the run took.
     refused : str
         Empty, or why the run is no answer.
     trajectory : Trajectory

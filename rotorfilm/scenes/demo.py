@@ -69,11 +69,13 @@ class DemoResult:
     Attributes
     ----------
     scene : Scene
+        The scene of the demonstration.
     answer : Answer
         Equilibrium, coefficients, whirl threshold.
     speed_parameter : float [1]
         speed * sqrt(clearance * mass / load) of the scene.
     fmus : ExportedScene
+        The files that were exported.
     critical_macro_angle : float or None [rad]
         Longest macro step of a stable coupling by linear theory; None where there is no limit.
     coupling : CouplingStudy

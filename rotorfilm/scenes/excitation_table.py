@@ -65,6 +65,7 @@ class RunUpTable(UnbalanceTable):
     Parameters
     ----------
     end_speed : float [rad/s]
+        Last speed of the run-up.
     duration : float [s]
         Of the way there.
     back : bool

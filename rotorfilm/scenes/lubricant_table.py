@@ -19,10 +19,12 @@ class LubricantTable:
     ----------
     density : float [kg/m3]
     heat_capacity : float [J/(kg K)]
+        Per mass.
     conductivity : float [W/(m K)]
     thinning : float [1/K]
         -d ln(viscosity)/d temperature.
     bulk_modulus : float [Pa]
+        Pressure per relative change of volume.
     """
 
     density: Annotated[float, Quantity("kg/m3")] = 900.0

@@ -36,6 +36,7 @@ class BushContact:
     settlement : float [m]
         Displacement of the shaft beyond the clearance; negative while thermal expansion lifts it.
     mean_pressure, maximum_pressure : float [Pa]
+        Contact pressure, mean and on the load line.
     shaft_flux, liner_flux : float [W/m2]
         Heat into shaft and liner, per contact area, that keeps the contact at the melting point.
     critical_speed : float [rad/s]
@@ -63,6 +64,7 @@ class MeltingBush:
     ----------
     geometry : BushGeometry
     liner : LinerMaterial
+        Material of the liner.
     shaft : ShaftMaterial
     friction : Friction
     outer_mean, outer_swing : float [K]

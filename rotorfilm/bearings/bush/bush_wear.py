@@ -58,7 +58,7 @@ class BushWear:
     bush : MeltingBush
     melting_heat : float [J/m3]
         Heat g gamma that melts a unit of volume of the liner, from the melting point.
-    wear : float
+    wear : float [1]
         W at t = 0, not negative.
 
     Raises

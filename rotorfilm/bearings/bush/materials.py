@@ -58,7 +58,7 @@ class LinerMaterial:
     ----------
     shear_modulus : float [Pa]
         G.
-    poisson_ratio : float
+    poisson_ratio : float [1]
         nu, at least 0 and below .5: an incompressible thin liner does not yield at all.
     expansion : float [1/K]
         Coefficient of linear thermal expansion alpha_T.
@@ -117,10 +117,12 @@ class Friction:
 
     Parameters
     ----------
-    f0 : float
+    f0 : float [1]
         At the ambient temperature.
     f1 : float [1/K]
+        Its part linear in the temperature.
     f2 : float [1/K2]
+        Its part quadratic in the temperature.
 
     Raises
     ------

@@ -24,12 +24,12 @@ class PublishedStage:
     ----------
     bush : MeltingBush
     speed : float [rad/s]
-    times : ndarray, shape (n,)
+    times : ndarray, shape (n,) [1]
         Dimensionless, D_1 lambda_2 t/(R^2 ln(R_2/R) g gamma).
     contact_angle : ndarray, shape (n,) [rad]
         Half the contact angle.
     settlement : ndarray, shape (n,) [m]
-    level, removed : ndarray, shape (n,)
+    level, removed : ndarray, shape (n,) [1]
         f_i(t) of (3.9), and the heat losses m t - J(t) in it, per liner radius.
     """
 

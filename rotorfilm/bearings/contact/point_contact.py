@@ -43,6 +43,7 @@ class PointContact:
     Q0 : float [1]
         Pressure-viscosity coefficient times p_H.
     grid : ContactGrid
+        Cells on the rectangle that is solved.
     scheme : ContactScheme
         `UpwindScheme()`, or `StaggeredScheme()` as published.
     piezoviscosity : Piezoviscosity

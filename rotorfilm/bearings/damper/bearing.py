@@ -332,23 +332,23 @@ class DamperGroups:
 
     Attributes
     ----------
-    squeeze_number : float
+    squeeze_number : float [1]
         Bs = mu R L^3/(m w_r C^3).
-    damper_number : float
+    damper_number : float [1]
         B = mu R^3 L/(2 m w_r C^3) = Bs/(8 (L/D)^2).
-    permeability_number : float
+    permeability_number : float [1]
         Phi = A H/C^3; 0 for a solid cage.
-    grading : float
+    grading : float [1]
         lambda.
-    thickness_ratio : float
+    thickness_ratio : float [1]
         H/L.
-    slenderness : float
+    slenderness : float [1]
         L/D.
-    speed_ratio : float
+    speed_ratio : float [1]
         Omega = omega/w_r.
-    spring_ratio : float
+    spring_ratio : float [1]
         Omega_s = sqrt(K/m)/w_r, K the stiffness of the retainer springs.
-    unbalance_ratio : float
+    unbalance_ratio : float [1]
         U = u/(m C).
     """
 

@@ -55,7 +55,9 @@ class MapSqueeze:
     """
 
     slenderness_limit: ClassVar[float] = 0.25
+    """Largest length / diameter for which the film is meant [1]."""
     largest_eccentricity_ratio: ClassVar[float] = LARGEST
+    """Eccentricity ratio to which the film is meant [1]."""
 
     cells: tuple[int, int] = (24, 48)
     table: SqueezeTable | None = None
@@ -91,6 +93,7 @@ class FiniteMapSqueeze:
     """
 
     largest_eccentricity_ratio: ClassVar[float] = LARGEST_FINITE
+    """Eccentricity ratio to which the film is meant [1]."""
 
     cells: tuple[int, int] = (16, 32)
     table: SqueezeTable | None = None

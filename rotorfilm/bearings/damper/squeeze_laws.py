@@ -56,6 +56,7 @@ class ShortSqueeze:
     """Short film: no flow around the circumference, neither in the film nor in the layer."""
 
     slenderness_limit: ClassVar[float] = 0.25
+    """Largest length / diameter for which the film is meant [1]."""
 
     def bind(self, case: SqueezeCase) -> SqueezeFilm:
         """Return the film of one damper."""
@@ -71,6 +72,7 @@ class FiniteSqueeze:
     """Full film of finite length, some milliseconds for a force: the reference of the short film."""
 
     largest_eccentricity_ratio: ClassVar[float] = LARGEST
+    """Eccentricity ratio to which the film is meant [1]."""
 
     def bind(self, case: SqueezeCase) -> SqueezeFilm:
         """Return the film of one damper; raise InputError for a cavitated film."""

@@ -44,6 +44,7 @@ class SqueezeTable:
     layer : tuple or None
         The numbers of the PorousLayer; None for a solid cage.
     cavitated : bool
+        Whether the film ruptures.
     table : MapTable
         In units of viscosity * radius * length^3 / clearance^2 per 1/s.
     """

@@ -27,6 +27,7 @@ class ShortFilm(KernelFilm):
     """
 
     slenderness_limit: ClassVar[float] = 0.5
+    """Largest length / diameter for which the film is meant [1]."""
 
     def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
         """Return the kernel, which needs no tables; see `law.NativeFilm`."""

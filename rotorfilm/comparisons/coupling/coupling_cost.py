@@ -56,6 +56,7 @@ class CouplingCost:
     eccentricity_ratio : float [1]
         Largest one of the orbit.
     rows : tuple of CostRow
+        One for each run.
     """
 
     eccentricity_ratio: float

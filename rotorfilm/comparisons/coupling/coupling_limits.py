@@ -64,6 +64,7 @@ class CouplingLimits:
     speed_parameter : float [1]
         speed * sqrt(clearance * mass / load).
     rows : tuple of LimitRow
+        One for each scheme and place.
     """
 
     speed_parameter: float

@@ -48,6 +48,7 @@ class Panel:
         Which bearing it is about.
     title : str
     x_label, y_label : str
+        Labels of its axes.
     logarithmic : bool
         Whether the abscissa is drawn so.
     level : float or None
@@ -78,6 +79,7 @@ class LimitAtlas:
     panels : dict of str to Panel
         How each is read, by its name.
     limits : tuple of Limit
+        The curves.
     """
 
     panels: dict[str, Panel] = field(default_factory=dict)
@@ -108,7 +110,16 @@ def failure(limit: Limit, level: float) -> float | None:
 
 
 class Failure(NamedTuple):
-    """Where one curve fails; `at` is None where it does not."""
+    """Where one curve fails; `at` is None where it does not.
+
+    Attributes
+    ----------
+    panel : Panel
+    name : str
+        Which curve.
+    at : float or None
+        Abscissa of the panel from which it fails.
+    """
 
     panel: Panel
     name: str

@@ -44,9 +44,11 @@ class Scheme(Hashable, Protocol):
         Parameters
         ----------
         bench : Bench
+            Rotor and films.
         history : sequence of Sample
             The latest communication points, the present one last; at least one.
         t, dt : float [s]
+            Start and length of the step.
         """
 
 

@@ -34,7 +34,7 @@ class OrbitBranch:
     ----------
     unbalance : ndarray [kg m]
         Those of the unbalances asked for at which the branch exists.
-    eccentricity_ratio, phase, transmissibility, growth_rate : ndarray
+    eccentricity_ratio, phase, transmissibility, growth_rate : ndarray [1], [rad], [1], [1/s]
         As in `CircularOrbit`.
     """
 

@@ -48,7 +48,9 @@ class OrbitEvent:
     Attributes
     ----------
     kind : Bifurcation
+        What happens there.
     parameter : float
+        Of the family of rotors, in the unit that the caller gives it.
     orbit : PeriodicOrbit
         The orbit there.
     """

@@ -21,7 +21,8 @@
    Validity: M and L0 are splines over X and the angles, made for these openings and this length / diameter:
    radius and length are fixed, clearance and viscosity tunable. The table `map` is length / diameter, the
    last X, squeeze and the axis [rad]; beyond the last X the force goes on as that of the film near the
-   wall, as far as the openings leave it, with a warning. Laminar, isothermal, aligned. Where w vanishes the force is zero and has no derivative. */
+   wall, as far as the openings leave it, with a warning. Laminar, isothermal, aligned. Where w vanishes the
+   force is zero and has no derivative. */
 #include <math.h>
 #include <stdlib.h>
 

@@ -46,6 +46,7 @@ class MomentRung:
     ----------
     name : str
     run : BushRun
+        How the bush is run.
     closed : bool
         Whether the heat into the shaft is that of the closed form.
     moments : int

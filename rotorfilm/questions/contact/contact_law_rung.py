@@ -29,6 +29,7 @@ class LawRung:
     films : RestingFilms
         Of the approach.
     shaken : ShakenBall
+        Load over time, and motion asked for.
     """
 
     films: RestingFilms

@@ -202,6 +202,7 @@ class FilmMotionRung:
     Attributes
     ----------
     followed : FollowedFilm
+        The film over time.
     cells : int
         Along each side.
     extrapolated : bool

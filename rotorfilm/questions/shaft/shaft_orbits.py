@@ -128,7 +128,17 @@ class OrbitPlace:
 
 @dataclass(frozen=True, kw_only=True)
 class ShaftTurn:
-    """A solved orbit, as its estimate and a higher rung start from it."""
+    """A solved orbit, as its estimate and a higher rung start from it.
+
+    Attributes
+    ----------
+    at : RotorEquilibrium
+        The rotor at rest, about which its films are linearized.
+    answers : ShaftAnswers
+        What the shaft answers to forces on its journals over a turn.
+    orbit : ShaftOrbit
+        The orbit.
+    """
 
     at: RotorEquilibrium
     answers: ShaftAnswers

@@ -81,6 +81,7 @@ class ShaftRung:
     Attributes
     ----------
     event : SpeedEvent
+        What happens at the speed that is asked for.
     model : ShaftModel
     films : ShaftFilms
     speeds : ndarray, shape (n,) [rad/s]

@@ -96,6 +96,7 @@ class ClassicalBeam:
     """
 
     order: ClassVar[int] = 2
+    """Order of convergence of the eigenvalues in the length of the elements."""
 
     @property
     def internal(self) -> int:
@@ -132,6 +133,7 @@ class FourthOrderBeam:
     """
 
     order: ClassVar[int] = 4
+    """Order of convergence of the eigenvalues in the length of the elements."""
 
     @property
     def internal(self) -> int:

@@ -22,6 +22,7 @@ class ElasticMaterial:
     Parameters
     ----------
     young_modulus, shear_modulus : float [Pa]
+        Elastic moduli in tension and in shear.
     density : float [kg/m3]
     """
 

@@ -44,6 +44,7 @@ class BushRun:
     melting_heat : float [J/m3]
     speed : float [rad/s]
     stages : tuple of Stage
+        Times of constant load.
     """
 
     bush: MeltingBush

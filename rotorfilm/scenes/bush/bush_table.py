@@ -78,6 +78,7 @@ class BushTable:
     expansion : float or None [1/K]
         Coefficient of linear thermal expansion.
     liner_conductivity, shaft_conductivity : float or None [W/(m K)]
+        Thermal conductivities of liner and shaft.
     melting_point : float or None [K]
         Above the ambient temperature, as all temperatures here.
     air_transfer : float or None [W/(m2 K)]

@@ -59,12 +59,13 @@ class ContactAnswer:
     V, Q0, W : float [1]
     moes : dict of str to float
         M and L.
-    approach : float
+    approach : float [m or 1]
         Of the ball's center beyond first touch, negative in contact.
-    central_film, minimum_film : float
-    maximum_pressure : float
+    central_film, minimum_film : float [m or 1]
+        Film thickness at the center, and the smallest.
+    maximum_pressure : float [Pa or 1]
     checkerboard : float [1]
-    stiffness, damping : float
+    stiffness, damping : float [N/m or 1], [N s/m or 1]
         -dF/dz at rest and in slow motion.
     static_error, damping_error : float [1]
         Of the reduced law.
@@ -98,8 +99,9 @@ class ContactResponse:
         "full film" or "reduced law".
     complete : bool
         Whether it reached its end.
-    time, approach, force : ndarray, shape (n,)
-    central_film : ndarray, shape (n,), or None
+    time, approach, force : ndarray, shape (n,) [s or 1], [m or 1], [N or 1]
+        Motion of the ball and force of the film on it.
+    central_film : ndarray, shape (n,), or None [m or 1]
         The reduced law has none.
     work : dict of str to int
     """

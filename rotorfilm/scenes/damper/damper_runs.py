@@ -33,6 +33,7 @@ class DamperRun:
         Up to contact, if there is one.
     eccentricity_ratio : ndarray, shape (n,) [1]
     peak_eccentricity_ratio : float [1]
+        Largest one of the run.
     peak_force : float [N]
         Greatest force on the housing, of film and springs.
     contact_time : float or None [s]

@@ -60,6 +60,7 @@ class FilmRung:
     rich : JournalBearing
         With the richer one.
     rich_name : str
+        Name of the richer film.
     position_prior, slope_prior : float [1]
         Orders of magnitude of the error of a position, and of stiffness and damping; 0 if unknown.
     bounded : bool

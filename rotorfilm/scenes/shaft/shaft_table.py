@@ -334,6 +334,7 @@ class SpeedRangeTable:
     Parameters
     ----------
     first, last : float [rad/s]
+        Ends of the range.
     count : int
         Number of speeds, at equal distance.
     """

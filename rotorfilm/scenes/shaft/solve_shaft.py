@@ -51,8 +51,11 @@ class RotorAnswer:
     residual : float [1]
         Largest imbalance of forces / weight there.
     critical_speeds : tuple of CriticalSpeed
+        Where a whirl has the frequency of the rotation.
     threshold : RotorThreshold
+        Where a whirl begins to grow.
     campbell : Campbell
+        All whirls over the speed.
     amplitudes : dict of str to ndarray, shape (n_response,)
         Over the frequencies of `response`, which are closer about the critical speeds.
         Of each displacement [m] and force on a housing [N] under the unbalance; empty without one.

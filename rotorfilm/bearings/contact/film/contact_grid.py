@@ -28,6 +28,7 @@ class ContactGrid:
         Ends of the rectangle along x; the center of the contact is x = 0. A solution on a larger rectangle
         has a larger film thickness and a smaller approach: see `docs/contact.md`.
     half_width : float [1]
+        Half the width of the rectangle across the motion.
 
     Raises
     ------

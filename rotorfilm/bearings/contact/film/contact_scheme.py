@@ -76,6 +76,7 @@ class StaggeredScheme:
     """
 
     order: ClassVar[int] = 2
+    """Order of convergence in the size of the cells."""
 
     def sampling(self, grid: ContactGrid) -> Sampling:
         """Return sample points and matrices for a grid."""
@@ -112,6 +113,7 @@ class UpwindScheme:
     """
 
     order: ClassVar[int] = 2
+    """Order of convergence in the size of the cells."""
 
     def sampling(self, grid: ContactGrid) -> Sampling:
         """Return sample points and matrices for a grid: two columns upstream, one downstream, one row out."""

@@ -53,6 +53,7 @@ class ContactRun:
     Attributes
     ----------
     time : ndarray [1]
+        Times of the results.
     delta, velocity, central_film, minimum_film, carried_load : ndarray [1]
         As in `ContactState`.
     driven : ndarray [1]

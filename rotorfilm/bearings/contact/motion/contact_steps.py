@@ -72,6 +72,7 @@ class FixedSteps:
     Parameters
     ----------
     step : float [1]
+        Length of a step.
     order : int
         1 for implicit Euler, 2 for BDF2, whose first step is an Euler step.
     tolerance : float [1]

@@ -30,10 +30,13 @@ class CellCoefficients(NamedTuple):
     Attributes
     ----------
     around, along : ndarray, shape (N,)
+        H^3 / distance at the faces, and (L/D)^-2 H^3 width on the lines.
     normal : ndarray, shape (N, 2)
+        Integral of the unit vector n over the cell.
     around_slope, along_slope : ndarray, shape (N, 2)
         Derivatives with respect to the two components of e, the lines staying where they are.
     theta : ndarray, shape (N,) [rad]
+        Angles of the lines, bearing frame.
     """
 
     around: Array
