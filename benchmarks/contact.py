@@ -17,7 +17,6 @@ from itertools import pairwise
 from time import perf_counter, process_time
 
 import numpy as np
-import rotorfilm.films.contact_steps as contact_steps
 from scipy import linalg
 
 from rotorfilm import (
@@ -36,6 +35,7 @@ from rotorfilm import (
 from rotorfilm.bearings.contact.film.contact_newton import NewtonKrylov
 from rotorfilm.bearings.contact.film.small_motion import SmallMotion
 from rotorfilm.bearings.contact.film.stationary import HERTZ_LOAD
+from rotorfilm.bearings.contact.motion import contact_steps
 from rotorfilm.comparisons.contact.motion_features import decay_time
 
 
