@@ -113,8 +113,8 @@ def test_same_seed_gives_the_same_states():
     assert not np.array_equal(first.velocity, other.velocity)
 
 
-def test_short_film_errs_as_the_readme_says():
-    # README: 6 / 28 % (median / 90 %) against the converged film on the same arc, L/D .25, large motion.
+def test_short_film_errs_as_documented():
+    # docs/accuracy.md: 6 / 28 % (median / 90 %) against the converged film on the same arc, L/D .25.
     bearing = comparison_bearing(0.25)
     states = random_states(LARGE, count=400, clearance=bearing.clearance)
     exact = fitted_bearing(bearing, SpectralArcFilm(rupture=RotatingArc(), degree=16)).force(*states)
