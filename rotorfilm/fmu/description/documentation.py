@@ -93,9 +93,9 @@ KERNELS = {
         "Validity": (
             "M and L0 are splines over X, T and ln(length / (2 radius)), fitted to converged solutions: one "
             "force within 1e-4 up to an eccentricity ratio of 0.97, length / diameter from 0.1 to 4; beyond "
-            "the last node of the map it goes on as the film near the wall, or, where the map is no such film, "
-            "as a power of X, with a warning that says how far it may be off. Laminar, isothermal, aligned, "
-            "without grooves. Where w vanishes off the center the force is zero and has no derivative."
+            "the last node of the map it goes on as the film near the wall, or, where the map is no such "
+            "film, as a power of X, with a warning that says how far it may be off. Laminar, isothermal, "
+            "aligned, without grooves. Where w vanishes off the center the force is zero and has no derivative."
         ),
     },
     "grooved_journal": {
@@ -116,8 +116,8 @@ KERNELS = {
             "M and L0 are splines over X and the angles, made for these openings and this length / diameter: "
             "radius and length are fixed, clearance and viscosity tunable. The table `map` is length / "
             "diameter, the last X, squeeze and the axis [rad]; beyond the last X the force goes on as that "
-            "of the film near the wall, as far as the openings leave it, with a warning. Laminar, isothermal, "
-            "aligned. Where w vanishes the force is zero and has no derivative."
+            "of the film near the wall, as far as the openings leave it, with a warning. Laminar, "
+            "isothermal, aligned. Where w vanishes the force is zero and has no derivative."
         ),
     },
     "short_journal": {

@@ -114,7 +114,7 @@ def journal_numbers(
 
 
 def film_loss(bearing: JournalBearing, speed: float, load: tuple[float, float]) -> tuple[float, float, float]:
-    """Return power [W], side flow [m3/s] and eccentricity ratio of an isothermal film at rest, by a coarse grid.
+    """Return power [W], side flow [m3/s], eccentricity ratio of an isothermal film at rest, by a coarse grid.
 
     speed * torque on the journal, viscosity speed R^3 L/c * shear + (position x force)/2, with the whole gap
     full (streamers in the ruptured zone take 3 to 22 % less), and what the supply pressure puts in.
