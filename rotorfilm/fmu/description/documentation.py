@@ -95,7 +95,8 @@ KERNELS = {
             "force within 1e-4 up to an eccentricity ratio of 0.97, length / diameter from 0.1 to 4; beyond "
             "the last node of the map it goes on as the film near the wall, or, where the map is no such "
             "film, as a power of X, with a warning that says how far it may be off. Laminar, isothermal, "
-            "aligned, without grooves. Where w vanishes off the center the force is zero and has no derivative."
+            "aligned, without grooves. Where w vanishes off the center the force is zero and has no "
+            "derivative."
         ),
     },
     "grooved_journal": {

@@ -25,9 +25,9 @@ ORDER = 2
 """Of the wear in the distance of nodes where each point melts by itself."""
 
 SHARED_ORDER = 1.5
-"""Of it where the contact melts as a whole, with 6 to 100 nodes.
+"""Of it where the contact melts as a whole, with 6 to 100 nodes: its front moves from node to node.
 
-Its front moves from node to node. Fitted to falling loads, whose orders are 1.3 to 1.8: errors are 1.6 times their estimate at worst (docs/bush.md).
+Fitted to falling loads, of orders 1.3 to 1.8: an error is 1.6 times its estimate at worst (docs/bush.md).
 """
 
 AT_CRITICAL = 1e-6
