@@ -4,8 +4,9 @@ import math
 
 import pytest
 
-from rotorfilm import ContactGrid, PointContact, SceneError, StepLoad, reduce_contact
-from rotorfilm.scenes.contact import ContactCase, respond
+from rotorfilm import ContactGrid, PointContact, SceneError, StepLoad, ValidityWarning, reduce_contact, ride
+from rotorfilm.scenes.contact import solve_contact
+from rotorfilm.scenes.contact.solve_contact import ContactCase, respond
 from rotorfilm.scenes.scene import parse_scene
 
 TEXT = """
@@ -70,5 +71,25 @@ def test_a_response_beyond_the_loads_of_its_law_is_that_of_a_law_about_a_larger_
     case = ContactCase(PointContact(V=0.1, Q0=5.0, grid=ContactGrid(cells=(40, 40))), 1.0)
     law = reduce_contact(case.contact, 3)
     response = respond(case, law, StepLoad(amplitude=1.2), duration=10.0)
+    name, _, about = response.model.rpartition(" ")
+    assert name == "reduced law about"
+    assert float(about) == pytest.approx(response.force.mean(), rel=0.1)  # of the motion by the other law
     assert response.force.max() > 1.1 * law.load_range[1]
     assert response.approach[0] == pytest.approx(law.operating, abs=0.02)
+
+
+def test_a_response_within_the_loads_of_its_law_is_ridden_once(monkeypatch):
+    case = ContactCase(PointContact(V=0.1, Q0=5.0, grid=ContactGrid(cells=(20, 20))), 1.0)
+    rides = []
+
+    def counted(*args, **options):
+        rides.append(args)
+        return ride(*args, **options)
+
+    monkeypatch.setattr(solve_contact, "ride", counted)
+    law = reduce_contact(case.contact, 3)
+    assert respond(case, law, StepLoad(amplitude=0.2), duration=1.0).model == "reduced law"
+    assert len(rides) == 1
+    with pytest.warns(ValidityWarning, match="load"):
+        respond(case, law, StepLoad(amplitude=-0.95), duration=20.0)
+    assert len(rides) == 2

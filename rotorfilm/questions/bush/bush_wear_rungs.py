@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from ...scenes.scene import Scene
 
 STEPS_ERROR = 1e-6
-"""Verified error of the steps in time: tests/films/test_bush_moments.py."""
+"""Verified error of the steps in time: tests/bearings/bush/test_bush_moments.py."""
 
 SAMPLES = 33
 """States on the way to the end of the wear."""

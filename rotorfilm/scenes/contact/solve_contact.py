@@ -24,7 +24,7 @@ from ...bearings.contact import (
     reduce_contact,
     ride,
 )
-from ...errors import ConvergenceError, ValidityWarning, require_positive
+from ...errors import ConvergenceError, require_positive
 from ...model import Array
 from ...progress import Report, silent
 from ...results import Trajectory
@@ -96,7 +96,8 @@ class ContactResponse:
     Attributes
     ----------
     model : str
-        "full film" or "reduced law".
+        "full film", "reduced law", or the latter with the load that it is about, where that is not the static
+        one: then `ContactAnswer` describes another law.
     complete : bool
         Whether it reached its end.
     time, approach, force : ndarray, shape (n,) [s or 1], [m or 1], [N or 1]
@@ -150,17 +151,17 @@ def respond(
     ValidityWarning
         If the force leaves the range of the law all the same, as it does where the ball leaves the film.
     """
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ValidityWarning)
-        force = _ridden(case, law, load, duration)["force_z"]
-    if force.max() > law.load_range[1]:
-        share = law.load_range[1] / law.force_scale
-        about = max(float(force.mean()), 1.001 * force.max() / share)
-        with contextlib.suppress(ConvergenceError):  # then the warning stays
-            law = reduce_contact(case.contact, law.order, about)
-    motion = _ridden(case, law, load, duration)
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        motion = _ridden(case, law, load, duration)
+    other = _larger(case, law, motion["force_z"])
+    if other is None:
+        for each in told:
+            warnings.warn_explicit(each.message, each.category, each.filename, each.lineno)
+    else:
+        motion = _ridden(case, other, load, duration)
     return ContactResponse(
-        model="reduced law",
+        model="reduced law" if other is None else f"reduced law about {_load(case, other)}",
         complete=True,
         time=motion.time * case.time_scale,
         approach=motion["z"] * case.film_scale,
@@ -168,6 +169,23 @@ def respond(
         central_film=None,
         work=motion.work,
     )
+
+
+def _larger(case: ContactCase, law: ContactLaw, force: Array) -> ContactLaw | None:
+    """Return the law about a larger load, if a force exceeds the range of a law and there is one."""
+    if force.max() <= law.load_range[1]:
+        return None
+    share = law.load_range[1] / law.force_scale
+    about = max(float(force.mean()), 1.001 * float(force.max()) / share)
+    with contextlib.suppress(ConvergenceError):
+        return reduce_contact(case.contact, law.order, about)
+    return None
+
+
+def _load(case: ContactCase, law: ContactLaw) -> str:
+    """Return the load that a dimensionless law is about, as a user reads it."""
+    unit = "" if case.ball is None else " N"
+    return f"{law.force_scale * case.force_scale:.4g}{unit}"
 
 
 def _ridden(
