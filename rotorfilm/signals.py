@@ -48,7 +48,9 @@ class Signal(Scalar):
         SI unit, a key of `rotorfilm.units.UNITS` (`"N"`, `"m/s"`, `"1"`).
     nominal : float
         Positive typical magnitude [unit]; scales difference steps, tolerances and FMI nominal values.
-    description, minimum, maximum
+    description : str
+        As of a `Scalar`.
+    minimum, maximum : float
         As of a `Scalar`.
 
     Raises
@@ -76,7 +78,13 @@ class Variable(Scalar):
     ----------
     name : str
         Structured name, `component.signal`; states are `component.state_signal`.
-    unit, nominal, description, minimum, maximum
+    unit : str or None
+        As of a `Scalar`.
+    nominal : float or None
+        As of a `Scalar`.
+    description : str
+        As of a `Scalar`.
+    minimum, maximum : float
         As of a `Scalar`.
     causality : str
         "input", "output", "local" (a state, its derivative, an event indicator), "parameter" or

@@ -20,8 +20,10 @@ class NativeParameter(Signal):
 
     Parameters
     ----------
-    name, unit, nominal, description, minimum, maximum
+    name, unit, description : str
         As of a `Signal`; the name is unique within the kernel.
+    nominal, minimum, maximum : float
+        As of a `Signal`.
     value : float
         Its value in the model, the start value.
     tunable : bool

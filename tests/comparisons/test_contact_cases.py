@@ -119,7 +119,9 @@ def made_up():
     rest = contact.stationary()
     pressed = contact.stationary(1.7, near=rest)
     names = ("published", "same grid", "converged")
-    solutions = tuple(cases.CaseSolution(name, contact, rest, pressed, FixedSteps(step=0.2)) for name in names)
+    solutions = tuple(
+        cases.CaseSolution(name, contact, rest, pressed, FixedSteps(step=0.2)) for name in names
+    )
     made = [curves_of(s, decay) for s, decay in zip(solutions, (6.0, 60.0, 60.0), strict=True)]
     curves = {
         section: [
