@@ -8,7 +8,8 @@ from rotorfilm import BushReaction, RigidRotor, SpeedProfile, cosimulate, export
 
 bush = f4k20_bush()
 # Melting heat and damping of the liner are not in the source: round numbers of the right size.
-film = BushReaction(bush=bush, melting_heat=1e8, nodes=36, extent=1.4, retardation=2e-4)
+# The temperature is named, so that trial states of the run, which may cool, are not warned of.
+film = BushReaction(bush=bush, melting_heat=1e8, nodes=36, extent=1.4, retardation=2e-4, temperature=250.0)
 load = 3750.0
 critical = float(bush.critical_speed(load))
 

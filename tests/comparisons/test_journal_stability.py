@@ -1,6 +1,7 @@
 """Whirl thresholds by every journal film: against the map, and marked where they are no answer."""
 
 import csv
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -56,7 +57,7 @@ def threshold(force, eps):
     mixed = K[0, 0] * C[1, 1] + K[1, 1] * C[0, 0] - K[0, 1] * C[1, 0] - K[1, 0] * C[0, 1]
     inertia = mixed / np.trace(C)
     whirl2 = np.linalg.det(K - inertia * np.eye(2)) / np.linalg.det(C)
-    return 2.0 * np.sqrt(inertia / whirl2 / np.hypot(*F))
+    return 2.0 * np.sqrt(inertia / whirl2 / math.hypot(*F))
 
 
 def short_force(eps, g_s, g_c):
