@@ -89,7 +89,8 @@ def second_approximation(chi: float, g_s: float, g_c: float, slenderness: float,
     bearing (K) and the short bearing (M), exact in both limits.
     """
     K, M = _half_circle_matrices(chi)
-    ratio, vectors = np.linalg.eig(np.linalg.solve(M, K))
+    # Symmetric matrices, one definite: real, though numpy 2.5 says so by complex numbers.
+    ratio, vectors = (part.real for part in np.linalg.eig(np.linalg.solve(M, K)))
     phi = axial_sum(modes, slenderness).value(ratio.real)
     tangential, radial = -M @ (vectors * phi) @ np.linalg.solve(vectors, np.array([g_s, g_c]))
     return np.array([radial, tangential])
