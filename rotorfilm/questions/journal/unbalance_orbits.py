@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work, beside_bound
+from ...answers import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Unit, Work, beside_bound
 from ...errors import InputError, RotorfilmError
+from ...ladders import CandidateRung, Ladder
 from ...linear import coefficients, equilibrium
 from ...model import Array, Reaction
 from ...motion.periodic.sampled_orbit import (
@@ -26,8 +27,7 @@ from ...motion.periodic.sampled_orbit import (
 )
 from ...rotors import RigidRotor
 from ...scenes.excitation_table import UnbalanceTable
-from ...scenes.journal.film_rungs import FINE, MAP_BOUNDS, NOMINAL, FilmRung, extrapolated, film_rungs
-from ..walk import Ladder
+from ...scenes.journal.film_rungs import MAP_BOUNDS, FilmRung, turn_films
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
@@ -44,12 +44,11 @@ LINEAR = 31
 
 
 @dataclass(frozen=True, kw_only=True)
-class OrbitRung:
+class OrbitRung(CandidateRung[FilmRung]):
     """The orbit on one film, linear about the equilibrium or nonlinear at so many samples.
 
     Attributes
     ----------
-    film : FilmRung
     quantity : str
         A key of `UNITS`.
     rotor : RigidRotor
@@ -57,7 +56,6 @@ class OrbitRung:
         Over a turn; 0 for the linear orbit.
     """
 
-    film: FilmRung
     quantity: str
     rotor: RigidRotor
     samples: int
@@ -71,7 +69,12 @@ class OrbitRung:
     @property
     def prior(self) -> float:
         """Order of magnitude of the film's error."""
-        return 0.3 * self.film.slope_prior
+        return 0.3 * self.film.prior
+
+    @property
+    def refines(self) -> tuple[object, ...]:
+        """The film, where there are samples."""
+        return (self.film,) if self.samples else ()
 
     @property
     def speed(self) -> float:
@@ -89,22 +92,22 @@ class OrbitRung:
         return Found(self.value(orbit), {self.film.tangents: work, **made}, orbit)
 
     def _linear(self, samples: int) -> SampledOrbit:
-        at = equilibrium(self.film.bearing, self.rotor.static_load, self.speed)
-        found = coefficients(self.film.bearing, at.position, self.speed)
+        at = equilibrium(self.film.reaction, self.rotor.static_load, self.speed)
+        found = coefficients(self.film.reaction, at.position, self.speed)
         return linear_orbit(self.rotor, at.position, found.stiffness, found.damping, samples)
 
     def _nonlinear(self, start: SampledOrbit) -> tuple[SampledOrbit, int]:
         """Return the orbit; where its start is too far out, from the rest up in steps of the unbalance."""
-        clearance = self.film.bearing.clearance
+        clearance = self.film.reaction.clearance
         if np.hypot(*start.position).max() < 0.98 * clearance:
             try:
-                return nonlinear_orbit(self.rotor, self.film.bearing, resampled(start, self.samples))
+                return nonlinear_orbit(self.rotor, self.film.reaction, resampled(start, self.samples))
             except RotorfilmError:
                 pass
-        calls, orbit = 0, _resting(self.film.bearing, self.rotor, self.samples)
+        calls, orbit = 0, _resting(self.film.reaction, self.rotor, self.samples)
         for part in np.linspace(0.125, 1.0, 8):
             rotor = replace(self.rotor, unbalance=part * self.rotor.unbalance)
-            orbit, more = nonlinear_orbit(rotor, self.film.bearing, orbit)
+            orbit, more = nonlinear_orbit(rotor, self.film.reaction, orbit)
             calls += more
         return orbit, calls
 
@@ -128,14 +131,14 @@ class OrbitRung:
         For the map the richer film is the map itself, as long as its own verified error is small enough.
         """
         orbit: SampledOrbit = found.solution
-        reach = float(np.hypot(*orbit.position).max()) / self.film.bearing.clearance
+        reach = float(np.hypot(*orbit.position).max()) / self.film.reaction.clearance
         if reach >= 0.999:
             return ErrorEstimate(math.inf, "defect", doubt="the orbit leaves the clearance: not linear")
         doubled = resampled(orbit, 2 * orbit.position.shape[1] + 1)
         calls = doubled.position.shape[1]
         bound = MAP_BOUNDS[0][2] if self.film.bounded and reach <= MAP_BOUNDS[0][0] else math.inf
         if SAFETY * bound < tolerance:
-            error, doubt = self._by_defect(doubled, found, self.film.bearing)
+            error, doubt = self._by_defect(doubled, found, self.film.reaction)
             method, work = f"its defect at {calls} samples", {self.film.tangents: calls}
             return beside_bound(error, bound, method, work, doubt)
         error, doubt = self._by_defect(doubled, found, self.film.rich)
@@ -144,7 +147,7 @@ class OrbitRung:
         return ErrorEstimate(error, method, work, bound=self.film.bounded and bool(self.samples), doubt=doubt)
 
     def _by_defect(self, orbit: SampledOrbit, found: Found, rich: Reaction) -> tuple[float, str]:
-        missing, *slopes = defect(self.rotor, orbit, rich, self.film.bearing if self.film.bounded else rich)
+        missing, *slopes = defect(self.rotor, orbit, rich, self.film.reaction if self.film.bounded else rich)
         step = shift(self.rotor, missing, *slopes)
         other = shift(self.rotor, missing, *self._own_slopes(orbit))
         moved = SampledOrbit(position=orbit.position + step, velocity=orbit.velocity)
@@ -163,10 +166,10 @@ class OrbitRung:
         """Return K and C of this rung along an orbit (2, 2, n): constant for the linear one."""
         n = orbit.position.shape[1]
         if self.samples:
-            _, stiffness, damping = defect(self.rotor, orbit, self.film.bearing, self.film.bearing)
+            _, stiffness, damping = defect(self.rotor, orbit, self.film.reaction, self.film.reaction)
             return stiffness, damping
-        at = equilibrium(self.film.bearing, self.rotor.static_load, self.speed)
-        found = coefficients(self.film.bearing, at.position, self.speed)
+        at = equilibrium(self.film.reaction, self.rotor.static_load, self.speed)
+        found = coefficients(self.film.reaction, at.position, self.speed)
         stiffness, damping = (part[:, :, None].repeat(n, axis=2) for part in (found.stiffness, found.damping))
         return stiffness, damping
 
@@ -229,8 +232,6 @@ def orbit_ladder(scene: Scene, quantity: str) -> Ladder:
         rungs=tuple(rungs),
         unit=UNITS[quantity],
         units=film_batch_units(films, scene.speed),
-        nominal=NOMINAL,
-        refined={rung.name: rung.film.name for rung in rungs if rung.samples},
         remarks=scene.film_remarks,
         within=ISOTHERMAL,
     )
@@ -238,31 +239,20 @@ def orbit_ladder(scene: Scene, quantity: str) -> Ladder:
 
 def orbit_films(scene: Scene) -> tuple[FilmRung, ...]:
     """Return the films worth taking round a turn: the map where there is one, else short film, grids, map."""
-    films = film_rungs(scene.bearing, fixed=scene.film_is_given)
-    if len(films) == 1 or (films[0].bounded and not films[0].makes_map):
-        return (_with_coarser_check(films[0]),)
-    kept = ("short film", "2-D 48 x 8 extr.", "2-D 96 x 8 extr.", "map", "map with grooves")
-    return tuple(_with_coarser_check(film) for film in films if film.name in kept)
-
-
-def _with_coarser_check(film: FilmRung) -> FilmRung:
-    """Return a rung whose map is compared with a grid that may be sampled all round a turn."""
-    if not film.bounded:
-        return film
-    return replace(film, rich=extrapolated(film.bearing, FINE), rich_name="2-D 384 x 16 extr.")
+    return turn_films(scene.bearing, fixed=scene.film_is_given, grids=((48, 8), (96, 8)), maps=True)
 
 
 def _effort(rung: OrbitRung, films: tuple[FilmRung, ...]) -> float:
     """Return a measure of cost by which the rungs are ordered: films by place, each twice the one before."""
-    one = 1e3 if rung.film.makes_map else 2.0 ** [film.name for film in films].index(rung.film.name)
+    one = 1e3 if rung.film.makes_map else 2.0 ** films.index(rung.film)
     return one * (6 if rung.samples == 0 else 5 * rung.samples)
 
 
-def film_batch_units(films: tuple[FilmRung, ...], speed: float) -> dict[str, Callable[[], object]]:
+def film_batch_units(films: tuple[FilmRung, ...], speed: float) -> dict[Unit, Callable[[], object]]:
     """Return one force with derivatives of each film and of its richer one."""
-    units: dict[str, Callable[[], object]] = {}
+    units: dict[Unit, Callable[[], object]] = {}
     for film in films:
-        units[film.tangents] = _sampled(film.bearing, speed)
+        units[film.tangents] = _sampled(film.reaction, speed)
         units[film.defects(smooth=False)] = _sampled(film.rich, speed)
     return units
 

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Work
+from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Unit, Work
 from ...errors import InputError, RotorfilmError
+from ...ladders import BaseRung, Ladder
 from ...linear import RotorEquilibrium, rotor_equilibrium
 from ...model import Array, Reaction
 from ...motion.periodic.sampled_orbit import circles, rate_matrix
@@ -28,10 +29,8 @@ from ...motion.periodic.sampled_shaft_orbit import (
 )
 from ...rotors.shaft.shaft_models import ShaftModel, shaft_models
 from ...scenes.excitation_table import UnbalanceTable
-from ...scenes.journal.film_rungs import NOMINAL
 from ...scenes.shaft.shaft_remarks import shaft_physics, shaft_remarks, stability_remark
 from ..journal.unbalance_orbits import FORCE, PHASE, UNITS
-from ..walk import Ladder
 from .shaft_films import ShaftFilms, film_levels
 
 if TYPE_CHECKING:
@@ -146,7 +145,7 @@ class ShaftTurn:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ShaftOrbitRung:
+class ShaftOrbitRung(BaseRung):
     """The orbit by one model of the shaft and one film for each journal, linear or nonlinear.
 
     Attributes
@@ -172,18 +171,18 @@ class ShaftOrbitRung:
         return ", ".join(part for part in (how, self.model.name, self.films.name) if part)
 
     @property
-    def prior(self) -> float:
-        """Nothing is known beforehand."""
-        return 0.0
+    def refines(self) -> tuple[object, ...]:
+        """Model of the shaft and films, where there are samples."""
+        return (self.model, self.films) if self.samples else ()
 
     @property
-    def unit(self) -> str:
-        """Name of one turn."""
-        return f"turns of {self.name}"
+    def unit(self) -> Unit:
+        """One turn."""
+        return Unit(f"turns of {self.name}", ("turns", id(self.model), id(self.films), self.samples))
 
     @cached_property
     def _reactions(self) -> dict[str, Reaction]:
-        return self.films.reactions
+        return self.films.reaction
 
     def answer(self, before: Found | None) -> Found:
         """Return the quantity of the orbit; a nonlinear one starts from that of a lower rung."""
@@ -241,7 +240,7 @@ class ShaftOrbitRung:
             films_share = bound if trusted else self._by_grid(turn, value)
         is_bound = films_share > error
         error += films_share if is_bound or not trusted else 0.0
-        return ErrorEstimate(error, method, {f"defects of {self.name}": 1}, bound=is_bound, doubt=doubt)
+        return ErrorEstimate(error, method, {Unit(f"defects of {self.name}"): 1}, bound=is_bound, doubt=doubt)
 
     def _by_grid(self, turn: ShaftTurn, value: float) -> float:
         """Return the change that the forces of the richer films make, propagated by the slopes of the map."""
@@ -331,11 +330,9 @@ def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
     return Ladder(
         rungs=rungs,
         unit=UNITS[quantity],
-        nominal=NOMINAL,
-        refined={rung.name: replace(rung, samples=0).name for rung in rungs if rung.samples},
         remarks=(
             *shaft_remarks(scene, scene.speed),
-            *stability_remark(rotor, levels[0].reactions, scene.speed),
+            *stability_remark(rotor, levels[0].reaction, scene.speed),
         ),
         within=shaft_physics(scene),
     )
