@@ -11,7 +11,6 @@ from rotorfilm.errors import FilmContactError, InputError, RotorfilmError
 from rotorfilm.ladders import Ladder
 from rotorfilm.questions.walk import Meter, walk
 
-
 CALLS, MAPS, GRIDS = Unit("calls"), Unit("maps", nominal=7.0), Unit("grids")
 
 

@@ -218,7 +218,10 @@ def contact_ladder(scene: Scene, quantity: str) -> Ladder:
     if scene.contact is None:
         raise InputError(f"contact is required for {quantity}, got no such table")
     films = RestingFilms(table=scene.contact, quantity=quantity)
-    remarks = contact_remarks(scene)
+    table = scene.contact
+    remarks = contact_remarks(
+        films.ball, scene.lubricant, roelands=table.roelands, compressible=table.compressible
+    )
     if scene.excitation is not None:
         return Ladder(rungs=motion_rungs(scene, films), unit="m", remarks=remarks, within=ISOTHERMAL)
     formula = () if quantity == "minimum_film" else (FormulaRung(films=films),)

@@ -16,9 +16,9 @@ from ...ladders import CandidateRung, Ladder
 from ...model import Array, Reaction, Tangent, prepared_tangent
 from ...motion.transient.equal_steps import ORDER, MarchMotion, linear_march, march, peak
 from ...rotors import RigidRotor
-from ...scenes.damper.damper_films import NO_RICHER, DamperFilm, damper_films, quiet, sprung
+from ...scenes.damper.damper_films import NO_RICHER, DamperFilm, damper_films, mapped_short, quiet, sprung
 from ...scenes.damper.damper_models import damper_models
-from ...scenes.damper.damper_remarks import scene_remarks
+from ...scenes.damper.damper_remarks import rotor_remarks
 from ...scenes.damper.damper_table import DamperTable
 from ...scenes.excitation_table import BladeLossTable, RunUpTable
 
@@ -275,7 +275,8 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
         for film, steps in _choices(scene.damper)
     )
     units = {rung.tangents: _one(rung, scene.speed) for rung in rungs if rung.steps}
-    remarks = scene_remarks(scene, models.rotor, steady=False)
+    small, spring = mapped_short(scene.damper), scene.damper.stiffness
+    remarks = rotor_remarks(small, spring, models.rotor, scene.lubricant, steady=False)
     return Ladder(
         rungs=rungs,
         unit="m",

@@ -20,9 +20,9 @@ from ...motion.circular.branches import synchronous_orbits
 from ...motion.circular.orbit_points import OrbitRotor, orbit_points, orbit_rotor, orbit_slope
 from ...rotors import RigidRotor
 from ...scenes.counted import Counted
-from ...scenes.damper.damper_films import NO_RICHER, DamperFilm, damper_films, quiet, sprung
+from ...scenes.damper.damper_films import NO_RICHER, DamperFilm, damper_films, mapped_short, quiet, sprung
 from ...scenes.damper.damper_models import damper_models
-from ...scenes.damper.damper_remarks import scene_remarks
+from ...scenes.damper.damper_remarks import rotor_remarks
 from ...scenes.journal.film_rungs import MAP_MADE
 
 if TYPE_CHECKING:
@@ -260,7 +260,9 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
         rungs=rungs,
         unit=UNITS[quantity],
         units=units,
-        remarks=scene_remarks(scene, asked, steady=quantity not in (UP, DOWN)),
+        remarks=rotor_remarks(
+            mapped_short(scene.damper), stiffness, asked, scene.lubricant, steady=quantity not in (UP, DOWN)
+        ),
         within=ISOTHERMAL,
     )
 

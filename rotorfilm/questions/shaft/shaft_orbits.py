@@ -321,7 +321,7 @@ def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
     place, shaft = orbit_place(scene, quantity), scene.shaft
     assert shaft is not None  # checked by the above
     rotor = shaft.build(speed=scene.speed, extra=_extra(scene))
-    models, levels = shaft_models(rotor), film_levels(shaft)
+    models, levels, bearings = shaft_models(rotor), film_levels(shaft), shaft.build_bearings()
     rungs = tuple(
         ShaftOrbitRung(model=model, films=films, place=place, speed=scene.speed, samples=samples)
         for films in levels
@@ -331,10 +331,10 @@ def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
         rungs=rungs,
         unit=UNITS[quantity],
         remarks=(
-            *shaft_remarks(scene, scene.speed),
+            *shaft_remarks(rotor, bearings, scene.lubricant, scene.speed),
             *stability_remark(rotor, levels[0].reaction, scene.speed),
         ),
-        within=shaft_physics(scene),
+        within=shaft_physics(bearings),
     )
 
 

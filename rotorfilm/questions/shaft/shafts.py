@@ -237,7 +237,8 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
     """
     if scene.shaft is None:
         raise InputError(f"shaft is required for {quantity}, got no such table")
-    speeds, models = scene.shaft.speeds.build(), shaft_models(scene.shaft.build())
+    rotor, bearings = scene.shaft.build(), scene.shaft.build_bearings()
+    speeds, models = scene.shaft.speeds.build(), shaft_models(rotor)
     levels, event = film_levels(scene.shaft), EVENTS[quantity]
     rungs = [
         ShaftRung(event=event, model=model, films=films, speeds=speeds)
@@ -247,6 +248,6 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
     return Ladder(
         rungs=tuple(rungs),
         unit="rad/s",
-        remarks=shaft_remarks(scene, float(speeds[-1])),
-        within=shaft_physics(scene),
+        remarks=shaft_remarks(rotor, bearings, scene.lubricant, float(speeds[-1])),
+        within=shaft_physics(bearings),
     )
