@@ -18,7 +18,7 @@ DISAGREEMENT = 0.3
 
 
 @dataclass(frozen=True)
-class Unit:
+class WorkUnit:
     """A unit of work, such as one force of a film.
 
     Attributes
@@ -36,7 +36,7 @@ class Unit:
     nominal: float = field(default=math.nan, compare=False)
 
 
-Work = Mapping[Unit, int]
+Work = Mapping[WorkUnit, int]
 """Units of work done."""
 
 
@@ -47,7 +47,7 @@ class Found(NamedTuple):
     ----------
     value : float or ndarray
         In SI.
-    work : mapping of Unit to int
+    work : mapping of WorkUnit to int
     solution : object
         What the rung's own error estimate starts from.
     """
@@ -65,7 +65,7 @@ class ErrorEstimate(NamedTuple):
     error : float [1]
         In the unit of the tolerance.
     method : str
-    work : mapping of Unit to int
+    work : mapping of WorkUnit to int
     bound : bool
         Whether the error is at most about this, rather than about this: its largest term is verified, or
         known to be too large.

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Generic, Protocol, TypeVar
 
-from .answers import ErrorEstimate, Found, Unit, Work
+from .answers import ErrorEstimate, Found, Work, WorkUnit
 
 
 class Candidate(Protocol):
@@ -83,7 +83,7 @@ class BaseRung:
         return ()
 
     @property
-    def unit(self) -> Unit:
+    def unit(self) -> WorkUnit:
         """What it counts."""
         raise NotImplementedError
 
@@ -125,7 +125,7 @@ class Ladder:
     Attributes
     ----------
     rungs : tuple of Rung
-    units : mapping of Unit to callable
+    units : mapping of WorkUnit to callable
         Calls that do one unit of work; work without one is timed while it is done.
     unit : str
         Of the value.
@@ -137,6 +137,6 @@ class Ladder:
 
     rungs: tuple[Rung, ...]
     unit: str
-    units: Mapping[Unit, Callable[[], object]] = field(default_factory=dict)
+    units: Mapping[WorkUnit, Callable[[], object]] = field(default_factory=dict)
     remarks: tuple[str, ...] = ()
     within: str = ""

@@ -20,8 +20,8 @@ from ..answers import (
     Found,
     QuestionAnswer,
     RungReport,
-    Unit,
     Work,
+    WorkUnit,
 )
 from ..errors import AbsentError, FilmContactError, RotorfilmError, ValidityWarning, require_positive
 from ..ladders import Ladder, Rung
@@ -42,7 +42,7 @@ class Meter:
 
     def __init__(self, ladder: Ladder) -> None:
         self._units = ladder.units
-        self._costs: dict[Unit, float] = {}
+        self._costs: dict[WorkUnit, float] = {}
 
     def timed(self, call: Callable[[], Any]) -> tuple[Any, float]:
         """Return what a call returns, and how long it took [s]."""
@@ -62,7 +62,7 @@ class Meter:
         """Return the cost of work not done yet [s]; nan where a unit was never seen."""
         return sum(number * self._unit(unit) for unit, number in work.items())
 
-    def _unit(self, unit: Unit) -> float:
+    def _unit(self, unit: WorkUnit) -> float:
         if unit not in self._costs and unit in self._units:
             call = self._units[unit]
             self._costs[unit] = min(self.timed(call)[1] for _ in range(REPEATS))

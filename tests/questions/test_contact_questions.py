@@ -10,7 +10,7 @@ import pytest
 import scene_battery
 from families import FAMILIES
 
-from rotorfilm.answers import Unit
+from rotorfilm.answers import WorkUnit
 from rotorfilm.bearings.contact import FixedSteps, RollingBall, SineLoad
 from rotorfilm.bearings.contact.film.small_motion import SmallMotion
 from rotorfilm.bearings.contact.film.stationary import HERTZ_LOAD
@@ -180,7 +180,7 @@ def test_step_is_met_by_law_and_film_alike():
     found = law.answer(None)
     about = law.estimate(found, None, 0.03)
     assert not about.doubt
-    work: dict[Unit, int] = {}
+    work: dict[WorkUnit, int] = {}
     film = FollowedFilm(films=films, shaken=shaken)
     parts = film.parts(24, work)
     true = parts.value * (1.0 + parts.lacking) * films.ball.film_scale

@@ -6,12 +6,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotorfilm.answers import ErrorEstimate, Found, Unit, beside_bound
+from rotorfilm.answers import ErrorEstimate, Found, WorkUnit, beside_bound
 from rotorfilm.errors import FilmContactError, InputError, RotorfilmError
 from rotorfilm.ladders import Ladder
 from rotorfilm.questions.walk import Meter, walk
 
-CALLS, MAPS, GRIDS = Unit("calls"), Unit("maps", nominal=7.0), Unit("grids")
+CALLS, MAPS, GRIDS = WorkUnit("calls"), WorkUnit("maps", nominal=7.0), WorkUnit("grids")
 
 
 class Made:
@@ -104,7 +104,7 @@ def test_cost_is_work_times_unit_cost():
     assert one > 0.0
     assert meter.cost({CALLS: 5}, 99.0) == pytest.approx(5.0 * one)
     assert meter.predict({MAPS: 2}) == 14.0
-    assert math.isnan(meter.predict({Unit("unknown"): 1}))
+    assert math.isnan(meter.predict({WorkUnit("unknown"): 1}))
     assert meter.cost({GRIDS: 4}, 2.0) == pytest.approx(2.0)
     assert meter.predict({GRIDS: 6}) == pytest.approx(3.0)
 

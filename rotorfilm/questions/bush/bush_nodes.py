@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ...answers import ErrorEstimate, Found, Unit, Work
+from ...answers import ErrorEstimate, Found, Work, WorkUnit
 from ...bearings.bush import (
     WIDEST,
     LocalEnd,
@@ -77,7 +77,7 @@ class NodesRung(BaseRung):
         """Return by how much farther than unworn the shaft settles [m]."""
         if self.run.margin(self.own) < 0.0:
             return Found(0.0, {CRITICAL_SPEEDS: len(self.run.stages)}, math.nan)
-        reach, work = math.nan, dict[Unit, int]()
+        reach, work = math.nan, dict[WorkUnit, int]()
         if before is not None and isinstance(before.solution, float) and math.isfinite(before.solution):
             reach = before.solution
         else:
@@ -86,7 +86,7 @@ class NodesRung(BaseRung):
         value = self.run.require_liner(self.run.radius * worn.settlement)
         return Found(value, {profiles(self.nodes): worn.calls, **work}, reach)
 
-    def _reach(self) -> tuple[float, dict[Unit, int]]:
+    def _reach(self) -> tuple[float, dict[WorkUnit, int]]:
         """Return half the arc of nodes [rad] that the contact fills, found by few nodes, and the work."""
         path = wear_by_one_moment(self.own, self.run.stages)
         reach = min(1.2 * float(self.own.angle(path.moment, path.load_ratio).max()), WIDEST_ARC)
@@ -130,7 +130,7 @@ class NodesRung(BaseRung):
             work = {**work, profiles(self.nodes // 2, ", exact flux"): exact.calls}
         return ErrorEstimate(error / abs(found.value), method, work)
 
-    def _half(self, found: Found, before: Found | None) -> tuple[float, dict[Unit, int]]:
+    def _half(self, found: Found, before: Found | None) -> tuple[float, dict[WorkUnit, int]]:
         """Return the wear by half the nodes, that of the rung below if there is one."""
         if before is not None and profiles(self.nodes // 2) in before.work:
             return float(before.value), {}
@@ -156,7 +156,7 @@ class LocalEndRung(BaseRung):
     name = "end of the wear"
 
     @property
-    def unit(self) -> Unit:
+    def unit(self) -> WorkUnit:
         """One end."""
         return ENDS
 
@@ -180,11 +180,11 @@ class LocalEndRung(BaseRung):
         return ErrorEstimate(error + END_ERROR, "overestimated: time to the end", bound=True, doubt=doubt)
 
 
-ENDS, CRITICAL_SPEEDS = Unit("ends of the wear"), Unit("critical speeds")
+ENDS, CRITICAL_SPEEDS = WorkUnit("ends of the wear"), WorkUnit("critical speeds")
 END_ERROR = 1e-5
 """Verified error of the end of the wear: tests/bearings/bush/test_bush_worn.py."""
 
 
-def profiles(nodes: int, why: str = "") -> Unit:
+def profiles(nodes: int, why: str = "") -> WorkUnit:
     """Return the unit of one profile for which the shaft is settled."""
-    return Unit(f"profiles of {2 * nodes + 1} nodes{why}", (nodes, why))
+    return WorkUnit(f"profiles of {2 * nodes + 1} nodes{why}", (nodes, why))

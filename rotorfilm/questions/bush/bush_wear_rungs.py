@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, ErrorEstimate, Found, Unit, Work
+from ...answers import DISAGREEMENT, ErrorEstimate, Found, Work, WorkUnit
 from ...bearings.bush import (
     WIDEST,
     ApproximateShaft,
@@ -37,7 +37,7 @@ SAMPLES = 33
 
 CLOSED = ", closed-form flux"
 
-DEFECTS = Unit("defects of two moments")
+DEFECTS = WorkUnit("defects of two moments")
 
 
 class RateKey(NamedTuple):
@@ -71,9 +71,9 @@ class MomentRung(BaseRung):
         return f"{'one moment' if self.moments == 1 else 'two moments'}{CLOSED if self.closed else ''}"
 
     @property
-    def unit(self) -> Unit:
+    def unit(self) -> WorkUnit:
         """One rate of wear."""
-        return Unit(f"rates of {self.name}", RateKey(self.moments, self.closed))
+        return WorkUnit(f"rates of {self.name}", RateKey(self.moments, self.closed))
 
     @property
     def own(self) -> Wearing:

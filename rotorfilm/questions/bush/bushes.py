@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from ...answers import ErrorEstimate, Found, Unit
+from ...answers import ErrorEstimate, Found, WorkUnit
 from ...bearings.bush import ApproximateShaft, ExactShaft, MeltingBush
 from ...errors import InputError
 from ...ladders import BaseRung, Ladder
@@ -47,9 +47,9 @@ class BushRung(BaseRung):
         return 0.0 if self.is_exact else 1e-3
 
     @property
-    def unit(self) -> Unit:
+    def unit(self) -> WorkUnit:
         """One flux."""
-        return Unit(f"fluxes into the shaft, {self.name}", ("fluxes", self.is_exact))
+        return WorkUnit(f"fluxes into the shaft, {self.name}", ("fluxes", self.is_exact))
 
     def answer(self, before: Found | None) -> Found:
         """Return the critical speed of the unworn bush [rad/s]."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...answers import ErrorEstimate, Found, Unit, Work
+from ...answers import ErrorEstimate, Found, Work, WorkUnit
 from ...bearings.contact import HERTZ_LOAD, ContactLaw, SineLoad, reduce_contact, ride
 from ...errors import ConvergenceError, InputError
 from ...ladders import BaseRung
@@ -14,7 +14,7 @@ from ...scenes.contact.contact_rest import RestingFilms
 CELLS, FINE = 32, 64
 """Cells along each side of the film that the law is made of, and of a finer one that tells its error."""
 
-RIDE, LAW = Unit("motions on a reduced law"), Unit("reduced laws")
+RIDE, LAW = WorkUnit("motions on a reduced law"), WorkUnit("reduced laws")
 
 ELSEWHERE = 0.7
 """Where between rest and the extreme load a second law is made, of which the difference tells the error."""
@@ -67,7 +67,7 @@ class LawRung(BaseRung):
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the errors of grid and rectangle at rest, of the fit, and of the law's one load."""
         law, deepest, carried = found.solution
-        work: dict[Unit, int] = {}
+        work: dict[WorkUnit, int] = {}
         load = min(max((deepest / law.operating) ** 1.5, 1.0), law.load_range[1])
         try:
             rest, fine = (self.films.value(n, work, load=load) for n in (CELLS, FINE))

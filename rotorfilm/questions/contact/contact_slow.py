@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, ErrorEstimate, Found, Unit, Work
+from ...answers import DISAGREEMENT, ErrorEstimate, Found, Work, WorkUnit
 from ...bearings.contact import HERTZ_LOAD, SineLoad, SmallMotion
 from ...errors import ConvergenceError, InputError
 from ...ladders import BaseRung
@@ -45,7 +45,7 @@ class SlowRung(BaseRung):
     def answer(self, before: Found | None) -> Found:
         """Return the smallest value [m]: of the approach always that of the largest load."""
         least, most = self.shaken.extremes
-        work: dict[Unit, int] = {}
+        work: dict[WorkUnit, int] = {}
         loads = [most] if self.films.quantity == "approach" else [max(least, SLACKEST), most]
         values = {load: self.films.value(CELLS, work, load=load) for load in loads}
         load = min(values, key=lambda load: values[load])
@@ -56,7 +56,7 @@ class SlowRung(BaseRung):
 
         Overestimated for a small motion: amplitudes are added whatever their phases.
         """
-        work: dict[Unit, int] = {}
+        work: dict[WorkUnit, int] = {}
         least, load = self.shaken.extremes[0], float(found.solution)
         try:
             rest, fine = (self.films.value(n, work, load=load) for n in (CELLS, FINE))

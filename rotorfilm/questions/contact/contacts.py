@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ...answers import ISOTHERMAL, ErrorEstimate, Found, Unit, Work
+from ...answers import ISOTHERMAL, ErrorEstimate, Found, Work, WorkUnit
 from ...errors import ConvergenceError, InputError
 from ...ladders import BaseRung, Ladder, Rung
 from ...scenes.contact.contact_remarks import contact_remarks
@@ -45,7 +45,7 @@ HARD = (0.08, 12.0)
 DENSE = (96, 64)
 """Cells along each side of the shortest rectangle from which an unbounded film is extrapolated."""
 
-FORMULAS = Unit("formulas")
+FORMULAS = WorkUnit("formulas")
 
 LEFT = 0.3
 """Share of an extrapolation that may be wrong."""
@@ -65,7 +65,7 @@ class FormulaRung(BaseRung):
     name = "formula of Nijenbanning et al."
 
     @property
-    def unit(self) -> Unit:
+    def unit(self) -> WorkUnit:
         """One formula."""
         return FORMULAS
 
@@ -107,7 +107,7 @@ class GridRung(BaseRung):
 
     def answer(self, before: Found | None) -> Found:
         """Return the quantity [m]."""
-        work: dict[Unit, int] = {}
+        work: dict[WorkUnit, int] = {}
         value = self.films.value(self.cells, work)
         return Found(value * self.films.ball.film_scale, work)
 
@@ -116,7 +116,7 @@ class GridRung(BaseRung):
 
         The smallest film jumps from cell to cell, so that its increment is overestimated: the whole is taken.
         """
-        work: dict[Unit, int] = {}
+        work: dict[WorkUnit, int] = {}
         bound = self.films.quantity == "minimum_film"
         try:
             about = grid_error(self.films, self.cells, work) + rectangle_error(self.films, work)
@@ -156,7 +156,7 @@ class UnboundedRung(BaseRung):
 
     def answer(self, before: Found | None) -> Found:
         """Return the quantity [m], extrapolated in the length of the rectangle and in the cells."""
-        work: dict[Unit, int] = {}
+        work: dict[WorkUnit, int] = {}
         short, longer = INLETS[self.place - 1 : self.place + 1]
         wide = self.films.value(self.cells, work, longer)
         before_it = self.films.value(round(SPACINGS[-1] * (short + OUTLET)), work, short)
@@ -177,7 +177,7 @@ class UnboundedRung(BaseRung):
         return {unknowns(self.cells): self.cells**2, unknowns(DENSE[0]): DENSE[0] ** 2}
 
 
-def grid_error(films: RestingFilms, cells: int, work: dict[Unit, int]) -> float:
+def grid_error(films: RestingFilms, cells: int, work: dict[WorkUnit, int]) -> float:
     """Return the relative error of a quantity by the cells, from less of them; more of the smallest film.
 
     Raises
@@ -200,7 +200,7 @@ def noise_of(films: RestingFilms, cells: int) -> float:
     return NOISE * (CELLS[0] / cells) ** 2 * (0.1 if films.quantity == "approach" else 1.0)
 
 
-def rectangle_error(films: RestingFilms, work: dict[Unit, int]) -> float:
+def rectangle_error(films: RestingFilms, work: dict[WorkUnit, int]) -> float:
     """Return the relative error of a quantity by the end of the rectangle."""
     change = films.beyond(work)
     near = next(value for (inlet, _, at), value in films.known.items() if inlet == INLETS[0] and at == 1.0)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Unit, Work
+from ...answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Work, WorkUnit
 from ...errors import FilmContactError, InputError
 from ...ladders import CandidateRung, Ladder
 from ...model import Array, Reaction, Tangent, prepared_tangent
@@ -37,7 +37,7 @@ FED_STEPS = (24, 48, 96)
 LINEAR_STEPS = 192
 """Those of the linear motion."""
 
-LINEAR_STEP, DEFECT = Unit("linear steps"), Unit("defects of a richer film")
+LINEAR_STEP, DEFECT = WorkUnit("linear steps"), WorkUnit("defects of a richer film")
 
 SAMPLED = 48
 """States over a turn at which the defect is taken."""
@@ -80,9 +80,9 @@ class DamperPeakRung(CandidateRung[DamperFilm]):
         return (self.film,) if self.steps else ()
 
     @property
-    def tangents(self) -> Unit:
+    def tangents(self) -> WorkUnit:
         """One force of this film with derivatives."""
-        return Unit(f"tangents of {self.film.name}", ("tangents", self.film))
+        return WorkUnit(f"tangents of {self.film.name}", ("tangents", self.film))
 
     @cached_property
     def support(self) -> Reaction:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.optimize import brentq
 
-from ...answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Unit, Work
+from ...answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Work, WorkUnit
 from ...bearings.damper import FiniteSqueeze
 from ...errors import AbsentError, FilmContactError, InputError, RotorfilmError
 from ...ladders import CandidateRung, Ladder
@@ -62,9 +62,9 @@ class DamperCurveRung(CandidateRung[DamperFilm]):
         return sprung(self.film.moving, self.stiffness) if slow else self.support
 
     @property
-    def unit(self) -> Unit:
+    def unit(self) -> WorkUnit:
         """One force of this film."""
-        return Unit(f"forces of {self.name}", ("forces", self.film))
+        return WorkUnit(f"forces of {self.name}", ("forces", self.film))
 
     def answer(self, before: Found | None) -> Found:
         """Return the quantity; raises RotorfilmError where there is no such jump, or contact."""
@@ -211,7 +211,7 @@ class DamperCurveRung(CandidateRung[DamperFilm]):
         return {self.unit: sum(number for unit, number in done.items() if unit != MAP_MADE)}
 
 
-RICH = Unit("forces of the richest film")
+RICH = WorkUnit("forces of the richest film")
 
 
 def _system(rotor: RigidRotor, reaction: Reaction) -> OrbitRotor:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Unit, Work
+from ...answers import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work, WorkUnit
 from ...bearings.journal import JournalBearing
 from ...ladders import CandidateRung, Ladder
 from ...linear import coefficients, equilibrium
@@ -166,9 +166,9 @@ def corrected(film: FilmRung, at: Equilibrium, load: Array, *, smooth: bool) -> 
     return Corrected(position=position, slopes=slopes, doubt=doubt)
 
 
-def film_units(films: tuple[FilmRung, ...], speed: float) -> dict[Unit, Callable[[], object]]:
+def film_units(films: tuple[FilmRung, ...], speed: float) -> dict[WorkUnit, Callable[[], object]]:
     """Return one unit of work of each film, at half the clearance."""
-    units: dict[Unit, Callable[[], object]] = {}
+    units: dict[WorkUnit, Callable[[], object]] = {}
     for film in films:
         units[film.tangents] = _one_tangent(film.reaction, speed)
         for smooth in (False, True):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Unit, Work, beside_bound
+from ...answers import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work, WorkUnit, beside_bound
 from ...errors import InputError, RotorfilmError
 from ...ladders import CandidateRung, Ladder
 from ...linear import coefficients, equilibrium
@@ -248,9 +248,9 @@ def _effort(rung: OrbitRung, films: tuple[FilmRung, ...]) -> float:
     return one * (6 if rung.samples == 0 else 5 * rung.samples)
 
 
-def film_batch_units(films: tuple[FilmRung, ...], speed: float) -> dict[Unit, Callable[[], object]]:
+def film_batch_units(films: tuple[FilmRung, ...], speed: float) -> dict[WorkUnit, Callable[[], object]]:
     """Return one force with derivatives of each film and of its richer one."""
-    units: dict[Unit, Callable[[], object]] = {}
+    units: dict[WorkUnit, Callable[[], object]] = {}
     for film in films:
         units[film.tangents] = _sampled(film.reaction, speed)
         units[film.defects(smooth=False)] = _sampled(film.rich, speed)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...answers import Unit
+from ...answers import WorkUnit
 from ...linear import RotorEquilibrium, coefficients, equilibrium
 from ...model import Array, Reaction
 from ...results import Coefficients
@@ -66,9 +66,9 @@ class ShaftFilms:
         """All bearings by station, with the richer films."""
         return {**self.springs, **{name: film.rich for name, film in self.journals.items()}}
 
-    def prepare(self) -> dict[Unit, int]:
+    def prepare(self) -> dict[WorkUnit, int]:
         """Make the maps that are not there yet, and return the work of that."""
-        made: dict[Unit, int] = {}
+        made: dict[WorkUnit, int] = {}
         for film in self.journals.values():
             for unit, count in film.prepare().items():
                 made[unit] = made.get(unit, 0) + count

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Unit, Work
+from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Work, WorkUnit
 from ...errors import InputError, RotorfilmError
 from ...ladders import BaseRung, Ladder
 from ...linear import RotorEquilibrium, rotor_equilibrium
@@ -176,9 +176,9 @@ class ShaftOrbitRung(BaseRung):
         return (self.model, self.films) if self.samples else ()
 
     @property
-    def unit(self) -> Unit:
+    def unit(self) -> WorkUnit:
         """One turn."""
-        return Unit(f"turns of {self.name}", ("turns", id(self.model), id(self.films), self.samples))
+        return WorkUnit(f"turns of {self.name}", ("turns", id(self.model), id(self.films), self.samples))
 
     @cached_property
     def _reactions(self) -> dict[str, Reaction]:
@@ -240,7 +240,9 @@ class ShaftOrbitRung(BaseRung):
             films_share = bound if trusted else self._by_grid(turn, value)
         is_bound = films_share > error
         error += films_share if is_bound or not trusted else 0.0
-        return ErrorEstimate(error, method, {Unit(f"defects of {self.name}"): 1}, bound=is_bound, doubt=doubt)
+        return ErrorEstimate(
+            error, method, {WorkUnit(f"defects of {self.name}"): 1}, bound=is_bound, doubt=doubt
+        )
 
     def _by_grid(self, turn: ShaftTurn, value: float) -> float:
         """Return the change that the forces of the richer films make, propagated by the slopes of the map."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Unit, Work, beside_bound
+from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Work, WorkUnit, beside_bound
 from ...errors import AbsentError, InputError
 from ...ladders import BaseRung, Ladder
 from ...linear import rotor_equilibrium, rotor_modes
@@ -98,9 +98,9 @@ class ShaftRung(BaseRung):
         return f"{self.model.name}, {self.films.name}" if self.films.name else self.model.name
 
     @property
-    def unit(self) -> Unit:
+    def unit(self) -> WorkUnit:
         """One linear problem."""
-        return Unit(f"problems of {self.name}", ("problems", id(self.model), id(self.films)))
+        return WorkUnit(f"problems of {self.name}", ("problems", id(self.model), id(self.films)))
 
     def answer(self, before: Found | None) -> Found:
         """Return the speed [rad/s]: looked for, or followed from that of a lower rung."""
@@ -137,7 +137,7 @@ class ShaftRung(BaseRung):
         Instead of asking richer films the verified bound of the map is added where that is enough, or closer.
         """
         solution: ShaftSpeed = found.solution
-        structure, steps = self.model.rotor.structure, {Unit(f"steps for {self.name}"): 3}
+        structure, steps = self.model.rotor.structure, {WorkUnit(f"steps for {self.name}"): 3}
         rates = [self.event.rate(value_rate(structure, one, self.films)) for one in solution.whirls]
         bound = self._bound(solution.whirls[0], rates[0])
         method = f"inverse iteration, {len(self.model.finer.elements)} elements"

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from ...answers import Unit
+from ...answers import WorkUnit
 from ...bearings.damper import (
     FiniteMapSqueeze,
     FiniteSqueeze,
@@ -31,8 +31,8 @@ DEFECT_CELLS = (10, 20)
 TOP_BOUNDS = {FiniteSqueeze: 1e-6, FiniteMapSqueeze: 3e-4}
 """Verified errors of the force of the richest films: docs/accuracy.md."""
 
-RICH_MADE = Unit("maps of the film of finite length made for estimates")
-"""Unit of the work of making the map that defects are sampled with."""
+RICH_MADE = WorkUnit("maps of the film of finite length made for estimates")
+"""WorkUnit of the work of making the map that defects are sampled with."""
 
 NO_RICHER = (
     "no film of finite length is there for a cavitated damper with feed, so that nobody knows how far the "
@@ -80,12 +80,12 @@ class DamperFilm:
         """Return the verified error of its force [1], the same everywhere; infinite where there is none."""
         return TOP_BOUNDS.get(type(self.law), math.inf)
 
-    def prepare(self) -> dict[Unit, int]:
+    def prepare(self) -> dict[WorkUnit, int]:
         """Return the work of making the damper, which its first use makes."""
         return {MAP_MADE: 1} if self.makes_map else {}
 
     @property
-    def rich_work(self) -> dict[Unit, int]:
+    def rich_work(self) -> dict[WorkUnit, int]:
         """Work of making the richer one."""
         return {RICH_MADE: 1} if isinstance(self.rich_law, FiniteMapSqueeze) else {}
 

@@ -53,9 +53,8 @@ RUPTURED = (
     Remark(
         "pressure",
         NOTABLE,
-        ON_ORBIT
-        + "pressure is {pressure:.2g} of the ambient one only, so that the oil may not rupture where "
-        "this film does",
+        ON_ORBIT + "pressure is {pressure:.2g} of the ambient one only, so that the oil may not rupture "
+        "where this film does",
         below=True,
     ),
     Remark(

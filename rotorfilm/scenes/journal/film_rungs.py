@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...answers import Unit
+from ...answers import WorkUnit
 from ...bearings.films.law import FilmLaw
 from ...bearings.journal import (
     ComplementarityArc,
@@ -40,8 +40,8 @@ a difference over many such jumps does not. The pressure at the wall is as wide 
 and so is the squeeze, relative to the wedge, that moves its edge.
 """
 
-MAP_MADE = Unit("maps made", nominal=20.0)
-"""Unit of the work of making a map."""
+MAP_MADE = WorkUnit("maps made", nominal=20.0)
+"""WorkUnit of the work of making a map."""
 
 MEDIUM, FINE, FINEST = (192, 16), (384, 16), (768, 32)
 
@@ -76,26 +76,26 @@ class FilmRung:
     bounded: bool = False
     makes_map: bool = False
 
-    def prepare(self) -> dict[Unit, int]:
+    def prepare(self) -> dict[WorkUnit, int]:
         """Make what the first force would make, and return the work of that."""
         if not self.makes_map:
             return {}
         self.reaction.force([0.5 * self.reaction.clearance, 0.0], [0.0, 0.0], 1.0)
         return {MAP_MADE: 1}
 
-    def expected(self, tangents: int) -> dict[Unit, int]:
+    def expected(self, tangents: int) -> dict[WorkUnit, int]:
         """Return the work of so many forces with derivatives."""
         return {self.tangents: tangents, **({MAP_MADE: 1} if self.makes_map else {})}
 
     @property
-    def tangents(self) -> Unit:
+    def tangents(self) -> WorkUnit:
         """One force with derivatives."""
-        return Unit(f"tangents of {self.name}", ("tangents", self.reaction))
+        return WorkUnit(f"tangents of {self.name}", ("tangents", self.reaction))
 
-    def defects(self, *, smooth: bool) -> Unit:
+    def defects(self, *, smooth: bool) -> WorkUnit:
         """Return the unit of the defects that correct one state, with exact or with smooth slopes."""
         name = f"defects{' and slopes' if smooth else ''} of {self.rich_name}"
-        return Unit(name, ("defects", smooth, self.rich))
+        return WorkUnit(name, ("defects", smooth, self.rich))
 
     def bound(self, eccentricity_ratio: float, *, slopes: bool) -> float:
         """Return the verified bound of its error at an eccentricity ratio, infinite where there is none."""
