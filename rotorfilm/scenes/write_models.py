@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
@@ -31,9 +32,10 @@ def write_models(
     platforms: str = "host",
 ) -> ExportedScene:
     """Write the FMUs of a bearing and its rotor; see `export_fmu`."""
-    parts = ((models.name, models.bearing, models.start), ("rotor", models.rotor, {}))
+    starts: dict[str, Mapping[str, float]] = {models.name: models.start, "rotor": {}}
+    parts = {models.name: models.bearing, "rotor": models.rotor}
     with written_together(folder) as part:
-        for name, model, start in parts:
+        for name, model in parts.items():
             export_fmu(
                 model,
                 part / f"{name}.fmu",
@@ -41,7 +43,7 @@ def write_models(
                 backend,
                 platforms=platforms,
                 component=name,
-                start=start,
+                start=starts[name],
                 step_size=models.step,
                 stop_time=models.duration,
             )
