@@ -56,7 +56,8 @@ from rotorfilm.scenes.export_scene import export_scene
 loaded = Scene.load(scene)
 answer = loaded.ask()
 made = export_scene(loaded, out)
-run = simulate_fmu(str(made.film), stop_time=0.01, start_values={"sleeve.vx": 2e-3}, output=["sleeve.force_x"])
+moving = {"sleeve.vx": 2e-3}
+run = simulate_fmu(str(made.film), stop_time=0.01, start_values=moving, output=["sleeve.force_x"])
 try:
     parse_scene(scene.read_text().replace("[sleeve]", "[sleve]"), "typo.toml")
 except SceneError as error:
