@@ -84,7 +84,9 @@ class Scene:
     contact: Annotated[ContactTable | None, Table(ContactTable)] = None
     shaft: Annotated[ShaftTable | None, Table(ShaftTable)] = None
     damper: Annotated[DamperTable | None, Table(DamperTable)] = None
-    others: Annotated[Mapping[str, Any], Beside(tuple(FAMILIES), table_of)] = field(default_factory=dict)
+    others: Annotated[Mapping[str, Any], Beside(tuple(FAMILIES), table_of)] = field(
+        default_factory=dict, hash=False
+    )
 
     # What all families share.
     operation: Annotated[OperationTable | None, Table(OperationTable)] = None
