@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import FmuError, InputError, UndefinedDerivativeError
 from ..model import FORCE_OUTPUTS, JOURNAL_INPUTS, MOTION_NAMES, Array, Linearization, indices
 from ..rotors.force_law import ForceLaw, held_law
-from ..rotors.structure import station_name, station_names
+from ..rotors.stations import station_name, station_names
 from .schemes.exponential import Wiring
 from .slaves import Differentiable, Driven, Restorable, Slave
 

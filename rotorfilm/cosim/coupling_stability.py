@@ -21,7 +21,7 @@ from scipy.optimize import brentq
 from ..errors import InputError, require_finite, require_positive
 from ..model import FORCE_OUTPUTS, JOURNAL_INPUTS, Array, Dynamic, Linearization, Model, indices
 from ..rotors.force_law import ForceLaw
-from ..rotors.structure import station_name, station_names
+from ..rotors.stations import station_name, station_names
 from ..signals import names
 from .bench import Sample, StationMotion, Tangents
 from .schemes.explicit import GaussSeidel

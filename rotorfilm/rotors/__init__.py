@@ -8,18 +8,8 @@ from .profile import SpeedProfile
 from .rigid import RigidRotor
 from .rigid_shaft import RigidShaft
 from .shaft.beam import Beam, ClassicalBeam, FourthOrderBeam, cowper_coefficient
-from .shaft.parts import (
-    Coupling,
-    Disk,
-    ElasticMaterial,
-    LayeredElement,
-    Probe,
-    ShaftElement,
-    Station,
-    Support,
-    TiltSpring,
-    Unbalance,
-)
+from .shaft.elements import Coupling, ElasticMaterial, LayeredElement, ShaftElement
+from .shaft.parts import Disk, Probe, Station, Support, TiltSpring, Unbalance
 from .shaft.reduce_rotor import Reduction, reduce_rotor
 from .shaft.reduced_rotor import ReducedRotor
 from .shaft.shaft_rotor import ShaftRotor

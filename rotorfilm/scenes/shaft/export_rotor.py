@@ -13,7 +13,7 @@ from ...errors import InputError
 from ...linear import rotor_equilibrium
 from ...model import Reaction
 from ...rotors import FlexibleRotor, Reduction, SteadyRotor, mount, reduce_rotor
-from ...rotors.structure import station_names
+from ...rotors.stations import station_names
 from .solve_shaft import added_unbalance
 
 if TYPE_CHECKING:
