@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import chdir, contextmanager
 from ctypes import c_double
 from os import PathLike
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import fmpy
 import numpy as np
@@ -47,6 +47,16 @@ class EventInfo(NamedTuple):
     next_time: float | None
 
 
+class Calls(NamedTuple):
+    """How an FMI version spells what both have."""
+
+    set: str
+    get: str
+    derivatives: str
+    update: str
+    deserialize: str
+
+
 class Instance:
     """An instantiated FMU, for Co-Simulation or for Model Exchange; `instantiated` makes one.
 
@@ -56,6 +66,8 @@ class Instance:
     exchange : bool
         Whether it is for Model Exchange.
     """
+
+    calls: ClassVar[Calls]
 
     def __init__(self, fmu: Any, exchange: bool) -> None:
         self._fmu, self._exchange = fmu, exchange
@@ -77,19 +89,23 @@ class Instance:
 
         The tolerance is that of its time integration, its own default unless given.
         """
-        raise NotImplementedError
+        self._enter(time, tolerance)
+        self.set(references, values)
+        self._fmu.exitInitializationMode()
+        return self._settle()
 
     def set(self, references: Sequence[int], values: Sequence[float]) -> None:
         """Set variables."""
-        raise NotImplementedError
+        if len(references):
+            self._call(self.calls.set, list(references), list(values))
 
     def get(self, references: Sequence[int]) -> list[float]:
         """Return variables."""
-        raise NotImplementedError
+        return list(self._call(self.calls.get, list(references))) if len(references) else []
 
     def deserialize(self, content: bytes) -> Any:
         """Return the FMU state that `serialize` turned into bytes."""
-        raise NotImplementedError
+        return self._call(self.calls.deserialize, content)
 
     def step(self, t: float, dt: float) -> None:
         """Advance from t to t + dt [s] (Co-Simulation)."""
@@ -112,7 +128,7 @@ class Instance:
         """Return the derivatives of the state (Model Exchange)."""
         values = (c_double * count)()
         if count:
-            self._derivatives(values, count)
+            self._call(self.calls.derivatives, values, count)
         return np.array(values)
 
     def event(self) -> EventInfo:
@@ -162,17 +178,18 @@ class Instance:
         terminate, time = False, None
         again = self._exchange
         while again and not terminate:
-            again, terminate, _, _, defined, next_time = self._update()
+            again, terminate, _, _, defined, next_time = self._call(self.calls.update)
             time = next_time if defined else None
         if self._exchange:
             self._fmu.enterContinuousTimeMode()
         return EventInfo(terminate, time)
 
-    def _derivatives(self, values: Any, count: int) -> None:
+    def _enter(self, time: float, tolerance: float | None) -> None:
+        """Enter initialization mode."""
         raise NotImplementedError
 
-    def _update(self) -> tuple[Any, ...]:
-        raise NotImplementedError
+    def _call(self, name: str, *arguments: Any) -> Any:
+        return getattr(self._fmu, name)(*arguments)
 
     def _keep(self, status: int, message: bytes) -> None:
         if status != FMI_OK:
@@ -181,6 +198,8 @@ class Instance:
 
 class Instance2(Instance):
     """An instance of an FMI 2.0 FMU; see `Instance`."""
+
+    calls = Calls("setReal", "getReal", "getDerivatives", "newDiscreteStates", "deSerializeFMUstate")
 
     def __init__(self, fmu: Any, exchange: bool) -> None:
         super().__init__(fmu, exchange)
@@ -194,39 +213,9 @@ class Instance2(Instance):
         # With logging on, or PythonFMU would keep the reason of a failure to itself.
         self._fmu.instantiate(callbacks=self._callbacks, loggingOn=True)
 
-    def initialize(
-        self,
-        references: Sequence[int],
-        values: Sequence[float],
-        time: float = 0.0,
-        tolerance: float | None = None,
-    ) -> EventInfo:
-        """Initialize; see `Instance`."""
+    def _enter(self, time: float, tolerance: float | None) -> None:
         self._fmu.setupExperiment(tolerance=tolerance, startTime=time)
         self._fmu.enterInitializationMode()
-        self.set(references, values)
-        self._fmu.exitInitializationMode()
-        return self._settle()
-
-    def set(self, references: Sequence[int], values: Sequence[float]) -> None:
-        """Set variables."""
-        if len(references):
-            self._fmu.setReal(list(references), list(values))
-
-    def get(self, references: Sequence[int]) -> list[float]:
-        """Return variables."""
-        return list(self._fmu.getReal(list(references))) if len(references) else []
-
-    def deserialize(self, content: bytes) -> Any:
-        """Return the FMU state in bytes."""
-        return self._fmu.deSerializeFMUstate(content)
-
-    def _derivatives(self, values: Any, count: int) -> None:
-        self._fmu.getDerivatives(values, count)
-
-    def _update(self) -> tuple[Any, ...]:
-        answer: tuple[Any, ...] = self._fmu.newDiscreteStates()
-        return answer
 
     def _logger(self, environment: Any, name: bytes, status: int, category: bytes, message: bytes) -> None:
         self._keep(status, message)
@@ -235,47 +224,25 @@ class Instance2(Instance):
 class Instance3(Instance):
     """An instance of an FMI 3.0 FMU; see `Instance`."""
 
+    calls = Calls(
+        "setFloat64",
+        "getFloat64",
+        "getContinuousStateDerivatives",
+        "updateDiscreteStates",
+        "deserializeFMUState",
+    )
+
     def instantiate(self) -> None:
         """Make the instance; see `Instance`."""
         self._fmu.instantiate(loggingOn=True, logMessage=self._logger)
-
-    def initialize(
-        self,
-        references: Sequence[int],
-        values: Sequence[float],
-        time: float = 0.0,
-        tolerance: float | None = None,
-    ) -> EventInfo:
-        """Initialize; see `Instance`."""
-        self._fmu.enterInitializationMode(tolerance=tolerance, startTime=time)
-        self.set(references, values)
-        self._fmu.exitInitializationMode()
-        return self._settle()
-
-    def set(self, references: Sequence[int], values: Sequence[float]) -> None:
-        """Set variables."""
-        if len(references):
-            self._fmu.setFloat64(list(references), list(values))
-
-    def get(self, references: Sequence[int]) -> list[float]:
-        """Return variables."""
-        return list(self._fmu.getFloat64(list(references))) if len(references) else []
 
     def adjoint(self, unknowns: Sequence[int], knowns: Sequence[int], seed: Sequence[float]) -> list[float]:
         """Return the derivative of the sum of the unknowns, weighted by `seed`, by each known."""
         found: list[float] = self._fmu.getAdjointDerivative(unknowns, knowns, seed, nSensitivity=len(knowns))
         return found
 
-    def deserialize(self, content: bytes) -> Any:
-        """Return the FMU state in bytes."""
-        return self._fmu.deserializeFMUState(content)
-
-    def _derivatives(self, values: Any, count: int) -> None:
-        self._fmu.getContinuousStateDerivatives(values, count)
-
-    def _update(self) -> tuple[Any, ...]:
-        answer: tuple[Any, ...] = self._fmu.updateDiscreteStates()
-        return answer
+    def _enter(self, time: float, tolerance: float | None) -> None:
+        self._fmu.enterInitializationMode(tolerance=tolerance, startTime=time)
 
     def _logger(self, environment: Any, status: int, category: bytes, message: bytes) -> None:
         self._keep(status, message)
