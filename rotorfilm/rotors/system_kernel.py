@@ -62,8 +62,10 @@ def system_kernel(
 
 
 def _operators(rotor: Dynamic) -> tuple[Operators, SpeedProfile] | None:
-    bends = isinstance(rotor, FlexibleRotor) and rotor.structure.hysteresis is None
-    return (rotor.operators, rotor.profile) if bends or type(rotor) is RigidRotor else None
+    elastic = isinstance(rotor, FlexibleRotor) and rotor.structure.hysteresis is None
+    if isinstance(rotor, FlexibleRotor | RigidRotor) and (elastic or type(rotor) is RigidRotor):
+        return rotor.operators, rotor.profile
+    return None
 
 
 def _matrices(model: Operators, carried: list[int], free: list[int], motion: list[int]) -> dict[str, Array]:

@@ -29,6 +29,7 @@ from .export_scene import export_scene, resting_rotor
 from .monolithic import monolithic_solution
 from .scene import Scene
 from .schema import require_steps
+from .tables import made_from
 
 SCHEMES: dict[str, Scheme] = {
     **{f"gauss-seidel-{degree}": GaussSeidel(degree=degree) for degree in range(3)},
@@ -176,7 +177,7 @@ def _answer(scene: Scene, result: CoSimulation) -> CosimAnswer:
         whole = monolithic_solution(scene, times)
     except ContactError as wall:
         raise ContactError(f"the monolithic solution: {wall}", result) from wall
-    choice = result.choice
+    tried = () if result.choice is None else result.choice.trials
     return CosimAnswer(
         scheme=result.scheme.label,
         order=result.scheme.order,
@@ -187,16 +188,5 @@ def _answer(scene: Scene, result: CoSimulation) -> CosimAnswer:
         hold_defect=result.coupling.hold_defect,
         watch=result.watch,
         work=own.work,
-        trials=()
-        if choice is None
-        else tuple(
-            TrialRow(
-                scheme=trial.scheme.label,
-                orbit_error=trial.orbit_error,
-                spectral_radius=trial.spectral_radius,
-                film_calls=trial.film_calls,
-                reason=trial.reason,
-            )
-            for trial in choice.trials
-        ),
+        trials=tuple(made_from(TrialRow, trial, scheme=trial.scheme.label) for trial in tried),
     )

@@ -127,7 +127,7 @@ def to_xml(description: Description, dialect: Dialect, token: str) -> bytes:
     for name, text in description.categories.items():
         SubElement(categories, "Category", name=name, description=text)
     experiment = {"stopTime": repr(description.stop_time), "stepSize": repr(description.step_size)}
-    SubElement(root, "DefaultExperiment", startTime="0.0", **experiment)
+    SubElement(root, "DefaultExperiment", {"startTime": "0.0", **experiment})
     variables = SubElement(root, "ModelVariables")
     for reference, variable in enumerate(description.variables):
         dialect.add_variable(variables, reference, variable)

@@ -51,4 +51,5 @@ class Dialect2:
 def _add_unknowns(structure: Element, name: str, unknowns: Sequence[Unknown]) -> None:
     parent = SubElement(structure, name)
     for unknown in unknowns:
-        SubElement(parent, "Unknown", index=str(unknown.reference + 1), **unknown_attributes(unknown, 1))
+        index = {"index": str(unknown.reference + 1)}
+        SubElement(parent, "Unknown", {**index, **unknown_attributes(unknown, 1)})

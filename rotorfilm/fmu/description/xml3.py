@@ -46,8 +46,8 @@ class Dialect3:
         unknowns = [("ContinuousStateDerivative" if u.reference in slopes else "Output", u) for u in running]
         initial = initial_unknowns(variables, description.dependencies)
         for name, unknown in [*unknowns, *(("InitialUnknown", u) for u in initial)]:
-            attributes = unknown_attributes(unknown, 0)
-            SubElement(structure, name, valueReference=str(unknown.reference), **attributes)
+            attributes = {"valueReference": str(unknown.reference), **unknown_attributes(unknown, 0)}
+            SubElement(structure, name, attributes)
         for reference in switch_references(variables):
             SubElement(structure, "EventIndicator", valueReference=str(reference))
 
