@@ -18,9 +18,9 @@ from scipy.linalg import expm
 from scipy.optimize import brentq
 
 from ..errors import InputError, require_finite
-from ..model import FORCE_OUTPUTS, JOURNAL_INPUTS, Array, Dynamic, Linearization, Model, indices
+from ..model import FORCE_OUTPUTS, JOURNAL_INPUTS, Array, Dynamic, Linearization, Model
 from ..rotors.force_law import ForceLaw
-from ..signals import names
+from ..signals import indices, names
 from .bench import Sample, StationMotion, Tangents
 from .schemes.newton import Newton
 from .schemes.scheme import Scheme

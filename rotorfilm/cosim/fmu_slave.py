@@ -14,8 +14,9 @@ import numpy as np
 from fmpy.fmi1 import FMICallException
 
 from ..errors import FilmContactError, FmuError, InputError
+from ..fmu.check.calls import EventInfo
 from ..fmu.check.described import DERIVATIVES, STATES, nominal_of, provides, variables_of
-from ..fmu.check.instance import EventInfo, instantiated
+from ..fmu.check.instance import instantiated
 from ..model import Array, Linearization
 from ..rotors.force_law import BASE_TIME, ForceLaw, law_inputs
 from ..signals import from_fmi_name

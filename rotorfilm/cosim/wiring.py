@@ -6,8 +6,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple, Protocol
 
 from ..errors import InputError
-from ..model import FORCE_OUTPUTS, MOTION_NAMES, indices
+from ..model import FORCE_OUTPUTS, MOTION_NAMES
 from ..rotors.stations import station_name, station_names
+from ..signals import indices
 
 
 class Signals(Protocol):
@@ -71,14 +72,12 @@ def wired(rotor: Signals, films: Mapping[str, Signals]) -> Wiring:
     if not films:
         raise InputError("films must be one at least, got none")
     motions, forces = zip(*(station_names(station) for station in films), strict=True)
-    for film, own in zip(films.values(), forces, strict=True):
-        indices("rotor must have the inputs", rotor.inputs, own)
-        indices("film must have the outputs", film.outputs, FORCE_OUTPUTS)
-    for station, film in films.items():
+    for (station, film), motion, force in zip(films.items(), motions, forces, strict=True):
         fed = sources(rotor.outputs, station, film.inputs)
         indices("rotor must have the outputs", rotor.outputs, list(fed.values()))
-    for own in motions:
-        indices("rotor must have the outputs", rotor.outputs, own)
+        indices("rotor must have the outputs", rotor.outputs, motion)
+        indices("rotor must have the inputs", rotor.inputs, force)
+        indices("film must have the outputs", film.outputs, FORCE_OUTPUTS)
     return Wiring(
         tuple(films),
         tuple(name for own in forces for name in own),

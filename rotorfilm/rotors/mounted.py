@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
-from ..model import JOURNAL_INPUTS, Array, Dynamic, Linearization, Reaction, indices
+from ..model import JOURNAL_INPUTS, Array, Dynamic, Linearization, Reaction
 from ..native.spec import NativeSpec
-from ..signals import Signal, names
+from ..signals import Signal, indices, names
 from .stations import AroundRotor, prefixed
 from .system_kernel import system_kernel
 

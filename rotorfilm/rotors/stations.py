@@ -8,8 +8,8 @@ from functools import cached_property
 from typing import TypeVar
 
 from ..errors import InputError
-from ..model import FORCE_OUTPUTS, MOTION_NAMES, Array, Dynamic, Kinked, indices
-from ..signals import Signal, names
+from ..model import FORCE_OUTPUTS, MOTION_NAMES, Array, Dynamic, Kinked
+from ..signals import Signal, indices, names
 
 AnySignal = TypeVar("AnySignal", bound=Signal)
 

@@ -29,7 +29,7 @@ from .export_scene import export_scene, resting_rotor
 from .monolithic import monolithic_solution
 from .scene import Scene
 from .schema import require_steps
-from .tables import made_from
+from .shared_fields import made_from
 
 SCHEMES: dict[str, Scheme] = {
     **{f"gauss-seidel-{degree}": GaussSeidel(degree=degree) for degree in range(3)},

@@ -18,7 +18,8 @@ from ..limits import STEPS
 from ..rotors.rigid import RigidRotor
 from .journal.film_tables import FILMS, GROOVE, PAD
 from .readers import read_load
-from .tables import Quantity, TableList, Variant, made_from
+from .shared_fields import made_from
+from .tables import Quantity, TableList, Variant
 
 SCHEMA = 1
 """The version that a scene file states as `schema = 1`."""

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
-import difflib
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Generic, NamedTuple, TypeVar, get_type_hints
 
@@ -13,22 +12,16 @@ from ..errors import InputError, SceneError
 from ..limits import TEXT
 from ..printable import brief, shortened
 from ..units import parse_quantity
+from .spelling import nearest, require_no_near_miss
 
 Reader = Callable[[str, Any], Any]
 """Turns (where, value) into the value of a field; `where` is `FILE: dotted.key`, for the messages."""
 
 T = TypeVar("T")
-
 V = TypeVar("V")
-
-_SIMILAR = 0.4
-"""Similarity, of 1, from which a known key is worth a hint."""
 
 _ARGUMENT = re.compile(r"\w+(?=[.,\[]| (?:must|is|are|and)\b)")
 """The argument that a message begins with; `length / diameter must` is about none."""
-
-_SAME_WORD = 0.7
-"""Similarity from which an unknown key is the known one with a typo."""
 
 
 @dataclass(frozen=True)
@@ -183,22 +176,6 @@ def require_table(where: str, value: Any) -> Mapping[str, Any]:
     return value
 
 
-def nearest(name: object, known: Iterable[str]) -> str:
-    """Return a hint with the known name nearest to `name`, or an empty string."""
-    if not isinstance(name, str):
-        return ""
-    by_small_letters = {key.lower(): key for key in known}
-    close = difflib.get_close_matches(name.lower(), by_small_letters, n=1, cutoff=_SIMILAR)
-    return f"; did you mean {by_small_letters[close[0]]!r}?" if close else ""
-
-
-def require_no_near_miss(where: str, tag: str, data: Mapping[str, Any]) -> None:
-    """Raise SceneError if a key looks like a misspelled tag."""
-    for key in data:
-        if difflib.SequenceMatcher(None, key.lower(), tag).ratio() >= _SAME_WORD:
-            raise SceneError(f"{where}{shortened(key)} is no known key; did you mean {tag!r}?")
-
-
 def read_table(table: type[T] | Keyed[T], where: str, data: Any) -> T:
     """Return the TOML table `data` as the dataclass `table`.
 
@@ -217,12 +194,12 @@ def read_table(table: type[T] | Keyed[T], where: str, data: Any) -> T:
         If a key is unknown, missing, given twice over, or its value breaks a rule.
     """
     values = dict(require_table(where.removesuffix("."), data))
-    readers, makes = readers_of(table), table.makes if isinstance(table, Keyed) else table
+    makes, readers, required = keyed(table)
     _require_known(where, values, readers)
     found = {
         name: value for name, reader in readers.items() for value in _read_field(where, name, reader, values)
     }
-    _require_complete(where, table, found)
+    _require_complete(where, makes, required, found)
     try:
         return makes(**found)
     except InputError as error:
@@ -255,7 +232,7 @@ def unit_of(table: type | Keyed[Any], path: Sequence[str]) -> str | None:
     if not path:
         return None
     first, *rest = path
-    readers = readers_of(table)
+    readers = keyed(table).readers
     doubled = {_twice(reader): reader for reader in readers.values()}
     reader = readers.get(first) or doubled.get(first)
     if isinstance(reader, Quantity):
@@ -265,19 +242,13 @@ def unit_of(table: type | Keyed[Any], path: Sequence[str]) -> str | None:
     return unit_of(reader.table, rest[1:]) if isinstance(reader, TableList) else None
 
 
-def readers_of(table: type | Keyed[Any]) -> Mapping[str, Reader]:
-    """Return the reader of each key of a table."""
+def keyed(table: type[T] | Keyed[T]) -> Keyed[T]:
+    """Return a table with its readers beside it; those of a plain dataclass are in its annotations."""
     if isinstance(table, Keyed):
-        return table.readers
+        return table
     hints = get_type_hints(table, include_extras=True)
-    return {field.name: hints[field.name].__metadata__[0] for field in dataclasses.fields(table)}
-
-
-def made_from(makes: type[T], table: Any, **further: Any) -> T:
-    """Return an object of a dataclass: what its fields share with those of a table, and further values."""
-    own = {field.name for field in dataclasses.fields(makes)}  # type: ignore[arg-type]
-    shared = own & {field.name for field in dataclasses.fields(table)} - further.keys()
-    return makes(**{name: getattr(table, name) for name in shared}, **further)
+    names = [field.name for field in dataclasses.fields(table)]  # type: ignore[arg-type]
+    return Keyed(table, {name: hints[name].__metadata__[0] for name in names})
 
 
 def _require_known(where: str, values: Mapping[str, Any], readers: Mapping[str, Reader]) -> None:
@@ -304,8 +275,7 @@ def _twice(reader: Reader) -> str:
     return reader.twice if isinstance(reader, Quantity) else ""
 
 
-def _require_complete(where: str, table: type | Keyed[Any], found: Mapping[str, Any]) -> None:
-    makes, required = (table.makes, table.required) if isinstance(table, Keyed) else (table, ())
+def _require_complete(where: str, makes: type, required: Sequence[str], found: Mapping[str, Any]) -> None:
     for field in dataclasses.fields(makes):
         bare = field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
         if (bare or field.name in required) and field.name not in found:

@@ -9,7 +9,7 @@ import pytest
 
 from rotorfilm.errors import SceneError
 from rotorfilm.scenes import Scene, parse_scene, read_scene
-from rotorfilm.scenes.tables import Quantity, Table, TableList, Variant, nearest, readers_of
+from rotorfilm.scenes.tables import Quantity, Table, TableList, Variant, keyed, nearest
 
 DATA = Path(str(resources.files("rotorfilm.scenes"))) / "data"
 SHIPPED = sorted([*(Path(__file__).parents[2] / "examples").glob("**/*.toml"), *DATA.glob("*.toml")])
@@ -54,7 +54,7 @@ def dotted(path):
 def table_types(table):
     """Return a table of the schema and all tables below it."""
     yield table
-    for reader in readers_of(table).values():
+    for reader in keyed(table).readers.values():
         if isinstance(reader, Table | TableList):
             yield from table_types(reader.table)
         elif isinstance(reader, Variant):
@@ -63,7 +63,7 @@ def table_types(table):
 
 
 def known_keys(table):
-    readers = readers_of(table)
+    readers = keyed(table).readers
     return [*readers, *(r.twice for r in readers.values() if isinstance(r, Quantity) and r.twice)]
 
 
@@ -81,7 +81,7 @@ def test_typo_in_any_key_of_a_shipped_scene_is_reported(path):
                 read_scene(broken, path.name)
 
 
-TABLES = {getattr(table, "makes", table).__name__: table for table in table_types(Scene)}
+TABLES = {keyed(table).makes.__name__: table for table in table_types(Scene)}
 
 
 @pytest.mark.parametrize("table", TABLES.values(), ids=TABLES)

@@ -14,6 +14,7 @@ from fmpy.validation import validate_fmu
 from ...errors import FmuError
 from ...model import Array
 from ..binaries import libraries, require_whole
+from .calls import Instance
 from .described import (
     ADJOINT_DERIVATIVES,
     DERIVATIVES,
@@ -25,7 +26,7 @@ from .described import (
     starts_of,
     variables_of,
 )
-from .instance import Instance, extracted, instantiated
+from .instance import extracted, instantiated
 from .measure import adjoint_error, derivative_error, state_differences
 from .replay import replay_exchange, replay_steps
 

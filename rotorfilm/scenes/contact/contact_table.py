@@ -11,7 +11,8 @@ from ...errors import InputError, SceneError, require_non_negative
 from ...limits import CONTACT_CELLS, LAW_STATES
 from ...printable import brief
 from ..readers import Count
-from ..tables import Quantity, flag, made_from
+from ..shared_fields import made_from
+from ..tables import Quantity, flag
 
 
 def read_angles(where: str, value: Any) -> tuple[float, ...]:

@@ -23,7 +23,8 @@ from ...rotors import (
 )
 from ..readers import Count
 from ..schema import JournalTable
-from ..tables import Keyed, Quantity, Table, made_from, read_table, require_table, text
+from ..shared_fields import made_from
+from ..tables import Keyed, Quantity, Table, read_table, require_table, text
 
 Pair = tuple[tuple[float, float], tuple[float, float]]
 

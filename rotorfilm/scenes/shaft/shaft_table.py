@@ -25,7 +25,9 @@ from ...rotors import (
 )
 from ..excitation_table import UnbalanceTable
 from ..readers import Count
-from ..tables import Named, Quantity, Table, TableList, made_from, nearest
+from ..shared_fields import made_from
+from ..spelling import nearest
+from ..tables import Named, Quantity, Table, TableList
 from .shaft_parts import MATERIAL, PROBE, TILT_SPRING, BearingTable, DiskTable, PieceTable, read_pieces
 
 BEAMS: dict[str, type[Beam]] = {"fourth_order": FourthOrderBeam, "classical": ClassicalBeam}
