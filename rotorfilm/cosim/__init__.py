@@ -19,33 +19,3 @@ from .schemes.newton import Newton
 from .schemes.scheme import Scheme
 from .slaves import InProcessSlave, Slave
 from .watch import CouplingWatch
-
-__all__ = [
-    "Adaptive",
-    "Auto",
-    "Choice",
-    "CoSimulation",
-    "CouplingReport",
-    "CouplingStability",
-    "CouplingWatch",
-    "CriticalMacroStep",
-    "FmuSlave",
-    "GaussSeidel",
-    "InProcessSlave",
-    "Jacobi",
-    "Newton",
-    "SIExp",
-    "SIExp3",
-    "Scheme",
-    "Slave",
-    "Trial",
-    "choose_scheme",
-    "cosimulate",
-    "couple",
-    "coupling_stability",
-    "critical_macro_step",
-    "inspect_coupling",
-    "open_fmu",
-    "open_rotor",
-    "squeeze_limit",
-]

@@ -15,34 +15,3 @@ from .shaft.reduced_rotor import ReducedRotor
 from .shaft.shaft_rotor import ShaftRotor
 from .steady import SteadyRotor
 from .structure import FlexibleRotor
-
-__all__ = [
-    "Beam",
-    "ClassicalBeam",
-    "Coupling",
-    "Disk",
-    "ElasticMaterial",
-    "FlexibleRotor",
-    "ForceLaw",
-    "FourthOrderBeam",
-    "JeffcottRotor",
-    "LawRotor",
-    "LayeredElement",
-    "MountedRotor",
-    "Probe",
-    "ReducedRotor",
-    "Reduction",
-    "RigidRotor",
-    "RigidShaft",
-    "ShaftElement",
-    "ShaftRotor",
-    "SpeedProfile",
-    "Station",
-    "SteadyRotor",
-    "Support",
-    "TiltSpring",
-    "Unbalance",
-    "cowper_coefficient",
-    "mount",
-    "reduce_rotor",
-]
