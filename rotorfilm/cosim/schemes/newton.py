@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
@@ -42,9 +41,9 @@ class Newton:
     tolerance: float = 1e-6
     most: int = 12
 
-    order: ClassVar[int] = 2
-    label: ClassVar[str] = "Newton"
-    needs: ClassVar[Needs] = Needs(derivatives=True, rollback=True)
+    order = 2
+    label = "Newton"
+    needs = Needs(derivatives=True, rollback=True)
 
     def __post_init__(self) -> None:
         require_positive("tolerance", self.tolerance)
