@@ -70,19 +70,19 @@ def coupling_loop(
     if x.shape != (len(rotor.states),):
         raise InputError(f"state must have shape ({len(rotor.states)},), got {x.shape}")
     films = reaction if isinstance(reaction, Mapping) else {"": reaction}
-    named = _Named(tuple(names(rotor.inputs)), tuple(names(rotor.outputs)))
-    inputs = {station: names(film.inputs) for station, film in films.items()}
-    wiring = wired(
-        named, {s: _Named(tuple(inputs[s]), tuple(names(film.outputs))) for s, film in films.items()}
-    )
-    force, position, velocity = wiring.places(named.inputs, named.outputs)
+    known = _named(rotor)
     outputs = rotor.output(time, x, np.zeros(len(rotor.inputs)))
-    K, C, u = np.zeros((len(force),) * 2), np.zeros((len(force),) * 2), np.zeros(len(rotor.inputs))
+    felt = {
+        station: outputs[indices("rotor must have the outputs", known.outputs, _feeds(known, station, film))]
+        for station, film in films.items()
+    }
+    wiring = wired(known, {station: _named(film) for station, film in films.items()})
+    force, position, velocity = wiring.places(known.inputs, known.outputs)
+    size = len(force)
+    K, C, u = np.zeros((size, size)), np.zeros((size, size)), np.zeros(len(rotor.inputs))
     for number, (station, film) in enumerate(films.items()):
         own = slice(2 * number, 2 * number + 2)
-        fed = sources(named.outputs, station, inputs[station]).values()
-        felt = outputs[[named.outputs.index(name) for name in fed]]
-        K[own, own], C[own, own], u[force[own]] = _film_matrices(film, felt, time)
+        K[own, own], C[own, own], u[force[own]] = _film_matrices(film, felt[station], time)
     linear: Linearization = rotor.linearization(time, x, u)
     if np.any(linear.D[np.ix_([*position, *velocity], force)]):
         raise InputError("rotor must have outputs that its inputs do not reach directly, got a matrix D != 0")
@@ -94,6 +94,15 @@ class _Named(NamedTuple):
 
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
+
+
+def _named(model: Model) -> _Named:
+    return _Named(tuple(names(model.inputs)), tuple(names(model.outputs)))
+
+
+def _feeds(rotor: _Named, station: str, film: Model) -> list[str]:
+    """Return the outputs of the rotor that feed a film."""
+    return list(sources(rotor.outputs, station, names(film.inputs)).values())
 
 
 def _film_matrices(film: Model, journal: Array, time: float) -> tuple[Array, Array, Array]:

@@ -73,11 +73,11 @@ def wired(rotor: Signals, films: Mapping[str, Signals]) -> Wiring:
         raise InputError("films must be one at least, got none")
     motions, forces = zip(*(station_names(station) for station in films), strict=True)
     for (station, film), motion, force in zip(films.items(), motions, forces, strict=True):
+        indices("rotor must have the inputs", rotor.inputs, force)
+        indices("film must have the outputs", film.outputs, FORCE_OUTPUTS)
         fed = sources(rotor.outputs, station, film.inputs)
         indices("rotor must have the outputs", rotor.outputs, list(fed.values()))
         indices("rotor must have the outputs", rotor.outputs, motion)
-        indices("rotor must have the inputs", rotor.inputs, force)
-        indices("film must have the outputs", film.outputs, FORCE_OUTPUTS)
     return Wiring(
         tuple(films),
         tuple(name for own in forces for name in own),
