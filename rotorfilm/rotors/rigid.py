@@ -9,13 +9,13 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, require_finite, require_non_negative, require_number, require_positive
+from ..errors import require_non_negative, require_number, require_positive
 from ..model import MOTION_NAMES, Array, Linearization, force_outputs, journal_inputs
 from ..native.spec import NativeParameter, NativeSpec
 from ..signals import Signal
 from ..units import STANDARD_GRAVITY
 from .profile import SpeedProfile, Turning
-from .structure import NOMINAL_LENGTH, Operators, unbalance_columns
+from .structure import NOMINAL_LENGTH, Operators, keep_pair, unbalance_columns
 
 NATIVE_PARAMETERS = {
     "mass": ("kg", "mass carried by this journal"),
@@ -79,10 +79,7 @@ class RigidRotor(Turning):
         for name in ("unbalance_angle", *(() if isinstance(self.speed, SpeedProfile) else ("speed",))):
             require_number(name, getattr(self, name))
         for name in ("gravity", "static_force", "position", "velocity"):
-            pair = require_finite(name, getattr(self, name))
-            if pair.shape != (2,):
-                raise InputError(f"{name} must be a pair of numbers, got {getattr(self, name)!r}")
-            object.__setattr__(self, name, tuple(pair.tolist()))
+            keep_pair(self, name)
 
     @property
     def static_load(self) -> Array:

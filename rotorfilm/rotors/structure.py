@@ -226,10 +226,7 @@ def output_rows(structure: Structure) -> Array:
 
 def check_motion(rotor: FlexibleRotor) -> None:
     """Check speed, gravity and initial state of a rotor; raise InputError where they break a rule."""
-    gravity = require_finite("gravity", rotor.gravity)
-    if gravity.shape != (2,):
-        raise InputError(f"gravity must be a pair of numbers, got {rotor.gravity!r}")
-    object.__setattr__(rotor, "gravity", tuple(gravity.tolist()))
+    keep_pair(rotor, "gravity")
     if not isinstance(rotor.speed, SpeedProfile):
         require_number("speed", rotor.speed)
     size = 2 * len(rotor.structure.weight)
@@ -237,6 +234,15 @@ def check_motion(rotor: FlexibleRotor) -> None:
     if len(rotor.initial) and state.shape != (size,):
         raise InputError(f"initial must be empty or {size} numbers, got shape {state.shape}")
     object.__setattr__(rotor, "initial", tuple(state.tolist()))
+
+
+def keep_pair(rotor: object, name: str) -> None:
+    """Keep a field of two numbers as a tuple of floats; raise InputError where it is none."""
+    value = getattr(rotor, name)
+    pair = require_finite(name, value)
+    if pair.shape != (2,):
+        raise InputError(f"{name} must be a pair of numbers, got {value!r}")
+    object.__setattr__(rotor, name, tuple(pair.tolist()))
 
 
 def both_planes(matrix: Array) -> Array:
