@@ -13,7 +13,6 @@ from typing import Any, NamedTuple, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .errors import InputError
 from .signals import Signal
 
 Array = NDArray[np.float64]
@@ -259,27 +258,6 @@ def stops(model: Model, start: float, end: float) -> list[float]:
     """Return the times [s] at which an integration stops: the model's kinks after start, then the end."""
     kinks = model.breakpoints if isinstance(model, Kinked) else ()
     return [*(t for t in kinks if start < t < end), end]
-
-
-def indices(owner: str, available: Sequence[str], needed: Sequence[str]) -> list[int]:
-    """Return where each of the signals `needed` is among those available.
-
-    Parameters
-    ----------
-    owner : str
-        Who must have the signals, for the message: `"rotor must have the outputs"`.
-    available, needed : sequence of str
-        Names of signals.
-
-    Raises
-    ------
-    InputError
-        If a signal is missing.
-    """
-    missing = [name for name in needed if name not in available]
-    if missing:
-        raise InputError(f"{owner} {list(needed)}, got {list(available)} without {missing}")
-    return [available.index(name) for name in needed]
 
 
 def journal_inputs(clearance: float, nominal_speed: float) -> tuple[Signal, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import keyword
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .errors import InputError, require_positive
@@ -119,6 +120,27 @@ class Variable(Scalar):
 def names(signals: tuple[Signal, ...]) -> list[str]:
     """Return the names of `signals`, in order: the labels that python-control wants."""
     return [signal.name for signal in signals]
+
+
+def indices(owner: str, available: Sequence[str], needed: Sequence[str]) -> list[int]:
+    """Return where each of the signals `needed` is among those available.
+
+    Parameters
+    ----------
+    owner : str
+        Who must have the signals, for the message: `"rotor must have the outputs"`.
+    available, needed : sequence of str
+        Names of signals.
+
+    Raises
+    ------
+    InputError
+        If a signal is missing.
+    """
+    missing = [name for name in needed if name not in available]
+    if missing:
+        raise InputError(f"{owner} {list(needed)}, got {list(available)} without {missing}")
+    return [available.index(name) for name in needed]
 
 
 def to_fmi_name(component: str, name: str) -> str:

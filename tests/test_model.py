@@ -14,13 +14,12 @@ from rotorfilm.model import (
     Reaction,
     Stepped,
     force_outputs,
-    indices,
     journal_inputs,
     static_linearization,
     stops,
 )
 from rotorfilm.rotors import RigidRotor, SpeedProfile
-from rotorfilm.signals import names
+from rotorfilm.signals import indices, names
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 ROTOR = RigidRotor(mass=50.0, speed=100.0)

@@ -70,7 +70,7 @@ def damper(
         viscosity=Quantity("Pa.s")("--viscosity", viscosity),
         extent=FullFilm() if full else HalfSommerfeld(),
         cage=_cage(thickness, permeability, grading, anisotropy, vented),
-        film=SQUEEZES[film.value]().build(),
+        film=SQUEEZES[film.value].makes(),
     )
     kilograms = Quantity("kg")("--mass", mass)
     answer = solve_damper(

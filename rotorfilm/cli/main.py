@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import sys
 import warnings
-from dataclasses import fields, replace
+from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -27,9 +27,9 @@ from .sweep_command import SWEEP_EXAMPLE, sweep
 
 if TYPE_CHECKING:
     from ..bearings.films.geometry import Groove
+    from ..bearings.films.law import FilmLaw
     from ..bearings.journal import GrooveMapTable, JournalBearing
     from ..scenes import Scene
-    from ..scenes.journal.film_tables import FilmTable
     from ..scenes.schema import JournalTable
 
 BAD_INPUT = 2
@@ -420,17 +420,17 @@ def _map_of_options(
 ) -> GrooveMapTable:
     from ..bearings.films.geometry import FilmGeometry
     from ..bearings.journal import GroovedMapFilm
-    from ..scenes.journal.film_tables import read_cells, read_nodes
+    from ..scenes.journal.film_tables import CELLS, NODES
 
     if slenderness is None or not groove:
         raise InputError("groove-map must have SCENE.toml, or --slenderness and --groove, got neither")
     geometry = FilmGeometry(grooves=tuple(_groove(text) for text in groove))
     film = GroovedMapFilm(geometry=geometry)
     if cells is not None:
-        around, along = read_cells("--cells", _numbers(cells))
+        around, along = CELLS("--cells", _numbers(cells))
         film = replace(film, cells=(around, along))
     if nodes is not None:
-        over, turning, moving = read_nodes("--nodes", _numbers(nodes))
+        over, turning, moving = NODES("--nodes", _numbers(nodes))
         film = replace(film, nodes=(over, turning, moving))
     with console.progress_display() as report:
         return film.built_table(slenderness, report)
@@ -442,7 +442,7 @@ def _show_warning(message: Warning | str, category: type[Warning], *_: Any) -> N
         console.complain("warning", message)
 
 
-def _film(film: str, order: str | None, constant: bool, rupture: str | None, cells: str | None) -> FilmTable:
+def _film(film: str, order: str | None, constant: bool, rupture: str | None, cells: str | None) -> FilmLaw:
     from ..scenes.journal.film_tables import FILMS
     from ..scenes.tables import choose, read_table
 
@@ -455,7 +455,7 @@ def _film(film: str, order: str | None, constant: bool, rupture: str | None, cel
     options = {name: value for name, value in given.items() if value}
     table = choose("--film", film, FILMS)
     for name in options:
-        if name not in {field.name for field in fields(table)}:
+        if name not in table.readers:
             raise InputError(f"--{name} must not be given with --film {film}, got {options[name]!r}")
     return read_table(table, "--", options)
 
@@ -477,14 +477,12 @@ def _groove(text: str) -> Groove:
     return Groove(center=center, width=width)
 
 
-def _journal(geometry: dict[str, str], film: FilmTable, grooves: list[str]) -> JournalTable:
-    from ..scenes.journal.film_tables import GrooveTable
+def _journal(geometry: dict[str, str], film: FilmLaw, grooves: list[str]) -> JournalTable:
     from ..scenes.schema import JournalTable
     from ..scenes.tables import read_table
 
-    found = [_groove(text) for text in grooves]
-    tables = tuple(GrooveTable(center=one.center, width=one.width) for one in found)
-    return replace(read_table(JournalTable, "--", geometry), film=film, grooves=tables)
+    found = tuple(_groove(text) for text in grooves)
+    return replace(read_table(JournalTable, "--", geometry), film=film, grooves=found)
 
 
 def _operation(load: str, speed: str) -> tuple[tuple[float, float], float]:

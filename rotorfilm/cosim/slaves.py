@@ -12,7 +12,8 @@ from ..fmu.advance import advance
 from ..model import Array, Dynamic, Kinked, Linearization, Model
 from ..rotors.force_law import ForceLaw
 from ..signals import names
-from .schemes.exponential import LawIntegrator, Wiring
+from .schemes.exponential import LawIntegrator
+from .wiring import Wiring
 
 
 class Slave(Protocol):

@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite
-from ..model import FORCE_OUTPUTS, MOTION_NAMES, Dynamic, Reaction, indices
+from ..model import FORCE_OUTPUTS, MOTION_NAMES, Dynamic, Reaction
 from ..results import Equilibrium
-from ..signals import names
+from ..signals import indices, names
 from .equilibrium import equilibrium
 from .linearize import OperatingPoint, linearize
 

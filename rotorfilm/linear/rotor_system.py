@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike
 from ..errors import InputError, require_finite
 from ..model import Array, Reaction
 from ..rotors import FlexibleRotor
-from ..rotors.structure import Structure, across_planes, both_planes, output_rows, station_name
+from ..rotors.stations import station_name
+from ..rotors.structure import Structure, across_planes, both_planes, output_rows
 from ..signals import names
 from .closed_loop import HOUSING
 from .linearize import control_system

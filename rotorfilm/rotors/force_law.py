@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..model import FORCE_OUTPUTS, MOTION_NAMES, Array
-from .structure import station_name
+from .stations import station_name
 
 _PAIRS = ("xx", "xy", "yx", "yy")
 

@@ -52,13 +52,7 @@ class Counted(StaticReaction):
         self.tangents += int(np.prod(result.shape[2:], dtype=int))
         return result
 
-    def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
-        """Return `force` for inner loops."""
-        return self.force(position, velocity, speed)
-
-    def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
-        """Return `jacobian` for inner loops."""
-        return self.jacobian(position, velocity, speed)
+    prepared_force, prepared_jacobian = force, jacobian
 
     def prepare_tangent(self) -> Tangent:
         """Return force and derivatives as a function of five numbers."""

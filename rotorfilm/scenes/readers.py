@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from typing import Any
 
 from ..errors import SceneError
 from ..linear.equilibrium import UNLOADED
@@ -26,7 +27,8 @@ def read_load(where: str, value: Any) -> tuple[float, float]:
     return 0.0, -magnitude
 
 
-class Count(NamedTuple):
+@dataclass(frozen=True)
+class Count:
     """Reader of a whole number.
 
     Attributes
@@ -49,11 +51,26 @@ class Count(NamedTuple):
         return value
 
 
-def read_counts(where: str, value: Any, names: tuple[str, ...], most: int) -> tuple[int, ...]:
-    """Read a list of positive whole numbers, with these names, whose product is at most `most`."""
-    if not isinstance(value, list) or len(value) != len(names):
-        raise SceneError(f"{where} must be [{', '.join(names)}], got {brief(value)}")
-    counts = tuple(Count(most)(f"{where}[{index}]", entry) for index, entry in enumerate(value))
-    if math.prod(counts) > most:
-        raise SceneError(f"{where} must multiply to at most {most}, got {brief(value)}")
-    return counts
+@dataclass(frozen=True)
+class Counts:
+    """Reader of a list of positive whole numbers.
+
+    Attributes
+    ----------
+    names : tuple of str
+        What they are.
+    most : int
+        Their largest product, of `rotorfilm.limits`.
+    """
+
+    names: tuple[str, ...]
+    most: int
+
+    def __call__(self, where: str, value: Any) -> tuple[int, ...]:
+        """Return the numbers; raise SceneError if they are none or beyond the limits."""
+        if not isinstance(value, list) or len(value) != len(self.names):
+            raise SceneError(f"{where} must be [{', '.join(self.names)}], got {brief(value)}")
+        counts = tuple(Count(self.most)(f"{where}[{index}]", entry) for index, entry in enumerate(value))
+        if math.prod(counts) > self.most:
+            raise SceneError(f"{where} must multiply to at most {self.most}, got {brief(value)}")
+        return counts

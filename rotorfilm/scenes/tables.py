@@ -3,32 +3,29 @@
 from __future__ import annotations
 
 import dataclasses
-import difflib
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, NamedTuple, TypeVar, get_type_hints
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Generic, NamedTuple, TypeVar, get_type_hints
 
 from ..errors import InputError, SceneError
 from ..limits import TEXT
 from ..printable import brief, shortened
 from ..units import parse_quantity
+from .spelling import nearest, require_no_near_miss
 
 Reader = Callable[[str, Any], Any]
 """Turns (where, value) into the value of a field; `where` is `FILE: dotted.key`, for the messages."""
 
 T = TypeVar("T")
-
-_SIMILAR = 0.4
-"""Similarity, of 1, from which a known key is worth a hint."""
+V = TypeVar("V")
 
 _ARGUMENT = re.compile(r"\w+(?=[.,\[]| (?:must|is|are|and)\b)")
 """The argument that a message begins with; `length / diameter must` is about none."""
 
-_SAME_WORD = 0.7
-"""Similarity from which an unknown key is the known one with a typo."""
 
-
-class Quantity(NamedTuple):
+@dataclass(frozen=True)
+class Quantity:
     """Reader of a physical quantity: a number in `unit`, or a string with its own unit.
 
     Attributes
@@ -54,20 +51,52 @@ class Quantity(NamedTuple):
             raise SceneError(f"{where}: {error}") from None
 
 
-class Table(NamedTuple):
-    """Reader of a sub-table with a fixed set of keys."""
+class Keyed(NamedTuple, Generic[T]):
+    """A class of the physics as a table of its own parameters; what a file leaves out is the default there.
 
-    table: type
+    Attributes
+    ----------
+    makes : type
+        A dataclass, which checks its parameters.
+    readers : mapping of str to Reader
+        Of the parameters that a file may give.
+    required : tuple of str
+        Those that a file must give although they have a default.
+    """
+
+    makes: type[T]
+    readers: Mapping[str, Reader] = {}
+    required: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Table:
+    """Reader of a sub-table with a fixed set of keys.
+
+    Attributes
+    ----------
+    table : type or Keyed
+        As in `read_table`.
+    """
+
+    table: type | Keyed[Any]
 
     def __call__(self, where: str, value: Any) -> Any:
         """Return the sub-table as a dataclass."""
         return read_table(self.table, f"{where}.", value)
 
 
-class TableList(NamedTuple):
-    """Reader of an array of sub-tables, each with the same fixed set of keys."""
+@dataclass(frozen=True)
+class TableList:
+    """Reader of an array of sub-tables, each with the same fixed set of keys.
 
-    table: type
+    Attributes
+    ----------
+    table : type or Keyed
+        As in `read_table`.
+    """
+
+    table: type | Keyed[Any]
 
     def __call__(self, where: str, value: Any) -> tuple[Any, ...]:
         """Return the sub-tables as dataclasses."""
@@ -76,11 +105,20 @@ class TableList(NamedTuple):
         return tuple(read_table(self.table, f"{where}[{k}].", entry) for k, entry in enumerate(value))
 
 
-class Variant(NamedTuple):
-    """Reader of a sub-table whose key `tag` names one of several dataclasses."""
+@dataclass(frozen=True)
+class Variant:
+    """Reader of a sub-table one key of which names one of several dataclasses.
+
+    Attributes
+    ----------
+    tag : str
+        That key.
+    variants : mapping of str to type or Keyed
+        By name, as in `read_table`.
+    """
 
     tag: str
-    variants: Mapping[str, type]
+    variants: Mapping[str, type | Keyed[Any]]
 
     def __call__(self, where: str, value: Any) -> Any:
         """Return the sub-table as the dataclass that its tag names."""
@@ -111,8 +149,25 @@ class Beside(NamedTuple):
         return {name: read_table(self.type_of(name), f"{where}{name}.", data) for name, data in value.items()}
 
 
-def choose(where: str, name: object, variants: Mapping[str, type]) -> type:
-    """Return the dataclass that has this name; raise SceneError if there is none."""
+@dataclass(frozen=True)
+class Named:
+    """Reader of the name of one of several things that have no parameters.
+
+    Attributes
+    ----------
+    variants : mapping of str to callable
+        What makes each thing, by its name.
+    """
+
+    variants: Mapping[str, Callable[[], Any]]
+
+    def __call__(self, where: str, value: Any) -> Any:
+        """Return the thing of this name."""
+        return choose(where, value, self.variants)()
+
+
+def choose(where: str, name: object, variants: Mapping[str, V]) -> V:
+    """Return what has this name; raise SceneError if there is none."""
     if not isinstance(name, str) or name not in variants:
         hint = nearest(name, variants)
         raise SceneError(f"{where} must be one of {sorted(variants)}, got {brief(name)}{hint}")
@@ -140,29 +195,13 @@ def require_table(where: str, value: Any) -> Mapping[str, Any]:
     return value
 
 
-def nearest(name: object, known: Iterable[str]) -> str:
-    """Return a hint with the known name nearest to `name`, or an empty string."""
-    if not isinstance(name, str):
-        return ""
-    by_small_letters = {key.lower(): key for key in known}
-    close = difflib.get_close_matches(name.lower(), by_small_letters, n=1, cutoff=_SIMILAR)
-    return f"; did you mean {by_small_letters[close[0]]!r}?" if close else ""
-
-
-def require_no_near_miss(where: str, tag: str, data: Mapping[str, Any]) -> None:
-    """Raise SceneError if a key looks like a misspelled tag."""
-    for key in data:
-        if difflib.SequenceMatcher(None, key.lower(), tag).ratio() >= _SAME_WORD:
-            raise SceneError(f"{where}{shortened(key)} is no known key; did you mean {tag!r}?")
-
-
-def read_table(table: type[T], where: str, data: Any) -> T:
+def read_table(table: type[T] | Keyed[T], where: str, data: Any) -> T:
     """Return the TOML table `data` as the dataclass `table`.
 
     Parameters
     ----------
-    table : type
-        A dataclass whose fields are annotated as `Annotated[type, reader]`.
+    table : type or Keyed
+        A dataclass whose fields are annotated as `Annotated[type, reader]`, or one with readers beside it.
     where : str
         `FILE: dotted.key.`, the prefix of each key in messages.
     data : Mapping
@@ -174,16 +213,16 @@ def read_table(table: type[T], where: str, data: Any) -> T:
         If a key is unknown, missing, given twice over, or its value breaks a rule.
     """
     values = dict(require_table(where.removesuffix("."), data))
-    readers = {name: hint.__metadata__[0] for name, hint in _annotated_fields(table).items()}
+    makes, readers, required = keyed(table)
     _require_known(where, values, readers)
     found = {
         name: value
         for name, reader in readers.items()
         for value in _read_field(where, name, reader, values, readers)
     }
-    _require_complete(where, table, found)
+    _require_complete(where, makes, required, found)
     try:
-        return table(**found)
+        return makes(**found)
     except InputError as error:
         raise SceneError(_located(where, str(error), readers, values)) from None
 
@@ -209,12 +248,12 @@ def _as_written(name: str, reader: Reader, values: Mapping[str, Any]) -> str:
     return f" [{reader.unit}{written}]"
 
 
-def unit_of(table: type, path: Sequence[str]) -> str | None:
+def unit_of(table: type | Keyed[Any], path: Sequence[str]) -> str | None:
     """Return the SI unit of a key, given by its parts; None where its reader is none of a `Quantity`."""
-    if not dataclasses.is_dataclass(table) or not path:
+    if not path:
         return None
     first, *rest = path
-    readers = {name: hint.__metadata__[0] for name, hint in _annotated_fields(table).items()}
+    readers = keyed(table).readers
     doubled = {_twice(reader): reader for reader in readers.values()}
     reader = readers.get(first) or doubled.get(first)
     if isinstance(reader, Quantity):
@@ -224,9 +263,13 @@ def unit_of(table: type, path: Sequence[str]) -> str | None:
     return unit_of(reader.table, rest[1:]) if isinstance(reader, TableList) else None
 
 
-def _annotated_fields(table: type) -> dict[str, Any]:
+def keyed(table: type[T] | Keyed[T]) -> Keyed[T]:
+    """Return a table with its readers beside it; those of a plain dataclass are in its annotations."""
+    if isinstance(table, Keyed):
+        return table
     hints = get_type_hints(table, include_extras=True)
-    return {field.name: hints[field.name] for field in dataclasses.fields(table)}
+    names = [field.name for field in dataclasses.fields(table)]  # type: ignore[arg-type]
+    return Keyed(table, {name: hints[name].__metadata__[0] for name in names})
 
 
 def _require_known(where: str, values: Mapping[str, Any], readers: Mapping[str, Reader]) -> None:
@@ -263,8 +306,8 @@ def _twice(reader: Reader) -> str:
     return reader.twice if isinstance(reader, Quantity) else ""
 
 
-def _require_complete(where: str, table: type, found: Mapping[str, Any]) -> None:
-    for field in dataclasses.fields(table):
-        required = field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
-        if required and field.name not in found:
+def _require_complete(where: str, makes: type, required: Sequence[str], found: Mapping[str, Any]) -> None:
+    for field in dataclasses.fields(makes):
+        bare = field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
+        if (bare or field.name in required) and field.name not in found:
             raise SceneError(f"{where}{field.name} is required and missing")

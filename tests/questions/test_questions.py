@@ -10,6 +10,7 @@ import pytest
 import scene_battery
 from families import FAMILIES
 
+from rotorfilm.bearings.journal import ShortFilm
 from rotorfilm.errors import InputError, ValidityWarning
 from rotorfilm.linear import equilibrium
 from rotorfilm.motion.periodic.sampled_orbit import SampledOrbit, nonlinear_orbit, rate_matrix
@@ -20,7 +21,6 @@ from rotorfilm.scenes import Scene, bundled_scene, families, parse_scene
 from rotorfilm.scenes.damper.damper_table import DamperTable
 from rotorfilm.scenes.excitation_table import BladeLossTable, UnbalanceTable
 from rotorfilm.scenes.journal.film_rungs import extrapolated
-from rotorfilm.scenes.journal.film_tables import ShortFilmTable
 from rotorfilm.scenes.question_table import QUANTITIES, QuestionTable
 
 ROOT = Path(__file__).parents[2]
@@ -118,7 +118,7 @@ def test_an_impossible_tolerance_is_answered_honestly():
 
 def test_named_film_is_the_only_one_that_answers():
     scene = bundled_scene()
-    named = replace(scene, journal=replace(scene.journal, film=ShortFilmTable()))
+    named = replace(scene, journal=replace(scene.journal, film=ShortFilm()))
     answer = asked("eccentricity_ratio", 1e-3, named).ask()
     assert [report.name for report in answer.rungs] == ["ShortFilm()"]
     assert not answer.met

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...bearings.journal import JournalBearing, MapFilm
 from ...cosim import GaussSeidel, InProcessSlave, Scheme, SIExp, SIExp3, couple, critical_macro_step
-from ...cosim.coupling_stability import coupling_loop
+from ...cosim.coupling_loop import coupling_loop
 from ...errors import PartialResultError
 from ...model import Array
 from ...results import Trajectory, orbit_distance

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...model import Array
-from ...rotors.force_law import ForceLaw
+from ...rotors.force_law import ForceLaw, held_law
 from ..bench import Bench, Needs, Sample
 
 MEMORY = 4
@@ -77,8 +77,7 @@ def extrapolated_law(history: Sequence[Sample], degree: int) -> ForceLaw:
     """Return the law of forces extrapolated by a polynomial of this degree, or less at the start."""
     latest = history[-1 - degree :]
     value, slope, curvature = extrapolation([s.time for s in latest], [s.force for s in latest])
-    none, zero = np.zeros((len(value), len(value))), np.zeros_like(value)
-    return ForceLaw(latest[-1].time, value, slope, curvature, none, none, zero, zero)
+    return held_law(latest[-1].time, value)._replace(slope=slope, curvature=curvature)
 
 
 def started(history: Sequence[Sample], degree: int, dt: float) -> float:

@@ -15,10 +15,9 @@ from ...model import (
     Dynamic,
     Linearization,
     Reaction,
-    indices,
     static_linearization,
 )
-from ...signals import names
+from ...signals import indices, names
 
 NUDGE = 1e-6
 """Velocity, in nominal velocities, at which a derivative is taken where the film has none."""

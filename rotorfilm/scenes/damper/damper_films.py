@@ -119,7 +119,7 @@ def damper_films(table: DamperTable) -> tuple[DamperFilm, ...]:
     feed keeps its cage, through which it is fed.
     """
     shape, top = _short(table), richest_law(_short(table))
-    named = None if table.film is None else table.film.build()
+    named = table.film
     found = _free(shape, top) if named is None else [(type(named).__name__, shape, named, 0.0)]
     rich = FiniteMapSqueeze(cells=DEFECT_CELLS) if isinstance(top, FiniteMapSqueeze) else top
     return tuple(
