@@ -25,7 +25,7 @@ from .squeeze_laws import SqueezeCase
 from .squeeze_table import LARGEST, LARGEST_FINITE, RATIO, SqueezeTable, finite_table, short_table
 
 SHORT = 1e-6
-"""Length / diameter of a short film, at contact too."""
+"""Length / diameter of a short film, at the wall too."""
 
 
 @runtime_checkable
@@ -119,20 +119,20 @@ class SqueezeMapFilm(MapFilm):
 
     Parameters
     ----------
-    contact : (float, float) [1]
-        Length / diameter of the film at contact, as which it goes on beyond the table, and that film's share
+    wall : (float, float) [1]
+        Length / diameter of the film at the wall, as which it goes on beyond the table, and that film's share
         in units of a journal; zeros where that is not its law.
     """
 
-    contact: tuple[float, float] = (0.0, 0.0)
+    wall: tuple[float, float] = (0.0, 0.0)
 
     def _kernel(self, slenderness: float) -> MapKernel:
-        return _collapsed(self._table(slenderness), self.contact)
+        return _collapsed(self._table(slenderness), self.wall)
 
 
 @lru_cache(maxsize=64)
-def _collapsed(table: MapTable, contact: tuple[float, float]) -> MapKernel:
-    return MapKernel(*table.at(RATIO), *contact)
+def _collapsed(table: MapTable, wall: tuple[float, float]) -> MapKernel:
+    return MapKernel(*table.at(RATIO), *wall)
 
 
 @dataclass(frozen=True)
@@ -162,7 +162,7 @@ class MappedSqueezeFilm:
         tables = dict(self.film.native(RATIO)[1])
         return {name: tables[name] for name in ("center", "reach")} | {
             "coefficients": tables["coefficients"][0],
-            "contact": np.array(self.film.contact),
+            "wall": np.array(self.film.wall),
         }
 
     def force(self, eccentricity: Array, rate: Array) -> Array:
@@ -181,7 +181,7 @@ class MappedSqueezeFilm:
 
 
 def _squeeze_map(table: SqueezeTable, slenderness: float) -> SqueezeMapFilm:
-    """Return the map of a table; a full film, or one on a porous layer, is another one at contact."""
+    """Return the map of a table; a full film, or one on a porous layer, is another one at the wall."""
     journal = table.cavitated and table.layer is None
     return SqueezeMapFilm(table.table, (slenderness, 0.25 / slenderness**2) if journal else (0.0, 0.0))
 

@@ -118,7 +118,7 @@ class BoundKernel:
 
     def _report_batch(self, batch: Batch, q: Array, v: Array, omega: Array) -> None:
         if batch.status:
-            at = np.argmax(np.hypot(*q)) if batch.status == Status.CONTACT else batch.first
+            at = np.argmax(np.hypot(*q)) if batch.status == Status.AT_WALL else batch.first
             (x, y), (vx, vy) = q[:, at].tolist(), v[:, at].tolist()
             self._report(batch.status, x, y, vx, vy, float(np.broadcast_to(omega, q.shape[1:])[at]))
 
@@ -129,7 +129,7 @@ class BoundKernel:
                 "position, velocity and speed must be finite and not overflow, "
                 f"got ({x!r}, {y!r}) m, ({vx!r}, {vy!r}) m/s and {speed!r} rad/s"
             )
-        if status == Status.CONTACT:
+        if status == Status.AT_WALL:
             require_inside(np.array([x, y]), self.clearance)
         _report_film(status, float(np.hypot(x, y)) / self.clearance, self.kernel.film)
 
@@ -148,7 +148,7 @@ def _report_law(batch: Batch, e: Array, w: Array, kernel: FilmKernel) -> None:
 
 
 def _report_film(status: int, chi: float, kernel: FilmKernel) -> None:
-    if status == Status.CONTACT:
+    if status == Status.AT_WALL:
         raise wall_contact(chi)
     if status == Status.UNDEFINED:
         raise vanishing_source(chi)
@@ -160,4 +160,4 @@ def continued(kernel: FilmKernel) -> str:
     if not kernel.error:
         return "extrapolated there, with an error that is not known"
     where = " where no opening is near" if kernel.openings else ""
-    return f"continued as that of a film at contact, within {kernel.error:g} %{where}"
+    return f"continued as that of a film at the wall, within {kernel.error:g} %{where}"

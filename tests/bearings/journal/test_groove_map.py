@@ -134,7 +134,7 @@ def test_jacobian_equals_differences(film, name):
 @pytest.mark.convergence
 @pytest.mark.parametrize("chi", [0.98, 0.999])
 @pytest.mark.filterwarnings("ignore:eccentricity ratio .* is beyond the map")
-def test_beyond_the_last_node_the_film_is_that_at_contact(two_grooves, chi):
+def test_beyond_the_last_node_the_film_is_that_at_the_wall(two_grooves, chi):
     film, slenderness = mapped(two_grooves)
     exact = ReynoldsFilm(cells=(256, 16)).fitted(two_grooves[0])
     (axis,) = {round(aligned_openings(two_grooves[0]).axis, 9)}

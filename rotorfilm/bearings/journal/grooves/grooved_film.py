@@ -47,7 +47,7 @@ class GroovedMapFilm(KernelFilm):
     and then kept in the folder that the environment variable ROTORFILM_CACHE names, or the platform's cache.
     `build_groove_map` makes it beforehand and says how far it is.
 
-    Beyond the largest eccentricity ratio J goes on as the film at contact (`native/films/contact.h`), as far
+    Beyond the largest eccentricity ratio J goes on as the film at the wall (`native/films/wall.h`), as far
     as the openings leave it, with a ValidityWarning: within 5 % where no opening is near, by factors at an
     edge.
 

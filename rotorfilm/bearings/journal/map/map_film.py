@@ -29,8 +29,8 @@ class MapFilm(KernelFilm):
     (`native/films/map_kernel.h`).
 
     Error of a force with the packaged table, 99 % of random states to eccentricity ratio .999: 2e-4; 2e-3 for
-    static journals at .999. Beyond the last node, .999, J goes on as the film at contact
-    (`native/films/contact.h`), with a ValidityWarning that states the error: 2 % at most, .2 % for
+    static journals at .999. Beyond the last node, .999, J goes on as the film at the wall
+    (`native/films/wall.h`), with a ValidityWarning that states the error: 2 % at most, .2 % for
     static journals to .99999. The table of a film that has another limit goes on as a power of X, with an
     unknown error.
 
