@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import InputError, require_positive
-from ..model import Array, Reaction, Tangent, prepared_tangent
+from ..model import Array, Reaction, Tangent, largest_eccentricity_ratio, prepared_tangent
 from ..native.spec import HasKernel, NativeSpec
 from .reaction import StaticReaction
 
@@ -49,7 +49,7 @@ class Sprung(StaticReaction):
     @property
     def largest_eccentricity_ratio(self) -> float:
         """Eccentricity ratio to which the reaction is meant."""
-        return getattr(self.reaction, "largest_eccentricity_ratio", 1.0)
+        return largest_eccentricity_ratio(self.reaction)
 
     @property
     def nominal_force(self) -> float:

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..model import Array, Dynamic, Kinked, Linearization, indices
+from ..model import Array, Dynamic, Linearization, breakpoints, indices
 from ..native.spec import HasKernel, NativeSpec
 from ..signals import Signal, names
 from .force_law import BASE_TIME, LAW_NAMES
@@ -75,7 +75,7 @@ class LawRotor:
     @property
     def breakpoints(self) -> tuple[float, ...]:
         """Times [s] at which the rotor has kinks."""
-        return self.rotor.breakpoints if isinstance(self.rotor, Kinked) else ()
+        return breakpoints(self.rotor)
 
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return dx/dt under the force laws."""

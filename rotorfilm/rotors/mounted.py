@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
-from ..model import JOURNAL_INPUTS, Array, Dynamic, Kinked, Linearization, Reaction, indices
+from ..model import JOURNAL_INPUTS, Array, Dynamic, Linearization, Reaction, breakpoints, indices
 from ..native.spec import NativeSpec
 from ..signals import Signal, names
 from .structure import prefixed, station_names
@@ -105,7 +105,7 @@ class MountedRotor:
     @property
     def breakpoints(self) -> tuple[float, ...]:
         """Times [s] at which the rotor has kinks."""
-        return self.rotor.breakpoints if isinstance(self.rotor, Kinked) else ()
+        return breakpoints(self.rotor)
 
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return dx/dt with the bearings' forces at this state; FilmContactError as the bearings raise it."""

@@ -13,12 +13,13 @@ from ...errors import InputError, require_non_negative, require_number, require_
 from ...model import Array, Tangent, tangent_of
 from ...native.spec import NativeSpec
 from ..films.cavitation import FullFilm, HalfSommerfeld
+from ..films.law import options
 from ..reaction import NOMINAL_SPEED, StaticReaction
 from .damper_kernel import DIMENSIONS, damper_spec
 from .full_squeeze import SqueezeFilm
-from .mapped_squeeze import MappedSqueezeFilm, TabulatedSqueeze
+from .mapped_squeeze import MappedSqueezeFilm
 from .porous_layer import LayerModes, PorousLayer, layer_modes
-from .squeeze_laws import ShortSqueeze, SqueezeCase, SqueezeLaw, parabola_mean
+from .squeeze_laws import ShortSqueeze, SqueezeCase, SqueezeLaw, SqueezeOptions, parabola_mean
 
 LARGEST_RATIO = 0.5
 """Largest thickness / radius of a layer that may be unrolled to a plane."""
@@ -195,7 +196,7 @@ class PorousDamper(StaticReaction):
     @property
     def largest_eccentricity_ratio(self) -> float:
         """Eccentricity ratio to which the film is meant: the last node of a map, 0.99 for finite length."""
-        return getattr(self.film, "largest_eccentricity_ratio", 1.0)
+        return self._options.largest_eccentricity_ratio
 
     @property
     def is_fed(self) -> bool:
@@ -235,8 +236,12 @@ class PorousDamper(StaticReaction):
 
     def portable(self) -> PorousDamper:
         """Return this damper with a film that carries the table it needs; see `model.Portable`."""
-        film = self.film
-        return replace(self, film=film.tabulated(self._case)) if isinstance(film, TabulatedSqueeze) else self
+        carried = self._options.tabulated(self._case)
+        return self if carried is None else replace(self, film=carried)
+
+    @property
+    def _options(self) -> SqueezeOptions:
+        return options(self.film, SqueezeOptions)
 
     @property
     def _case(self) -> SqueezeCase:
@@ -311,8 +316,8 @@ class PorousDamper(StaticReaction):
         return self.cage is not None and self.cage.vented
 
     def _warn(self) -> None:
-        limit = getattr(self.film, "slenderness_limit", None)
-        if limit is not None and self.slenderness > limit:
+        limit = self._options.slenderness_limit
+        if self.slenderness > limit:
             excess = 1.0 / parabola_mean(self.slenderness) - 1.0
             warn_user(
                 f"length / diameter must not exceed {limit} for {self.film!r}, got {self.slenderness:.6g}: "

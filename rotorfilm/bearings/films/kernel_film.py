@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,10 +11,10 @@ from ...errors import InputError, require_inside, warn_user
 from ...model import Array
 from ...native import FilmKernel, JournalKernel, Status
 from ...native.film_kernels import Batch, MapKernel
-from .law import vanishing_source, wall_contact
+from .law import FilmOptions, vanishing_source, wall_contact
 
 
-class KernelFilm(ABC):
+class KernelFilm(FilmOptions):
     """A film law in compiled code: what `ShortFilm`, `MapFilm` and `GroovedMapFilm` have in common."""
 
     @abstractmethod
@@ -54,7 +54,7 @@ class KernelFilm(ABC):
         return batch.values.reshape(2, 4, *eccentricity.shape[1:])
 
     def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundKernel:
-        """Return this film in one bearing, in SI units; see `law.BindableFilm`."""
+        """Return this film in one bearing, in SI units; see `FilmOptions`."""
         return BoundKernel(JournalKernel(self._kernel(slenderness), clearance, force_scale), clearance)
 
 

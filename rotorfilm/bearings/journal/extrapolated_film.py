@@ -8,11 +8,12 @@ from dataclasses import dataclass, field
 from ...errors import InputError
 from ...model import Array
 from ..films.geometry import FilmGeometry
+from ..films.law import FilmOptions
 from .reynolds_film import ReynoldsFilm, richardson
 
 
 @dataclass(frozen=True, kw_only=True)
-class ExtrapolatedFilm:
+class ExtrapolatedFilm(FilmOptions):
     """Richardson extrapolation of a `ReynoldsFilm` and of the same film with half the cells.
 
     The force is F_h + (F_h - F_2h)/3, its derivatives are the same of the derivatives of both.

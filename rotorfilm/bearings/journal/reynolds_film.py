@@ -13,12 +13,12 @@ from ...model import Array
 from ..films.cavitation import Cavitation, Complementarity
 from ..films.film_field import FilmField
 from ..films.geometry import FilmGeometry
-from ..films.law import CENTER, require_film, vanishing_source
+from ..films.law import CENTER, FilmOptions, require_film, vanishing_source
 from ..films.ring.ring_grids import LONG, Grid, Spans, require_cells, ring_grids, ring_spans
 
 
 @dataclass(frozen=True, kw_only=True)
-class ReynoldsFilm:
+class ReynoldsFilm(FilmOptions):
     """Two-dimensional film: Reynolds' equation by finite volumes of second order.
 
     With p = 12 viscosity (R/c)^2 P, H = 1 - e.n, n = (cos theta, sin theta) and z the axial coordinate over

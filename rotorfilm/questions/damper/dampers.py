@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 from ...answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Work
 from ...bearings.damper import FiniteSqueeze
 from ...errors import AbsentError, FilmContactError, InputError, RotorfilmError
-from ...model import Array, Reaction
+from ...model import Array, Reaction, largest_eccentricity_ratio
 from ...motion.circular.branches import synchronous_orbits
 from ...motion.circular.orbit_points import OrbitRotor, orbit_points, orbit_rotor, orbit_slope
 from ...rotors import RigidRotor
@@ -228,7 +228,7 @@ RICH = "forces of the richest film"
 
 def _system(rotor: RigidRotor, reaction: Reaction) -> OrbitRotor:
     """Return the constants of a rotor on the richest film, which is isotropic as the cheap one is."""
-    reach = getattr(reaction, "largest_eccentricity_ratio", 1.0)
+    reach = largest_eccentricity_ratio(reaction)
     return OrbitRotor(rotor.mass, abs(rotor.profile.speeds[0]), reaction.clearance, reaction, reach)
 
 

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rotorfilm.bearings.films.geometry import FilmGeometry, Groove, Pad
-from rotorfilm.bearings.films.law import BindableFilm, FilmLaw, FittedFilm
+from rotorfilm.bearings.films.law import FilmLaw
 from rotorfilm.bearings.films.ring.ring_grids import LONG, ring_grids, ring_spans
 from rotorfilm.bearings.journal import GroovedMapFilm, JournalBearing, MapFilm, ReynoldsFilm, build_groove_map
 from rotorfilm.bearings.journal.grooves.groove_build import (
@@ -283,7 +283,8 @@ def test_default_film_takes_openings(two_grooves):
 
 
 def test_is_a_film_law_that_is_fitted_and_binds():
-    assert all(isinstance(GroovedMapFilm(), protocol) for protocol in (FilmLaw, FittedFilm, BindableFilm))
+    film = GroovedMapFilm().fitted(FilmGeometry(grooves=(Groove(center=0.3, width=0.35),)))
+    assert isinstance(film, FilmLaw) and isinstance(film, GroovedMapFilm)
 
 
 def test_no_derivative_without_source(two_grooves):

@@ -112,7 +112,7 @@ class GroovedMapFilm(KernelFilm):
         return dataclasses.replace(self, geometry=geometry)
 
     def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
-        """Return the kernel and its tables, made now if they are not there yet; see `law.NativeFilm`."""
+        """Return the kernel and its tables, made now if they are not there yet; see `FilmOptions`."""
         kernel = self._kernel(slenderness)
         numbers = [slenderness, kernel.struct.x_end, kernel.struct.squeeze, kernel.struct.axis]
         return "grooved_journal", {
@@ -122,7 +122,7 @@ class GroovedMapFilm(KernelFilm):
         }
 
     def tabulated(self, slenderness: float) -> GroovedMapFilm:
-        """Return this film with its table; see `law.TabulatedFilm`."""
+        """Return this film with its table; see `FilmOptions`."""
         return dataclasses.replace(self, table=self.built_table(slenderness)) if self.table is None else self
 
     def built_table(self, slenderness: float, report: Report = silent) -> GrooveMapTable:

@@ -60,7 +60,7 @@ class MapFilm(KernelFilm):
         return OWN_RANGE if self.table is None else self.table.slenderness_range
 
     def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
-        """Return the kernel and its tables; see `law.NativeFilm`."""
+        """Return the kernel and its tables; see `FilmOptions`."""
         table = self._table(slenderness)
         return "journal", {
             "coefficients": table.coefficients,
@@ -70,7 +70,7 @@ class MapFilm(KernelFilm):
         }
 
     def tabulated(self, slenderness: float) -> MapFilm:
-        """Return this film with the table that it would make; see `law.TabulatedFilm`."""
+        """Return this film with the table that it would make; see `FilmOptions`."""
         table = self._table(slenderness)
         return self if self.table is not None or table is packaged_table() else MapFilm(table)
 
