@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import InputError, require_positive
+from ..errors import require_kind, require_positive
 from ..model import Array, Reaction, Tangent, largest_eccentricity_ratio, prepared_tangent
 from ..native.spec import HasKernel, NativeSpec
 from .reaction import StaticReaction
@@ -37,8 +37,7 @@ class Sprung(StaticReaction):
     stiffness: float
 
     def __post_init__(self) -> None:
-        if isinstance(self.reaction, type) or not isinstance(self.reaction, Reaction):
-            raise InputError(f"reaction must be a Reaction such as a PorousDamper, got {self.reaction!r}")
+        require_kind("reaction", self.reaction, Reaction, "a Reaction such as a PorousDamper")
         require_positive("stiffness", self.stiffness)
 
     @property

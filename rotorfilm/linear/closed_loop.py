@@ -6,7 +6,7 @@ import control
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, require_finite
+from ..errors import InputError, require_finite, require_kind
 from ..model import FORCE_OUTPUTS, MOTION_NAMES, Dynamic, Reaction, indices
 from ..results import Equilibrium
 from ..signals import names
@@ -46,8 +46,7 @@ def closed_loop(
     """
     indices("rotor must have the inputs", names(rotor.inputs), FORCE_OUTPUTS)
     indices("rotor must have the outputs", names(rotor.outputs), MOTION_NAMES)
-    if not isinstance(at, Equilibrium):
-        raise InputError(f"at must be an Equilibrium, as equilibrium() returns it, got {at!r}")
+    require_kind("at", at, Equilibrium, "an Equilibrium, as equilibrium() returns it")
     shaft = OperatingPoint(x=rotor.initial_state, u=-at.load)
     return control.interconnect(
         [linearize(rotor, shaft, name="rotor"), linearize(reaction, at, name="film")],

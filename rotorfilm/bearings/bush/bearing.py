@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, require_finite, require_non_negative, require_number
+from ...errors import InputError, require_finite, require_kind, require_non_negative, require_number
 from ...model import Array
 from . import contact_arc as contact
 from .heat import ContactBalance, ExactShaft, HeatBalance, ShaftHeat
@@ -97,12 +97,8 @@ class MeltingBush:
     balance: HeatBalance = field(default_factory=ContactBalance)
 
     def __post_init__(self) -> None:
-        if isinstance(self.shaft_heat, type) or not isinstance(self.shaft_heat, ShaftHeat):
-            raise InputError(
-                f"shaft_heat must be ExactShaft() or ApproximateShaft(), got {self.shaft_heat!r}"
-            )
-        if isinstance(self.balance, type) or not isinstance(self.balance, HeatBalance):
-            raise InputError(f"balance must be ContactBalance() or GlobalBalance(), got {self.balance!r}")
+        require_kind("shaft_heat", self.shaft_heat, ShaftHeat, "ExactShaft() or ApproximateShaft()")
+        require_kind("balance", self.balance, HeatBalance, "ContactBalance() or GlobalBalance()")
         require_number("outer_mean", self.outer_mean)
         require_non_negative("outer_swing", self.outer_swing)
         hottest, melting = self.outer_mean + self.outer_swing, self.liner.melting_point

@@ -15,6 +15,7 @@ from ...errors import (
     InputError,
     require_finite,
     require_inside,
+    require_kind,
     require_non_negative,
     require_number,
     require_positive,
@@ -99,8 +100,7 @@ class BushReaction:
     temperature: float | None = None
 
     def __post_init__(self) -> None:
-        if not isinstance(self.bush, MeltingBush):
-            raise InputError(f"bush must be a MeltingBush, got {self.bush!r}")
+        require_kind("bush", self.bush, MeltingBush, "a MeltingBush")
         require_positive("melting_heat", self.melting_heat)
         if not isinstance(self.nodes, int) or self.nodes < 8:
             raise InputError(f"nodes must be an integer of at least 8, got {self.nodes!r}")
@@ -108,8 +108,7 @@ class BushReaction:
         require_positive("extent", self.extent)
         if self.extent > profile.FULL_TURN:
             raise InputError(f"extent must not exceed 2 pi, got {self.extent!r}")
-        if isinstance(self.melting, type) or not isinstance(self.melting, MeltingRule):
-            raise InputError(f"melting must be SharedMelting() or LocalMelting(), got {self.melting!r}")
+        require_kind("melting", self.melting, MeltingRule, "SharedMelting() or LocalMelting()")
         require_non_negative("retardation", self.retardation)
         depths = require_finite("wear_depth", self.wear_depth)
         if depths.shape not in ((0,), (self.nodes,)) or np.any(depths < 0.0):

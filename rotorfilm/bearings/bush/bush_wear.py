@@ -13,6 +13,7 @@ from ...errors import (
     FilmContactError,
     InputError,
     require_finite,
+    require_kind,
     require_non_negative,
     require_positive,
     warn_user,
@@ -72,8 +73,7 @@ class BushWear:
     wear: float = 0.0
 
     def __post_init__(self) -> None:
-        if not isinstance(self.bush, MeltingBush):
-            raise InputError(f"bush must be a MeltingBush, got {self.bush!r}")
+        require_kind("bush", self.bush, MeltingBush, "a MeltingBush")
         require_positive("melting_heat", self.melting_heat)
         require_non_negative("wear", self.wear)
 

@@ -9,7 +9,15 @@ from functools import cached_property
 
 import numpy as np
 
-from ...errors import InputError, require_non_negative, require_number, require_positive, warn_user
+from ...errors import (
+    InputError,
+    require_each,
+    require_kind,
+    require_non_negative,
+    require_number,
+    require_positive,
+    warn_user,
+)
 from ...model import Array, Tangent, tangent_of
 from ...native.spec import NativeSpec
 from ..films.cavitation import FullFilm, HalfSommerfeld
@@ -62,10 +70,8 @@ class PorousCage:
     thin: bool = False
 
     def __post_init__(self) -> None:
-        for name in ("thickness", "permeability", "anisotropy"):
-            require_positive(name, getattr(self, name))
-        for name in ("grading", "supply_pressure"):
-            require_number(name, getattr(self, name))
+        require_each(self, require_positive, "thickness", "permeability", "anisotropy")
+        require_each(self, require_number, "grading", "supply_pressure")
         if self.supply_pressure and not self.vented:
             raise InputError(f"supply_pressure must be 0 behind a sealed back, got {self.supply_pressure!r}")
 
@@ -161,18 +167,13 @@ class PorousDamper(StaticReaction):
     film: SqueezeLaw = field(default_factory=ShortSqueeze)
 
     def __post_init__(self) -> None:
-        for name in ("radius", "length", "clearance", "viscosity"):
-            require_positive(name, getattr(self, name))
+        require_each(self, require_positive, "radius", "length", "clearance", "viscosity")
         if self.clearance >= self.radius:
             raise InputError(f"clearance must be below the radius {self.radius!r}, got {self.clearance!r}")
-        if self.cage is not None and not isinstance(self.cage, PorousCage):
-            raise InputError(f"cage must be a PorousCage or None, got {self.cage!r}")
-        if not isinstance(self.extent, FullFilm | HalfSommerfeld):
-            raise InputError(f"extent must be FullFilm() or HalfSommerfeld(), got {self.extent!r}")
-        if self.feed is not None and not isinstance(self.feed, RadialFeed | AxialFeed):
-            raise InputError(f"feed must be a RadialFeed, an AxialFeed or None, got {self.feed!r}")
-        if isinstance(self.film, type) or not isinstance(self.film, SqueezeLaw):
-            raise InputError(f"film must be a squeeze film such as ShortSqueeze(), got {self.film!r}")
+        require_kind("cage", self.cage, PorousCage | None, "a PorousCage or None")
+        require_kind("extent", self.extent, FullFilm | HalfSommerfeld, "FullFilm() or HalfSommerfeld()")
+        require_kind("feed", self.feed, RadialFeed | AxialFeed | None, "a RadialFeed, an AxialFeed or None")
+        require_kind("film", self.film, SqueezeLaw, "a squeeze film such as ShortSqueeze()")
         if self._back_is_open and isinstance(self.feed, RadialFeed):
             raise InputError("feed must not be a RadialFeed where the back of the cage is vented, got both")
         _ = self.bound_film

@@ -25,7 +25,7 @@ class BoundLaw:
     slenderness : float [1]
         Length / diameter.
     clearance : float [m]
-    force_scale : float [N s]
+    force_per_rate : float [N s]
         viscosity length radius^3 / clearance^2.
     mirrored : bool
         Whether backward rotation is mirrored. The arc of `FixedArc` follows the sense of rotation. Pads and
@@ -35,7 +35,7 @@ class BoundLaw:
     law: FilmLaw
     slenderness: float
     clearance: float
-    force_scale: float
+    force_per_rate: float
     mirrored: bool
 
     def call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
@@ -56,14 +56,14 @@ class BoundLaw:
         eccentricity, source = kinematics(position, velocity, speed, self.clearance)
         mirror = self._mirror(speed)
         film = self.law.force(mirror * eccentricity, mirror * source, self.slenderness)
-        return self.force_scale * mirror * film
+        return self.force_per_rate * mirror * film
 
     def jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return d force / d (x, y, vx, vy, speed), shape (2, 5, ...)."""
         eccentricity, source = kinematics(self._off_center(position), velocity, speed, self.clearance)
         mirror = self._mirror(speed)
         film = self.law.jacobian(mirror * eccentricity, mirror * source, self.slenderness)
-        film = self.force_scale * mirror[:, None] * film * np.tile(mirror, (2, *(1,) * speed.ndim))
+        film = self.force_per_rate * mirror[:, None] * film * np.tile(mirror, (2, *(1,) * speed.ndim))
         by_eccentricity, by_source = film[:, :2], film[:, 2:]
         # w = v/c - (speed/2) (-e_y, e_x), so the columns of F_w (z^ x .) are (F_wy, -F_wx).
         turned = np.stack([by_source[:, 1], -by_source[:, 0]], axis=1)

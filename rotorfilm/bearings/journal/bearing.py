@@ -8,7 +8,14 @@ from functools import cached_property
 
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, require_non_negative, require_positive, warn_user
+from ...errors import (
+    InputError,
+    require_each,
+    require_kind,
+    require_non_negative,
+    require_positive,
+    warn_user,
+)
 from ...model import Array, Tangent, force_outputs, journal_inputs
 from ...native.spec import NativeParameter, NativeSpec
 from ...signals import Signal
@@ -90,12 +97,10 @@ class JournalBearing(Feedthrough):
     supply_pressure: float = 0.0
 
     def __post_init__(self) -> None:
-        for name in ("radius", "length", "clearance", "viscosity"):
-            require_positive(name, getattr(self, name))
+        require_each(self, require_positive, "radius", "length", "clearance", "viscosity")
         if self.clearance >= self.radius:
             raise InputError(f"clearance must be below the radius {self.radius!r}, got {self.clearance!r}")
-        if isinstance(self.film, type) or not isinstance(self.film, FilmLaw):
-            raise InputError(f"film must be a film law with force and jacobian, got {self.film!r}")
+        require_kind("film", self.film, FilmLaw, "a film law with force and jacobian")
         require_non_negative("supply_pressure", self.supply_pressure)
         _require_tuple("pads", self.pads, Pad)
         _require_tuple("grooves", self.grooves, Groove)
@@ -277,7 +282,7 @@ class JournalBearing(Feedthrough):
             law=self.fitted_film,
             slenderness=slenderness,
             clearance=clearance,
-            force_scale=force_scale,
+            force_per_rate=force_scale,
             mirrored=self.geometry.plain,
         )
 

@@ -8,7 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...errors import ConvergenceError, InputError
+from ...errors import ConvergenceError, require_kind
 from ...model import Array
 from ..films.cavitation import Cavitation, Complementarity
 from ..films.film_field import FilmField
@@ -65,10 +65,8 @@ class ReynoldsFilm(FilmOptions):
 
     def __post_init__(self) -> None:
         require_cells(self.cells)
-        if not isinstance(self.cavitation, Cavitation):
-            raise InputError(f"cavitation must be such as Complementarity(), got {self.cavitation!r}")
-        if not isinstance(self.geometry, FilmGeometry):
-            raise InputError(f"geometry must be a FilmGeometry, got {self.geometry!r}")
+        require_kind("cavitation", self.cavitation, Cavitation, "such as Complementarity()")
+        require_kind("geometry", self.geometry, FilmGeometry, "a FilmGeometry")
 
     def fitted(self, geometry: FilmGeometry) -> ReynoldsFilm:
         """Return this film in a bearing of the given geometry."""

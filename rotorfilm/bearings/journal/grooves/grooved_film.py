@@ -10,7 +10,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ....errors import InputError, require_number, require_positive
+from ....errors import InputError, require_kind, require_number, require_positive
 from ....model import Array
 from ....native import GrooveMapKernel
 from ....progress import Report, silent
@@ -87,10 +87,8 @@ class GroovedMapFilm(KernelFilm):
             raise InputError(
                 f"largest_eccentricity_ratio must be in (0, 1), got {self.largest_eccentricity_ratio!r}"
             )
-        if not isinstance(self.geometry, FilmGeometry):
-            raise InputError(f"geometry must be a FilmGeometry, got {self.geometry!r}")
-        if self.table is not None and not isinstance(self.table, GrooveMapTable):
-            raise InputError(f"table must be a GrooveMapTable, got {self.table!r}")
+        require_kind("geometry", self.geometry, FilmGeometry, "a FilmGeometry")
+        require_kind("table", self.table, GrooveMapTable | None, "a GrooveMapTable")
         if not self.geometry.plain:
             require_mappable(self.geometry)
             if self.table is not None:

@@ -9,7 +9,7 @@ from importlib.resources import files
 
 import numpy as np
 
-from ....errors import InputError, RotorfilmError
+from ....errors import RotorfilmError, require_kind
 from ....model import Array
 from ....native import MapKernel
 from ...films.kernel_film import KernelFilm
@@ -51,8 +51,7 @@ class MapFilm(KernelFilm):
     table: MapTable | None = None
 
     def __post_init__(self) -> None:
-        if self.table is not None and not isinstance(self.table, MapTable):
-            raise InputError(f"table must be a MapTable, got {self.table!r}")
+        require_kind("table", self.table, MapTable | None, "a MapTable")
 
     @property
     def slenderness_range(self) -> tuple[float, float]:
