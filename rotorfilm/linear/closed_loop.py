@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_kind
-from ..model import FORCE_OUTPUTS, MOTION_NAMES, Dynamic, Reaction, indices
+from ..model import FORCE_OUTPUTS, MOTION_NAMES, Array, Dynamic, Reaction, indices
 from ..results import Equilibrium
 from ..signals import names
 from .equilibrium import equilibrium
@@ -98,14 +98,7 @@ def transmissibility(
     EquilibriumError
         If there is no equilibrium at one of the speeds.
     """
-    frequencies = require_finite("speeds", speeds)
-    if (
-        frequencies.ndim != 1
-        or not frequencies.size
-        or frequencies[0] <= 0
-        or np.any(np.diff(frequencies) <= 0)
-    ):
-        raise InputError(f"speeds must be a list of positive and rising numbers, got {speeds!r}")
+    frequencies = checked_speeds(speeds)
     responses = [_at_own_speed(rotor, reaction, load, float(speed)) for speed in frequencies]
     return control.FrequencyResponseData(
         np.stack(responses, axis=-1),
@@ -114,6 +107,14 @@ def transmissibility(
         outputs=list(HOUSING),
         name="transmissibility",
     )
+
+
+def checked_speeds(speeds: ArrayLike) -> Array:
+    """Return angular speeds [rad/s]; raise InputError unless they are positive and rising."""
+    grid = require_finite("speeds", speeds)
+    if grid.ndim != 1 or not grid.size or grid[0] <= 0.0 or np.any(np.diff(grid) <= 0.0):
+        raise InputError(f"speeds must be a list of positive and rising numbers, got {speeds!r}")
+    return grid
 
 
 def _at_own_speed(rotor: Dynamic, reaction: Reaction, load: ArrayLike, speed: float) -> np.ndarray:

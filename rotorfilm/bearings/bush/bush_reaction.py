@@ -224,7 +224,7 @@ class BushReaction:
         FilmContactError
             If the shaft reaches the housing, or the contact an end of the arc of nodes.
         """
-        q, v, omega = _broadcast(position, velocity, speed)
+        q, v, omega = broadcast_state(position, velocity, speed)
         pressed = self._press(q, v, self._depths(self.initial_state, q))
         if omega.ndim == 0:
             self._require_heat(self.initial_state, pressed, float(omega))
@@ -232,7 +232,7 @@ class BushReaction:
 
     def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return d(force_x, force_y)/d(x, y, vx, vy, speed) with the wear at t = 0, shape (2, 5, ...)."""
-        q, v, omega = _broadcast(position, velocity, speed)
+        q, v, omega = broadcast_state(position, velocity, speed)
         pressed = self._press(q, v, self._depths(self.initial_state, q))
         by_position = self._stiffness(pressed, omega)
         return np.concatenate(
@@ -342,138 +342,21 @@ class BushReaction:
             self._require_heat(depths, pressed, speed)
         return at
 
-    def _settled(self, load: ArrayLike, speed: float, depths: Array) -> tuple[Array, Pressed]:
-        """Return the position that carries a load, and the contact there."""
-        target = require_vector("load", load)
-        size = math.hypot(*target)
-        if target.shape != (2,) or size == 0.0:
-            raise InputError(f"load must be a vector of two numbers, not both zero, got {load!r}")
-        # Part of the load that the pressure carries: the load is that of pressure and friction.
-        lean = self._friction * np.sign(speed)
-        normal = np.array([target[0] + lean * target[1], target[1] - lean * target[0]]) / (1.0 + lean**2)
-        angle = float(self.bush.contact_angle(size))
-        radius = self.bush.geometry.radius
-        start = (self._gap / math.cos(angle) + depths.max() / radius) * normal / math.hypot(*normal)
-        at = radius * settle(self._nodes, self._gap + depths / radius, normal / self._unit, start)
-        return at, profile.press(self._nodes, self._depth(at, np.zeros(2), depths))
-
-    @cached_property
     def _nodes(self) -> Nodes:
         return profile.arc_nodes(self.nodes, self.center, self.extent)
 
-    @cached_property
-    def _melting_point(self) -> float:
-        return self.bush.liner.melting_point
-
-    @cached_property
     def _held(self) -> float:
         return self._melting_point if self.temperature is None else float(self.temperature)
 
-    @cached_property
     def _friction(self) -> float:
         return float(self.bush.friction.at(self._held))
 
-    @cached_property
     def _gap(self) -> float:
         return float(self.bush.gap(self._held))
 
-    @cached_property
     def _unit(self) -> float:
         """Force [N] of a unit of the integral of d over the angle."""
         return self.bush.force_unit / self.bush.compliance
-
-    def _depths(self, wear: Array, position: Array) -> Array:
-        return wear.reshape(-1, *(1,) * (position.ndim - 1))
-
-    def _depth(self, position: Array, velocity: Array, wear: Array) -> Array:
-        """Return the depth of the shaft in the liner at the nodes, shape (n, ...), per radius."""
-        moved = np.tensordot(self._nodes.normal, position + self.retardation * velocity, (0, 0))
-        return (moved - wear) / self.bush.geometry.radius - self._gap
-
-    def _press(self, position: Array, velocity: Array, wear: Array) -> Pressed:
-        require_inside(position, self.clearance)
-        depth = self._depth(position, velocity, wear)
-        if not self._nodes.closed:
-            self._require_on_arc(position + self.retardation * velocity, depth)
-        return profile.press(self._nodes, depth)
-
-    def _require_on_arc(self, moved: Array, depth: Array) -> None:
-        """Raise unless the contact of a shaft at `moved` ends within the arc of nodes."""
-        reach = np.hypot(*moved)
-        along = math.cos(self.center) * moved[0] + math.sin(self.center) * moved[1]
-        beside = along < reach * math.cos(0.5 * self.extent)
-        touches = reach > self._gap * self.bush.geometry.radius
-        if np.any(beside & touches) or max(depth[0].max(), depth[-1].max()) > 0.0:
-            raise FilmContactError(
-                f"contact must stay on the arc of nodes, {self.extent!r} rad about {self.center!r} rad, "
-                f"got a shaft moved by {np.max(reach):.6g} m"
-            )
-
-    def _force(self, load: Array, speed: Array | float) -> Array:
-        """Return the force of pressure and friction on the journal [N], shape (2, ...)."""
-        return self._with_friction(-self._unit * np.tensordot(self._nodes.normal, load, (1, 0)), speed)
-
-    def _with_friction(self, pressure: Array, speed: Array | float) -> Array:
-        """Return a force of pressure together with its friction, -f q t sign(speed) at each angle.
-
-        t is n a quarter turn ahead, so the friction is the force, turned and multiplied by f.
-        """
-        return pressure + self._friction * np.sign(speed) * np.stack([-pressure[1], pressure[0]])
-
-    def _stiffness(self, pressed: Pressed, speed: Array) -> Array:
-        """Return d(force)/d(position) [N/m], shape (2, 2, ...)."""
-        columns = stiffness(self._nodes, pressed) * (-self._unit / self.bush.geometry.radius)
-        return np.stack([self._with_friction(columns[:, k], speed) for k in (0, 1)], axis=1)
-
-    def _pressure(self, pressed: Pressed) -> Array:
-        """Return the pressure at the nodes, shape (n,), in shear moduli."""
-        return pressed.load / (self.bush.compliance * self._nodes.weight)
-
-    def _heat_state(self, pressed: Pressed, speed: float) -> HeatState:
-        law, angle = self.bush.law, max(float(pressed.angle), LEAST_ANGLE)
-        return HeatState(
-            pressure=self._pressure(pressed),
-            total=float(pressed.load.sum()) / self.bush.compliance,
-            angle=angle,
-            work=law.pressure_work * self._friction * abs(speed),
-            losses=law.losses(angle, self._held),
-            losses_slope=law.heat_slopes(angle, self._held, 0.0, 0.0)[0],
-        )
-
-    def _melted(self, pressed: Pressed, speed: float) -> Melting:
-        if self._held < self._melting_point:
-            return Melting(*np.zeros((5, self.nodes)))
-        return self.melting.melting(self._heat_state(pressed, speed))
-
-    def _require_heat(self, wear: Array, pressed: Pressed, speed: float) -> None:
-        """Warn of a worn contact that is held at the melting point for nothing."""
-        if self.temperature is not None or not wear.max() > 0.0 or not pressed.angle > 0.0:
-            return
-        at = self._heat_state(pressed, speed)
-        lost = -self.melting.margins(at._replace(work=0.0)).max()
-        if self.melting.margins(at).max() < -COVERED_TO * lost:
-            # Without the number: Python tells a text once for each line of the user.
-            warn_user(
-                "friction must cover the losses of a worn contact at its melting point, got less than "
-                f"{1.0 - COVERED_TO:.0%} of them: it cools; `rest` answers how far, `temperature` holds it"
-            )
-
-    def _rate_slopes(self, pressed: Pressed, loads: Array, angle: Array, speed: float) -> tuple[Array, Array]:
-        """Return d(rate of wear)/d(wear, x, y), shape (n, n + 2), and by the speed, shape (n,)."""
-        by = self._melted(pressed, speed)
-        rates = (by.by_pressure / self._nodes.weight)[:, None] * loads
-        rates += np.outer(by.by_total, loads.sum(axis=0)) + np.outer(by.by_angle, angle)
-        work = self.bush.law.pressure_work * self._friction * math.copysign(1.0, speed)
-        return rates / self.melting_heat, by.by_work * work / self.melting_heat
-
-    def _load_slopes(self, loads: Array, speed: float) -> Array:
-        """Return d(force_x, force_y, friction_torque)/d(wear, x, y), shape (3, n + 2)."""
-        force = self._force(loads * self.bush.compliance, speed)
-        return np.vstack([force, self._torque_unit(speed) * self.bush.compliance * loads.sum(axis=0)])
-
-    def _torque_unit(self, speed: float) -> float:
-        """Return the friction torque [N m] of a unit of the integral of d over the angle."""
-        return self._friction * float(np.sign(speed)) * self._unit * self.bush.geometry.shaft_radius
 
     def _point(self, x: ArrayLike, u: ArrayLike) -> tuple[Array, Array]:
         wear, values = require_finite("x", x), require_finite("u", u)
@@ -483,16 +366,3 @@ class BushReaction:
                 f"got {wear.shape} and {values.shape}"
             )
         return wear, values
-
-
-def _broadcast(position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> tuple[Array, Array, Array]:
-    q, v = require_vector("position", position), require_vector("velocity", velocity)
-    omega = require_finite("speed", speed)
-    try:
-        x, y, vx, vy, omega = np.broadcast_arrays(q[0], q[1], v[0], v[1], omega)
-    except ValueError:
-        raise InputError(
-            "position (2, ...), velocity (2, ...) and speed (...) must broadcast, "
-            f"got shapes {q.shape}, {v.shape} and {omega.shape}"
-        ) from None
-    return np.stack([x, y]), np.stack([vx, vy]), omega

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...errors import AbsentError
 from ...linear import RotorModes, critical_speeds, rotor_modes, rotor_threshold
-from ...linear.rotor_modes import NEUTRAL
+from ...linear.rotor_threshold import NEUTRAL
 from ...model import Array, Reaction
 from ...rotors import FlexibleRotor
 
