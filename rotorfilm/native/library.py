@@ -54,7 +54,7 @@ class JournalStruct(ctypes.Structure):
 
     _fields_: ClassVar[Sequence[Any]] = [
         ("film", c_void_p),
-        ("map", c_void_p),
+        ("data", c_void_p),
         ("clearance", c_double),
         ("force_scale", c_double),
         ("error", c_double),

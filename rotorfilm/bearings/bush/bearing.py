@@ -294,21 +294,3 @@ class MeltingBush:
 
     def _temperature(self, temperature: ArrayLike | None) -> Array:
         return require_finite("temperature", self.liner.melting_point if temperature is None else temperature)
-
-
-def f4k20_bush() -> MeltingBush:
-    """Return the example of Evtushenko & Kovalenko (1993), section 4, as a `MeltingBush`.
-
-    Shaft and housing of steel, liner of filled PTFE F4K20. The source calculates with `ApproximateShaft()`;
-    take it by `dataclasses.replace`.
-    """
-    return MeltingBush(
-        geometry=BushGeometry(radius=13e-3, outer_radius=14.5e-3, shaft_radius=12.5e-3, length=0.1),
-        liner=LinerMaterial(
-            shear_modulus=3e8, poisson_ratio=0.4, expansion=8e-5, conductivity=0.39, melting_point=250.0
-        ),
-        shaft=ShaftMaterial(conductivity=25.35, air_transfer=402.0),
-        friction=Friction(f0=0.1),
-        outer_mean=235.0,
-        outer_swing=4.0,
-    )

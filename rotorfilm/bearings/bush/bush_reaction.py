@@ -11,40 +11,23 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from ...errors import (
-    FilmContactError,
     InputError,
     require_finite,
-    require_inside,
     require_kind,
     require_non_negative,
     require_number,
     require_positive,
-    require_vector,
-    warn_user,
 )
-from ...model import Array, Linearization, force_outputs, journal_inputs
-from ...native.spec import NativeParameter, NativeSpec
+from ...model import Array, Linearization
+from ...native.spec import NativeSpec
 from ...signals import Signal
+from ..reaction import broadcast_state
 from . import worn_profile as profile
 from .bearing import MeltingBush
-from .bush_kernel import bush_parameters, bush_table, has_kernel
-from .settle import settle, stiffness
-from .worn_profile import HeatState, LocalMelting, Melting, MeltingRule, Nodes, Pressed, SharedMelting
-
-NOMINAL_LOAD = 1e-2
-"""Typical load in units of `MeltingBush.force_unit`."""
-
-NOMINAL_PRESSURE = 4e-2
-"""Typical contact pressure in shear moduli."""
-
-NOMINAL_SPEED = 10.0
-"""Typical angular speed [rad/s]."""
-
-LEAST_ANGLE = 1e-9
-"""Contact angle [rad] that stands for none in the heat balance."""
-
-COVERED_TO = 0.05
-"""Share of the losses by which friction heat may fall short without a word."""
+from .bush_kernel import has_kernel, reaction_spec
+from .bush_signals import moved_inputs, profile_outputs, profile_states
+from .held_liner import HeldLiner, Melt, NodeArc
+from .worn_profile import LocalMelting, MeltingRule, Pressed, SharedMelting
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,50 +99,29 @@ class BushReaction:
                 f"wear_depth must hold no or {self.nodes} numbers, none negative, got {self.wear_depth!r}"
             )
         object.__setattr__(self, "wear_depth", tuple(depths.tolist()))
-        if self.temperature is not None:
-            require_number("temperature", self.temperature)
-        if self._held > self._melting_point:
-            raise InputError(
-                f"temperature must not exceed the melting point {self._melting_point!r}, "
-                f"got {self.temperature!r}"
-            )
+        most, held = self.bush.liner.melting_point, self.temperature
+        if held is not None and require_number("temperature", held) > most:
+            raise InputError(f"temperature must not exceed the melting point {most!r}, got {held!r}")
 
     @property
     def clearance(self) -> float:
         """Distance of the shaft from the housing [m]: radial clearance and thickness of the liner."""
-        return self.bush.geometry.outer_radius - self.bush.geometry.shaft_radius
+        return self._liner.clearance
 
     @property
     def inputs(self) -> tuple[Signal, ...]:
         """Signals x, y, vx, vy, speed."""
-        return journal_inputs(
-            self.bush.geometry.radius * self.bush.compliance * NOMINAL_PRESSURE, NOMINAL_SPEED
-        )
+        return moved_inputs(self.bush)
 
     @property
     def outputs(self) -> tuple[Signal, ...]:
         """Signals force_x, force_y, friction_torque, contact_angle, maximum_pressure."""
-        load = NOMINAL_LOAD * self.bush.force_unit
-        torque = load * self._friction * self.bush.geometry.shaft_radius
-        pressure = NOMINAL_PRESSURE * self.bush.liner.shear_modulus
-        rows = (
-            ("friction_torque", "N.m", torque, "torque about +z that keeps the shaft turning"),
-            ("contact_angle", "rad", 0.1, "half the angle in contact"),
-            ("maximum_pressure", "Pa", pressure, "largest contact pressure at a node"),
-        )
-        return (
-            *force_outputs(load),
-            *(Signal(name=n, unit=u, nominal=v, description=d) for n, u, v, d in rows),
-        )
+        return profile_outputs(self.bush, self._liner.friction)
 
     @property
     def states(self) -> tuple[Signal, ...]:
         """Signals wear_0, wear_1, ...: wear depths at the nodes [m]."""
-        nominal = self.bush.geometry.radius * self.bush.compliance * NOMINAL_PRESSURE
-        return tuple(
-            Signal(name=f"wear_{i}", unit="m", nominal=nominal, description=f"wear depth at node {i}")
-            for i in range(self.nodes)
-        )
+        return profile_states(self.bush, self.nodes)
 
     @property
     def initial_state(self) -> Array:
@@ -169,40 +131,17 @@ class BushReaction:
     @property
     def angles(self) -> Array:
         """Angles of the nodes, bearing frame, shape (nodes,) [rad]."""
-        return np.arctan2(self._nodes.normal[1], self._nodes.normal[0])
+        return np.arctan2(self._liner.nodes.normal[1], self._liner.nodes.normal[0])
 
     def native(self) -> NativeSpec | None:
         """Return the kernel of the C library that is this model; None for a subclass or a rule of others."""
         known = type(self.melting) in (SharedMelting, LocalMelting) and has_kernel(self.bush)
         if type(self) is not BushReaction or not known:
             return None
-        retardation = NativeParameter(
-            name="retardation",
-            unit="s",
-            value=float(self.retardation),
-            tunable=True,
-            minimum=0.0,
-            nominal=1e-3,
-            description="retardation time of the liner as a Kelvin-Voigt solid",
-        )
-        held = NativeParameter(
-            name="temperature",
-            unit="K",
-            value=float(self._held),
-            tunable=True,
-            minimum=-np.inf,
-            nominal=float(self._melting_point),
-            description="temperature at which the contact is held, above ambient",
-        )
         flags = isinstance(self.melting, LocalMelting), self.temperature is not None
-        return NativeSpec(
-            kernel="bush_reaction",
-            parameters=(*bush_parameters(self.bush, self.melting_heat), retardation, held),
-            tables={
-                "bush": bush_table(self.bush),
-                "profile": np.array([self.nodes, self.center, self.extent, *map(float, flags)]),
-            },
-        )
+        numbers = [self.nodes, self.center, self.extent, *map(float, flags)]
+        held = self._liner.temperature
+        return reaction_spec(self.bush, self.melting_heat, self.retardation, held, numbers)
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the force on the journal, with the wear at t = 0.
@@ -225,35 +164,33 @@ class BushReaction:
             If the shaft reaches the housing, or the contact an end of the arc of nodes.
         """
         q, v, omega = broadcast_state(position, velocity, speed)
-        pressed = self._press(q, v, self._depths(self.initial_state, q))
+        pressed = self._liner.press(q, v, self.initial_state.reshape(-1, *(1,) * (q.ndim - 1)))
         if omega.ndim == 0:
-            self._require_heat(self.initial_state, pressed, float(omega))
-        return self._force(pressed.load, omega)
+            self._liner.require_heat(self.initial_state, pressed, float(omega))
+        return self._liner.force(pressed.load, omega)
 
     def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return d(force_x, force_y)/d(x, y, vx, vy, speed) with the wear at t = 0, shape (2, 5, ...)."""
         q, v, omega = broadcast_state(position, velocity, speed)
-        pressed = self._press(q, v, self._depths(self.initial_state, q))
-        by_position = self._stiffness(pressed, omega)
+        pressed = self._liner.press(q, v, self.initial_state.reshape(-1, *(1,) * (q.ndim - 1)))
+        by_position = self._liner.stiffness(pressed, omega)
         return np.concatenate(
             [by_position, self.retardation * by_position, np.zeros((2, 1, *omega.shape))], axis=1
         )
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the outputs, shape (5,), for the wear depths x [m] and u = (x, y, vx, vy, speed)."""
-        wear, values = self._point(x, u)
-        pressed = self._press(values[:2], values[2:4], wear)
-        self._require_heat(wear, pressed, values[4])
-        torque = self._torque_unit(values[4]) * pressed.load.sum()
-        depth = max(self._depth(values[:2], values[2:4], wear).max(), 0.0)
+        wear, values, pressed = self._pressed(x, u)
+        self._liner.require_heat(wear, pressed, values[4])
+        torque = self._liner.torque_unit(values[4]) * pressed.load.sum()
+        depth = max(self._liner.depth(values[:2], values[2:4], wear).max(), 0.0)
         peak = self.bush.liner.shear_modulus / self.bush.compliance * depth
-        return np.array([*self._force(pressed.load, values[4]), torque, pressed.angle, peak])
+        return np.array([*self._liner.force(pressed.load, values[4]), torque, pressed.angle, peak])
 
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the rates of wear at the nodes [m/s], shape (nodes,), none negative."""
-        wear, values = self._point(x, u)
-        pressed = self._press(values[:2], values[2:4], wear)
-        return self._melted(pressed, values[4]).heat / self.melting_heat
+        _, values, pressed = self._pressed(x, u)
+        return self._liner.melted(pressed, values[4]).heat / self.melting_heat
 
     def events(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the switching functions: depths at the nodes, margins of melting, speed.
@@ -262,23 +199,22 @@ class BushReaction:
         them changes sign; between such events the model is smooth.
         """
         wear, values = self._point(x, u)
-        depth = self._depth(values[:2], values[2:4], wear)
-        margins = self.melting.margins(self._heat_state(profile.press(self._nodes, depth), values[4]))
+        depth = self._liner.depth(values[:2], values[2:4], wear)
+        margins = self._liner.margins(profile.press(self._liner.nodes, depth), values[4])
         return np.concatenate([depth, margins, values[4:]])
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives on the present side of every event."""
-        wear, values = self._point(x, u)
-        depth = self._depth(values[:2], values[2:4], wear)
-        pressed = self._press(values[:2], values[2:4], wear)
+        wear, values, pressed = self._pressed(x, u)
+        depth = self._liner.depth(values[:2], values[2:4], wear)
         # d(depth)/d(wear, x, y): the rest of the model follows from the depth.
-        by_depth = np.hstack([-np.eye(self.nodes), self._nodes.normal.T]) / self.bush.geometry.radius
-        loads = profile.times_stiffness(self._nodes, pressed, by_depth) / self.bush.compliance
-        angle = profile.angle_slope(self._nodes, depth) @ by_depth
-        rates, by_speed = self._rate_slopes(pressed, loads, angle, values[4])
+        by_depth = np.hstack([-np.eye(self.nodes), self._liner.nodes.normal.T]) / self.bush.geometry.radius
+        loads = profile.times_stiffness(self._liner.nodes, pressed, by_depth) / self.bush.compliance
+        angle = profile.angle_slope(self._liner.nodes, depth) @ by_depth
+        rates, by_speed = self._liner.rate_slopes(pressed, loads, angle, values[4])
         top = int(np.argmax(depth))
         peak = by_depth[top] * (self.bush.liner.shear_modulus / self.bush.compliance * (depth[top] > 0.0))
-        outputs = np.vstack([self._load_slopes(loads, values[4]), angle, peak])
+        outputs = np.vstack([self._liner.load_slopes(loads, values[4]), angle, peak])
         n = self.nodes
         return Linearization(
             rates[:, :n],
@@ -304,12 +240,12 @@ class BushReaction:
 
         def excess(temperature: float) -> float:
             held = replace(self, temperature=temperature)
-            _, pressed = held._settled(load, speed, depths)
-            return float(self.melting.margins(held._heat_state(pressed, speed)).max())
+            _, pressed = held._liner.settled(load, speed, depths)
+            return float(held._liner.margins(pressed, speed).max())
 
-        low, high = min(0.0, self.bush.outer_mean), self._melting_point
+        low, high = min(0.0, self.bush.outer_mean), self.bush.liner.melting_point
         temperature = high if excess(high) >= 0.0 else float(brentq(excess, low, high, xtol=1e-9))
-        return replace(self, temperature=temperature)._settled(load, speed, depths)[0], temperature
+        return replace(self, temperature=temperature)._liner.settled(load, speed, depths)[0], temperature
 
     def position(self, load: ArrayLike, speed: float, wear: ArrayLike | None = None) -> Array:
         """Return the position at which the bush carries a static load at the temperature it is held at.
@@ -337,26 +273,21 @@ class BushReaction:
             If no position is found, for a load beyond the arc of nodes or worn through.
         """
         depths = self.initial_state if wear is None else require_finite("wear", wear)
-        at, pressed = self._settled(load, speed, depths)
+        at, pressed = self._liner.settled(load, speed, depths)
         if speed != 0.0:
-            self._require_heat(depths, pressed, speed)
+            self._liner.require_heat(depths, pressed, speed)
         return at
 
-    def _nodes(self) -> Nodes:
-        return profile.arc_nodes(self.nodes, self.center, self.extent)
+    @cached_property
+    def _liner(self) -> HeldLiner:
+        arc = NodeArc(self.nodes, self.center, self.extent)
+        melting = Melt(self.melting, self.melting_heat, warns=self.temperature is None)
+        held = self.bush.liner.melting_point if self.temperature is None else float(self.temperature)
+        return HeldLiner(self.bush, arc, held, float(self.retardation), melting)
 
-    def _held(self) -> float:
-        return self._melting_point if self.temperature is None else float(self.temperature)
-
-    def _friction(self) -> float:
-        return float(self.bush.friction.at(self._held))
-
-    def _gap(self) -> float:
-        return float(self.bush.gap(self._held))
-
-    def _unit(self) -> float:
-        """Force [N] of a unit of the integral of d over the angle."""
-        return self.bush.force_unit / self.bush.compliance
+    def _pressed(self, x: ArrayLike, u: ArrayLike) -> tuple[Array, Array, Pressed]:
+        wear, values = self._point(x, u)
+        return wear, values, self._liner.press(values[:2], values[2:4], wear)
 
     def _point(self, x: ArrayLike, u: ArrayLike) -> tuple[Array, Array]:
         wear, values = require_finite("x", x), require_finite("u", u)

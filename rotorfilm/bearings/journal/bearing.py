@@ -17,25 +17,15 @@ from ...errors import (
     warn_user,
 )
 from ...model import Array, Tangent, force_outputs, journal_inputs
-from ...native.spec import NativeParameter, NativeSpec
+from ...native.spec import NativeSpec
 from ...signals import Signal
 from ..films.bound_law import BoundLaw, kinematics
 from ..films.geometry import FilmGeometry, Groove, Pad
 from ..films.law import BoundFilm, FilmLaw, FilmOptions, options
 from ..reaction import NOMINAL_SPEED, Feedthrough, broadcast_state
 from .fitting import fitted_film
+from .journal_kernel import NATIVE_PARAMETERS, journal_spec
 from .map.map_film import MapFilm
-
-NATIVE_PARAMETERS = (
-    ("radius", "m", "bearing radius"),
-    ("length", "m", "axial length"),
-    ("clearance", "m", "radial clearance"),
-    ("viscosity", "Pa.s", "dynamic viscosity"),
-)
-"""Names, units and meanings of what a simulator may set in the compiled bearing."""
-
-SCALES = {"clearance", "viscosity"}
-"""Those of them that only scale a film: the others change what the map of a film depends on."""
 
 CLEARANCE_RATIOS = (1e-5, 2e-2)
 """Clearance / radius of bearings that are built; outside, a unit probably is wrong."""
@@ -251,21 +241,8 @@ class JournalBearing(Feedthrough):
         found = self._options.native(self.slenderness) if type(self) is JournalBearing else None
         if found is None:
             return None
-        kernel, tables = found
-        bounds = _bounds(tables.get("range")) if tables else ""
-        parameters = tuple(
-            NativeParameter(
-                name=name,
-                unit=unit,
-                value=float(getattr(self, name)),
-                tunable=self.geometry.plain or name in SCALES,
-                minimum=0.0,
-                nominal=float(getattr(self, name)),
-                description=description if name in SCALES else description + bounds,
-            )
-            for name, unit, description in NATIVE_PARAMETERS
-        )
-        return NativeSpec(kernel=kernel, parameters=parameters, tables=tables)
+        dimensions = {name: float(getattr(self, name)) for name, _, _ in NATIVE_PARAMETERS}
+        return journal_spec(*found, dimensions, fixed=not self.geometry.plain)
 
     def portable(self) -> JournalBearing:
         """Return this bearing with a film that carries the table it needs; see `model.Portable`."""
@@ -293,14 +270,6 @@ class JournalBearing(Feedthrough):
     def kinematics(self, position: Array, velocity: Array, speed: Array) -> tuple[Array, Array]:
         """Return the eccentricity and the source w = v/c - (speed/2) z^ x e of the film laws."""
         return kinematics(position, velocity, speed, self.clearance)
-
-
-def _bounds(slenderness_range: Array | None) -> str:
-    """Return what the description of radius and length says of their range."""
-    if slenderness_range is None:
-        return "; fixed, as the map of the film holds for this length / diameter"
-    low, high = slenderness_range
-    return f"; length / diameter must stay from {low:g} to {high:g}"
 
 
 def _require_tuple(name: str, values: object, kind: type) -> None:
