@@ -241,6 +241,20 @@ def prepared_tangent(reaction: Reaction) -> Tangent:
     return reaction.prepare_tangent() if isinstance(reaction, TangentReaction) else tangent_of(reaction)
 
 
+@runtime_checkable
+class LimitedReaction(Protocol):
+    """What a Reaction may add: how far from the center its force is meant."""
+
+    @property
+    def largest_eccentricity_ratio(self) -> float:
+        """Eccentricity ratio to which the force is meant; 1 where it is meant up to the wall."""
+
+
+def largest_eccentricity_ratio(reaction: Reaction) -> float:
+    """Return the eccentricity ratio to which any reaction is meant; 1 where it does not say."""
+    return reaction.largest_eccentricity_ratio if isinstance(reaction, LimitedReaction) else 1.0
+
+
 def tangent_of(reaction: Reaction) -> Tangent:
     """Return force and derivatives of a reaction by its `force` and `jacobian`."""
 
@@ -256,8 +270,12 @@ def tangent_of(reaction: Reaction) -> Tangent:
 
 def stops(model: Model, start: float, end: float) -> list[float]:
     """Return the times [s] at which an integration stops: the model's kinks after start, then the end."""
-    kinks = model.breakpoints if isinstance(model, Kinked) else ()
-    return [*(t for t in kinks if start < t < end), end]
+    return [*(t for t in breakpoints(model) if start < t < end), end]
+
+
+def breakpoints(of: object) -> tuple[float, ...]:
+    """Return the `breakpoints` of a model, or of a load over time; none where it has none."""
+    return tuple(of.breakpoints) if isinstance(of, Kinked) else ()
 
 
 def journal_inputs(clearance: float, nominal_speed: float) -> tuple[Signal, ...]:

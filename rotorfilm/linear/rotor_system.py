@@ -9,13 +9,13 @@ import control
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, require_finite
+from ..errors import InputError
 from ..model import Array, Reaction
 from ..rotors import FlexibleRotor
 from ..rotors.stations import station_name
 from ..rotors.structure import Structure, across_planes, both_planes, output_rows
 from ..signals import names
-from .closed_loop import HOUSING
+from .closed_loop import HOUSING, checked_speeds
 from .linearize import control_system
 from .rotor_rest import RotorEquilibrium, rotor_equilibrium
 
@@ -197,14 +197,6 @@ def rotor_transmissibility(
         outputs=[labels[k] for k in wanted],
         name="transmissibility",
     )
-
-
-def checked_speeds(speeds: ArrayLike) -> Array:
-    """Return angular speeds [rad/s]; raise InputError unless they are positive and rising."""
-    grid = require_finite("speeds", speeds)
-    if grid.ndim != 1 or not grid.size or grid[0] <= 0.0 or np.any(np.diff(grid) <= 0.0):
-        raise InputError(f"speeds must be a list of positive and rising numbers, got {speeds!r}")
-    return grid
 
 
 def journal_rows(structure: Structure, name: str) -> Array:

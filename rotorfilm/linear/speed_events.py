@@ -12,7 +12,9 @@ import numpy as np
 from ..errors import AbsentError
 from ..model import Array, Reaction
 from ..rotors import FlexibleRotor
-from .rotor_modes import NEUTRAL, RotorModes, critical_speeds, rotor_modes, rotor_threshold
+from .campbell import critical_speeds
+from .rotor_modes import RotorModes, rotor_modes
+from .rotor_threshold import NEUTRAL, rotor_threshold
 
 NEAR = 1.1
 """Critical speeds up to so many times the first are followed with it."""

@@ -20,7 +20,7 @@ class Status(IntEnum):
     OK = 0
     OUTSIDE = 1
     UNDEFINED = 2
-    CONTACT = 3
+    AT_WALL = 3
     NOT_FINITE = 4
 
 
@@ -111,10 +111,10 @@ class MapKernel(FilmKernel):
     log_center : float
         L0, the logarithm of -J/|w|^2 at the center.
     slenderness : float
-        Length / diameter for the film at contact, as which J goes on beyond the last node; 0, or a map that
+        Length / diameter for the film at the wall, as which J goes on beyond the last node; 0, or a map that
         is no such film at its last node, goes on as a power of X.
     share : float
-        Of the film at contact in units of a journal.
+        Of the film at the wall in units of a journal.
     """
 
     _function: ClassVar[str] = "rf_map_film"
@@ -134,7 +134,7 @@ class MapKernel(FilmKernel):
             raise ValueError(f"coefficients must be finite, 6 x 6 at least, got shape {coefficients.shape}")
         place = self.coefficients.ctypes.data
         self.struct = MapStruct(cells_x, cells_t, reach, log_center, place)
-        functions()["rf_map_contact"](byref(self.struct), slenderness, share)
+        functions()["rf_map_to_wall"](byref(self.struct), slenderness, share)
         self.error = functions()["rf_map_error"](byref(self.struct))
 
 

@@ -54,7 +54,7 @@ class JournalStruct(ctypes.Structure):
 
     _fields_: ClassVar[Sequence[Any]] = [
         ("film", c_void_p),
-        ("map", c_void_p),
+        ("data", c_void_p),
         ("clearance", c_double),
         ("force_scale", c_double),
         ("error", c_double),
@@ -105,7 +105,7 @@ _SCALAR: dict[str, list[Any]] = {
     "rf_journal_call": [c_void_p, *[c_double] * 5, c_void_p],
     "rf_journal_at": [c_void_p] * 4,
     "rf_map_slice": [c_void_p, c_double, c_void_p, c_void_p],
-    "rf_map_contact": [c_void_p, c_double, c_double],
+    "rf_map_to_wall": [c_void_p, c_double, c_double],
     "rf_map_error": [c_void_p],
     "rf_groove_error": [c_void_p],
 }

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TypeVar
 
 from ..errors import InputError
-from ..model import FORCE_OUTPUTS, MOTION_NAMES, Array, Dynamic, Kinked
+from ..model import FORCE_OUTPUTS, MOTION_NAMES, Array, Dynamic, breakpoints
 from ..signals import Signal, indices, names
 
 AnySignal = TypeVar("AnySignal", bound=Signal)
@@ -75,7 +75,7 @@ class AroundRotor:
     @property
     def breakpoints(self) -> tuple[float, ...]:
         """Times [s] at which the rotor has kinks."""
-        return self.rotor.breakpoints if isinstance(self.rotor, Kinked) else ()
+        return breakpoints(self.rotor)
 
     @cached_property
     def force_places(self) -> list[list[int]]:

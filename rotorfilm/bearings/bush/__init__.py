@@ -1,14 +1,14 @@
 """Polymer bushes that wear by melting."""
 
 from .arc_of_wear import arc_of_wear
-from .bearing import BushContact, MeltingBush, f4k20_bush
+from .bearing import BushContact, MeltingBush
 from .bush_reaction import BushReaction
 from .bush_wear import BushWear
 from .contact_arc import arc_angle, mean_weight, peak_weight
 from .heat import ApproximateShaft, ContactBalance, ExactShaft, GlobalBalance, ShaftHeat
 from .materials import BushGeometry, Friction, LinerMaterial, ShaftMaterial
 from .moments import WIDEST, Path, Stage, Wearing, end_of_wear, wear_by_one_moment, wear_by_two_moments
-from .published_bush import PublishedStage, published_stage
+from .published_bush import PublishedStage, f4k20_bush, published_stage
 from .shaft_flux import approximate_flux, exact_flux
 from .wear_at_nodes import LocalEnd, Worn, end_of_local_wear, wear_at_nodes
 from .worn_profile import LocalMelting, MeltingRule, SharedMelting

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...errors import ConvergenceError, require_number, require_positive, warn_user
-from ...model import Array
+from ...model import Array, breakpoints
 from ...results import Trajectory
 from .contact_law import ContactLaw
 from .ride_steps import forces_of, ride_steps
@@ -126,7 +126,7 @@ def ride(
     require_number("start", start)
     rider = _rider(law, mass, load)
     span = duration / law.time_scale
-    jumps = sorted(t / law.time_scale for t in getattr(load, "breakpoints", ()) if 0.0 < t < duration)
+    jumps = sorted(t / law.time_scale for t in breakpoints(load) if 0.0 < t < duration)
     delta = start / law.film_scale
     y = np.array([delta, velocity * law.time_scale / law.film_scale, *law.resting(delta)])
     parts: list[_Part] = []

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,10 +11,10 @@ from ...errors import InputError, require_inside, warn_user
 from ...model import Array
 from ...native import FilmKernel, JournalKernel, Status
 from ...native.film_kernels import Batch, MapKernel
-from .law import vanishing_source, wall_contact
+from .law import FilmOptions, vanishing_source, wall_contact
 
 
-class KernelFilm(ABC):
+class KernelFilm(FilmOptions):
     """A film law in compiled code: what `ShortFilm`, `MapFilm` and `GroovedMapFilm` have in common."""
 
     @abstractmethod
@@ -54,7 +54,7 @@ class KernelFilm(ABC):
         return batch.values.reshape(2, 4, *eccentricity.shape[1:])
 
     def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundKernel:
-        """Return this film in one bearing, in SI units; see `law.BindableFilm`."""
+        """Return this film in one bearing, in SI units; see `FilmOptions`."""
         return BoundKernel(JournalKernel(self._kernel(slenderness), clearance, force_scale), clearance)
 
 
@@ -118,7 +118,7 @@ class BoundKernel:
 
     def _report_batch(self, batch: Batch, q: Array, v: Array, omega: Array) -> None:
         if batch.status:
-            at = np.argmax(np.hypot(*q)) if batch.status == Status.CONTACT else batch.first
+            at = np.argmax(np.hypot(*q)) if batch.status == Status.AT_WALL else batch.first
             (x, y), (vx, vy) = q[:, at].tolist(), v[:, at].tolist()
             self._report(batch.status, x, y, vx, vy, float(np.broadcast_to(omega, q.shape[1:])[at]))
 
@@ -129,7 +129,7 @@ class BoundKernel:
                 "position, velocity and speed must be finite and not overflow, "
                 f"got ({x!r}, {y!r}) m, ({vx!r}, {vy!r}) m/s and {speed!r} rad/s"
             )
-        if status == Status.CONTACT:
+        if status == Status.AT_WALL:
             require_inside(np.array([x, y]), self.clearance)
         _report_film(status, float(np.hypot(x, y)) / self.clearance, self.kernel.film)
 
@@ -148,7 +148,7 @@ def _report_law(batch: Batch, e: Array, w: Array, kernel: FilmKernel) -> None:
 
 
 def _report_film(status: int, chi: float, kernel: FilmKernel) -> None:
-    if status == Status.CONTACT:
+    if status == Status.AT_WALL:
         raise wall_contact(chi)
     if status == Status.UNDEFINED:
         raise vanishing_source(chi)
@@ -160,4 +160,4 @@ def continued(kernel: FilmKernel) -> str:
     if not kernel.error:
         return "extrapolated there, with an error that is not known"
     where = " where no opening is near" if kernel.openings else ""
-    return f"continued as that of a film at contact, within {kernel.error:g} %{where}"
+    return f"continued as that of a film at the wall, within {kernel.error:g} %{where}"

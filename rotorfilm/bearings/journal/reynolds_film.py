@@ -8,17 +8,17 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...errors import ConvergenceError, InputError
+from ...errors import ConvergenceError, require_kind
 from ...model import Array
 from ..films.cavitation import Cavitation, Complementarity
 from ..films.film_field import FilmField
 from ..films.geometry import FilmGeometry
-from ..films.law import CENTER, require_film, vanishing_source
+from ..films.law import CENTER, FilmOptions, require_film, vanishing_source
 from ..films.ring.ring_grids import LONG, Grid, Spans, require_cells, ring_grids, ring_spans
 
 
 @dataclass(frozen=True, kw_only=True)
-class ReynoldsFilm:
+class ReynoldsFilm(FilmOptions):
     """Two-dimensional film: Reynolds' equation by finite volumes of second order.
 
     With p = 12 viscosity (R/c)^2 P, H = 1 - e.n, n = (cos theta, sin theta) and z the axial coordinate over
@@ -65,10 +65,8 @@ class ReynoldsFilm:
 
     def __post_init__(self) -> None:
         require_cells(self.cells)
-        if not isinstance(self.cavitation, Cavitation):
-            raise InputError(f"cavitation must be such as Complementarity(), got {self.cavitation!r}")
-        if not isinstance(self.geometry, FilmGeometry):
-            raise InputError(f"geometry must be a FilmGeometry, got {self.geometry!r}")
+        require_kind("cavitation", self.cavitation, Cavitation, "such as Complementarity()")
+        require_kind("geometry", self.geometry, FilmGeometry, "a FilmGeometry")
 
     def fitted(self, geometry: FilmGeometry) -> ReynoldsFilm:
         """Return this film in a bearing of the given geometry."""

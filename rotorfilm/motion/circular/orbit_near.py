@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 from scipy.optimize import brentq
 
-from ...model import Array, Reaction
+from ...model import Array, Reaction, largest_eccentricity_ratio
 from ...rotors import RigidRotor
 from .orbit_points import OrbitRotor, orbit_points, orbit_slope
 
 
 def damped_orbit(rotor: RigidRotor, reaction: Reaction) -> OrbitRotor:
     """Return the constants of a rotor on a film that is known to be isotropic, at its first speed."""
-    reach = getattr(reaction, "largest_eccentricity_ratio", 1.0)
+    reach = largest_eccentricity_ratio(reaction)
     return OrbitRotor(rotor.mass, abs(rotor.profile.speeds[0]), reaction.clearance, reaction, reach)
 
 

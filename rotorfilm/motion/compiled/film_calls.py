@@ -29,7 +29,7 @@ from ...native import Status
 from ...native.library import functions
 from .linear_kernel import linear_bearing
 
-CONTACT = int(Status.CONTACT)
+CONTACT = int(Status.AT_WALL)
 UNDEFINED = int(Status.UNDEFINED)
 OUTSIDE = int(Status.OUTSIDE)
 NOT_FINITE = int(Status.NOT_FINITE)

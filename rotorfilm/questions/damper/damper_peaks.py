@@ -13,7 +13,7 @@ import numpy as np
 from ...answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Work, WorkUnit
 from ...errors import FilmContactError, InputError
 from ...ladders import CandidateRung, Ladder
-from ...model import Array, Reaction, Tangent, prepared_tangent
+from ...model import Array, Reaction, Tangent, largest_eccentricity_ratio, prepared_tangent
 from ...motion.transient.equal_steps import ORDER, MarchMotion, linear_march, march, peak
 from ...rotors import RigidRotor
 from ...scenes.damper.damper_films import NO_RICHER, DamperFilm, damper_films, mapped_short, quiet, sprung
@@ -240,7 +240,7 @@ class DamperPeakRung(CandidateRung[DamperFilm]):
 
 
 def _reach(reaction: Reaction) -> float:
-    return min(0.999, getattr(reaction, "largest_eccentricity_ratio", 1.0))
+    return min(0.999, largest_eccentricity_ratio(reaction))
 
 
 def _beyond(reach: float, limit: float) -> str:

@@ -178,7 +178,7 @@ def test_rest_stays_at_rest():
 @pytest.mark.filterwarnings("ignore:eccentricity ratio .* is beyond the map")
 def test_a_journal_beyond_its_map_is_told_with_the_error_of_its_film():
     thrown = rigid(position=(0.9995e-4, 0.0), gravity=(0.0, 0.0))
-    with pytest.warns(ValidityWarning, match=r"journal went beyond .* film at contact, within 2 %$"):
+    with pytest.warns(ValidityWarning, match=r"journal went beyond .* film at the wall, within 2 %$"):
         simulate_rotor(mount(thrown, {"": BEARING}), duration=1e-4)
 
 

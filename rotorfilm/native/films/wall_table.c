@@ -1,7 +1,7 @@
-/* Written by tools/build_contact.py: coefficients of Lambda over q and, fastest, the length. */
-#include "contact.h"
+/* Written by tools/build_wall.py: coefficients of Lambda over q and, fastest, the length. */
+#include "wall.h"
 
-const float rf_contact_table[(RF_CONTACT_CELLS_Q + RF_ORDER - 1) * RF_CONTACT_LAYER] = {
+const float rf_wall_table[(RF_WALL_CELLS_Q + RF_ORDER - 1) * RF_WALL_LAYER] = {
     -6.551566F, -5.639489F, -4.694101F, -3.748728F, -2.814547F, -1.897944F, -1.017878F, -0.223241F, 0.379824F,
     0.674179F, 0.695834F, 0.608795F, 0.508078F, 0.421389F, 0.354427F, 0.304056F, 0.265791F, 0.240021F,
     0.225734F, 0.214256F, 0.182979F, -7.743371F, -6.809596F, -5.861434F, -4.914835F, -3.975787F, -3.053626F,

@@ -1,4 +1,4 @@
-"""Build the table of the film at contact, `rotorfilm/native/films/contact_table.c`; a few minutes.
+"""Build the table of the film at the wall, `rotorfilm/native/films/wall_table.c`; a few minutes.
 
 Near the wall the film is that between a plane and a parabola, h = 1 + tau^2, of the length l, all in
 units of the film's width there. Its potential for the source u_c + u_s tau,
@@ -9,7 +9,7 @@ units of the film's width there. Its potential for the source u_c + u_s tau,
 is |u|^2 exp(Lambda(q, lambda)), q = -ln((1 + u_c/|u|)/2), lambda = ln(l/(1 + l/LONG)). Finite volumes with
 complementarity on phi = arctan tau and a length graded towards the end, extrapolated from two grids.
 
-    python tools/build_contact.py [--workers 2]
+    python tools/build_wall.py [--workers 2]
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ import numpy as np
 from rotorfilm.bearings.films.quintic import quintic_coefficients
 from rotorfilm.bearings.journal.map.potential_grid import GridEnergy, complementary_pressure
 
-OUT = Path(__file__).parents[1] / "rotorfilm" / "native" / "films" / "contact_table.c"
+OUT = Path(__file__).parents[1] / "rotorfilm" / "native" / "films" / "wall_table.c"
 CELLS_Q, CELLS_L, END_Q = 24, 16, 9.6
 SHORT, LONG = 0.1, 200.0
 GRID = (192, 16)
@@ -89,9 +89,9 @@ def _source(table: np.ndarray) -> str:
     lines = [", ".join(numbers[k : k + 9]) for k in range(0, len(numbers), 9)]
     body = ",\n    ".join(lines)
     return (
-        "/* Written by tools/build_contact.py: coefficients of Lambda over q and, fastest, the length. */\n"
-        '#include "contact.h"\n\n'
-        "const float rf_contact_table[(RF_CONTACT_CELLS_Q + RF_ORDER - 1) * RF_CONTACT_LAYER] = {\n"
+        "/* Written by tools/build_wall.py: coefficients of Lambda over q and, fastest, the length. */\n"
+        '#include "wall.h"\n\n'
+        "const float rf_wall_table[(RF_WALL_CELLS_Q + RF_ORDER - 1) * RF_WALL_LAYER] = {\n"
         f"    {body},\n}};\n"
     )
 

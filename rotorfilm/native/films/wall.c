@@ -1,9 +1,9 @@
-#include "contact.h"
+#include "wall.h"
 
 #define FACTOR 48.0
 #define MEASURED 1.96 /* X just below that of .97, the last node farthest from the wall beyond which forces were measured */
-#define NEAR 4.5      /* X between those of .99 and .999: from the latter on the film at contact errs less */
-#define LARGEST 1e15 /* tangent where the film at contact is far from the wall and E is nothing */
+#define NEAR 4.5      /* X between those of .99 and .999: from the latter on the film at the wall errs less */
+#define LARGEST 1e15 /* tangent where the film at the wall is far from the wall and E is nothing */
 
 static RF_ONCE void values(double u, double b[RF_ORDER])
 {
@@ -23,17 +23,17 @@ typedef struct lambda {
 /* In both directions Lambda goes on linearly beyond the nodes, as it does for ever. */
 static lambda look_up(double q, double l)
 {
-    const double end = log(RF_CONTACT_LONG / RF_CONTACT_SHORT), first = log(RF_CONTACT_SHORT);
-    const double per_q = RF_CONTACT_CELLS_Q / RF_CONTACT_END_Q, per_l = RF_CONTACT_CELLS_L / end;
-    const double past = fmax(q - RF_CONTACT_END_Q, 0.0), before = fmin(l - first, 0.0);
+    const double end = log(RF_WALL_LONG / RF_WALL_SHORT), first = log(RF_WALL_SHORT);
+    const double per_q = RF_WALL_CELLS_Q / RF_WALL_END_Q, per_l = RF_WALL_CELLS_L / end;
+    const double past = fmax(q - RF_WALL_END_Q, 0.0), before = fmin(l - first, 0.0);
     double u, v, b[RF_ORDER], b_l[RF_ORDER], row[3][RF_ORDER];
-    const int32_t i = rf_cell((q - past) * per_q, RF_CONTACT_CELLS_Q, &u);
-    const int32_t j = rf_cell((l - before - first) * per_l, RF_CONTACT_CELLS_L, &v);
-    const float *c = rf_contact_table + (size_t)i * RF_CONTACT_LAYER + (size_t)j;
+    const int32_t i = rf_cell((q - past) * per_q, RF_WALL_CELLS_Q, &u);
+    const int32_t j = rf_cell((l - before - first) * per_l, RF_WALL_CELLS_L, &v);
+    const float *c = rf_wall_table + (size_t)i * RF_WALL_LAYER + (size_t)j;
     values(v, b);
     slopes(v, b_l);
     double along[RF_ORDER], along_l[RF_ORDER];
-    for (int k = 0; k < RF_ORDER; ++k, c += RF_CONTACT_LAYER) {
+    for (int k = 0; k < RF_ORDER; ++k, c += RF_WALL_LAYER) {
         along[k] = along_l[k] = 0.0;
         for (int m = 0; m < RF_ORDER; ++m) {
             along[k] += c[m] * b[m];
@@ -58,14 +58,14 @@ static lambda look_up(double q, double l)
     return at;
 }
 
-void rf_at_contact(double slenderness, double chi, double c, double s, rf_potential *e)
+void rf_at_wall(double slenderness, double chi, double c, double s, rf_potential *e)
 {
     const double sign = s < 0.0 ? -1.0 : 1.0, g = (1.0 - chi) * (1.0 + chi), root = sqrt(g);
     s = fabs(s);
     const double n = c * c + g * s * s, size = sqrt(n), length = 2.0 * slenderness / root;
     /* psi, the angle from e to u, without cancellation; q = ln(1 + tan_half^2) */
     const double tan_half = fmin(c > 0.0 ? root * s / (size + c) : (size - c) / (root * s), LARGEST);
-    const double taper = 1.0 / (1.0 + length / RF_CONTACT_LONG);
+    const double taper = 1.0 / (1.0 + length / RF_WALL_LONG);
     const lambda at = look_up(log(1.0 + tan_half * tan_half), log(length * taper));
     /* Of psi in the angle t of w, and in g. */
     const double psi_t = root / n, n_t = 2.0 * s * c * (g - 1.0), n_tt = 2.0 * (c * c - s * s) * (g - 1.0);
@@ -86,11 +86,11 @@ void rf_at_contact(double slenderness, double chi, double c, double s, rf_potent
     e->turn_slope = -2.0 * chi * sign * value * (tg + t * by_g);
 }
 
-void rf_contact_gain(double slenderness, double chi_end, double chi, double c, double s, rf_potential *gain)
+void rf_wall_gain(double slenderness, double chi_end, double chi, double c, double s, rf_potential *gain)
 {
     rf_potential end;
-    rf_at_contact(slenderness, chi, c, s, gain);
-    rf_at_contact(slenderness, chi_end, c, s, &end);
+    rf_at_wall(slenderness, chi, c, s, gain);
+    rf_at_wall(slenderness, chi_end, c, s, &end);
     gain->value -= end.value;
     gain->turn -= end.turn;
     gain->turn_turn -= end.turn_turn;
@@ -117,7 +117,7 @@ void rf_set_film(const rf_frame *at, const rf_potential *e, double side, double 
     rf_set_damping(at, e->value, turn, e->turn_turn / e->value - turn * turn, jacobian);
 }
 
-int rf_contact_error(double x_end)
+int rf_wall_error(double x_end)
 {
     return x_end < MEASURED ? 0 : x_end < NEAR ? 5 : 2;
 }
