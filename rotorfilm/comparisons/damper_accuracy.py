@@ -176,29 +176,39 @@ def damper_accuracy(
     )
 
 
-def damper_rungs(
-    slenderness: float, permeability_number: float, *, cavitated: bool
-) -> dict[str, PorousDamper]:
-    """Return the dampers that are compared, by name; the last is of finite length, on a map."""
+def compared_damper(
+    slenderness: float, permeability_number: float = 0.0, *, grading: float = 0.0
+) -> PorousDamper:
+    """Return a short full film with a cage of this Phi; solid at 0."""
     length = 2.0 * RADIUS * slenderness
     thickness = THICKNESS * length
-    cage = PorousCage(
-        thickness=thickness, permeability=permeability_number * CLEARANCE**3 / thickness, grading=0.1
-    )
-    whole = PorousDamper(
+    cage = None
+    if permeability_number:
+        permeability = permeability_number * CLEARANCE**3 / thickness
+        cage = PorousCage(thickness=thickness, permeability=permeability, grading=grading)
+    return PorousDamper(
         radius=RADIUS,
         length=length,
         clearance=CLEARANCE,
         viscosity=VISCOSITY,
         cage=cage,
-        extent=HalfSommerfeld() if cavitated else FullFilm(),
+        extent=FullFilm(),
     )
+
+
+def damper_rungs(
+    slenderness: float, permeability_number: float, *, cavitated: bool
+) -> dict[str, PorousDamper]:
+    """Return the dampers that are compared, by name; the last is of finite length, on a map."""
+    cavitation = HalfSommerfeld() if cavitated else FullFilm()
+    whole = replace(compared_damper(slenderness, permeability_number, grading=0.1), extent=cavitation)
+    assert whole.cage is not None
     full: dict[str, SqueezeLaw] = (
         {} if cavitated else {"published": PublishedSqueeze(), "finite length": FiniteSqueeze()}
     )
     return {
         "solid cage": replace(whole, cage=None),
-        "Morgan-Cameron": replace(whole, cage=replace(cage, thin=True)),
+        "Morgan-Cameron": replace(whole, cage=replace(whole.cage, thin=True)),
         **{f"series, {n}": replace(whole, film=SeriesSqueeze(n)) for n in SERIES},
         "series, whole": whole,
         "map": replace(whole, film=MapSqueeze()),

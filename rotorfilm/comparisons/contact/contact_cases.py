@@ -9,10 +9,13 @@ says of its figures is asked of all three.
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from enum import StrEnum
 from functools import partial
 from typing import NamedTuple
+
+import numpy as np
 
 from ...bearings.contact import (
     AdaptiveSteps,
@@ -29,9 +32,8 @@ from ...bearings.contact import (
     perturbed,
 )
 from ...errors import ConvergenceError, ValidityWarning
-from ...model import Array
 from ...progress import Report, silent
-from .contact_statements import STEP, SWEEP, Statement, statements
+from .contact_statements import STEP, SWEEP, Section, Statement, statements
 
 SPEED_PARAMETER, PRESSURE_COEFFICIENT = 0.1, 5.0
 PUBLISHED_CELLS, PUBLISHED_STEP = 40, 0.2
@@ -46,10 +48,18 @@ SHARE = -0.2
 """By which pressure and approach are off at the start of case 4.1."""
 
 
+class SolutionName(StrEnum):
+    """The ways to solve the cases."""
+
+    PUBLISHED = "published"
+    SAME_GRID = "same grid"
+    CONVERGED = "converged"
+
+
 class CaseSolution(NamedTuple):
     """One way to solve the cases: name, contact, its rest under f = 1 and under f = 1.7, and its steps."""
 
-    name: str
+    name: SolutionName
     contact: PointContact
     rest: ContactState
     pressed: ContactState
@@ -67,7 +77,7 @@ class ContactCases(NamedTuple):
     """Solutions, curves by section of the paper, and the statements of its text."""
 
     solutions: tuple[CaseSolution, ...]
-    curves: dict[str, list[CaseRun]]
+    curves: dict[Section, list[CaseRun]]
     statements: list[Statement]
 
     def columns(self) -> dict[str, list[object]]:
@@ -77,11 +87,11 @@ class ContactCases(NamedTuple):
     def series(self) -> dict[str, list[object]]:
         """Return the curves as columns of a table."""
         rows = [
-            (section, curve.name, solution.name, *point)
+            (section.value, curve.name, solution.name.value, *point)
             for section, curves in self.curves.items()
             for curve in curves
             for solution, run in zip(self.solutions, curve.runs, strict=True)
-            for point in zip(*_lists(run.time, run.central_film, run.delta), strict=True)
+            for point in np.transpose([run.time, run.central_film, run.delta]).tolist()
         ]
         headings = ("section", "curve", "solution", "time", "H0", "delta")
         return dict(zip(headings, map(list, zip(*rows, strict=True)), strict=True))
@@ -105,9 +115,16 @@ def contact_cases(
     """
     report(0.0, "stationary contacts")
     solutions = (
-        _solution("published", PUBLISHED_CELLS, StaggeredScheme(), FixedSteps(step=PUBLISHED_STEP, order=1)),
-        _solution("same grid", PUBLISHED_CELLS, StaggeredScheme(), FixedSteps(step=SAME_GRID_STEP)),
-        _solution("converged", cells, UpwindScheme(), AdaptiveSteps(tolerance=tolerance)),
+        _solution(
+            SolutionName.PUBLISHED,
+            PUBLISHED_CELLS,
+            StaggeredScheme(),
+            FixedSteps(step=PUBLISHED_STEP, order=1),
+        ),
+        _solution(
+            SolutionName.SAME_GRID, PUBLISHED_CELLS, StaggeredScheme(), FixedSteps(step=SAME_GRID_STEP)
+        ),
+        _solution(SolutionName.CONVERGED, cells, UpwindScheme(), AdaptiveSteps(tolerance=tolerance)),
     )
     with as_published():
         curves = _curves(solutions, settle, report)
@@ -126,9 +143,11 @@ def as_published() -> Iterator[None]:
         yield
 
 
-def _curves(solutions: tuple[CaseSolution, ...], settle: float, report: Report) -> dict[str, list[CaseRun]]:
+def _curves(
+    solutions: tuple[CaseSolution, ...], settle: float, report: Report
+) -> dict[Section, list[CaseRun]]:
     plan = [(section, *case) for section, cases in case_plan(settle).items() for case in cases]
-    curves: dict[str, list[CaseRun]] = {}
+    curves: dict[Section, list[CaseRun]] = {}
     count = len(plan) * len(solutions)
     for number, (section, name, run) in enumerate(plan):
         runs = []
@@ -165,17 +184,19 @@ def loaded_motion(
     )
 
 
-def case_plan(settle: float) -> dict[str, list[tuple[str, Callable[[CaseSolution], ContactRun]]]]:
+def case_plan(settle: float) -> dict[Section, list[tuple[str, Callable[[CaseSolution], ContactRun]]]]:
     """Return the curves of each section: name and run."""
     slow = SineLoad(amplitude=0.2, frequency=1.0)
     return {
-        "4.1": [(f"W = {W:g}", partial(free_motion, W=W)) for W in (0.0, 0.5, 1.0)],
-        "4.2": [(f"W = {W:g}", partial(loaded_motion, W=W, load=StepLoad(**STEP))) for W in (0.3, 1.0, 3.0)],
-        "4.3, A = 0.2": [
+        Section.FREE: [(f"W = {W:g}", partial(free_motion, W=W)) for W in (0.0, 0.5, 1.0)],
+        Section.STEPPED: [
+            (f"W = {W:g}", partial(loaded_motion, W=W, load=StepLoad(**STEP))) for W in (0.3, 1.0, 3.0)
+        ],
+        Section.SLOW: [
             (f"W = {W:g}", partial(loaded_motion, W=W, load=slow, duration=settle if W == 1.0 else 30.0))
             for W in (0.01, 0.1, 1.0)
         ],
-        "4.3, A = 0.5": [
+        Section.FAST: [
             (
                 f"omega = {w:g}",
                 partial(loaded_motion, W=1.0, load=SineLoad(amplitude=0.5, frequency=w), duration=settle),
@@ -185,14 +206,15 @@ def case_plan(settle: float) -> dict[str, list[tuple[str, Callable[[CaseSolution
     }
 
 
-def _solution(
-    name: str, cells: int, scheme: ContactScheme, control: AdaptiveSteps | FixedSteps
-) -> CaseSolution:
+def published_contact(cells: int, scheme: ContactScheme) -> PointContact:
+    """Return the contact of the published cases on cells x cells."""
     grid = ContactGrid(cells=(cells, cells))
-    contact = PointContact(V=SPEED_PARAMETER, Q0=PRESSURE_COEFFICIENT, grid=grid, scheme=scheme)
+    return PointContact(V=SPEED_PARAMETER, Q0=PRESSURE_COEFFICIENT, grid=grid, scheme=scheme)
+
+
+def _solution(
+    name: SolutionName, cells: int, scheme: ContactScheme, control: AdaptiveSteps | FixedSteps
+) -> CaseSolution:
+    contact = published_contact(cells, scheme)
     rest = contact.stationary()
     return CaseSolution(name, contact, rest, contact.stationary(1.0 + STEP["amplitude"], near=rest), control)
-
-
-def _lists(*series: Array) -> Sequence[list[float]]:
-    return [values.tolist() for values in series]

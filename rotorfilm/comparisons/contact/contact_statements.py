@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from enum import StrEnum
 from itertools import pairwise
 from typing import NamedTuple, Protocol
 
@@ -21,6 +22,15 @@ PUBLISHED_REST = (0.1761, -1.793)
 """H0 and delta of the stationary contact, with the sign of delta that the paper lost."""
 
 PERIOD = 2.0 * np.pi
+
+
+class Section(StrEnum):
+    """Sections of the paper whose figures are redrawn, case 4.3 by its two amplitudes."""
+
+    FREE = "4.1"
+    STEPPED = "4.2"
+    SLOW = "4.3, A = 0.2"
+    FAST = "4.3, A = 0.5"
 
 
 class Claim(NamedTuple):
@@ -76,14 +86,13 @@ class Solved(Protocol):
         """Stationary under the load of case 4.2."""
 
 
-def statements(runs: dict[str, list[ContactRun]], solution: Solved) -> list[Claim]:
+def statements(runs: Mapping[Section, list[ContactRun]], solution: Solved) -> list[Claim]:
     """Return what a solution has to say on every sentence, from its runs by section."""
-    slow, fast = runs["4.3, A = 0.2"], runs["4.3, A = 0.5"]
     return [
         *_at_rest(solution),
-        *_free(runs["4.1"], solution),
-        *_stepped(runs["4.2"], solution),
-        *_driven(slow, fast),
+        *_free(runs[Section.FREE], solution),
+        *_stepped(runs[Section.STEPPED], solution),
+        *_driven(runs[Section.SLOW], runs[Section.FAST]),
     ]
 
 

@@ -15,9 +15,8 @@ from ...motion import simulate
 from ...progress import Report, silent
 from ...results import Trajectory, orbit_distance
 from ...rotors.rigid import RigidRotor
-from .coupling_schemes import EXPLICIT, IMPLICIT
+from .coupling_setup import SCHEMES, SPEED, resting_rotor
 
-SPEED = 157.0
 REVOLUTIONS = 2
 ECCENTRICITY_RATIO = 0.7
 UNBALANCE_RATIO = 0.45
@@ -84,7 +83,6 @@ def coupling_cost(*, macro_angles: Sequence[float] = ANGLES, report: Report = si
         Told how far the job is.
     """
     rotor, bearing = cost_case()
-    schemes = (*EXPLICIT, *IMPLICIT)
     duration = REVOLUTIONS * 2.0 * np.pi / SPEED
     # Schemes that begin with short steps have more points than these.
     starts = [angle / SPEED * (2.0**k - 1.0) / 63.0 for angle in macro_angles for k in range(6)]
@@ -92,8 +90,8 @@ def coupling_cost(*, macro_angles: Sequence[float] = ANGLES, report: Report = si
     exact = simulate(rotor, bearing, duration=duration, times=np.unique(points), rtol=1e-10)
     rows = []
     for number, angle in enumerate(macro_angles):
-        for count, scheme in enumerate(schemes):
-            done = (number + count / len(schemes)) / len(macro_angles)
+        for count, scheme in enumerate(SCHEMES):
+            done = (number + count / len(SCHEMES)) / len(macro_angles)
             report(done, f"{scheme.label}, {np.degrees(angle):.3g} deg")
             rows.append(_row(rotor, bearing, scheme, angle, exact))
     largest = float(np.hypot(*exact.position).max()) / bearing.clearance
@@ -103,17 +101,7 @@ def coupling_cost(*, macro_angles: Sequence[float] = ANGLES, report: Report = si
 def cost_case() -> tuple[RigidRotor, JournalBearing]:
     """Return a rotor with strong unbalance on a map film, from rest at eccentricity ratio .7."""
     bearing = JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.05, film=MapFilm())
-    rest = np.array([ECCENTRICITY_RATIO * bearing.clearance, 0.0])
-    load = -bearing.force(rest, (0.0, 0.0), SPEED)
-    mass = float(np.hypot(*load)) / (bearing.clearance * SPEED**2)
-    rotor = RigidRotor(
-        mass=mass,
-        speed=SPEED,
-        unbalance=UNBALANCE_RATIO * bearing.clearance * mass,
-        gravity=(0.0, 0.0),
-        static_force=(float(load[0]), float(load[1])),
-        position=(float(rest[0]), float(rest[1])),
-    )
+    rotor = resting_rotor(bearing, ECCENTRICITY_RATIO, unbalance_ratio=UNBALANCE_RATIO)
     return rotor, bearing
 
 

@@ -9,7 +9,6 @@ import numpy as np
 
 from ...bearings.journal import JournalBearing, tension
 from ...errors import require_count
-from ...model import Array
 from ...progress import Report, part_of, silent
 from .journal_rungs import ComparedFilm, RungName, chosen_rungs, comparison_bearing, fitted_bearing
 from .journal_states import (
@@ -21,6 +20,7 @@ from .journal_states import (
     States,
     random_states,
     reference_force,
+    relative_error,
     squeeze_share,
 )
 from .timing import FilmCost, film_costs
@@ -184,11 +184,6 @@ def pareto_front(costs: Sequence[float], errors: Sequence[float]) -> list[int]:
         if not front or errors[i] < errors[front[-1]]:
             front.append(i)
     return front
-
-
-def relative_error(force: Array, reference: Array) -> Array:
-    """Return |force - reference| / |reference| of vectors (2, n)."""
-    return np.asarray(np.hypot(*(force - reference)) / np.hypot(*reference))
 
 
 def _measured(
