@@ -30,7 +30,7 @@ FAMILY_WIDTHS = {
 }
 """Widths of lines [points]: of curves that coincide the wider lies below and shows beside the other."""
 
-DASHES = {FilmFamily.MAP: (0.0, (4.0, 3.0))}
+DASHES: dict[FilmFamily | None, tuple[float, tuple[float, float]]] = {FilmFamily.MAP: (0.0, (4.0, 3.0))}
 """Dashes of lines by family, in widths; of all others the first is solid."""
 
 WITHIN = ("-", "--", ":", "-.")

@@ -18,7 +18,7 @@ from ..limits import CHART_STATES, CONTACT_CELLS, TRANSITS
 from ..printable import visible
 from ..progress import Report, part_of
 from . import printing as console
-from .command import Said
+from .command import Commands, Said
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -255,7 +255,7 @@ def cosim(report: Report, out: Folder = OUT) -> Said:
     return Said({"limits": limits, "cost": cost}, show)
 
 
-CHARTS: dict[Callable[..., Said], str] = {
+CHARTS: Commands = {
     journal: "chart journal --ld 0.5 --json",
     stability: "chart stability --ld 0.5 --json",
     contact: "chart contact --cells 48 --json",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import wraps
 from pathlib import Path
 from typing import Annotated, Any, NamedTuple
@@ -38,18 +38,20 @@ class Said(NamedTuple):
     failure: str | None = None
 
 
-def group(
-    text: str, commands: Mapping[Callable[..., Said], str], *, slow: bool = False, **options: Any
-) -> typer.Typer:
+Commands = dict[Callable[..., Said], str]
+"""Functions with their examples, without the name of the program."""
+
+
+def group(text: str, commands: Commands, *, slow: bool = False, **options: Any) -> typer.Typer:
     """Return a group of commands.
 
     Parameters
     ----------
     text : str
         Its help.
-    commands : mapping of callable to str
-        Functions with their examples, without the name of the program. The parameters of a function are its
-        options; one called `report` is no option but moves a progress bar.
+    commands : dict of callable to str
+        The parameters of a function are its options; one called `report` is no option but moves a progress
+        bar.
     slow : bool
         Whether the commands take long from the beginning, so that the bar shows at once.
     **options

@@ -38,8 +38,8 @@ def demo(
 
 def _print_all(result: DemoResult, folder: Path) -> None:
     print_demo(result)
-    notes = {"demo.png": "overview: orbits, coupling error, whirl, force error"}
-    files = [(path.name, notes.get(path.name, "")) for path in sorted(folder.iterdir())]
+    notes = {folder / "demo.png": "overview: orbits, coupling error, whirl, force error"}
+    files = [(path.name, notes.get(path, "")) for path in sorted(folder.iterdir())]
     console.print_rows("files", files)
 
 

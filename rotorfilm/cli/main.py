@@ -14,7 +14,7 @@ from ..errors import FileWarning, InputError, RotorfilmError, SceneError, Validi
 from . import printing as console
 from .bush_command import bush
 from .chart_commands import CHARTS
-from .command import BAD_INPUT, FAILED, group
+from .command import BAD_INPUT, FAILED, Commands, group
 from .contact_command import contact
 from .cosim_command import cosim
 from .damper_command import damper, damper_run
@@ -25,7 +25,7 @@ from .rotor_command import rotor
 from .solve_command import solve
 from .sweep_command import sweep
 
-COMMANDS = {
+COMMANDS: Commands = {
     solve: "solve examples/question.toml --explain",
     coefficients: 'coefficients --radius "50 mm" --length "30 mm" --clearance "0.1 mm" '
     '--viscosity "0.1 Pa s" --load "525 N" --speed "1500 rpm"',
@@ -46,7 +46,7 @@ COMMANDS = {
 }
 """Commands with their examples, in the order of the help."""
 
-FMU_COMMANDS = {
+FMU_COMMANDS: Commands = {
     build: "fmu build examples/friswell.toml --out fmus --fmi 3.0",
     check: "fmu check film.fmu",
     info: "fmu info film.fmu --json",

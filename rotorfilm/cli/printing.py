@@ -55,7 +55,7 @@ def filled(table: Table, rows: Iterable[Sequence[str]]) -> Table:
     return table
 
 
-def print_rows(title: str, rows: Iterable[tuple[str, str]]) -> None:
+def print_rows(title: str, rows: Iterable[Sequence[str]]) -> None:
     """Print names and values in two columns."""
     plain_console().print(filled(plain_table(title, show_header=False), rows))
 

@@ -11,7 +11,6 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from enum import StrEnum
 from functools import partial
 from typing import NamedTuple
 
@@ -22,7 +21,6 @@ from ...bearings.contact import (
     ContactGrid,
     ContactRun,
     ContactScheme,
-    ContactState,
     FixedSteps,
     PointContact,
     SineLoad,
@@ -33,7 +31,7 @@ from ...bearings.contact import (
 )
 from ...errors import ConvergenceError, ValidityWarning
 from ...progress import Report, silent
-from .contact_statements import STEP, SWEEP, Section, Statement, statements
+from .contact_statements import STEP, SWEEP, CaseSolution, Section, SolutionKind, Statement, statements
 
 SPEED_PARAMETER, PRESSURE_COEFFICIENT = 0.1, 5.0
 PUBLISHED_CELLS, PUBLISHED_STEP = 40, 0.2
@@ -46,24 +44,6 @@ WAVE_TIMES = (0.4, 0.6, 0.8, 1.0)
 
 SHARE = -0.2
 """By which pressure and approach are off at the start of case 4.1."""
-
-
-class SolutionName(StrEnum):
-    """The ways to solve the cases."""
-
-    PUBLISHED = "published"
-    SAME_GRID = "same grid"
-    CONVERGED = "converged"
-
-
-class CaseSolution(NamedTuple):
-    """One way to solve the cases: name, contact, its rest under f = 1 and under f = 1.7, and its steps."""
-
-    name: SolutionName
-    contact: PointContact
-    rest: ContactState
-    pressed: ContactState
-    control: AdaptiveSteps | FixedSteps
 
 
 class CaseRun(NamedTuple):
@@ -87,7 +67,7 @@ class ContactCases(NamedTuple):
     def series(self) -> dict[str, list[object]]:
         """Return the curves as columns of a table."""
         rows = [
-            (section.value, curve.name, solution.name.value, *point)
+            (section, curve.name, solution.kind, *point)
             for section, curves in self.curves.items()
             for curve in curves
             for solution, run in zip(self.solutions, curve.runs, strict=True)
@@ -116,15 +96,15 @@ def contact_cases(
     report(0.0, "stationary contacts")
     solutions = (
         _solution(
-            SolutionName.PUBLISHED,
+            SolutionKind.PUBLISHED,
             PUBLISHED_CELLS,
             StaggeredScheme(),
             FixedSteps(step=PUBLISHED_STEP, order=1),
         ),
         _solution(
-            SolutionName.SAME_GRID, PUBLISHED_CELLS, StaggeredScheme(), FixedSteps(step=SAME_GRID_STEP)
+            SolutionKind.SAME_GRID, PUBLISHED_CELLS, StaggeredScheme(), FixedSteps(step=SAME_GRID_STEP)
         ),
-        _solution(SolutionName.CONVERGED, cells, UpwindScheme(), AdaptiveSteps(tolerance=tolerance)),
+        _solution(SolutionKind.CONVERGED, cells, UpwindScheme(), AdaptiveSteps(tolerance=tolerance)),
     )
     with as_published():
         curves = _curves(solutions, settle, report)
@@ -152,7 +132,7 @@ def _curves(
     for number, (section, name, run) in enumerate(plan):
         runs = []
         for k, solution in enumerate(solutions):
-            report((number * len(solutions) + k) / count, f"{section}, {name}, {solution.name}")
+            report((number * len(solutions) + k) / count, f"{section}, {name}, {solution.kind}")
             runs.append(_as_far_as_it_goes(run, solution))
         curves.setdefault(section, []).append(CaseRun(name, tuple(runs)))
     return curves
@@ -213,8 +193,8 @@ def published_contact(cells: int, scheme: ContactScheme) -> PointContact:
 
 
 def _solution(
-    name: SolutionName, cells: int, scheme: ContactScheme, control: AdaptiveSteps | FixedSteps
+    kind: SolutionKind, cells: int, scheme: ContactScheme, control: AdaptiveSteps | FixedSteps
 ) -> CaseSolution:
     contact = published_contact(cells, scheme)
     rest = contact.stationary()
-    return CaseSolution(name, contact, rest, contact.stationary(1.0 + STEP["amplitude"], near=rest), control)
+    return CaseSolution(kind, contact, rest, contact.stationary(1.0 + STEP["amplitude"], near=rest), control)

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from enum import StrEnum
 from itertools import pairwise
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 
-from ...bearings.contact import ContactRun, ContactState, PointContact
+from ...bearings.contact import AdaptiveSteps, ContactRun, ContactState, FixedSteps, PointContact
 from .motion_features import amplitude, decay_time, overshoot, unrest, wave_height, wave_speed
 
 STEP = {"amplitude": 0.7, "start": 1.0, "end": 20.0}
@@ -70,23 +70,25 @@ class Statement(NamedTuple):
         return cls(published.section, published.text, published.measure, first, second, third, verdict)
 
 
-class Solved(Protocol):
-    """A solution of the cases."""
+class SolutionKind(StrEnum):
+    """The ways to solve the cases."""
 
-    @property
-    def contact(self) -> PointContact:
-        """The contact."""
-
-    @property
-    def rest(self) -> ContactState:
-        """Stationary under the load 1."""
-
-    @property
-    def pressed(self) -> ContactState:
-        """Stationary under the load of case 4.2."""
+    PUBLISHED = "published"
+    SAME_GRID = "same grid"
+    CONVERGED = "converged"
 
 
-def statements(runs: Mapping[Section, list[ContactRun]], solution: Solved) -> list[Claim]:
+class CaseSolution(NamedTuple):
+    """One way to solve the cases: which, contact, its rest under f = 1 and under f = 1.7, and its steps."""
+
+    kind: SolutionKind
+    contact: PointContact
+    rest: ContactState
+    pressed: ContactState
+    control: AdaptiveSteps | FixedSteps
+
+
+def statements(runs: Mapping[Section, list[ContactRun]], solution: CaseSolution) -> list[Claim]:
     """Return what a solution has to say on every sentence, from its runs by section."""
     return [
         *_at_rest(solution),
@@ -106,7 +108,7 @@ def _claim(
     return Claim(section, text, measure, tuple(numbers), bool(holds(numbers)))
 
 
-def _at_rest(solution: Solved) -> list[Claim]:
+def _at_rest(solution: CaseSolution) -> list[Claim]:
     found = (solution.rest.central_film, solution.rest.delta)
 
     def near(row: Sequence[float]) -> bool:
@@ -115,7 +117,7 @@ def _at_rest(solution: Solved) -> list[Claim]:
     return [_claim("4", "H0 = 0.1761 and delta = -1.793 at rest, to 3 %", "H0, delta", found, near)]
 
 
-def _free(runs: list[ContactRun], solution: Solved) -> list[Claim]:
+def _free(runs: list[ContactRun], solution: CaseSolution) -> list[Claim]:
     rest, x = solution.rest, solution.contact.grid.x
     swing = [overshoot(run, rest.delta) for run in runs]
     decay = [decay_time(run, rest.delta) for run in runs[1:]]
@@ -136,7 +138,7 @@ def _free(runs: list[ContactRun], solution: Solved) -> list[Claim]:
     ]  # fmt: skip
 
 
-def _stepped(runs: list[ContactRun], solution: Solved) -> list[Claim]:
+def _stepped(runs: list[ContactRun], solution: CaseSolution) -> list[Claim]:
     pressed, start, end = solution.pressed, STEP["start"], STEP["end"]
     swing = [overshoot(run, pressed.delta, start, end) for run in runs]
     decay = [decay_time(run, pressed.delta, start + 0.5, end) for run in runs]

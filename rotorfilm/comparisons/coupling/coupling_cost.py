@@ -15,7 +15,7 @@ from ...motion import simulate
 from ...progress import Report, silent
 from ...results import Trajectory, orbit_distance
 from ...rotors.rigid import RigidRotor
-from .coupling_setup import SCHEMES, SPEED, resting_rotor
+from .coupling_setup import SCHEMES, SPEED, SchemeName, resting_rotor
 
 REVOLUTIONS = 2
 ECCENTRICITY_RATIO = 0.7
@@ -29,7 +29,7 @@ class CostRow:
 
     Attributes
     ----------
-    scheme : str
+    scheme : SchemeName
     macro_angle : float [rad]
     orbit_error : float or None [1]
         Largest distance from the monolithic solution / clearance; None where the run was refused.
@@ -39,7 +39,7 @@ class CostRow:
         Empty, or why the run is no answer.
     """
 
-    scheme: str
+    scheme: SchemeName
     macro_angle: float
     orbit_error: float | None
     film_calls: float
@@ -108,30 +108,29 @@ def cost_case() -> tuple[RigidRotor, JournalBearing]:
 def _row(
     rotor: RigidRotor, bearing: JournalBearing, scheme: Scheme, angle: float, exact: Trajectory
 ) -> CostRow:
-    duration = float(exact.time[-1])
     try:
         with quietly():
             run = couple(
                 InProcessSlave(rotor),
                 InProcessSlave(bearing),
                 macro_step=angle / SPEED,
-                duration=duration,
+                duration=float(exact.time[-1]),
                 scheme=scheme,
             )
     except PartialResultError as failure:
-        return _refused(scheme, angle, failure.partial, str(failure))
+        partial: CoSimulation = failure.partial
+        turns = max(partial.trajectory.work["steps"], 1) * angle / (2.0 * np.pi)
+        error, calls, refused = None, partial.film_calls / turns, str(failure)
+    else:
+        error = orbit_distance(run.trajectory, exact) / bearing.clearance
+        calls, refused = run.film_calls / REVOLUTIONS, ""
     return CostRow(
-        scheme=scheme.label,
+        scheme=SchemeName(scheme.label),
         macro_angle=angle,
-        orbit_error=orbit_distance(run.trajectory, exact) / bearing.clearance,
-        film_calls=run.film_calls / REVOLUTIONS,
-        refused="",
+        orbit_error=error,
+        film_calls=calls,
+        refused=refused,
     )
-
-
-def _refused(scheme: Scheme, angle: float, run: CoSimulation, reason: str) -> CostRow:
-    calls = run.film_calls / max(run.trajectory.work["steps"], 1) * 2.0 * np.pi / angle
-    return CostRow(scheme=scheme.label, macro_angle=angle, orbit_error=None, film_calls=calls, refused=reason)
 
 
 def _times(angle: float, duration: float) -> np.ndarray:

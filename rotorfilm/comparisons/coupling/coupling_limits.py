@@ -15,7 +15,7 @@ from ...model import Array, Dynamic
 from ...progress import Report, silent
 from ...rotors.jeffcott import JeffcottRotor
 from ...rotors.rigid import RigidRotor
-from .coupling_setup import SCHEMES, SPEED, resting_rotor
+from .coupling_setup import SCHEMES, SPEED, SchemeName, resting_rotor
 
 SHAFT = 4.0
 """Stiffness of the shaft of the rotor with a light journal, in load / clearance."""
@@ -36,7 +36,7 @@ class LimitRow:
 
     Attributes
     ----------
-    scheme : str
+    scheme : SchemeName
     eccentricity_ratio : float [1]
         Of the static equilibrium.
     mass_ratio : float [1]
@@ -47,7 +47,7 @@ class LimitRow:
         From where a run of the scheme grows; None where it was not asked for.
     """
 
-    scheme: str
+    scheme: SchemeName
     eccentricity_ratio: float
     mass_ratio: float
     critical_macro_angle: float | None
@@ -118,7 +118,7 @@ def limit_row(scheme: Scheme, eccentricity: float, ratio: float, run: bool) -> L
     theory = critical_macro_step(rotor, bearing, state=state, scheme=scheme).macro_step
     found = None if theory is None or not run else simulated_limit(rotor, bearing, scheme, theory)
     return LimitRow(
-        scheme=scheme.label,
+        scheme=SchemeName(scheme.label),
         eccentricity_ratio=eccentricity,
         mass_ratio=ratio,
         critical_macro_angle=None if theory is None else theory * SPEED,

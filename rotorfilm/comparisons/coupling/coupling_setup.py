@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
+
 import numpy as np
 
 from ...bearings.journal import JournalBearing
@@ -11,16 +13,29 @@ from ...rotors.rigid import RigidRotor
 SPEED = 157.0
 """Angular speed [rad/s]; in dimensionless form nothing depends on it."""
 
+
+class SchemeName(StrEnum):
+    """Labels of the schemes that are compared."""
+
+    HELD = "Gauss-Seidel 0"
+    LINEAR = "Gauss-Seidel 1"
+    QUADRATIC = "Gauss-Seidel 2"
+    JACOBI_HELD = "Jacobi 0"
+    JACOBI_LINEAR = "Jacobi 1"
+    JACOBI_QUADRATIC = "Jacobi 2"
+    SI_EXP = "SI-exp"
+    SI_EXP3 = "SI-exp3"
+    NEWTON = "Newton"
+
+
 EXPLICIT: tuple[Scheme, ...] = (
     *(GaussSeidel(degree=degree) for degree in range(3)),
     *(Jacobi(degree=degree) for degree in range(3)),
 )
 """Schemes with a longest stable macro step."""
 
-IMPLICIT: tuple[Scheme, ...] = (SIExp(), SIExp3(), Newton())
-"""Schemes that are stable where explicit ones are not."""
-
-SCHEMES = (*EXPLICIT, *IMPLICIT)
+SCHEMES: tuple[Scheme, ...] = (*EXPLICIT, SIExp(), SIExp3(), Newton())
+"""All schemes; those that are not explicit are stable where explicit ones are not."""
 
 
 def resting_rotor(

@@ -160,10 +160,10 @@ def journal_accuracy(
     reference = reference_force(bearing, sample, cells=cells, report=part_of(report, 0.0, 0.5))
     bearings = {rung.name: fitted_bearing(bearing, rung.film) for rung in rungs}
     costs = film_costs(bearings, sample, rounds=rounds, report=part_of(report, 0.5, 0.8))
-    measured = []
-    for number, rung in enumerate(rungs):
-        report(0.8 + 0.2 * number / len(rungs), f"error of {rung.name}")
-        measured.append(_measured(rung, bearings[rung.name], sample, reference, costs[rung.name]))
+    measured: list[RungAccuracy] = []
+    for rung, fitted, cost in zip(rungs, bearings.values(), costs.values(), strict=True):
+        report(0.8 + 0.2 * len(measured) / len(rungs), f"error of {rung.name}")
+        measured.append(_measured(rung, fitted, sample, reference, cost))
     return JournalAccuracy(
         slenderness=slenderness,
         ranges=ranges,

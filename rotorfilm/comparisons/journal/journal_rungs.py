@@ -143,7 +143,9 @@ def fitted_bearing(bearing: JournalBearing, film: FilmLaw) -> JournalBearing:
         return replace(bearing, film=film)
 
 
-def _splitting(family: FilmFamily, arc: Rupture, n: int, m: int | None, constant: bool = False) -> ComparedFilm:
+def _splitting(
+    family: FilmFamily, arc: Rupture, n: int, m: int | None, constant: bool = False
+) -> ComparedFilm:
     label = f"({n}{'+c' if constant else ''}, {'all' if m is None else m})"
     return ComparedFilm(
         family=family, label=label, film=SplittingFilm(order=(n, m), constant=constant, rupture=arc)
