@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -75,15 +76,8 @@ def plot_locus(
         if family is not None:
             color, width = FAMILY_COLORS[family], FAMILY_WIDTHS[family]
         drawn[family] += 1
-        axes.plot(
-            x,
-            y,
-            label=label,
-            color=color,
-            linewidth=width,
-            linestyle=DASHES.get(family, style),
-            zorder=2.0 + 0.5 / width,
-        )
+        line: dict[str, Any] = {"color": color, "linewidth": width, "linestyle": DASHES.get(family, style)}
+        axes.plot(x, y, label=label, zorder=2.0 + 0.5 / width, **line)
     axes.set(
         xlabel="x / clearance", ylabel="y / clearance", aspect="equal", xlim=(-0.05, 1.05), ylim=(-1.05, 0.1)
     )

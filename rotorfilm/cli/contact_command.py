@@ -17,7 +17,7 @@ from .command import Said
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..bearings.contact import ContactRun, PointContact, RollingBall
+    from ..bearings.contact import ContactRun, RollingBall
     from ..scenes.contact.solve_contact import ContactAnswer, ContactCase, ContactResponse
 
 BALL = (
@@ -170,11 +170,7 @@ def _case(
         contact = PointContact(V=number("--v", V), Q0=number("--q0", Q0), grid=grid)
         return ContactCase(contact, 1.0 if W is None else number("--w", W))
     ball = _ball(given)
-    return case_of(ball, _contact_of(ball, grid, roelands, compressible))
-
-
-def _contact_of(ball: RollingBall, grid: Any, roelands: bool, compressible: bool) -> PointContact:
-    return ball.contact(grid, roelands=roelands, compressible=compressible)
+    return case_of(ball, ball.contact(grid, roelands=roelands, compressible=compressible))
 
 
 def _ball(given: dict[str, str | None]) -> RollingBall:

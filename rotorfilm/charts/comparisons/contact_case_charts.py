@@ -6,15 +6,15 @@ from matplotlib.axes import Axes
 
 from ...bearings.contact import ContactState
 from ...comparisons.contact.contact_cases import CaseRun, CaseSolution, ContactCases
-from ...comparisons.contact.contact_statements import Section, SolutionKind
+from ...comparisons.contact.contact_statements import CaseSection, SolutionKind
 from ...model import Array
 from ..canvas import new_figure
 
 TITLES = {
-    Section.FREE: "figure 3: approach and pressure 20 % too small",
-    Section.STEPPED: "figure 5: load 1.7 from t = 1 to 20",
-    Section.SLOW: "figure 6: load 1 + 0.2 sin t",
-    Section.FAST: "figure 7: load 1 + 0.5 sin(omega t), W = 1",
+    CaseSection.FREE: "figure 3: approach and pressure 20 % too small",
+    CaseSection.STEPPED: "figure 5: load 1.7 from t = 1 to 20",
+    CaseSection.SLOW: "figure 6: load 1 + 0.2 sin t",
+    CaseSection.FAST: "figure 7: load 1 + 0.5 sin(omega t), W = 1",
 }
 
 SHOWN = {SolutionKind.PUBLISHED: ("--", 1.0), SolutionKind.CONVERGED: ("-", 1.6)}
@@ -32,7 +32,7 @@ def plot_contact_cases(cases: ContactCases) -> list[Axes]:
     axes = [*_draw_rest(next(rows), cases)]
     for section, curves in cases.curves.items():
         axes += _draw_series(next(rows), cases, section)
-        if section == Section.FREE:
+        if section == CaseSection.FREE:
             axes += _draw_waves(next(rows), cases, curves[-1])
     return axes
 
@@ -59,7 +59,7 @@ def _draw_along(
     _draw(row, solution, x, (state.pressure[:, 0], state.thickness[:, 0]), color, label)
 
 
-def _draw_series(row: list[Axes], cases: ContactCases, section: Section) -> list[Axes]:
+def _draw_series(row: list[Axes], cases: ContactCases, section: CaseSection) -> list[Axes]:
     for number, curve in enumerate(cases.curves[section]):
         for solution, run in zip(cases.solutions, curve.runs, strict=True):
             early = run.time <= LATEST

@@ -31,7 +31,7 @@ from ...bearings.contact import (
 )
 from ...errors import ConvergenceError, ValidityWarning
 from ...progress import Report, silent
-from .contact_statements import STEP, SWEEP, CaseSolution, Section, SolutionKind, Statement, statements
+from .contact_statements import STEP, SWEEP, CaseSection, CaseSolution, SolutionKind, Statement, statements
 
 SPEED_PARAMETER, PRESSURE_COEFFICIENT = 0.1, 5.0
 PUBLISHED_CELLS, PUBLISHED_STEP = 40, 0.2
@@ -57,7 +57,7 @@ class ContactCases(NamedTuple):
     """Solutions, curves by section of the paper, and the statements of its text."""
 
     solutions: tuple[CaseSolution, ...]
-    curves: dict[Section, list[CaseRun]]
+    curves: dict[CaseSection, list[CaseRun]]
     statements: list[Statement]
 
     def columns(self) -> dict[str, list[object]]:
@@ -125,9 +125,9 @@ def as_published() -> Iterator[None]:
 
 def _curves(
     solutions: tuple[CaseSolution, ...], settle: float, report: Report
-) -> dict[Section, list[CaseRun]]:
+) -> dict[CaseSection, list[CaseRun]]:
     plan = [(section, *case) for section, cases in case_plan(settle).items() for case in cases]
-    curves: dict[Section, list[CaseRun]] = {}
+    curves: dict[CaseSection, list[CaseRun]] = {}
     count = len(plan) * len(solutions)
     for number, (section, name, run) in enumerate(plan):
         runs = []
@@ -164,19 +164,19 @@ def loaded_motion(
     )
 
 
-def case_plan(settle: float) -> dict[Section, list[tuple[str, Callable[[CaseSolution], ContactRun]]]]:
+def case_plan(settle: float) -> dict[CaseSection, list[tuple[str, Callable[[CaseSolution], ContactRun]]]]:
     """Return the curves of each section: name and run."""
     slow = SineLoad(amplitude=0.2, frequency=1.0)
     return {
-        Section.FREE: [(f"W = {W:g}", partial(free_motion, W=W)) for W in (0.0, 0.5, 1.0)],
-        Section.STEPPED: [
+        CaseSection.FREE: [(f"W = {W:g}", partial(free_motion, W=W)) for W in (0.0, 0.5, 1.0)],
+        CaseSection.STEPPED: [
             (f"W = {W:g}", partial(loaded_motion, W=W, load=StepLoad(**STEP))) for W in (0.3, 1.0, 3.0)
         ],
-        Section.SLOW: [
+        CaseSection.SLOW: [
             (f"W = {W:g}", partial(loaded_motion, W=W, load=slow, duration=settle if W == 1.0 else 30.0))
             for W in (0.01, 0.1, 1.0)
         ],
-        Section.FAST: [
+        CaseSection.FAST: [
             (
                 f"omega = {w:g}",
                 partial(loaded_motion, W=1.0, load=SineLoad(amplitude=0.5, frequency=w), duration=settle),

@@ -24,7 +24,7 @@ PUBLISHED_REST = (0.1761, -1.793)
 PERIOD = 2.0 * np.pi
 
 
-class Section(StrEnum):
+class CaseSection(StrEnum):
     """Sections of the paper whose figures are redrawn, case 4.3 by its two amplitudes."""
 
     FREE = "4.1"
@@ -88,13 +88,13 @@ class CaseSolution(NamedTuple):
     control: AdaptiveSteps | FixedSteps
 
 
-def statements(runs: Mapping[Section, list[ContactRun]], solution: CaseSolution) -> list[Claim]:
+def statements(runs: Mapping[CaseSection, list[ContactRun]], solution: CaseSolution) -> list[Claim]:
     """Return what a solution has to say on every sentence, from its runs by section."""
     return [
         *_at_rest(solution),
-        *_free(runs[Section.FREE], solution),
-        *_stepped(runs[Section.STEPPED], solution),
-        *_driven(runs[Section.SLOW], runs[Section.FAST]),
+        *_free(runs[CaseSection.FREE], solution),
+        *_stepped(runs[CaseSection.STEPPED], solution),
+        *_driven(runs[CaseSection.SLOW], runs[CaseSection.FAST]),
     ]
 
 

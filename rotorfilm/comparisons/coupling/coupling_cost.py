@@ -86,7 +86,9 @@ def coupling_cost(*, macro_angles: Sequence[float] = ANGLES, report: Report = si
     duration = REVOLUTIONS * 2.0 * np.pi / SPEED
     # Schemes that begin with short steps have more points than these.
     starts = [angle / SPEED * (2.0**k - 1.0) / 63.0 for angle in macro_angles for k in range(6)]
-    points = np.concatenate([*(_times(angle, duration) for angle in macro_angles), starts])
+    points = np.concatenate(
+        [*(np.linspace(0.0, duration, round(duration * SPEED / angle) + 1) for angle in macro_angles), starts]
+    )
     exact = simulate(rotor, bearing, duration=duration, times=np.unique(points), rtol=1e-10)
     rows = []
     for number, angle in enumerate(macro_angles):
@@ -131,8 +133,3 @@ def _row(
         film_calls=calls,
         refused=refused,
     )
-
-
-def _times(angle: float, duration: float) -> np.ndarray:
-    count = round(duration * SPEED / angle)
-    return np.linspace(0.0, duration, count + 1)
