@@ -1,22 +1,21 @@
 """The commands `rotorfilm chart ...`: ladders of models measured, drawn and written as tables."""
 
-# Packages that take long to import are imported inside the commands, so that --help answers at once.
-
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from enum import StrEnum
 from functools import partial
 from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Protocol
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ..limits import CHART_STATES, CONTACT_CELLS, TRANSITS
 from ..printable import visible
 from ..progress import Report, part_of
+from ..results import write_csv
 from . import printing as console
 from .command import Commands, Said
 
@@ -33,7 +32,7 @@ States = Annotated[int, typer.Option(help="Random states.", min=1, max=CHART_STA
 OUT = Path("rotorfilm-charts")
 
 Rows = Iterable[Sequence[str]]
-Files = list[tuple[str, str]]
+Columns = Mapping[str, Iterable[object]]
 
 
 class MotionOption(StrEnum):
@@ -41,13 +40,6 @@ class MotionOption(StrEnum):
 
     LARGE = "large"
     SMALL = "small"
-
-
-class Tabular(Protocol):
-    """A result that is a table."""
-
-    def columns(self) -> dict[str, list[object]]:
-        """Return the columns by their headings, units included."""
 
 
 def journal(
@@ -65,14 +57,14 @@ def journal(
 
     ranges = comparisons.LARGE if motion is MotionOption.LARGE else comparisons.SMALL
     result = comparisons.journal_accuracy(ld, states=states, ranges=ranges, seed=seed, report=report)
-    files = _write(out, "chart_journal", result, charts.plot_journal_accuracy(result))
+    files = _write(out, "chart_journal", result.columns(), charts.plot_journal_accuracy(result))
     headings = ("film", "median error", "99 % error", "batch", "alone")
     rows = [
         (rung.name, f"{rung.median_error:.2e}", f"{rung.high_error:.2e}", *_costs(rung.cost))
         for rung in result.rungs
     ]
     floor = ("its error, 99 %", f"{result.reference_high:.1e}")
-    return Said(result, _table(headings, rows, [("reference", result.reference), floor, *files]))
+    return Said(result, partial(_print, headings, rows, [("reference", result.reference), floor, *files]))
 
 
 def stability(report: Report, ld: Slenderness = 0.5, out: Folder = OUT) -> Said:
@@ -81,10 +73,10 @@ def stability(report: Report, ld: Slenderness = 0.5, out: Folder = OUT) -> Said:
     from ..charts.comparisons.whirl_verdicts import verdicts
 
     result = comparisons.journal_stability(ld, report=report)
-    files = _write(out, "chart_stability", result, charts.plot_journal_stability(result))
+    files = _write(out, "chart_stability", result.columns(), charts.plot_journal_stability(result))
     headings = ("film", "off by at most", "wrong at eps", "tension, large motion", "|Cxy - Cyx| / max |C|")
     rows = [(rung.name, *(cell.text for cell in verdicts(result, rung))) for rung in result.rungs]
-    return Said(result, _table(headings, rows, [("reference", result.reference), *files]))
+    return Said(result, partial(_print, headings, rows, [("reference", result.reference), *files]))
 
 
 def contact(
@@ -98,9 +90,11 @@ def contact(
     from .. import charts, comparisons
 
     result = comparisons.contact_precision(cells, report=report)
-    files = _write(out, "chart_contact", result, charts.plot_contact_precision(result))
+    files = _write(out, "chart_contact", result.columns(), charts.plot_contact_precision(result))
     rows = [(rung.family, rung.label, f"{rung.error:.2e}", f"{rung.cost:.3g} s") for rung in result.rungs]
-    show = _table(("model", "", "rms error", "cost"), rows, [("reference", result.reference), *files])
+    show = partial(
+        _print, ("model", "", "rms error", "cost"), rows, [("reference", result.reference), *files]
+    )
     return Said(result.columns(), show)
 
 
@@ -117,17 +111,16 @@ def contact_cases(
 ) -> Said:
     """Compare published cases of a rolling ball, by the published scheme and converged. Some ten minutes."""
     from .. import charts, comparisons
-    from ..results import write_csv
 
     result = comparisons.contact_cases(cells, tolerance, settle, report=report)
-    files = _write(out, "chart_contact_cases", result, charts.plot_contact_cases(result))
+    files = _write(out, "chart_contact_cases", result.columns(), charts.plot_contact_cases(result))
     files.append(("curves", str(write_csv(out / "chart_contact_curves.csv", result.series()))))
     headings = ("statement", "section", "published scheme", "same grid", "converged", "verdict")
     rows = [
         (row.text, row.section, row.published, row.same_grid, row.converged, row.verdict)
         for row in result.statements
     ]
-    return Said([row._asdict() for row in result.statements], _table(headings, rows, files))
+    return Said([row._asdict() for row in result.statements], partial(_print, headings, rows, files))
 
 
 def contact_limits(report: Report, out: Folder = OUT) -> Said:
@@ -135,10 +128,10 @@ def contact_limits(report: Report, out: Folder = OUT) -> Said:
     from .. import charts, comparisons
 
     result = comparisons.contact_limits(report=report)
-    files = _write(out, "chart_contact_limits", result, charts.plot_contact_limits(result))
+    files = _write(out, "chart_contact_limits", result.columns(), charts.plot_contact_limits(result))
     table = result.columns()
     rows = [[_number(entry) for entry in row] for row in zip(*table.values(), strict=True)]
-    return Said(table, _table(tuple(table), rows, files))
+    return Said(table, partial(_print, tuple(table), rows, files))
 
 
 def scene(
@@ -161,12 +154,12 @@ def scene(
     ]
     title = visible(f"{loaded.title}: {result.quantity}").replace("$", r"\$")  # no mathematics
     axes = plot_scene_ladder(points, title=title, tolerance=result.tolerance)
-    files = _write(out, f"chart_{file.stem}", result, [axes])
+    files = _write(out, f"chart_{file.stem}", result.columns(), [axes])
     rows = [
         (("* " if r.chosen else "  ") + r.name, _number(r.error_estimate), _milliseconds(r.cost), r.reason)
         for r in result.rungs
     ]
-    return Said(result, _table(("model", "estimated error", "cost", "why not"), rows, files))
+    return Said(result, partial(_print, ("model", "estimated error", "cost", "why not"), rows, files))
 
 
 def limits(
@@ -180,12 +173,12 @@ def limits(
     from .. import charts, comparisons
 
     result = comparisons.limits_atlas(physics, report=report)
-    files = _write(out, "chart_limits", result, charts.plot_limits(result), data=True)
+    files = _write(out, "chart_limits", result.columns(), charts.plot_limits(result), data=result)
     rows: list[tuple[str, str]] = []
     for panel, curves in groupby(comparisons.failures(result), key=lambda one: one.panel):
         rows += [("", ""), (f"{panel.physics}: {panel.title}", ""), (f"fails from {panel.x_label}", "")]
         rows += [(f"  {one.name}", "nowhere" if one.at is None else f"{one.at:.3g}") for one in curves]
-    return Said(result, _table((), rows, files))
+    return Said(result, partial(_print, (), rows, files))
 
 
 def page(out: Folder = OUT) -> Said:
@@ -199,17 +192,16 @@ def page(out: Folder = OUT) -> Said:
 def bush(report: Report, out: Folder = OUT) -> Said:
     """Tiers of the polymer bush: error against cost, as published too, and the closed form of its shaft."""
     from .. import charts, comparisons
-    from ..results import write_csv
 
     result = comparisons.bush_tiers(report=report)
-    files = _write(out, "chart_bush", result, charts.plot_bush_tiers(result))
+    files = _write(out, "chart_bush", result.columns(), charts.plot_bush_tiers(result))
     shaft = write_csv(out / "chart_bush_shaft.csv", result.shaft_columns())
     rows = [(tier.name, f"{tier.error:.1e}", _milliseconds(tier.cost)) for tier in result.tiers]
     errors = [100.0 * row.error for row in result.shaft]
     closed = f"{min(errors):.2f} to {max(errors):.2f} % high"
     last = [("closed form of the shaft", closed), ("its table", str(shaft))]
     headings = ("tier", "error of the angle", "time of the run")
-    return Said(result, _table(headings, rows, [("reference", result.reference), *files, *last]))
+    return Said(result, partial(_print, headings, rows, [("reference", result.reference), *files, *last]))
 
 
 def damper(
@@ -223,7 +215,7 @@ def damper(
     from .. import charts, comparisons
 
     result = comparisons.damper_accuracy(ld, permeability, states=states, report=report)
-    files = _write(out, "chart_damper", result, charts.plot_damper_accuracy(result), data=True)
+    files = _write(out, "chart_damper", result.columns(), charts.plot_damper_accuracy(result), data=result)
     rows = [
         (
             f"{rung.name}, {'cavitated' if rung.cavitated else 'full'}",
@@ -235,7 +227,7 @@ def damper(
         for rung in result.rungs
     ]
     headings = ("film", "median error", "99 % error", "against the short film", "batch", "alone")
-    return Said(result, _table(headings, rows, files))
+    return Said(result, partial(_print, headings, rows, files))
 
 
 def cosim(report: Report, out: Folder = OUT) -> Said:
@@ -244,14 +236,14 @@ def cosim(report: Report, out: Folder = OUT) -> Said:
 
     limits = comparisons.coupling_limits(report=part_of(report, 0.0, 0.6))
     cost = comparisons.coupling_cost(report=part_of(report, 0.6, 1.0))
-    files = _write(out, "chart_cosim_limits", limits, charts.plot_coupling_limits(limits))
-    files += _write(out, "chart_cosim_cost", cost, charts.plot_coupling_cost(cost))
+    files = _write(out, "chart_cosim_limits", limits.columns(), charts.plot_coupling_limits(limits))
+    files += _write(out, "chart_cosim_cost", cost.columns(), charts.plot_coupling_cost(cost))
     rows = [
         (row.scheme, f"{math.degrees(row.macro_angle):.3g} deg", f"{row.orbit_error:.1e}")
         for row in cost.rows
         if row.orbit_error is not None
     ]
-    show = _table(("scheme", "macro step", "orbit error / clearance"), rows, files)
+    show = partial(_print, ("scheme", "macro step", "orbit error / clearance"), rows, files)
     return Said({"limits": limits, "cost": cost}, show)
 
 
@@ -271,32 +263,29 @@ CHARTS: Commands = {
 """Commands with their examples, in the order of the help."""
 
 
-def _write(out: Path, name: str, result: Tabular, axes: Sequence[Axes], *, data: bool = False) -> Files:
-    """Write chart and table, and if asked the data as JSON; return the rows that name them."""
+def _write(
+    out: Path, name: str, columns: Columns, axes: Sequence[Axes], *, data: object = None
+) -> list[tuple[str, str]]:
+    """Write chart and table, and data as JSON if there are any; return the rows that name them."""
     from ..charts import save
-    from ..results import write_csv
 
     out.mkdir(parents=True, exist_ok=True)
     files = {
         "chart": save(axes[0], out / f"{name}.png", dpi=DPI),
-        "table": write_csv(out / f"{name}.csv", result.columns()),
+        "table": write_csv(out / f"{name}.csv", columns),
     }
-    if data:
-        files["data"] = console.write_json(out / f"{name}.json", result)
+    if data is not None:
+        files["data"] = console.write_json(out / f"{name}.json", data)
     return [(kind, str(path)) for kind, path in files.items()]
 
 
-def _table(headings: Sequence[str], rows: Rows, files: Files) -> Callable[[], None]:
-    """Return what prints a table, without headings if there are none, and files and remarks below it."""
-
-    def show() -> None:
-        if headings:
-            console.print_columns(headings, rows)
-        else:
-            console.print_rows("", rows)
-        console.print_rows("", files)
-
-    return show
+def _print(headings: Sequence[str], rows: Rows, files: Rows) -> None:
+    """Print a table, without headings if there are none, and files and remarks below it."""
+    if headings:
+        console.print_columns(headings, rows)
+    else:
+        console.print_rows("", rows)
+    console.print_rows("", files)
 
 
 def _number(entry: object) -> str:

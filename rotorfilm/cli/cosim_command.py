@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..progress import Report
+from ..results import write_csv
 from . import printing as console
 from .command import Said, SignalFile
 
@@ -40,7 +41,6 @@ def cosim(
     """Couple the rotor and the film of a scene as FMUs, and say how well: limit, error, film calls."""
     report(0.0, "packages")
     from ..errors import PartialResultError
-    from ..results import write_csv
     from ..scenes import Scene
     from ..scenes.cosimulate_scene import run_scene, scheme_named
     from ..scenes.tables import Quantity

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..results import CircularOrbit, write_csv
 from . import printing as console
 from .command import Said, SignalFile
 
 if TYPE_CHECKING:
     from ..bearings.damper import PorousCage
-    from ..results import CircularOrbit
     from ..scenes import Scene
     from ..scenes.damper.damper_runs import DamperRun
     from ..scenes.damper.solve_damper import DamperAnswer
@@ -158,7 +158,6 @@ def damper_run(
     Where the rotor reaches the wall, or the end of a film's range, the motion until then is shown and
     written, and the command exits with 1.
     """
-    from ..results import write_csv
     from ..scenes import Scene
 
     loaded = Scene.load(scene)

@@ -11,6 +11,7 @@ import numpy as np
 import typer
 
 from ..progress import Report
+from ..results import to_plain, write_csv
 from . import printing as console
 from .command import Said
 
@@ -69,8 +70,6 @@ def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
 
 def plain_rotor(answer: RotorAnswer) -> dict[str, Any]:
     """Return an answer as plain lists and numbers; nothing where a mode is overdamped."""
-    from ..results import to_plain
-
     chart = answer.campbell
     return {
         "title": answer.title,
@@ -95,7 +94,6 @@ def write_rotor(answer: RotorAnswer, folder: Path) -> None:
     """Write the pictures, tables and the JSON of an answer into a folder, which is made if need be."""
     from ..charts import plot_campbell, plot_log_decrement, plot_unbalance_response, save
     from ..files import written_together
-    from ..results import write_csv
     from ..scenes.shaft.solve_shaft import campbell_columns, response_columns
 
     with written_together(folder) as part:
