@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from rotorfilm.bearings.journal import ComplementarityArc, SplittingFilm
+from rotorfilm.cli.demo_command import print_demo
 from rotorfilm.cli.demo_pictures import draw_demo
-from rotorfilm.cli.printing import print_demo
 from rotorfilm.errors import InputError
 from rotorfilm.linear import equilibrium
 from rotorfilm.scenes import bundled_scene

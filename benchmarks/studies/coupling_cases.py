@@ -7,20 +7,19 @@ are past the limit at the static equilibrium already.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...bearings.journal import JournalBearing, MapFilm
-from ...cosim import GaussSeidel, InProcessSlave, Scheme, SIExp, SIExp3, couple, critical_macro_step
-from ...cosim.coupling_loop import coupling_loop
-from ...errors import PartialResultError
-from ...model import Array
-from ...results import Trajectory, orbit_distance
-from ...rotors.rigid import RigidRotor
-from .coupling_schemes import EXPLICIT
+from rotorfilm.bearings.journal import JournalBearing, MapFilm
+from rotorfilm.comparisons.coupling.coupling_setup import EXPLICIT, SPEED, resting_rotor
+from rotorfilm.cosim import GaussSeidel, InProcessSlave, Scheme, SIExp, SIExp3, couple, critical_macro_step
+from rotorfilm.cosim.coupling_loop import coupling_loop
+from rotorfilm.errors import PartialResultError
+from rotorfilm.model import Array
+from rotorfilm.results import Trajectory, orbit_distance
+from rotorfilm.rotors.rigid import RigidRotor
 
-SPEED = 157.0
 TURNS = 3
 REFERENCE_ANGLE = np.radians(2.0)
 
@@ -101,18 +100,10 @@ def _drawn(random: np.random.Generator, bad: bool) -> ComparedCase | None:
     bearing = JournalBearing(
         radius=0.05, length=0.1 * slenderness, clearance=1e-4, viscosity=0.03, film=MapFilm()
     )
-    rest = eccentricity * bearing.clearance * np.array([np.cos(turn), np.sin(turn)])
-    load = -bearing.force(rest, (0.0, 0.0), SPEED)
-    mass = float(np.hypot(*load)) * w**2 / (bearing.clearance * SPEED**2)
+    steady = resting_rotor(bearing, eccentricity, mass_ratio=w**2, direction=turn, unbalance_ratio=unbalance)
+    rest = np.array(steady.position)
     start = rest + offset * bearing.clearance * np.array([1.0, 0.0])
-    rotor = RigidRotor(
-        mass=mass,
-        speed=SPEED,
-        unbalance=unbalance * bearing.clearance * mass,
-        gravity=(0.0, 0.0),
-        static_force=(float(load[0]), float(load[1])),
-        position=(float(start[0]), float(start[1])),
-    )
+    rotor = replace(steady, position=(float(start[0]), float(start[1])))
     share = random.uniform(*(BAD if bad else GOOD))
     angle = np.radians(random.uniform(*IMPLICIT_ANGLE))
     if np.hypot(*start) >= bearing.clearance:
