@@ -8,7 +8,8 @@ from ...model import Array
 from ..compiled import rotor_kernels as kernels
 from ..compiled.march import STAGES, new_tables, radau_scheme, rotor_arrays
 from ..compiled.modal import Complex, ModalRotor, journal_rows, modes
-from .balance import film_forces, series_rows
+from .harmonics import series_rows
+from .modal_films import film_forces
 
 STEPS_PER_HARMONIC = 2
 LEAST_STEPS = 64
