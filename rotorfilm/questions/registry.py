@@ -18,9 +18,9 @@ from .damper.dampers import damper_ladder
 from .journal.blade_loss import blade_loss_ladder
 from .journal.statics import UNITS as STATICS
 from .journal.statics import static_ladder
-from .journal.unbalance_orbits import UNITS as ORBITS
 from .journal.unbalance_orbits import orbit_ladder
 from .journal.whirl_rungs import whirl_ladder
+from .orbit_place import UNITS as ORBITS
 from .shaft.shaft_orbits import shaft_orbit_ladder
 from .shaft.shafts import EVENTS as SHAFT_SPEEDS
 from .shaft.shafts import shaft_ladder

@@ -18,6 +18,7 @@ from typing import Generic, NamedTuple, Protocol, Self, TypeVar
 import numpy as np
 
 from ...model import Array
+from ...rotors.structure import NOMINAL_LENGTH
 from .harmonics import Complex, HarmonicBasis, apply, basis, real_rows, slope_columns
 
 OVERSAMPLING = 4
@@ -42,8 +43,8 @@ class OrbitRotor(Protocol):
     """A rotor in its films as the equations of an orbit see it."""
 
     @property
-    def units(self) -> Array:
-        """Clearance of each row of the series, shape (2 n_bearings,) [m]."""
+    def clearances(self) -> Array:
+        """Of the bearings, shape (n_bearings,) [m]; infinite where there is none."""
 
     @property
     def speed(self) -> float:
@@ -55,11 +56,14 @@ class OrbitRotor(Protocol):
     def external(self, harmonics: int, periods: int, frequency: float) -> Array:
         """Return the series of the answer to weight, and to the unbalance if `periods` is not 0."""
 
-    def forces(self, position: Array, velocity: Array) -> tuple[Array, Array, Array]:
-        """Return forces (2 n, samples) and slopes by each bearing's own motion, (2 n, 2, samples) each.
+    def forces(self, position: Array, velocity: Array) -> Array:
+        """Return the forces of films and springs, (2 n, samples).
 
         Raises FilmContactError if a journal leaves its bearing.
         """
+
+    def tangents(self, position: Array, velocity: Array) -> tuple[Array, Array, Array]:
+        """Return the forces and their slopes by each bearing's own motion, (2 n, 2, samples) each."""
 
     def loaded(self, part: float) -> Self:
         """Return the same under a part of the unbalance."""
@@ -107,6 +111,12 @@ class Balance(NamedTuple, Generic[R]):
         return basis(self.harmonics, self.samples)
 
     @property
+    def units(self) -> Array:
+        """Clearance of each row of the series, shape (2 n_bearings,) [m]; a nominal length without one."""
+        sizes = self.rotor.clearances
+        return np.repeat(np.where(np.isfinite(sizes), sizes, NOMINAL_LENGTH), 2)
+
+    @property
     def frequency(self) -> float:
         """Of an orbit that the unbalance drives [rad/s]."""
         return abs(self.rotor.speed) / self.periods
@@ -120,8 +130,8 @@ class Balance(NamedTuple, Generic[R]):
             If a journal leaves its bearing.
         """
         rows, terms = series.shape
-        units = self.rotor.units
-        force, stiffness, damping = self.forces(series, frequency)
+        units = self.units
+        force, stiffness, damping = self.rotor.tangents(*self._motion(series, frequency))
         answer = self.rotor.receptance(self.harmonics, frequency)
         spectrum = force @ self.basis.back.T
         value = series - apply(answer.values, spectrum) - self._external(frequency)
@@ -143,18 +153,23 @@ class Balance(NamedTuple, Generic[R]):
 
     def values(self, series: Array, frequency: float) -> Array:
         """Return the equations alone, in clearances; FilmContactError as in `residual`."""
-        spectrum = self.forces(series, frequency)[0] @ self.basis.back.T
+        spectrum = self.rotor.forces(*self._motion(series, frequency)) @ self.basis.back.T
         answered = apply(self.rotor.receptance(self.harmonics, frequency).values, spectrum)
         missing = series - answered - self._external(frequency)
-        return np.asarray((missing / self.rotor.units[:, None]).ravel())
-
-    def forces(self, series: Array, frequency: float) -> tuple[Array, Array, Array]:
-        """Return the forces at the samples and their slopes, as `OrbitRotor.forces`."""
-        return self.rotor.forces(series @ self.basis.values.T, frequency * (series @ self.basis.slopes.T))
+        return np.asarray((missing / self.units[:, None]).ravel())
 
     def in_length(self, change: Array) -> Array:
         """Return a change of the series, in clearances and one after the other, as a series [m]."""
-        return change.reshape(len(self.rotor.units), -1) * self.rotor.units[:, None]
+        return change.reshape(len(self.units), -1) * self.units[:, None]
+
+    def gaps(self, series: Array) -> Array:
+        """Return the clearance left to each journal at the samples, shape (n_bearings, samples) [m]."""
+        position = (series @ self.basis.values.T).reshape(-1, 2, self.samples)
+        return self.rotor.clearances[:, None] - np.hypot(position[:, 0], position[:, 1])
+
+    def _motion(self, series: Array, frequency: float) -> tuple[Array, Array]:
+        """Return positions and velocities at the samples, (2 n, samples) each."""
+        return series @ self.basis.values.T, frequency * (series @ self.basis.slopes.T)
 
     def _external(self, frequency: float) -> Array:
         return self.rotor.external(self.harmonics, self.periods, frequency)

@@ -112,7 +112,7 @@ class Curve(NamedTuple):
 
     def _stepped(self, point: Point, length: float) -> Point:
         solution, tangent = point.solution, point.tangent
-        units, size = solution.balance.rotor.units[:, None], solution.series.size
+        units, size = solution.balance.units[:, None], solution.series.size
         harmonics, periods = solution.balance.harmonics, solution.balance.periods
         series = solution.series + length * tangent[:size].reshape(solution.series.shape) * units
         parameter = point.parameter + length * tangent[-1] * self.scale
@@ -159,8 +159,8 @@ class Curve(NamedTuple):
             balance = self.balance(parameter + side * RELATIVE_STEP * self.scale, harmonics, periods)
             values = balance.values(solution.series, _frequency(balance, solution.frequency))
             # The bearing's clearance may be the parameter: one unit for both sides.
-            ends.append(values * np.repeat(balance.rotor.units, 2 * harmonics + 1))
-        units = np.repeat(solution.balance.rotor.units, 2 * harmonics + 1)
+            ends.append(values * np.repeat(balance.units, 2 * harmonics + 1))
+        units = np.repeat(solution.balance.units, 2 * harmonics + 1)
         return np.asarray((ends[1] - ends[0]) / (2.0 * RELATIVE_STEP) / units)
 
 

@@ -157,11 +157,11 @@ def _from_hopf(curve: Curve, hopf: HopfPoint) -> Point:
     """Return the first small orbit: one step from the rest along the whirling mode."""
     balance = curve.balance(hopf.parameter, HARMONICS, 0)
     mode = with_wave(np.zeros_like(hopf.position), hopf.shape, HARMONICS)
-    tangent = np.concatenate([(mode / balance.rotor.units[:, None]).ravel(), [0.0, 0.0]])
+    tangent = np.concatenate([(mode / balance.units[:, None]).ravel(), [0.0, 0.0]])
     tangent /= np.linalg.norm(tangent)
     # The mode stands in for the orbit in the phase condition, which at rest is none.
     trace = constant(hopf.position, HARMONICS)
-    trace += 1e-6 * mode / np.abs(mode).max() * balance.rotor.units.min()
+    trace += 1e-6 * mode / np.abs(mode).max() * balance.units.min()
     point = Point(Solution(trace, hopf.frequency, balance, 0.0, 0), hopf.parameter, tangent)
     return curve.stepped(point, FIRST_STEP)
 

@@ -6,6 +6,7 @@ real part of amplitude exp(i k phi).
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -60,9 +61,9 @@ def resized(series: Array, harmonics: int) -> Array:
     return out
 
 
-def mean_square(series: Array) -> float:
-    """Return the mean over a period of the squares of all rows."""
-    return float(np.sum(series[:, 0] ** 2) + 0.5 * np.sum(series[:, 1:] ** 2))
+def rms(series: Array) -> float:
+    """Return the root of the mean over a period of the squares of all rows together."""
+    return math.sqrt(float(np.sum(series[:, 0] ** 2) + 0.5 * np.sum(series[:, 1:] ** 2)))
 
 
 def first_wave(series: Array) -> Complex:

@@ -29,9 +29,9 @@ class ModalFilms(NamedTuple):
     modal: ModalRotor
 
     @property
-    def units(self) -> Array:
-        """Clearance of each row of the series, shape (2 n_bearings,) [m]."""
-        return np.repeat(self.modal.parts.lengths, 2)
+    def clearances(self) -> Array:
+        """Of the bearings, shape (n_bearings,) [m]; infinite where there is none."""
+        return np.array([bearing.clearance for bearing in self.modal.parts.bearings])
 
     @property
     def speed(self) -> float:
@@ -52,8 +52,12 @@ class ModalFilms(NamedTuple):
         answer = self._answers(self.modal.push[:, -2:], np.array([periods]), frequency)
         return with_wave(rest, answer.values[0] @ pair, harmonics, periods)
 
-    def forces(self, position: Array, velocity: Array) -> tuple[Array, Array, Array]:
-        """Return forces of films and springs and their slopes."""
+    def forces(self, position: Array, velocity: Array) -> Array:
+        """Return the forces of films and springs."""
+        return film_forces(self.modal, position, velocity)[0]
+
+    def tangents(self, position: Array, velocity: Array) -> tuple[Array, Array, Array]:
+        """Return the forces of films and springs and their slopes."""
         return film_forces(self.modal, position, velocity)
 
     def loaded(self, part: float) -> ModalFilms:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Generic, NamedTuple
 
 import numpy as np
@@ -18,6 +17,10 @@ CONVERGED = 1e-11
 """Residual or step at which Newton's method ends, in clearances."""
 
 STEPS = 40
+
+LEFT = 0.3
+"""Part of a gap that a step leaves at least."""
+
 _RAMPS = 6
 
 
@@ -69,7 +72,7 @@ def solve(balance: Balance[R], series: Array, frequency: float) -> Solution[R]:
     raise ConvergenceError(f"no periodic orbit found: {size:.3g} of the clearance left")
 
 
-def driven(balance: Balance[R], start: Array, rest: Callable[[], Array]) -> Solution[R]:
+def driven(balance: Balance[R], start: Array, rest: Array) -> Solution[R]:
     """Return the orbit near a series; where that is too far out, from the rest (2 n_bearings,) [m] up.
 
     Raises
@@ -80,7 +83,7 @@ def driven(balance: Balance[R], start: Array, rest: Callable[[], Array]) -> Solu
     try:
         return solve(balance, start, balance.frequency)
     except ConvergenceError:
-        return _ramped(balance, rest())
+        return _ramped(balance, rest)
 
 
 def _ramped(balance: Balance[R], rest: Array) -> Solution[R]:
@@ -112,6 +115,12 @@ def _system(balance: Balance[R], series: Array, frequency: float, reference: Arr
     return matrix, np.append(at.values, 0.0)
 
 
+def newton_step(balance: Balance[R], series: Array) -> Array:
+    """Return the change of a driven orbit (2 n_bearings, 2 H + 1) [m] that one step makes: what it lacks."""
+    at = balance.residual(series, balance.frequency)
+    return balance.in_length(np.asarray(np.linalg.solve(at.by_series, -at.values)))
+
+
 def _moved(balance: Balance[R], series: Array, frequency: float, step: Array) -> tuple[Array, float]:
     """Return series and frequency after a step."""
     moved = series + balance.in_length(step[: series.size])
@@ -121,7 +130,7 @@ def _moved(balance: Balance[R], series: Array, frequency: float, step: Array) ->
 def _damped(
     balance: Balance[R], series: Array, frequency: float, step: Array, reference: Array, before: float
 ) -> tuple[Array, float, Array, Array]:
-    part, last = 1.0, None
+    part, last = _share(balance, series, step), None
     for _ in range(8):
         moved, rate = _moved(balance, series, frequency, part * step)
         try:
@@ -138,6 +147,14 @@ def _damped(
     return last
 
 
+def _share(balance: Balance[R], series: Array, step: Array) -> float:
+    """Return the part of a step that leaves every journal a good part of its gap at all samples."""
+    share, gaps, change = 1.0, balance.gaps(series), balance.in_length(step[: series.size])
+    while share > 1e-6 and np.any(balance.gaps(series + share * change) < LEFT * gaps):
+        share *= 0.5
+    return share
+
+
 def phase_row(series: Array, balance: Balance[R]) -> Array:
     """Return the phase condition: a step must not move along the orbit, shape (2 n (2 H + 1),)."""
     harmonics = series.shape[1] // 2
@@ -145,7 +162,7 @@ def phase_row(series: Array, balance: Balance[R]) -> Array:
     turned = np.zeros_like(series)
     turned[:, 1 : harmonics + 1] = order * series[:, harmonics + 1 :]
     turned[:, harmonics + 1 :] = -order * series[:, 1 : harmonics + 1]
-    row = (turned / balance.rotor.units[:, None]).ravel()
+    row = (turned / balance.units[:, None]).ravel()
     norm = float(np.linalg.norm(row))
     return row / norm if norm else row
 
@@ -154,7 +171,7 @@ def truncation_of(solution: Solution[R]) -> float:
     """Return the largest of the last quarter of the harmonics / clearance."""
     harmonics = solution.balance.harmonics
     last = max(1, harmonics // 4)
-    scaled = np.abs(solution.series / solution.balance.rotor.units[:, None])
+    scaled = np.abs(solution.series / solution.balance.units[:, None])
     tail = np.maximum(scaled[:, harmonics + 1 - last : harmonics + 1], scaled[:, -last:])
     return float(tail.max())
 

@@ -169,7 +169,7 @@ def _driven(
         series, _ = _start_series(modal, start, balance.frequency)
         return solve(balance, resized(series, harmonics), balance.frequency)
     rest = first_guess(mounted, modal)
-    return driven(balance, constant(rest, harmonics), lambda: rest)
+    return driven(balance, constant(rest, harmonics), rest)
 
 
 def finished(solution: Solution[ModalFilms], *, stability: bool = True) -> PeriodicOrbit:
