@@ -21,6 +21,7 @@ LEAVES = [
     "progress",
     "sources",
     "answers",
+    "ladders",
     "files",
     "limits",
     "printable",

@@ -228,7 +228,7 @@ def build(
 
     loaded = Scene.load(scene)
     whole = loaded.shaft is not None and loaded.journal is None
-    if loaded.damper is None and not whole:
+    if loaded.journal is not None and loaded.damper is None:
         _make_map(loaded.bearing)
     made = (export_system if whole else export_scene)(
         loaded,

@@ -4,28 +4,16 @@ from __future__ import annotations
 
 import dataclasses
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING
 
-from ..files import written_together
-from ..fmu import export_fmu
 from ..linear import equilibrium
-from ..model import Model
 from ..rotors.law_rotor import LawRotor
 from ..rotors.rigid import RigidRotor
-from .damper.damper_runs import export_damper
-from .scene import Scene
+from .families import SceneModels, models_of
+from .write_models import ExportedScene, write_models
 
-
-class ExportedScene(NamedTuple):
-    """Where the two FMUs of a scene are.
-
-    Attributes
-    ----------
-    film, rotor : Path
-    """
-
-    film: Path
-    rotor: Path
+if TYPE_CHECKING:
+    from .scene import Scene
 
 
 def resting_rotor(scene: Scene) -> RigidRotor:
@@ -40,6 +28,14 @@ def resting_rotor(scene: Scene) -> RigidRotor:
     """
     at = equilibrium(scene.bearing, scene.static_load, scene.speed)
     return dataclasses.replace(scene.rotor, position=(float(at.position[0]), float(at.position[1])))
+
+
+def film_models(scene: Scene) -> SceneModels:
+    """Return the journal bearing of a scene and its rotor, both at the static equilibrium."""
+    rotor = resting_rotor(scene)
+    start = {"x": rotor.position[0], "y": rotor.position[1], "speed": scene.speed}
+    law = LawRotor(rotor=rotor)
+    return SceneModels("film", scene.bearing, law, start, scene.macro_step, scene.duration)
 
 
 def export_scene(
@@ -66,32 +62,10 @@ def export_scene(
     Raises
     ------
     InputError
-        If the scene has no rotor.
+        If the scene has no rotor, or no bearing that a rotor runs in.
     EquilibriumError
         If the film cannot carry the load.
     FmuError
         If a model cannot be exported.
     """
-    if scene.damper is not None:
-        turning, damper = export_damper(scene, folder, version, backend=backend, platforms=platforms)
-        return ExportedScene(film=damper, rotor=turning)
-    rotor = resting_rotor(scene)
-    start = {"x": rotor.position[0], "y": rotor.position[1], "speed": scene.speed}
-
-    def write(model: Model, name: str, values: dict[str, float]) -> None:
-        export_fmu(
-            model,
-            part / f"{name}.fmu",
-            version,
-            backend,
-            platforms=platforms,
-            component=name,
-            start=values,
-            step_size=scene.macro_step,
-            stop_time=scene.duration,
-        )
-
-    with written_together(folder) as part:
-        write(scene.bearing, "film", start)
-        write(LawRotor(rotor=rotor), "rotor", {})
-    return ExportedScene(film=folder / "film.fmu", rotor=folder / "rotor.fmu")
+    return write_models(models_of(scene), folder, version, backend, platforms=platforms)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from importlib import import_module, resources
 from os import PathLike
 from pathlib import Path
@@ -23,27 +23,20 @@ from .bush.solve_bush import BushAnswer, solve_bush
 from .contact.contact_table import ContactTable
 from .damper.damper_table import DamperTable
 from .excitation_table import EXCITATIONS, ExcitationTable, UnbalanceTable
+from .families import FAMILIES, family_of, table_of
 from .journal.journal_remarks import film_remarks
 from .journal.solve_journal import Answer, solve
 from .lubricant_table import LubricantTable
 from .question_table import QuestionTable
 from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
 from .shaft.shaft_table import ShaftTable, require_node, require_place
-from .tables import Table, Variant, read_table, require_no_near_miss, text
+from .tables import Beside, Table, Variant, read_table, require_no_near_miss, text
 
 BYTE_ORDER_MARK = "\ufeff"
 """What some editors put before the text of a file."""
 
 BUNDLED = "friswell_5_9_6.toml"
 """The scene file that ships with the package."""
-
-
-NOT_A_BEARING = ("title", "operation", "lubricant", "rigid_rotor", "excitation", "cosimulation", "question")
-"""Fields of a scene that do not make one by themselves; every other field is a bearing or has some."""
-
-
-COMMANDS = {"shaft": "rotorfilm rotor", "damper": "rotorfilm damper-run", "contact": "rotorfilm contact"}
-"""Where to turn with a scene that has no journal and asks no question."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,6 +59,8 @@ class Scene:
         A polymer bush that wears by melting.
     damper : DamperTable or None
         A squeeze-film damper.
+    others : mapping of str to object
+        Tables of further families, by their names in the file, where each stands beside the ones above.
     operation : OperationTable or None
         Speed and load.
     lubricant : LubricantTable
@@ -88,14 +83,14 @@ class Scene:
 
     title: Annotated[str, text] = "untitled scene"
 
-    # Bearings, and rotors with their own bearings. A family registers its table by one line here, as
-    #     bush: Annotated[BushTable | None, Table(BushTable)] = None
-    # and nowhere else. It checks what it needs of the other tables where it is solved.
+    # Bearings, and rotors with their own bearings. A further family has its line in `FAMILIES`, and its table
+    # in `others`. It checks what it needs of the other tables where it is solved.
     journal: Annotated[JournalTable | None, Table(JournalTable)] = None
     bush: Annotated[BushTable | None, Table(BushTable)] = None
     contact: Annotated[ContactTable | None, Table(ContactTable)] = None
     shaft: Annotated[ShaftTable | None, Table(ShaftTable)] = None
     damper: Annotated[DamperTable | None, Table(DamperTable)] = None
+    others: Annotated[Mapping[str, Any], Beside(tuple(FAMILIES), table_of)] = field(default_factory=dict)
 
     # What all families share.
     operation: Annotated[OperationTable | None, Table(OperationTable)] = None
@@ -108,9 +103,8 @@ class Scene:
     question: Annotated[QuestionTable | None, Table(QuestionTable)] = None
 
     def __post_init__(self) -> None:
-        families = [each.name for each in fields(self) if each.name not in NOT_A_BEARING]
-        if all(getattr(self, name) is None for name in families):
-            raise InputError(f"{' or '.join(families)} is required and missing")
+        if all(self.table(name) is None for name in FAMILIES):
+            raise InputError(f"{' or '.join(FAMILIES)} is required and missing")
         if self.question is not None and self.question.at:
             require_place(self.question.at, self.question.quantity, self.shaft)
         if isinstance(self.excitation, UnbalanceTable):
@@ -188,6 +182,10 @@ class Scene:
             raise InputError("bush is required for a critical speed of melting, got no such table")
         return solve_bush(self.bush.build(), math.hypot(*self.static_load), self.speed, 0.0)
 
+    def table(self, name: str) -> Any:
+        """Return the table of a family by its name in the file; None if the scene has none."""
+        return self.others.get(name) or getattr(self, name, None)
+
     @property
     def film_remarks(self) -> tuple[str, ...]:
         """What the physics of the journal's film leaves out and should not, one line each."""
@@ -216,10 +214,9 @@ class Scene:
     def bearing(self) -> JournalBearing:
         """The journal bearing with its film law; raises InputError if the scene has none."""
         if self.journal is None:
-            hints = (
-                f"; `{command}` is for [{name}]" for name, command in COMMANDS.items() if getattr(self, name)
-            )
-            raise InputError(f"journal is required for a film, got no such table{''.join(hints)}")
+            given = {name: family_of(name).command for name in FAMILIES if self.table(name) is not None}
+            hints = "".join(f"; `{command}` is for [{name}]" for name, command in given.items() if command)
+            raise InputError(f"journal is required for a film, got no such table{hints}")
         return self.journal.build()
 
     @property

@@ -92,6 +92,25 @@ class Variant(NamedTuple):
         return read_table(variant, f"{where}.", data)
 
 
+class Beside(NamedTuple):
+    """Reader of further sub-tables that stand beside the fields of a table, gathered in one of them.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Their keys; those that are fields are left to these.
+    type_of : callable
+        Takes such a key and returns the dataclass of its sub-table.
+    """
+
+    names: tuple[str, ...]
+    type_of: Callable[[str], type]
+
+    def __call__(self, where: str, value: Any) -> dict[str, Any]:
+        """Return the sub-tables as dataclasses, by their keys."""
+        return {name: read_table(self.type_of(name), f"{where}{name}.", data) for name, data in value.items()}
+
+
 def choose(where: str, name: object, variants: Mapping[str, type]) -> type:
     """Return the dataclass that has this name; raise SceneError if there is none."""
     if not isinstance(name, str) or name not in variants:
@@ -158,7 +177,9 @@ def read_table(table: type[T], where: str, data: Any) -> T:
     readers = {name: hint.__metadata__[0] for name, hint in _annotated_fields(table).items()}
     _require_known(where, values, readers)
     found = {
-        name: value for name, reader in readers.items() for value in _read_field(where, name, reader, values)
+        name: value
+        for name, reader in readers.items()
+        for value in _read_field(where, name, reader, values, readers)
     }
     _require_complete(where, table, found)
     try:
@@ -209,7 +230,7 @@ def _annotated_fields(table: type) -> dict[str, Any]:
 
 
 def _require_known(where: str, values: Mapping[str, Any], readers: Mapping[str, Reader]) -> None:
-    known = {key: None for name, reader in readers.items() for key in (name, _twice(reader)) if key}
+    known = {key: None for name, reader in readers.items() for key in _keys(name, reader) if key}
     for key in values:
         if key not in known:
             raise SceneError(
@@ -218,14 +239,24 @@ def _require_known(where: str, values: Mapping[str, Any], readers: Mapping[str, 
             )
 
 
-def _read_field(where: str, name: str, reader: Reader, values: Mapping[str, Any]) -> list[Any]:
+def _read_field(
+    where: str, name: str, reader: Reader, values: Mapping[str, Any], fields: Iterable[str]
+) -> list[Any]:
     """Return a list of the value of one field, or an empty list when the file does not give it."""
+    if isinstance(reader, Beside):
+        beside = {key: values[key] for key in reader.names if key in values and key not in fields}
+        return [reader(where, beside)]
     twice = _twice(reader)
     if name in values and twice in values:
         raise SceneError(f"{where}{name} and {where}{twice} must not both be given")
     if name in values:
         return [reader(where + name, values[name])]
     return [0.5 * reader(where + twice, values[twice])] if twice in values else []
+
+
+def _keys(name: str, reader: Reader) -> tuple[str, ...]:
+    """Return the keys that a field is read from."""
+    return reader.names if isinstance(reader, Beside) else (name, _twice(reader))
 
 
 def _twice(reader: Reader) -> str:

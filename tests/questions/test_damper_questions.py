@@ -349,12 +349,13 @@ def test_heat_is_the_power_of_the_film():
     n = damper_numbers(BARE, OIL, 20.0, 300.0, 0.5)
     force = math.pi * 0.005 * 0.05 * 0.02**3 / 1e-12 * 300.0 * 0.5e-4 / 0.75**1.5
     flow = 2.0 * 0.05 * 0.02 * 0.5e-4 * 300.0
-    assert n.peclet == pytest.approx(300.0 * 1e-8 * 1.8e6 / 0.15)
-    assert n.warming == pytest.approx(force * 300.0 * 0.5e-4 / (1.8e6 * flow), rel=1e-6)
+    assert n["peclet"] == pytest.approx(300.0 * 1e-8 * 1.8e6 / 0.15)
+    assert n["warming"] == pytest.approx(force * 300.0 * 0.5e-4 / (1.8e6 * flow), rel=1e-6)
     slow = damper_numbers(BARE, OIL, 20.0, 2.0, 0.5)
     volume = 2.0 * math.pi * 0.05 * 0.02 * 1e-4
     power = force * (2.0 / 300.0) ** 2 * 300.0 * 0.5e-4
-    assert slow.warming == pytest.approx(min(power / volume * 1e-8 / (8.0 * 0.15), n.warming * 2.0 / 300.0))
+    conducted = power / volume * 1e-8 / (8.0 * 0.15)
+    assert slow["warming"] == pytest.approx(min(conducted, n["warming"] * 2.0 / 300.0))
 
 
 def test_remarks_name_what_is_left_out():

@@ -95,7 +95,7 @@ def test_every_rung_knows_its_error_of_a_simply_supported_shaft():
     scene = parse_scene(UNIFORM, "uniform")
     exact = timoshenko_speed(1.2, 0.04, 2.1e11, 8.0e10, 7850.0)
     rungs = ladder_of(scene).rungs
-    found = critical_speeds(rungs[0].model.rotor, rungs[0].films.reactions, rungs[0].speeds)
+    found = critical_speeds(rungs[0].model.rotor, rungs[0].films.reaction, rungs[0].speeds)
     forward = next(
         one.speed for one in found if one.direction > 0.5
     )  # the first of all is the backward whirl
@@ -113,7 +113,7 @@ def test_every_rung_knows_its_error_of_a_simply_supported_shaft():
 
 
 def at_speed(rung, speed):
-    at = rotor_equilibrium(rung.model.rotor, rung.films.reactions, speed)
+    at = rotor_equilibrium(rung.model.rotor, rung.films.reaction, speed)
     return small_motion(rung.model.rotor.structure, at, speed)
 
 
@@ -208,7 +208,7 @@ def test_derivative_of_an_eigenvalue_by_the_speed():
     scene = asked("whirl_threshold", 0.02)
     rung = ladder_of(scene).rungs[1]
     whirl = rung.answer(None).solution.whirls[0]
-    rotor, reactions = rung.model.rotor, rung.films.reactions
+    rotor, reactions = rung.model.rotor, rung.films.reaction
     speed, step = whirl.at.speed, 1e-4 * whirl.at.speed
 
     def nearest(at):

@@ -1,7 +1,6 @@
 """Scenes with a damper: the table, a lost blade, a run-up."""
 
 from dataclasses import replace
-from importlib import import_module
 
 import fmpy
 import numpy as np
@@ -23,7 +22,7 @@ from rotorfilm import (
 )
 from rotorfilm.bearings.films.cavitation import FullFilm
 from rotorfilm.errors import FmuError, InputError, SceneError
-from rotorfilm.scenes import bundled_scene, parse_scene
+from rotorfilm.scenes import bundled_scene, parse_scene, write_models
 from rotorfilm.scenes.damper.damper_models import damper_models
 from rotorfilm.scenes.damper.damper_runs import couple_damper, run_damper
 from rotorfilm.scenes.excitation_table import StepLoadTable
@@ -163,22 +162,21 @@ def test_exported_scene_starts_at_rest_in_the_center(tmp_path):
     assert float(rotor["rotor.unbalance"].start) == 3.5e-4
 
 
-@pytest.mark.parametrize("module", ["damper.damper_runs", "export_scene"])
-def test_two_fmus_are_written_or_none(tmp_path, monkeypatch, module):
+@pytest.mark.parametrize("bearing", ["damper", "film"])
+def test_two_fmus_are_written_or_none(tmp_path, monkeypatch, bearing):
     # The second export fails, over FMUs of an earlier time.
-    home = import_module(f"rotorfilm.scenes.{module}")
-    told = scene(SPRINGS + CAGE) if module == "damper.damper_runs" else bundled_scene()
-    names = ["damper.fmu", "rotor.fmu"] if module == "damper.damper_runs" else ["film.fmu", "rotor.fmu"]
+    told = scene(SPRINGS + CAGE) if bearing == "damper" else bundled_scene()
+    names = [f"{bearing}.fmu", "rotor.fmu"]
     for name in names:
         (tmp_path / name).write_bytes(b"earlier")
-    export, done = home.export_fmu, []
+    export, done = write_models.export_fmu, []
 
     def fail(*arguments, **options):
         if done:
             raise FmuError("no")
         done.append(export(*arguments, **options))
 
-    monkeypatch.setattr(home, "export_fmu", fail)
+    monkeypatch.setattr(write_models, "export_fmu", fail)
     with pytest.raises(FmuError, match="no"):
         export_scene(told, tmp_path)
     assert done

@@ -11,7 +11,7 @@ from ...native.library import library_path
 from ...sources import PACKAGE, ROOT, import_closure, imported_names, module_path, source_of
 from .usermodule import read_user_module, renamed_source
 
-SHELVES = {PACKAGE, f"{PACKAGE}.bearings", f"{PACKAGE}.fmu"}
+SHELVES = {PACKAGE, f"{PACKAGE}.bearings", f"{PACKAGE}.fmu", f"{PACKAGE}.scenes"}
 """Packages whose __init__ only gathers names, from far more than an FMU needs: they go empty."""
 
 SLAVE = f"{PACKAGE}.fmu.python.slave"

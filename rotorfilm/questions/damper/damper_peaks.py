@@ -10,18 +10,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Work
+from ...answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Work, WorkUnit
 from ...errors import FilmContactError, InputError
+from ...ladders import CandidateRung, Ladder
 from ...model import Array, Reaction, Tangent, prepared_tangent
 from ...motion.transient.equal_steps import ORDER, MarchMotion, linear_march, march, peak
 from ...rotors import RigidRotor
-from ...scenes.damper.damper_films import NO_RICHER, DamperFilm, damper_films, quiet, sprung
+from ...scenes.damper.damper_films import NO_RICHER, DamperFilm, damper_films, mapped_short, quiet, sprung
 from ...scenes.damper.damper_models import damper_models
-from ...scenes.damper.damper_remarks import scene_remarks
+from ...scenes.damper.damper_remarks import rotor_remarks
 from ...scenes.damper.damper_table import DamperTable
 from ...scenes.excitation_table import BladeLossTable, RunUpTable
-from ...scenes.journal.film_rungs import NOMINAL
-from ..walk import Ladder
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
@@ -38,17 +37,18 @@ FED_STEPS = (24, 48, 96)
 LINEAR_STEPS = 192
 """Those of the linear motion."""
 
+LINEAR_STEP, DEFECT = WorkUnit("linear steps"), WorkUnit("defects of a richer film")
+
 SAMPLED = 48
 """States over a turn at which the defect is taken."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class DamperPeakRung:
+class DamperPeakRung(CandidateRung[DamperFilm]):
     """The peak by one film, linear about the center or nonlinear in so many steps over a turn.
 
     Attributes
     ----------
-    film : DamperFilm
     rotor : RigidRotor
         At rest in the center.
     stiffness : float [N/m]
@@ -58,7 +58,6 @@ class DamperPeakRung:
         Over a turn at the highest speed; 0 for the linear motion.
     """
 
-    film: DamperFilm
     rotor: RigidRotor
     stiffness: float
     duration: float
@@ -76,9 +75,14 @@ class DamperPeakRung:
         return max(0.3 * self.film.prior, 3.0 / self.steps**2 if self.steps else 0.0)
 
     @property
-    def tangents(self) -> str:
-        """Name of one force of this film with derivatives."""
-        return f"tangents of {self.film.name}"
+    def refines(self) -> tuple[object, ...]:
+        """The film, where there are steps."""
+        return (self.film,) if self.steps else ()
+
+    @property
+    def tangents(self) -> WorkUnit:
+        """One force of this film with derivatives."""
+        return WorkUnit(f"tangents of {self.film.name}", ("tangents", self.film))
 
     @cached_property
     def support(self) -> Reaction:
@@ -104,9 +108,9 @@ class DamperPeakRung:
                 raise FilmContactError("the linear motion leaves the clearance")
             half = self._linear(LINEAR_STEPS // 2)
             return Found(
-                peak(motion.position), {"linear steps": motion.time.size}, (motion, peak(half.position))
+                peak(motion.position), {LINEAR_STEP: motion.time.size}, (motion, peak(half.position))
             )
-        made = self.film.work
+        made = self.film.prepare()
         motion, calls = self._march(self.steps)
         coarse = self._known(before)
         if math.isnan(coarse):
@@ -163,14 +167,14 @@ class DamperPeakRung:
         rate = c * abs(self.rotor.profile.speeds[-1] or 1.0)
         damping = -float(self.support.force(center, np.array([rate, 0.0]), 0.0)[0]) / rate
         fed = self.film.is_fed
-        own = -float(self.film.damper.jacobian(center, center, 0.0)[0, 0]) if fed else 0.0
+        own = -float(self.film.reaction.jacobian(center, center, 0.0)[0, 0]) if fed else 0.0
         return self.stiffness + own, damping
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the error of the steps (order increment), and of the film by its defect along the motion."""
         motion, coarse = found.solution
         steps = (found.value - coarse) / (2.0**ORDER - 1.0) / found.value
-        if self.film.rich_law is None and not math.isfinite(self.film.bound):
+        if self.film.rich_law is None and not math.isfinite(self.film.bound()):
             return ErrorEstimate(math.inf, "order increment", doubt=NO_RICHER)
         reach = float(np.hypot(*motion.position).max()) / self.support.clearance
         limit = _reach(self.rich or self.support)
@@ -183,14 +187,14 @@ class DamperPeakRung:
         largest = max(abs(change), abs(steps))
         error = max(abs(change + steps), largest * max(0.1, min(1.0, largest)))
         name = "its own film" if self.rich is None else "the film of finite length"
-        work = {"defects of a richer film": calls, **self.film.rich_work}
+        work = {DEFECT: calls, **self.film.rich_work}
         return ErrorEstimate(error, f"order increment; defect of {name}", work, doubt=doubt)
 
     def _by_bound(self, motion: MarchMotion, value: float, steps: float) -> ErrorEstimate:
         """Return the error of the steps, and what the verified error of the film could do all along."""
         q, v, step = self._sampled(motion)
         slopes = self.support.jacobian(q, v, 0.0)
-        film = self.film.bound * (self.support.force(q, v, 0.0) + self.stiffness * q)
+        film = self.film.bound() * (self.support.force(q, v, 0.0) + self.stiffness * q)
         moved = linear_march(self.rotor.mass, -slopes[:, :2], -slopes[:, 2:4], film, step)
         bound = float(np.hypot(*moved).max()) / value
         method = "order increment; verified bound of the film, propagated"
@@ -271,14 +275,12 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
         for film, steps in _choices(scene.damper)
     )
     units = {rung.tangents: _one(rung, scene.speed) for rung in rungs if rung.steps}
-    remarks = scene_remarks(scene, models.rotor, steady=False)
-    refined = {rung.name: rung.film.name for rung in rungs if rung.steps}
+    small, spring = mapped_short(scene.damper), scene.damper.stiffness
+    remarks = rotor_remarks(small, spring, models.rotor, scene.lubricant, steady=False)
     return Ladder(
         rungs=rungs,
         unit="m",
         units=units,
-        nominal=NOMINAL,
-        refined=refined,
         remarks=remarks,
         within=ISOTHERMAL,
     )

@@ -11,19 +11,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.optimize import brentq
 
-from ...answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Work
+from ...answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Work, WorkUnit
 from ...bearings.damper import FiniteSqueeze
 from ...errors import AbsentError, FilmContactError, InputError, RotorfilmError
+from ...ladders import CandidateRung, Ladder
 from ...model import Array, Reaction
 from ...motion.circular.branches import synchronous_orbits
 from ...motion.circular.orbit_points import OrbitRotor, orbit_points, orbit_rotor, orbit_slope
 from ...rotors import RigidRotor
 from ...scenes.counted import Counted
-from ...scenes.damper.damper_films import NO_RICHER, DamperFilm, damper_films, quiet, sprung
+from ...scenes.damper.damper_films import NO_RICHER, DamperFilm, damper_films, mapped_short, quiet, sprung
 from ...scenes.damper.damper_models import damper_models
-from ...scenes.damper.damper_remarks import scene_remarks
-from ...scenes.journal.film_rungs import MAP_MADE, NOMINAL
-from ..walk import Ladder
+from ...scenes.damper.damper_remarks import rotor_remarks
+from ...scenes.journal.film_rungs import MAP_MADE
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
@@ -34,12 +34,11 @@ UNITS = {UP: "kg m", DOWN: "kg m", "transmissibility": "1", "unbalance_amplitude
 
 
 @dataclass(frozen=True, kw_only=True)
-class DamperCurveRung:
+class DamperCurveRung(CandidateRung[DamperFilm]):
     """One film and one model of its cage.
 
     Attributes
     ----------
-    film : DamperFilm
     rotor : RigidRotor
         Centered by its springs.
     stiffness : float [N/m]
@@ -47,25 +46,14 @@ class DamperCurveRung:
     quantity : str
     """
 
-    film: DamperFilm
     rotor: RigidRotor
     stiffness: float
     quantity: str
 
-    @property
-    def name(self) -> str:
-        """That of the film."""
-        return self.film.name
-
-    @property
-    def prior(self) -> float:
-        """Order of magnitude of the error of the film."""
-        return self.film.prior
-
     @cached_property
     def support(self) -> Reaction:
         """Film and springs."""
-        return sprung(self.film.damper, self.stiffness)
+        return sprung(self.film.reaction, self.stiffness)
 
     @cached_property
     def search(self) -> Reaction:
@@ -74,13 +62,13 @@ class DamperCurveRung:
         return sprung(self.film.moving, self.stiffness) if slow else self.support
 
     @property
-    def unit(self) -> str:
-        """Name of one force of this film."""
-        return f"forces of {self.name}"
+    def unit(self) -> WorkUnit:
+        """One force of this film."""
+        return WorkUnit(f"forces of {self.name}", ("forces", self.film))
 
     def answer(self, before: Found | None) -> Found:
         """Return the quantity; raises RotorfilmError where there is no such jump, or contact."""
-        made = self.film.work
+        made = self.film.prepare()
         counted = Counted(self.support)
         near = None if before is None else self._from(counted, float(before.solution))
         if near is None:
@@ -140,7 +128,7 @@ class DamperCurveRung:
         over u'.
         """
         rich = self.film.rich
-        if rich is None and not math.isfinite(self.film.bound):
+        if rich is None and not math.isfinite(self.film.bound()):
             return ErrorEstimate(math.inf, "none", doubt=NO_RICHER)
         radius = float(found.solution)
         if rich is None:
@@ -168,7 +156,7 @@ class DamperCurveRung:
         system, work = _system(self.rotor, self.support), {self.unit: 7}
         force = self._force(system, radius)
         film = abs(force + self.stiffness * system.clearance * radius)
-        change = self.film.bound * film / system.speed**2
+        change = self.film.bound() * film / system.speed**2
         method = "verified bound of the film, propagated"
         if self.quantity in (UP, DOWN):
             return ErrorEstimate(change / value, method, work, bound=True)
@@ -183,7 +171,7 @@ class DamperCurveRung:
             return ErrorEstimate(abs(change / slope) / least / radius, method, work, bound=True)
         # At a given unbalance the ratio changes as the force does: along the shift, and by the film itself.
         shifted = max(abs(abs(self._force(system, end)) - abs(force)) for end in ends) / least
-        return ErrorEstimate((shifted + self.film.bound * film) / abs(force), method, work, bound=True)
+        return ErrorEstimate((shifted + self.film.bound() * film) / abs(force), method, work, bound=True)
 
     @staticmethod
     def _force(system: OrbitRotor, radius: float) -> complex:
@@ -223,7 +211,7 @@ class DamperCurveRung:
         return {self.unit: sum(number for unit, number in done.items() if unit != MAP_MADE)}
 
 
-RICH = "forces of the richest film"
+RICH = WorkUnit("forces of the richest film")
 
 
 def _system(rotor: RigidRotor, reaction: Reaction) -> OrbitRotor:
@@ -272,8 +260,9 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
         rungs=rungs,
         unit=UNITS[quantity],
         units=units,
-        nominal=NOMINAL,
-        remarks=scene_remarks(scene, asked, steady=quantity not in (UP, DOWN)),
+        remarks=rotor_remarks(
+            mapped_short(scene.damper), stiffness, asked, scene.lubricant, steady=quantity not in (UP, DOWN)
+        ),
         within=ISOTHERMAL,
     )
 

@@ -11,12 +11,12 @@ import numpy as np
 
 from ...answers import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work, beside_bound
 from ...errors import InputError
+from ...ladders import CandidateRung, Ladder
 from ...linear import coefficients, equilibrium
 from ...model import Array, Reaction
 from ...motion.transient.equal_steps import ORDER, MarchMotion, linear_march, march, peak
 from ...scenes.excitation_table import BladeLossTable
-from ...scenes.journal.film_rungs import MAP_BOUNDS, NOMINAL, FilmRung
-from ..walk import Ladder
+from ...scenes.journal.film_rungs import MAP_BOUNDS, FilmRung
 from .unbalance_orbits import film_batch_units, orbit_films, require_one_unbalance
 
 if TYPE_CHECKING:
@@ -30,12 +30,11 @@ SAMPLED = 48
 
 
 @dataclass(frozen=True, kw_only=True)
-class BladeLossRung:
+class BladeLossRung(CandidateRung[FilmRung]):
     """The peak by one film, linear about the rest or nonlinear in so many steps over a turn.
 
     Attributes
     ----------
-    film : FilmRung
     load : (float, float) [N]
     speed : float [rad/s]
     mass : float [kg]
@@ -44,7 +43,6 @@ class BladeLossRung:
         Over a turn; 0 for the linear motion.
     """
 
-    film: FilmRung
     load: tuple[float, float]
     speed: float
     mass: float
@@ -59,13 +57,18 @@ class BladeLossRung:
     @property
     def prior(self) -> float:
         """Order of magnitude of the error of the steps, and of the film."""
-        return max(0.3 * self.film.slope_prior, 3.0 / self.steps**2 if self.steps else 0.0)
+        return max(0.3 * self.film.prior, 3.0 / self.steps**2 if self.steps else 0.0)
+
+    @property
+    def refines(self) -> tuple[object, ...]:
+        """The film, where there are steps."""
+        return (self.film,) if self.steps else ()
 
     @cached_property
     def rest(self) -> tuple[Array, Array, Array]:
         """Position, K and C of the film at rest."""
-        at = equilibrium(self.film.bearing, self.load, self.speed)
-        found = coefficients(self.film.bearing, at.position, self.speed)
+        at = equilibrium(self.film.reaction, self.load, self.speed)
+        found = coefficients(self.film.reaction, at.position, self.speed)
         return at.position, found.stiffness, found.damping
 
     def answer(self, before: Found | None) -> Found:
@@ -95,7 +98,7 @@ class BladeLossRung:
     def _march(self, steps: int) -> tuple[MarchMotion, int]:
         step = 2.0 * math.pi / (abs(self.speed) * steps)
         rest, *_ = self.rest
-        return march(self.film.bearing, self.mass, self.speed, self._pull, rest, step, self._count(steps))
+        return march(self.film.reaction, self.mass, self.speed, self._pull, rest, step, self._count(steps))
 
     def _pull(self, t: float) -> tuple[float, float]:
         angle = self.speed * t + self.excitation.unbalance_angle
@@ -117,7 +120,7 @@ class BladeLossRung:
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the error of the steps (order increment), and of the film by its defect along the motion."""
         motion, coarse = found.solution
-        reach = float(np.hypot(*motion.position).max()) / self.film.bearing.clearance
+        reach = float(np.hypot(*motion.position).max()) / self.film.reaction.clearance
         if reach >= 0.999:
             return ErrorEstimate(math.inf, "defect", doubt="the motion leaves the clearance: not linear")
         steps = 0.0 if not self.steps else abs(found.value - coarse) / (2.0**ORDER - 1.0) / found.value
@@ -126,7 +129,7 @@ class BladeLossRung:
         if self.steps and SAFETY * bound < tolerance:
             return beside_bound(steps, bound, how + "verified bound of the map", {})
         own = not self.steps and SAFETY * bound < tolerance
-        rich = self.film.bearing if own else self.film.rich
+        rich = self.film.reaction if own else self.film.rich
         change, doubt, calls = self._by_defect(motion, found.value, rich)
         work = {self.film.tangents if own else self.film.defects(smooth=False): calls}
         method = f"{how}defect of {self.film.name if own else self.film.rich_name}"
@@ -141,8 +144,8 @@ class BladeLossRung:
         slopes = rich.jacobian(q, v, speeds)
         rest, stiffness, damping = self.rest
         if self.steps:
-            own = self.film.bearing.jacobian(q, v, speeds)
-            cheap, K, C = self.film.bearing.force(q, v, speeds), -own[:, :2], -own[:, 2:4]
+            own = self.film.reaction.jacobian(q, v, speeds)
+            cheap, K, C = self.film.reaction.force(q, v, speeds), -own[:, :2], -own[:, 2:4]
         else:
             K, C = _constant(stiffness, count), _constant(damping, count)
             cheap = -stiffness @ (q - rest[:, None]) - damping @ v - np.array(self.load)[:, None]
@@ -195,8 +198,6 @@ def blade_loss_ladder(scene: Scene, quantity: str) -> Ladder:
         rungs=tuple(rungs),
         unit="m",
         units=film_batch_units(films, scene.speed),
-        nominal=NOMINAL,
-        refined={rung.name: rung.film.name for rung in rungs if rung.steps},
         remarks=scene.film_remarks,
         within=ISOTHERMAL,
     )

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work, beside_bound
+from ...answers import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work, WorkUnit, beside_bound
 from ...errors import InputError
+from ...ladders import CandidateRung, Ladder
 from ...model import Reaction
 from ...motion.periodic.driven_rotor import (
     RotorAnswers,
@@ -24,27 +25,25 @@ from ...motion.periodic.harmonics import resized, rms
 from ...motion.periodic.orbit_newton import driven
 from ...rotors import RigidRotor
 from ...scenes.excitation_table import UnbalanceTable
-from ...scenes.journal.film_rungs import FINE, MAP_BOUNDS, NOMINAL, FilmRung, extrapolated, film_rungs
+from ...scenes.journal.film_rungs import MAP_BOUNDS, FilmRung, turn_films
 from ..orbit_place import UNITS, WALL, OrbitPlace, SolvedTurn
-from ..walk import Ladder
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
 
 SAMPLES = (15, 31, 63)
-"""Samples over a turn of the nonlinear rungs; odd, see `rate_matrix`."""
+"""Samples over a turn of the nonlinear rungs; odd, as they stand for whole harmonics."""
 
 LINEAR = 31
 """Samples over a turn at which a linear orbit's defect is taken."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class OrbitRung:
+class OrbitRung(CandidateRung[FilmRung]):
     """The orbit on one film, linear about the equilibrium or nonlinear at so many samples.
 
     Attributes
     ----------
-    film : FilmRung
     quantity : str
         A key of `UNITS`.
     rotor : RigidRotor
@@ -52,7 +51,6 @@ class OrbitRung:
         Over a turn; 0 for the linear orbit.
     """
 
-    film: FilmRung
     quantity: str
     rotor: RigidRotor
     samples: int
@@ -66,7 +64,12 @@ class OrbitRung:
     @property
     def prior(self) -> float:
         """Order of magnitude of the film's error."""
-        return 0.3 * self.film.slope_prior
+        return 0.3 * self.film.prior
+
+    @property
+    def refines(self) -> tuple[object, ...]:
+        """The film, where there are samples."""
+        return (self.film,) if self.samples else ()
 
     @property
     def place(self) -> OrbitPlace:
@@ -78,12 +81,12 @@ class OrbitRung:
         made = self.film.prepare()
         # K0 and C0 of a lower rung's rest do as well, since the film's forces have them added.
         lower: SolvedTurn | None = before.solution if before is not None and self.samples else None
-        at = rest_on_film(self.rotor, self.film.bearing) if lower is None else lower.at
+        at = rest_on_film(self.rotor, self.film.reaction) if lower is None else lower.at
         answers = rotor_answers(self.rotor.structure, at, (), self.samples or LINEAR)
         orbit, work = answers.linear_orbit(rest := rest_position(at, answers.stations)), 6
         if self.samples:
             start = orbit if lower is None else resized(lower.orbit, answers.harmonics)
-            found = driven(answers.on({"": self.film.bearing}), start, rest)
+            found = driven(answers.on({"": self.film.reaction}), start, rest)
             orbit, work = found.series, (found.iterations + 1) * self.samples
         solved = SolvedTurn(at=at, answers=answers, orbit=orbit)
         return Found(self.place.value(answers, orbit), {self.film.tangents: work, **made}, solved)
@@ -94,14 +97,14 @@ class OrbitRung:
         For the map the richer film is the map itself, as long as its own verified error is small enough.
         """
         turn: SolvedTurn = found.solution
-        reach = reach_of(turn.orbit, turn.answers.stations, {"": self.film.bearing})
+        reach = reach_of(turn.orbit, turn.answers.stations, {"": self.film.reaction})
         if reach >= WALL:
             return ErrorEstimate(math.inf, "defect", doubt="the orbit leaves the clearance: not linear")
         calls = 2 * turn.answers.samples + 1
         doubled = rotor_answers(self.rotor.structure, turn.at, (), calls)
         bound = MAP_BOUNDS[0][2] if self.film.bounded and reach <= MAP_BOUNDS[0][0] else math.inf
         if SAFETY * bound < tolerance:
-            error, doubt = self._by_defect(doubled, turn, found.value, self.film.bearing)
+            error, doubt = self._by_defect(doubled, turn, found.value, self.film.reaction)
             method, work = f"its defect at {calls} samples", {self.film.tangents: calls}
             return beside_bound(error, bound, method, work, doubt)
         error, doubt = self._by_defect(doubled, turn, found.value, self.film.rich)
@@ -112,11 +115,9 @@ class OrbitRung:
     def _by_defect(
         self, answers: RotorAnswers, turn: SolvedTurn, value: float, rich: Reaction
     ) -> tuple[float, str]:
-        own = {"": self.film.bearing}
-        balance, orbit = (
-            answers.on({"": rich}, sloped=own if self.film.bounded else None),
-            resized(turn.orbit, answers.harmonics),
-        )
+        own = {"": self.film.reaction}
+        balance = answers.on({"": rich}, sloped=own if self.film.bounded else None)
+        orbit = resized(turn.orbit, answers.harmonics)
         step, other = propagated(balance, orbit, own if self.samples else None)
         error = self.place.change(value, self.place.value(answers, orbit + step))
         apart = rms(step - other) / max(rms(step), 1e-300)
@@ -175,8 +176,6 @@ def orbit_ladder(scene: Scene, quantity: str) -> Ladder:
         rungs=tuple(rungs),
         unit=UNITS[quantity],
         units=film_batch_units(films, scene.speed),
-        nominal=NOMINAL,
-        refined={rung.name: rung.film.name for rung in rungs if rung.samples},
         remarks=scene.film_remarks,
         within=ISOTHERMAL,
     )
@@ -184,31 +183,20 @@ def orbit_ladder(scene: Scene, quantity: str) -> Ladder:
 
 def orbit_films(scene: Scene) -> tuple[FilmRung, ...]:
     """Return the films worth taking round a turn: the map where there is one, else short film, grids, map."""
-    films = film_rungs(scene.bearing, fixed=scene.film_is_given)
-    if len(films) == 1 or (films[0].bounded and not films[0].makes_map):
-        return (_with_coarser_check(films[0]),)
-    kept = ("short film", "2-D 48 x 8 extr.", "2-D 96 x 8 extr.", "map", "map with grooves")
-    return tuple(_with_coarser_check(film) for film in films if film.name in kept)
-
-
-def _with_coarser_check(film: FilmRung) -> FilmRung:
-    """Return a rung whose map is compared with a grid that may be sampled all round a turn."""
-    if not film.bounded:
-        return film
-    return replace(film, rich=extrapolated(film.bearing, FINE), rich_name="2-D 384 x 16 extr.")
+    return turn_films(scene.bearing, fixed=scene.film_is_given, grids=((48, 8), (96, 8)), maps=True)
 
 
 def _effort(rung: OrbitRung, films: tuple[FilmRung, ...]) -> float:
     """Return a measure of cost by which the rungs are ordered: films by place, each twice the one before."""
-    one = 1e3 if rung.film.makes_map else 2.0 ** [film.name for film in films].index(rung.film.name)
+    one = 1e3 if rung.film.makes_map else 2.0 ** films.index(rung.film)
     return one * (6 if rung.samples == 0 else 5 * rung.samples)
 
 
-def film_batch_units(films: tuple[FilmRung, ...], speed: float) -> dict[str, Callable[[], object]]:
+def film_batch_units(films: tuple[FilmRung, ...], speed: float) -> dict[WorkUnit, Callable[[], object]]:
     """Return one force with derivatives of each film and of its richer one."""
-    units: dict[str, Callable[[], object]] = {}
+    units: dict[WorkUnit, Callable[[], object]] = {}
     for film in films:
-        units[film.tangents] = _sampled(film.bearing, speed)
+        units[film.tangents] = _sampled(film.reaction, speed)
         units[film.defects(smooth=False)] = _sampled(film.rich, speed)
     return units
 

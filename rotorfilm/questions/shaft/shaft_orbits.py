@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Work
+from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Work, WorkUnit
 from ...errors import InputError
+from ...ladders import BaseRung, Ladder
 from ...linear import rotor_equilibrium
 from ...model import Reaction
 from ...motion.periodic.driven_rotor import RotorAnswers, distance, reach_of, rest_position, rotor_answers
@@ -18,10 +19,8 @@ from ...motion.periodic.harmonics import first_wave, resized, rms
 from ...motion.periodic.orbit_newton import driven, newton_step
 from ...rotors.shaft.shaft_models import ShaftModel, shaft_models
 from ...scenes.excitation_table import UnbalanceTable
-from ...scenes.journal.film_rungs import NOMINAL
 from ...scenes.shaft.shaft_remarks import shaft_physics, shaft_remarks, stability_remark
 from ..orbit_place import FORCE, PHASE, UNITS, WALL, OrbitPlace, SolvedTurn
-from ..walk import Ladder
 from .shaft_films import ShaftFilms, film_levels
 
 if TYPE_CHECKING:
@@ -38,7 +37,7 @@ ROUNDOFF = 1e-12
 
 
 @dataclass(frozen=True, kw_only=True)
-class ShaftOrbitRung:
+class ShaftOrbitRung(BaseRung):
     """The orbit by one model of the shaft and one film for each journal, linear or nonlinear.
 
     Attributes
@@ -64,18 +63,18 @@ class ShaftOrbitRung:
         return ", ".join(part for part in (how, self.model.name, self.films.name) if part)
 
     @property
-    def prior(self) -> float:
-        """Nothing is known beforehand."""
-        return 0.0
+    def refines(self) -> tuple[object, ...]:
+        """Model of the shaft and films, where there are samples."""
+        return (self.model, self.films) if self.samples else ()
 
     @property
-    def unit(self) -> str:
-        """Name of one turn."""
-        return f"turns of {self.name}"
+    def unit(self) -> WorkUnit:
+        """One turn."""
+        return WorkUnit(f"turns of {self.name}", ("turns", id(self.model), id(self.films), self.samples))
 
     @cached_property
     def _reactions(self) -> dict[str, Reaction]:
-        return self.films.reactions
+        return self.films.reaction
 
     def answer(self, before: Found | None) -> Found:
         """Return the quantity of the orbit; a nonlinear one starts from that of a lower rung."""
@@ -120,7 +119,9 @@ class ShaftOrbitRung:
             films_share = bound if trusted else self._by_grid(turn, value)
         is_bound = films_share > error
         error += films_share if is_bound or not trusted else 0.0
-        return ErrorEstimate(error, method, {f"defects of {self.name}": 1}, bound=is_bound, doubt=doubt)
+        return ErrorEstimate(
+            error, method, {WorkUnit(f"defects of {self.name}"): 1}, bound=is_bound, doubt=doubt
+        )
 
     def _by_grid(self, turn: SolvedTurn, value: float) -> float:
         """Return the change that the forces of the richer films make, propagated by the slopes of the map."""
@@ -185,7 +186,7 @@ def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
     place, shaft = orbit_place(scene, quantity), scene.shaft
     assert shaft is not None  # checked by the above
     rotor = shaft.build(speed=scene.speed, extra=_extra(scene))
-    models, levels = shaft_models(rotor), film_levels(shaft)
+    models, levels, bearings = shaft_models(rotor), film_levels(shaft), shaft.build_bearings()
     rungs = tuple(
         ShaftOrbitRung(model=model, films=films, place=place, speed=scene.speed, samples=samples)
         for films in levels
@@ -194,13 +195,11 @@ def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
     return Ladder(
         rungs=rungs,
         unit=UNITS[quantity],
-        nominal=NOMINAL,
-        refined={rung.name: replace(rung, samples=0).name for rung in rungs if rung.samples},
         remarks=(
-            *shaft_remarks(scene, scene.speed),
-            *stability_remark(rotor, levels[0].reactions, scene.speed),
+            *shaft_remarks(rotor, bearings, scene.lubricant, scene.speed),
+            *stability_remark(rotor, levels[0].reaction, scene.speed),
         ),
-        within=shaft_physics(scene),
+        within=shaft_physics(bearings),
     )
 
 

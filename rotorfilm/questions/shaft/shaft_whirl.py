@@ -141,7 +141,7 @@ def whirl_of(event: SpeedEvent, rotor: FlexibleRotor, films: ShaftFilms, start: 
     ConvergenceError
         If Newton's method in the speed does not end.
     """
-    reactions = films.reactions
+    reactions = films.reaction
     speed, value, load = start
     for count in range(1, _STEPS + 1):
         at = rotor_equilibrium(rotor, reactions, speed)

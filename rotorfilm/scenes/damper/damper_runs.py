@@ -10,12 +10,11 @@ import numpy as np
 
 from ...cosim import CoSimulation, cosimulate
 from ...errors import ContactError
-from ...files import written_together
-from ...fmu import export_fmu
-from ...model import Array, Model
+from ...model import Array
 from ...motion import simulate
 from ...results import Trajectory
-from .damper_models import DamperScene, damper_models
+from ..write_models import write_models
+from .damper_models import DamperScene, damper_fmus, damper_models
 
 if TYPE_CHECKING:
     from ..scene import Scene
@@ -75,36 +74,12 @@ def couple_damper(scene: Scene, folder: Path, version: str = "2.0") -> DamperRun
         FMI version; a damper whose film is no map has 2.0 only.
     """
     models = damper_models(scene)
-    rotor, damper = export_damper(scene, folder, version)
+    damper, rotor = write_models(damper_fmus(scene), folder, version)
     try:
         run = cosimulate(rotor, damper, macro_step=models.step, duration=models.duration)
     except ContactError as contact:
         return _run(models, _partial(contact), touched=True)
     return _run(models, run.trajectory, touched=False)
-
-
-def export_damper(
-    scene: Scene, folder: Path, version: str = "2.0", *, backend: str | None = None, platforms: str = "host"
-) -> tuple[Path, Path]:
-    """Write `rotor.fmu` and `damper.fmu` of a scene at rest in the center, both or none; see `export_fmu`."""
-    models = damper_models(scene)
-
-    def write(model: Model, name: str) -> None:
-        export_fmu(
-            model,
-            part / f"{name}.fmu",
-            version,
-            backend,
-            platforms=platforms,
-            component=name,
-            step_size=models.step,
-            stop_time=models.duration,
-        )
-
-    with written_together(folder) as part:
-        write(models.rotor, "rotor")
-        write(models.support, "damper")
-    return folder / "rotor.fmu", folder / "damper.fmu"
 
 
 def _partial(contact: ContactError) -> Trajectory:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...answers import WorkUnit
 from ...bearings.films.law import FilmLaw
 from ...bearings.journal import (
     ComplementarityArc,
@@ -39,11 +40,8 @@ a difference over many such jumps does not. The pressure at the wall is as wide 
 and so is the squeeze, relative to the wedge, that moves its edge.
 """
 
-MAP_MADE = "maps made"
-"""Unit of the work of making a map."""
-
-NOMINAL = {MAP_MADE: 20.0}
-"""What a map costs about [s], where none was made in this run."""
+MAP_MADE = WorkUnit("maps made", nominal=20.0)
+"""WorkUnit of the work of making a map."""
 
 MEDIUM, FINE, FINEST = (192, 16), (384, 16), (768, 32)
 
@@ -55,13 +53,13 @@ class FilmRung:
     Attributes
     ----------
     name : str
-    bearing : JournalBearing
+    reaction : JournalBearing
         With this film.
     rich : JournalBearing
         With the richer one.
     rich_name : str
         Name of the richer film.
-    position_prior, slope_prior : float [1]
+    position_prior, prior : float [1]
         Orders of magnitude of the error of a position, and of stiffness and damping; 0 if unknown.
     bounded : bool
         Whether the error has a verified bound, `MAP_BOUNDS`.
@@ -70,33 +68,34 @@ class FilmRung:
     """
 
     name: str
-    bearing: JournalBearing
+    reaction: JournalBearing
     rich: JournalBearing
     rich_name: str
     position_prior: float
-    slope_prior: float
+    prior: float
     bounded: bool = False
     makes_map: bool = False
 
-    def prepare(self) -> dict[str, int]:
+    def prepare(self) -> dict[WorkUnit, int]:
         """Make what the first force would make, and return the work of that."""
         if not self.makes_map:
             return {}
-        self.bearing.force([0.5 * self.bearing.clearance, 0.0], [0.0, 0.0], 1.0)
+        self.reaction.force([0.5 * self.reaction.clearance, 0.0], [0.0, 0.0], 1.0)
         return {MAP_MADE: 1}
 
-    def expected(self, tangents: int) -> dict[str, int]:
+    def expected(self, tangents: int) -> dict[WorkUnit, int]:
         """Return the work of so many forces with derivatives."""
         return {self.tangents: tangents, **({MAP_MADE: 1} if self.makes_map else {})}
 
     @property
-    def tangents(self) -> str:
-        """Name of one force with derivatives."""
-        return f"tangents of {self.name}"
+    def tangents(self) -> WorkUnit:
+        """One force with derivatives."""
+        return WorkUnit(f"tangents of {self.name}", ("tangents", self.reaction))
 
-    def defects(self, *, smooth: bool) -> str:
-        """Return the name of the defects that correct one state, with exact or with smooth slopes."""
-        return f"defects{' and slopes' if smooth else ''} of {self.rich_name}"
+    def defects(self, *, smooth: bool) -> WorkUnit:
+        """Return the unit of the defects that correct one state, with exact or with smooth slopes."""
+        name = f"defects{' and slopes' if smooth else ''} of {self.rich_name}"
+        return WorkUnit(name, ("defects", smooth, self.rich))
 
     def bound(self, eccentricity_ratio: float, *, slopes: bool) -> float:
         """Return the verified bound of its error at an eccentricity ratio, infinite where there is none."""
@@ -136,6 +135,40 @@ def point_films(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]
     """Return the films for some equilibria: a map that must be made first costs more than any grid."""
     films = film_rungs(bearing, fixed=fixed)
     return tuple(film for film in films if fixed or not film.makes_map)
+
+
+def turn_films(
+    bearing: JournalBearing, *, fixed: bool, grids: tuple[tuple[int, int], ...], maps: bool
+) -> tuple[FilmRung, ...]:
+    """Return the films for states all round a turn: the map that is there, else the short film and grids.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+    fixed : bool
+        Whether the scene names the film of the bearing.
+    grids : tuple of (int, int)
+        Cells of the grids worth taking.
+    maps : bool
+        Whether a map that must be made first is worth it.
+    """
+    films = tuple(_with_coarser_check(film) for film in film_rungs(bearing, fixed=fixed))
+    if len(films) == 1 or (films[0].bounded and not films[0].makes_map):
+        return films[:1]
+    return tuple(film for film in films if _is_kept(film, grids, maps=maps))
+
+
+def _is_kept(film: FilmRung, grids: tuple[tuple[int, int], ...], *, maps: bool) -> bool:
+    law = film.reaction.film
+    on_grid = isinstance(law, ExtrapolatedFilm) and law.film.cells in grids
+    return on_grid or isinstance(law, ShortFilm) or (maps and film.makes_map)
+
+
+def _with_coarser_check(film: FilmRung) -> FilmRung:
+    """Return a rung whose map is compared with a grid that may be sampled all round a turn."""
+    if not film.bounded:
+        return film
+    return replace(film, rich=extrapolated(film.reaction, FINE), rich_name="2-D 384 x 16 extr.")
 
 
 def with_film(bearing: JournalBearing, film: FilmLaw) -> JournalBearing:
@@ -263,10 +296,10 @@ def _rung(
     cells, rich_name = rich
     return FilmRung(
         name=name,
-        bearing=with_film(bearing, film),
+        reaction=with_film(bearing, film),
         rich=with_film(bearing, MapFilm()) if cells is None else extrapolated(bearing, cells),
         rich_name=rich_name,
         position_prior=position_prior,
-        slope_prior=slope_prior,
+        prior=slope_prior,
         bounded=bounded,
     )
