@@ -200,7 +200,9 @@ def test_march_is_of_the_declared_order_and_meets_the_closed_form():
         K, C = 4.0 * np.eye(2)[:, :, None].repeat(t.size, 2), 0.4 * np.eye(2)[:, :, None].repeat(t.size, 2)
         pull = np.zeros((2, t.size))
         pull[0] = 0.1
-        np.testing.assert_allclose(linear_march(1.0, K, C, pull, 5.0 / count), path.position, atol=1e-9)
+        np.testing.assert_allclose(
+            linear_march(1.0, K, C, pull, 5.0 / count).position, path.position, atol=1e-9
+        )
         return np.abs(path.position[0] - exact).max()
 
     assert math.log2(error(100) / error(200)) == pytest.approx(ORDER, abs=0.05)

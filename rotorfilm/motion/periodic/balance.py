@@ -39,7 +39,7 @@ class Receptance(NamedTuple):
     rates: Complex | None
 
 
-class OrbitRotor(Protocol):
+class HarmonicRotor(Protocol):
     """A rotor in its films as the equations of an orbit see it."""
 
     @property
@@ -69,7 +69,7 @@ class OrbitRotor(Protocol):
         """Return the same under a part of the unbalance."""
 
 
-R = TypeVar("R", bound=OrbitRotor)
+R = TypeVar("R", bound=HarmonicRotor)
 
 
 class Residual(NamedTuple):
@@ -85,7 +85,7 @@ class Balance(NamedTuple, Generic[R]):
 
     Attributes
     ----------
-    rotor : OrbitRotor
+    rotor : HarmonicRotor
     harmonics : int
     periods : int
         Turns of the shaft per orbit; 0 for an orbit that the unbalance does not drive.
