@@ -11,7 +11,8 @@ import numpy as np
 
 from ...errors import FilmContactError
 from ...model import Array
-from ..compiled import rotor_kernels as kernels
+from ..compiled.film_calls import CONTACT
+from ..compiled.film_kernels import film_batch
 from ..compiled.modal import Complex, ModalRotor
 from .balance import Receptance
 from .harmonics import constant, with_wave
@@ -94,9 +95,9 @@ def film_forces(modal: ModalRotor, position: Array, velocity: Array) -> tuple[Ar
     """
     films = np.array([(call.address, call.data) for call in modal.calls], dtype=np.intp)
     supports = modal.spring, modal.damper, modal.parts.lengths
-    status, force, slope = kernels.film_batch(
+    status, force, slope = film_batch(
         films, supports, position, velocity, float(modal.parts.profile.speeds[0])
     )
-    if status >= kernels.CONTACT:
+    if status >= CONTACT:
         raise FilmContactError("a journal leaves its bearing along the orbit")
     return force, slope[:, :2], slope[:, 2:]
