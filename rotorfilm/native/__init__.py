@@ -1,6 +1,6 @@
 """Thin view of the C library, whose kernels Python and the native FMUs share."""
 
-from .film_kernels import (
+from .journal_forces import (
     FilmKernel,
     GrooveMapKernel,
     JournalKernel,

@@ -20,7 +20,7 @@ import numpy as np
 from numba import njit
 
 from .film_calls import CONTACT, NOT_FINITE, OUTSIDE
-from .film_kernels import film, start_forces, unbalance_pair
+from .journal_forces import film, start_forces, unbalance_pair
 from .step_tables import (
     LEVELS,
     RATIO,

@@ -12,7 +12,7 @@ import numpy as np
 from ...errors import FilmContactError
 from ...model import Array
 from ..compiled.film_calls import CONTACT
-from ..compiled.film_kernels import film_batch
+from ..compiled.journal_forces import film_batch
 from ..compiled.modal import Complex, ModalRotor
 from .balance import Receptance
 from .harmonics import constant, with_wave

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from rotorfilm import JournalBearing, LinearBearing, ShortFilm, Sprung
 from rotorfilm.motion.compiled.film_calls import CONTACT, film_call
-from rotorfilm.motion.compiled.film_kernels import film_batch
+from rotorfilm.motion.compiled.journal_forces import film_batch
 
 SIZES = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}
 MAP, SHORT = JournalBearing(**SIZES), JournalBearing(**SIZES, film=ShortFilm())
