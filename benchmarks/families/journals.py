@@ -14,7 +14,8 @@ from rotorfilm.questions.journal.blade_loss import blade_loss_ladder
 from rotorfilm.questions.journal.statics import StaticRung
 from rotorfilm.questions.journal.unbalance_orbits import OrbitRung, rotor_of
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.journal.film_rungs import FilmRung, extrapolated, tangent
+from rotorfilm.scenes.journal.film_defects import tangent
+from rotorfilm.scenes.journal.film_rungs import FilmRung, extrapolated
 
 from .drawn import Drawn, Truth, log_uniform
 

@@ -45,7 +45,7 @@ def second_order(structure: Structure, at: RotorEquilibrium) -> SecondOrder:
     damping = structure.damping + at.speed * structure.gyroscopic
     stiffness = structure.stiffness + at.speed * structure.circulation
     for name, film in at.coefficients.items():
-        rows = _journal(structure, name)
+        rows = journal_rows(structure, name)
         damping = damping + rows.T @ film.damping @ rows
         stiffness = stiffness + rows.T @ film.stiffness @ rows
     return SecondOrder(structure.mass, damping, stiffness)
@@ -206,7 +206,8 @@ def checked_speeds(speeds: ArrayLike) -> Array:
     return grid
 
 
-def _journal(structure: Structure, name: str) -> Array:
+def journal_rows(structure: Structure, name: str) -> Array:
+    """Return the displacement of a journal from its housing, shape (2, N)."""
     k = structure.stations.index(name)
     return structure.journals[2 * k : 2 * k + 2]
 
@@ -217,7 +218,7 @@ def _outputs(rotor: FlexibleRotor, at: RotorEquilibrium) -> tuple[Array, list[st
     rows: Sequence[Array] = [output_rows(s)]
     labels = names(rotor.outputs)[:-1]
     for name, film in at.coefficients.items():
-        journal = _journal(s, name)
+        journal = journal_rows(s, name)
         rows = [*rows, np.hstack([film.stiffness @ journal, film.damping @ journal])]
         labels += [station_name(name, signal) for signal in HOUSING]
     return np.vstack(rows), labels

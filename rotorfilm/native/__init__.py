@@ -1,6 +1,6 @@
 """Thin view of the C library, whose kernels Python and the native FMUs share."""
 
-from .journal_forces import (
+from .film_kernels import (
     FilmKernel,
     GrooveMapKernel,
     JournalKernel,

@@ -27,11 +27,8 @@ if TYPE_CHECKING:
 ANGLES = (16.0, 8.0, 4.0, 2.0, 1.0, 0.5, 0.25, 0.125)
 """Macro steps of the rungs [deg]."""
 
-FORCES, SLOPES, STATES = (
-    WorkUnit("film forces"),
-    WorkUnit("film derivatives"),
-    WorkUnit("1000 film states at once"),
-)
+FORCES, SLOPES = WorkUnit("film forces"), WorkUnit("film derivatives")
+STATES = WorkUnit("1000 film states at once")
 
 CELLS = (48, 4)
 """Of the film of a bearing without a map, where the scene leaves the film open."""

@@ -3,17 +3,58 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
+from ..files import written_together
+from ..fmu import export_fmu
 from ..linear import equilibrium
 from ..rotors.law_rotor import LawRotor
 from ..rotors.rigid import RigidRotor
 from .families import SceneModels, models_of
-from .write_models import ExportedScene, write_models
 
 if TYPE_CHECKING:
     from .scene import Scene
+
+
+class ExportedScene(NamedTuple):
+    """Where the two FMUs of a scene are.
+
+    Attributes
+    ----------
+    film, rotor : Path
+    """
+
+    film: Path
+    rotor: Path
+
+
+def write_models(
+    models: SceneModels,
+    folder: Path,
+    version: str = "2.0",
+    backend: str | None = None,
+    *,
+    platforms: str = "host",
+) -> ExportedScene:
+    """Write the FMUs of a bearing and its rotor; see `export_fmu`."""
+    starts: dict[str, Mapping[str, float]] = {models.name: models.start, "rotor": {}}
+    parts = {models.name: models.bearing, "rotor": models.rotor}
+    with written_together(folder) as part:
+        for name, model in parts.items():
+            export_fmu(
+                model,
+                part / f"{name}.fmu",
+                version,
+                backend,
+                platforms=platforms,
+                component=name,
+                start=starts[name],
+                step_size=models.step,
+                stop_time=models.duration,
+            )
+    return ExportedScene(film=folder / f"{models.name}.fmu", rotor=folder / "rotor.fmu")
 
 
 def resting_rotor(scene: Scene) -> RigidRotor:

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from importlib import import_module, resources
 from os import PathLike
-from pathlib import Path
 from typing import Annotated, Any
 
 from ..answers import QuestionAnswer
 from ..bearings.journal import JournalBearing
-from ..errors import InputError, SceneError, warn_user
-from ..limits import LINE_DOTS, SCENE_BYTES
-from ..printable import brief, shortened
+from ..errors import InputError, warn_user
 from ..rotors.rigid import RigidRotor
 from ..units import STANDARD_GRAVITY
 from .bush.bush_table import BushTable
@@ -28,12 +24,10 @@ from .journal.journal_remarks import film_remarks
 from .journal.solve_journal import Answer, solve
 from .lubricant_table import LubricantTable
 from .question_table import QuestionTable
-from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
+from .scene_file import parsed, read_tables, require_schema
+from .schema import CosimulationTable, JournalTable, OperationTable, RigidRotorTable
 from .shaft.shaft_table import ShaftTable, require_node, require_place
-from .tables import Beside, Table, Variant, read_table, require_no_near_miss, text
-
-BYTE_ORDER_MARK = "\ufeff"
-"""What some editors put before the text of a file."""
+from .tables import Beside, Table, Variant, read_table, text
 
 BUNDLED = "friswell_5_9_6.toml"
 """The scene file that ships with the package."""
@@ -90,7 +84,9 @@ class Scene:
     contact: Annotated[ContactTable | None, Table(ContactTable)] = None
     shaft: Annotated[ShaftTable | None, Table(ShaftTable)] = None
     damper: Annotated[DamperTable | None, Table(DamperTable)] = None
-    others: Annotated[Mapping[str, Any], Beside(tuple(FAMILIES), table_of)] = field(default_factory=dict)
+    others: Annotated[Mapping[str, Any], Beside(tuple(FAMILIES), table_of)] = field(
+        default_factory=dict, hash=False
+    )
 
     # What all families share.
     operation: Annotated[OperationTable | None, Table(OperationTable)] = None
@@ -253,41 +249,13 @@ class Scene:
 
 def parse_scene(document: str, source: str) -> Scene:
     """Return the scene that a TOML text describes; `source` names it in messages."""
-    return read_scene(_parsed(document, source), source)
-
-
-def read_tables(path: str | PathLike[str]) -> dict[str, Any]:
-    """Return the tables of a scene file as they are; raise SceneError if it cannot be read or is no TOML."""
-    try:
-        with Path(path).open("rb") as file:
-            content = file.read(SCENE_BYTES + 1)
-        document = content.decode("utf-8")
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
-        raise SceneError(f"{path}: scene file cannot be read: {reason}") from None
-    if len(content) > SCENE_BYTES:
-        raise SceneError(f"{path}: scene file must be at most {SCENE_BYTES} bytes long, got more")
-    return _parsed(document, str(path))
-
-
-def _parsed(document: str, source: str) -> dict[str, Any]:
-    if any(line.count(".") > LINE_DOTS for line in document.splitlines()):
-        raise SceneError(f"{source}: lines must not have more than {LINE_DOTS} dots")
-    try:
-        return tomllib.loads(document.removeprefix(BYTE_ORDER_MARK))
-    except tomllib.TOMLDecodeError as error:
-        where = str(error).replace("end of document", f"line {len(document.splitlines())}, the last")
-        raise SceneError(f"{source}: not valid TOML: {shortened(where)}") from None
-    except RecursionError:
-        raise SceneError(f"{source}: tables and lists must not be nested that deep") from None
-    except ValueError:  # Python reads no integer of more than 4300 digits
-        raise SceneError(f"{source}: integers must not have thousands of digits") from None
+    return read_scene(parsed(document, source), source)
 
 
 def read_scene(data: Mapping[str, Any], source: str) -> Scene:
     """Return the scene that the tables of a file describe; `source` names it in messages."""
     tables = dict(data)
-    _require_schema(source, tables)
+    require_schema(source, tables)
     return read_table(Scene, f"{source}: ", tables)
 
 
@@ -295,12 +263,3 @@ def bundled_scene() -> Scene:
     """Return the scene that ships with the package: Friswell et al. (2010), example 5.9.6."""
     document = resources.files(__package__).joinpath("data", BUNDLED).read_text(encoding="utf-8")
     return parse_scene(document, BUNDLED)
-
-
-def _require_schema(source: str, data: dict[str, Any]) -> None:
-    """Take the version out of the data; raise SceneError if it is not the one that is read here."""
-    value = data.pop("schema", None)
-    if type(value) is not int or value != SCHEMA:
-        require_no_near_miss(f"{source}: ", "schema", data)
-        found = "nothing" if value is None else brief(value)
-        raise SceneError(f"{source}: schema must be {SCHEMA} (write `schema = {SCHEMA}`), got {found}")

@@ -1,7 +1,7 @@
 """Schema 1 of scene files: the tables, their keys and their units.
 
 Each table checks its values by building what it describes. A later family has its table in a file of its own,
-registers it by one line in `rotorfilm.scenes.scene.Scene`, and renames nothing.
+is listed by one line in `rotorfilm.scenes.families`, and renames nothing.
 """
 
 from __future__ import annotations

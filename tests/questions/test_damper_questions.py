@@ -328,10 +328,10 @@ def test_inertia_is_that_of_an_oscillating_flow_between_walls():
         exact = 1j * reynolds / (1.0 - np.tanh(k) / k)
         assert exact.imag / exact.real == pytest.approx(reynolds / 10.0, rel=1e-3)
     n = damper_numbers(BARE, OIL, 20.0, 300.0, 0.01)
-    assert n.inertia == pytest.approx(300.0 * 1e-8 * 900.0 / 0.005 / 10.0)
+    assert n["inertia"] == pytest.approx(300.0 * 1e-8 * 900.0 / 0.005 / 10.0)
     # the film that moves along has the mass pi density radius length^3/(10 clearance)
     mass = math.pi * 900.0 * 0.05 * 0.02**3 / (10.0 * 1e-4)
-    assert n.added_mass == pytest.approx(mass / 20.0, rel=1e-3)
+    assert n["added_mass"] == pytest.approx(mass / 20.0, rel=1e-3)
 
 
 @pytest.mark.closed_form

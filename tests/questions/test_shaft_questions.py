@@ -21,12 +21,7 @@ from rotorfilm.linear import (
     rotor_threshold,
     unbalance_response,
 )
-from rotorfilm.motion import periodic_orbit
-from rotorfilm.motion.periodic.driven_rotor import rest_position, rotor_answers
-from rotorfilm.questions import ladder_of
-from rotorfilm.questions.shaft.shaft_events import Critical, Threshold
-from rotorfilm.questions.shaft.shaft_films import REST_BOUNDS, coefficient_bounds, film_levels
-from rotorfilm.questions.shaft.shaft_whirl import (
+from rotorfilm.linear.rotor_whirl import (
     Start,
     mode_near,
     on_films,
@@ -34,6 +29,11 @@ from rotorfilm.questions.shaft.shaft_whirl import (
     value_rate,
     whirl_of,
 )
+from rotorfilm.linear.speed_events import Critical, Threshold
+from rotorfilm.motion import periodic_orbit
+from rotorfilm.motion.periodic.driven_rotor import rest_position, rotor_answers
+from rotorfilm.questions import ladder_of
+from rotorfilm.questions.shaft.shaft_films import REST_BOUNDS, coefficient_bounds, film_levels
 from rotorfilm.rotors import JeffcottRotor, mount
 from rotorfilm.rotors.shaft.shaft_models import ShaftModel, shaft_models, split
 from rotorfilm.scenes import Scene, parse_scene, read_scene

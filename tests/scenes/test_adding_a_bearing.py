@@ -1,4 +1,4 @@
-"""A bearing family is one folder and one line: a sleeve, in a copy of the package (docs/adding_a_bearing.md)."""
+"""A bearing family is one folder and one line: a sleeve, in a copy of the package."""
 
 import difflib
 import json
@@ -45,6 +45,7 @@ home, scene, out = map(Path, sys.argv[1:])
 sys.path.insert(0, str(home))
 import warnings
 warnings.simplefilter("ignore")
+from fmpy import simulate_fmu
 import rotorfilm
 assert Path(rotorfilm.__file__).is_relative_to(home)
 from rotorfilm.errors import SceneError
@@ -55,6 +56,8 @@ from rotorfilm.scenes.export_scene import export_scene
 loaded = Scene.load(scene)
 answer = loaded.ask()
 made = export_scene(loaded, out)
+moving = {"sleeve.vx": 2e-3}
+run = simulate_fmu(str(made.film), stop_time=0.01, start_values=moving, output=["sleeve.force_x"])
 try:
     parse_scene(scene.read_text().replace("[sleeve]", "[sleve]"), "typo.toml")
 except SceneError as error:
@@ -70,6 +73,7 @@ print(json.dumps({
     "rungs": [[rung.name, rung.verdict] for rung in answer.rungs],
     "remarks": answer.remarks,
     "files": [path.name for path in made],
+    "force": float(run["sleeve.force_x"][-1]),
     "checks": {item.check: item.passed for item in check_fmu(made.film)},
     "typo": typo,
     "sign": sign,
@@ -131,7 +135,8 @@ def test_it_becomes_an_fmu_that_passes_its_check(answered):
     found, _ = answered
     assert found["files"] == ["sleeve.fmu", "rotor.fmu"]
     assert False not in found["checks"].values()
-    assert found["checks"]["directional derivatives"]
+    assert found["checks"]["description"]
+    assert found["force"] == pytest.approx(-2e-3 * found["value"])
 
 
 def test_errors_of_its_table_name_file_key_and_value(answered):

@@ -1,6 +1,7 @@
 """Scenes with a damper: the table, a lost blade, a run-up."""
 
 from dataclasses import replace
+from importlib import import_module
 
 import fmpy
 import numpy as np
@@ -22,7 +23,7 @@ from rotorfilm import (
 )
 from rotorfilm.bearings.films.cavitation import FullFilm
 from rotorfilm.errors import FmuError, InputError, SceneError
-from rotorfilm.scenes import bundled_scene, parse_scene, write_models
+from rotorfilm.scenes import bundled_scene, parse_scene
 from rotorfilm.scenes.damper.damper_models import damper_models
 from rotorfilm.scenes.damper.damper_runs import couple_damper, run_damper
 from rotorfilm.scenes.excitation_table import StepLoadTable
@@ -165,18 +166,19 @@ def test_exported_scene_starts_at_rest_in_the_center(tmp_path):
 @pytest.mark.parametrize("bearing", ["damper", "film"])
 def test_two_fmus_are_written_or_none(tmp_path, monkeypatch, bearing):
     # The second export fails, over FMUs of an earlier time.
+    home = import_module("rotorfilm.scenes.export_scene")
     told = scene(SPRINGS + CAGE) if bearing == "damper" else bundled_scene()
     names = [f"{bearing}.fmu", "rotor.fmu"]
     for name in names:
         (tmp_path / name).write_bytes(b"earlier")
-    export, done = write_models.export_fmu, []
+    export, done = home.export_fmu, []
 
     def fail(*arguments, **options):
         if done:
             raise FmuError("no")
         done.append(export(*arguments, **options))
 
-    monkeypatch.setattr(write_models, "export_fmu", fail)
+    monkeypatch.setattr(home, "export_fmu", fail)
     with pytest.raises(FmuError, match="no"):
         export_scene(told, tmp_path)
     assert done

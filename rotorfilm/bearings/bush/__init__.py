@@ -1,5 +1,6 @@
 """Polymer bushes that wear by melting."""
 
+from .arc_of_wear import arc_of_wear
 from .bearing import BushContact, MeltingBush, f4k20_bush
 from .bush_reaction import BushReaction
 from .bush_wear import BushWear
@@ -38,6 +39,7 @@ __all__ = [
     "Worn",
     "approximate_flux",
     "arc_angle",
+    "arc_of_wear",
     "end_of_local_wear",
     "end_of_wear",
     "exact_flux",

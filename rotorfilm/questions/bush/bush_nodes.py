@@ -11,11 +11,11 @@ from ...bearings.bush import (
     LocalEnd,
     Wearing,
     Worn,
+    arc_of_wear,
     end_of_local_wear,
     wear_at_nodes,
-    wear_by_one_moment,
 )
-from ...errors import ConvergenceError, RotorfilmError
+from ...errors import RotorfilmError
 from ...ladders import BaseRung
 from ...scenes.bush.bush_run import BushRun, unworn
 
@@ -33,12 +33,6 @@ Fitted to falling loads, of orders 1.3 to 1.8: an error is 1.6 times its estimat
 
 AT_CRITICAL = 1e-6
 """Speed over the critical one, less one, within which it is not known whether an unworn bush melts."""
-
-WIDEST_ARC = 1.5
-"""Half the widest arc of nodes [rad]."""
-
-MARGIN, WIDER = 1.08, 1.25
-"""Arc of nodes over the widest contact found by few of them; by how much it is widened where that fails."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,29 +75,11 @@ class NodesRung(BaseRung):
         if before is not None and isinstance(before.solution, float) and math.isfinite(before.solution):
             reach = before.solution
         else:
-            reach, work = self._reach()
+            reach, calls = arc_of_wear(self.own, self.run.rule, self.run.stages, NODES[0])
+            work = {profiles(NODES[0], ", first"): calls}
         worn = self._worn(self.nodes, reach)
         value = self.run.require_liner(self.run.radius * worn.settlement)
         return Found(value, {profiles(self.nodes): worn.calls, **work}, reach)
-
-    def _reach(self) -> tuple[float, dict[WorkUnit, int]]:
-        """Return half the arc of nodes [rad] that the contact fills, found by few nodes, and the work."""
-        path = wear_by_one_moment(self.own, self.run.stages)
-        reach = min(1.2 * float(self.own.angle(path.moment, path.load_ratio).max()), WIDEST_ARC)
-        calls = path.calls
-        while True:
-            try:
-                first = self._worn(NODES[0], reach)
-            except ConvergenceError:
-                if reach >= WIDEST_ARC:
-                    raise
-                reach = min(WIDER * reach, WIDEST_ARC)
-                continue
-            calls += first.calls
-            fits = MARGIN * first.angle
-            if fits > 0.7 * reach:
-                return min(fits, WIDEST_ARC), {profiles(NODES[0], ", first"): calls}
-            reach = 0.5 * (fits + reach)
 
     def _worn(self, nodes: int, reach: float) -> Worn:
         return wear_at_nodes(self.own, self.run.rule, self.run.stages, nodes, reach)

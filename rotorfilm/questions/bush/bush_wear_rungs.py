@@ -20,7 +20,7 @@ from ...bearings.bush import (
 )
 from ...errors import RotorfilmError
 from ...ladders import BaseRung, Ladder
-from ...model import Array
+from ...motion.transient.scalar_drift import scalar_drift
 from ...scenes.bush.bush_remarks import bush_remarks
 from ...scenes.bush.bush_run import BushRun, bush_run, unworn
 from .bush_nodes import CRITICAL_SPEEDS, NODES, LocalEndRung, NodesRung
@@ -102,7 +102,7 @@ class MomentRung(BaseRung):
         rate = path.load_ratio * np.maximum(rich.surplus(alpha, total), 0.0)
         defect = rate - path.load_ratio * np.maximum(own.surplus(alpha, shaped), 0.0)
         slopes = rich.slope(alpha, total, path.load_ratio), own.shaped_slope(alpha, path.load_ratio)
-        moved, other = (propagated(path.time, defect, slope) for slope in slopes)
+        moved, other = (scalar_drift(path.time, defect, slope) for slope in slopes)
         error, doubt = self._relative(path, moved, other)
         return ErrorEstimate(error + STEPS_ERROR, "defect of two moments", {DEFECTS: alpha.size}, doubt=doubt)
 
@@ -118,7 +118,7 @@ class MomentRung(BaseRung):
         total = own.total(alpha, path.first)
         flux = EXACT_ERROR * own.law.balance.share(alpha) * own.law.shaft * own.law.melting
         defect = 2.0 * alpha * flux * path.load_ratio / (total * own.heat)
-        moved = propagated(path.time, defect, own.slope(alpha, total, path.load_ratio))
+        moved = scalar_drift(path.time, defect, own.slope(alpha, total, path.load_ratio))
         error, _ = self._relative(path, moved, moved)
         return ErrorEstimate(error + STEPS_ERROR, "verified bound of flux and steps", bound=True)
 
@@ -136,20 +136,6 @@ def relative(bush: Wearing, load: float, moment: float, moved: float, other: flo
     apart = abs(moved - other) / max(abs(moved), abs(other), 1e-300)
     doubt = f"the rates of both models disagree on the error by {apart:.0%}: not linear"
     return error, doubt if apart > DISAGREEMENT else ""
-
-
-def propagated(time: Array, defect: Array, slope: Array) -> float:
-    """Return the end of d' = slope d + defect from zero, by exponential steps with means of the slope."""
-    moved = 0.0
-    for k in range(1, time.size):
-        step = float(time[k] - time[k - 1])
-        z = 0.5 * float(slope[k] + slope[k - 1]) * step
-        grown = math.exp(z)
-        # Integrals of exp(z (1 - s)) and of exp(z (1 - s)) s over the step.
-        one = math.expm1(z) / z if abs(z) > 1e-6 else 1.0 + 0.5 * z
-        two = (one - 1.0) / z if abs(z) > 1e-3 else 0.5 + z / 6.0
-        moved = grown * moved + step * float((one - two) * defect[k - 1] + two * defect[k])
-    return moved
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -70,9 +70,7 @@ class LawRung(BaseRung):
         work: dict[WorkUnit, int] = {}
         load = min(max((deepest / law.operating) ** 1.5, 1.0), law.load_range[1])
         try:
-            rest, fine = (self.films.value(n, work, load=load) for n in (CELLS, FINE))
-            cells = abs(fine - rest) / (1.0 - (CELLS / FINE) ** 2)
-            lacking = (cells + abs(self.films.beyond(work, load))) / abs(rest)
+            lacking = self.films.lacking(CELLS, FINE, work, load)
             other = reduce_contact(self.films.contact(CELLS), self.order, load=self._elsewhere())
             elsewhere = abs(self._motion(other)[0] - deepest) / abs(deepest)
         except ConvergenceError as error:

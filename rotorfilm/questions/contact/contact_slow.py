@@ -59,10 +59,8 @@ class SlowRung(BaseRung):
         work: dict[WorkUnit, int] = {}
         least, load = self.shaken.extremes[0], float(found.solution)
         try:
-            rest, fine = (self.films.value(n, work, load=load) for n in (CELLS, FINE))
-            cells = abs(fine - rest) / (1.0 - (CELLS / FINE) ** 2)
-            lacking = (cells + abs(self.films.beyond(work, load))) / abs(rest)
-            moved = abs(self._motion() / rest)
+            lacking = self.films.lacking(CELLS, FINE, work, load)
+            moved = abs(self._motion() / self.films.value(CELLS, work, load=load))
         except (ConvergenceError, InputError) as error:
             return ErrorEstimate(1.0, "linearized film", work, doubt=f"no companion: {error}")
         work[unknowns(SMALL)] = SMALL**2

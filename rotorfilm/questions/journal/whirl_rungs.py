@@ -15,9 +15,10 @@ from ...linear import coefficients, equilibrium, whirl_threshold
 from ...model import Array
 from ...results import Equilibrium
 from ...scenes.counted import Counted
+from ...scenes.journal.film_defects import corrected
 from ...scenes.journal.film_rungs import FilmRung, is_grid, point_films
 from ..walk import NoAnswerError
-from .statics import corrected, film_units
+from .statics import film_units
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene

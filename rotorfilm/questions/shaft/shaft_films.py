@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...answers import WorkUnit
-from ...linear import RotorEquilibrium, coefficients, equilibrium
-from ...model import Array, Reaction
+from ...linear import RotorEquilibrium, equilibrium
+from ...model import Reaction
 from ...results import Coefficients
+from ...scenes.journal.film_defects import corrected
 from ...scenes.journal.film_rungs import FilmRung, has_map, turn_films
-from ..journal.statics import corrected
 
 if TYPE_CHECKING:
     from ...scenes.shaft.shaft_table import ShaftTable
@@ -59,7 +59,12 @@ class ShaftFilms:
     @property
     def reaction(self) -> dict[str, Reaction]:
         """All bearings by station, with these films."""
-        return {**self.springs, **{name: film.reaction for name, film in self.journals.items()}}
+        return {**self.springs, **self.turning}
+
+    @property
+    def turning(self) -> dict[str, Reaction]:
+        """The films by station, whose K and C change with the speed."""
+        return {name: film.reaction for name, film in self.journals.items()}
 
     @property
     def rich(self) -> dict[str, Reaction]:
@@ -121,16 +126,3 @@ def _rest_bound(film: FilmRung, eccentricity_ratio: float) -> float:
     if not (film.bounded and has_map(film.reaction)):
         return film.bound(eccentricity_ratio, slopes=True)
     return min((bound for reach, bound in REST_BOUNDS if eccentricity_ratio <= reach), default=math.inf)
-
-
-def coefficient_rates(films: ShaftFilms, at: RotorEquilibrium, step: float) -> dict[str, tuple[Array, Array]]:
-    """Return d K/d speed and d C/d speed of each film under its load, from speeds a relative step apart."""
-    rates = {}
-    for name, film in films.journals.items():
-        low, high = (
-            coefficients(film.reaction, equilibrium(film.reaction, at.loads[name], speed).position, speed)
-            for speed in (at.speed * (1.0 - step), at.speed * (1.0 + step))
-        )
-        width = 2.0 * step * at.speed
-        rates[name] = ((high.stiffness - low.stiffness) / width, (high.damping - low.damping) / width)
-    return rates

@@ -119,9 +119,8 @@ class ShaftOrbitRung(BaseRung):
             films_share = bound if trusted else self._by_grid(turn, value)
         is_bound = films_share > error
         error += films_share if is_bound or not trusted else 0.0
-        return ErrorEstimate(
-            error, method, {WorkUnit(f"defects of {self.name}"): 1}, bound=is_bound, doubt=doubt
-        )
+        work = {WorkUnit(f"defects of {self.name}"): 1}
+        return ErrorEstimate(error, method, work, bound=is_bound, doubt=doubt)
 
     def _by_grid(self, turn: SolvedTurn, value: float) -> float:
         """Return the change that the forces of the richer films make, propagated by the slopes of the map."""

@@ -12,24 +12,23 @@ from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Work, WorkUni
 from ...errors import AbsentError, InputError
 from ...ladders import BaseRung, Ladder
 from ...linear import rotor_equilibrium, rotor_modes
-from ...linear.rotor_system import SecondOrder, second_order
-from ...model import Array
-from ...rotors.shaft.shaft_models import ShaftModel, shaft_models
-from ...scenes.shaft.shaft_remarks import shaft_physics, shaft_remarks
-from .shaft_events import Critical, SpeedEvent, Threshold
-from .shaft_films import ShaftFilms, coefficient_bounds, film_levels, rich_coefficients
-from .shaft_whirl import (
+from ...linear.rotor_system import SecondOrder, journal_rows, second_order
+from ...linear.rotor_whirl import (
     Start,
     Whirl,
     dynamics,
     inverse_steps,
-    journal,
     mode_near,
     on_films,
     small_motion,
     value_rate,
     whirl_of,
 )
+from ...linear.speed_events import Critical, SpeedEvent, Threshold
+from ...model import Array
+from ...rotors.shaft.shaft_models import ShaftModel, shaft_models
+from ...scenes.shaft.shaft_remarks import shaft_physics, shaft_remarks
+from .shaft_films import ShaftFilms, coefficient_bounds, film_levels, rich_coefficients
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
@@ -207,7 +206,7 @@ class ShaftRung(BaseRung):
         scale = whirl.left.conj() @ slope @ whirl.right
         total = 0.0
         for name, bound in coefficient_bounds(self.films, whirl.at).items():
-            rows, film = journal(structure, name), whirl.at.coefficients[name]
+            rows, film = journal_rows(structure, name), whirl.at.coefficients[name]
             # what an entry of K, and of C, of this size does to the eigenvalue
             by_stiffness = np.outer((rows @ whirl.left).conj(), rows @ whirl.right) / scale
             for change, entries in ((1.0, film.stiffness), (whirl.value, film.damping)):

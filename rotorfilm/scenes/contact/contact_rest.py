@@ -85,6 +85,18 @@ class RestingFilms:
             raise ConvergenceError(f"a contact must be solvable on {cells} x {cells} cells, got none before")
         return self.known[key]
 
+    def lacking(self, cells: int, fine: int, work: dict[WorkUnit, int], load: float) -> float:
+        """Return the relative error by cells, from finer ones, and by the end of the rectangle.
+
+        Raises
+        ------
+        ConvergenceError
+            If there is no solution on one of the grids.
+        """
+        rest, better = (self.value(n, work, load=load) for n in (cells, fine))
+        by_cells = abs(better - rest) / (1.0 - (cells / fine) ** 2)
+        return (by_cells + abs(self.beyond(work, load))) / abs(rest)
+
     def beyond(self, work: dict[WorkUnit, int], load: float = 1.0) -> float:
         """Return the change of the quantity [1] from the shortest to an infinite rectangle.
 

@@ -13,7 +13,7 @@ from ...errors import ContactError
 from ...model import Array
 from ...motion import simulate
 from ...results import Trajectory
-from ..write_models import write_models
+from ..export_scene import write_models
 from .damper_models import DamperScene, damper_fmus, damper_models
 
 if TYPE_CHECKING:

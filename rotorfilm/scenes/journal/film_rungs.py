@@ -6,8 +6,6 @@ import math
 import warnings
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from ...answers import WorkUnit
 from ...bearings.films.law import FilmLaw
 from ...bearings.journal import (
@@ -23,7 +21,6 @@ from ...bearings.journal import (
     is_mappable,
 )
 from ...errors import ValidityWarning
-from ...model import Array
 from .echo import film_name
 
 TABLE_RANGE = (0.1, 4.0)
@@ -31,14 +28,6 @@ TABLE_RANGE = (0.1, 4.0)
 
 MAP_BOUNDS = ((0.95, 2e-5, 1e-3), (0.999, 4e-4, math.inf))
 """Eccentricity ratio up to which, and largest error of a position and of K, C there: docs/accuracy.md."""
-
-STEP = 0.05
-"""Step of differences of a two-dimensional film in its source, relative to the wedge; less in a thin film.
-
-Its own derivative in the source belongs to cells that are full or empty, and jumps when one changes sides;
-a difference over many such jumps does not. The pressure at the wall is as wide as the square root of the gap,
-and so is the squeeze, relative to the wedge, that moves its edge.
-"""
 
 MAP_MADE = WorkUnit("maps made", nominal=20.0)
 """WorkUnit of the work of making a map."""
@@ -186,34 +175,6 @@ def extrapolated(bearing: JournalBearing, cells: tuple[int, int]) -> JournalBear
 def is_grid(bearing: JournalBearing) -> bool:
     """Return whether the film of a bearing lives on a grid in two dimensions."""
     return isinstance(bearing.film, ReynoldsFilm | ExtrapolatedFilm)
-
-
-def tangent(bearing: JournalBearing, position: Array, speed: float, *, smooth: bool) -> tuple[Array, Array]:
-    """Return force (2,) [N] at rest, and d force/d(x, y, vx, vy) (2, 4).
-
-    Parameters
-    ----------
-    bearing : JournalBearing
-    position : ndarray, shape (2,) [m]
-    speed : float [rad/s]
-    smooth : bool
-        Whether the derivatives of a film on a grid in its source are taken from differences, `STEP`.
-    """
-    rest = np.zeros(2)
-    slopes = bearing.jacobian(position, rest, speed)[:, :4]
-    if not (smooth and is_grid(bearing)):
-        return bearing.force(position, rest, speed), slopes
-    distance = float(np.hypot(*position))
-    thin = math.sqrt(1.0 - distance / bearing.clearance)
-    rate = STEP * min(1.0, 2.0 * thin) * 0.5 * abs(speed) * distance
-    velocities = rate * np.concatenate([np.zeros((2, 1)), *(k * np.eye(2) for k in (-2, -1, 1, 2))], axis=1)
-    force = bearing.force(np.repeat(position[:, None], 9, axis=1), velocities, np.full(9, speed))
-    low2, low, high, high2 = np.split(force[:, 1:], 4, axis=1)
-    by_velocity = (low2 - 8.0 * low + 8.0 * high - high2) / (12.0 * rate)
-    # The wedge moves with the journal, w = v/c - (speed/2) z^ x e, so its share follows.
-    change = by_velocity - slopes[:, 2:]
-    by_position = slopes[:, :2] - 0.5 * speed * np.stack([change[:, 1], -change[:, 0]], axis=1)
-    return force[:, 0], np.concatenate([by_position, by_velocity], axis=1)
 
 
 def _map(bearing: JournalBearing) -> FilmRung:

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from scipy.linalg import lu_factor, lu_solve
 
-from ...errors import ConvergenceError
-from ...linear import RotorEquilibrium, rotor_equilibrium
-from ...linear.rotor_system import SecondOrder, second_order, with_hysteresis
-from ...model import Array
-from ...results import Coefficients
-from ...rotors import FlexibleRotor
-from ...rotors.structure import Structure
-from .shaft_events import SpeedEvent
-from .shaft_films import ShaftFilms, coefficient_rates
+from ..errors import ConvergenceError
+from ..model import Array, Reaction
+from ..results import Coefficients
+from ..rotors import FlexibleRotor
+from ..rotors.structure import Structure
+from .coefficients import coefficients
+from .equilibrium import equilibrium
+from .rotor_rest import RotorEquilibrium, rotor_equilibrium
+from .rotor_system import SecondOrder, journal_rows, second_order, with_hysteresis
+from .speed_events import SpeedEvent
 
 STEP = 1e-3
 """Relative change of speed over which K and C of films are differentiated."""
@@ -28,6 +29,18 @@ ROUNDED, _PATIENCE = 1e-9, 6
 """The same after so many steps: roundoff of fine meshes is larger."""
 
 _STEPS = 25
+
+
+class RotorFilms(Protocol):
+    """Bearings of a rotor, some of them films."""
+
+    @property
+    def reaction(self) -> dict[str, Reaction]:
+        """All bearings by station."""
+
+    @property
+    def turning(self) -> dict[str, Reaction]:
+        """Those whose K and C change with the speed."""
 
 
 class Start(NamedTuple):
@@ -116,24 +129,31 @@ def mode_near(
     raise ConvergenceError(f"whirl near {value:.6g} rad/s must be found by inverse iteration, and was not")
 
 
-def value_rate(structure: Structure, whirl: Whirl, films: ShaftFilms) -> complex:
+def value_rate(structure: Structure, whirl: Whirl, films: RotorFilms) -> complex:
     """Return ds/d speed of a whirl [1]: gyroscopic effect, rotating damping, and the films."""
     s, right, left = whirl.value, whirl.right, whirl.left.conj()
     changed = s * (structure.gyroscopic @ right) + structure.circulation @ right
     for name, (stiffness, damping) in coefficient_rates(films, whirl.at, STEP).items():
-        rows = journal(structure, name)
+        rows = journal_rows(structure, name)
         changed = changed + rows.T @ ((stiffness + s * damping) @ (rows @ right))
     _, slope = dynamics(second_order(structure, whirl.at), s)
     return complex(-(left @ changed) / (left @ slope @ right))
 
 
-def journal(structure: Structure, name: str) -> Array:
-    """Return the displacement of a journal from its housing, shape (2, N)."""
-    k = structure.stations.index(name)
-    return structure.journals[2 * k : 2 * k + 2]
+def coefficient_rates(films: RotorFilms, at: RotorEquilibrium, step: float) -> dict[str, tuple[Array, Array]]:
+    """Return d K/d speed and d C/d speed of each film under its load, from speeds a relative step apart."""
+    rates = {}
+    for name, film in films.turning.items():
+        low, high = (
+            coefficients(film, equilibrium(film, at.loads[name], speed).position, speed)
+            for speed in (at.speed * (1.0 - step), at.speed * (1.0 + step))
+        )
+        width = 2.0 * step * at.speed
+        rates[name] = ((high.stiffness - low.stiffness) / width, (high.damping - low.damping) / width)
+    return rates
 
 
-def whirl_of(event: SpeedEvent, rotor: FlexibleRotor, films: ShaftFilms, start: Start) -> tuple[Whirl, int]:
+def whirl_of(event: SpeedEvent, rotor: FlexibleRotor, films: RotorFilms, start: Start) -> tuple[Whirl, int]:
     """Return the whirl to which something happens, near another one, and how many speeds that took.
 
     Raises

@@ -9,11 +9,10 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from ...errors import AbsentError
-from ...linear import RotorModes, critical_speeds, rotor_modes, rotor_threshold
-from ...linear.rotor_modes import NEUTRAL
-from ...model import Array, Reaction
-from ...rotors import FlexibleRotor
+from ..errors import AbsentError
+from ..model import Array, Reaction
+from ..rotors import FlexibleRotor
+from .rotor_modes import NEUTRAL, RotorModes, critical_speeds, rotor_modes, rotor_threshold
 
 NEAR = 1.1
 """Critical speeds up to so many times the first are followed with it."""
