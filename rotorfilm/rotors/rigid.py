@@ -15,7 +15,7 @@ from ..native.spec import NativeParameter, NativeSpec
 from ..signals import Signal
 from ..units import STANDARD_GRAVITY
 from .profile import SpeedProfile, Turning
-from .structure import NOMINAL_LENGTH, Operators, keep_pair, unbalance_columns
+from .structure import NOMINAL_LENGTH, Operators, Structure, keep_pair, unbalance_columns
 
 NATIVE_PARAMETERS = {
     "mass": ("kg", "mass carried by this journal"),
@@ -156,6 +156,24 @@ class RigidRotor(Turning):
             weight=B @ self._static_load,
             unbalance=B @ unbalance_columns(self.unbalance, self.unbalance_angle),
             sense=C[:4],
+        )
+
+    @cached_property
+    def structure(self) -> Structure:
+        """The matrices of the rotor: a mass that nothing holds but its bearing."""
+        none = np.zeros((2, 2))
+        return Structure(
+            mass=self.mass * np.eye(2),
+            damping=none,
+            gyroscopic=none,
+            stiffness=none,
+            circulation=none,
+            stations=("",),
+            journals=np.eye(2),
+            weight=self._static_load,
+            unbalance=unbalance_columns(self.unbalance, self.unbalance_angle),
+            coordinates=(),
+            readouts=(),
         )
 
     @cached_property

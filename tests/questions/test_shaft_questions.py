@@ -31,7 +31,7 @@ from rotorfilm.linear.rotor_whirl import (
 )
 from rotorfilm.linear.speed_events import Critical, Threshold
 from rotorfilm.motion import periodic_orbit
-from rotorfilm.motion.periodic.sampled_shaft_orbit import linear_shaft_orbit, shaft_answers
+from rotorfilm.motion.periodic.driven_rotor import rest_position, rotor_answers
 from rotorfilm.questions import ladder_of
 from rotorfilm.questions.shaft.shaft_films import REST_BOUNDS, coefficient_bounds, film_levels
 from rotorfilm.rotors import JeffcottRotor, mount
@@ -285,8 +285,8 @@ def test_bound_of_films_is_that_of_what_is_asked(quantity, at, sense):
         # to 1e-3 of the largest entry, in the corners of that box
         off = {name: with_error(film, random) for name, film in turn.at.coefficients.items()}
         at_rest = on_films(turn.at, off)
-        answers = shaft_answers(structure, at_rest, rung.place.probes, 15)
-        moved = rung.place.value(answers, linear_shaft_orbit(answers, at_rest))
+        answers = rotor_answers(structure, at_rest, rung.place.probes, 15)
+        moved = rung.place.value(answers, answers.linear_orbit(rest_position(at_rest, answers.stations)))
         changes.append(rung.place.change(found.value, moved))
     assert 0.3 * bound < max(changes) < 1.02 * bound
 

@@ -13,6 +13,7 @@ from ...model import Array
 from ...rotors import SpeedProfile
 from . import rotor_kernels as kernels
 from .modal import Complex, ModalRotor
+from .step_tables import LEVELS, SLOTS
 
 STAGES = 4
 """Collocation nodes of a step: order 7."""
@@ -190,9 +191,9 @@ def new_tables(rotor: tuple[Complex, Complex, Complex], stages: int) -> tuple[Ar
     gap of the force at the start; and the modal coordinates at the end, per themselves and per force.
     """
     modes, channels = rotor[1].shape
-    rows, slots = len(rotor[2]), kernels.SLOTS + 1
+    rows, slots = len(rotor[2]), SLOTS + 1
     return (
-        np.full(kernels.LEVELS, -1, dtype=np.int64),
+        np.full(LEVELS, -1, dtype=np.int64),
         np.full(slots, -1, dtype=np.int64),
         np.zeros(1, dtype=np.int64),
         np.empty((slots, stages * rows, 2 * modes)),

@@ -19,136 +19,22 @@ import math
 import numpy as np
 from numba import njit
 
-from .film_calls import call_film
+from .film_calls import CONTACT, NOT_FINITE, OUTSIDE
+from .journal_forces import film, start_forces, unbalance_pair
+from .step_tables import (
+    LEVELS,
+    RATIO,
+    SLOTS,
+    advance,
+    extrapolate,
+    fill_slot,
+    local_error,
+    sample,
+    table_slot,
+)
 
-CONTACT, UNDEFINED, OUTSIDE, NOT_FINITE = 3, 2, 1, 4
-NUDGE = 1e-6
-SMALL = 4.0
 NEWTON_STEPS = 8
 DONE, WALL, STUCK, BUSY, BROKEN = 0, 1, 2, 3, 4
-RATIO = 2.0**0.25
-SLOTS = 24
-LEVELS = 400
-
-
-@njit(cache=True)
-def moments(z, count, out):  # type: ignore[no-untyped-def]
-    """Set out[k] = int_0^1 exp(z (1 - s)) s^k ds for k = 0 ... count - 1."""
-    if abs(z) >= SMALL:
-        out[0] = (np.exp(z) - 1.0) / z
-        for k in range(1, count):
-            out[k] = (k * out[k - 1] - 1.0) / z
-        return
-    term = 1.0 / count + 0.0j
-    total = term
-    for j in range(1, 60):
-        term *= z / (count + j)
-        total += term
-        if abs(term) < 1e-17 * abs(total):
-            break
-    out[count - 1] = total
-    for k in range(count - 1, 0, -1):
-        out[k - 1] = (z * out[k] + 1.0) / k
-
-
-@njit(cache=True)
-def weights(h, c, values, polynomials, out):  # type: ignore[no-untyped-def]
-    """Set out[j, m] = h int_0^c exp(lambda_m h (c - s)) p_j(s) ds of polynomials, lowest power first."""
-    count = polynomials.shape[1]
-    integral = np.empty(count, np.complex128)
-    for m in range(len(values)):
-        moments(values[m] * h * c, count, integral)
-        power = h
-        for k in range(count):
-            power *= c
-            integral[k] *= power
-        for j in range(len(polynomials)):
-            total = 0.0j
-            for k in range(count):
-                total += polynomials[j, k] * integral[k]
-            out[j, m] = total
-
-
-@njit(cache=True)
-def set_tables(h, rotor, scheme, move, gain, defect, advance_z, advance_u):  # type: ignore[no-untyped-def]
-    """Fill the tables of one step: see `new_tables`."""
-    values, push, sense = rotor
-    nodes, lagrange, remainder = scheme
-    s, modes, channels, rows = len(nodes), len(values), push.shape[1], len(sense)
-    w = np.empty((s, modes), np.complex128)
-    r = np.empty((1, modes), np.complex128)
-    for i in range(s):
-        growth = np.exp(values * (h * nodes[i]))
-        weights(h, nodes[i], values, lagrange, w)
-        weights(h, nodes[i], values, remainder, r)
-        for q in range(rows):
-            for m in range(modes):
-                seen = sense[q, m] * growth[m]
-                move[i * rows + q, m] = seen.real
-                move[i * rows + q, modes + m] = -seen.imag
-        for j in range(s):
-            part = (sense * w[j]) @ push
-            gain[i, j] = part.real
-        defect[i] = ((sense * r[0]) @ push).real
-    advance_z[:] = np.exp(values * h)
-    for j in range(s):
-        for m in range(modes):
-            for c in range(channels):
-                now = w[j, m] * push[m, c]
-                advance_u[m, j * channels + c] = now.real
-                advance_u[modes + m, j * channels + c] = now.imag
-
-
-@njit(cache=True)
-def unbalance_pair(t, profile, out):  # type: ignore[no-untyped-def]
-    """Set out to (w^2 cos p + a sin p, w^2 sin p - a cos p) and return the speed w at the time t.
-
-    Rows of `profile`: times, speeds, slopes after them, angles turned since t = 0 at them.
-    """
-    times, speeds, slopes, angles = profile
-    k = 0
-    while k + 1 < len(times) and times[k + 1] <= t:
-        k += 1
-    passed = t - times[k]
-    a = slopes[k] if passed >= 0.0 else 0.0
-    w = speeds[k] + a * passed
-    p = angles[k] + passed * (speeds[k] + 0.5 * a * passed)
-    cos, sin = math.cos(p), math.sin(p)
-    out[0] = w * w * cos + a * sin
-    out[1] = w * w * sin - a * cos
-    return w
-
-
-@njit(cache=True)
-def film(films, rest, spring, damper, motion, speed, force, slope):  # type: ignore[no-untyped-def]
-    """Set the force of each film and its springs (2 n,) and slopes by motion (2 n, 4); return a status."""
-    address, lengths = films
-    state, answer, jacobian = np.empty(5), np.empty(2), np.empty(10)
-    worst = 0
-    for b in range(len(lengths)):
-        for k in range(4):
-            state[k] = rest[4 * b + k] + motion[4 * b + k]
-        state[4] = speed
-        a, d = address[b]
-        status = call_film(a, d, state.ctypes.data, answer.ctypes.data, jacobian.ctypes.data)
-        if status == UNDEFINED:
-            # The limit along a trace of velocity: no film has a derivative without a source.
-            state[2] += NUDGE * lengths[b] * (abs(speed) + 1.0)
-            status = call_film(a, d, state.ctypes.data, answer.ctypes.data, jacobian.ctypes.data)
-            status = 0 if status == UNDEFINED else status
-        worst = max(worst, status)
-        if status >= CONTACT:
-            return status
-        for i in range(2):
-            row = 2 * b + i
-            k, c = spring[row], damper[row]
-            p, v = rest[4 * b + i] + motion[4 * b + i], rest[4 * b + 2 + i] + motion[4 * b + 2 + i]
-            force[row] = answer[i] + k * p + c * v
-            for j in range(4):
-                slope[row, j] = jacobian[5 * i + j]
-            slope[row, i] += k
-            slope[row, 2 + i] += c
-    return worst
 
 
 @njit(cache=True)
@@ -245,80 +131,6 @@ def newton(times, films, supports, profile, gain, free, u, scales, tolerance, wo
 
 
 @njit(cache=True)
-def extrapolate(u, ratio, nodes, lagrange, out):  # type: ignore[no-untyped-def]
-    """Set out (s, channels) to the polynomial of the last step at the nodes of the next, `ratio` as long."""
-    s, channels = u.shape
-    for i in range(s):
-        at = 1.0 + ratio * nodes[i]
-        for c in range(channels):
-            out[i, c] = 0.0
-        for j in range(s):
-            value = 0.0
-            for k in range(s - 1, -1, -1):
-                value = value * at + lagrange[j, k]
-            for c in range(channels):
-                out[i, c] += value * u[j, c]
-
-
-@njit(cache=True)
-def journal_motion(sense, z, out):  # type: ignore[no-untyped-def]
-    """Set out to the motion of the journals at modal coordinates."""
-    for q in range(len(sense)):
-        total = 0.0
-        for m in range(len(z)):
-            total += sense[q, m].real * z[m].real - sense[q, m].imag * z[m].imag
-        out[q] = total
-
-
-@njit(cache=True)
-def start_forces(t, z, rotor, films, supports, profile, out):  # type: ignore[no-untyped-def]
-    """Set out (channels,) to films' forces and unbalance at the time t; return a status."""
-    rest, spring, damper, lengths = supports
-    count = 2 * len(lengths)
-    motion, slope, pair = np.empty(2 * count), np.empty((count, 4)), np.empty(2)
-    journal_motion(rotor[2], z, motion)
-    w = unbalance_pair(t, profile, pair)
-    out[count] = pair[0]
-    out[count + 1] = pair[1]
-    return film((films, lengths), rest, spring, damper, motion, w, out, slope)
-
-
-@njit(cache=True)
-def table_slot(level, top, rotor, scheme, tables):  # type: ignore[no-untyped-def]
-    """Return the slot of the tables of a level, filled if they are not there yet."""
-    slots, levels, cursor, move, gain, defect, advance_z, advance_u = tables
-    if slots[level] >= 0:
-        return slots[level]
-    slot = cursor[0]
-    cursor[0] = (slot + 1) % SLOTS
-    if levels[slot] >= 0:
-        slots[levels[slot]] = -1
-    levels[slot], slots[level] = level, slot
-    h = top * RATIO ** (-float(level))
-    set_tables(h, rotor, scheme, move[slot], gain[slot], defect[slot], advance_z[slot], advance_u[slot])
-    return slot
-
-
-@njit(cache=True)
-def local_error(u, start, scheme, defect, scales):  # type: ignore[no-untyped-def]
-    """Return the largest error of the journals' motion at the nodes, relative to its scale."""
-    lagrange = scheme[1]
-    s, channels = u.shape
-    gap = start.copy()
-    for j in range(s):
-        for c in range(channels):
-            gap[c] -= lagrange[j, 0] * u[j, c]
-    worst = 0.0
-    for i in range(s):
-        for q in range(len(scales)):
-            total = 0.0
-            for c in range(channels):
-                total += defect[i, q, c] * gap[c]
-            worst = max(worst, abs(total) * scales[q])
-    return worst
-
-
-@njit(cache=True)
 def try_step(t, h, slot, z, u, start, scheme, tables, films, supports, profile, scales, limits, work):  # type: ignore[no-untyped-def]
     """Solve one step for the forces u at its nodes; return (status, local error / rtol).
 
@@ -348,36 +160,6 @@ def try_step(t, h, slot, z, u, start, scheme, tables, films, supports, profile, 
 
 
 @njit(cache=True)
-def sample(t, h, z, u, rotor, scheme, grid, place, out):  # type: ignore[no-untyped-def]
-    """Set rows of `out` to the modal coordinates at the times of `grid` within a step, from `place` on."""
-    values, push, _ = rotor
-    lagrange = scheme[1]
-    w = np.empty((len(lagrange), len(values)), np.complex128)
-    forced = np.empty((0, 0), np.complex128)
-    while place < len(grid) and grid[place] <= t + h:
-        if len(forced) == 0:
-            forced = u.astype(np.complex128) @ push.T
-        c = (grid[place] - t) / h
-        weights(h, c, values, lagrange, w)
-        for m in range(len(values)):
-            total = np.exp(values[m] * (h * c)) * z[m]
-            for j in range(len(w)):
-                total += w[j, m] * forced[j, m]
-            out[place, m] = total
-        place += 1
-    return place
-
-
-@njit(cache=True)
-def advance(z, u, advance_z, advance_u):  # type: ignore[no-untyped-def]
-    """Move the modal coordinates to the end of a step."""
-    modes = len(z)
-    forced = np.dot(advance_u, u.ravel())
-    for m in range(modes):
-        z[m] = advance_z[m] * z[m] + complex(forced[m], forced[modes + m])
-
-
-@njit(cache=True)
 def march(z, clock, stop, rotor, scheme, tables, films, supports, profile, scales, options, grid, out, work):  # type: ignore[no-untyped-def]
     """Integrate to `stop`, or until the budget of steps is spent; return why it ended.
 
@@ -400,16 +182,7 @@ def march(z, clock, stop, rotor, scheme, tables, films, supports, profile, scale
             slot = table_slot(level, top, rotor, scheme, tables)
         else:
             h = stop - t
-            set_tables(
-                h,
-                rotor,
-                scheme,
-                tables[3][SLOTS],
-                tables[4][SLOTS],
-                tables[5][SLOTS],
-                tables[6][SLOTS],
-                tables[7][SLOTS],
-            )
+            fill_slot(h, SLOTS, rotor, scheme, tables)
         if last > 0.0:
             extrapolate(u, h / last, scheme[0], scheme[1], guess)
         else:
@@ -441,26 +214,3 @@ def march(z, clock, stop, rotor, scheme, tables, films, supports, profile, scale
             level = max(0, level - min(max(rise, 0), 4))
         clock[1] = level
     return DONE if clock[0] >= stop else BUSY
-
-
-@njit(cache=True)
-def film_batch(films, supports, position, velocity, speed):  # type: ignore[no-untyped-def]
-    """Return a status, the forces of films and springs (2 n, samples) and their slopes (2 n, 4, samples)."""
-    spring, damper, lengths = supports
-    count, samples = position.shape
-    force, slope = np.empty((count, samples)), np.empty((count, 4, samples))
-    motion, rest = np.empty(2 * count), np.zeros(2 * count)
-    now, slopes = np.empty(count), np.empty((count, 4))
-    worst = 0
-    for n in range(samples):
-        for b in range(len(lengths)):
-            for i in range(2):
-                motion[4 * b + i] = position[2 * b + i, n]
-                motion[4 * b + 2 + i] = velocity[2 * b + i, n]
-        status = film((films, lengths), rest, spring, damper, motion, speed, now, slopes)
-        worst = max(worst, status)
-        if status >= CONTACT:
-            break
-        force[:, n] = now
-        slope[:, :, n] = slopes
-    return worst, force, slope

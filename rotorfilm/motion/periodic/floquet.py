@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from ...model import Array
-from ..compiled import rotor_kernels as kernels
 from ..compiled.march import STAGES, new_tables, radau_scheme, rotor_arrays
 from ..compiled.modal import Complex, ModalRotor, journal_rows, modes
-from .balance import film_forces, series_rows
+from ..compiled.step_tables import set_tables
+from .harmonics import series_rows
+from .modal_films import film_forces
 
 STEPS_PER_HARMONIC = 2
 LEAST_STEPS = 64
@@ -35,7 +36,7 @@ def monodromy(modal: ModalRotor, series: Array, frequency: float, steps: int | N
     modal, slopes = on_mean_films(modal, mean), slopes - mean
     rotor = rotor_arrays(modal)
     tables = [table[0] for table in new_tables(rotor, STAGES)[3:]]
-    kernels.set_tables(2.0 * np.pi / (frequency * steps), rotor, radau_scheme(STAGES), *tables)
+    set_tables(2.0 * np.pi / (frequency * steps), rotor, radau_scheme(STAGES), *tables)
     move, gain, _, advance_z, advance_u = tables
     modes, count = len(modal.values), slopes.shape[2]
     channels = np.arange(STAGES)[:, None] * (count + 2) + np.arange(count)

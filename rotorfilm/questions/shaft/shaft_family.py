@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...scenes.families import Family
 from ...scenes.shaft.shaft_table import ShaftTable
-from ..journal.unbalance_orbits import UNITS as ORBITS
+from ..orbit_place import UNITS as ORBITS
 from .shaft_orbits import shaft_orbit_ladder
 from .shafts import EVENTS, shaft_ladder
 
