@@ -112,8 +112,8 @@ void rf_set_film_force(const rf_grid *grid, const rf_cells *cells, const double 
 }
 
 RF_CLONES
-void rf_set_flow(const rf_grid *grid, const double *around, const double *along, const double *pressure,
-                 double *flow)
+static void set_flow(const rf_grid *grid, const double *around, const double *along, const double *pressure,
+                     double *flow)
 {
     const int32_t lines = grid->lines, nodes = grid->nodes;
     for (int32_t i = 0; i < lines; ++i) {
@@ -131,4 +131,10 @@ void rf_set_flow(const rf_grid *grid, const double *around, const double *along,
                 q[j + 1] -= axial;
         }
     }
+}
+
+void rf_set_flow(const rf_grid *grid, const double *around, const double *along, const double *pressure,
+                 double *flow)
+{
+    set_flow(grid, around, along, pressure, flow);
 }

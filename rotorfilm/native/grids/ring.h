@@ -39,20 +39,20 @@ typedef struct rf_ring {
 
 /* The force on the finest grid, as any film's (films/film.h); RF_STUCK where the search for the film does not
    end, RF_MEMORY. `map` is an rf_ring. */
-RF_EXPORT int rf_ring_film(const void *map, const double *e, const double *w, double *f, double *jacobian);
+RF_EXPORT_LOOP int rf_ring_film(const void *map, const double *e, const double *w, double *f, double *jacobian);
 
 /* Forces on the finest grid and the next, rows of n one stride apart, as rf_film_batch. */
-RF_EXPORT int rf_ring_pair(const rf_ring *ring, size_t n, const double *e, const double *w, double *fine,
+RF_EXPORT_LOOP int rf_ring_pair(const rf_ring *ring, size_t n, const double *e, const double *w, double *fine,
                            double *coarse, size_t *first);
 
 /* One state on the finest grid: angles of lines and of faces (N), pressure (N x M) and the flow out of the
    ends of the film. */
-RF_EXPORT int rf_ring_field(const rf_ring *ring, const double *e, const double *w, double *theta, double *face,
+RF_EXPORT_LOOP int rf_ring_field(const rf_ring *ring, const double *e, const double *w, double *theta, double *face,
                             double *pressure, double *side_flow);
 
 /* The potential J = F.w/2 of a ruptured film whose openings are at pressure 0, and dJ/de, at one place for n
    sources w, rows of n: J (RF_LEVELS x n) and slope (RF_LEVELS x 2 x n), the finest grid first. */
-RF_EXPORT int rf_ring_potential(const rf_ring *ring, const double *e, size_t n, const double *w, double *J,
+RF_EXPORT_LOOP int rf_ring_potential(const rf_ring *ring, const double *e, size_t n, const double *w, double *J,
                                 double *slope, size_t *first);
 
 #endif
