@@ -273,6 +273,8 @@ class JournalBearing(Feedthrough):
         if type(self) is not JournalBearing or not isinstance(film, NativeFilm):
             return None
         kernel, tables = film.native(self.slenderness)
+        if self.supply_pressure > 0.0:
+            tables = {**tables, "pressure_unit": np.array([self.pressure_scale])}
         bounds = _bounds(tables.get("range")) if tables else ""
         parameters = tuple(
             NativeParameter(

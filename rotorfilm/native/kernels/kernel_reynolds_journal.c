@@ -1,9 +1,9 @@
 /* Kernel "reynolds_journal": a journal bearing under the two-dimensional film on a grid.
 
-   Parameters, inputs and outputs as in journal_model.h. Tables: ring (5: length/diameter, ruptured, clipped,
-   pinned, unit of pressure [Pa s]), spans (2 x K: start, extent [rad]) and for k = 0, 1, 2, the finest first,
+   Parameters, inputs and outputs as in journal_model.h. Tables: ring (4: length/diameter, ruptured, clipped,
+   pinned), spans (2 x K: start, extent [rad]) and for k = 0, 1, 2, the finest first,
    lines<k> (5 x N: span, line, face, held, value) and nodes<k> (2 x M: width, conductance); ring.h says what
-   they are. */
+   they are. With a supply pressure also pressure_unit (1: 12 viscosity (radius/clearance)^2 of the values). */
 
 /* Documentation of the FMU
 
@@ -83,6 +83,22 @@ static int take_grid(model *self, const rf_tables *tables, int level, int32_t **
     return RF_OK;
 }
 
+/* The unit of the pressures that lines are held at, where one is. */
+static int take_unit(model *self, const rf_tables *tables, rf_message *why)
+{
+    const rf_grid *grid = &self->ring.grids[0];
+    for (int32_t i = 0; i < grid->lines; ++i) {
+        if (grid->value[i] == 0.0)
+            continue;
+        const rf_table *unit = rf_find_table(tables, "pressure_unit", 1, why);
+        if (!unit || unit->extent[0] != 1 || !(unit->numbers[0] > 0.0))
+            return rf_say(why, RF_INVALID, "table pressure_unit must be one positive number for a supply");
+        self->unit = unit->numbers[0];
+        return RF_OK;
+    }
+    return RF_OK;
+}
+
 static int take_tables(model *self, const rf_tables *tables, rf_message *why)
 {
     const rf_table *ring = rf_find_table(tables, "ring", 1, why);
@@ -92,12 +108,10 @@ static int take_tables(model *self, const rf_tables *tables, rf_message *why)
         return RF_INVALID;
     const double *n = ring->numbers;
     const uint32_t count = spans->extent[1];
-    if (ring->extent[0] != 5 || spans->extent[0] != 2 || count < 1 || count > 1000
-        || !(n[0] > 0.0 && n[4] > 0.0 && is_count(n[1], 2.0) && is_count(n[2], 2.0) && is_count(n[3], 2.0)))
-        return rf_say(why, RF_INVALID, "table ring must be of a film, got length/diameter %.9g, unit %.9g", n[0],
-                      ring->extent[0] > 4 ? n[4] : 0.0);
+    if (ring->extent[0] != 4 || spans->extent[0] != 2 || count < 1 || count > 1000
+        || !(n[0] > 0.0 && is_count(n[1], 2.0) && is_count(n[2], 2.0) && is_count(n[3], 2.0)))
+        return rf_say(why, RF_INVALID, "table ring must be of a film, got length/diameter %.9g", n[0]);
     self->slenderness = self->ring.slenderness = n[0];
-    self->unit = n[4];
     self->ring.ruptured = n[1] != 0.0;
     self->ring.clipped = n[2] != 0.0;
     self->ring.pinned = n[3] != 0.0;
@@ -112,7 +126,7 @@ static int take_tables(model *self, const rf_tables *tables, rf_message *why)
     for (int level = 0; level < RF_LEVELS; ++level)
         if (take_grid(self, tables, level, &whole, &value, why) != RF_OK)
             return RF_INVALID;
-    return RF_OK;
+    return take_unit(self, tables, why);
 }
 
 static void destroy(void *kernel)
