@@ -100,8 +100,8 @@ class GridStruct(ctypes.Structure):
     """rf_grid of ring.h."""
 
     _fields_: ClassVar[Sequence[Any]] = [
-        ("lines", c_int32),
-        ("nodes", c_int32),
+        ("lines", c_size_t),
+        ("nodes", c_size_t),
         ("span", c_void_p),
         ("line", c_void_p),
         ("face", c_void_p),

@@ -20,7 +20,8 @@ import numpy as np
 
 from ...errors import FilmContactError
 from ...model import Array
-from ..compiled import rotor_kernels as kernels
+from ...native import Status
+from ..compiled.journals import Journals
 from ..compiled.modal import Complex, ModalRotor
 
 OVERSAMPLING = 4
@@ -193,12 +194,10 @@ def film_forces(modal: ModalRotor, position: Array, velocity: Array) -> tuple[Ar
     FilmContactError
         If a journal leaves its bearing, or a force is not finite.
     """
-    films = np.array([(call.address, call.data) for call in modal.calls], dtype=np.intp)
-    supports = modal.spring, modal.damper, modal.parts.lengths
-    status, force, slope = kernels.film_batch(
-        films, supports, position, velocity, float(modal.parts.profile.speeds[0])
-    )
-    if status >= kernels.CONTACT:
+    motion = np.concatenate([position.reshape(-1, 2, position.shape[1]), velocity.reshape(-1, 2, position.shape[1])], axis=1)
+    journals = Journals.of_rotor(modal, absolute=True)
+    status, force, slope = journals.forces(motion.reshape(-1, position.shape[1]), float(modal.parts.profile.speeds[0]))
+    if status >= Status.CONTACT:
         raise FilmContactError("a journal leaves its bearing along the orbit")
     return force, slope[:, :2], slope[:, 2:]
 

@@ -29,7 +29,7 @@ static void set_angles(const rf_ring *ring, const rf_grid *grid, const double a[
 {
     int32_t last = -1;
     double start = 0.0, size = 0.0;
-    for (int32_t i = 0; i < grid->lines; ++i) {
+    for (size_t i = 0; i < grid->lines; ++i) {
         const int32_t k = grid->span[i];
         if (k != last) {
             start = ring->start[k];
@@ -64,13 +64,13 @@ static double cubed(const double *e, double cosine, double sine, double factor, 
 
 void rf_set_cells(const rf_ring *ring, const rf_grid *grid, const double *e, rf_cells *cells)
 {
-    const int32_t n = grid->lines;
+    const size_t n = grid->lines;
     const double depth = 1.0 + pow(1.0 - e[0] * e[0] - e[1] * e[1], CROWDING);
     const double a[2] = {e[0] / depth, e[1] / depth}, across = 1.0 / (ring->slenderness * ring->slenderness);
     set_angles(ring, grid, a, grid->line, cells->theta);
     set_angles(ring, grid, a, grid->face, cells->face);
     double before = cells->face[n - 1], cosine = cos(before), sine = sin(before);
-    for (int32_t i = 0; i < n; ++i) {
+    for (size_t i = 0; i < n; ++i) {
         const double line = cells->theta[i], face = cells->face[i], next = cells->theta[i + 1 < n ? i + 1 : 0];
         const double c = cos(face), s = sin(face);
         double slope[2];
@@ -90,9 +90,9 @@ void rf_set_cells(const rf_ring *ring, const rf_grid *grid, const double *e, rf_
 
 void rf_set_source(const rf_grid *grid, const rf_cells *cells, const double *w, double *source)
 {
-    for (int32_t i = 0; i < grid->lines; ++i) {
+    for (size_t i = 0; i < grid->lines; ++i) {
         const double around = cells->normal[0][i] * w[0] + cells->normal[1][i] * w[1];
-        for (int32_t j = 0; j < grid->nodes; ++j)
+        for (size_t j = 0; j < grid->nodes; ++j)
             source[i * grid->nodes + j] = around * grid->width[j];
     }
 }
@@ -100,9 +100,9 @@ void rf_set_source(const rf_grid *grid, const rf_cells *cells, const double *w, 
 void rf_set_film_force(const rf_grid *grid, const rf_cells *cells, const double *pressure, double *f)
 {
     double sum[2] = {0.0, 0.0};
-    for (int32_t i = 0; i < grid->lines; ++i) {
+    for (size_t i = 0; i < grid->lines; ++i) {
         double mean = 0.0;
-        for (int32_t j = 0; j < grid->nodes; ++j)
+        for (size_t j = 0; j < grid->nodes; ++j)
             mean += pressure[i * grid->nodes + j] * grid->width[j];
         sum[0] += cells->normal[0][i] * mean;
         sum[1] += cells->normal[1][i] * mean;
@@ -115,16 +115,16 @@ RF_CLONES
 static void set_flow(const rf_grid *grid, const double *around, const double *along, const double *pressure,
                      double *flow)
 {
-    const int32_t lines = grid->lines, nodes = grid->nodes;
-    for (int32_t i = 0; i < lines; ++i) {
-        const double *here = pressure + (size_t)i * nodes;
-        const double *after = pressure + (size_t)(i + 1 < lines ? i + 1 : 0) * nodes;
-        const double *before = pressure + (size_t)(i > 0 ? i - 1 : lines - 1) * nodes;
+    const size_t lines = grid->lines, nodes = grid->nodes;
+    for (size_t i = 0; i < lines; ++i) {
+        const double *here = pressure + i * nodes;
+        const double *after = pressure + (i + 1 < lines ? i + 1 : 0) * nodes;
+        const double *before = pressure + (i > 0 ? i - 1 : lines - 1) * nodes;
         const double out = around[i], in = around[i > 0 ? i - 1 : lines - 1];
-        double *q = flow + (size_t)i * nodes;
-        for (int32_t j = 0; j < nodes; ++j)
+        double *q = flow + i * nodes;
+        for (size_t j = 0; j < nodes; ++j)
             q[j] = grid->width[j] * (out * (here[j] - after[j]) + in * (here[j] - before[j]));
-        for (int32_t j = 0; j < nodes; ++j) {
+        for (size_t j = 0; j < nodes; ++j) {
             const double axial = along[i] * grid->conductance[j] * (here[j] - (j + 1 < nodes ? here[j + 1] : 0.0));
             q[j] += axial;
             if (j + 1 < nodes)

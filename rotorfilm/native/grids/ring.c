@@ -9,7 +9,7 @@
 
 static size_t nodes_of(const rf_grid *grid)
 {
-    return (size_t)grid->lines * (size_t)grid->nodes;
+    return grid->lines * grid->nodes;
 }
 
 /* Solve on this grid; where the film is searched for, on the coarser ones before. */
@@ -39,7 +39,7 @@ static double sum_of_products(size_t n, const double *x, const double *y)
 }
 
 /* (dA/de_m) P on a grid. */
-static void set_bent_flow(const rf_search *search, int level, int m, double *flow)
+static void set_bent_flow(const rf_search *search, int level, size_t m, double *flow)
 {
     const rf_cells *cells = &search->cells[level];
     rf_set_flow(&search->ring->grids[level], cells->around_slope[m], cells->along_slope[m], search->pressure, flow);
@@ -61,7 +61,7 @@ static void set_derivatives(rf_search *search, double *jacobian)
         for (size_t q = 0; search->ring->clipped && q < all; ++q)
             of_force[q] = search->pressure[q] > 0.0 ? of_force[q] : 0.0;
         rf_solve_free(search, 0, of_force, of_force);
-        for (int m = 0; m < 2; ++m) {
+        for (size_t m = 0; m < 2; ++m) {
             const double along[2] = {m == 0, m == 1};
             set_bent_flow(search, 0, m, other);
             jacobian[4 * k + m] = 12.0 * sum_of_products(all, of_force, other);
@@ -73,7 +73,7 @@ static void set_derivatives(rf_search *search, double *jacobian)
 
 static int is_supplied(const rf_ring *ring)
 {
-    for (int32_t i = 0; i < ring->grids[0].lines; ++i)
+    for (size_t i = 0; i < ring->grids[0].lines; ++i)
         if (ring->grids[0].value[i] != 0.0)
             return 1;
     return 0;
@@ -142,7 +142,7 @@ int rf_ring_pair(const rf_ring *ring, size_t n, const double *e, const double *w
             status = level == 1 ? solve_down_to(&search, 1, source) : rf_search_film(&search, 0, source);
             take_force(&search, level, f[level]);
         }
-        for (int k = 0; k < 2; ++k) {
+        for (size_t k = 0; k < 2; ++k) {
             fine[k * n + i] = f[0][k];
             coarse[k * n + i] = f[1][k];
         }
@@ -154,12 +154,12 @@ int rf_ring_pair(const rf_ring *ring, size_t n, const double *e, const double *w
 /* By the balance of the half cells that end the film, without openings and what a film in tension draws in. */
 static double flow_out_of_ends(const rf_search *search, const rf_grid *grid)
 {
-    const int32_t last = grid->nodes - 1;
+    const size_t last = grid->nodes - 1;
     double rest = 1.0, flow = 0.0;
-    for (int32_t j = 0; j < grid->nodes; ++j)
+    for (size_t j = 0; j < grid->nodes; ++j)
         rest -= grid->width[j];
-    for (int32_t i = 0; i < grid->lines; ++i) {
-        const size_t at = (size_t)i * grid->nodes + last;
+    for (size_t i = 0; i < grid->lines; ++i) {
+        const size_t at = i * grid->nodes + last;
         const double inward = search->cells[0].along[i] * grid->conductance[last] * search->pressure[at];
         const double made = search->source[at] / grid->width[last] * rest;
         if (search->pressure[at] > 0.0 && !grid->held[i])
@@ -178,7 +178,7 @@ int rf_ring_field(const rf_ring *ring, const double *e, const double *w, double 
         rf_place_journal(&search, e);
         status = solve_down_to(&search, 0, w);
         take_force(&search, 0, f);
-        for (int32_t i = 0; i < ring->grids[0].lines; ++i) {
+        for (size_t i = 0; i < ring->grids[0].lines; ++i) {
             theta[i] = search.cells[0].theta[i];
             face[i] = search.cells[0].face[i];
         }
@@ -201,13 +201,13 @@ int rf_ring_potential(const rf_ring *ring, const double *e, size_t n, const doub
         const double source[2] = {w[d], w[n + d]};
         *first = d;
         for (int level = RF_LEVELS - 1; level >= 0 && status == RF_OK; --level) {
-            const size_t all = nodes_of(&ring->grids[level]);
+            const size_t all = nodes_of(&ring->grids[level]), at = (size_t)level;
             status = rf_search_film(&search, level, source);
             /* The discrete film minimizes 12 (P.A P/2 - P.N w) over P >= 0, and J is the minimum. */
-            J[level * n + d] = -6.0 * sum_of_products(all, search.pressure, search.source);
-            for (int m = 0; m < 2; ++m) {
+            J[at * n + d] = -6.0 * sum_of_products(all, search.pressure, search.source);
+            for (size_t m = 0; m < 2; ++m) {
                 set_bent_flow(&search, level, m, search.flow);
-                slope[(level * 2 + m) * n + d] = 6.0 * sum_of_products(all, search.pressure, search.flow);
+                slope[(2 * at + m) * n + d] = 6.0 * sum_of_products(all, search.pressure, search.flow);
             }
         }
     }

@@ -16,7 +16,7 @@
 
 /* N lines around the ring with M unknown nodes on each. */
 typedef struct rf_grid {
-    int32_t lines, nodes;
+    size_t lines, nodes;
     const int32_t *span;       /* N: that a line and the face after it belong to */
     const double *line, *face; /* N: their places as fractions of the span */
     const double *value;       /* N: pressure of lines that are held [1/s] */

@@ -12,7 +12,7 @@ typedef struct rf_search {
     rf_chain chain;
     double *source, *pressure, *flow, *chained; /* N x M of the grid that was solved last */
     uint8_t *free, *known; /* N x M: nodes that are solved for, and those of the next coarser grid */
-    int32_t cut;           /* the line at which the ring is cut */
+    size_t cut;            /* the line at which the ring is cut */
     void *memory;
 } rf_search;
 

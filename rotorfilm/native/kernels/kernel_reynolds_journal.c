@@ -55,8 +55,8 @@ static int take_grid(model *self, const rf_tables *tables, int level, int32_t **
     if (!nodes)
         return RF_INVALID;
     const uint32_t n = lines->extent[1], m = nodes->extent[1];
-    const int fits = level == 0 || (2 * n == (uint32_t)self->ring.grids[level - 1].lines
-                                    && 2 * m == (uint32_t)self->ring.grids[level - 1].nodes);
+    const int fits = level == 0 || (2 * n == self->ring.grids[level - 1].lines
+                                    && 2 * m == self->ring.grids[level - 1].nodes);
     if (lines->extent[0] != 5 || nodes->extent[0] != 2 || n < 4 || m < 1 || n > 10000 || m > 1000 || !fits)
         return rf_say(why, RF_INVALID, "the grids of a film must fit each other, got %u x %u cells",
                       (unsigned)n, (unsigned)m);
@@ -73,7 +73,7 @@ static int take_grid(model *self, const rf_tables *tables, int level, int32_t **
     for (uint32_t j = 0; j < 2 * m; ++j)
         if (!(nodes->numbers[j] > 0.0))
             return rf_say(why, RF_INVALID, "nodes of a film must be apart, got %.9g", nodes->numbers[j]);
-    const rf_grid grid = {(int32_t)n, (int32_t)m, spans, of + n, of + 2 * n, *value, is_held,
+    const rf_grid grid = {n, m, spans, of + n, of + 2 * n, *value, is_held,
                           nodes->numbers, nodes->numbers + m};
     self->ring.grids[level] = grid;
     self->value[level] = *value;
@@ -87,7 +87,7 @@ static int take_grid(model *self, const rf_tables *tables, int level, int32_t **
 static int take_unit(model *self, const rf_tables *tables, rf_message *why)
 {
     const rf_grid *grid = &self->ring.grids[0];
-    for (int32_t i = 0; i < grid->lines; ++i) {
+    for (size_t i = 0; i < grid->lines; ++i) {
         if (grid->value[i] == 0.0)
             continue;
         const rf_table *unit = rf_find_table(tables, "pressure_unit", 1, why);
@@ -167,7 +167,7 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     self->ring.slenderness = same ? grid : slenderness;
     const double unit = 12.0 * p[3] * (p[0] / p[2]) * (p[0] / p[2]);
     for (int level = 0; level < RF_LEVELS; ++level)
-        for (int32_t i = 0; i < self->ring.grids[level].lines; ++i)
+        for (size_t i = 0; i < self->ring.grids[level].lines; ++i)
             self->value[level][i] = self->supply[level][i] * (self->unit / unit);
     return RF_OK;
 }

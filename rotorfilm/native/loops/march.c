@@ -171,10 +171,10 @@ static void set_equations(const rf_march *march, const rf_step_table *table, scr
 {
     const int32_t s = march->scheme.stages, channels = march->rotor.channels, rows = march->rotor.rows;
     const int32_t forces = channels - 2;
-    const size_t size = (size_t)s * (size_t)forces;
+    const int32_t size = s * forces;
     for (int32_t i = 0; i < s; ++i)
         for (int32_t r = 0; r < forces; ++r) {
-            const size_t row = (size_t)i * forces + r;
+            const int32_t row = i * forces + r;
             const double *slope = at->slope + 4 * row;
             at->right[row] = at->force[row] - at->guess[i * channels + r];
             for (int32_t j = 0; j < s; ++j) {
@@ -183,7 +183,7 @@ static void set_equations(const rf_march *march, const rf_step_table *table, scr
                     double total = 0.0;
                     for (int k = 0; k < 4; ++k)
                         total += slope[k] * gain[k * channels + c];
-                    at->matrix[row * size + (size_t)j * forces + c] = -total;
+                    at->matrix[row * size + j * forces + c] = -total;
                 }
             }
             at->matrix[row * size + row] += 1.0;

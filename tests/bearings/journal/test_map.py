@@ -39,7 +39,7 @@ def si_states(count):
 def test_is_a_film_law_that_binds():
     assert isinstance(FILM, FilmLaw)
     assert isinstance(FILM, BindableFilm)
-    assert not isinstance(ReynoldsFilm(), BindableFilm)
+    assert not isinstance(SplittingFilm(), BindableFilm)
 
 
 @pytest.mark.closed_form
