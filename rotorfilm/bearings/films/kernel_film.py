@@ -133,7 +133,9 @@ class BoundKernel:
             require_inside(np.array([x, y]), self.clearance)
         if status == Status.STUCK:
             e = np.array([x, y]) / self.clearance
-            raise endless_search(e, np.array([vx, vy]) / self.clearance - 0.5 * speed * np.array([-e[1], e[0]]))
+            raise endless_search(
+                e, np.array([vx, vy]) / self.clearance - 0.5 * speed * np.array([-e[1], e[0]])
+            )
         _report_film(status, float(np.hypot(x, y)) / self.clearance, self.kernel.film)
 
 

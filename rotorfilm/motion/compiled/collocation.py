@@ -17,7 +17,7 @@ STAGES = 4
 """Collocation nodes of a step: order 7."""
 
 
-class Scheme(NamedTuple):
+class Collocation(NamedTuple):
     """Nodes of a step and polynomials on them, coefficients by rising power.
 
     Attributes
@@ -39,14 +39,14 @@ class Scheme(NamedTuple):
 
 
 @lru_cache(maxsize=8)
-def radau_scheme(stages: int) -> Scheme:
+def radau_scheme(stages: int) -> Collocation:
     """Return the scheme of so many nodes."""
     # The inner nodes are the zeros of Jacobi's polynomial of weight 1 - x on [0, 1].
     inner = 0.5 * (1.0 + roots_jacobi(stages - 1, 1.0, 0.0)[0])
     nodes = np.append(inner, 1.0)
     lagrange = np.linalg.inv(np.vander(nodes, increasing=True)).T
     remainder = np.polynomial.polynomial.polyfromroots(nodes)
-    return Scheme(nodes, np.ascontiguousarray(lagrange), remainder / remainder[0])
+    return Collocation(nodes, np.ascontiguousarray(lagrange), remainder / remainder[0])
 
 
 class ModalArrays(NamedTuple):
@@ -111,7 +111,7 @@ class StepTable(NamedTuple):
         )
 
     @classmethod
-    def of_step(cls, rotor: ModalArrays, scheme: Scheme, step: float) -> StepTable:
+    def of_step(cls, rotor: ModalArrays, scheme: Collocation, step: float) -> StepTable:
         """Return the table of a length of step [s]."""
         table = cls.unfilled(rotor, len(scheme.nodes))
         arguments = byref(rotor.struct()), byref(scheme.struct()), step, byref(table.struct())

@@ -13,7 +13,7 @@ from ...model import Array
 from ...native.library import SLOTS, STEPS, MarchStruct, SpeedsStruct, StepTableStruct, loops
 from ...rotors import SpeedProfile
 from .collocation import STAGES, ModalArrays, StepTable, radau_scheme
-from .journals import Journals
+from .journal_films import JournalFilms
 from .modal import Complex, ModalRotor
 
 BUDGET = 20000
@@ -77,7 +77,7 @@ class March:
     ) -> None:
         self.modal, self.state = modal, np.array(state, dtype=complex)
         self._duration = duration
-        self._kept = ModalArrays.of(modal), radau_scheme(stages), Journals.of_rotor(modal)
+        self._kept = ModalArrays.of(modal), radau_scheme(stages), JournalFilms.of_rotor(modal)
         self._numbers = *profile_rows(modal.parts.profile), journal_scales(modal)
         self._tables = [StepTable.unfilled(self._kept[0], stages) for _ in range(SLOTS + 1)]
         times = len(self._numbers[0])

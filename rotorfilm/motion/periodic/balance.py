@@ -21,7 +21,7 @@ import numpy as np
 from ...errors import FilmContactError
 from ...model import Array
 from ...native import Status
-from ..compiled.journals import Journals
+from ..compiled.journal_films import JournalFilms
 from ..compiled.modal import Complex, ModalRotor
 
 OVERSAMPLING = 4
@@ -194,9 +194,13 @@ def film_forces(modal: ModalRotor, position: Array, velocity: Array) -> tuple[Ar
     FilmContactError
         If a journal leaves its bearing, or a force is not finite.
     """
-    motion = np.concatenate([position.reshape(-1, 2, position.shape[1]), velocity.reshape(-1, 2, position.shape[1])], axis=1)
-    journals = Journals.of_rotor(modal, absolute=True)
-    status, force, slope = journals.forces(motion.reshape(-1, position.shape[1]), float(modal.parts.profile.speeds[0]))
+    motion = np.concatenate(
+        [position.reshape(-1, 2, position.shape[1]), velocity.reshape(-1, 2, position.shape[1])], axis=1
+    )
+    journals = JournalFilms.of_rotor(modal, absolute=True)
+    status, force, slope = journals.forces(
+        motion.reshape(-1, position.shape[1]), float(modal.parts.profile.speeds[0])
+    )
     if status >= Status.CONTACT:
         raise FilmContactError("a journal leaves its bearing along the orbit")
     return force, slope[:, :2], slope[:, 2:]

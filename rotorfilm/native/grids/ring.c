@@ -55,7 +55,7 @@ static void set_derivatives(rf_search *search, double *jacobian)
     const rf_grid *grid = &search->ring->grids[0];
     const size_t all = nodes_of(grid);
     double *of_force = search->source, *other = search->flow;
-    for (int k = 0; k < 2; ++k) {
+    for (size_t k = 0; k < 2; ++k) {
         const double unit[2] = {k == 0, k == 1};
         rf_set_source(grid, &search->cells[0], unit, of_force);
         for (size_t q = 0; search->ring->clipped && q < all; ++q)

@@ -65,7 +65,9 @@ def test_order_of_the_extrapolated_potential():
 
     def potential(e, cells):
         grids = ring_grids(geometry, *cells, LONG)
-        return extrapolated(RingKernel(0.7, ring_spans(geometry), grids, Complementarity()).potential(e, w)[0])
+        return extrapolated(
+            RingKernel(0.7, ring_spans(geometry), grids, Complementarity()).potential(e, w)[0]
+        )
 
     errors = np.zeros((2, 3, 8))
     for k, direction in enumerate((0.0, 1.0, 2.5)):

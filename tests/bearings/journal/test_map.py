@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from rotorfilm.bearings.films.law import BindableFilm, FilmLaw
 from rotorfilm.bearings.films.map_fit import tabulate_film
-from rotorfilm.bearings.journal import JournalBearing, MapFilm, ReynoldsFilm, ShortFilm
+from rotorfilm.bearings.journal import JournalBearing, MapFilm, ShortFilm, SplittingFilm
 from rotorfilm.errors import FilmContactError, InputError, UndefinedDerivativeError, ValidityWarning
 from rotorfilm.linear import coefficients
 from rotorfilm.native import JournalKernel

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from rotorfilm import JournalBearing, LinearBearing, ShortFilm, Sprung
 from rotorfilm.motion.compiled.film_calls import film_call
-from rotorfilm.motion.compiled.journals import Journals
+from rotorfilm.motion.compiled.journal_films import JournalFilms
 from rotorfilm.native import Status
 
 SIZES = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}
@@ -19,7 +19,7 @@ BEARINGS = [MAP, SHORT, SPRING, Sprung(reaction=MAP, stiffness=1e6)]
 def answer(bearing, state):
     call = film_call(bearing)
     films, of = np.array([[call.address], [call.data]], dtype=np.uintp)
-    journals = Journals(films, of, np.zeros(4), np.zeros(2), np.zeros(2), np.array([1e-4]))
+    journals = JournalFilms(films, of, np.zeros(4), np.zeros(2), np.zeros(2), np.array([1e-4]))
     status, force, slope = journals.forces(state[:4, None], state[4])
     return status, force[:, 0], slope[:, :, 0]
 

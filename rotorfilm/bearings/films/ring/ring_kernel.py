@@ -87,7 +87,7 @@ class RingKernel(FilmKernel):
         return cast(loops()[self._function], c_void_p).value
 
     def pair(self, eccentricity: Array, source: Array) -> tuple[Array, Array]:
-        """Return the forces (2, n) on the finest grid and on the next, at eccentricities inside the circle."""
+        """Return the forces (2, n) on the finest grid and on the next; journals must be off the wall."""
         e, w, (fine, coarse) = _float(eccentricity), _float(source), np.empty((2, *eccentricity.shape))
         first = c_size_t()
         places = [numbers.ctypes.data for numbers in (e, w, fine, coarse)]

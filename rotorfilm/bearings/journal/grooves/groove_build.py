@@ -9,11 +9,11 @@ import numpy as np
 from ....errors import ConvergenceError
 from ....model import Array
 from ....progress import Report, silent
+from ...films.cavitation import Complementarity
 from ...films.geometry import TURN, FilmGeometry, Groove
 from ...films.map_fit import node_eccentricities
 from ...films.map_table import stretch
 from ...films.quintic import periodic_quintic, periodic_quintic_coefficients, quintic_coefficients
-from ...films.cavitation import Complementarity
 from ...films.ring.ring_grids import LONG, ring_grids, ring_spans
 from ...films.ring.ring_kernel import RingKernel
 from .groove_table import DIRECTIONS, GrooveMapTable

@@ -12,7 +12,7 @@ from ...native.library import JournalsStruct, loops
 from .modal import ModalRotor
 
 
-class Journals(NamedTuple):
+class JournalFilms(NamedTuple):
     """The bearings of a rotor as the C library reads them.
 
     Attributes
@@ -35,7 +35,7 @@ class Journals(NamedTuple):
     lengths: Array
 
     @classmethod
-    def of_rotor(cls, modal: ModalRotor, *, absolute: bool = False) -> Journals:
+    def of_rotor(cls, modal: ModalRotor, *, absolute: bool = False) -> JournalFilms:
         """Return those of a rotor, which has to live as long; motion is from its rest, or `absolute`."""
         addresses = np.array([(call.address, call.data) for call in modal.calls], dtype=np.uintp).T
         rest = np.zeros(4 * len(modal.calls)) if absolute else modal.journal_rest
