@@ -75,13 +75,7 @@ def labels_as_keys(source):
                 yield node.lineno, part.attr
 
 
-STILL_MARCH = {"damper_peaks.py", "shaft_orbits.py"}
-"""Rungs that step through a motion themselves."""
-
-
-@pytest.mark.parametrize(
-    "path", [path for path in QUESTIONS if path.name not in STILL_MARCH], ids=lambda path: path.name
-)
+@pytest.mark.parametrize("path", QUESTIONS, ids=lambda path: path.name)
 def test_questions_hold_no_solver(path):
     assert list(loops_of_solvers(path.read_text(encoding="utf-8"))) == []
 

@@ -22,6 +22,8 @@ class Status(IntEnum):
     UNDEFINED = 2
     AT_WALL = 3
     NOT_FINITE = 4
+    STUCK = 6
+    NO_MEMORY = 7
 
 
 class Batch(NamedTuple):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import sys
 from collections.abc import Sequence
-from ctypes import c_double, c_int, c_int32, c_size_t, c_void_p
+from ctypes import c_double, c_int, c_int32, c_int64, c_size_t, c_void_p
 from functools import cache
 from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, distribution
@@ -15,6 +15,9 @@ from typing import Any, ClassVar
 from ..errors import RotorfilmError
 
 FOLDER = Path(__file__).parent
+FILMS, LOOPS = "rotorfilm", "rotorfilm_loops"
+"""Libraries that Python calls: films one by one, and loops over them."""
+
 RECORD = "sources.sha256"
 """Of the C sources that an installed distribution was built from; CMakeLists.txt writes it."""
 
@@ -93,6 +96,148 @@ class MapTableStruct(ctypes.Structure):
     ]
 
 
+class GridStruct(ctypes.Structure):
+    """rf_grid of ring.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("lines", c_size_t),
+        ("nodes", c_size_t),
+        ("span", c_void_p),
+        ("line", c_void_p),
+        ("face", c_void_p),
+        ("value", c_void_p),
+        ("held", c_void_p),
+        ("width", c_void_p),
+        ("conductance", c_void_p),
+    ]
+
+
+class RingStruct(ctypes.Structure):
+    """rf_ring of ring.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("grids", GridStruct * 3),
+        ("start", c_void_p),
+        ("extent", c_void_p),
+        ("slenderness", c_double),
+        ("spans", c_int32),
+        ("pinned", c_int32),
+        ("ruptured", c_int32),
+        ("clipped", c_int32),
+    ]
+
+
+class RideStruct(ctypes.Structure):
+    """rf_ride_law of ride.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("order", c_int32),
+        ("A", c_void_p),
+        ("B", c_void_p),
+        ("C", c_void_p),
+        ("D", c_double),
+        ("offset", c_double),
+        ("span", c_double),
+        ("exponent", c_double),
+        ("operating", c_double),
+        ("W", c_double),
+    ]
+
+
+class ModesStruct(ctypes.Structure):
+    """rf_modes of collocation.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("modes", c_int32),
+        ("channels", c_int32),
+        ("rows", c_int32),
+        ("values", c_void_p),
+        ("push", c_void_p),
+        ("sense", c_void_p),
+    ]
+
+
+class SchemeStruct(ctypes.Structure):
+    """rf_scheme of collocation.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("stages", c_int32),
+        ("nodes", c_void_p),
+        ("lagrange", c_void_p),
+        ("remainder", c_void_p),
+    ]
+
+
+class StepTableStruct(ctypes.Structure):
+    """rf_step_table of collocation.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("move", c_void_p),
+        ("gain", c_void_p),
+        ("defect", c_void_p),
+        ("keep", c_void_p),
+        ("forced", c_void_p),
+    ]
+
+
+class JournalsStruct(ctypes.Structure):
+    """rf_journals of march.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("count", c_int32),
+        ("films", c_void_p),
+        ("of", c_void_p),
+        ("rest", c_void_p),
+        ("spring", c_void_p),
+        ("damper", c_void_p),
+        ("lengths", c_void_p),
+    ]
+
+
+class SpeedsStruct(ctypes.Structure):
+    """rf_speeds of march.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("count", c_int32),
+        ("times", c_void_p),
+        ("speeds", c_void_p),
+        ("slopes", c_void_p),
+        ("angles", c_void_p),
+    ]
+
+
+SLOTS, STEPS = 24, 400
+"""Of march.h: lengths of steps whose tables are kept, and lengths that there are."""
+
+
+class MarchStruct(ctypes.Structure):
+    """rf_march of march.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("rotor", ModesStruct),
+        ("scheme", SchemeStruct),
+        ("journals", JournalsStruct),
+        ("profile", SpeedsStruct),
+        ("scales", c_void_p),
+        ("longest", c_double),
+        ("shortest", c_double),
+        ("rtol", c_double),
+        ("newton", c_double),
+        ("tables", ctypes.POINTER(StepTableStruct)),
+        ("slot_of", c_int32 * STEPS),
+        ("step_of", c_int32 * SLOTS),
+        ("next_slot", c_int32),
+        ("step", c_int32),
+        ("left_map", c_int32),
+        ("time", c_double),
+        ("films", c_int64),
+        ("jacobians", c_int64),
+        ("steps", c_int64),
+        ("rejected", c_int64),
+        ("z", c_void_p),
+    ]
+
+
 _ROWS = [c_void_p, c_size_t]
 _BATCH: dict[str, list[Any]] = {
     "rf_film_batch": [c_void_p, c_void_p, c_size_t, *_ROWS * 4, c_void_p],
@@ -109,11 +254,22 @@ _SCALAR: dict[str, list[Any]] = {
     "rf_map_error": [c_void_p],
     "rf_groove_error": [c_void_p],
 }
+_LOOPS: dict[str, list[Any]] = {
+    "rf_ring_film": [c_void_p] * 5,
+    "rf_ring_pair": [c_void_p, c_size_t, *[c_void_p] * 5],
+    "rf_ring_field": [c_void_p] * 7,
+    "rf_ring_potential": [c_void_p, c_void_p, c_size_t, *[c_void_p] * 4],
+    "rf_ride": [c_void_p, c_void_p, c_double, c_int64, c_void_p, c_void_p],
+    "rf_springs_at": [c_void_p] * 4,
+    "rf_set_step_table": [c_void_p, c_void_p, c_double, c_void_p],
+    "rf_march_to": [c_void_p, c_double, c_int64, c_void_p, c_int64, c_void_p, c_void_p],
+    "rf_journal_forces": [c_void_p, c_int64, c_void_p, c_double, c_void_p, c_void_p],
+}
 
 
 @cache
 def functions() -> dict[str, Any]:
-    """Return the functions of the library by name, loaded on the first call.
+    """Return the functions of the library of films by name, loaded on the first call.
 
     Batches release the interpreter lock; a scalar call is over before that would pay.
 
@@ -122,11 +278,23 @@ def functions() -> dict[str, Any]:
     NativeLibraryError
         If the library is missing or cannot be loaded.
     """
-    return {**_typed(ctypes.CDLL, _BATCH), **_typed(ctypes.PyDLL, _SCALAR)}
+    return {**_typed(ctypes.CDLL, FILMS, _BATCH), **_typed(ctypes.PyDLL, FILMS, _SCALAR)}
 
 
-def _typed(loader: type[ctypes.CDLL], signatures: dict[str, list[Any]]) -> dict[str, Any]:
-    library = _load(loader)
+@cache
+def loops() -> dict[str, Any]:
+    """Return the functions of the library of loops over films by name; all release the interpreter lock.
+
+    Raises
+    ------
+    NativeLibraryError
+        As `functions`.
+    """
+    return _typed(ctypes.CDLL, LOOPS, _LOOPS)
+
+
+def _typed(loader: type[ctypes.CDLL], name: str, signatures: dict[str, list[Any]]) -> dict[str, Any]:
+    library = _load(loader, name)
     try:
         found = {name: getattr(library, name) for name in signatures}
     except AttributeError as error:
@@ -179,8 +347,8 @@ def _installed_folder() -> Path | None:
     return folder if (folder / RECORD).is_file() else None
 
 
-def _load(loader: type[ctypes.CDLL]) -> ctypes.CDLL:
-    path = library_path("rotorfilm")
+def _load(loader: type[ctypes.CDLL], name: str) -> ctypes.CDLL:
+    path = library_path(name)
     try:
         return loader(str(path))
     except OSError as error:

@@ -1,6 +1,5 @@
 """Polymer bushes that wear by melting."""
 
-from .arc_of_wear import arc_of_wear
 from .bearing import BushContact, MeltingBush
 from .bush_reaction import BushReaction
 from .bush_wear import BushWear
@@ -10,7 +9,7 @@ from .materials import BushGeometry, Friction, LinerMaterial, ShaftMaterial
 from .moments import WIDEST, Path, Stage, Wearing, end_of_wear, wear_by_one_moment, wear_by_two_moments
 from .published_bush import PublishedStage, f4k20_bush, published_stage
 from .shaft_flux import approximate_flux, exact_flux
-from .wear_at_nodes import LocalEnd, Worn, end_of_local_wear, wear_at_nodes
+from .wear_at_nodes import LocalEnd, Worn, arc_of_wear, end_of_local_wear, wear_at_nodes
 from .worn_profile import LocalMelting, MeltingRule, SharedMelting
 
 __all__ = [

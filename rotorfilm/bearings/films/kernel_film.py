@@ -11,7 +11,7 @@ from ...errors import InputError, require_inside, warn_user
 from ...model import Array
 from ...native import FilmKernel, JournalKernel, Status
 from ...native.film_kernels import Batch, MapKernel
-from .law import FilmOptions, vanishing_source, wall_contact
+from .law import FilmOptions, endless_search, vanishing_source, wall_contact
 
 
 class KernelFilm(FilmOptions):
@@ -131,6 +131,11 @@ class BoundKernel:
             )
         if status == Status.AT_WALL:
             require_inside(np.array([x, y]), self.clearance)
+        if status == Status.STUCK:
+            e = np.array([x, y]) / self.clearance
+            raise endless_search(
+                e, np.array([vx, vy]) / self.clearance - 0.5 * speed * np.array([-e[1], e[0]])
+            )
         _report_film(status, float(np.hypot(x, y)) / self.clearance, self.kernel.film)
 
 
@@ -139,6 +144,8 @@ def _report_law(batch: Batch, e: Array, w: Array, kernel: FilmKernel) -> None:
     if not batch.status:
         return
     at = e[:, batch.first]
+    if batch.status == Status.STUCK:
+        raise endless_search(at, w[:, batch.first])
     if batch.status == Status.NOT_FINITE:
         raise InputError(
             "eccentricity and source must be finite and not overflow, "
@@ -148,6 +155,8 @@ def _report_law(batch: Batch, e: Array, w: Array, kernel: FilmKernel) -> None:
 
 
 def _report_film(status: int, chi: float, kernel: FilmKernel) -> None:
+    if status == Status.NO_MEMORY:
+        raise MemoryError("no memory for a film")
     if status == Status.AT_WALL:
         raise wall_contact(chi)
     if status == Status.UNDEFINED:

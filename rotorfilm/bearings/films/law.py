@@ -18,7 +18,7 @@ from typing import NamedTuple, Protocol, TypeVar, cast, runtime_checkable
 
 import numpy as np
 
-from ...errors import FilmContactError, UndefinedDerivativeError
+from ...errors import ConvergenceError, FilmContactError, UndefinedDerivativeError
 from ...model import Array
 from .geometry import FilmGeometry
 
@@ -259,6 +259,14 @@ def require_direction(frame: PolarFrame) -> None:
     vanishing = ~np.any(frame.source, axis=-1)
     if np.any(vanishing):
         raise vanishing_source(frame.chi[vanishing][0])
+
+
+def endless_search(eccentricity: Array, source: Array) -> ConvergenceError:
+    """Return the error of a film whose edge is not found, at one state (2,)."""
+    return ConvergenceError(
+        "the search for the ruptured zone must end, and did not at "
+        f"eccentricity {eccentricity.tolist()}, source {source.tolist()} 1/s"
+    )
 
 
 def vanishing_source(chi: float) -> UndefinedDerivativeError:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import (
@@ -241,8 +242,11 @@ class JournalBearing(Feedthrough):
         found = self._options.native(self.slenderness) if type(self) is JournalBearing else None
         if found is None:
             return None
+        kernel, tables = found
+        if self.supply_pressure > 0.0:
+            tables = {**tables, "pressure_unit": np.array([self.pressure_scale])}
         dimensions = {name: float(getattr(self, name)) for name, _, _ in NATIVE_PARAMETERS}
-        return journal_spec(*found, dimensions, fixed=not self.geometry.plain)
+        return journal_spec(kernel, tables, dimensions, fixed=not self.geometry.plain)
 
     def portable(self) -> JournalBearing:
         """Return this bearing with a film that carries the table it needs; see `model.Portable`."""

@@ -5,7 +5,8 @@ Every such function is that of the C library (native/films/journal_kernel.h),
     int f(const void *bearing, const double state[5], double force[2], double jacobian[2][5]),
 
 with state = (x, y, vx, vy, speed). Journal bearings on a film of that library bring it along, `LinearBearing`
-has one here, and any other reaction is called back in Python: slower, with the same result.
+has one in native/loops/springs.h, and any other reaction is called back in Python: slower, with the same
+result.
 """
 
 from __future__ import annotations
@@ -15,10 +16,6 @@ from ctypes import CFUNCTYPE, POINTER, c_double, c_int, c_void_p
 from typing import Any, NamedTuple
 
 import numpy as np
-from llvmlite import ir
-from numba import types
-from numba.core import cgutils
-from numba.extending import intrinsic
 
 from ...bearings.films.kernel_film import BoundKernel
 from ...bearings.journal import JournalBearing
@@ -26,10 +23,9 @@ from ...bearings.linear import LinearBearing
 from ...errors import FilmContactError, RotorfilmError, UndefinedDerivativeError
 from ...model import Reaction
 from ...native import Status
-from ...native.library import functions
-from .linear_kernel import linear_bearing
+from ...native.library import functions, loops
 
-CONTACT = int(Status.AT_WALL)
+AT_WALL = int(Status.AT_WALL)
 UNDEFINED = int(Status.UNDEFINED)
 OUTSIDE = int(Status.OUTSIDE)
 NOT_FINITE = int(Status.NOT_FINITE)
@@ -68,7 +64,8 @@ def film_call(reaction: Reaction) -> FilmCall:
             return FilmCall(address=address, data=ctypes.addressof(struct), owner=bound, beyond=bound.beyond)
     if type(reaction) is LinearBearing:
         values = np.concatenate([np.ravel(reaction.stiffness), np.ravel(reaction.damping)])
-        return FilmCall(address=linear_bearing.address, data=values.ctypes.data, owner=values)
+        address = ctypes.cast(loops()["rf_springs_at"], c_void_p).value or 0
+        return FilmCall(address=address, data=values.ctypes.data, owner=values)
     return _called_back(reaction)
 
 
@@ -82,7 +79,7 @@ def _called_back(reaction: Reaction) -> FilmCall:
             for i, value in enumerate(slopes.ravel().tolist()):
                 jacobian[i] = value
         except FilmContactError:
-            return CONTACT
+            return AT_WALL
         except UndefinedDerivativeError:
             return UNDEFINED
         except RotorfilmError:
@@ -91,17 +88,3 @@ def _called_back(reaction: Reaction) -> FilmCall:
 
     function = _CALLBACK(answer)
     return FilmCall(address=ctypes.cast(function, c_void_p).value or 0, data=0, owner=(function, reaction))
-
-
-@intrinsic
-def call_film(typing, address, data, state, force, jacobian):  # type: ignore[no-untyped-def]
-    """Call a film by address, inside compiled code; all arguments are addresses. Returns the status."""
-    signature = types.int32(types.intp, types.intp, types.intp, types.intp, types.intp)
-
-    def generate(context, builder, signature, arguments):  # type: ignore[no-untyped-def]
-        pointer = cgutils.voidptr_t
-        kind = ir.FunctionType(ir.IntType(32), [pointer] * 4)
-        function = builder.inttoptr(arguments[0], kind.as_pointer())
-        return builder.call(function, [builder.inttoptr(value, pointer) for value in arguments[1:]])
-
-    return signature, generate

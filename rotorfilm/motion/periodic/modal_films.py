@@ -11,8 +11,8 @@ import numpy as np
 
 from ...errors import FilmContactError
 from ...model import Array
-from ..compiled.film_calls import CONTACT
-from ..compiled.journal_forces import film_batch
+from ...native import Status
+from ..compiled.journal_films import JournalFilms
 from ..compiled.modal import Complex, ModalRotor
 from .balance import Receptance
 from .harmonics import constant, with_wave
@@ -93,11 +93,11 @@ def film_forces(modal: ModalRotor, position: Array, velocity: Array) -> tuple[Ar
     FilmContactError
         If a journal leaves its bearing, or a force is not finite.
     """
-    films = np.array([(call.address, call.data) for call in modal.calls], dtype=np.intp)
-    supports = modal.spring, modal.damper, modal.parts.lengths
-    status, force, slope = film_batch(
-        films, supports, position, velocity, float(modal.parts.profile.speeds[0])
-    )
-    if status >= CONTACT:
+    samples = position.shape[1]
+    motion = np.concatenate([row.reshape(-1, 2, samples) for row in (position, velocity)], axis=1)
+    journals = JournalFilms.of_rotor(modal, absolute=True)
+    speed = float(modal.parts.profile.speeds[0])
+    status, force, slope = journals.forces(motion.reshape(-1, samples), speed)
+    if status >= Status.AT_WALL:
         raise FilmContactError("a journal leaves its bearing along the orbit")
     return force, slope[:, :2], slope[:, 2:]

@@ -48,6 +48,10 @@ static int explain(const rf_journal *journal, int status, const double *u, rf_me
                       "the journal must stay inside the clearance %.9g m, got an eccentricity of %.9g m "
                       "(x = %.9g, y = %.9g)",
                       c, e, u[0], u[1]);
+    case RF_STUCK:
+        return rf_say(why, status, "the search for the ruptured zone of the film must end, and did not at x = %.9g, "
+                      "y = %.9g m, vx = %.9g, vy = %.9g m/s, speed = %.9g rad/s", u[0], u[1], u[2], u[3], u[4]);
+    case RF_MEMORY: return rf_say(why, status, "no memory for the grids of a film");
     default:
         return rf_say(
             why, status, "%s: x = %.9g, y = %.9g m, vx = %.9g, vy = %.9g m/s, speed = %.9g rad/s",
