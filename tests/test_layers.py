@@ -54,7 +54,7 @@ PARTS = {
     "motion": [["transient", "circular"], ["compiled"], ["periodic"]],
     "cosim": [["schemes"]],
     "fmu": [["description"], ["python", "check"], ["native"]],
-    "scenes": [["journal"], ["damper", "contact", "bush", "shaft"]],
+    "scenes": [["reading"], ["journal"], ["damper", "contact", "bush", "shaft"]],
     "questions": [["journal"], ["damper", "contact", "bush", "shaft"]],
     "comparisons": [["journal", "contact", "coupling"], ["limits"]],
     "charts": [["comparisons"]],

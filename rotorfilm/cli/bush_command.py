@@ -31,7 +31,7 @@ def bush(
     """Find contact and critical speeds of a polymer bush that melts: the published example unless set."""
     from ..bearings.bush import ApproximateShaft, GlobalBalance
     from ..scenes.bush.solve_bush import bush_from_settings, solve_bush
-    from ..scenes.tables import Quantity
+    from ..scenes.reading.tables import Quantity
 
     pairs = [text.partition("=")[::2] for text in change or ()]
     model = bush_from_settings({name.strip(): value.strip() for name, value in pairs})

@@ -71,7 +71,7 @@ def contact(
     """Film thickness, approach and stiffness of a lubricated rolling ball, and its response to a load."""
     from ..scenes.contact.contact_motions import require_followable
     from ..scenes.contact.solve_contact import load_over_time, respond, response_of, solve_contact
-    from ..scenes.readers import Count
+    from ..scenes.reading.readers import Count
 
     given = dict(
         radius=radius, mass=mass, modulus=modulus, poisson_ratio=poisson_ratio, viscosity=viscosity,
@@ -156,8 +156,8 @@ def _case(
     from ..bearings.contact import ContactGrid, PointContact
     from ..errors import InputError
     from ..scenes.contact.solve_contact import ContactCase, case_of
-    from ..scenes.readers import Count
-    from ..scenes.tables import Quantity
+    from ..scenes.reading.readers import Count
+    from ..scenes.reading.tables import Quantity
 
     V, Q0, W = plain
     grid = ContactGrid(cells=(Count(CONTACT_CELLS)("--cells", cells),) * 2)
@@ -176,7 +176,7 @@ def _case(
 def _ball(given: dict[str, str | None]) -> RollingBall:
     from ..bearings.contact import RollingBall
     from ..errors import InputError
-    from ..scenes.tables import Quantity
+    from ..scenes.reading.tables import Quantity
 
     missing = [_option(name) for name in BALL if given[name] is None]
     if missing:
@@ -202,7 +202,7 @@ def _require_response(
 
 def _scaled(case: ContactCase, name: str, text: str, unit: str, scale: float) -> float:
     """Return a time or frequency in the unit of the contact."""
-    from ..scenes.tables import Quantity
+    from ..scenes.reading.tables import Quantity
 
     return Quantity(unit if case.ball is not None else "1")(name, text) / scale
 

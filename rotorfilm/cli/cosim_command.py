@@ -43,7 +43,7 @@ def cosim(
     from ..errors import PartialResultError
     from ..scenes import Scene
     from ..scenes.cosimulate_scene import run_scene, scheme_named
-    from ..scenes.tables import Quantity
+    from ..scenes.reading.tables import Quantity
 
     loaded = Scene.load(scene)
     table = loaded.cosimulation

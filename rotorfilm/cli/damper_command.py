@@ -59,7 +59,7 @@ def damper(
     from ..bearings.films.cavitation import FullFilm, HalfSommerfeld
     from ..scenes.damper.damper_table import SQUEEZES
     from ..scenes.damper.solve_damper import solve_damper
-    from ..scenes.tables import Quantity
+    from ..scenes.reading.tables import Quantity
 
     support = PorousDamper(
         radius=Quantity("m")("--radius", radius),
@@ -126,7 +126,7 @@ def _cage(
 ) -> PorousCage | None:
     from ..bearings.damper import PorousCage
     from ..errors import InputError
-    from ..scenes.tables import Quantity
+    from ..scenes.reading.tables import Quantity
 
     if thickness is None and permeability is None:
         if (grading, anisotropy, vented) != (0.0, 1.0, False):

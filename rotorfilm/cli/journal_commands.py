@@ -62,8 +62,8 @@ def coefficients(
     from ..scenes.journal.echo import bearing_data, film_name
     from ..scenes.journal.journal_remarks import film_remarks
     from ..scenes.lubricant_table import LubricantTable
+    from ..scenes.reading.tables import read_table
     from ..scenes.schema import JournalTable
-    from ..scenes.tables import read_table
 
     geometry = {"radius": radius, "length": length, "clearance": clearance, "viscosity": viscosity}
     grooves = tuple(_groove(text) for text in groove or [])
@@ -152,7 +152,7 @@ def _map_of_options(
 
 def _film(film: str, order: str | None, constant: bool, rupture: str | None, cells: str | None) -> FilmLaw:
     from ..scenes.journal.film_tables import FILMS
-    from ..scenes.tables import choose, read_table
+    from ..scenes.reading.tables import choose, read_table
 
     given: dict[str, Any] = {
         "order": order and _numbers(order),
@@ -176,7 +176,7 @@ def _numbers(text: str) -> list[int | str]:
 def _groove(text: str) -> Groove:
     """Return the groove of "CENTER, WIDTH"."""
     from ..bearings.films.geometry import Groove
-    from ..scenes.tables import Quantity
+    from ..scenes.reading.tables import Quantity
 
     parts = [part.strip() for part in text.split(",")]
     if len(parts) != 2:
@@ -187,8 +187,8 @@ def _groove(text: str) -> Groove:
 
 def _operation(load: str, speed: str) -> tuple[tuple[float, float], float]:
     """Return the load [N] and the speed [rad/s]."""
+    from ..scenes.reading.tables import read_table
     from ..scenes.schema import OperationTable
-    from ..scenes.tables import read_table
 
     components = load.split(",")
     options = {"load": components if len(components) > 1 else load, "speed": speed}

@@ -27,9 +27,9 @@ from ..progress import Report, part_of, silent
 from ..results import Trajectory, orbit_distance
 from .export_scene import export_scene, resting_rotor
 from .monolithic import monolithic_solution
+from .reading.shared_fields import made_from
 from .scene import Scene
 from .schema import require_steps
-from .shared_fields import made_from
 
 SCHEMES: dict[str, Scheme] = {
     **{f"gauss-seidel-{degree}": GaussSeidel(degree=degree) for degree in range(3)},

@@ -54,7 +54,7 @@ class Family:
     Attributes
     ----------
     table : type
-        The dataclass that its table is read into; see `rotorfilm.scenes.tables`.
+        The dataclass that its table is read into; see `rotorfilm.scenes.reading.tables`.
     ladders : mapping of str to callable
         By quantity, a call that takes a scene and the quantity and returns the ladder of its rungs.
     models : callable or None

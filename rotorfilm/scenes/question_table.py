@@ -7,8 +7,8 @@ from typing import Annotated, Any
 
 from ..errors import SceneError, require_positive
 from ..printable import brief
-from .spelling import nearest
-from .tables import Quantity, text
+from .reading.spelling import nearest
+from .reading.tables import Quantity, text
 
 QUANTITIES = {
     "eccentricity_ratio": "static eccentricity / clearance",

@@ -24,10 +24,10 @@ from .journal.journal_remarks import film_remarks
 from .journal.solve_journal import Answer, solve
 from .lubricant_table import LubricantTable
 from .question_table import QuestionTable
+from .reading.tables import Beside, Table, Variant, read_table, text
 from .scene_file import parsed, read_tables, require_schema
 from .schema import CosimulationTable, JournalTable, OperationTable, RigidRotorTable
 from .shaft.shaft_table import ShaftTable, require_node, require_place
-from .tables import Beside, Table, Variant, read_table, text
 
 BUNDLED = "friswell_5_9_6.toml"
 """The scene file that ships with the package."""

@@ -10,8 +10,8 @@ from typing import Any
 from ..errors import SceneError
 from ..limits import LINE_DOTS, SCENE_BYTES
 from ..printable import brief, shortened
+from .reading.tables import require_no_near_miss
 from .schema import SCHEMA
-from .tables import require_no_near_miss
 
 BYTE_ORDER_MARK = "\ufeff"
 """What some editors put before the text of a file."""

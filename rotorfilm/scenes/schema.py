@@ -17,9 +17,9 @@ from ..errors import InputError, require_finite, require_positive
 from ..limits import STEPS
 from ..rotors.rigid import RigidRotor
 from .journal.film_tables import FILMS, GROOVE, PAD
-from .readers import read_load
-from .shared_fields import made_from
-from .tables import Quantity, TableList, Variant
+from .reading.readers import read_load
+from .reading.shared_fields import made_from
+from .reading.tables import Quantity, TableList, Variant
 
 SCHEMA = 1
 """The version that a scene file states as `schema = 1`."""

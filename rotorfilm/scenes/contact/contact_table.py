@@ -10,9 +10,9 @@ from ...bearings.contact import BallSupport, ContactGrid, PointContact, RollingB
 from ...errors import InputError, SceneError, require_non_negative
 from ...limits import CONTACT_CELLS, LAW_STATES
 from ...printable import brief
-from ..readers import Count
-from ..shared_fields import made_from
-from ..tables import Quantity, flag
+from ..reading.readers import Count
+from ..reading.shared_fields import made_from
+from ..reading.tables import Quantity, flag
 
 
 def read_angles(where: str, value: Any) -> tuple[float, ...]:

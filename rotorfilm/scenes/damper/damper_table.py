@@ -21,8 +21,8 @@ from ...bearings.damper import (
 from ...bearings.films.cavitation import FullFilm, HalfSommerfeld
 from ...bearings.sprung import Sprung
 from ...errors import ValidityWarning, require_non_negative
-from ..shared_fields import made_from
-from ..tables import Keyed, Quantity, Table, Variant, flag
+from ..reading.shared_fields import made_from
+from ..reading.tables import Keyed, Quantity, Table, Variant, flag
 
 CAGE = Keyed(
     PorousCage,

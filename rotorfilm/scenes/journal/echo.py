@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from ...bearings.films.geometry import Groove, Pad
 from ...bearings.films.law import FilmLaw
 from ...bearings.journal import JournalBearing
-from ..shared_fields import made_from
+from ..reading.shared_fields import made_from
 
 _GEOMETRY = "geometry"
 """Parameter of the films that are fitted to a bearing: the bearing itself shows it."""

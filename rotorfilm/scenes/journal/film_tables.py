@@ -21,8 +21,8 @@ from ...bearings.journal import (
 from ...errors import SceneError
 from ...limits import FILM_CELLS, FUNCTIONS, MAP_NODES
 from ...printable import brief
-from ..readers import Count, Counts
-from ..tables import Keyed, Quantity, Variant, flag
+from ..reading.readers import Count, Counts
+from ..reading.tables import Keyed, Quantity, Variant, flag
 
 
 def read_order(where: str, value: Any) -> tuple[int, int | None]:

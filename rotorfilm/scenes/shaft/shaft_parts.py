@@ -21,10 +21,10 @@ from ...rotors import (
     Support,
     TiltSpring,
 )
-from ..readers import Count
+from ..reading.readers import Count
+from ..reading.shared_fields import made_from
+from ..reading.tables import Keyed, Quantity, Table, read_table, require_table, text
 from ..schema import JournalTable
-from ..shared_fields import made_from
-from ..tables import Keyed, Quantity, Table, read_table, require_table, text
 
 Pair = tuple[tuple[float, float], tuple[float, float]]
 

@@ -8,10 +8,10 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Generic, NamedTuple, TypeVar, get_type_hints
 
-from ..errors import InputError, SceneError
-from ..limits import TEXT
-from ..printable import brief, shortened
-from ..units import parse_quantity
+from ...errors import InputError, SceneError
+from ...limits import TEXT
+from ...printable import brief, shortened
+from ...units import parse_quantity
 from .spelling import nearest, require_no_near_miss
 
 Reader = Callable[[str, Any], Any]

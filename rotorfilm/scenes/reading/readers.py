@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from ..errors import SceneError
-from ..linear.equilibrium import UNLOADED
-from ..printable import brief
+from ...errors import SceneError
+from ...linear.equilibrium import UNLOADED
+from ...printable import brief
 from .tables import Quantity
 
 
