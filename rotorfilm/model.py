@@ -289,20 +289,23 @@ def journal_inputs(clearance: float, nominal_speed: float) -> tuple[Signal, ...]
         Typical angular speed [rad/s]; with the clearance it makes the nominal velocity.
     """
     velocity = clearance * nominal_speed
-    x, y, vx, vy, speed = JOURNAL_INPUTS
-    return (
-        Signal(name=x, unit="m", nominal=clearance, description="journal position along x"),
-        Signal(name=y, unit="m", nominal=clearance, description="journal position along y"),
-        Signal(name=vx, unit="m/s", nominal=velocity, description="journal velocity along x"),
-        Signal(name=vy, unit="m/s", nominal=velocity, description="journal velocity along y"),
-        Signal(name=speed, unit="rad/s", nominal=nominal_speed, description="angular speed about +z"),
+    rows = (
+        ("m", clearance, "journal position along x"),
+        ("m", clearance, "journal position along y"),
+        ("m/s", velocity, "journal velocity along x"),
+        ("m/s", velocity, "journal velocity along y"),
+        ("rad/s", nominal_speed, "angular speed about +z"),
     )
+    return _signals(JOURNAL_INPUTS, rows)
 
 
 def force_outputs(nominal_force: float) -> tuple[Signal, ...]:
     """Return the signals FORCE_OUTPUTS that the outputs of every Reaction begin with (nominal force in N)."""
-    x, y = FORCE_OUTPUTS
-    return (
-        Signal(name=x, unit="N", nominal=nominal_force, description="force on the journal along x"),
-        Signal(name=y, unit="N", nominal=nominal_force, description="force on the journal along y"),
+    return _signals(
+        FORCE_OUTPUTS, [("N", nominal_force, f"force on the journal along {axis}") for axis in "xy"]
     )
+
+
+def _signals(names: Sequence[str], rows: Sequence[tuple[str, float, str]]) -> tuple[Signal, ...]:
+    pairs = zip(names, rows, strict=True)
+    return tuple(Signal(name=name, unit=u, nominal=size, description=text) for name, (u, size, text) in pairs)

@@ -10,7 +10,8 @@ import numpy as np
 
 from ...errors import ContactError, ConvergenceError, warn_user
 from ...model import Array
-from ...native.library import SLOTS, STEPS, MarchStruct, SpeedsStruct, StepTableStruct, loops
+from ...native.library import loops
+from ...native.structs import SLOTS, STEPS, MarchStruct, SpeedsStruct, StepTableStruct
 from ...rotors import SpeedProfile
 from .collocation import STAGES, ModalArrays, StepTable, radau_scheme
 from .journal_films import JournalFilms

@@ -22,9 +22,9 @@ from ...bearings.bush import (
 from ...errors import SceneError
 from ...limits import WORN_NODES
 from ...printable import brief
-from ..reading.readers import Count
+from ..reading.readers import Count, Named
 from ..reading.shared_fields import made_from
-from ..reading.tables import Named, Quantity, choose
+from ..reading.tables import Quantity, choose
 
 MATERIALS = {"f4k20": f4k20_bush}
 """Bushes whose data a scene may take, by name: filled PTFE F4K20 on a steel shaft, Evtushenko & Kovalenko

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from ...errors import SceneError
 from ...linear.equilibrium import UNLOADED
 from ...printable import brief
-from .tables import Quantity
+from .tables import Quantity, choose
 
 
 def read_load(where: str, value: Any) -> tuple[float, float]:
@@ -74,3 +75,20 @@ class Counts:
         if math.prod(counts) > self.most:
             raise SceneError(f"{where} must multiply to at most {self.most}, got {brief(value)}")
         return counts
+
+
+@dataclass(frozen=True)
+class Named:
+    """Reader of the name of one of several things that have no parameters.
+
+    Attributes
+    ----------
+    variants : mapping of str to callable
+        What makes each thing, by its name.
+    """
+
+    variants: Mapping[str, Callable[[], Any]]
+
+    def __call__(self, where: str, value: Any) -> Any:
+        """Return the thing of this name."""
+        return choose(where, value, self.variants)()

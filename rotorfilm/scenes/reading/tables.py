@@ -149,23 +149,6 @@ class Beside(NamedTuple):
         return {name: read_table(self.type_of(name), f"{where}{name}.", data) for name, data in value.items()}
 
 
-@dataclass(frozen=True)
-class Named:
-    """Reader of the name of one of several things that have no parameters.
-
-    Attributes
-    ----------
-    variants : mapping of str to callable
-        What makes each thing, by its name.
-    """
-
-    variants: Mapping[str, Callable[[], Any]]
-
-    def __call__(self, where: str, value: Any) -> Any:
-        """Return the thing of this name."""
-        return choose(where, value, self.variants)()
-
-
 def choose(where: str, name: object, variants: Mapping[str, V]) -> V:
     """Return what has this name; raise SceneError if there is none."""
     if not isinstance(name, str) or name not in variants:

@@ -24,10 +24,10 @@ from ...rotors import (
     Unbalance,
 )
 from ..excitation_table import UnbalanceTable
-from ..reading.readers import Count
+from ..reading.readers import Count, Named
 from ..reading.shared_fields import made_from
 from ..reading.spelling import nearest
-from ..reading.tables import Named, Quantity, Table, TableList
+from ..reading.tables import Quantity, Table, TableList
 from .shaft_parts import MATERIAL, PROBE, TILT_SPRING, BearingTable, DiskTable, PieceTable, read_pieces
 
 BEAMS: dict[str, type[Beam]] = {"fourth_order": FourthOrderBeam, "classical": ClassicalBeam}

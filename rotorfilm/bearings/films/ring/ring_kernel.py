@@ -9,7 +9,8 @@ import numpy as np
 
 from ....model import Array
 from ....native.film_kernels import FilmKernel, Status
-from ....native.library import GridStruct, RingStruct, loops
+from ....native.library import loops
+from ....native.structs import GridStruct, RingStruct
 from ..cavitation import Cavitation
 from ..law import endless_search
 from .ring_grids import Grid, Spans
