@@ -17,6 +17,7 @@ LEAVES = [
     "units",
     "signals",
     "model",
+    "journal_signals",
     "results",
     "progress",
     "sources",

@@ -5,19 +5,8 @@ import pytest
 
 from rotorfilm.bearings.journal import JournalBearing
 from rotorfilm.errors import InputError
-from rotorfilm.model import (
-    FORCE_OUTPUTS,
-    JOURNAL_INPUTS,
-    Dynamic,
-    Kinked,
-    Model,
-    Reaction,
-    Stepped,
-    force_outputs,
-    journal_inputs,
-    static_linearization,
-    stops,
-)
+from rotorfilm.journal_signals import FORCE_OUTPUTS, JOURNAL_INPUTS, force_outputs, journal_inputs
+from rotorfilm.model import Dynamic, Kinked, Model, Reaction, Stepped, static_linearization, stops
 from rotorfilm.rotors import RigidRotor, SpeedProfile
 from rotorfilm.signals import indices, names
 

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_vector
-from ..model import Array, force_outputs, journal_inputs
+from ..journal_signals import force_outputs, journal_inputs
+from ..model import Array
 from ..signals import Signal
 from .reaction import Feedthrough
 

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_inside, require_vector
-from ..model import Array, Linearization, force_outputs, journal_inputs, static_linearization
+from ..journal_signals import force_outputs, journal_inputs
+from ..model import Array, Linearization, static_linearization
 from ..signals import Signal
 
 NOMINAL_SPEED = 100.0

@@ -13,7 +13,8 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
 from ..errors import InputError, require_finite, require_vector
-from ..model import Array, force_outputs, journal_inputs
+from ..journal_signals import force_outputs, journal_inputs
+from ..model import Array
 from ..results import write_csv
 from ..signals import Signal
 from .reaction import Feedthrough

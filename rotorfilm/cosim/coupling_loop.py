@@ -18,7 +18,8 @@ from scipy.linalg import expm
 from scipy.optimize import brentq
 
 from ..errors import InputError, require_finite
-from ..model import FORCE_OUTPUTS, JOURNAL_INPUTS, Array, Dynamic, Linearization, Model
+from ..journal_signals import FORCE_OUTPUTS, JOURNAL_INPUTS
+from ..model import Array, Dynamic, Linearization, Model
 from ..rotors.force_law import ForceLaw
 from ..signals import indices, names
 from .bench import Sample, StationMotion, Tangents

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import FmuError, InputError, UndefinedDerivativeError
-from ..model import FORCE_OUTPUTS, JOURNAL_INPUTS, Array, Linearization
+from ..journal_signals import FORCE_OUTPUTS, JOURNAL_INPUTS
+from ..model import Array, Linearization
 from ..rotors.force_law import ForceLaw, held_law
 from ..rotors.stations import station_name
 from .bench import Needs, Sample, StationMotion, Tangents, no_tangents

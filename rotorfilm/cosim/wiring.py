@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple, Protocol
 
 from ..errors import InputError
-from ..model import FORCE_OUTPUTS, MOTION_NAMES
+from ..journal_signals import FORCE_OUTPUTS, MOTION_NAMES
 from ..rotors.stations import station_name, station_names
 from ..signals import indices
 

@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_kind
-from ..model import FORCE_OUTPUTS, MOTION_NAMES, Array, Dynamic, Reaction
+from ..journal_signals import FORCE_OUTPUTS, MOTION_NAMES
+from ..model import Array, Dynamic, Reaction
 from ..results import Equilibrium
 from ..signals import indices, names
 from .equilibrium import equilibrium

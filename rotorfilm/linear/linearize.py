@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite
-from ..model import JOURNAL_INPUTS, Array, Linearization, Model
+from ..journal_signals import JOURNAL_INPUTS
+from ..model import Array, Linearization, Model
 from ..results import Equilibrium
 from ..signals import Signal, names
 

@@ -8,7 +8,8 @@ import control
 import numpy as np
 
 from ..errors import InputError, require_number, require_positive
-from ..model import Reaction, force_outputs
+from ..journal_signals import force_outputs
+from ..model import Reaction
 from ..results import CircularOrbit
 from ..rotors import RigidRotor
 from ..rotors.rotating import rotating_linearization

@@ -14,7 +14,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..model import FORCE_OUTPUTS, MOTION_NAMES, Array
+from ..journal_signals import FORCE_OUTPUTS, MOTION_NAMES
+from ..model import Array
 from .stations import station_name
 
 _PAIRS = ("xx", "xy", "yx", "yy")

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
-from ..model import JOURNAL_INPUTS, Array, Dynamic, Linearization, Reaction
+from ..journal_signals import JOURNAL_INPUTS
+from ..model import Array, Dynamic, Linearization, Reaction
 from ..native.spec import NativeSpec
 from ..signals import Signal, indices, names
 from .stations import AroundRotor, prefixed

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import require_non_negative, require_number, require_positive
-from ..model import MOTION_NAMES, Array, Linearization, force_outputs, journal_inputs
+from ..journal_signals import MOTION_NAMES, force_outputs, journal_inputs
+from ..model import Array, Linearization
 from ..native.spec import NativeParameter, NativeSpec
 from ..signals import Signal
 from ..units import STANDARD_GRAVITY

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from rotorfilm.errors import FilmContactError
-from rotorfilm.model import force_outputs, journal_inputs, static_linearization
+from rotorfilm.journal_signals import force_outputs, journal_inputs
+from rotorfilm.model import static_linearization
 from rotorfilm.rotors import RigidRotor
 
 GAUSS, WEIGHTS = np.polynomial.legendre.leggauss(120)

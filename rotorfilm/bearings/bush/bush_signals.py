@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...model import force_outputs, journal_inputs
+from ...journal_signals import force_outputs, journal_inputs
 from ...signals import Signal
 from .bearing import MeltingBush
 

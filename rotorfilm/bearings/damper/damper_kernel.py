@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from ...model import MOTION_NAMES
+from ...journal_signals import MOTION_NAMES
 from ...native.spec import NativeParameter, NativeSpec
 from .full_squeeze import SqueezeFilm
 from .mapped_squeeze import MappedSqueezeFilm

@@ -17,7 +17,8 @@ from ...errors import (
     require_positive,
     warn_user,
 )
-from ...model import Array, Tangent, force_outputs, journal_inputs
+from ...journal_signals import force_outputs, journal_inputs
+from ...model import Array, Tangent
 from ...native.spec import NativeSpec
 from ...signals import Signal
 from ..films.bound_law import BoundLaw, kinematics

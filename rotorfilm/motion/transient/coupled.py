@@ -8,15 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ...errors import ConvergenceError, InputError, UndefinedDerivativeError, require_inside
-from ...model import (
-    FORCE_OUTPUTS,
-    JOURNAL_INPUTS,
-    Array,
-    Dynamic,
-    Linearization,
-    Reaction,
-    static_linearization,
-)
+from ...journal_signals import FORCE_OUTPUTS, JOURNAL_INPUTS
+from ...model import Array, Dynamic, Linearization, Reaction, static_linearization
 from ...signals import indices, names
 
 NUDGE = 1e-6

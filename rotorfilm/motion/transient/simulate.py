@@ -9,7 +9,8 @@ from numpy.typing import ArrayLike
 from scipy.integrate import OdeSolver, Radau
 
 from ...errors import ContactError, ConvergenceError, InputError, require_finite, require_positive
-from ...model import FORCE_OUTPUTS, Array, Dynamic, Reaction, stops
+from ...journal_signals import FORCE_OUTPUTS
+from ...model import Array, Dynamic, Reaction, stops
 from ...results import Trajectory
 from ...signals import names
 from .coupled import Coupled
