@@ -17,7 +17,6 @@ LEAVES = [
     "units",
     "signals",
     "model",
-    "journal_signals",
     "results",
     "progress",
     "sources",

@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_inside, require_vector
-from ..journal_signals import force_outputs, journal_inputs
 from ..model import Array, Linearization, static_linearization
-from ..signals import Signal
+from ..signals import Signal, force_outputs, journal_inputs
 
 NOMINAL_SPEED = 100.0
 """Typical angular speed [rad/s] behind the nominal values of velocities and forces."""

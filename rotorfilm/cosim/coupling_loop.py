@@ -18,10 +18,9 @@ from scipy.linalg import expm
 from scipy.optimize import brentq
 
 from ..errors import InputError, require_finite
-from ..journal_signals import FORCE_OUTPUTS, JOURNAL_INPUTS
 from ..model import Array, Dynamic, Linearization, Model
 from ..rotors.force_law import ForceLaw
-from ..signals import indices, names
+from ..signals import FORCE_OUTPUTS, JOURNAL_INPUTS, indices, names
 from .bench import Sample, StationMotion, Tangents
 from .schemes.newton import Newton
 from .schemes.scheme import Scheme

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from ..errors import FmuError, InputError, UndefinedDerivativeError
-from ..journal_signals import FORCE_OUTPUTS, JOURNAL_INPUTS
 from ..model import Array, Linearization
 from ..rotors.force_law import ForceLaw, held_law
 from ..rotors.stations import station_name
+from ..signals import FORCE_OUTPUTS, JOURNAL_INPUTS
 from .bench import Needs, Sample, StationMotion, Tangents, no_tangents
 from .slaves import Differentiable, Driven, Restorable, Slave
 from .wiring import sources, wired

@@ -6,9 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple, Protocol
 
 from ..errors import InputError
-from ..journal_signals import FORCE_OUTPUTS, MOTION_NAMES
 from ..rotors.stations import station_name, station_names
-from ..signals import indices
+from ..signals import FORCE_OUTPUTS, MOTION_NAMES, indices
 
 
 class Signals(Protocol):

@@ -7,10 +7,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_kind
-from ..journal_signals import FORCE_OUTPUTS, MOTION_NAMES
 from ..model import Array, Dynamic, Reaction
 from ..results import Equilibrium
-from ..signals import indices, names
+from ..signals import FORCE_OUTPUTS, MOTION_NAMES, indices, names
 from .equilibrium import equilibrium
 from .linearize import OperatingPoint, linearize
 

@@ -11,10 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite
-from ..journal_signals import JOURNAL_INPUTS
 from ..model import Array, Linearization, Model
 from ..results import Equilibrium
-from ..signals import Signal, names
+from ..signals import JOURNAL_INPUTS, Signal, names
 
 
 @dataclass(frozen=True, kw_only=True)

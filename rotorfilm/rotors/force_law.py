@@ -14,8 +14,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..journal_signals import FORCE_OUTPUTS, MOTION_NAMES
 from ..model import Array
+from ..signals import FORCE_OUTPUTS, MOTION_NAMES
 from .stations import station_name
 
 _PAIRS = ("xx", "xy", "yx", "yy")

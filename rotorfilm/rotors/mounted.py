@@ -12,10 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
-from ..journal_signals import JOURNAL_INPUTS
 from ..model import Array, Dynamic, Linearization, Reaction
 from ..native.spec import NativeSpec
-from ..signals import Signal, indices, names
+from ..signals import JOURNAL_INPUTS, Signal, indices, names
 from .stations import AroundRotor, prefixed
 from .system_kernel import system_kernel
 

@@ -10,10 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import require_non_negative, require_number, require_positive
-from ..journal_signals import MOTION_NAMES, force_outputs, journal_inputs
 from ..model import Array, Linearization
 from ..native.spec import NativeParameter, NativeSpec
-from ..signals import Signal
+from ..signals import MOTION_NAMES, Signal, force_outputs, journal_inputs
 from ..units import STANDARD_GRAVITY
 from .profile import SpeedProfile, Turning
 from .structure import NOMINAL_LENGTH, Operators, Structure, keep_pair, unbalance_columns

@@ -8,9 +8,8 @@ from functools import cached_property
 from typing import TypeVar
 
 from ..errors import InputError
-from ..journal_signals import FORCE_OUTPUTS, MOTION_NAMES
 from ..model import Array, Dynamic, breakpoints
-from ..signals import Signal, indices, names
+from ..signals import FORCE_OUTPUTS, MOTION_NAMES, Signal, indices, names
 
 AnySignal = TypeVar("AnySignal", bound=Signal)
 

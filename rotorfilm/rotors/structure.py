@@ -21,9 +21,8 @@ from numpy.typing import ArrayLike
 from scipy.linalg import cho_factor, cho_solve
 
 from ..errors import InputError, require_finite, require_number
-from ..journal_signals import force_outputs, journal_inputs
 from ..model import Array, Linearization
-from ..signals import Signal
+from ..signals import Signal, force_outputs, journal_inputs
 from ..units import STANDARD_GRAVITY
 from .profile import SpeedProfile, Turning
 from .stations import prefixed

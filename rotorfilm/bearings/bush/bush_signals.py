@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from ...journal_signals import force_outputs, journal_inputs
-from ...signals import Signal
+from ...signals import Signal, force_outputs, journal_inputs
 from .bearing import MeltingBush
 
 NOMINAL_LOAD = 1e-2

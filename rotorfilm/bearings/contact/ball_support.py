@@ -9,10 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_finite, require_kind, require_number, require_vector
-from ...journal_signals import force_outputs, journal_inputs
 from ...model import Array, Linearization
 from ...native.spec import NativeSpec
-from ...signals import Signal
+from ...signals import Signal, force_outputs, journal_inputs
 from .contact_kernel import MOST_CONTACTS, contact_spec
 from .contact_law import ContactLaw
 

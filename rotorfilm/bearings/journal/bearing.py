@@ -17,10 +17,9 @@ from ...errors import (
     require_positive,
     warn_user,
 )
-from ...journal_signals import force_outputs, journal_inputs
 from ...model import Array, Tangent
 from ...native.spec import NativeSpec
-from ...signals import Signal
+from ...signals import Signal, force_outputs, journal_inputs
 from ..films.bound_law import BoundLaw, kinematics
 from ..films.geometry import FilmGeometry, Groove, Pad
 from ..films.law import BoundFilm, FilmLaw, FilmOptions, options

@@ -8,9 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ...errors import ConvergenceError, InputError, UndefinedDerivativeError, require_inside
-from ...journal_signals import FORCE_OUTPUTS, JOURNAL_INPUTS
 from ...model import Array, Dynamic, Linearization, Reaction, static_linearization
-from ...signals import indices, names
+from ...signals import FORCE_OUTPUTS, JOURNAL_INPUTS, indices, names
 
 NUDGE = 1e-6
 """Velocity, in nominal velocities, at which a derivative is taken where the film has none."""

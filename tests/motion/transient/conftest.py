@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from rotorfilm.errors import FilmContactError
-from rotorfilm.journal_signals import force_outputs, journal_inputs
 from rotorfilm.model import static_linearization
+from rotorfilm.signals import force_outputs, journal_inputs
 
 
 @dataclass(frozen=True)
