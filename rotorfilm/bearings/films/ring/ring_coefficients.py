@@ -96,17 +96,21 @@ def ring_coefficients(e: Array, slenderness: float, spans: Spans, grid: Grid) ->
         after, before = (i + 1) % n, (i - 1) % n
         film, film_slope = _film(e, face[i])
         conductance = 1.0 / ((theta[after] - theta[i]) % (2.0 * np.pi))
-        around[i], around_slope[i] = conductance * film**3, 3.0 * conductance * film**2 * film_slope
+        around[i] = conductance * film**3
+        for k in range(2):
+            around_slope[i, k] = 3.0 * conductance * film**2 * film_slope[k]
         film, film_slope = _film(e, theta[i])
         conductance = across * ((face[i] - face[before]) % (2.0 * np.pi))
-        along[i], along_slope[i] = conductance * film**3, 3.0 * conductance * film**2 * film_slope
+        along[i] = conductance * film**3
+        for k in range(2):
+            along_slope[i, k] = 3.0 * conductance * film**2 * film_slope[k]
         normal[i, 0] = np.sin(face[i]) - np.sin(face[before])
         normal[i, 1] = np.cos(face[before]) - np.cos(face[i])
     return CellCoefficients(around, along, normal, around_slope, along_slope, theta)
 
 
 @compiled
-def _film(e: Array, theta: float) -> tuple[float, Array]:
-    """Return H at an angle, and its derivative with respect to e, (2,)."""
-    n = np.array([np.cos(theta), np.sin(theta)])
-    return 1.0 - e[0] * n[0] - e[1] * n[1], -n
+def _film(e: Array, theta: float) -> tuple[float, tuple[float, float]]:
+    """Return H at an angle, and its derivative with respect to e."""
+    cos, sin = np.cos(theta), np.sin(theta)
+    return 1.0 - e[0] * cos - e[1] * sin, (-cos, -sin)

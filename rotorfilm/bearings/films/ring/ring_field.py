@@ -43,7 +43,7 @@ def film_field(film: GridFilm, eccentricity: Array, source: Array, slenderness: 
     axial = axial_nodes(film.cells[1], slenderness)
     face = ring_angles(e, spans, grids[0].span, grids[0].face)
     return FilmField(
-        force=film_force(coefficients.normal, grids[0], pressure),
+        force=film_force(coefficients.normal, grids[0], pressure, False),
         force_extrapolated=extrapolated,
         force_error=float(error),
         angle=coefficients.theta,

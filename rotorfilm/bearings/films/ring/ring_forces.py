@@ -23,15 +23,29 @@ from .ring_solver import Factor, film_equations_slope, solve_film, solve_free
 @compiled
 def film_source(normal: Array, grid: Grid, w: Array) -> Array:
     """Return w times the integral of n over the cells, shape (N, M)."""
-    around = normal[:, 0] * w[0] + normal[:, 1] * w[1]
-    return around.reshape(-1, 1) * grid.width
+    source = np.empty((len(normal), len(grid.width)))
+    for i in range(len(normal)):
+        around = normal[i, 0] * w[0] + normal[i, 1] * w[1]
+        for j in range(len(grid.width)):
+            source[i, j] = around * grid.width[j]
+    return source
 
 
 @compiled
-def film_force(normal: Array, grid: Grid, pressure: Array) -> Array:
-    """Return -12 times the integral of P n, shape (2,)."""
-    mean = pressure @ grid.width
-    return np.array([-12.0 * np.sum(normal[:, 0] * mean), -12.0 * np.sum(normal[:, 1] * mean)])
+def film_force(normal: Array, grid: Grid, pressure: Array, clipped: bool) -> Array:
+    """Return -12 times the integral of P n, of positive P alone if clipped, shape (2,)."""
+    if clipped:
+        pressure = pressure.copy()
+        for i in range(pressure.shape[0]):
+            for j in range(pressure.shape[1]):
+                pressure[i, j] = max(pressure[i, j], 0.0)
+    mean, force = pressure @ grid.width, np.zeros(2)
+    for i in range(len(mean)):
+        for k in range(2):
+            force[k] += normal[i, k] * mean[i]
+    for k in range(2):
+        force[k] *= -12.0
+    return force
 
 
 @compiled
@@ -39,7 +53,8 @@ def first_guess(source: Array, grid: Grid, searched: bool) -> np.ndarray:
     """Return the free nodes to begin with: where the source drives pressure, or the whole film."""
     free = np.zeros(source.shape, dtype=np.bool_)
     for i in range(len(grid.span)):
-        free[i] = not grid.held[i] and (not searched or source[i, 0] > 0.0)
+        for j in range(len(grid.width)):
+            free[i, j] = not grid.held[i] and (not searched or source[i, 0] > 0.0)
     return free
 
 
@@ -75,8 +90,10 @@ def film_batch(
     """
     fine, coarse = np.zeros(e.shape), np.zeros(e.shape)
     jacobian = np.zeros((2, 4, e.shape[1] if slopes else 0))
+    eb, wb = np.empty(2), np.empty(2)
     for b in range(e.shape[1]):
-        eb, wb = e[:, b].copy(), w[:, b].copy()
+        for k in range(2):
+            eb[k], wb[k] = e[k, b], w[k, b]
         free = np.zeros((0, 0), dtype=np.bool_)
         for level in range(len(grids) - 1, -1, -1):
             grid = grids[level]
@@ -87,11 +104,10 @@ def film_batch(
             if not found:
                 return fine, coarse, jacobian, b
             if slopes and level == 0:
-                jacobian[:, :, b] = derivative(coefficients, grid, pressure, factor, free, clipped)
-            if clipped:
-                pressure = np.maximum(pressure, 0.0)
-            coarse[:, b] = fine[:, b]
-            fine[:, b] = film_force(coefficients.normal, grid, pressure)
+                derivative(coefficients, grid, pressure, factor, free, clipped, jacobian[:, :, b])
+            force = film_force(coefficients.normal, grid, pressure, clipped)
+            for k in range(2):
+                coarse[k, b], fine[k, b] = fine[k, b], force[k]
     return fine, coarse, jacobian, -1
 
 
@@ -121,19 +137,31 @@ def derivative(
     factor: Factor,
     free: np.ndarray,
     clipped: bool,
-) -> Array:
-    """Return d force / d (e, w), (2, 4), at a solution, free nodes and lines held."""
-    jacobian = np.empty((2, 4))
+    jacobian: Array,
+) -> None:
+    """Set jacobian to d force / d (e, w), (2, 4), at a solution, free nodes and lines held."""
     for k in range(2):
         weight = film_source(coefficients.normal, grid, _unit(k))
         if clipped:
-            weight = np.where(pressure > 0.0, weight, 0.0)
+            for i in range(pressure.shape[0]):
+                for j in range(pressure.shape[1]):
+                    weight[i, j] = weight[i, j] if pressure[i, j] > 0.0 else 0.0
         answer = solve_free(factor, free, weight)
         for m in range(2):
             bent = film_equations_slope(coefficients, grid, pressure, m)
-            jacobian[k, m] = 12.0 * np.sum(answer * bent)
-            jacobian[k, 2 + m] = -12.0 * np.sum(answer * film_source(coefficients.normal, grid, _unit(m)))
-    return jacobian
+            jacobian[k, m] = 12.0 * _product(answer, bent)
+            driven = film_source(coefficients.normal, grid, _unit(m))
+            jacobian[k, 2 + m] = -12.0 * _product(answer, driven)
+
+
+@compiled
+def _product(a: Array, b: Array) -> float:
+    """Return the sum of products of the entries."""
+    total = 0.0
+    for i in range(a.shape[0]):
+        for j in range(a.shape[1]):
+            total += a[i, j] * b[i, j]
+    return total
 
 
 @compiled

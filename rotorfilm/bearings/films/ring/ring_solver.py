@@ -81,9 +81,9 @@ def _flow(around: Array, along: Array, grid: Grid, pressure: Array) -> Array:
 def factorize(coefficients: CellCoefficients, grid: Grid, free: np.ndarray) -> Factor:
     """Return the factor of the equations of the free nodes."""
     lines, nodes = free.shape
-    cut = _emptiest_line(free)
+    cut, count = _emptiest_line(free)
     band = np.zeros(((lines - 1) * nodes, nodes + 1))
-    bordered = bool(np.any(free[cut]))
+    bordered = count > 0
     border = np.zeros((nodes if bordered else 0, (lines - 1) * nodes))
     corner = np.zeros((nodes, nodes))
     _assemble(coefficients, grid, free, cut, band, border, corner)
@@ -94,13 +94,16 @@ def factorize(coefficients: CellCoefficients, grid: Grid, free: np.ndarray) -> F
 
 
 @compiled
-def _emptiest_line(free: np.ndarray) -> int:
+def _emptiest_line(free: np.ndarray) -> tuple[int, int]:
+    """Return the line with the fewest free nodes, and their number."""
     best, fewest = 0, free.shape[1] + 1
     for i in range(free.shape[0]):
-        count = np.sum(free[i])
+        count = 0
+        for j in range(free.shape[1]):
+            count += free[i, j]
         if count < fewest:
             best, fewest = i, count
-    return best
+    return best, fewest
 
 
 @compiled
@@ -213,7 +216,8 @@ def solve_free(factor: Factor, free: np.ndarray, flow: Array) -> Array:
     x = np.empty((lines, nodes))
     for k in range(lines):
         i = (factor.cut + 1 + k) % lines
-        x[k] = np.where(free[i], flow[i], 0.0)
+        for j in range(nodes):
+            x[k, j] = flow[i, j] if free[i, j] else 0.0
     chain, last = x[: lines - 1].reshape(-1), x[lines - 1]
     _forward(factor.band, chain)
     if factor.bordered:
@@ -223,14 +227,36 @@ def solve_free(factor: Factor, free: np.ndarray, flow: Array) -> Array:
             )
         for j in range(nodes - 1, -1, -1):
             last[j] *= factor.corner[j, j]
-            last[:j] -= factor.corner[j, :j] * last[j]
+            for k in range(j):
+                last[k] -= factor.corner[j, k] * last[j]
         for j in range(nodes):
-            chain -= factor.border[j] * last[j]
+            for q in range(len(chain)):
+                chain[q] -= factor.border[j, q] * last[j]
     _backward(factor.band, chain)
     solution = np.empty((lines, nodes))
     for k in range(lines):
-        solution[(factor.cut + 1 + k) % lines] = x[k]
+        for j in range(nodes):
+            solution[(factor.cut + 1 + k) % lines, j] = x[k, j]
     return solution
+
+
+@compiled
+def excess_source(coefficients: CellCoefficients, grid: Grid, pressure: Array, source: Array) -> Array:
+    """Return source - A P, shape (N, M)."""
+    excess = film_equations(coefficients, grid, pressure)
+    for i in range(source.shape[0]):
+        for j in range(source.shape[1]):
+            excess[i, j] = source[i, j] - excess[i, j]
+    return excess
+
+
+@compiled
+def _largest(values: Array) -> float:
+    largest = 0.0
+    for i in range(values.shape[0]):
+        for j in range(values.shape[1]):
+            largest = max(largest, abs(values[i, j]))
+    return largest
 
 
 @compiled
@@ -238,7 +264,8 @@ def held_pressure(grid: Grid) -> Array:
     """Return the pressure of the openings, 0 elsewhere, shape (N, M)."""
     pressure = np.zeros((len(grid.span), len(grid.width)))
     for i in range(len(grid.span)):
-        pressure[i] = grid.value[i]
+        for j in range(len(grid.width)):
+            pressure[i, j] = grid.value[i]
     return pressure
 
 
@@ -253,15 +280,18 @@ def solve_film(
     min(A P - b, P) = 0 and climbs monotonically to the solution after its first step (Hintermueller, Ito &
     Kunisch 2003, theorem 3.3).
     """
-    threshold = 1e-13 * np.max(np.abs(source))
+    threshold = 1e-13 * _largest(source)
     held = held_pressure(grid)
-    flow = source - film_equations(coefficients, grid, held)
+    flow = excess_source(coefficients, grid, held, source)
     for _ in range(MAX_SWEEPS):
         factor = factorize(coefficients, grid, free)
-        pressure = held + solve_free(factor, free, flow)
+        pressure = solve_free(factor, free, flow)
+        for i in range(free.shape[0]):
+            for j in range(free.shape[1]):
+                pressure[i, j] += held[i, j]
         if not searched:
             return pressure, factor, True
-        excess = source - film_equations(coefficients, grid, pressure)
+        excess = excess_source(coefficients, grid, pressure, source)
         changed = False
         for i in range(free.shape[0]):
             if grid.held[i]:
