@@ -44,7 +44,8 @@ def ride_steps(
     """
     n, size = pushes.size // 2, start.size
     answer = np.empty((n + 1, size))
-    answer[0] = start
+    for i in range(size):
+        answer[0, i] = start[i]
     k = np.empty((4, size))
     now = np.empty(size)
     for m in range(n):

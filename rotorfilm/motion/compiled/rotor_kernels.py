@@ -70,6 +70,33 @@ def weights(h, c, values, polynomials, out):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
+def copy_rows(values, out):  # type: ignore[no-untyped-def]
+    """Set out to values, both two-dimensional; an assignment of slices takes seconds to compile."""
+    for i in range(values.shape[0]):
+        for j in range(values.shape[1]):
+            out[i, j] = values[i, j]
+
+
+@njit(cache=True)
+def copy_row(values, out):  # type: ignore[no-untyped-def]
+    """Set out to values, both one-dimensional."""
+    for i in range(len(values)):
+        out[i] = values[i]
+
+
+@njit(cache=True)
+def seen_forces(sense, w, push, part, out):  # type: ignore[no-untyped-def]
+    """Set out to the real part of sense diag(w) push; `part`, of the shape of sense, is changed."""
+    for q in range(part.shape[0]):
+        for m in range(part.shape[1]):
+            part[q, m] = sense[q, m] * w[m]
+    whole = part @ push
+    for q in range(whole.shape[0]):
+        for c in range(whole.shape[1]):
+            out[q, c] = whole[q, c].real
+
+
+@njit(cache=True)
 def set_tables(h, rotor, scheme, move, gain, defect, advance_z, advance_u):  # type: ignore[no-untyped-def]
     """Fill the tables of one step: see `new_tables`."""
     values, push, sense = rotor
@@ -77,22 +104,22 @@ def set_tables(h, rotor, scheme, move, gain, defect, advance_z, advance_u):  # t
     s, modes, channels, rows = len(nodes), len(values), push.shape[1], len(sense)
     w = np.empty((s, modes), np.complex128)
     r = np.empty((1, modes), np.complex128)
+    part = np.empty((rows, modes), np.complex128)
     for i in range(s):
-        growth = np.exp(values * (h * nodes[i]))
         weights(h, nodes[i], values, lagrange, w)
         weights(h, nodes[i], values, remainder, r)
-        for q in range(rows):
-            for m in range(modes):
-                seen = sense[q, m] * growth[m]
+        for m in range(modes):
+            growth = np.exp(values[m] * (h * nodes[i]))
+            for q in range(rows):
+                seen = sense[q, m] * growth
                 move[i * rows + q, m] = seen.real
                 move[i * rows + q, modes + m] = -seen.imag
         for j in range(s):
-            part = (sense * w[j]) @ push
-            gain[i, j] = part.real
-        defect[i] = ((sense * r[0]) @ push).real
-    advance_z[:] = np.exp(values * h)
-    for j in range(s):
-        for m in range(modes):
+            seen_forces(sense, w[j], push, part, gain[i, j])
+        seen_forces(sense, r[0], push, part, defect[i])
+    for m in range(modes):
+        advance_z[m] = np.exp(values[m] * h)
+        for j in range(s):
             for c in range(channels):
                 now = w[j, m] * push[m, c]
                 advance_u[m, j * channels + c] = now.real
@@ -210,7 +237,9 @@ def newton(times, films, supports, profile, gain, free, u, scales, tolerance, wo
             if status >= CONTACT:
                 return status
             worst = max(worst, status)
-        matrix[:] = 0.0
+        for q in range(size):
+            for c in range(size):
+                matrix[q, c] = 0.0
         for i in range(s):
             for r in range(count):
                 row, b = i * count + r, 4 * (r // 2)
@@ -333,8 +362,8 @@ def try_step(t, h, slot, z, u, start, scheme, tables, films, supports, profile, 
         unbalance_pair(times[i], profile, pair)
         u[i, channels - 2] = pair[0]
         u[i, channels - 1] = pair[1]
-    both[:modes] = z.real
-    both[modes:] = z.imag
+    for m in range(modes):
+        both[m], both[modes + m] = z[m].real, z[m].imag
     free = np.dot(move, both).reshape(s, rows)
     for i in range(s):
         for j in range(s):
@@ -414,7 +443,7 @@ def march(z, clock, stop, rotor, scheme, tables, films, supports, profile, scale
             extrapolate(u, h / last, scheme[0], scheme[1], guess)
         else:
             for i in range(s):
-                guess[i] = start
+                copy_row(start, guess[i])
         status, error = try_step(
             t, h, slot, z, guess, start, scheme, tables, films, supports, profile, scales, limits, work
         )
@@ -433,8 +462,8 @@ def march(z, clock, stop, rotor, scheme, tables, films, supports, profile, scale
         work[4] |= status == OUTSIDE
         place = sample(t, h, z, guess, rotor, scheme, grid, place, out)
         advance(z, guess, tables[6][slot], tables[7][slot])
-        u[:] = guess
-        start[:] = u[s - 1]
+        copy_rows(guess, u)
+        copy_row(u[s - 1], start)
         clock[0], clock[1], clock[2], last = (t + h if whole else stop), level, place, h
         if whole:
             rise = math.floor(4.0 * math.log2(0.8 * (max(error, 1e-12)) ** (-1.0 / (s + 1.0))))
@@ -461,6 +490,6 @@ def film_batch(films, supports, position, velocity, speed):  # type: ignore[no-u
         worst = max(worst, status)
         if status >= CONTACT:
             break
-        force[:, n] = now
-        slope[:, :, n] = slopes
+        copy_row(now, force[:, n])
+        copy_rows(slopes, slope[:, :, n])
     return worst, force, slope
