@@ -5,6 +5,7 @@ import sys
 
 import pytest
 
+from rotorfilm.bearings.journal.map import own_tables
 from rotorfilm.cli import main as cli
 
 PROPORTIONAL = '''
@@ -49,6 +50,23 @@ def run(capsys):
         return exit_.value.code or 0, out, err
 
     return call
+
+
+@pytest.fixture(scope="module")
+def coarse_own_table():
+    """Return a function that makes the map of a bearing which the packaged table leaves out, of few nodes.
+
+    Until the end of the module it is that of every bearing of this length/diameter.
+    """
+
+    def make(slenderness, cells):
+        own_tables.bearing_table.cache_clear()
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(own_tables, "TABLE_CELLS", cells)
+            return own_tables.bearing_table(slenderness)
+
+    yield make
+    own_tables.bearing_table.cache_clear()
 
 
 @pytest.fixture

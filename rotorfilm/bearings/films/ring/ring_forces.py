@@ -149,13 +149,13 @@ def derivative(
         answer = solve_free(factor, free, weight)
         for m in range(2):
             bent = film_equations_slope(coefficients, grid, pressure, m)
-            jacobian[k, m] = 12.0 * _product(answer, bent)
+            jacobian[k, m] = 12.0 * sum_of_products(answer, bent)
             driven = film_source(coefficients.normal, grid, _unit(m))
-            jacobian[k, 2 + m] = -12.0 * _product(answer, driven)
+            jacobian[k, 2 + m] = -12.0 * sum_of_products(answer, driven)
 
 
 @compiled
-def _product(a: Array, b: Array) -> float:
+def sum_of_products(a: Array, b: Array) -> float:
     """Return the sum of products of the entries."""
     total = 0.0
     for i in range(a.shape[0]):

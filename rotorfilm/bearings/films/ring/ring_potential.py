@@ -12,7 +12,7 @@ import numpy as np
 from ....model import Array
 from ..compiled import compiled
 from .ring_coefficients import ring_coefficients
-from .ring_forces import film_source, first_guess, refined
+from .ring_forces import film_source, first_guess, refined, sum_of_products
 from .ring_grids import Grid, Spans
 from .ring_solver import film_equations_slope, solve_film
 
@@ -40,17 +40,21 @@ def potential_fan(
         grid = grids[level]
         coefficients = ring_coefficients(e, slenderness, spans, grid)
         found_sets = np.zeros((count, len(grid.span), len(grid.width)), dtype=np.bool_)
+        wd = np.empty(2)
         for d in range(count):
-            wd = w[:, d].copy()
+            for k in range(2):
+                wd[k] = w[k, d]
             source = film_source(coefficients.normal, grid, wd)
             free = first_guess(source, grid, True) if level == levels - 1 else refined(known[d], grid, True)
             pressure, _, found = solve_film(coefficients, grid, source, free, True)
             if not found:
                 return potential, slope, d
-            found_sets[d] = free
-            potential[level, d] = -6.0 * np.sum(pressure * source)
+            for i in range(free.shape[0]):
+                for j in range(free.shape[1]):
+                    found_sets[d, i, j] = free[i, j]
+            potential[level, d] = -6.0 * sum_of_products(pressure, source)
             for m in range(2):
                 bent = film_equations_slope(coefficients, grid, pressure, m)
-                slope[level, m, d] = 6.0 * np.sum(pressure * bent)
+                slope[level, m, d] = 6.0 * sum_of_products(pressure, bent)
         known = found_sets
     return potential, slope, -1
