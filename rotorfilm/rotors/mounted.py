@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -113,8 +113,8 @@ class MountedRotor:
         forces = [b.output(t, z, m)[:2] for b, z, m in zip(self.bearings, inner, motion, strict=True)]
         rates = [
             b.derivative(t, z, m)
-            for b, z, m in zip(self.bearings, inner, motion, strict=True)
-            if isinstance(b, Dynamic)
+            for b, z, m in zip(self._moving, inner, motion, strict=True)
+            if b is not None
         ]
         return np.concatenate([self.rotor.derivative(t, own, self._inputs(forces, u)), *rates])
 
@@ -159,18 +159,34 @@ class MountedRotor:
     def _split(self, t: float, x: ArrayLike) -> tuple[Array, list[Array], list[Array]]:
         """Return the state of the rotor, those of the bearings, and what the bearings feel."""
         whole = np.asarray(x, dtype=float)
-        ends = np.cumsum([len(self.rotor.states), *(len(b.states) for b in self.bearings)])
-        own = whole[: ends[0]]
-        sensed = self.rotor.output(t, own, np.zeros(len(self.rotor.inputs)))
-        inner = [whole[a:b] for a, b in pairwise(ends)]
+        own = whole[: self._ends[0]]
+        sensed = self.rotor.output(t, own, np.zeros(self._size))
+        inner = [whole[a:b] for a, b in pairwise(self._ends)]
         return own, inner, [sensed[rows] for rows in self._motion]
 
     def _inputs(self, forces: Sequence[Array], u: ArrayLike) -> Array:
-        whole = np.empty(len(self.rotor.inputs))
+        whole = np.empty(self._size)
         whole[list(self._free)] = np.asarray(u, dtype=float)
         for rows, force in zip(self._force, forces, strict=True):
             whole[rows] = force
         return whole
+
+    # Asked once: signals are made when they are asked for, and checks against protocols are slow.
+    @cached_property
+    def _ends(self) -> list[int]:
+        """Where the states of the rotor end, and those of each bearing."""
+        counts = [len(self.rotor.states), *(len(b.states) for b in self.bearings)]
+        return list(accumulate(counts))
+
+    @cached_property
+    def _size(self) -> int:
+        """Number of inputs of the rotor."""
+        return len(self.rotor.inputs)
+
+    @cached_property
+    def _moving(self) -> list[Dynamic | None]:
+        """The bearings with a derivative, None for others."""
+        return [b if isinstance(b, Dynamic) else None for b in self.bearings]
 
     @cached_property
     def _motion(self) -> list[list[int]]:
