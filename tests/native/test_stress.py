@@ -119,7 +119,7 @@ def mutated(good, count):
         yield sealed(bytes(content))
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def stress(compiled):
     sources = sorted(compiled.native.rglob("*.c"))
     return compiled([compiled.here / "stress.c", *sources], *OPTIONS)
