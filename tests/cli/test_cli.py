@@ -338,18 +338,6 @@ def test_folder_that_cannot_be_made_is_named(run, scene, tmp_path):
     assert err.count("\n") == 1
 
 
-def test_demo_prints_json_alone_on_stdout(run, tmp_path, monkeypatch):
-    bundled = scenes.bundled_scene()
-    short = replace(bundled, cosimulation=replace(bundled.cosimulation, revolutions=0.5))
-    monkeypatch.setattr(scenes, "bundled_scene", lambda: short)
-    code, out, err = run("demo", "--out", tmp_path / "demo", "--json")
-    assert code == 0
-    assert "done" in err
-    result = json.loads(out)
-    assert [(tmp_path / "demo" / chart).exists() for chart in result["charts"]] == [True] * 6
-    assert result["coupling"]["runs"][-1]["refused"]
-
-
 def test_warning_is_one_line_on_stderr_and_is_shown_once(scene):
     # In a process of its own, under the warning filters of a user.
     long = SCENE.replace('"30 mm"', '"60 mm"').replace(
