@@ -6,6 +6,7 @@ import dataclasses
 import difflib
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cache
 from typing import Any, NamedTuple, TypeVar, get_type_hints
 
 from ..errors import InputError, SceneError
@@ -203,6 +204,7 @@ def unit_of(table: type, path: Sequence[str]) -> str | None:
     return unit_of(reader.table, rest[1:]) if isinstance(reader, TableList) else None
 
 
+@cache
 def _annotated_fields(table: type) -> dict[str, Any]:
     hints = get_type_hints(table, include_extras=True)
     return {field.name: hints[field.name] for field in dataclasses.fields(table)}
