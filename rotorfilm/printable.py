@@ -19,10 +19,11 @@ def brief(value: object) -> str:
 
 def shortened(text: str) -> str:
     """Return a text on one line, its middle left out where it is long."""
-    shown = visible(text.replace("\n", " "))
-    if len(shown) <= LONGEST:
-        return shown
-    return f"{shown[: LONGEST // 2]}... ({len(text)} characters) ...{shown[-LONGEST // 4 :]}"
+    # No letter gets shorter, so what is shown comes from the ends.
+    head, tail = (visible(end.replace("\n", " ")) for end in (text[: LONGEST + 1], text[-LONGEST:]))
+    if len(head) <= LONGEST:
+        return head
+    return f"{head[: LONGEST // 2]}... ({len(text)} characters) ...{tail[-LONGEST // 4 :]}"
 
 
 def visible(text: str) -> str:

@@ -45,8 +45,13 @@ def source_digest(module: str, below: str = "bearings") -> str:
     return hashlib.sha256(content).hexdigest()[:12]
 
 
-def imported_names(name: str, source: bytes) -> Iterator[str]:
-    """Yield the names that relative imports in `source` may mean; not all of them are modules."""
+@cache
+def imported_names(name: str, source: bytes) -> tuple[str, ...]:
+    """Return the names that relative imports in `source` may mean; not all of them are modules."""
+    return tuple(_imported_names(name, source))
+
+
+def _imported_names(name: str, source: bytes) -> Iterator[str]:
     package = name if module_path(name).endswith("__init__.py") else name.rpartition(".")[0]
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.ImportFrom) and node.level:

@@ -1,10 +1,12 @@
 """A user's own model, in a module of its own."""
 
 import importlib
+import os
 import sys
 
 import pytest
 
+from rotorfilm.bearings.journal.map import own_tables
 from rotorfilm.cli import main as cli
 
 PROPORTIONAL = '''
@@ -38,6 +40,38 @@ class Proportional:
 '''
 
 
+@pytest.fixture(scope="session", autouse=True)
+def compiled_once(tmp_path_factory):
+    """Let one worker at a time compile with numba: what one has compiled, the others read from its cache."""
+    if "PYTEST_XDIST_WORKER" not in os.environ or sys.platform == "win32":
+        yield
+        return
+    import fcntl
+
+    from numba.core.compiler_lock import global_compiler_lock
+    from numba.core.dispatcher import Dispatcher
+
+    compile_one, depth = Dispatcher.compile, 0
+
+    @global_compiler_lock
+    def compile_alone(dispatcher, signature):
+        nonlocal depth
+        if depth == 0:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+        depth += 1
+        try:
+            return compile_one(dispatcher, signature)
+        finally:
+            depth -= 1
+            if depth == 0:
+                fcntl.flock(lock, fcntl.LOCK_UN)
+
+    with (tmp_path_factory.getbasetemp().parent / "compiling").open("w") as lock:
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(Dispatcher, "compile", compile_alone)
+            yield
+
+
 @pytest.fixture
 def run(capsys):
     """Return a function that runs the command line: exit code, standard output, standard error."""
@@ -49,6 +83,23 @@ def run(capsys):
         return exit_.value.code or 0, out, err
 
     return call
+
+
+@pytest.fixture(scope="module")
+def coarse_own_table():
+    """Return a function that makes the map of a bearing which the packaged table leaves out, of few nodes.
+
+    Until the end of the module it is that of every bearing of this length/diameter.
+    """
+
+    def make(slenderness, cells):
+        own_tables.bearing_table.cache_clear()
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(own_tables, "TABLE_CELLS", cells)
+            return own_tables.bearing_table(slenderness)
+
+    yield make
+    own_tables.bearing_table.cache_clear()
 
 
 @pytest.fixture

@@ -50,6 +50,8 @@ class FmuSlave:
         self._slopes = [slope.valueReference for slope in slopes]
         self._states = [slope.derivative.valueReference for slope in slopes]
         self._nominals = np.array([nominal_of(slope.derivative) for slope in slopes])
+        self._wiring: Wiring | None = None
+        self._lawful = False
         self._instance = instantiated(description, folder, exchange)
 
     @property
@@ -105,8 +107,10 @@ class FmuSlave:
 
     def takes_laws(self, wiring: Wiring) -> bool:
         """Whether it has the inputs of force laws."""
-        wanted = [BASE_TIME, *(name for station in wiring.stations for name in law_inputs(station))]
-        return set(wanted) <= set(self.inputs)
+        if wiring is not self._wiring:
+            wanted = [BASE_TIME, *(name for station in wiring.stations for name in law_inputs(station))]
+            self._wiring, self._lawful = wiring, set(wanted) <= set(self.inputs)
+        return self._lawful
 
     def drive(self, t: float, dt: float, law: ForceLaw, wiring: Wiring) -> None:
         """Advance from t to t + dt [s] under a force law; without its inputs, under a held force."""

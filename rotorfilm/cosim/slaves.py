@@ -122,7 +122,9 @@ class InProcessSlave:
         self.differentiates = hasattr(model, "linearization")
         self._inputs, self._outputs = tuple(names(model.inputs)), tuple(names(model.outputs))
         self._u = np.zeros(len(model.inputs))
-        self._x: Array = model.initial_state if isinstance(model, Dynamic) else np.zeros(0)
+        # Asked once: checks against protocols are slow.
+        self._moving = model if isinstance(model, Dynamic) else None
+        self._x: Array = np.zeros(0) if self._moving is None else self._moving.initial_state
         self._t = 0.0
         self._integrator: LawIntegrator | None = None
 
@@ -149,8 +151,8 @@ class InProcessSlave:
 
     def step(self, t: float, dt: float) -> None:
         """Advance the states from t to t + dt [s] under the inputs held."""
-        if isinstance(self._model, Dynamic):
-            self._x = advance(self._model, t, self._x, self._u.copy(), dt)
+        if self._moving is not None:
+            self._x = advance(self._moving, t, self._x, self._u.copy(), dt)
         self._t = t + dt
 
     def get(self) -> dict[str, float]:
@@ -176,7 +178,7 @@ class InProcessSlave:
 
     def takes_laws(self, wiring: Wiring) -> bool:
         """Whether it is a rotor, that is, has states."""
-        return isinstance(self._model, Dynamic)
+        return self._moving is not None
 
     def drive(self, t: float, dt: float, law: ForceLaw, wiring: Wiring) -> None:
         """Advance the states from t to t + dt [s] under a force law."""
@@ -189,6 +191,6 @@ class InProcessSlave:
         return self._dynamic().linearization(t, self._x, self._u)
 
     def _dynamic(self) -> Dynamic:
-        if not isinstance(self._model, Dynamic):
+        if self._moving is None:
             raise InputError(f"rotor must have states, got {self._model!r}")
-        return self._model
+        return self._moving

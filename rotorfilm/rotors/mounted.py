@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -101,7 +101,9 @@ class MountedRotor(AroundRotor):
         """Return dx/dt with the bearings' forces at this state; FilmContactError as the bearings raise it."""
         own, felt = self._split(t, x)
         forces = [b.output(t, z, m)[:2] for b, z, m in felt]
-        rates = [b.derivative(t, z, m) for b, z, m in felt if isinstance(b, Dynamic)]
+        rates = [
+            b.derivative(t, z, m) for b, (_, z, m) in zip(self._moving, felt, strict=True) if b is not None
+        ]
         return np.concatenate([self.rotor.derivative(t, own, self._inputs(forces, u)), *rates])
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
@@ -145,19 +147,35 @@ class MountedRotor(AroundRotor):
     def _split(self, t: float, x: ArrayLike) -> tuple[Array, list[tuple[Reaction, Array, Array]]]:
         """Return the state of the rotor; each bearing with its state and what it feels."""
         whole = np.asarray(x, dtype=float)
-        ends = np.cumsum([len(self.rotor.states), *(len(b.states) for b in self.bearings)])
-        own = whole[: ends[0]]
-        sensed = self.rotor.output(t, own, np.zeros(len(self.rotor.inputs)))
-        inner = [whole[a:b] for a, b in pairwise(ends)]
+        own = whole[: self._ends[0]]
+        sensed = self.rotor.output(t, own, np.zeros(self._size))
+        inner = [whole[a:b] for a, b in pairwise(self._ends)]
         motion = [sensed[rows] for rows in self._motion]
         return own, list(zip(self.bearings, inner, motion, strict=True))
 
     def _inputs(self, forces: Sequence[Array], u: ArrayLike) -> Array:
-        whole = np.empty(len(self.rotor.inputs))
+        whole = np.empty(self._size)
         whole[list(self._free)] = np.asarray(u, dtype=float)
         for rows, force in zip(self.force_places, forces, strict=True):
             whole[rows] = force
         return whole
+
+    # Asked once: signals are made when they are asked for, and checks against protocols are slow.
+    @cached_property
+    def _ends(self) -> list[int]:
+        """Where the states of the rotor end, and those of each bearing."""
+        counts = [len(self.rotor.states), *(len(b.states) for b in self.bearings)]
+        return list(accumulate(counts))
+
+    @cached_property
+    def _size(self) -> int:
+        """Number of inputs of the rotor."""
+        return len(self.rotor.inputs)
+
+    @cached_property
+    def _moving(self) -> list[Dynamic | None]:
+        """The bearings with a derivative, None for others."""
+        return [b if isinstance(b, Dynamic) else None for b in self.bearings]
 
     @cached_property
     def _motion(self) -> list[list[int]]:

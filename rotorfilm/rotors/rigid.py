@@ -118,7 +118,7 @@ class RigidRotor(Turning):
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return (x, y, vx, vy, speed) at the time t [s]; the input u is not used."""
-        return np.append(np.asarray(x, dtype=float), self.profile.speed(t))
+        return np.concatenate([np.asarray(x, dtype=float), [self.profile.speed(t)]])
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives, the same at every (t, x, u)."""

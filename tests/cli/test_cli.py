@@ -5,7 +5,6 @@ import math
 import os
 import subprocess
 import sys
-from dataclasses import replace
 from functools import partial
 from importlib.metadata import version
 from pathlib import Path
@@ -18,7 +17,6 @@ from typer.main import get_command
 
 import rotorfilm
 from rotorfilm import comparisons as ladders
-from rotorfilm import scenes
 from rotorfilm.cli import main as cli
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import RigidRotor
@@ -337,18 +335,6 @@ def test_folder_that_cannot_be_made_is_named(run, scene, tmp_path):
     assert code == 2
     assert "below-a-file" in err
     assert err.count("\n") == 1
-
-
-def test_demo_prints_json_alone_on_stdout(run, tmp_path, monkeypatch):
-    bundled = scenes.bundled_scene()
-    short = replace(bundled, cosimulation=replace(bundled.cosimulation, revolutions=0.5))
-    monkeypatch.setattr(scenes, "bundled_scene", lambda: short)
-    code, out, err = run("demo", "--out", tmp_path / "demo", "--json")
-    assert code == 0
-    assert "done" in err
-    result = json.loads(out)
-    assert [(tmp_path / "demo" / chart).exists() for chart in result["charts"]] == [True] * 6
-    assert result["coupling"]["runs"][-1]["refused"]
 
 
 def test_warning_is_one_line_on_stderr_and_is_shown_once(scene):

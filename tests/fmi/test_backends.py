@@ -1,7 +1,8 @@
 """What every FMU does, whatever runs inside it: each backend and FMI version, each model, both interfaces."""
 
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any
 
 import control
@@ -66,18 +67,29 @@ def kind(request):
     return request.param
 
 
+@pytest.fixture(scope="module")
+def open_fmu(tmp_path_factory):
+    """Return a function that exports and extracts a model, each once: description and folder."""
+    with ExitStack() as held:
+
+        @cache
+        def open_one(name, version, backend):
+            path = tmp_path_factory.mktemp("fmus") / f"{name}.fmu"
+            export_fmu(MODELS[name], path, version, backend, component="part")
+            return held.enter_context(extracted(path))
+
+        yield open_one
+
+
 @pytest.fixture
-def open_case(kind, tmp_path):
-    """Return a function that exports a model; the instances it makes are freed at the end."""
+def open_case(kind, open_fmu):
+    """Return a function that opens a model; the instances it makes are freed at the end."""
     backend, version, exchange = kind
-    held, opened = [], []
+    opened = []
 
     def open_one(name):
         model = MODELS[name]
-        path = export_fmu(model, tmp_path / f"{name}.fmu", version, backend, component="part")
-        context = extracted(path)
-        description, folder = context.__enter__()
-        held.append(context)
+        description, folder = open_fmu(name, version, backend)
         subject = from_state_space(model) if name == "plant" else model
         return Case(subject, description, folder, exchange, opened)
 
@@ -86,8 +98,6 @@ def open_case(kind, tmp_path):
         # A failed instance of PythonFMU does not terminate.
         with suppress(FMICallException):
             instance.close()
-    for context in held:
-        context.__exit__(None, None, None)
 
 
 @pytest.fixture(params=MODELS)

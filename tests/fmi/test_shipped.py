@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from functools import cache
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 
@@ -26,6 +27,12 @@ def shipped():
     return module
 
 
+@pytest.fixture(scope="module")
+def built(shipped, tmp_path_factory):
+    """Return a function that builds a recipe, each once."""
+    return cache(lambda name, version: shipped.build(name, version, tmp_path_factory.mktemp("built")))
+
+
 NAMES = ["journal", "rotor", "flexible_rotor", "damper", "bush", "worn_bush", "contact"]
 
 
@@ -35,8 +42,8 @@ def test_all_recipes_are_tested(shipped):
 
 @pytest.mark.parametrize("version", ["2.0", "3.0"])
 @pytest.mark.parametrize("name", NAMES)
-def test_an_fmu_follows_its_reference(shipped, name, version, tmp_path):
-    path = shipped.build(name, version, tmp_path)
+def test_an_fmu_follows_its_reference(shipped, built, name, version):
+    path = built(name, version)
     assert validate_fmu(str(path)) == []
     assert shipped.deviation(name, path) <= shipped.TOLERANCE
     assert [item for item in check_fmu(path) if item.passed is False] == []
@@ -103,13 +110,13 @@ def listed(cell):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_the_readme_lists_every_variable(shipped, name, tmp_path):
+def test_the_readme_lists_every_variable(built, name):
     rows = set()
     for line in (FMUS / "README.md").read_text().splitlines():
         if line.startswith("|"):
             names, *rest = (cell.strip() for cell in line.strip("|").split("|"))
             rows |= {(one, *rest[:2]) for one in listed(names)}
-    path = shipped.build(name, "2.0", tmp_path)
+    path = built(name, "2.0")
     for variable in fmpy.read_model_description(str(path)).modelVariables:
         if variable.causality != "independent" and variable.derivative is None:
             local = "event" if ".event_" in variable.name else "state"

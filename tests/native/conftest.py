@@ -117,15 +117,15 @@ def unzipped(tmp_path):
         client.fmu.freeInstance()
 
 
-@pytest.fixture
-def compiled(tmp_path):
+@pytest.fixture(scope="session")
+def compiled(tmp_path_factory):
     """Return a function that compiles C sources to a program with gcc or clang."""
     compiler = next((name for name in ("gcc", "clang", "cc") if shutil.which(name)), None)
     if compiler is None:
         pytest.skip("no C compiler")
 
     def build(sources, *options):
-        program = tmp_path / "program"
+        program = tmp_path_factory.mktemp("compiled") / "program"
         strict = ["-std=c99", "-D_POSIX_C_SOURCE=200809L", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]
         command = [compiler, *strict, f"-I{NATIVE}", *options, *map(str, sources), "-o", str(program)]
         ran = subprocess.run([*command, "-lm", "-ldl"], capture_output=True, text=True, check=False)

@@ -1,6 +1,7 @@
 """A process that has run an FMU in Python ends well: PythonFMU touches nothing that is gone."""
 
 import os
+import shutil
 import subprocess
 import sys
 import sysconfig
@@ -39,12 +40,18 @@ except FmuError:
 """
 
 
-@pytest.fixture
-def path(tmp_path):
-    return export_fmu(BEARING, tmp_path / "film.fmu", backend="python", component="film", start=START)
+@pytest.fixture(scope="module")
+def exported(tmp_path_factory):
+    path = tmp_path_factory.mktemp("exported") / "film.fmu"
+    return export_fmu(BEARING, path, backend="python", component="film", start=START)
 
 
 @pytest.fixture
+def path(exported, tmp_path):
+    return shutil.copy(exported, tmp_path / "film.fmu")
+
+
+@pytest.fixture(scope="module")
 def late(compiled):
     """Return the environment in which a use of what is gone shows."""
     library = compiled([Path(__file__).parent / "late.c"], "-shared", "-fPIC")

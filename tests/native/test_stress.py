@@ -26,7 +26,8 @@ from rotorfilm.native import GrooveMapKernel
 from rotorfilm.native.resource import FILE_NAME
 from rotorfilm.rotors import mount
 
-SANITIZERS = ["-g", "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
+OPTIONS = ["-g", "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-DRF_MOST_STEPS=1000"]
+"""Sanitizers, and few steps of an integration: one of extreme numbers takes as many as it may."""
 
 
 def small_bearing():
@@ -118,10 +119,10 @@ def mutated(good, count):
         yield sealed(bytes(content))
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def stress(compiled):
     sources = sorted(compiled.native.rglob("*.c"))
-    return compiled([compiled.here / "stress.c", *sources], *SANITIZERS)
+    return compiled([compiled.here / "stress.c", *sources], *OPTIONS)
 
 
 def resources(tmp_path, contents):

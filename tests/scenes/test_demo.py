@@ -2,17 +2,21 @@
 
 import json
 import math
+from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import replace
+from io import StringIO
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
 
+from rotorfilm import scenes
 from rotorfilm.bearings.journal import ComplementarityArc, SplittingFilm
 from rotorfilm.cli.demo_command import print_demo
-from rotorfilm.cli.demo_pictures import draw_demo
+from rotorfilm.cli.main import main
 from rotorfilm.errors import InputError
 from rotorfilm.linear import equilibrium
-from rotorfilm.scenes import bundled_scene
+from rotorfilm.scenes import demo as demo_module
 from rotorfilm.scenes.demo import plain_results, run_demo
 
 FILES = {
@@ -29,16 +33,52 @@ CHARTS = ["demo.png", "orbit.png", "locus.png", "stability.png", "accuracy.png",
 
 @pytest.fixture(scope="module")
 def scene():
-    bundled = bundled_scene()
+    bundled = scenes.bundled_scene()
     return replace(bundled, cosimulation=replace(bundled.cosimulation, revolutions=1.0))
 
 
+class Printed(NamedTuple):
+    """What the command line made of the demonstration."""
+
+    code: Any
+    out: str
+    err: str
+
+
 @pytest.fixture(scope="module")
-def demo(scene, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("demo")
-    reports = []
-    result = run_demo(folder, scene, lambda fraction, text: reports.append((fraction, text)))
-    return result, folder, reports
+def whole(scene, tmp_path_factory):
+    """Return result, folder and reports of the demonstration, run by the command line, and its print-out."""
+    folder, reports, results = tmp_path_factory.mktemp("demo"), [], []
+
+    def recorded(out, given, report):
+        def both(fraction, text):
+            reports.append((fraction, text))
+            report(fraction, text)
+
+        results.append(run_demo(out, given, both))
+        return results[-1]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(scenes, "bundled_scene", lambda: scene)
+        patch.setattr(demo_module, "run_demo", recorded)
+        with redirect_stdout(StringIO()) as out, redirect_stderr(StringIO()) as err:
+            with pytest.raises(SystemExit) as exit_:
+                main(["demo", "--out", str(folder), "--json"])
+    return (results[0], folder, reports), Printed(exit_.value.code, out.getvalue(), err.getvalue())
+
+
+@pytest.fixture(scope="module")
+def demo(whole):
+    return whole[0]
+
+
+def test_json_is_alone_on_stdout(whole):
+    (_, folder, _), printed = whole
+    assert not printed.code
+    assert "done" in printed.err
+    result = json.loads(printed.out)
+    assert [(folder / chart).exists() for chart in result["charts"]] == [True] * 6
+    assert result["coupling"]["runs"][-1]["refused"]
 
 
 @pytest.mark.convergence
@@ -110,10 +150,9 @@ def test_results_are_on_disk(demo):
 
 
 def test_charts_are_pictures(demo):
-    result, folder, _ = demo
-    charts = draw_demo(result, folder)
-    assert [chart.name for chart in charts] == CHARTS
-    for chart in charts:
+    _, folder, _ = demo
+    assert {chart.name for chart in folder.glob("*.png")} == set(CHARTS)
+    for chart in folder.glob("*.png"):
         assert chart.read_bytes().startswith(b"\x89PNG")
 
 

@@ -76,6 +76,8 @@ def extrapolation(times: Sequence[float], values: Sequence[Array]) -> tuple[Arra
 def extrapolated_law(history: Sequence[Sample], degree: int) -> ForceLaw:
     """Return the law of forces extrapolated by a polynomial of this degree, or less at the start."""
     latest = history[-1 - degree :]
+    if len(latest) == 1:
+        return held_law(latest[-1].time, latest[-1].force)
     value, slope, curvature = extrapolation([s.time for s in latest], [s.force for s in latest])
     return held_law(latest[-1].time, value)._replace(slope=slope, curvature=curvature)
 

@@ -71,11 +71,13 @@ class Coupled:
         self.furthest = 0.0
         self._no_force = np.zeros(len(self.wiring.force))
         self._split = len(rotor.states)
+        # Asked once: checks against protocols are slow.
+        self._film = reaction if isinstance(reaction, Dynamic) else None
 
     @property
     def initial_state(self) -> Array:
         """The state of rotor and film at t = 0."""
-        film = self.reaction.initial_state if isinstance(self.reaction, Dynamic) else np.zeros(0)
+        film = np.zeros(0) if self._film is None else self._film.initial_state
         return np.concatenate([self.rotor.initial_state, film])
 
     def scale(self) -> Array:
@@ -106,9 +108,9 @@ class Coupled:
         self.furthest = max(self.furthest, t)
         journal = self.motion(t, x)
         rotor = self.rotor.derivative(t, x[: self._split], self._input(t, x, journal))
-        if not isinstance(self.reaction, Dynamic):
+        if self._film is None:
             return rotor
-        return np.concatenate([rotor, self.reaction.derivative(t, x[self._split :], journal)])
+        return np.concatenate([rotor, self._film.derivative(t, x[self._split :], journal)])
 
     def jacobian(self, t: float, x: Array) -> Array:
         """Return d(dx/dt)/dx: the rotor's own, plus the film's through the wiring."""

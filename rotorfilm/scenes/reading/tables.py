@@ -6,6 +6,7 @@ import dataclasses
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, Generic, NamedTuple, TypeVar, get_type_hints
 
 from ...errors import InputError, SceneError
@@ -248,11 +249,13 @@ def unit_of(table: type | Keyed[Any], path: Sequence[str]) -> str | None:
 
 def keyed(table: type[T] | Keyed[T]) -> Keyed[T]:
     """Return a table with its readers beside it; those of a plain dataclass are in its annotations."""
-    if isinstance(table, Keyed):
-        return table
+    return table if isinstance(table, Keyed) else Keyed(table, _annotated(table))
+
+
+@cache
+def _annotated(table: type) -> dict[str, Reader]:
     hints = get_type_hints(table, include_extras=True)
-    names = [field.name for field in dataclasses.fields(table)]  # type: ignore[arg-type]
-    return Keyed(table, {name: hints[name].__metadata__[0] for name in names})
+    return {field.name: hints[field.name].__metadata__[0] for field in dataclasses.fields(table)}
 
 
 def _require_known(where: str, values: Mapping[str, Any], readers: Mapping[str, Reader]) -> None:
