@@ -61,9 +61,12 @@ def whole(scene, tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(scenes, "bundled_scene", lambda: scene)
         patch.setattr(demo_module, "run_demo", recorded)
-        with redirect_stdout(StringIO()) as out, redirect_stderr(StringIO()) as err:
-            with pytest.raises(SystemExit) as exit_:
-                main(["demo", "--out", str(folder), "--json"])
+        with (
+            redirect_stdout(StringIO()) as out,
+            redirect_stderr(StringIO()) as err,
+            pytest.raises(SystemExit) as exit_,
+        ):
+            main(["demo", "--out", str(folder), "--json"])
     return (results[0], folder, reports), Printed(exit_.value.code, out.getvalue(), err.getvalue())
 
 
