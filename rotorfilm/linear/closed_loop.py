@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import control
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -12,6 +13,9 @@ from ..results import Equilibrium
 from ..signals import names
 from .equilibrium import equilibrium
 from .linearize import OperatingPoint, linearize
+
+if TYPE_CHECKING:
+    import control
 
 HOUSING = ("housing_force_x", "housing_force_y")
 
@@ -49,6 +53,8 @@ def closed_loop(
     if not isinstance(at, Equilibrium):
         raise InputError(f"at must be an Equilibrium, as equilibrium() returns it, got {at!r}")
     shaft = OperatingPoint(x=rotor.initial_state, u=-at.load)
+    import control
+
     return control.interconnect(
         [linearize(rotor, shaft, name="rotor"), linearize(reaction, at, name="film")],
         connections=[
@@ -108,6 +114,8 @@ def transmissibility(
     ):
         raise InputError(f"speeds must be a list of positive and rising numbers, got {speeds!r}")
     responses = [_at_own_speed(rotor, reaction, load, float(speed)) for speed in frequencies]
+    import control
+
     return control.FrequencyResponseData(
         np.stack(responses, axis=-1),
         frequencies,

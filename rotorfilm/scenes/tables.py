@@ -156,7 +156,8 @@ def read_table(table: type[T], where: str, data: Any) -> T:
         If a key is unknown, missing, given twice over, or its value breaks a rule.
     """
     values = dict(require_table(where.removesuffix("."), data))
-    readers = {name: hint.__metadata__[0] for name, hint in _annotated_fields(table).items()}
+    kind: type = table
+    readers = {name: hint.__metadata__[0] for name, hint in _annotated_fields(kind).items()}
     _require_known(where, values, readers)
     found = {
         name: value for name, reader in readers.items() for value in _read_field(where, name, reader, values)
