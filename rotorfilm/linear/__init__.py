@@ -1,5 +1,7 @@
 """Linear analysis: equilibrium, coefficients, whirl, and systems for python-control."""
 
+from typing import TYPE_CHECKING, Any
+
 from .campbell import Campbell, CriticalSpeed, campbell, critical_speed_map, critical_speeds
 from .closed_loop import closed_loop, transmissibility
 from .coefficient_table import coefficient_table
@@ -7,7 +9,6 @@ from .coefficients import coefficients
 from .critical_mass import CriticalMass, critical_mass, damping_has_rank_one
 from .equilibrium import equilibrium
 from .linearize import OperatingPoint, linearize
-from .nonlinear_system import ModelSystem, to_nlsys
 from .orbit_coefficients import (
     OrbitCoefficients,
     orbit_coefficients,
@@ -19,6 +20,9 @@ from .rotor_rest import RotorEquilibrium, rotor_equilibrium
 from .rotor_system import rotor_system, rotor_transmissibility, unbalance_response
 from .rotor_threshold import RotorThreshold, rotor_threshold
 from .whirl import speed_parameter, whirl_threshold
+
+if TYPE_CHECKING:
+    from .nonlinear_system import ModelSystem, to_nlsys
 
 __all__ = [
     "Campbell",
@@ -54,3 +58,12 @@ __all__ = [
     "unbalance_response",
     "whirl_threshold",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Import what is derived from a class of python-control when it is asked for: that takes a second."""
+    if name not in ("ModelSystem", "to_nlsys"):
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from . import nonlinear_system
+
+    return getattr(nonlinear_system, name)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import control
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -12,6 +13,9 @@ from ..results import Equilibrium
 from ..signals import FORCE_OUTPUTS, MOTION_NAMES, indices, names
 from .equilibrium import equilibrium
 from .linearize import OperatingPoint, linearize
+
+if TYPE_CHECKING:
+    import control
 
 HOUSING = ("housing_force_x", "housing_force_y")
 
@@ -48,6 +52,8 @@ def closed_loop(
     indices("rotor must have the outputs", names(rotor.outputs), MOTION_NAMES)
     require_kind("at", at, Equilibrium, "an Equilibrium, as equilibrium() returns it")
     shaft = OperatingPoint(x=rotor.initial_state, u=-at.load)
+    import control
+
     return control.interconnect(
         [linearize(rotor, shaft, name="rotor"), linearize(reaction, at, name="film")],
         connections=[
@@ -100,6 +106,8 @@ def transmissibility(
     """
     frequencies = checked_speeds(speeds)
     responses = [_at_own_speed(rotor, reaction, load, float(speed)) for speed in frequencies]
+    import control
+
     return control.FrequencyResponseData(
         np.stack(responses, axis=-1),
         frequencies,

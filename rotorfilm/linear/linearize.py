@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import control
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -14,6 +13,9 @@ from ..errors import InputError, require_finite
 from ..model import Array, Linearization, Model
 from ..results import Equilibrium
 from ..signals import JOURNAL_INPUTS, Signal, names
+
+if TYPE_CHECKING:
+    import control
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,6 +76,8 @@ def state_space(
 
 def control_system(*parts: Any, **labels: Any) -> control.StateSpace:
     """Return the `control.StateSpace` of these arguments, all its states kept."""
+    import control
+
     with warnings.catch_warnings():
         # It sets the shape of the arrays of a system without states, which numpy deprecates since 2.5.
         warnings.filterwarnings("ignore", category=DeprecationWarning, module=r"control\.")

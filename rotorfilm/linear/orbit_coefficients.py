@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-import control
 import numpy as np
 
 from ..errors import InputError, require_number, require_positive
@@ -15,6 +15,9 @@ from ..rotors.rotating import rotating_linearization
 from ..signals import Signal, force_outputs
 from .coefficients import coefficients
 from .linearize import state_space
+
+if TYPE_CHECKING:
+    import control
 
 _SYMMETRY = 1e-9
 
@@ -96,6 +99,8 @@ def small_motion_transmissibility(
     at = coefficients(reaction, [0.0, 0.0], 0.0)
     stiffness, damping = _isotropic("stiffness", at.stiffness), _isotropic("damping", at.damping)
     numerator = [damping, stiffness]
+    import control
+
     return control.TransferFunction(
         numerator, [rotor.mass, *numerator], inputs=["force"], outputs=["housing_force"], name=name
     )

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-import control
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -18,6 +17,9 @@ from ..signals import names
 from .closed_loop import HOUSING, checked_speeds
 from .linearize import control_system
 from .rotor_rest import RotorEquilibrium, rotor_equilibrium
+
+if TYPE_CHECKING:
+    import control
 
 FORCES = (*HOUSING, "ground_force_x", "ground_force_y")
 """How the names of forces on housings and on the ground end."""
@@ -146,6 +148,8 @@ def unbalance_response(
         sense, labels = _outputs(rotor, at)
         responses.append(sense @ np.concatenate([motion, 1j * speed * motion]))
     data = np.stack(responses, axis=-1)[:, None, :]
+    import control
+
     return control.FrequencyResponseData(
         data, grid, inputs=["unbalance"], outputs=labels, name="unbalance_response"
     )
@@ -190,6 +194,8 @@ def rotor_transmissibility(
         responses.append(sense[wanted] @ np.vstack([motion, 1j * speed * motion]))
     if not wanted:
         raise InputError(f"bearings must hold at least one of the stations {list(s.stations)}, got none")
+    import control
+
     return control.FrequencyResponseData(
         np.stack(responses, axis=-1),
         grid,

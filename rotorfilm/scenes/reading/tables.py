@@ -249,7 +249,10 @@ def unit_of(table: type | Keyed[Any], path: Sequence[str]) -> str | None:
 
 def keyed(table: type[T] | Keyed[T]) -> Keyed[T]:
     """Return a table with its readers beside it; those of a plain dataclass are in its annotations."""
-    return table if isinstance(table, Keyed) else Keyed(table, _annotated(table))
+    if isinstance(table, Keyed):
+        return table
+    plain: type = table
+    return Keyed(plain, _annotated(plain))
 
 
 @cache

@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-import control
 import numpy as np
 
 from ...errors import InputError
@@ -26,6 +25,8 @@ from ...progress import Report, silent
 from ..excitation_table import UnbalanceTable
 
 if TYPE_CHECKING:
+    import control
+
     from ..scene import Scene
 
 
