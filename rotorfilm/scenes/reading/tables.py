@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, Generic, NamedTuple, TypeVar, get_type_hints
+from typing import Any, Generic, NamedTuple, TypeVar, cast, get_type_hints
 
 from ...errors import InputError, SceneError
 from ...limits import TEXT
@@ -249,10 +249,7 @@ def unit_of(table: type | Keyed[Any], path: Sequence[str]) -> str | None:
 
 def keyed(table: type[T] | Keyed[T]) -> Keyed[T]:
     """Return a table with its readers beside it; those of a plain dataclass are in its annotations."""
-    if isinstance(table, Keyed):
-        return table
-    plain: type = table
-    return Keyed(plain, _annotated(plain))
+    return table if isinstance(table, Keyed) else Keyed(table, _annotated(cast("type", table)))
 
 
 @cache
