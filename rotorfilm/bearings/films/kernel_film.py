@@ -15,7 +15,7 @@ from .law import FilmOptions, endless_search, vanishing_source, wall_contact
 
 
 class KernelFilm(FilmOptions):
-    """A film law in compiled code: what `ShortFilm`, `MapFilm` and `GroovedMapFilm` have in common."""
+    """A film law in compiled code: what `ShortFilm`, `MapFilm`, `GroovedMapFilm` and `ReynoldsFilm` have in common."""
 
     @abstractmethod
     def _kernel(self, slenderness: float) -> FilmKernel:
@@ -34,7 +34,7 @@ class KernelFilm(FilmOptions):
         e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
         kernel = self._kernel(slenderness)
         batch = kernel.force(e, w)
-        _report_law(batch, e, w, kernel)
+        report_law(batch, e, w, kernel)
         return batch.values.reshape(eccentricity.shape)
 
     def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
@@ -50,7 +50,7 @@ class KernelFilm(FilmOptions):
         e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
         kernel = self._kernel(slenderness)
         batch = kernel.jacobian(e, w)
-        _report_law(batch, e, w, kernel)
+        report_law(batch, e, w, kernel)
         return batch.values.reshape(2, 4, *eccentricity.shape[1:])
 
     def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundKernel:
@@ -139,7 +139,7 @@ class BoundKernel:
         _report_film(status, float(np.hypot(x, y)) / self.clearance, self.kernel.film)
 
 
-def _report_law(batch: Batch, e: Array, w: Array, kernel: FilmKernel) -> None:
+def report_law(batch: Batch, e: Array, w: Array, kernel: FilmKernel) -> None:
     """Raise, or warn, about the most severe status of a batch of eccentricities and sources (2, n)."""
     if not batch.status:
         return

@@ -123,7 +123,7 @@ class ReynoldsFilm(KernelFilm):
         return ring_spans(self.geometry), ring_grids(self.geometry, *self.cells, max(slenderness, LONG))
 
     def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
-        """Return the kernel and its tables; see `law.NativeFilm`."""
+        """Return the kernel and its tables; see `law.FilmOptions.native`."""
         spans, grids = self.grids(slenderness)
         tables = {"spans": np.stack([spans.start, spans.extent])}
         for level, grid in enumerate(grids):

@@ -12,6 +12,7 @@ result.
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Iterable, Sequence
 from ctypes import CFUNCTYPE, POINTER, c_double, c_int, c_void_p
 from typing import Any, NamedTuple
 
@@ -24,11 +25,6 @@ from ...errors import FilmContactError, RotorfilmError, UndefinedDerivativeError
 from ...model import Reaction
 from ...native import Status
 from ...native.library import functions, loops
-
-AT_WALL = int(Status.AT_WALL)
-UNDEFINED = int(Status.UNDEFINED)
-OUTSIDE = int(Status.OUTSIDE)
-NOT_FINITE = int(Status.NOT_FINITE)
 
 _CALLBACK = CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double))
 
@@ -46,12 +42,22 @@ class FilmCall(NamedTuple):
         What must live as long as both.
     beyond : str
         How the force goes on beyond the map of its film; empty where it has none.
+    raised : list of BaseException
+        What a force in Python raised besides errors of this package, until `raise_foreign`.
     """
 
     address: int
     data: int
     owner: Any
     beyond: str = ""
+    raised: Sequence[BaseException] = ()
+
+
+def raise_foreign(calls: Iterable[FilmCall]) -> None:
+    """Raise what a force in Python raised that the loop around it could not: an error of its own, Ctrl-C."""
+    for call in calls:
+        if call.raised:
+            raise call.raised[0]
 
 
 def film_call(reaction: Reaction) -> FilmCall:
@@ -70,6 +76,8 @@ def film_call(reaction: Reaction) -> FilmCall:
 
 
 def _called_back(reaction: Reaction) -> FilmCall:
+    raised: list[BaseException] = []
+
     def answer(_: Any, state: Any, force: Any, jacobian: Any) -> int:
         position, velocity = np.array(state[:2]), np.array(state[2:4])
         try:
@@ -79,12 +87,17 @@ def _called_back(reaction: Reaction) -> FilmCall:
             for i, value in enumerate(slopes.ravel().tolist()):
                 jacobian[i] = value
         except FilmContactError:
-            return AT_WALL
+            return Status.AT_WALL
         except UndefinedDerivativeError:
-            return UNDEFINED
+            return Status.UNDEFINED
         except RotorfilmError:
-            return NOT_FINITE
-        return 0
+            return Status.NOT_FINITE
+        except BaseException as error:
+            raised[:] = [error]
+            return Status.NOT_FINITE
+        return Status.OK
 
     function = _CALLBACK(answer)
-    return FilmCall(address=ctypes.cast(function, c_void_p).value or 0, data=0, owner=(function, reaction))
+    return FilmCall(
+        address=ctypes.cast(function, c_void_p).value or 0, data=0, owner=(function, reaction), raised=raised
+    )

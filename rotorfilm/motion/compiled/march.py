@@ -14,6 +14,7 @@ from ...native.library import loops
 from ...native.structs import SLOTS, STEPS, MarchStruct, SpeedsStruct, StepTableStruct
 from ...rotors import SpeedProfile
 from .collocation import STAGES, ModalArrays, StepTable, radau_scheme
+from .film_calls import raise_foreign
 from .journal_films import JournalFilms
 from .modal import Complex, ModalRotor
 
@@ -124,6 +125,7 @@ class March:
         end = End.BUSY
         while end == End.BUSY:
             end = End(loops()["rf_march_to"](byref(self._struct), stop, BUDGET, *arguments))
+        raise_foreign(self.modal.calls)
         if end == End.NO_MEMORY:
             raise MemoryError("no memory for the steps of a rotor")
         if end != End.DONE:

@@ -33,7 +33,7 @@ def simulate_rotor(
     """Return the motion of a rotor on films from t = 0.
 
     The shaft is integrated exactly in its modes, and the film forces by collocation of order 7 with their
-    exact derivatives (`rotor_kernels.py`), all of it compiled. A step costs some ten microseconds.
+    exact derivatives (`native/loops/march.h`), all of it compiled. A step costs some ten microseconds.
 
     Parameters
     ----------

@@ -12,6 +12,7 @@ import numpy as np
 from ...errors import FilmContactError
 from ...model import Array
 from ...native import Status
+from ..compiled.film_calls import raise_foreign
 from ..compiled.journal_films import JournalFilms
 from ..compiled.modal import Complex, ModalRotor
 from .balance import Receptance
@@ -98,6 +99,7 @@ def film_forces(modal: ModalRotor, position: Array, velocity: Array) -> tuple[Ar
     journals = JournalFilms.of_rotor(modal, absolute=True)
     speed = float(modal.parts.profile.speeds[0])
     status, force, slope = journals.forces(motion.reshape(-1, samples), speed)
+    raise_foreign(modal.calls)
     if status >= Status.AT_WALL:
         raise FilmContactError("a journal leaves its bearing along the orbit")
     return force, slope[:, :2], slope[:, 2:]

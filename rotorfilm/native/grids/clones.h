@@ -5,6 +5,8 @@
 #ifndef ROTORFILM_CLONES_H
 #define ROTORFILM_CLONES_H
 
+#include <stddef.h>
+
 #include "../kernels/kernel_list.h"
 
 #if defined(RF_SUBSET)
@@ -13,7 +15,7 @@
 #define RF_ON_GRIDS 1
 #endif
 
-#if RF_ON_GRIDS && defined(__GNUC__) && !defined(__clang__) && defined(__linux__) && defined(__x86_64__)      \
+#if RF_ON_GRIDS && defined(__GNUC__) && !defined(__clang__) && defined(__GLIBC__) && defined(__x86_64__)      \
     && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define RF_CLONES __attribute__((target_clones("avx2", "default")))
 #else

@@ -108,16 +108,22 @@ static int film_at_center(rf_search *search, const double *e, double *f, double 
     return RF_OK;
 }
 
+/* Whether there is a film at all. */
+static int judge_state(const double *e, const double *w)
+{
+    const double state[4] = {e[0], e[1], w[0], w[1]};
+    if (rf_is_broken(state, 4))
+        return RF_NOT_FINITE;
+    return rf_length(e[0], e[1]) >= 1.0 ? RF_AT_WALL : RF_OK;
+}
+
 int rf_ring_film(const void *data, const double *e, const double *w, double *f, double *jacobian)
 {
     const rf_ring *ring = data;
-    const double state[4] = {e[0], e[1], w[0], w[1]};
-    if (rf_is_broken(state, 4))
-        return rf_fail(RF_NOT_FINITE, f, jacobian, 8);
-    const double chi = rf_length(e[0], e[1]);
-    if (chi >= 1.0)
-        return rf_fail(RF_AT_WALL, f, jacobian, 8);
-    const int resting = is_at_rest(ring, w), centered = chi <= CENTER && !ring->pinned;
+    const int judged = judge_state(e, w);
+    if (judged != RF_OK)
+        return rf_fail(judged, f, jacobian, 8);
+    const int resting = is_at_rest(ring, w), centered = rf_length(e[0], e[1]) <= CENTER && !ring->pinned;
     if (resting && !(jacobian && centered))
         return rf_rest(f, jacobian);
     rf_search search;
@@ -133,10 +139,14 @@ int rf_ring_pair(const rf_ring *ring, size_t n, const double *e, const double *w
 {
     rf_search search;
     int status = rf_open_search(&search, ring);
+    *first = 0;
     for (size_t i = 0; i < n && status == RF_OK; ++i) {
         const double here[2] = {e[i], e[n + i]}, source[2] = {w[i], w[n + i]};
-        double f[2][2];
+        double f[2][2] = {{0.0, 0.0}, {0.0, 0.0}};
         *first = i;
+        status = judge_state(here, source);
+        if (status != RF_OK)
+            break;
         rf_place_journal(&search, here);
         for (int level = 1; level >= 0 && status == RF_OK; --level) {
             status = level == 1 ? solve_down_to(&search, 1, source) : rf_search_film(&search, 0, source);
@@ -174,6 +184,8 @@ int rf_ring_field(const rf_ring *ring, const double *e, const double *w, double 
     rf_search search;
     double f[2];
     int status = rf_open_search(&search, ring);
+    if (status == RF_OK)
+        status = judge_state(e, w);
     if (status == RF_OK) {
         rf_place_journal(&search, e);
         status = solve_down_to(&search, 0, w);
@@ -195,11 +207,16 @@ int rf_ring_potential(const rf_ring *ring, const double *e, size_t n, const doub
 {
     rf_search search;
     int status = rf_open_search(&search, ring);
-    if (status == RF_OK)
+    *first = 0;
+    if (status == RF_OK && (status = judge_state(e, e)) == RF_OK)
         rf_place_journal(&search, e);
     for (size_t d = 0; d < n && status == RF_OK; ++d) {
         const double source[2] = {w[d], w[n + d]};
         *first = d;
+        if (rf_is_broken(source, 2)) {
+            status = RF_NOT_FINITE;
+            break;
+        }
         for (int level = RF_LEVELS - 1; level >= 0 && status == RF_OK; --level) {
             const size_t all = nodes_of(&ring->grids[level]), at = (size_t)level;
             status = rf_search_film(&search, level, source);

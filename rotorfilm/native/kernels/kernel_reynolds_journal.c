@@ -29,6 +29,7 @@
 #include "../grids/ring.h"
 
 #define ROUNDOFF 1e-12 /* relative, by which length/diameter may differ from that of the grid */
+#define MOST_LINES 10000u
 #define LONG 4.0       /* above it the nodes along the film depend on length/diameter */
 
 typedef struct model {
@@ -57,7 +58,7 @@ static int take_grid(model *self, const rf_tables *tables, int level, int32_t **
     const uint32_t n = lines->extent[1], m = nodes->extent[1];
     const int fits = level == 0 || (2 * n == self->ring.grids[level - 1].lines
                                     && 2 * m == self->ring.grids[level - 1].nodes);
-    if (lines->extent[0] != 5 || nodes->extent[0] != 2 || n < 4 || m < 1 || n > 10000 || m > 1000 || !fits)
+    if (lines->extent[0] != 5 || nodes->extent[0] != 2 || n < 4 || m < 1 || n > MOST_LINES || m > 1000 || !fits)
         return rf_say(why, RF_INVALID, "the grids of a film must fit each other, got %u x %u cells",
                       (unsigned)n, (unsigned)m);
     const double *of = lines->numbers, *span = of, *held = of + 3 * n;
@@ -118,6 +119,9 @@ static int take_tables(model *self, const rf_tables *tables, rf_message *why)
     self->ring.spans = (int32_t)count;
     self->ring.start = spans->numbers;
     self->ring.extent = spans->numbers + count;
+    if (lines->extent[0] != 5 || lines->extent[1] > MOST_LINES)
+        return rf_say(why, RF_INVALID, "table lines0 must be 5 x %u at most, got %u x %u", MOST_LINES,
+                      (unsigned)lines->extent[0], (unsigned)lines->extent[1]);
     const size_t most = 2 * (size_t)lines->extent[1];
     double *value = self->memory = malloc(most * (sizeof *value + sizeof(int32_t) + 1) + 16 * RF_LEVELS);
     if (!value)

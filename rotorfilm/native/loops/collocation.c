@@ -135,11 +135,11 @@ static void set_advance(const rf_modes *rotor, int32_t s, double h, const rf_com
 int rf_set_step_table(const rf_modes *rotor, const rf_scheme *scheme, double h, const rf_step_table *table)
 {
     const int32_t s = scheme->stages, modes = rotor->modes, block = rotor->rows * rotor->channels;
+    if (s + 1 > MOST_COEFFICIENTS)
+        return RF_INVALID;
     rf_complex *w = malloc((size_t)(s + 1) * (size_t)modes * sizeof *w);
-    if (!w || s + 1 > MOST_COEFFICIENTS) {
-        free(w);
+    if (!w)
         return RF_MEMORY;
-    }
     for (int32_t i = 0; i < s; ++i) {
         rf_set_weights(rotor, h, scheme->nodes[i], scheme->lagrange, s, s, w);
         rf_set_weights(rotor, h, scheme->nodes[i], scheme->remainder, 1, s + 1, w + s * modes);

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../films/map_frame.h"
+
 #define NUDGE 1e-6     /* of a clearance and a radian: the velocity with which a film at rest is asked */
 #define NEWTON_STEPS 8
 #define HUGE_CHANGE 1e300
@@ -78,6 +80,8 @@ static int set_forces(const rf_journals *journals, const double *motion, double 
             state[2] = journals->rest[4 * b + 2] + motion[4 * b + 2];
             status = status == RF_UNDEFINED ? RF_OK : status;
         }
+        if (status < RF_AT_WALL && (rf_is_broken(answer, 2) || rf_is_broken(jacobian, 10)))
+            status = RF_NOT_FINITE;
         worst = status > worst ? status : worst;
         if (status >= RF_AT_WALL)
             return status;
@@ -389,14 +393,21 @@ static void advance(rf_march *march, const rf_step_table *table, const double *u
 /* How many lengths shorter the step that follows a failed one is. */
 static int32_t shorter_by(const rf_march *march, int status, double error)
 {
-    const double order = march->scheme.stages + 1.0;
-    return status >= RF_AT_WALL ? 8 : 1 + (int32_t)(4.0 * log2(error / pow(0.9, order)) / order);
+    const double order = march->scheme.stages + 1.0, most = 40.0;
+    const double change = 4.0 * log2(error / pow(0.9, order)) / order;
+    return status >= RF_AT_WALL ? 8 : 1 + (int32_t)(change < most ? change : most);
 }
 
 static int32_t longer_by(const rf_march *march, double error)
 {
     const double rise = floor(4.0 * log2(0.8 * pow(fmax(error, 1e-12), -1.0 / (march->scheme.stages + 1.0))));
     return rise < 0.0 ? 0 : rise > 4.0 ? 4 : (int32_t)rise;
+}
+
+/* Why a march ends where a film answers this status. */
+static int end_of(int status)
+{
+    return status == RF_AT_WALL ? RF_MARCH_WALL : status == RF_MEMORY ? RF_MARCH_MEMORY : RF_MARCH_BROKEN;
 }
 
 static int march_on(rf_march *march, double stop, int64_t budget, const double *grid, int64_t count,
@@ -406,8 +417,9 @@ static int march_on(rf_march *march, double stop, int64_t budget, const double *
     const size_t forces = (size_t)s * (size_t)channels * sizeof *at->u;
     const double last = nextafter(stop, -HUGE_VAL);
     double before = 0.0; /* length of the step whose forces are known */
-    if (set_start(march, at) >= RF_AT_WALL)
-        return RF_MARCH_WALL;
+    const int start = set_start(march, at);
+    if (start >= RF_AT_WALL)
+        return end_of(start);
     while (march->time < stop && budget-- > 0) {
         double h = length_of(march, march->step), error;
         const int whole = march->time + WHOLE * h < stop;
@@ -421,11 +433,11 @@ static int march_on(rf_march *march, double stop, int64_t budget, const double *
             for (int32_t i = 0; i < s; ++i)
                 memcpy(at->guess + i * channels, at->start, (size_t)channels * sizeof *at->guess);
         const int status = try_step(march, table, h, last, at, &error);
-        if (status >= RF_AT_WALL || error > 1.0) {
+        if (status == RF_MEMORY)
+            return RF_MARCH_MEMORY;
+        if (status >= RF_AT_WALL || !(error <= 1.0)) {
             if (h < march->shortest)
-                return status == RF_AT_WALL   ? RF_MARCH_WALL
-                       : status > RF_AT_WALL ? RF_MARCH_BROKEN
-                                             : RF_MARCH_SHORT;
+                return status >= RF_AT_WALL ? end_of(status) : RF_MARCH_SHORT;
             const int32_t of_length = (int32_t)ceil(-4.0 * log2(h / march->longest) - 1e-9);
             const int32_t step = of_length > march->step ? of_length : march->step;
             const int32_t next = step + shorter_by(march, status, error);

@@ -39,9 +39,10 @@ static void move(int32_t size, const double *y, double h, const double *rates, d
 int rf_ride(const rf_ride_law *law, const double *start, double step, int64_t n, const double *pushes, double *out)
 {
     const int32_t size = 2 + law->order;
-    double *k = malloc(5 * (size_t)size * sizeof *k), *now = k + 4 * size;
+    double *k = malloc(5 * (size_t)size * sizeof *k);
     if (!k)
         return RF_MEMORY;
+    double *now = k + 4 * size;
     memcpy(out, start, (size_t)size * sizeof *out);
     for (int64_t m = 0; m < n; ++m) {
         const double *y = out + m * size, *push = pushes + 2 * m;

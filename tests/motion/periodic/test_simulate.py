@@ -1,5 +1,7 @@
 """Compiled integration against closed forms, against an independent integrator, and at the wall."""
 
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -27,6 +29,8 @@ from rotorfilm import (
     simulate,
     simulate_rotor,
 )
+from rotorfilm.bearings.reaction import StaticReaction
+from rotorfilm.errors import ConvergenceError
 from rotorfilm.motion.compiled.collocation import radau_scheme
 from rotorfilm.motion.compiled.march import March
 from rotorfilm.motion.compiled.modal import modal_rotor, take_apart
@@ -50,6 +54,23 @@ def shaft(speed=400.0, **changes):
         "speed": speed,
     }
     return ShaftRotor(**(parts | changes))
+
+
+@dataclass(frozen=True, kw_only=True)
+class BrokenBearing(StaticReaction):
+    """Answers with a number that is none, or, without one, raises an error of its own."""
+
+    answer: float | None
+    clearance: float = 1e-4
+    nominal_force = 1.0
+
+    def prepared_force(self, q, v, omega):
+        if self.answer is None:
+            raise ZeroDivisionError("mine")
+        return np.stack([np.full(q.shape[1:], self.answer), np.zeros(q.shape[1:])])
+
+    def prepared_jacobian(self, q, v, omega):
+        return np.zeros((2, 5, *q.shape[1:]))
 
 
 def rigid(**changes):
@@ -211,3 +232,15 @@ def test_wall_keeps_the_partial_result(cubic_bearing):
 def test_arguments_are_checked(changes, message):
     with pytest.raises(InputError, match=message):
         simulate_rotor(mount(rigid(), {"": BEARING}), **changes)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+def test_a_force_that_is_no_number_ends_the_run(value):
+    broken = BrokenBearing(answer=value)
+    with pytest.raises(ConvergenceError, match="film force must be finite"):
+        simulate_rotor(mount(rigid(), {"": broken}), duration=0.01)
+
+
+def test_an_error_of_a_bearing_in_python_arrives():
+    with pytest.raises(ZeroDivisionError, match="mine"):
+        simulate_rotor(mount(rigid(), {"": BrokenBearing(answer=None)}), duration=0.01)

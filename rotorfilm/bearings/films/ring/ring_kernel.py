@@ -8,11 +8,11 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 
 from ....model import Array
-from ....native.film_kernels import FilmKernel, Status
+from ....native.film_kernels import Batch, FilmKernel
 from ....native.library import loops
 from ....native.structs import GridStruct, RingStruct
 from ..cavitation import Cavitation
-from ..law import endless_search
+from ..kernel_film import report_law
 from .ring_grids import Grid, Spans
 
 
@@ -93,7 +93,8 @@ class RingKernel(FilmKernel):
         first = c_size_t()
         places = [numbers.ctypes.data for numbers in (e, w, fine, coarse)]
         status = loops()["rf_ring_pair"](byref(self.struct), e.shape[1], *places, byref(first))
-        require_found(status, e[:, first.value], w[:, first.value])
+        if status:
+            self._report(status, e[:, first.value], w[:, first.value])
         return fine, coarse
 
     def field(self, eccentricity: Array, source: Array) -> RingField:
@@ -103,7 +104,7 @@ class RingKernel(FilmKernel):
         pressure, side_flow = np.empty((len(grid.span), len(grid.width))), c_double()
         places = [numbers.ctypes.data for numbers in (e, w, theta, face, pressure)]
         status = loops()["rf_ring_field"](byref(self.struct), *places, byref(side_flow))
-        require_found(status, e, w)
+        self._report(status, e, w)
         return RingField(theta, face, pressure, side_flow.value)
 
     def potential(self, eccentricity: Array, source: Array) -> tuple[Array, Array]:
@@ -118,16 +119,14 @@ class RingKernel(FilmKernel):
         J, slope = np.empty((levels, n)), np.empty((levels, 2, n))
         places = [w.ctypes.data, J.ctypes.data, slope.ctypes.data]
         status = loops()["rf_ring_potential"](byref(self.struct), e.ctypes.data, n, *places, byref(first))
-        require_found(status, e, w[:, first.value])
+        if status:
+            self._report(status, e, w[:, first.value])
         return J, slope
 
-
-def require_found(status: int, e: Array, w: Array) -> None:
-    """Raise ConvergenceError if the search for the ruptured zone of a state did not end, or MemoryError."""
-    if status == Status.NO_MEMORY:
-        raise MemoryError("no memory for the grids of a film")
-    if status == Status.STUCK:
-        raise endless_search(e, w)
+    def _report(self, status: int, e: Array, w: Array) -> None:
+        """Raise what the status of a state (2,) says."""
+        if status:
+            report_law(Batch(w, status, 0), e[:, None], w[:, None], self)
 
 
 def _float(numbers: Array) -> Array:
