@@ -124,7 +124,7 @@ def test_named_film_is_the_only_one_that_answers():
     answer = asked("eccentricity_ratio", 1e-3, named).ask()
     assert [report.name for report in answer.rungs] == ["ShortFilm()"]
     assert not answer.met
-    # the short film rests at .26630, the map at .27504: benchmarks of the map in tests/bearings/journal/test_map.py
+    # the short film rests at .26630, the map at .27504: tests/bearings/journal/test_map.py
     assert answer.error_estimate == pytest.approx(0.27504 / 0.2663 - 1.0, rel=0.05)
 
 

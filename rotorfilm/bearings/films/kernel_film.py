@@ -15,7 +15,7 @@ from .law import FilmOptions, endless_search, vanishing_source, wall_contact
 
 
 class KernelFilm(FilmOptions):
-    """A film law in compiled code: what `ShortFilm`, `MapFilm`, `GroovedMapFilm` and `ReynoldsFilm` have in common."""
+    """A film law in compiled code, as that of `ShortFilm`, `MapFilm`, `GroovedMapFilm` and `ReynoldsFilm`."""
 
     @abstractmethod
     def _kernel(self, slenderness: float) -> FilmKernel:
