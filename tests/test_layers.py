@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 import rotorfilm
+from rotorfilm.scenes.families import FAMILIES as REGISTERED
 
 PACKAGE = Path(rotorfilm.__file__).parent
 MODULES = sorted(PACKAGE.rglob("*.py"))
@@ -45,6 +46,9 @@ LAYERS = [
 FACES = {"films", "transient", "orbits", "nonlinear"}
 """Public names under roofs that hold nothing else."""
 
+FURTHER = [home.split(".")[1] for home in REGISTERED.values() if home.startswith("scenes.")]
+"""Families that have only the one folder."""
+
 PARTS = {
     "bearings": [["films"], ["journal"], ["damper", "contact", "bush"]],
     "bearings/films": [["ring"]],
@@ -54,7 +58,7 @@ PARTS = {
     "motion": [["transient", "circular"], ["compiled"], ["periodic"]],
     "cosim": [["schemes"]],
     "fmu": [["description"], ["python", "check"], ["native"]],
-    "scenes": [["reading"], ["journal"], ["damper", "contact", "bush", "shaft"]],
+    "scenes": [["reading"], ["journal"], ["damper", "contact", "bush", "shaft", *FURTHER]],
     "questions": [["journal"], ["damper", "contact", "bush", "shaft"]],
     "comparisons": [["journal", "contact", "coupling"], ["limits"]],
     "charts": [["comparisons"]],

@@ -105,7 +105,8 @@ def _speed(parts: Parts) -> float:
     if len(set(profile.speeds)) > 1 and turning:
         raise InputError(
             "speed must be constant for a rotor with gyroscopic effect or rotating damping, got a profile: "
-            "take simulate(mount(rotor, ...), bearing)"
+            "reduce the rotor (reduce_rotor) and take simulate(mount(rotor, bearings), last bearing), where "
+            "the station of the last bearing has no name"
         )
     return float(max(profile.speeds, key=abs))
 
