@@ -122,12 +122,15 @@ def _protocol(where: str, node: ast.ClassDef) -> Owner:
     return Owner(where, names, tuple(said))
 
 
-def classes() -> Iterator[tuple[str, ast.ClassDef]]:
-    """Yield the classes of the package, with their dotted names."""
-    for path in modules():
-        for node in ast.walk(parse(path)):
-            if isinstance(node, ast.ClassDef):
-                yield f"{dotted(path)}.{node.name}", node
+@cache
+def classes() -> list[tuple[str, ast.ClassDef]]:
+    """Return the classes of the package, with their dotted names."""
+    return [
+        (f"{dotted(path)}.{node.name}", node)
+        for path in modules()
+        for node in ast.walk(parse(path))
+        if isinstance(node, ast.ClassDef)
+    ]
 
 
 def records() -> list[Owner]:

@@ -2,6 +2,7 @@
 
 import ast
 from collections import Counter
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -102,12 +103,15 @@ def imports_of(name):
 
 def is_shown(package, name):
     """Return whether a package shows something of that name, which then hides the module."""
+    return name in shown_by(package)
+
+
+@cache
+def shown_by(package):
+    """Return the names that a package imports."""
     tree = ast.parse(NAMES[package].read_text(encoding="utf-8"))
-    return any(
-        name in {alias.asname or alias.name for alias in node.names}
-        for node in ast.walk(tree)
-        if isinstance(node, ast.ImportFrom)
-    )
+    imports = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)]
+    return {alias.asname or alias.name for node in imports for alias in node.names}
 
 
 TARGETS = {name: sorted({target for target, _ in imports_of(name)} - {name}) for name in NAMES}
