@@ -105,7 +105,7 @@ def inspect_coupling(time: ArrayLike, force: ArrayLike) -> CouplingReport:
 
 
 def is_calm(force: Array) -> bool:
-    """Return whether forces (k, n) move too little from step to step for any mark of chatter: quick to see."""
+    """Return whether forces (k, n) change too little from step to step for any mark of chatter."""
     change = np.diff(force, axis=1)
     swing = np.diff(change, axis=1)
     level = _rms(force)
