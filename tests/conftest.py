@@ -66,10 +66,10 @@ def compiled_once(tmp_path_factory):
             if depth == 0:
                 fcntl.flock(lock, fcntl.LOCK_UN)
 
-    with (tmp_path_factory.getbasetemp().parent / "compiling").open("w") as lock:
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(Dispatcher, "compile", compile_alone)
-            yield
+    path = tmp_path_factory.getbasetemp().parent / "compiling"
+    with path.open("w") as lock, pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Dispatcher, "compile", compile_alone)
+        yield
 
 
 @pytest.fixture

@@ -5,7 +5,6 @@ import math
 import os
 import subprocess
 import sys
-from dataclasses import replace
 from functools import partial
 from importlib.metadata import version
 from pathlib import Path
@@ -18,7 +17,6 @@ from typer.main import get_command
 
 import rotorfilm
 from rotorfilm import comparisons as ladders
-from rotorfilm import scenes
 from rotorfilm.cli import main as cli
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import RigidRotor

@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.journal import ComplementarityArc, SplittingFilm
 from rotorfilm import scenes
+from rotorfilm.bearings.journal import ComplementarityArc, SplittingFilm
 from rotorfilm.cli import main as cli
 from rotorfilm.cli.printing import print_demo
 from rotorfilm.errors import InputError
@@ -61,9 +61,13 @@ def whole(scene, tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(scenes, "bundled_scene", lambda: scene)
         patch.setattr(demo_module, "run_demo", recorded)
-        with redirect_stdout(StringIO()) as out, redirect_stderr(StringIO()) as err:
-            with pytest.raises(SystemExit) as exit_:
-                cli.main(["demo", "--out", str(folder), "--json"])
+        command = ["demo", "--out", str(folder), "--json"]
+        with (
+            redirect_stdout(StringIO()) as out,
+            redirect_stderr(StringIO()) as err,
+            pytest.raises(SystemExit) as exit_,
+        ):
+            cli.main(command)
     return (results[0], folder, reports), Printed(exit_.value.code, out.getvalue(), err.getvalue())
 
 
