@@ -6,7 +6,8 @@ Run as `python benchmarks/coupling_monitor.py [COUNT]`, 100 of each kind by defa
 import sys
 import warnings
 
-from rotorfilm.comparisons.coupling.coupling_cases import SPEED, coupling_cases
+from studies.coupling_cases import SPEED, coupling_cases
+
 from rotorfilm.cosim import InProcessSlave, couple
 from rotorfilm.errors import CouplingWarning, PartialResultError
 

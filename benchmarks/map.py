@@ -29,9 +29,8 @@ from rotorfilm.bearings.journal import (
     SplittingFilm,
 )
 from rotorfilm.comparisons import LARGE, comparison_bearing, random_states
-from rotorfilm.comparisons.journal.journal_accuracy import relative_error
 from rotorfilm.comparisons.journal.journal_rungs import fitted_bearing
-from rotorfilm.comparisons.journal.journal_states import States, reference_force
+from rotorfilm.comparisons.journal.journal_states import States, reference_force, relative_error
 from rotorfilm.comparisons.journal.timing import film_costs, shortest_time
 
 COUNT = 20000

@@ -10,7 +10,6 @@ import re
 from collections import defaultdict
 from collections.abc import Iterator
 from functools import cache
-from importlib import import_module
 from itertools import groupby
 from pathlib import Path
 from typing import NamedTuple
@@ -58,9 +57,10 @@ def dotted(path: Path) -> str:
 
 
 def exported_names() -> set[str]:
-    """Return the names that the package or one of its parts lists in __all__."""
-    packages = [path.parent.relative_to(PACKAGE.parent).parts for path in PACKAGE.rglob("__init__.py")]
-    return {name for parts in packages for name in getattr(import_module(".".join(parts)), "__all__", ())}
+    """Return the names that the package or one of its parts shows: what it imports in its __init__."""
+    nodes = [node for path in PACKAGE.rglob("__init__.py") for node in ast.walk(parse(path))]
+    relative = [node for node in nodes if isinstance(node, ast.ImportFrom) and node.level]
+    return {*rotorfilm.__all__, *(alias.name for node in relative for alias in node.names)}
 
 
 def units(kind: str, count: int) -> list[str]:
@@ -134,7 +134,7 @@ def classes() -> list[tuple[str, ast.ClassDef]]:
 
 
 def records() -> list[Owner]:
-    """Return the public dataclasses, and the named tuples in an __all__."""
+    """Return the public dataclasses, and the named tuples that a package shows."""
     shown = exported_names()
     return [
         _record(where, node)

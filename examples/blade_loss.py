@@ -10,11 +10,10 @@ from pathlib import Path
 
 import numpy as np
 
-from rotorfilm import synchronous_orbits
+from rotorfilm import ShortSqueeze, synchronous_orbits
 from rotorfilm.scenes import Scene
 from rotorfilm.scenes.damper.damper_models import damper_models
 from rotorfilm.scenes.damper.damper_runs import couple_damper, run_damper
-from rotorfilm.scenes.damper.damper_table import ShortSqueezeTable
 
 scene = Scene.load(Path(__file__).with_name("blade_loss.toml"))
 whole = run_damper(scene)
@@ -29,7 +28,7 @@ print(f"two FMUs: peak force {100.0 * force:+.2f} %, peak eccentricity {100.0 * 
 
 # The map ends at .99 of the clearance; the quadrature knows the film up to the wall.
 lost = replace(scene.excitation, unbalance=1.4e-3)
-worse = replace(scene, excitation=lost, damper=replace(scene.damper, film=ShortSqueezeTable()))
+worse = replace(scene, excitation=lost, damper=replace(scene.damper, film=ShortSqueeze()))
 ended = run_damper(worse)
 print(f"1400 g mm: the rotor is at the wall after {1e3 * (ended.contact_time - lost.start):.2f} ms")
 

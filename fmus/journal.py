@@ -5,10 +5,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rotorfilm.bearings.journal.bearing import JournalBearing
+from rotorfilm.bearings.journal import JournalBearing, MapFilm
 from rotorfilm.scenes import Scene, bundled_scene
 from rotorfilm.scenes.export_scene import resting_rotor
-from rotorfilm.scenes.journal.film_tables import MapFilmTable
 
 COMPONENT = "bearing"
 
@@ -16,7 +15,7 @@ COMPONENT = "bearing"
 def scene() -> Scene:
     """Return the scene, with the film that runs without Python."""
     bundled = bundled_scene()
-    return replace(bundled, journal=replace(bundled.journal, film=MapFilmTable()))
+    return replace(bundled, journal=replace(bundled.journal, film=MapFilm()))
 
 
 def model() -> JournalBearing:

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from rotorfilm.bearings.journal import MapFilm
 from rotorfilm.rotors.rigid import RigidRotor
 from rotorfilm.scenes import Scene, bundled_scene
 from rotorfilm.scenes.export_scene import resting_rotor
-from rotorfilm.scenes.journal.film_tables import MapFilmTable
 
 COMPONENT = "rotor"
 
@@ -16,7 +16,7 @@ COMPONENT = "rotor"
 def scene() -> Scene:
     """Return the scene, with the film of `journal.py`."""
     bundled = bundled_scene()
-    return replace(bundled, journal=replace(bundled.journal, film=MapFilmTable()))
+    return replace(bundled, journal=replace(bundled.journal, film=MapFilm()))
 
 
 def model() -> RigidRotor:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -15,8 +16,28 @@ SAFETY = 1.5
 DISAGREEMENT = 0.3
 """Largest relative difference of two propagations of a defect, beyond which neither is trusted."""
 
-Work = Mapping[str, int]
-"""Units of work done, by name."""
+
+@dataclass(frozen=True)
+class WorkUnit:
+    """A unit of work, such as one force of a film.
+
+    Attributes
+    ----------
+    name : str
+        What it is called in print.
+    key : hashable
+        What makes two units one, whatever they are called; each is its own if that is left out.
+    nominal : float [s]
+        What one costs about, where it is too dear to be tried for a prediction.
+    """
+
+    name: str = field(compare=False)
+    key: Hashable = field(default_factory=object)
+    nominal: float = field(default=math.nan, compare=False)
+
+
+Work = Mapping[WorkUnit, int]
+"""Units of work done."""
 
 
 class Found(NamedTuple):
@@ -26,7 +47,7 @@ class Found(NamedTuple):
     ----------
     value : float or ndarray
         In SI.
-    work : mapping of str to int
+    work : mapping of WorkUnit to int
     solution : object
         What the rung's own error estimate starts from.
     """
@@ -44,7 +65,7 @@ class ErrorEstimate(NamedTuple):
     error : float [1]
         In the unit of the tolerance.
     method : str
-    work : mapping of str to int
+    work : mapping of WorkUnit to int
     bound : bool
         Whether the error is at most about this, rather than about this: its largest term is verified, or
         known to be too large.
@@ -89,7 +110,7 @@ class RungReport:
     cost, estimate_cost : float or None [s]
         Of the answer and of the estimate; work times the cost of its units.
     work : dict of str to int
-        Of the answer.
+        Of the answer, by the names of its units.
     """
 
     name: str

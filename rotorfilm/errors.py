@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import warnings
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -108,6 +109,18 @@ def require_count(name: str, value: int, least: int = 1) -> None:
     """Raise InputError unless `value` is an integer, at least `least`."""
     if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < least:
         raise InputError(f"{name} must be an integer, at least {least}, got {brief(value)}")
+
+
+def require_each(owner: object, rule: Callable[[str, Any], object], *names: str) -> None:
+    """Raise InputError unless the attributes of these names obey a rule such as `require_positive`."""
+    for name in names:
+        rule(name, getattr(owner, name))
+
+
+def require_kind(name: str, value: object, kind: Any, said: str) -> None:
+    """Raise InputError unless `value` is an instance of a class, or of one of a union, `said` in words."""
+    if isinstance(value, type) or not isinstance(value, kind):
+        raise InputError(f"{name} must be {said}, got {value!r}")
 
 
 def require_finite(name: str, value: ArrayLike) -> NDArray[np.float64]:

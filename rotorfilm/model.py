@@ -13,19 +13,9 @@ from typing import Any, NamedTuple, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .errors import InputError
 from .signals import Signal
 
 Array = NDArray[np.float64]
-
-MOTION_NAMES = ("x", "y", "vx", "vy")
-"""Signals of the journal's motion, which a rotor gives."""
-
-JOURNAL_INPUTS = (*MOTION_NAMES, "speed")
-"""Signals that the inputs of every Reaction begin with."""
-
-FORCE_OUTPUTS = ("force_x", "force_y")
-"""Signals that the outputs of every Reaction begin with; a rotor takes them as inputs."""
 
 
 class Linearization(NamedTuple):
@@ -272,6 +262,20 @@ def prepared_tangent(reaction: Reaction) -> Tangent:
     return reaction.prepare_tangent() if isinstance(reaction, TangentReaction) else tangent_of(reaction)
 
 
+@runtime_checkable
+class LimitedReaction(Protocol):
+    """What a Reaction may add: how far from the center its force is meant."""
+
+    @property
+    def largest_eccentricity_ratio(self) -> float:
+        """Eccentricity ratio to which the force is meant; 1 where it is meant up to the wall."""
+
+
+def largest_eccentricity_ratio(reaction: Reaction) -> float:
+    """Return the eccentricity ratio to which any reaction is meant; 1 where it does not say."""
+    return reaction.largest_eccentricity_ratio if isinstance(reaction, LimitedReaction) else 1.0
+
+
 def tangent_of(reaction: Reaction) -> Tangent:
     """Return force and derivatives of a reaction by its `force` and `jacobian`."""
 
@@ -287,56 +291,9 @@ def tangent_of(reaction: Reaction) -> Tangent:
 
 def stops(model: Model, start: float, end: float) -> list[float]:
     """Return the times [s] at which an integration stops: the model's kinks after start, then the end."""
-    kinks = model.breakpoints if isinstance(model, Kinked) else ()
-    return [*(t for t in kinks if start < t < end), end]
+    return [*(t for t in breakpoints(model) if start < t < end), end]
 
 
-def indices(owner: str, available: Sequence[str], needed: Sequence[str]) -> list[int]:
-    """Return where each of the signals `needed` is among those available.
-
-    Parameters
-    ----------
-    owner : str
-        Who must have the signals, for the message: `"rotor must have the outputs"`.
-    available, needed : sequence of str
-        Names of signals.
-
-    Raises
-    ------
-    InputError
-        If a signal is missing.
-    """
-    missing = [name for name in needed if name not in available]
-    if missing:
-        raise InputError(f"{owner} {list(needed)}, got {list(available)} without {missing}")
-    return [available.index(name) for name in needed]
-
-
-def journal_inputs(clearance: float, nominal_speed: float) -> tuple[Signal, ...]:
-    """Return the signals JOURNAL_INPUTS that the inputs of every Reaction begin with.
-
-    Parameters
-    ----------
-    clearance : float
-        Radial clearance [m], the nominal value of positions.
-    nominal_speed : float
-        Typical angular speed [rad/s]; with the clearance it makes the nominal velocity.
-    """
-    velocity = clearance * nominal_speed
-    x, y, vx, vy, speed = JOURNAL_INPUTS
-    return (
-        Signal(name=x, unit="m", nominal=clearance, description="journal position along x"),
-        Signal(name=y, unit="m", nominal=clearance, description="journal position along y"),
-        Signal(name=vx, unit="m/s", nominal=velocity, description="journal velocity along x"),
-        Signal(name=vy, unit="m/s", nominal=velocity, description="journal velocity along y"),
-        Signal(name=speed, unit="rad/s", nominal=nominal_speed, description="angular speed about +z"),
-    )
-
-
-def force_outputs(nominal_force: float) -> tuple[Signal, ...]:
-    """Return the signals FORCE_OUTPUTS that the outputs of every Reaction begin with (nominal force in N)."""
-    x, y = FORCE_OUTPUTS
-    return (
-        Signal(name=x, unit="N", nominal=nominal_force, description="force on the journal along x"),
-        Signal(name=y, unit="N", nominal=nominal_force, description="force on the journal along y"),
-    )
+def breakpoints(of: object) -> tuple[float, ...]:
+    """Return the `breakpoints` of a model, or of a load over time; none where it has none."""
+    return tuple(of.breakpoints) if isinstance(of, Kinked) else ()

@@ -4,10 +4,20 @@ from __future__ import annotations
 
 import keyword
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .errors import InputError, require_positive
 from .units import UNITS
+
+MOTION_NAMES = ("x", "y", "vx", "vy")
+"""Signals of the journal's motion, which a rotor gives."""
+
+JOURNAL_INPUTS = (*MOTION_NAMES, "speed")
+"""Signals that the inputs of every Reaction begin with."""
+
+FORCE_OUTPUTS = ("force_x", "force_y")
+"""Signals that the outputs of every Reaction begin with; a rotor takes them as inputs."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -121,6 +131,27 @@ def names(signals: tuple[Signal, ...]) -> list[str]:
     return [signal.name for signal in signals]
 
 
+def indices(owner: str, available: Sequence[str], needed: Sequence[str]) -> list[int]:
+    """Return where each of the signals `needed` is among those available.
+
+    Parameters
+    ----------
+    owner : str
+        Who must have the signals, for the message: `"rotor must have the outputs"`.
+    available, needed : sequence of str
+        Names of signals.
+
+    Raises
+    ------
+    InputError
+        If a signal is missing.
+    """
+    missing = [name for name in needed if name not in available]
+    if missing:
+        raise InputError(f"{owner} {list(needed)}, got {list(available)} without {missing}")
+    return [available.index(name) for name in needed]
+
+
 def to_fmi_name(component: str, name: str) -> str:
     """Return the structured FMI name `component.name`.
 
@@ -141,3 +172,36 @@ def from_fmi_name(fmi_name: str) -> tuple[str, str]:
     if not (dot and component.isidentifier() and name.isidentifier()):
         raise InputError(f"fmi_name must have the form component.name, got {fmi_name!r}")
     return component, name
+
+
+def journal_inputs(clearance: float, nominal_speed: float) -> tuple[Signal, ...]:
+    """Return the signals JOURNAL_INPUTS that the inputs of every Reaction begin with.
+
+    Parameters
+    ----------
+    clearance : float
+        Radial clearance [m], the nominal value of positions.
+    nominal_speed : float
+        Typical angular speed [rad/s]; with the clearance it makes the nominal velocity.
+    """
+    velocity = clearance * nominal_speed
+    rows = (
+        ("m", clearance, "journal position along x"),
+        ("m", clearance, "journal position along y"),
+        ("m/s", velocity, "journal velocity along x"),
+        ("m/s", velocity, "journal velocity along y"),
+        ("rad/s", nominal_speed, "angular speed about +z"),
+    )
+    return _signals(JOURNAL_INPUTS, rows)
+
+
+def force_outputs(nominal_force: float) -> tuple[Signal, ...]:
+    """Return the signals FORCE_OUTPUTS that the outputs of every Reaction begin with (nominal force in N)."""
+    return _signals(
+        FORCE_OUTPUTS, [("N", nominal_force, f"force on the journal along {axis}") for axis in "xy"]
+    )
+
+
+def _signals(names: Sequence[str], rows: Sequence[tuple[str, float, str]]) -> tuple[Signal, ...]:
+    pairs = zip(names, rows, strict=True)
+    return tuple(Signal(name=name, unit=u, nominal=size, description=text) for name, (u, size, text) in pairs)

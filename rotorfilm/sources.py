@@ -32,11 +32,16 @@ def import_closure(modules: Iterable[str], shelves: Collection[str] = ()) -> dic
 
 @cache
 def source_digest(module: str, below: str = "bearings") -> str:
-    """Return a digest of a module and of all that it imports from the folder `below`."""
+    """Return a digest of a module and of all that it imports from the folder `below`.
+
+    Where it calls the C library, the solvers of films on grids are part of it.
+    """
     inside = f"{PACKAGE}.{below}."
     folders = (path.parent.relative_to(ROOT.parent) for path in ROOT.rglob("__init__.py"))
     deciding = import_closure([module], shelves={".".join(folder.parts) for folder in folders})
     content = b"".join(deciding[name] for name in sorted(deciding) if name.startswith(inside))
+    if f"{PACKAGE}.native.library" in deciding:
+        content += b"".join(path.read_bytes() for path in sorted((ROOT / "native" / "grids").glob("*.[ch]")))
     return hashlib.sha256(content).hexdigest()[:12]
 
 

@@ -1,9 +1,3 @@
 """Motion over time; it lives in `motion`."""
 
-from .motion import (
-    simulate,
-)
-
-__all__ = [
-    "simulate",
-]
+from .motion import *  # noqa: F403  (another roof over the same names)

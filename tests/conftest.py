@@ -1,7 +1,6 @@
 """A user's own model, in a module of its own."""
 
 import importlib
-import os
 import sys
 
 import pytest
@@ -38,38 +37,6 @@ class Proportional:
     def linearization(self, t, x, u) -> Linearization:
         return static_linearization(np.array([[GAIN]]))
 '''
-
-
-@pytest.fixture(scope="session", autouse=True)
-def compiled_once(tmp_path_factory):
-    """Let one worker at a time compile with numba: what one has compiled, the others read from its cache."""
-    if "PYTEST_XDIST_WORKER" not in os.environ or sys.platform == "win32":
-        yield
-        return
-    import fcntl
-
-    from numba.core.compiler_lock import global_compiler_lock
-    from numba.core.dispatcher import Dispatcher
-
-    compile_one, depth = Dispatcher.compile, 0
-
-    @global_compiler_lock
-    def compile_alone(dispatcher, signature):
-        nonlocal depth
-        if depth == 0:
-            fcntl.flock(lock, fcntl.LOCK_EX)
-        depth += 1
-        try:
-            return compile_one(dispatcher, signature)
-        finally:
-            depth -= 1
-            if depth == 0:
-                fcntl.flock(lock, fcntl.LOCK_UN)
-
-    path = tmp_path_factory.getbasetemp().parent / "compiling"
-    with path.open("w") as lock, pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Dispatcher, "compile", compile_alone)
-        yield
 
 
 @pytest.fixture

@@ -15,7 +15,8 @@ from rotorfilm.scenes import Scene, bundled_scene
 from rotorfilm.scenes.shaft.solve_shaft import solve_rotor
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
-SCRIPTS = sorted(EXAMPLES.glob("*.py"))
+STUDIES = EXAMPLES.parent / "benchmarks" / "studies"
+SCRIPTS = [*sorted(EXAMPLES.glob("*.py")), STUDIES / "damper_paper.py"]
 SCENES = sorted(EXAMPLES.glob("*.toml"))
 WARNS = {"rotor_questions.toml": "left out: (drive|impeller)_end, at 251.3 rad/s: (heat|cavitation)"}
 """Scenes whose answer comes with a limit of the physics."""

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import rotorfilm
+from rotorfilm.scenes.families import FAMILIES as REGISTERED
 
 PACKAGE = Path(rotorfilm.__file__).parent
 MODULES = sorted(PACKAGE.rglob("*.py"))
@@ -22,6 +23,7 @@ LEAVES = [
     "progress",
     "sources",
     "answers",
+    "ladders",
     "files",
     "limits",
     "printable",
@@ -45,6 +47,9 @@ LAYERS = [
 FACES = {"films", "transient", "orbits", "nonlinear"}
 """Public names under roofs that hold nothing else."""
 
+FURTHER = [home.split(".")[1] for home in REGISTERED.values() if home.startswith("scenes.")]
+"""Families that have only the one folder."""
+
 PARTS = {
     "bearings": [["films"], ["journal"], ["damper", "contact", "bush"]],
     "bearings/films": [["ring"]],
@@ -54,7 +59,7 @@ PARTS = {
     "motion": [["transient", "circular"], ["compiled"], ["periodic"]],
     "cosim": [["schemes"]],
     "fmu": [["description"], ["python", "check"], ["native"]],
-    "scenes": [["journal"], ["damper", "contact", "bush", "shaft"]],
+    "scenes": [["reading"], ["journal"], ["damper", "contact", "bush", "shaft", *FURTHER]],
     "questions": [["journal"], ["damper", "contact", "bush", "shaft"]],
     "comparisons": [["journal", "contact", "coupling"], ["limits"]],
     "charts": [["comparisons"]],

@@ -16,7 +16,7 @@ STRICT = "import warnings; warnings.filterwarnings('error', module=r'(rotorfilm|
 
 def shown(code):
     """Return the numbers that the comments behind print say, as text."""
-    return re.findall(r"^print\(.*\)  # (\S+)$", code, re.MULTILINE)
+    return re.findall(r"^print\(.*\)  # ([\d.]+)(?: .*)?$", code, re.MULTILINE)
 
 
 def anchor(title):

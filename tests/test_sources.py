@@ -10,7 +10,7 @@ MAKERS = {
         {"contact.motion.loads", "contact.static_law", "journal.bearing"},
     ),
     "rotorfilm.bearings.journal.grooves.groove_build": (
-        {"films.geometry", "films.ring.ring_solver", "films.map_fit", "journal.grooves.groove_table"},
+        {"films.geometry", "films.ring.ring_kernel", "films.map_fit", "journal.grooves.groove_table"},
         {"journal.reynolds_film", "contact.film.contact_newton"},
     ),
     "rotorfilm.bearings.damper.squeeze_table": (

@@ -33,7 +33,7 @@ ROWS_PER_SAVE = 10
 def build(path: Path, axes: TableAxes, workers: int, fine_from: float) -> dict[str, np.ndarray]:
     """Fill the table's missing rows, saving as it goes; return its fields.
 
-    Rows with X below `fine_from` get every second node in T: a film turns sharply with T near contact only.
+    Rows with X below `fine_from` get every second node in T: a film turns sharply with T near the wall only.
     """
     fields = _start(path, axes)
     steps = 2 - (fine_from <= axes.X)

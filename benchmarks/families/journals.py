@@ -14,7 +14,8 @@ from rotorfilm.questions.journal.blade_loss import blade_loss_ladder
 from rotorfilm.questions.journal.statics import StaticRung
 from rotorfilm.questions.journal.unbalance_orbits import OrbitRung, rotor_of
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.journal.film_rungs import FilmRung, extrapolated, tangent
+from rotorfilm.scenes.journal.film_defects import tangent
+from rotorfilm.scenes.journal.film_rungs import FilmRung, extrapolated
 
 from .drawn import Drawn, Truth, log_uniform
 
@@ -175,7 +176,7 @@ def static_truth(scene: Scene, film: MapFilm | None, floor: float, slope_floor: 
     if quantity in SLOPES:
         slopes = tangent(bearing, at.position, scene.speed, smooth=True)[1]
         return Truth(-slopes[:, :2] if quantity == "stiffness" else -slopes[:, 2:], slope_floor)
-    rung = FilmRung(name="", bearing=bearing, rich=bearing, rich_name="", position_prior=0.0, slope_prior=0.0)
+    rung = FilmRung(name="", reaction=bearing, rich=bearing, rich_name="", position_prior=0.0, prior=0.0)
     made = StaticRung(film=rung, quantity=quantity, load=scene.static_load, speed=scene.speed)
     gap = at.minimum_film / bearing.clearance
     return Truth(made.scalar(at.position), floor / (gap if quantity == "minimum_film" else 1.0))
@@ -193,7 +194,7 @@ def orbit_by_map(scene: Scene) -> Truth:
     """Return a quantity of the orbit by the map at 255 samples over a turn."""
     assert scene.question is not None
     bearing = replace(scene.bearing, film=MapFilm())
-    film = FilmRung(name="", bearing=bearing, rich=bearing, rich_name="", position_prior=0.0, slope_prior=0.0)
+    film = FilmRung(name="", reaction=bearing, rich=bearing, rich_name="", position_prior=0.0, prior=0.0)
     rung = OrbitRung(film=film, quantity=scene.question.quantity, rotor=rotor_of(scene), samples=255)
     return Truth(rung.answer(None).value, 1e-6)
 

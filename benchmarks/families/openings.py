@@ -11,7 +11,8 @@ from rotorfilm.bearings.films.geometry import Groove, Pad
 from rotorfilm.bearings.journal import JournalBearing, ReynoldsFilm
 from rotorfilm.linear import equilibrium
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.journal.film_rungs import extrapolated, tangent
+from rotorfilm.scenes.journal.film_defects import tangent
+from rotorfilm.scenes.journal.film_rungs import extrapolated
 
 from .drawn import Drawn, Truth, log_uniform
 from .journals import POSITIONS, REFERENCE, SLOPES, journal

@@ -17,8 +17,8 @@ from rotorfilm.model import Reaction
 from rotorfilm.motion import periodic_orbit, simulate_rotor
 from rotorfilm.rotors import FlexibleRotor, FourthOrderBeam, ShaftElement, ShaftRotor, mount
 from rotorfilm.scenes import Scene
+from rotorfilm.scenes.reading.tables import read_table
 from rotorfilm.scenes.shaft.shaft_table import ShaftTable
-from rotorfilm.scenes.tables import read_table
 
 from .drawn import Drawn, Truth, log_uniform
 

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_vector
-from ..model import Array, force_outputs, journal_inputs
-from ..signals import Signal
+from ..model import Array
+from ..signals import Signal, force_outputs, journal_inputs
 from .reaction import Feedthrough
 
 Pair = tuple[tuple[float, float], tuple[float, float]]

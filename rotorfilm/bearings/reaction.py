@@ -8,17 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_inside, require_vector
-from ..model import (
-    Array,
-    Force,
-    Linearization,
-    Reaction,
-    force_of,
-    force_outputs,
-    journal_inputs,
-    static_linearization,
-)
-from ..signals import Signal
+from ..model import Array, Force, Linearization, Reaction, force_of, static_linearization
+from ..signals import Signal, force_outputs, journal_inputs
 
 NOMINAL_SPEED = 100.0
 """Typical angular speed [rad/s] behind the nominal values of velocities and forces."""

@@ -7,8 +7,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import InputError, require_positive
-from ..model import Array, Force, Reaction, Tangent, prepared_force, prepared_tangent
+from ..errors import require_kind, require_positive
+from ..model import (
+    Array,
+    Force,
+    Reaction,
+    Tangent,
+    largest_eccentricity_ratio,
+    prepared_force,
+    prepared_tangent,
+)
 from ..native.spec import HasKernel, NativeSpec
 from .reaction import StaticReaction
 
@@ -37,8 +45,7 @@ class Sprung(StaticReaction):
     stiffness: float
 
     def __post_init__(self) -> None:
-        if isinstance(self.reaction, type) or not isinstance(self.reaction, Reaction):
-            raise InputError(f"reaction must be a Reaction such as a PorousDamper, got {self.reaction!r}")
+        require_kind("reaction", self.reaction, Reaction, "a Reaction such as a PorousDamper")
         require_positive("stiffness", self.stiffness)
 
     @property
@@ -49,7 +56,7 @@ class Sprung(StaticReaction):
     @property
     def largest_eccentricity_ratio(self) -> float:
         """Eccentricity ratio to which the reaction is meant."""
-        return getattr(self.reaction, "largest_eccentricity_ratio", 1.0)
+        return largest_eccentricity_ratio(self.reaction)
 
     @property
     def nominal_force(self) -> float:

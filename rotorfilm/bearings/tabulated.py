@@ -13,9 +13,9 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
 from ..errors import InputError, require_finite, require_vector
-from ..model import Array, force_outputs, journal_inputs
+from ..model import Array
 from ..results import write_csv
-from ..signals import Signal
+from ..signals import Signal, force_outputs, journal_inputs
 from .reaction import Feedthrough
 
 NOMINAL_LENGTH = 1e-4

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 
+from ..comparisons.journal.journal_rungs import FilmFamily
 from ..results import Trajectory
 from .canvas import new_axes
 from .palette import DASHES, FAMILY_COLORS, FAMILY_WIDTHS, WITHIN
@@ -48,7 +50,7 @@ def plot_orbits(
 def plot_locus(
     curves: Mapping[str, tuple[np.ndarray, np.ndarray]],
     *,
-    families: Mapping[str, str] | None = None,
+    families: Mapping[str, FilmFamily] | None = None,
     axes: Axes | None = None,
 ) -> Axes:
     """Draw the loci of the journal center under a load along -y, rotation counter-clockwise.
@@ -57,7 +59,7 @@ def plot_locus(
     ----------
     curves : mapping of str to (ndarray, ndarray)
         Label, eccentricity ratio [1] and attitude angle [rad], each of shape (n,).
-    families : mapping of str to str, optional
+    families : mapping of str to FilmFamily, optional
         Family of films by label, for its color and line.
     axes : Axes, optional
         Where to draw; a new figure by default.
@@ -65,15 +67,17 @@ def plot_locus(
     axes = axes or new_axes("Locus of the journal center, load along -y", size=(7.6, 5.2))
     turn = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 181)
     axes.plot(np.cos(turn), np.sin(turn), "k-", linewidth=1.0, label="clearance circle")
-    drawn: Counter[str] = Counter()
+    drawn: Counter[FilmFamily | None] = Counter()
     for label, (eccentricity_ratio, attitude_angle) in curves.items():
         x = eccentricity_ratio * np.sin(attitude_angle)
         y = -eccentricity_ratio * np.cos(attitude_angle)
-        family = (families or {}).get(label, "")
-        width, style = FAMILY_WIDTHS.get(family, 1.4), DASHES.get(family, WITHIN[drawn[family] % len(WITHIN)])
+        family = None if families is None else families.get(label)
+        color, width, style = None, 1.4, WITHIN[drawn[family] % len(WITHIN)]
+        if family is not None:
+            color, width = FAMILY_COLORS[family], FAMILY_WIDTHS[family]
         drawn[family] += 1
-        color, order = FAMILY_COLORS.get(family), 2.0 + 0.5 / width
-        axes.plot(x, y, label=label, color=color, linewidth=width, linestyle=style, zorder=order)
+        line: dict[str, Any] = {"color": color, "linewidth": width, "linestyle": DASHES.get(family, style)}
+        axes.plot(x, y, label=label, zorder=2.0 + 0.5 / width, **line)
     axes.set(
         xlabel="x / clearance", ylabel="y / clearance", aspect="equal", xlim=(-0.05, 1.05), ylim=(-1.05, 0.1)
     )

@@ -2,33 +2,35 @@
 
 from __future__ import annotations
 
+from ..comparisons.journal.journal_rungs import FilmFamily
+
 FAMILY_COLORS = {
-    "short film": "#8c564b",
-    "published": "#e377c2",
-    "fixed arc": "#d62728",
-    "rotating arc": "#ff7f0e",
-    "Reynolds arc": "#a08000",
-    "free arc": "#2ca02c",
-    "2-D": "#17a0b8",
-    "2-D extrapolated": "#1f4fb4",
-    "map": "#000000",
+    FilmFamily.SHORT: "#8c564b",
+    FilmFamily.PUBLISHED: "#e377c2",
+    FilmFamily.FIXED: "#d62728",
+    FilmFamily.ROTATING: "#ff7f0e",
+    FilmFamily.REYNOLDS: "#a08000",
+    FilmFamily.FREE: "#2ca02c",
+    FilmFamily.GRID: "#17a0b8",
+    FilmFamily.EXTRAPOLATED: "#1f4fb4",
+    FilmFamily.MAP: "#000000",
 }
 """Colors by the family of a rung."""
 
 FAMILY_WIDTHS = {
-    "short film": 7.0,
-    "published": 3.8,
-    "fixed arc": 2.4,
-    "rotating arc": 1.3,
-    "Reynolds arc": 3.4,
-    "free arc": 2.8,
-    "2-D": 5.2,
-    "2-D extrapolated": 4.2,
-    "map": 1.1,
+    FilmFamily.SHORT: 7.0,
+    FilmFamily.PUBLISHED: 3.8,
+    FilmFamily.FIXED: 2.4,
+    FilmFamily.ROTATING: 1.3,
+    FilmFamily.REYNOLDS: 3.4,
+    FilmFamily.FREE: 2.8,
+    FilmFamily.GRID: 5.2,
+    FilmFamily.EXTRAPOLATED: 4.2,
+    FilmFamily.MAP: 1.1,
 }
 """Widths of lines [points]: of curves that coincide the wider lies below and shows beside the other."""
 
-DASHES = {"map": (0.0, (4.0, 3.0))}
+DASHES: dict[FilmFamily | None, tuple[float, tuple[float, float]]] = {FilmFamily.MAP: (0.0, (4.0, 3.0))}
 """Dashes of lines by family, in widths; of all others the first is solid."""
 
 WITHIN = ("-", "--", ":", "-.")

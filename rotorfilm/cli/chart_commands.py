@@ -1,21 +1,23 @@
 """The commands `rotorfilm chart ...`: ladders of models measured, drawn and written as tables."""
 
-# Packages that take long to import are imported inside the commands, so that --help answers at once.
-
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from enum import StrEnum
+from functools import partial
 from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Protocol
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ..limits import CHART_STATES, CONTACT_CELLS, TRANSITS
 from ..printable import visible
+from ..progress import Report, part_of
+from ..results import write_csv
 from . import printing as console
+from .command import Commands, Said
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,16 +26,13 @@ if TYPE_CHECKING:
 
 DPI = 110
 
-chart_app = typer.Typer(
-    help="Charts of a ladder of models, from the cheapest to the reference: PNG and CSV.",
-    no_args_is_help=True,
-    context_settings={"help_option_names": ["-h", "--help"]},
-)
-
 Slenderness = Annotated[float, typer.Option("--ld", help="Bearing length / diameter, 0.1 to 4.")]
 Folder = Annotated[Path, typer.Option("--out", help="Folder for PNG and CSV; made if absent.")]
-Json = Annotated[bool, typer.Option("--json", help="Print JSON on stdout instead of a table.")]
+States = Annotated[int, typer.Option(help="Random states.", min=1, max=CHART_STATES)]
 OUT = Path("rotorfilm-charts")
+
+Rows = Iterable[Sequence[str]]
+Columns = Mapping[str, Iterable[object]]
 
 
 class MotionOption(StrEnum):
@@ -43,94 +42,64 @@ class MotionOption(StrEnum):
     SMALL = "small"
 
 
-class Tabular(Protocol):
-    """A result that is a table."""
-
-    def columns(self) -> dict[str, list[object]]:
-        """Return the columns by their headings, units included."""
-
-
-@chart_app.command(epilog="Example: rotorfilm chart journal --ld 0.5 --json")
 def journal(
+    report: Report,
     ld: Slenderness = 0.5,
-    states: Annotated[int, typer.Option(help="Random states.", min=1, max=CHART_STATES)] = 300,
+    states: States = 300,
     seed: Annotated[int, typer.Option(help="Seed of the random states.", min=0)] = 1978,
     motion: Annotated[
         MotionOption, typer.Option(help="Range of the states' velocities.")
     ] = MotionOption.LARGE,
     out: Folder = OUT,
-    json: Json = False,
-) -> None:
+) -> Said:
     """Error of the force against its cost, for every journal film: chart_journal.png and .csv."""
-    with console.progress_display() as report:
-        report(0.0, "packages")
-        from ..charts import plot_journal_accuracy
-        from ..comparisons import LARGE, SMALL, journal_accuracy
+    from .. import charts, comparisons
 
-        ranges = LARGE if motion is MotionOption.LARGE else SMALL
-        result = journal_accuracy(ld, states=states, ranges=ranges, seed=seed, report=report)
-        files = _write(out, "chart_journal", result, plot_journal_accuracy(result))
-        report(1.0, "done")
-    if json:
-        console.print_json(result)
-        return
+    ranges = comparisons.LARGE if motion is MotionOption.LARGE else comparisons.SMALL
+    result = comparisons.journal_accuracy(ld, states=states, ranges=ranges, seed=seed, report=report)
+    files = _write(out, "chart_journal", result.columns(), charts.plot_journal_accuracy(result))
+    headings = ("film", "median error", "99 % error", "batch", "alone")
     rows = [
         (rung.name, f"{rung.median_error:.2e}", f"{rung.high_error:.2e}", *_costs(rung.cost))
         for rung in result.rungs
     ]
-    console.print_columns(("film", "median error", "99 % error", "batch", "alone"), rows)
     floor = ("its error, 99 %", f"{result.reference_high:.1e}")
-    console.print_rows("", [("reference", result.reference), floor, *files])
+    return Said(result, partial(_print, headings, rows, [("reference", result.reference), floor, *files]))
 
 
-@chart_app.command(epilog="Example: rotorfilm chart stability --ld 0.5 --json")
-def stability(ld: Slenderness = 0.5, out: Folder = OUT, json: Json = False) -> None:
+def stability(report: Report, ld: Slenderness = 0.5, out: Folder = OUT) -> Said:
     """Whirl threshold by every journal film, and where each fails: chart_stability.png and .csv."""
-    with console.progress_display() as report:
-        report(0.0, "packages")
-        from ..charts import plot_journal_stability
-        from ..charts.comparisons.whirl_verdicts import verdicts
-        from ..comparisons import journal_stability
+    from .. import charts, comparisons
+    from ..charts.comparisons.whirl_verdicts import verdicts
 
-        result = journal_stability(ld, report=report)
-        files = _write(out, "chart_stability", result, plot_journal_stability(result))
-        report(1.0, "done")
-    if json:
-        console.print_json(result)
-        return
-    rows = [(rung.name, *(cell.text for cell in verdicts(result, rung))) for rung in result.rungs]
+    result = comparisons.journal_stability(ld, report=report)
+    files = _write(out, "chart_stability", result.columns(), charts.plot_journal_stability(result))
     headings = ("film", "off by at most", "wrong at eps", "tension, large motion", "|Cxy - Cyx| / max |C|")
-    console.print_columns(headings, rows)
-    console.print_rows("", [("reference", result.reference), *files])
+    rows = [(rung.name, *(cell.text for cell in verdicts(result, rung))) for rung in result.rungs]
+    return Said(result, partial(_print, headings, rows, [("reference", result.reference), *files]))
 
 
-@chart_app.command(epilog="Example: rotorfilm chart contact --cells 48 --json")
 def contact(
+    report: Report,
     cells: Annotated[
         int, typer.Option(help="Cells along each side of the reference.", min=24, max=CONTACT_CELLS)
     ] = 64,
     out: Folder = OUT,
-    json: Json = False,
-) -> None:
+) -> Said:
     """Error of a rolling ball's motion against its cost: time scheme, step, grid, reduced laws. Minutes."""
-    with console.progress_display() as report:
-        report(0.0, "packages")
-        from ..charts import plot_contact_precision
-        from ..comparisons import contact_precision
+    from .. import charts, comparisons
 
-        result = contact_precision(cells, report=report)
-        files = _write(out, "chart_contact", result, plot_contact_precision(result))
-        report(1.0, "done")
-    if json:
-        console.print_json(result.columns())
-        return
+    result = comparisons.contact_precision(cells, report=report)
+    files = _write(out, "chart_contact", result.columns(), charts.plot_contact_precision(result))
     rows = [(rung.family, rung.label, f"{rung.error:.2e}", f"{rung.cost:.3g} s") for rung in result.rungs]
-    console.print_columns(("model", "", "rms error", "cost"), rows)
-    console.print_rows("", [("reference", result.reference), *files])
+    show = partial(
+        _print, ("model", "", "rms error", "cost"), rows, [("reference", result.reference), *files]
+    )
+    return Said(result.columns(), show)
 
 
-@chart_app.command(epilog="Example: rotorfilm chart contact-cases --cells 40")
 def contact_cases(
+    report: Report,
     cells: Annotated[
         int, typer.Option(help="Cells along each side, converged runs.", min=8, max=CONTACT_CELLS)
     ] = 40,
@@ -139,174 +108,114 @@ def contact_cases(
         float, typer.Option(help="Length of the runs of case 4.3 with W = 1.", min=30.0, max=TRANSITS)
     ] = 60.0,
     out: Folder = OUT,
-    json: Json = False,
-) -> None:
+) -> Said:
     """Compare published cases of a rolling ball, by the published scheme and converged. Some ten minutes."""
-    with console.progress_display() as report:
-        report(0.0, "packages")
-        from ..charts import plot_contact_cases
-        from ..comparisons import contact_cases as ladder
-        from ..results import write_csv
+    from .. import charts, comparisons
 
-        result = ladder(cells, tolerance, settle, report=report)
-        files = _write(out, "chart_contact_cases", result, plot_contact_cases(result))
-        curves = write_csv(out / "chart_contact_curves.csv", result.series())
-        report(1.0, "done")
-    if json:
-        console.print_json([row._asdict() for row in result.statements])
-        return
+    result = comparisons.contact_cases(cells, tolerance, settle, report=report)
+    files = _write(out, "chart_contact_cases", result.columns(), charts.plot_contact_cases(result))
+    files.append(("curves", str(write_csv(out / "chart_contact_curves.csv", result.series()))))
     headings = ("statement", "section", "published scheme", "same grid", "converged", "verdict")
     rows = [
         (row.text, row.section, row.published, row.same_grid, row.converged, row.verdict)
         for row in result.statements
     ]
-    console.print_columns(headings, rows)
-    console.print_rows("", [*files, ("curves", str(curves))])
+    return Said([row._asdict() for row in result.statements], partial(_print, headings, rows, files))
 
 
-@chart_app.command(epilog="Example: rotorfilm chart contact-limits --json")
-def contact_limits(out: Folder = OUT, json: Json = False) -> None:
+def contact_limits(report: Report, out: Folder = OUT) -> Said:
     """Where the published scheme of a rolling ball fails, and how it decays by itself. A minute."""
-    with console.progress_display() as report:
-        report(0.0, "packages")
-        from ..charts import plot_contact_limits
-        from ..comparisons import contact_limits as ladder
+    from .. import charts, comparisons
 
-        result = ladder(report=report)
-        files = _write(out, "chart_contact_limits", result, plot_contact_limits(result))
-        report(1.0, "done")
+    result = comparisons.contact_limits(report=report)
+    files = _write(out, "chart_contact_limits", result.columns(), charts.plot_contact_limits(result))
     table = result.columns()
-    if json:
-        console.print_json(table)
-        return
     rows = [[_number(entry) for entry in row] for row in zip(*table.values(), strict=True)]
-    console.print_columns(tuple(table), rows)
-    console.print_rows("", files)
+    return Said(table, partial(_print, tuple(table), rows, files))
 
 
-@chart_app.command(epilog="Example: rotorfilm chart scene examples/question.toml")
 def scene(
     file: Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file with a question.")],
+    report: Report,
     out: Folder = OUT,
-    json: Json = False,
-) -> None:
+) -> Said:
     """Estimated error against cost of all models that could answer a scene, and the one that does."""
-    with console.progress_display() as report:
-        report(0.0, "packages")
-        from ..charts import RungPoint, plot_scene_ladder
-        from ..questions.whole import whole_ladder
-        from ..scenes import Scene
+    from ..charts import RungPoint, plot_scene_ladder
+    from ..questions.whole import whole_ladder
+    from ..scenes import Scene
 
-        loaded = Scene.load(file)
-        report(0.1, "every model of the ladder")
-        result = whole_ladder(loaded)
-        points = [
-            RungPoint(name=r.name, error_estimate=r.error_estimate, cost=r.cost, chosen=r.chosen)
-            for r in result.rungs
-            if r.error_estimate is not None and r.cost is not None and r.error_estimate > 0.0
-        ]
-        title = visible(f"{loaded.title}: {result.quantity}").replace("$", r"\$")  # no mathematics
-        axes = plot_scene_ladder(points, title=title, tolerance=result.tolerance)
-        files = _write(out, f"chart_{file.stem}", result, [axes])
-        report(1.0, "done")
-    if json:
-        console.print_json(result)
-        return
+    loaded = Scene.load(file)
+    report(0.1, "every model of the ladder")
+    result = whole_ladder(loaded)
+    points = [
+        RungPoint(name=r.name, error_estimate=r.error_estimate, cost=r.cost, chosen=r.chosen)
+        for r in result.rungs
+        if r.error_estimate is not None and r.cost is not None and r.error_estimate > 0.0
+    ]
+    title = visible(f"{loaded.title}: {result.quantity}").replace("$", r"\$")  # no mathematics
+    axes = plot_scene_ladder(points, title=title, tolerance=result.tolerance)
+    files = _write(out, f"chart_{file.stem}", result.columns(), [axes])
     rows = [
         (("* " if r.chosen else "  ") + r.name, _number(r.error_estimate), _milliseconds(r.cost), r.reason)
         for r in result.rungs
     ]
-    console.print_columns(("model", "estimated error", "cost", "why not"), rows)
-    console.print_rows("", files)
+    return Said(result, partial(_print, ("model", "estimated error", "cost", "why not"), rows, files))
 
 
-@chart_app.command(epilog="Example: rotorfilm chart limits --physics journal --physics damper")
 def limits(
+    report: Report,
     physics: Annotated[
         list[str] | None, typer.Option(help="journal, rotor, damper, contact or bush; all unless given.")
     ] = None,
     out: Folder = OUT,
-    json: Json = False,
-) -> None:
+) -> Said:
     """Atlas of where methods fail: films, grids, steps, linearization, of all bearings. Ten seconds."""
-    with console.progress_display() as report:
-        report(0.0, "packages")
-        from ..charts import plot_limits
-        from ..comparisons import failures, limits_atlas
-        from ..comparisons.limits.limits_atlas import PHYSICS
+    from .. import charts, comparisons
 
-        result = limits_atlas(physics or PHYSICS, report=report)
-        files = _write(out, "chart_limits", result, plot_limits(result))
-        files.append(("data", str(console.write_json(out / "chart_limits.json", result))))
-        report(1.0, "done")
-    if json:
-        console.print_json(result)
-        return
+    result = comparisons.limits_atlas(physics, report=report)
+    files = _write(out, "chart_limits", result.columns(), charts.plot_limits(result), data=result)
     rows: list[tuple[str, str]] = []
-    for panel, curves in groupby(failures(result), key=lambda one: one.panel):
+    for panel, curves in groupby(comparisons.failures(result), key=lambda one: one.panel):
         rows += [("", ""), (f"{panel.physics}: {panel.title}", ""), (f"fails from {panel.x_label}", "")]
         rows += [(f"  {one.name}", "nowhere" if one.at is None else f"{one.at:.3g}") for one in curves]
-    console.print_rows("", rows)
-    console.print_rows("", files)
+    return Said(result, partial(_print, (), rows, files))
 
 
-@chart_app.command(epilog="Example: rotorfilm chart page --out rotorfilm-charts")
-def page(out: Folder = OUT, json: Json = False) -> None:
+def page(out: Folder = OUT) -> Said:
     """Gather all charts of a folder, and the tables behind them, in one HTML page that needs nothing else."""
     from ..charts import write_page
 
-    path = write_page(out)
-    if json:
-        console.print_json({"page": str(path)})
-        return
-    console.print_rows("", [("page", str(path))])
+    path = str(write_page(out))
+    return Said({"page": path}, partial(console.print_rows, "", [("page", path)]))
 
 
-@chart_app.command(epilog="Example: rotorfilm chart bush --json")
-def bush(out: Folder = OUT, json: Json = False) -> None:
+def bush(report: Report, out: Folder = OUT) -> Said:
     """Tiers of the polymer bush: error against cost, as published too, and the closed form of its shaft."""
-    with console.progress_display() as report:
-        report(0.0, "packages")
-        from ..charts import plot_bush_tiers
-        from ..comparisons import bush_tiers
-        from ..results import write_csv
+    from .. import charts, comparisons
 
-        result = bush_tiers(report=report)
-        files = _write(out, "chart_bush", result, plot_bush_tiers(result))
-        shaft = write_csv(out / "chart_bush_shaft.csv", result.shaft_columns())
-        report(1.0, "done")
-    if json:
-        console.print_json(result)
-        return
-    rows = [(tier.name, f"{tier.error:.1e}", f"{1e3 * tier.cost:.3g} ms") for tier in result.tiers]
-    console.print_columns(("tier", "error of the angle", "time of the run"), rows)
+    result = comparisons.bush_tiers(report=report)
+    files = _write(out, "chart_bush", result.columns(), charts.plot_bush_tiers(result))
+    shaft = write_csv(out / "chart_bush_shaft.csv", result.shaft_columns())
+    rows = [(tier.name, f"{tier.error:.1e}", _milliseconds(tier.cost)) for tier in result.tiers]
     errors = [100.0 * row.error for row in result.shaft]
     closed = f"{min(errors):.2f} to {max(errors):.2f} % high"
     last = [("closed form of the shaft", closed), ("its table", str(shaft))]
-    console.print_rows("", [("reference", result.reference), *files, *last])
+    headings = ("tier", "error of the angle", "time of the run")
+    return Said(result, partial(_print, headings, rows, [("reference", result.reference), *files, *last]))
 
 
-@chart_app.command(epilog="Example: rotorfilm chart damper --ld 0.25 --permeability 0.001")
 def damper(
+    report: Report,
     ld: Slenderness = 0.25,
     permeability: Annotated[float, typer.Option(help="Phi = A H/C^3 of the cage.")] = 1e-3,
-    states: Annotated[int, typer.Option(help="Random states.", min=1, max=CHART_STATES)] = 200,
+    states: States = 200,
     out: Folder = OUT,
-    json: Json = False,
-) -> None:
+) -> Said:
     """Error of the force against its cost, for every squeeze film: chart_damper.png, .csv and .json."""
-    with console.progress_display() as report:
-        report(0.0, "packages")
-        from ..charts import plot_damper_accuracy
-        from ..comparisons import damper_accuracy
+    from .. import charts, comparisons
 
-        result = damper_accuracy(ld, permeability, states=states, report=report)
-        files = _write(out, "chart_damper", result, plot_damper_accuracy(result))
-        files.append(("data", str(console.write_json(out / "chart_damper.json", result))))
-        report(1.0, "done")
-    if json:
-        console.print_json(result)
-        return
+    result = comparisons.damper_accuracy(ld, permeability, states=states, report=report)
+    files = _write(out, "chart_damper", result.columns(), charts.plot_damper_accuracy(result), data=result)
     rows = [
         (
             f"{rung.name}, {'cavitated' if rung.cavitated else 'full'}",
@@ -318,48 +227,69 @@ def damper(
         for rung in result.rungs
     ]
     headings = ("film", "median error", "99 % error", "against the short film", "batch", "alone")
-    console.print_columns(headings, rows)
-    console.print_rows("", files)
+    return Said(result, partial(_print, headings, rows, files))
 
 
-@chart_app.command(epilog="Example: rotorfilm chart cosim --json")
-def cosim(out: Folder = OUT, json: Json = False) -> None:
+def cosim(report: Report, out: Folder = OUT) -> Said:
     """Stability limits of the coupling schemes, and their error against film calls: takes minutes."""
-    with console.progress_display() as report:
-        report(0.0, "packages")
-        from ..charts import plot_coupling_cost, plot_coupling_limits
-        from ..comparisons import coupling_cost, coupling_limits
-        from ..progress import part_of
+    from .. import charts, comparisons
 
-        limits = coupling_limits(report=part_of(report, 0.0, 0.6))
-        cost = coupling_cost(report=part_of(report, 0.6, 1.0))
-        files = _write(out, "chart_cosim_limits", limits, plot_coupling_limits(limits))
-        files += _write(out, "chart_cosim_cost", cost, plot_coupling_cost(cost))
-        report(1.0, "done")
-    if json:
-        console.print_json({"limits": limits, "cost": cost})
-        return
-    best = [row for row in cost.rows if row.orbit_error is not None]
+    limits = comparisons.coupling_limits(report=part_of(report, 0.0, 0.6))
+    cost = comparisons.coupling_cost(report=part_of(report, 0.6, 1.0))
+    files = _write(out, "chart_cosim_limits", limits.columns(), charts.plot_coupling_limits(limits))
+    files += _write(out, "chart_cosim_cost", cost.columns(), charts.plot_coupling_cost(cost))
     rows = [
-        (row.scheme, f"{math.degrees(row.macro_angle):.3g} deg", f"{row.orbit_error:.1e}") for row in best
+        (row.scheme, f"{math.degrees(row.macro_angle):.3g} deg", f"{row.orbit_error:.1e}")
+        for row in cost.rows
+        if row.orbit_error is not None
     ]
-    console.print_columns(("scheme", "macro step", "orbit error / clearance"), rows)
+    show = partial(_print, ("scheme", "macro step", "orbit error / clearance"), rows, files)
+    return Said({"limits": limits, "cost": cost}, show)
+
+
+CHARTS: Commands = {
+    journal: "chart journal --ld 0.5 --json",
+    stability: "chart stability --ld 0.5 --json",
+    contact: "chart contact --cells 48 --json",
+    contact_cases: "chart contact-cases --cells 40",
+    contact_limits: "chart contact-limits --json",
+    scene: "chart scene examples/question.toml",
+    limits: "chart limits --physics journal --physics damper",
+    page: "chart page --out rotorfilm-charts",
+    bush: "chart bush --json",
+    damper: "chart damper --ld 0.25 --permeability 0.001",
+    cosim: "chart cosim --json",
+}
+"""Commands with their examples, in the order of the help."""
+
+
+def _write(
+    out: Path, name: str, columns: Columns, axes: Sequence[Axes], *, data: object = None
+) -> list[tuple[str, str]]:
+    """Write chart and table, and data as JSON if there are any; return the rows that name them."""
+    from ..charts import save
+
+    out.mkdir(parents=True, exist_ok=True)
+    files = {
+        "chart": save(axes[0], out / f"{name}.png", dpi=DPI),
+        "table": write_csv(out / f"{name}.csv", columns),
+    }
+    if data is not None:
+        files["data"] = console.write_json(out / f"{name}.json", data)
+    return [(kind, str(path)) for kind, path in files.items()]
+
+
+def _print(headings: Sequence[str], rows: Rows, files: Rows) -> None:
+    """Print a table, without headings if there are none, and files and remarks below it."""
+    if headings:
+        console.print_columns(headings, rows)
+    else:
+        console.print_rows("", rows)
     console.print_rows("", files)
 
 
 def _number(entry: object) -> str:
     return f"{entry:.4g}" if isinstance(entry, float) else "" if entry is None else str(entry)
-
-
-def _write(out: Path, name: str, result: Tabular, axes: Sequence[Axes]) -> list[tuple[str, str]]:
-    """Write chart and table; return the rows that name them."""
-    from ..charts import save
-    from ..results import write_csv
-
-    out.mkdir(parents=True, exist_ok=True)
-    chart = save(axes[0], out / f"{name}.png", dpi=DPI)
-    table = write_csv(out / f"{name}.csv", result.columns())
-    return [("chart", str(chart)), ("table", str(table))]
 
 
 def _costs(cost: FilmCost) -> tuple[str, str]:

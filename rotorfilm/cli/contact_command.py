@@ -3,25 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ..limits import CONTACT_CELLS, LAW_STATES
+from ..progress import Report
 from . import printing as console
+from .command import Said
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..bearings.contact import ContactRun, PointContact, RollingBall
+    from ..bearings.contact import ContactRun, RollingBall
     from ..scenes.contact.solve_contact import ContactAnswer, ContactCase, ContactResponse
-
-CONTACT_EXAMPLE = (
-    'Example: rotorfilm contact --radius "10 mm" --mass "33 g" --modulus "206 GPa" --poisson-ratio 0.3 '
-    '--viscosity "8 mPa s" --pressure-coefficient "5 1/GPa" --speed "0.9 m/s" --load "10 N" --sine 0.3 '
-    '--frequency "12000 rad/s"; without dimensions: rotorfilm contact --v 0.1 --q0 5 --w 1 --step 0.7'
-)
 
 BALL = (
     "radius", "modulus", "poisson_ratio", "viscosity", "pressure_coefficient", "speed", "load",
@@ -35,6 +32,7 @@ UNITS = {
 
 
 def contact(
+    report: Report,
     radius: Annotated[str | None, typer.Option(help="Of the ball.", metavar='"10 mm"')] = None,
     mass: Annotated[str | None, typer.Option(help="Moving with the ball.", metavar='"33 g"')] = None,
     modulus: Annotated[str | None, typer.Option(help="Of the ball.", metavar='"206 GPa"')] = None,
@@ -69,12 +67,11 @@ def contact(
         Path | None,
         typer.Option(help="Go on from such a file: with a run that was cut off, else from where one ended."),
     ] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print JSON on stdout instead of tables.")] = False,
-) -> None:
+) -> Said:
     """Film thickness, approach and stiffness of a lubricated rolling ball, and its response to a load."""
     from ..scenes.contact.contact_motions import require_followable
     from ..scenes.contact.solve_contact import load_over_time, respond, response_of, solve_contact
-    from ..scenes.readers import Count
+    from ..scenes.reading.readers import Count
 
     given = dict(
         radius=radius, mass=mass, modulus=modulus, poisson_ratio=poisson_ratio, viscosity=viscosity,
@@ -90,21 +87,20 @@ def contact(
     )
     require_followable(time, rate)
     drive = load_over_time(step, sine, rate)
-    with console.progress_display() as report:
-        answer, law = solve_contact(case, order, report)
-        response = None
-        if full:
-            response = response_of(case, _run(case, drive, time, save, resume, report))
-        elif step is not None or sine is not None:
-            response = respond(case, law, drive, duration=time)
-    if json:
-        console.print_json({**asdict(answer), "response": response})
-        return
-    console.print_rows("lubricated contact", contact_rows(answer, case.ball is not None))
+    answer, law = solve_contact(case, order, report)
+    response = None
+    if full:
+        response = response_of(case, _run(case, drive, time, save, resume, report))
+    elif step is not None or sine is not None:
+        response = respond(case, law, drive, duration=time)
+    show = partial(_print, answer, response, case.ball is not None)
+    return Said({**asdict(answer), "response": response}, show)
+
+
+def _print(answer: ContactAnswer, response: ContactResponse | None, si: bool) -> None:
+    console.print_rows("lubricated contact", contact_rows(answer, si))
     if response is not None:
-        console.print_rows(
-            f"response by the {response.model}", response_rows(response, case.ball is not None)
-        )
+        console.print_rows(f"response by the {response.model}", response_rows(response, si))
 
 
 def contact_rows(answer: ContactAnswer, si: bool) -> list[tuple[str, str]]:
@@ -160,8 +156,8 @@ def _case(
     from ..bearings.contact import ContactGrid, PointContact
     from ..errors import InputError
     from ..scenes.contact.solve_contact import ContactCase, case_of
-    from ..scenes.readers import Count
-    from ..scenes.tables import Quantity
+    from ..scenes.reading.readers import Count
+    from ..scenes.reading.tables import Quantity
 
     V, Q0, W = plain
     grid = ContactGrid(cells=(Count(CONTACT_CELLS)("--cells", cells),) * 2)
@@ -174,17 +170,13 @@ def _case(
         contact = PointContact(V=number("--v", V), Q0=number("--q0", Q0), grid=grid)
         return ContactCase(contact, 1.0 if W is None else number("--w", W))
     ball = _ball(given)
-    return case_of(ball, _contact_of(ball, grid, roelands, compressible))
-
-
-def _contact_of(ball: RollingBall, grid: Any, roelands: bool, compressible: bool) -> PointContact:
-    return ball.contact(grid, roelands=roelands, compressible=compressible)
+    return case_of(ball, ball.contact(grid, roelands=roelands, compressible=compressible))
 
 
 def _ball(given: dict[str, str | None]) -> RollingBall:
     from ..bearings.contact import RollingBall
     from ..errors import InputError
-    from ..scenes.tables import Quantity
+    from ..scenes.reading.tables import Quantity
 
     missing = [_option(name) for name in BALL if given[name] is None]
     if missing:
@@ -210,7 +202,7 @@ def _require_response(
 
 def _scaled(case: ContactCase, name: str, text: str, unit: str, scale: float) -> float:
     """Return a time or frequency in the unit of the contact."""
-    from ..scenes.tables import Quantity
+    from ..scenes.reading.tables import Quantity
 
     return Quantity(unit if case.ball is not None else "1")(name, text) / scale
 

@@ -4,21 +4,24 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..progress import Report
+from ..results import write_csv
 from . import printing as console
+from .command import Said, SignalFile
 
 if TYPE_CHECKING:
     from ..scenes.cosimulate_scene import CosimAnswer
 
-COSIM_EXAMPLE = 'Example: rotorfilm cosim examples/friswell.toml --scheme si-exp3 --macro-angle "5 deg"'
-
 
 def cosim(
     scene: Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file with a rotor.")],
+    report: Report,
     scheme: Annotated[
         str,
         typer.Option(
@@ -33,41 +36,39 @@ def cosim(
         float | None, typer.Option(help="Length in turns of the shaft; else the scene's.", min=0.0)
     ] = None,
     tolerance: Annotated[float, typer.Option(help="Relative, of auto and adaptive.", min=0.0)] = 1e-2,
-    out: Annotated[Path | None, typer.Option(help="CSV file for the signals.", metavar="FILE.csv")] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print JSON on stdout instead of tables.")] = False,
-) -> None:
+    out: SignalFile = None,
+) -> Said:
     """Couple the rotor and the film of a scene as FMUs, and say how well: limit, error, film calls."""
-    with console.progress_display() as report:
-        report(0.0, "packages")
-        from ..errors import PartialResultError
-        from ..results import write_csv
-        from ..scenes import Scene
-        from ..scenes.cosimulate_scene import run_scene, scheme_named
-        from ..scenes.tables import Quantity
+    report(0.0, "packages")
+    from ..errors import PartialResultError
+    from ..scenes import Scene
+    from ..scenes.cosimulate_scene import run_scene, scheme_named
+    from ..scenes.reading.tables import Quantity
 
-        loaded = Scene.load(scene)
-        table = loaded.cosimulation
-        if macro_angle is not None:
-            table = replace(table, macro_angle=Quantity("rad")("--macro-angle", macro_angle))
-        if revolutions is not None:
-            table = replace(table, revolutions=revolutions)
-        try:
-            answer, signals = run_scene(
-                replace(loaded, cosimulation=table), scheme_named(scheme, tolerance), report
-            )
-        except PartialResultError as error:
-            if out is not None and error.partial is not None:
-                kept = error.partial.trajectory
-                write_csv(out, {"time": kept.time, **kept.signals})
-            raise
-        if out is not None:
-            write_csv(out, {"time": signals.time, **signals.signals})
-    if json:
-        console.print_json(answer)
-        return
+    loaded = Scene.load(scene)
+    table = loaded.cosimulation
+    if macro_angle is not None:
+        table = replace(table, macro_angle=Quantity("rad")("--macro-angle", macro_angle))
+    if revolutions is not None:
+        table = replace(table, revolutions=revolutions)
+    try:
+        answer, signals = run_scene(
+            replace(loaded, cosimulation=table), scheme_named(scheme, tolerance), report
+        )
+    except PartialResultError as error:
+        if out is not None and error.partial is not None:
+            kept = error.partial.trajectory
+            write_csv(out, {"time": kept.time, **kept.signals})
+        raise
+    if out is not None:
+        write_csv(out, {"time": signals.time, **signals.signals})
+    return Said(answer, partial(_print, loaded.title, answer))
+
+
+def _print(title: str, answer: CosimAnswer) -> None:
     for trial in answer.trials:
         console.print_rows("", [(trial.scheme, trial.reason)])
-    console.print_rows(loaded.title, cosim_rows(answer))
+    console.print_rows(title, cosim_rows(answer))
 
 
 def cosim_rows(answer: CosimAnswer) -> list[tuple[str, str]]:

@@ -1,26 +1,25 @@
-"""The command `rotorfilm damper`: an unbalanced rigid rotor on a squeeze-film damper."""
+"""The commands `rotorfilm damper` and `rotorfilm damper-run`: a rigid rotor on a squeeze-film damper."""
 
 from __future__ import annotations
 
 import math
+import tempfile
 from enum import StrEnum
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..results import CircularOrbit, write_csv
 from . import printing as console
+from .command import Said, SignalFile
 
 if TYPE_CHECKING:
     from ..bearings.damper import PorousCage
-    from ..results import CircularOrbit
+    from ..scenes import Scene
+    from ..scenes.damper.damper_runs import DamperRun
     from ..scenes.damper.solve_damper import DamperAnswer
-
-DAMPER_EXAMPLE = (
-    'Example: rotorfilm damper --radius "50 mm" --length "25 mm" --clearance "0.1 mm" '
-    '--viscosity "4.1e-4 Pa s" --mass "10 kg" --speed "400 rad/s" --stiffness "2.56e5 N/m" '
-    '--unbalance "400 g mm" --thickness "2.5 mm" --permeability "0.4 um2"'
-)
 
 
 class Squeeze(StrEnum):
@@ -54,14 +53,13 @@ def damper(
     full: Annotated[bool, typer.Option("--full", help="Full film, tension included.")] = False,
     film: Annotated[Squeeze, typer.Option(help="Film law.")] = Squeeze.SHORT,
     chart: Annotated[Path | None, typer.Option(help="Draw the transmissibility into this PNG.")] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print JSON on stdout instead of tables.")] = False,
-) -> None:
+) -> Said:
     """Find the synchronous orbits of an unbalanced rotor on a solid or porous squeeze-film damper."""
     from ..bearings.damper import PorousDamper
     from ..bearings.films.cavitation import FullFilm, HalfSommerfeld
     from ..scenes.damper.damper_table import SQUEEZES
     from ..scenes.damper.solve_damper import solve_damper
-    from ..scenes.tables import Quantity
+    from ..scenes.reading.tables import Quantity
 
     support = PorousDamper(
         radius=Quantity("m")("--radius", radius),
@@ -70,7 +68,7 @@ def damper(
         viscosity=Quantity("Pa.s")("--viscosity", viscosity),
         extent=FullFilm() if full else HalfSommerfeld(),
         cage=_cage(thickness, permeability, grading, anisotropy, vented),
-        film=SQUEEZES[film.value]().build(),
+        film=SQUEEZES[film.value].makes(),
     )
     kilograms = Quantity("kg")("--mass", mass)
     answer = solve_damper(
@@ -81,11 +79,11 @@ def damper(
         stiffness=Quantity("N/m")("--stiffness", stiffness),
     )
     if chart is not None:
-        _draw(answer, kilograms * support.clearance, chart)
-    if json:
-        console.print_json(answer)
-        return
-    console.print_rows("rotor on a squeeze-film damper", damper_rows(answer))
+        from ..charts import plot_transmissibility, save
+
+        unit = kilograms * support.clearance
+        save(plot_transmissibility({"damper": answer.response}, unit=unit), chart)
+    return Said(answer, partial(console.print_rows, "rotor on a squeeze-film damper", damper_rows(answer)))
 
 
 def damper_rows(answer: DamperAnswer) -> list[tuple[str, str]]:
@@ -128,7 +126,7 @@ def _cage(
 ) -> PorousCage | None:
     from ..bearings.damper import PorousCage
     from ..errors import InputError
-    from ..scenes.tables import Quantity
+    from ..scenes.reading.tables import Quantity
 
     if thickness is None and permeability is None:
         if (grading, anisotropy, vented) != (0.0, 1.0, False):
@@ -145,7 +143,75 @@ def _cage(
     )
 
 
-def _draw(answer: DamperAnswer, unit: float, chart: Path) -> None:
-    from ..charts import plot_transmissibility, save
+def damper_run(
+    scene: Annotated[
+        Path, typer.Argument(metavar="SCENE.toml", help="Scene file with a damper and a rigid rotor.")
+    ],
+    fmus: Annotated[bool, typer.Option("--fmus", help="As two FMUs, instead of one system.")] = False,
+    out: SignalFile = None,
+    chart: Annotated[
+        Path | None, typer.Option(help="Draw eccentricity and force over time into this PNG.")
+    ] = None,
+) -> Said:
+    """Follow a rotor on a damper after a blade is lost, over a run-up or with its unbalance.
 
-    save(plot_transmissibility({"damper": answer.response}, unit=unit), chart)
+    Where the rotor reaches the wall, or the end of a film's range, the motion until then is shown and
+    written, and the command exits with 1.
+    """
+    from ..scenes import Scene
+
+    loaded = Scene.load(scene)
+    run = _run(loaded, fmus)
+    if out is not None:
+        write_csv(out, {"time": run.trajectory.time, **run.trajectory.signals})
+    if chart is not None:
+        from ..charts import plot_damper_run, save
+
+        save(plot_damper_run(run.trajectory.time, run.eccentricity_ratio, run.force), chart)
+    failure = None if run.contact_time is None else contact_message(run)
+    return Said(plain_run(run), partial(console.print_rows, loaded.title, damper_run_rows(run)), failure)
+
+
+def _run(scene: Scene, fmus: bool) -> DamperRun:
+    from ..scenes.damper.damper_runs import couple_damper, run_damper
+
+    if not fmus:
+        return run_damper(scene)
+    with tempfile.TemporaryDirectory() as folder:
+        return couple_damper(scene, Path(folder))
+
+
+def contact_message(run: DamperRun) -> str:
+    """Return what a run that did not end says."""
+    return (
+        f"the rotor must stay inside the clearance and the film's range, got an eccentricity ratio of "
+        f"{run.eccentricity_ratio[-1]:.4g} at {run.contact_time:.6g} s; what is shown ends there"
+    )
+
+
+def plain_run(run: DamperRun) -> dict[str, object]:
+    """Return a run as plain numbers."""
+    return {
+        "peak_eccentricity_ratio": run.peak_eccentricity_ratio,
+        "peak_force": run.peak_force,
+        "final_eccentricity_ratio": float(run.eccentricity_ratio[-1]),
+        "contact_time": run.contact_time,
+        "start": float(run.trajectory.time[0]),
+        "end": float(run.trajectory.time[-1]),
+        "work": dict(run.trajectory.work),
+    }
+
+
+def damper_run_rows(run: DamperRun) -> list[tuple[str, str]]:
+    """Return the rows that describe a run."""
+    time = run.trajectory.time
+    calls = ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in run.trajectory.work.items())
+    return [
+        ("from", f"{time[0]:.6g} s"),
+        ("to", f"{time[-1]:.6g} s"),
+        ("largest eccentricity ratio", f"{run.peak_eccentricity_ratio:.5f}"),
+        ("eccentricity ratio at the end", f"{run.eccentricity_ratio[-1]:.5f}"),
+        ("largest force on the housing", f"{run.peak_force:.5g} N"),
+        ("contact", "none" if run.contact_time is None else f"at {run.contact_time:.6g} s"),
+        ("work", calls),
+    ]

@@ -11,8 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from ..answers import QuestionAnswer, RungReport
-from ..printable import visible
-from .printing import plain_console
+from .printing import filled, plain_console, plain_table
 
 STYLES = {"chosen": "bold green", "refused": "yellow"}
 """How verdicts are shown; others are dim."""
@@ -24,9 +23,7 @@ WIDE = 160
 
 def print_question(title: str, answer: QuestionAnswer, *, explain: bool) -> None:
     """Print the answer to a question, and with `explain` the whole ladder."""
-    table = Table(title=visible(title), title_justify="left", show_header=False, box=None, pad_edge=False)
-    for row in _summary(answer):
-        table.add_row(*map(visible, row))
+    table = filled(plain_table(title, show_header=False), _summary(answer))
     # A file or a pipe has no width that tables must fit.
     screen = plain_console() if sys.stdout.isatty() else plain_console(width=WIDE)
     screen.print(table)
@@ -58,7 +55,7 @@ def chosen_report(answer: QuestionAnswer) -> RungReport:
 
 
 def _ladder(answer: QuestionAnswer) -> Table:
-    table = Table(title="the ladder, the cheapest rung first", title_justify="left", box=None, pad_edge=False)
+    table = plain_table("the ladder, the cheapest rung first")
     table.add_column("rung", overflow="fold")
     table.add_column("", no_wrap=True)
     for heading in ("value", "error", "cost", "of error"):
@@ -83,12 +80,10 @@ def _print_reasons(screen: Console, answer: QuestionAnswer) -> None:
     reasons = [(report.name, report.reason) for report in answer.rungs if report.reason]
     if not reasons:
         return
-    table = Table(title="why not", title_justify="left", show_header=False, box=None, pad_edge=False)
+    table = plain_table("why not", show_header=False)
     table.add_column(no_wrap=True)
     table.add_column(overflow="fold")
-    for row in reasons:
-        table.add_row(*map(visible, row))
-    screen.print("", table)
+    screen.print("", filled(table, reasons))
 
 
 def _value(value: Any, *, short: bool = False) -> str:

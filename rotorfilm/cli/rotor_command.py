@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import typer
 
+from ..progress import Report
+from ..results import to_plain, write_csv
 from . import printing as console
+from .command import Said
 
 if TYPE_CHECKING:
     from ..scenes.shaft.solve_shaft import RotorAnswer
-
-ROTOR_EXAMPLE = "Example: rotorfilm rotor examples/flexible_rotor.toml --out pictures"
 
 RPM = 30.0 / math.pi
 """Turns per minute in one rad/s."""
@@ -22,24 +24,19 @@ RPM = 30.0 / math.pi
 
 def rotor(
     scene: Annotated[Path, typer.Argument(help="Scene file with a table shaft.", metavar="SCENE.toml")],
+    report: Report,
     out: Annotated[
         Path | None, typer.Option(help="Folder for pictures (PNG), tables (CSV) and the answer (JSON).")
     ] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print JSON on stdout instead of tables.")] = False,
-) -> None:
+) -> Said:
     """Find critical speeds, whirl modes, the threshold of stability and the unbalance response of a rotor."""
     from ..scenes import Scene
     from ..scenes.shaft.solve_shaft import solve_rotor
 
-    loaded = Scene.load(scene)
-    with console.progress_display() as report:
-        answer = solve_rotor(loaded, report)
+    answer = solve_rotor(Scene.load(scene), report)
     if out is not None:
         write_rotor(answer, out)
-    if json:
-        console.print_json(plain_rotor(answer))
-        return
-    console.print_rows(answer.title, rotor_rows(answer))
+    return Said(plain_rotor(answer), partial(console.print_rows, answer.title, rotor_rows(answer)))
 
 
 def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
@@ -73,8 +70,6 @@ def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
 
 def plain_rotor(answer: RotorAnswer) -> dict[str, Any]:
     """Return an answer as plain lists and numbers; nothing where a mode is overdamped."""
-    from ..results import to_plain
-
     chart = answer.campbell
     return {
         "title": answer.title,
@@ -99,7 +94,6 @@ def write_rotor(answer: RotorAnswer, folder: Path) -> None:
     """Write the pictures, tables and the JSON of an answer into a folder, which is made if need be."""
     from ..charts import plot_campbell, plot_log_decrement, plot_unbalance_response, save
     from ..files import written_together
-    from ..results import write_csv
     from ..scenes.shaft.solve_shaft import campbell_columns, response_columns
 
     with written_together(folder) as part:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -11,17 +12,15 @@ import typer
 from ..errors import InputError
 from ..limits import SWEEP_POINTS
 from ..printable import brief
+from ..progress import Report
 from ..units import whole_number
 from . import printing as console
-
-SWEEP_EXAMPLE = (
-    'Example: rotorfilm sweep examples/question.toml --vary "journal.clearance = 50 um, 60 um, 70 um" '
-    '--vary "operation.speed = 1000 rpm : 3000 rpm : 5" --out sweep.nc'
-)
+from .command import Said, SceneFile
 
 
 def sweep(
-    scene: Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file of schema 1.")],
+    scene: SceneFile,
+    report: Report,
     vary: Annotated[
         list[str],
         typer.Option(
@@ -32,8 +31,7 @@ def sweep(
     out: Annotated[Path, typer.Option(help="NetCDF file; run again, it goes on where it was interrupted.")],
     workers: Annotated[int | None, typer.Option(help="Processes; by default one for each core.")] = None,
     dask: Annotated[str | None, typer.Option(help="Scheduler of a Dask cluster.", metavar="ADDRESS")] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print JSON on stdout instead of tables.")] = False,
-) -> None:
+) -> Said:
     """Solve a scene at all combinations of some values of its keys, into a NetCDF file."""
     from ..sweeps import sweep as run
 
@@ -42,22 +40,20 @@ def sweep(
         if key in parameters:
             raise InputError(f"--vary must be given once for each key, got {brief(key)} twice")
         parameters[key] = values
-    with console.progress_display() as report:
-        dataset = run(scene, parameters, path=out, workers=workers, dask=dask, report=report)
+    dataset = run(scene, parameters, path=out, workers=workers, dask=dask, report=report)
     failed = int((dataset["failure"] != "").sum())
+    remarks = int((dataset["remarks"] != "").sum())
     answer = {
         "path": str(out),
         "points": int(dataset["failure"].size),
         "failed": failed,
-        "remarks": int((dataset["remarks"] != "").sum()),
+        "remarks": remarks,
         "sizes": dict(dataset.sizes),
     }
-    if json:
-        console.print_json(answer)
-        return
-    if answer["remarks"]:
-        answer["remarks"] = f"{answer['remarks']} points: physics left out, or a model beyond its range"
-    console.print_rows("sweep", [(name, str(value)) for name, value in answer.items()])
+    shown = {name: str(value) for name, value in answer.items()}
+    if remarks:
+        shown["remarks"] = f"{remarks} points: physics left out, or a model beyond its range"
+    return Said(answer, partial(console.print_rows, "sweep", shown.items()))
 
 
 def read_variation(text: str) -> tuple[str, list[Any]]:

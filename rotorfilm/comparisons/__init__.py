@@ -6,9 +6,9 @@ from .contact.contact_limits import contact_limits
 from .contact.contact_precision import contact_precision
 from .coupling.coupling_cost import CostRow, CouplingCost, coupling_cost
 from .coupling.coupling_limits import CouplingLimits, LimitRow, coupling_limits
-from .damper_accuracy import DamperAccuracy, DamperRung, damper_accuracy, damper_rungs
+from .damper_accuracy import DamperAccuracy, DamperRung, SqueezeFamily, damper_accuracy, damper_rungs
 from .journal.journal_accuracy import JournalAccuracy, RungAccuracy, journal_accuracy, pareto_front
-from .journal.journal_rungs import ComparedFilm, comparison_bearing, fitted_bearing, journal_rungs
+from .journal.journal_rungs import ComparedFilm, FilmFamily, comparison_bearing, fitted_bearing, journal_rungs
 from .journal.journal_stability import journal_stability
 from .journal.journal_states import LARGE, SMALL, StateRange, random_states
 from .journal.journal_thresholds import JournalStability, RungStability
@@ -27,6 +27,7 @@ __all__ = [
     "DamperAccuracy",
     "DamperRung",
     "Failure",
+    "FilmFamily",
     "JournalAccuracy",
     "JournalStability",
     "Limit",
@@ -36,6 +37,7 @@ __all__ = [
     "RungAccuracy",
     "RungStability",
     "ShaftFluxError",
+    "SqueezeFamily",
     "StateRange",
     "bush_tiers",
     "comparison_bearing",

@@ -30,7 +30,7 @@ from ..bearings.bush import (
     f4k20_bush,
     published_stage,
 )
-from ..model import Array
+from ..model import Array, Dynamic
 from ..progress import Report, silent
 
 HEAT = 1e8
@@ -155,21 +155,25 @@ def bush_tiers(
     exact = two_moments(bush, times, **TIGHT)
     worn = BushReaction(bush=bush, melting_heat=HEAT, extent=1.5)
     local = replace(worn, nodes=max(nodes), melting=LocalMelting())
-    runs: dict[tuple[str, str], Callable[[], Array]] = {
-        ("two moments", "two moments"): partial(two_moments, bush, times, **USUAL),
-        ("BushWear", "BushWear"): partial(_one_state, bush, times),
-        **{
-            ("BushReaction", f"BushReaction, {n} nodes"): partial(worn_run, times, replace(worn, nodes=n))
+    runs: list[tuple[str, str, Callable[[], Array]]] = [
+        ("two moments", "two moments", lambda: two_moments(bush, times, **USUAL)),
+        ("BushWear", "BushWear", lambda: _one_state(bush, times)),
+        *(
+            ("BushReaction", f"BushReaction, {n} nodes", partial(worn_run, times, replace(worn, nodes=n)))
             for n in nodes
-        },
-        ("LocalMelting: another law", f"LocalMelting, {local.nodes} nodes"): partial(worn_run, times, local),
-        **{
-            ("as published", f"as published, {n} steps"): partial(published_run, bush, times, n)
+        ),
+        (
+            "LocalMelting: another law",
+            f"LocalMelting, {local.nodes} nodes",
+            lambda: worn_run(times, local),
+        ),
+        *(
+            ("as published", f"as published, {n} steps", partial(published_run, bush, times, n))
             for n in steps
-        },
-    }
+        ),
+    ]
     tiers = []
-    for number, ((family, name), run) in enumerate(runs.items()):
+    for number, (family, name, run) in enumerate(runs):
         report(number / (len(runs) + 1), name)
         begin = perf_counter()
         angle = run()
@@ -228,15 +232,7 @@ def _load(t: float) -> float:
 
 def _one_state(bush: MeltingBush, times: Array) -> Array:
     model = BushWear(bush=bush, melting_heat=HEAT)
-    run = solve_ivp(
-        lambda t, x: model.derivative(t, x, [_load(t), SPEED]),
-        (0.0, DURATION),
-        model.initial_state,
-        t_eval=times,
-        rtol=USUAL["rtol"],
-        atol=USUAL["atol"],
-    )
-    return np.array([model.output(t, x, [_load(t), SPEED])[0] for t, x in zip(times, run.y.T, strict=True)])
+    return _output(times, model, 0, lambda t, wear: [_load(t), SPEED])
 
 
 def worn_run(times: Array, model: BushReaction) -> Array:
@@ -245,15 +241,22 @@ def worn_run(times: Array, model: BushReaction) -> Array:
     def point(t: float, wear: Array) -> list[float]:
         return [*model.position([0.0, -_load(t)], 0.0, wear).tolist(), 0.0, 0.0, SPEED]
 
+    return _output(times, model, 3, point)
+
+
+def _output(
+    times: Array, model: Dynamic, number: int, inputs: Callable[[float, Array], list[float]]
+) -> Array:
+    """Return one output of a model at the times, with inputs that depend on time and state."""
     run = solve_ivp(
-        lambda t, wear: model.derivative(t, wear, point(t, wear)),
+        lambda t, x: model.derivative(t, x, inputs(t, x)),
         (0.0, DURATION),
         model.initial_state,
         t_eval=times,
         rtol=USUAL["rtol"],
         atol=USUAL["atol"],
     )
-    return np.array([model.output(t, v, point(t, v))[3] for t, v in zip(times, run.y.T, strict=True)])
+    return np.array([model.output(t, x, inputs(t, x))[number] for t, x in zip(times, run.y.T, strict=True)])
 
 
 def published_run(bush: MeltingBush, times: Array, steps: int) -> Array:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
+from enum import StrEnum
 
 import numpy as np
 
@@ -22,9 +23,8 @@ from ..bearings.damper import (
 )
 from ..bearings.films.cavitation import FullFilm, HalfSommerfeld
 from ..errors import ValidityWarning, require_count, require_positive
-from ..model import Array
 from ..progress import Report, part_of, silent
-from .journal.journal_states import SEED, States
+from .journal.journal_states import SEED, States, relative_error
 from .journal.timing import FilmCost, film_costs
 
 LARGEST = 0.9
@@ -60,6 +60,33 @@ class SeriesSqueeze:
         return ShortSqueeze().bind(case._replace(modes=fewer, feed=case.feed[kept]))
 
 
+class SqueezeFamily(StrEnum):
+    """What squeeze films of the ladder have in common; those of a solid or thin cage are reduced."""
+
+    REDUCED = "reduced"
+    SERIES = "series"
+    MAP = "map"
+    PUBLISHED = "published"
+    FINITE = "finite length"
+
+
+FAMILIES: dict[type[SqueezeLaw], SqueezeFamily] = {
+    ShortSqueeze: SqueezeFamily.SERIES,
+    SeriesSqueeze: SqueezeFamily.SERIES,
+    MapSqueeze: SqueezeFamily.MAP,
+    PublishedSqueeze: SqueezeFamily.PUBLISHED,
+    FiniteSqueeze: SqueezeFamily.FINITE,
+    FiniteMapSqueeze: SqueezeFamily.FINITE,
+}
+
+
+def squeeze_family(damper: PorousDamper) -> SqueezeFamily:
+    """Return the family of a damper of the ladder."""
+    if damper.cage is None or damper.cage.thin:
+        return SqueezeFamily.REDUCED
+    return FAMILIES[type(damper.film)]
+
+
 @dataclass(frozen=True, kw_only=True)
 class DamperRung:
     """Error and cost of one squeeze film.
@@ -67,6 +94,7 @@ class DamperRung:
     Attributes
     ----------
     name : str
+    family : SqueezeFamily
     cavitated : bool
         Whether the film ruptures.
     median_error, high_error : float [1]
@@ -77,6 +105,7 @@ class DamperRung:
     """
 
     name: str
+    family: SqueezeFamily
     cavitated: bool
     median_error: float
     high_error: float
@@ -166,7 +195,7 @@ def damper_accuracy(
             dampers = damper_rungs(slenderness, permeability_number, cavitated=cavitated)
             share = part_of(report, 0.5 * part, 0.5 * (part + 1))
             costs = film_costs(dampers, drawn, rounds=rounds, report=share)
-            rungs += _compared(dampers, costs, drawn, cavitated=cavitated)
+            rungs += _compared(dampers, costs.values(), drawn, cavitated=cavitated)
     return DamperAccuracy(
         slenderness=slenderness,
         permeability_number=permeability_number,
@@ -176,29 +205,39 @@ def damper_accuracy(
     )
 
 
-def damper_rungs(
-    slenderness: float, permeability_number: float, *, cavitated: bool
-) -> dict[str, PorousDamper]:
-    """Return the dampers that are compared, by name; the last is of finite length, on a map."""
+def compared_damper(
+    slenderness: float, permeability_number: float = 0.0, *, grading: float = 0.0
+) -> PorousDamper:
+    """Return a short full film with a cage of this Phi; solid at 0."""
     length = 2.0 * RADIUS * slenderness
     thickness = THICKNESS * length
-    cage = PorousCage(
-        thickness=thickness, permeability=permeability_number * CLEARANCE**3 / thickness, grading=0.1
-    )
-    whole = PorousDamper(
+    cage = None
+    if permeability_number:
+        permeability = permeability_number * CLEARANCE**3 / thickness
+        cage = PorousCage(thickness=thickness, permeability=permeability, grading=grading)
+    return PorousDamper(
         radius=RADIUS,
         length=length,
         clearance=CLEARANCE,
         viscosity=VISCOSITY,
         cage=cage,
-        extent=HalfSommerfeld() if cavitated else FullFilm(),
+        extent=FullFilm(),
     )
+
+
+def damper_rungs(
+    slenderness: float, permeability_number: float, *, cavitated: bool
+) -> dict[str, PorousDamper]:
+    """Return the dampers that are compared, by name; the last is of finite length, on a map."""
+    cavitation = HalfSommerfeld() if cavitated else FullFilm()
+    whole = replace(compared_damper(slenderness, permeability_number, grading=0.1), extent=cavitation)
+    assert whole.cage is not None
     full: dict[str, SqueezeLaw] = (
         {} if cavitated else {"published": PublishedSqueeze(), "finite length": FiniteSqueeze()}
     )
     return {
         "solid cage": replace(whole, cage=None),
-        "Morgan-Cameron": replace(whole, cage=replace(cage, thin=True)),
+        "Morgan-Cameron": replace(whole, cage=replace(whole.cage, thin=True)),
         **{f"series, {n}": replace(whole, film=SeriesSqueeze(n)) for n in SERIES},
         "series, whole": whole,
         "map": replace(whole, film=MapSqueeze()),
@@ -208,29 +247,29 @@ def damper_rungs(
 
 
 def _compared(
-    dampers: Mapping[str, PorousDamper], costs: Mapping[str, FilmCost], states: States, *, cavitated: bool
+    dampers: Mapping[str, PorousDamper], costs: Iterable[FilmCost], states: States, *, cavitated: bool
 ) -> list[DamperRung]:
-    forces = {name: damper.force(*states) for name, damper in dampers.items()}
-    reference = forces["finite length, map" if cavitated else "finite length"]
+    forces = [damper.force(*states) for damper in dampers.values()]
+    families = [squeeze_family(damper) for damper in dampers.values()]
+    pairs = list(zip(families, forces, strict=True))
+    # The closest film of finite length comes first, the whole series last.
+    reference = next(force for family, force in pairs if family is SqueezeFamily.FINITE)
+    whole = [force for family, force in pairs if family is SqueezeFamily.SERIES][-1]
     rungs = []
-    for name, force in forces.items():
-        errors, series = _errors(force, reference), _errors(force, forces["series, whole"])
+    for name, family, force, cost in zip(dampers, families, forces, costs, strict=True):
+        errors = relative_error(force, reference)
         rungs.append(
             DamperRung(
                 name=name,
+                family=family,
                 cavitated=cavitated,
                 median_error=float(np.median(errors)),
                 high_error=float(np.quantile(errors, 0.99)),
-                series_error=float(np.quantile(series, 0.99)),
-                cost=costs[name],
+                series_error=float(np.quantile(relative_error(force, whole), 0.99)),
+                cost=cost,
             )
         )
     return rungs
-
-
-def _errors(force: Array, reference: Array) -> Array:
-    apart: Array = np.linalg.norm(force - reference, axis=0) / np.linalg.norm(reference, axis=0)
-    return apart
 
 
 def _states(count: int, seed: int) -> States:

@@ -2,17 +2,16 @@
 
 from .auto import Auto, choose_scheme
 from .chatter import CouplingReport, inspect_coupling
-from .choice import Choice, Trial
-from .cosim_run import CoSimulation, couple
+from .cosim_run import Choice, CoSimulation, Trial, couple
+from .coupling_loop import squeeze_limit
 from .coupling_stability import (
     CouplingStability,
     CriticalMacroStep,
     coupling_stability,
     critical_macro_step,
-    squeeze_limit,
 )
-from .fmu_slave import FmuSlave, open_fmu, open_rotor
-from .master import cosimulate
+from .fmu_slave import FmuSlave
+from .master import cosimulate, open_fmu, open_rotor
 from .schemes.adaptive import Adaptive
 from .schemes.explicit import GaussSeidel, Jacobi
 from .schemes.implicit import SIExp, SIExp3
@@ -20,33 +19,3 @@ from .schemes.newton import Newton
 from .schemes.scheme import Scheme
 from .slaves import InProcessSlave, Slave
 from .watch import CouplingWatch
-
-__all__ = [
-    "Adaptive",
-    "Auto",
-    "Choice",
-    "CoSimulation",
-    "CouplingReport",
-    "CouplingStability",
-    "CouplingWatch",
-    "CriticalMacroStep",
-    "FmuSlave",
-    "GaussSeidel",
-    "InProcessSlave",
-    "Jacobi",
-    "Newton",
-    "SIExp",
-    "SIExp3",
-    "Scheme",
-    "Slave",
-    "Trial",
-    "choose_scheme",
-    "cosimulate",
-    "couple",
-    "coupling_stability",
-    "critical_macro_step",
-    "inspect_coupling",
-    "open_fmu",
-    "open_rotor",
-    "squeeze_limit",
-]

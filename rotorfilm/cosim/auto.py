@@ -16,8 +16,7 @@ from ..errors import (
     require_positive,
 )
 from ..results import Trajectory, orbit_distance
-from .choice import Choice, Trial
-from .cosim_run import CoSimulation
+from .cosim_run import Choice, CoSimulation, Trial
 from .schemes.explicit import GaussSeidel
 from .schemes.implicit import SIExp3
 from .schemes.newton import Newton

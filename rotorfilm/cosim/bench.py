@@ -1,23 +1,13 @@
-"""What a coupling scheme works on: a rotor and its films, exchanged as arrays, every call counted."""
+"""What a coupling scheme works on: a rotor and its films, exchanged as arrays."""
 
 from __future__ import annotations
 
-import math
-from collections import Counter
-from collections.abc import Mapping
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from ..errors import FmuError, InputError, UndefinedDerivativeError
-from ..model import FORCE_OUTPUTS, JOURNAL_INPUTS, MOTION_NAMES, Array, Linearization, indices
-from ..rotors.force_law import ForceLaw, held_law
-from ..rotors.structure import station_name, station_names
-from .schemes.exponential import Wiring
-from .slaves import Differentiable, Driven, Restorable, Slave
-
-PROBE = 1e3
-"""Force of a trial step [N]; a linear rotor tells the same with any."""
+from ..model import Array
+from ..rotors.force_law import ForceLaw
 
 
 class StationMotion(NamedTuple):
@@ -56,6 +46,11 @@ class Tangents(NamedTuple):
     def by_speed_change(self, change: float, like: Array) -> Array:
         """Return the change of the forces with that of the speed [rad/s], of the shape of `like`."""
         return np.zeros_like(like) + (change * self.by_speed).reshape(-1, *(1,) * (like.ndim - 1))
+
+
+def no_tangents(size: int) -> Tangents:
+    """Return the derivatives of films whose forces, `size` of them, do not change."""
+    return Tangents(np.zeros((size, size)), np.zeros((size, size)), np.zeros(size))
 
 
 class Sample(NamedTuple):
@@ -118,223 +113,3 @@ class Needs(NamedTuple):
     derivatives: bool = False
     laws: bool = False
     rollback: bool = False
-
-
-class Partners:
-    """A rotor and films that were not started yet, as a `Bench`.
-
-    Parameters
-    ----------
-    rotor : Slave
-    films : mapping of str to Slave
-        By station; the empty name is that of a rotor with one journal.
-    needs : Needs
-
-    Raises
-    ------
-    InputError
-        If the signals do not fit or a partner lacks what the scheme needs.
-    """
-
-    def __init__(self, rotor: Slave, films: Mapping[str, Slave], needs: Needs) -> None:
-        self.rotor, self.films, self._needs = rotor, dict(films), needs
-        self.wiring = _wiring(rotor, self.films)
-        self._wanted = {station: _sources(rotor, station, film) for station, film in self.films.items()}
-        self.work: Counter[str] = Counter(
-            dict.fromkeys(("steps", "film_evaluations", "film_jacobians", "rotor_steps", "rollbacks"), 0)
-        )
-        self._require(needs)
-        # Asked once: checks against protocols are slow.
-        self._driven = rotor if isinstance(rotor, Driven) else None
-        self._known = {name: [n for n in JOURNAL_INPUTS if n in film.inputs] for name, film in films.items()}
-        self._differentiable = [film for film in films.values() if isinstance(film, Differentiable)]
-        self._restorable = [p for p in (rotor, *films.values()) if isinstance(p, Restorable)]
-        self._probed: tuple[float, Array] | None = None
-
-    def start(self) -> Sample:
-        """Start the rotor, then the films at the rotor's initial state."""
-        self.rotor.start({})
-        motion = self._motion(0.0)
-        for station, film in self.films.items():
-            film.start(self._values(station, motion))
-        return self._sample(0.0, motion, self._needs.derivatives)
-
-    def drive(self, t: float, dt: float, law: ForceLaw) -> StationMotion:
-        """Advance the rotor; see `Bench`."""
-        self.work["rotor_steps"] += 1
-        if self._driven is not None:
-            self._driven.drive(t, dt, law, self.wiring)
-        else:
-            self.rotor.set(dict(zip(self.wiring.force, law.force.tolist(), strict=True)))
-            self.rotor.step(t, dt)
-        return self._motion(t + dt)
-
-    def evaluate(self, t: float, dt: float, motion: StationMotion, derive: bool) -> Sample:
-        """Step the films; see `Bench`."""
-        for station, film in self.films.items():
-            film.set(self._values(station, motion))
-            film.step(t, dt)
-        return self._sample(t + dt, motion, derive)
-
-    def sensitivity(self, t: float, dt: float) -> Array:
-        """Return d(motion)/d(force) from trial steps, kept as long as the step is as long; see `Bench`."""
-        if self._probed is None or abs(dt - self._probed[0]) > 1e-9 * dt:
-            size = len(self.wiring.force)
-            ends = [self._trial(t, dt, force) for force in np.vstack([np.zeros(size), np.eye(size)])]
-            self._probed = dt, np.array([end - ends[0] for end in ends[1:]]).T
-        return self._probed[1]
-
-    def save(self) -> list[Any]:
-        """Return the state of all partners."""
-        return [partner.save() for partner in self._restorable]
-
-    def restore(self, state: list[Any]) -> None:
-        """Return to a state of all partners."""
-        self.work["rollbacks"] += 1
-        for partner, own in zip(self._restorable, state, strict=True):
-            partner.restore(own)
-        self.release(state)
-
-    def release(self, state: list[Any]) -> None:
-        """Forget a state."""
-        for partner, own in zip(self._restorable, state, strict=True):
-            partner.release(own)
-
-    @property
-    def size(self) -> int:
-        """Number of force components."""
-        return len(self.wiring.force)
-
-    @property
-    def signals(self) -> list[str]:
-        """Names of all outputs: those of the rotor, then those of the films."""
-        films = [station_name(station, n) for station, film in self.films.items() for n in film.outputs]
-        return [*self.rotor.outputs, *films]
-
-    @property
-    def differentiates(self) -> bool:
-        """Whether all films tell their derivatives."""
-        known = [film for film in self.films.values() if isinstance(film, Differentiable)]
-        return len(known) == len(self.films) and all(film.differentiates for film in known)
-
-    def tangents(self) -> Tangents:
-        """Return the derivatives of all films at present.
-
-        Raises
-        ------
-        UndefinedDerivativeError
-            If a film has none there.
-        """
-        size = 2 * len(self.films)
-        found = Tangents(np.zeros((size, size)), np.zeros((size, size)), np.zeros(size))
-        for number, (known, film) in enumerate(zip(self._known.values(), self._differentiable, strict=True)):
-            own = slice(2 * number, 2 * number + 2)
-            whole = np.zeros((2, len(JOURNAL_INPUTS)))
-            whole[:, [JOURNAL_INPUTS.index(name) for name in known]] = film.jacobian(FORCE_OUTPUTS, known)
-            found.stiffness[own, own], found.damping[own, own] = -whole[:, :2], -whole[:, 2:4]
-            found.by_speed[own] = whole[:, 4]
-        self.work["film_jacobians"] += 1
-        return found
-
-    def linear_rotor(self, t: float) -> Linearization | None:
-        """Return the exact derivatives of the rotor, those of its journals only; None if it has none."""
-        found = self._driven.linear(t) if self._driven is not None else None
-        if found is None:
-            return None
-        forces = [self.rotor.inputs.index(name) for name in self.wiring.force]
-        motion = [self.rotor.outputs.index(n) for n in (*self.wiring.position, *self.wiring.velocity)]
-        return Linearization(found.A, found.B[:, forces], found.C[motion], found.D[np.ix_(motion, forces)])
-
-    def _sample(self, t: float, motion: StationMotion, derive: bool) -> Sample:
-        self.work["film_evaluations"] += 1
-        outputs: dict[str, float] = {}
-        forces: list[float] = []
-        for station, film in self.films.items():
-            own = _finite("film", t, film.get())
-            outputs |= {station_name(station, name): value for name, value in own.items()}
-            forces += [own[name] for name in FORCE_OUTPUTS]
-        tangents = self._tangents_or_none() if derive else None
-        return Sample(t, motion, np.array(forces), tangents, outputs)
-
-    def _tangents_or_none(self) -> Tangents:
-        """Return the derivatives, or zeros where a film at rest has none: its force then counts as held."""
-        try:
-            return self.tangents()
-        except UndefinedDerivativeError:
-            size = 2 * len(self.films)
-            return Tangents(np.zeros((size, size)), np.zeros((size, size)), np.zeros(size))
-
-    def _motion(self, t: float) -> StationMotion:
-        outputs = _finite("rotor", t, self.rotor.get())
-        return StationMotion(
-            np.array([outputs[name] for name in self.wiring.position]),
-            np.array([outputs[name] for name in self.wiring.velocity]),
-            outputs.get("speed", 0.0),
-            outputs,
-        )
-
-    def _values(self, station: str, motion: StationMotion) -> dict[str, float]:
-        """Return the inputs of a film: its journal's motion and the speed as given, others as they are."""
-        first = 2 * self.wiring.stations.index(station)
-        own = [*motion.position[first : first + 2], *motion.velocity[first : first + 2], motion.speed]
-        journal = dict(zip(JOURNAL_INPUTS, own, strict=True))
-        return {
-            name: float(journal[name]) if name in journal else motion.outputs[source]
-            for name, source in self._wanted[station].items()
-        }
-
-    def _trial(self, t: float, dt: float, force: Array) -> Array:
-        """Return the motion after a step under a held force [kN], per N, and go back."""
-        state = self.save()
-        motion = self.drive(t, dt, held_law(t, PROBE * force))
-        self.restore(state)
-        return np.concatenate([motion.position, motion.velocity]) / PROBE
-
-    def _require(self, needs: Needs) -> None:
-        if needs.derivatives and not self.differentiates:
-            raise InputError("film must tell its directional derivatives for this scheme, got one without")
-        driven = isinstance(self.rotor, Driven) and self.rotor.takes_laws(self.wiring)
-        if needs.laws and not driven:
-            raise InputError(
-                "rotor must take force laws for this scheme, as a model, an FMU for Model Exchange or one "
-                f"with inputs such as stiffness_xx, got the inputs {list(self.rotor.inputs)}"
-            )
-        partners = [self.rotor, *self.films.values()]
-        if needs.rollback and not all(isinstance(p, Restorable) and p.restores for p in partners):
-            raise InputError("rotor and film must get and set their state for this scheme, got one without")
-
-
-def _wiring(rotor: Slave, films: Mapping[str, Slave]) -> Wiring:
-    """Return the signals of the journals, having checked that all are there."""
-    if not films:
-        raise InputError("films must be one at least, got none")
-    motions, forces = zip(*(station_names(station) for station in films), strict=True)
-    for station, own in zip(films, forces, strict=True):
-        indices("rotor must have the inputs", rotor.inputs, own)
-        indices("film must have the outputs", films[station].outputs, FORCE_OUTPUTS)
-    for station, film in films.items():
-        indices("rotor must have the outputs", rotor.outputs, list(_sources(rotor, station, film).values()))
-    for own in motions:
-        indices("rotor must have the outputs", rotor.outputs, own)
-    return Wiring(
-        tuple(films),
-        tuple(name for own in forces for name in own),
-        tuple(name for own in motions for name in own[:2]),
-        tuple(name for own in motions for name in own[2:]),
-    )
-
-
-def _sources(rotor: Slave, station: str, film: Slave) -> dict[str, str]:
-    """Return, for each input of a film, the output of the rotor that feeds it."""
-    sources = {}
-    for name in film.inputs:
-        own = station_name(station, name)
-        sources[name] = own if name in MOTION_NAMES or own in rotor.outputs else name
-    return sources
-
-
-def _finite(who: str, t: float, values: dict[str, float]) -> dict[str, float]:
-    bad = {name: value for name, value in values.items() if not math.isfinite(value)}
-    if bad:
-        raise FmuError(f"outputs of the {who} must be finite, got {bad} at t = {t:.9g} s")
-    return values

@@ -20,9 +20,9 @@ from ..errors import (
     require_positive,
 )
 from ..results import Trajectory
-from .bench import Partners, Sample
+from .bench import Sample
 from .chatter import CouplingReport, inspect_coupling
-from .choice import Choice
+from .partners import Partners
 from .schemes.explicit import GaussSeidel
 from .schemes.scheme import MEMORY, Scheme
 from .slaves import Slave
@@ -30,6 +30,44 @@ from .watch import CouplingWatch, Watch
 
 COARSE = 0.3
 """Local error, in root mean square forces, of a run that is no answer; it is below 0.08 in good ones."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Trial:
+    """What a trial run of one scheme said.
+
+    Attributes
+    ----------
+    scheme : Scheme
+    orbit_error : float or None [1]
+        Largest distance from the reference / largest displacement; None where there is no run.
+    spectral_radius : float or None [1]
+        Largest growth per macro step met; None where the scheme has no limit, or nothing tells.
+    film_calls : float or None [1]
+        Film evaluations and derivatives per macro step.
+    reason : str
+        Why it was taken or not.
+    """
+
+    scheme: Scheme
+    orbit_error: float | None
+    spectral_radius: float | None
+    film_calls: float | None
+    reason: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Choice:
+    """The scheme chosen, and the trials that led to it.
+
+    Attributes
+    ----------
+    scheme : Scheme
+    trials : tuple of Trial
+    """
+
+    scheme: Scheme
+    trials: tuple[Trial, ...]
 
 
 @dataclass(frozen=True, kw_only=True)

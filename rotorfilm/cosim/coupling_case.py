@@ -14,15 +14,15 @@ from ..model import Reaction
 from ..rotors import RigidRotor
 from ..rotors.force_law import ForceLaw
 from .cosim_run import CoSimulation, couple
+from .coupling_loop import coupling_loop, dominant_eigenvalue
 from .coupling_motion import Drift, drift, inner_motion, largest, law_forces, propagated
 from .coupling_replay import Starting, laws_on, samples_of
-from .coupling_stability import coupling_loop, dominant_eigenvalue
 from .schemes.explicit import GaussSeidel, Jacobi
-from .schemes.exponential import Wiring
 from .schemes.implicit import SIExp, SIExp3
 from .schemes.scheme import Scheme
 from .slaves import InProcessSlave
 from .watch import quietly
+from .wiring import Wiring
 
 SCHEMES: tuple[Scheme, ...] = (
     *(GaussSeidel(degree=degree) for degree in range(3)),

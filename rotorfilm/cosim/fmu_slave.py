@@ -8,28 +8,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
-from os import PathLike
 from typing import Any
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
 
 from ..errors import FilmContactError, FmuError, InputError
-from ..fmu.check.described import common_capabilities, nominal_of
-from ..fmu.check.instance import EventInfo, extracted, instantiated
+from ..fmu.check.calls import EventInfo
+from ..fmu.check.described import DERIVATIVES, STATES, nominal_of, provides, variables_of
+from ..fmu.check.instance import instantiated
 from ..model import Array, Linearization
 from ..rotors.force_law import BASE_TIME, ForceLaw, law_inputs
 from ..signals import from_fmi_name
-from .schemes.exponential import LawIntegrator, Wiring
+from .schemes.exponential import LawIntegrator
+from .wiring import Wiring
 
 CONTACT = (FilmContactError.__name__, "inside the clearance")
 """What the log of a film FMU contains when its journal touched the wall, in Python and in C."""
-
-REAL = ("Real", "Float64")
-
-DERIVATIVES = {"providesDirectionalDerivative", "providesDirectionalDerivatives"}
-STATES = {"canGetAndSetFMUstate", "canGetAndSetFMUState"}
-"""Capabilities, as FMI 2.0 and 3.0 spell them."""
 
 
 class FmuSlave:
@@ -50,9 +45,7 @@ class FmuSlave:
         self._references = {
             causality: _references(description, causality) for causality in ("input", "output")
         }
-        capable = common_capabilities(folder)
-        self.differentiates = bool(capable & DERIVATIVES)
-        self.restores = bool(capable & STATES)
+        self.differentiates, self.restores = provides(folder, DERIVATIVES), provides(folder, STATES)
         slopes = [unknown.variable for unknown in description.derivatives or ()]
         self._slopes = [slope.valueReference for slope in slopes]
         self._states = [slope.derivative.valueReference for slope in slopes]
@@ -95,10 +88,7 @@ class FmuSlave:
     def jacobian(self, outputs: Sequence[str], inputs: Sequence[str]) -> Array:
         """Return d(outputs)/d(inputs), shape (n_outputs, n_inputs), now; native FMUs know it."""
         unknowns = [self._references["output"][name] for name in outputs]
-        knowns = [self._references["input"][name] for name in inputs]
-        with self._reported("reading derivatives"):
-            columns = [self._instance.directional(unknowns, [known], [1.0]) for known in knowns]
-        return np.array(columns).reshape(len(inputs), len(outputs)).T
+        return self._derivatives(unknowns, [self._references["input"][name] for name in inputs])
 
     def save(self) -> Any:
         """Return the FMU state."""
@@ -140,11 +130,14 @@ class FmuSlave:
         if not (self.differentiates and self._states):
             return None
         inputs, outputs = (list(self._references[which].values()) for which in ("input", "output"))
-        unknowns, knowns = [*self._slopes, *outputs], [*self._states, *inputs]
+        whole, n = self._derivatives([*self._slopes, *outputs], [*self._states, *inputs]), len(self._states)
+        return Linearization(whole[:n, :n], whole[:n, n:], whole[n:, :n], whole[n:, n:])
+
+    def _derivatives(self, unknowns: Sequence[int], knowns: Sequence[int]) -> Array:
+        """Return d(unknowns)/d(knowns) at present."""
         with self._reported("reading derivatives"):
             columns = [self._instance.directional(unknowns, [known], [1.0]) for known in knowns]
-        whole, n = np.array(columns).T, len(self._states)
-        return Linearization(whole[:n, :n], whole[:n, n:], whole[n:, :n], whole[n:, n:])
+        return np.array(columns).reshape(len(knowns), len(unknowns)).T
 
     def close(self) -> None:
         """Terminate, free the instance and unload its library, whatever happened before."""
@@ -255,65 +248,18 @@ class ExchangeRotor(FmuSlave):
         self._instance.set(list(self._references["input"].values()), u.tolist())
 
 
-@contextmanager
-def open_fmu(path: str | PathLike[str]) -> Iterator[FmuSlave]:
-    """Extract and instantiate an FMU; free it and delete the files at the end, in any case.
-
-    Parameters
-    ----------
-    path : path of the .fmu file
-
-    Raises
-    ------
-    FmuError
-        If the file cannot be read, is no Co-Simulation FMU of FMI 2.0 or 3.0, or cannot be instantiated.
-    """
-    with extracted(path) as (description, folder):
-        slave = FmuSlave(description, folder)
-        try:
-            yield slave
-        finally:
-            slave.close()
-
-
-@contextmanager
-def open_rotor(path: str | PathLike[str], *, held: bool) -> Iterator[FmuSlave]:
-    """Extract and instantiate a rotor FMU; see `open_fmu`.
-
-    It is opened for Co-Simulation where that will do, otherwise for Model Exchange.
-
-    Parameters
-    ----------
-    path : path of the .fmu file
-    held : bool
-        Whether it need not take more than held forces.
-    """
-    with extracted(path) as (description, folder):
-        taken = any(_local_name(v.name) == BASE_TIME for v in description.modelVariables)
-        exchange = description.modelExchange is not None and not (
-            description.coSimulation is not None and (held or taken)
-        )
-        slave = ExchangeRotor(description, folder) if exchange else FmuSlave(description, folder)
-        try:
-            yield slave
-        finally:
-            slave.close()
-
-
 def _references(description: Any, causality: str) -> dict[str, int]:
     """Return the value references of the real inputs or outputs, by local name."""
     references: dict[str, int] = {}
-    for variable in description.modelVariables:
-        if variable.causality != causality or variable.type not in REAL:
-            continue
-        name = _local_name(variable.name)
+    for variable in variables_of(description, causality):
+        name = local_name(variable.name)
         if name in references:
             raise InputError(f"{causality} names must differ without their component, got {name!r} twice")
         references[name] = variable.valueReference
     return references
 
 
-def _local_name(name: str) -> str:
+def local_name(name: str) -> str:
     """Return the signal of `component.signal`; other spellings stay as they are."""
     try:
         return from_fmi_name(name)[1]

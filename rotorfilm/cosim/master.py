@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from contextlib import ExitStack
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from dataclasses import replace
 from os import PathLike
+from typing import Any
 
 from ..errors import InputError
+from ..fmu.check.instance import extracted
 from ..model import Dynamic, Model
+from ..rotors.force_law import BASE_TIME
 from .auto import Auto, choose_scheme
 from .cosim_run import CoSimulation, couple, require_times
-from .fmu_slave import open_fmu, open_rotor
+from .fmu_slave import ExchangeRotor, FmuSlave, local_name
 from .schemes.explicit import GaussSeidel
 from .schemes.scheme import Scheme
 from .slaves import InProcessSlave, Slave
@@ -114,3 +117,48 @@ def _run(
         return couple(
             first, others, macro_step=macro_step, duration=duration, scheme=scheme, progress=progress
         )
+
+
+def open_fmu(path: Path) -> AbstractContextManager[FmuSlave]:
+    """Extract and instantiate an FMU; free it and delete the files at the end, in any case.
+
+    Parameters
+    ----------
+    path : path of the .fmu file
+
+    Raises
+    ------
+    FmuError
+        If the file cannot be read, is no Co-Simulation FMU of FMI 2.0 or 3.0, or cannot be instantiated.
+    """
+    return _opened(path, lambda description: False)
+
+
+def open_rotor(path: Path, *, held: bool) -> AbstractContextManager[FmuSlave]:
+    """Extract and instantiate a rotor FMU; see `open_fmu`.
+
+    It is opened for Co-Simulation where that will do, otherwise for Model Exchange.
+
+    Parameters
+    ----------
+    path : path of the .fmu file
+    held : bool
+        Whether it need not take more than held forces.
+    """
+
+    def exchanges(description: Any) -> bool:
+        enough = held or any(local_name(v.name) == BASE_TIME for v in description.modelVariables)
+        return description.modelExchange is not None and not (description.coSimulation is not None and enough)
+
+    return _opened(path, exchanges)
+
+
+@contextmanager
+def _opened(path: Path, exchanges: Callable[[Any], bool]) -> Iterator[FmuSlave]:
+    """Open an FMU, for Model Exchange where its description asks for that."""
+    with extracted(path) as (description, folder):
+        slave = (ExchangeRotor if exchanges(description) else FmuSlave)(description, folder)
+        try:
+            yield slave
+        finally:
+            slave.close()

@@ -9,10 +9,11 @@ import numpy as np
 
 from ..errors import InputError
 from ..fmu.advance import advance
-from ..model import Array, Dynamic, Kinked, Linearization, Model
+from ..model import Array, Dynamic, Linearization, Model, breakpoints
 from ..rotors.force_law import ForceLaw
 from ..signals import names
-from .schemes.exponential import LawIntegrator, Wiring
+from .schemes.exponential import LawIntegrator
+from .wiring import Wiring
 
 
 class Slave(Protocol):
@@ -94,7 +95,7 @@ class SlaveSystem:
         self.inputs, self.outputs = tuple(names(model.inputs)), tuple(names(model.outputs))
         self.nominals = np.array([signal.nominal for signal in model.states])
         self.rates, self.outcome, self.matrices = model.derivative, model.output, model.linearization
-        self._kinks = np.array(sorted(model.breakpoints if isinstance(model, Kinked) else ()))
+        self._kinks = np.array(sorted(breakpoints(model)))
 
     def next_kink(self, t: float) -> float:
         """Return the first kink after t [s]."""

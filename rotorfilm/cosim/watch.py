@@ -11,9 +11,10 @@ import numpy as np
 
 from ..errors import CouplingWarning, RotorfilmError, warn_user
 from ..model import Array
-from .bench import Partners, Sample
+from .bench import Sample
 from .chatter import WINDOW, inspect_coupling, is_calm
-from .coupling_stability import Loop, dominant_eigenvalue, squeeze_limit
+from .coupling_loop import Loop, dominant_eigenvalue, squeeze_limit
+from .partners import Partners
 from .schemes.adaptive import Adaptive
 from .schemes.implicit import defect
 from .schemes.scheme import Scheme, extrapolation

@@ -5,12 +5,3 @@ from .check.check_fmu import CheckItem, check_fmu
 from .check.described import describe_fmu
 from .description.variables import fmi_variables
 from .export import export_fmu
-
-__all__ = [
-    "CheckItem",
-    "Variable",
-    "check_fmu",
-    "describe_fmu",
-    "export_fmu",
-    "fmi_variables",
-]

@@ -16,10 +16,10 @@ from ..model import Array, Dynamic, Model, Stepped
 from ..native.spec import HasKernel, NativeSpec
 from .archive import to_zip
 from .description.dependencies import delayed_dependencies, dependencies
-from .description.model_description import Description
+from .description.model_description import Description, to_xml
 from .description.variables import fmi_variables
-from .description.xml2 import to_xml2
-from .description.xml3 import to_xml3
+from .description.xml2 import Dialect2
+from .description.xml3 import Dialect3
 from .linear_system import from_state_space
 from .narrow import as_exported
 from .native.native_backend import (
@@ -147,11 +147,11 @@ def _native_contents(export: Export, step_size: float) -> dict[str, bytes]:
         step_size=float(step_size),
         sources=source_names(),
     )
-    write = to_xml2 if export.version == "2.0" else to_xml3
+    dialect = Dialect2() if export.version == "2.0" else Dialect3()
     contents = native_files(export, variables)
-    token = _guid({**contents, **resource(export, variables, ""), "xml": write(description, "")})
+    token = _guid({**contents, **resource(export, variables, ""), "xml": to_xml(description, dialect, "")})
     contents |= resource(export, variables, token)
-    return {**contents, "modelDescription.xml": write(description, token)}
+    return {**contents, "modelDescription.xml": to_xml(description, dialect, token)}
 
 
 def _python_contents(
@@ -173,8 +173,8 @@ def _python_contents(
         stop_time=float(stop_time),
         step_size=float(step_size),
     )
-    guid = _guid({**contents, "xml": to_xml2(description, "")})
-    return {**contents, "modelDescription.xml": to_xml2(description, guid)}
+    guid = _guid({**contents, "xml": to_xml(description, Dialect2(), "")})
+    return {**contents, "modelDescription.xml": to_xml(description, Dialect2(), guid)}
 
 
 def _subject(model: Any) -> Model | Stepped:

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..model import Array, Linearization, Model, indices
+from ..model import Array, Linearization, Model
 from ..native.spec import HasKernel
-from ..signals import Signal, names
+from ..signals import Signal, indices, names
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
+from .campbell import Campbell, CriticalSpeed, campbell, critical_speed_map, critical_speeds
 from .closed_loop import closed_loop, transmissibility
 from .coefficient_table import coefficient_table
 from .coefficients import coefficients
@@ -14,19 +15,10 @@ from .orbit_coefficients import (
     orbit_system,
     small_motion_transmissibility,
 )
-from .rotor_modes import (
-    Campbell,
-    CriticalSpeed,
-    RotorModes,
-    RotorThreshold,
-    campbell,
-    critical_speed_map,
-    critical_speeds,
-    rotor_modes,
-    rotor_threshold,
-)
+from .rotor_modes import RotorModes, rotor_modes
 from .rotor_rest import RotorEquilibrium, rotor_equilibrium
 from .rotor_system import rotor_system, rotor_transmissibility, unbalance_response
+from .rotor_threshold import RotorThreshold, rotor_threshold
 from .whirl import speed_parameter, whirl_threshold
 
 if TYPE_CHECKING:

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, require_finite
-from ..model import FORCE_OUTPUTS, MOTION_NAMES, Dynamic, Reaction, indices
+from ..errors import InputError, require_finite, require_kind
+from ..model import Array, Dynamic, Reaction
 from ..results import Equilibrium
-from ..signals import names
+from ..signals import FORCE_OUTPUTS, MOTION_NAMES, indices, names
 from .equilibrium import equilibrium
 from .linearize import OperatingPoint, linearize
 
@@ -50,8 +50,7 @@ def closed_loop(
     """
     indices("rotor must have the inputs", names(rotor.inputs), FORCE_OUTPUTS)
     indices("rotor must have the outputs", names(rotor.outputs), MOTION_NAMES)
-    if not isinstance(at, Equilibrium):
-        raise InputError(f"at must be an Equilibrium, as equilibrium() returns it, got {at!r}")
+    require_kind("at", at, Equilibrium, "an Equilibrium, as equilibrium() returns it")
     shaft = OperatingPoint(x=rotor.initial_state, u=-at.load)
     import control
 
@@ -105,14 +104,7 @@ def transmissibility(
     EquilibriumError
         If there is no equilibrium at one of the speeds.
     """
-    frequencies = require_finite("speeds", speeds)
-    if (
-        frequencies.ndim != 1
-        or not frequencies.size
-        or frequencies[0] <= 0
-        or np.any(np.diff(frequencies) <= 0)
-    ):
-        raise InputError(f"speeds must be a list of positive and rising numbers, got {speeds!r}")
+    frequencies = checked_speeds(speeds)
     responses = [_at_own_speed(rotor, reaction, load, float(speed)) for speed in frequencies]
     import control
 
@@ -123,6 +115,14 @@ def transmissibility(
         outputs=list(HOUSING),
         name="transmissibility",
     )
+
+
+def checked_speeds(speeds: ArrayLike) -> Array:
+    """Return angular speeds [rad/s]; raise InputError unless they are positive and rising."""
+    grid = require_finite("speeds", speeds)
+    if grid.ndim != 1 or not grid.size or grid[0] <= 0.0 or np.any(np.diff(grid) <= 0.0):
+        raise InputError(f"speeds must be a list of positive and rising numbers, got {speeds!r}")
+    return grid
 
 
 def _at_own_speed(rotor: Dynamic, reaction: Reaction, load: ArrayLike, speed: float) -> np.ndarray:

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite
-from ..model import JOURNAL_INPUTS, Array, Linearization, Model
+from ..model import Array, Linearization, Model
 from ..results import Equilibrium
-from ..signals import Signal, names
+from ..signals import JOURNAL_INPUTS, Signal, names
 
 if TYPE_CHECKING:
     import control

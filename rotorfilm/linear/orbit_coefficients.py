@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import InputError, require_number, require_positive
-from ..model import Reaction, force_outputs
+from ..model import Reaction
 from ..results import CircularOrbit
 from ..rotors import RigidRotor
 from ..rotors.rotating import rotating_linearization
-from ..signals import Signal
+from ..signals import Signal, force_outputs
 from .coefficients import coefficients
 from .linearize import state_space
 

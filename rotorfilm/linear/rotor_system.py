@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, require_finite
+from ..errors import InputError
 from ..model import Array, Reaction
 from ..rotors import FlexibleRotor
-from ..rotors.structure import Structure, across_planes, both_planes, output_rows, station_name
+from ..rotors.stations import station_name
+from ..rotors.structure import Structure, across_planes, both_planes, output_rows
 from ..signals import names
-from .closed_loop import HOUSING
+from .closed_loop import HOUSING, checked_speeds
 from .linearize import control_system
 from .rotor_rest import RotorEquilibrium, rotor_equilibrium
 
@@ -47,7 +48,7 @@ def second_order(structure: Structure, at: RotorEquilibrium) -> SecondOrder:
     damping = structure.damping + at.speed * structure.gyroscopic
     stiffness = structure.stiffness + at.speed * structure.circulation
     for name, film in at.coefficients.items():
-        rows = _journal(structure, name)
+        rows = journal_rows(structure, name)
         damping = damping + rows.T @ film.damping @ rows
         stiffness = stiffness + rows.T @ film.stiffness @ rows
     return SecondOrder(structure.mass, damping, stiffness)
@@ -204,15 +205,8 @@ def rotor_transmissibility(
     )
 
 
-def checked_speeds(speeds: ArrayLike) -> Array:
-    """Return angular speeds [rad/s]; raise InputError unless they are positive and rising."""
-    grid = require_finite("speeds", speeds)
-    if grid.ndim != 1 or not grid.size or grid[0] <= 0.0 or np.any(np.diff(grid) <= 0.0):
-        raise InputError(f"speeds must be a list of positive and rising numbers, got {speeds!r}")
-    return grid
-
-
-def _journal(structure: Structure, name: str) -> Array:
+def journal_rows(structure: Structure, name: str) -> Array:
+    """Return the displacement of a journal from its housing, shape (2, N)."""
     k = structure.stations.index(name)
     return structure.journals[2 * k : 2 * k + 2]
 
@@ -223,7 +217,7 @@ def _outputs(rotor: FlexibleRotor, at: RotorEquilibrium) -> tuple[Array, list[st
     rows: Sequence[Array] = [output_rows(s)]
     labels = names(rotor.outputs)[:-1]
     for name, film in at.coefficients.items():
-        journal = _journal(s, name)
+        journal = journal_rows(s, name)
         rows = [*rows, np.hstack([film.stiffness @ journal, film.damping @ journal])]
         labels += [station_name(name, signal) for signal in HOUSING]
     return np.vstack(rows), labels

@@ -7,9 +7,9 @@ from .film_kernels import (
     MapKernel,
     ShortKernel,
     Status,
-    slice_table,
 )
 from .library import NativeLibraryError
+from .map_slice import slice_table
 from .spec import HasKernel, NativeParameter, NativeSpec
 
 __all__ = [

@@ -14,4 +14,15 @@
 #define RF_EXPORT
 #endif
 
+/* The same of the library of loops. */
+#if defined(RF_SUBSET) && RF_SUBSET != RF_ROTORFILM_LOOPS
+#define RF_EXPORT_LOOP
+#elif defined(_WIN32)
+#define RF_EXPORT_LOOP __declspec(dllexport)
+#elif defined(__GNUC__)
+#define RF_EXPORT_LOOP __attribute__((visibility("default")))
+#else
+#define RF_EXPORT_LOOP
+#endif
+
 #endif

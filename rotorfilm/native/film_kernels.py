@@ -9,7 +9,8 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 
 from ..model import Array
-from .library import GrooveMapStruct, JournalStruct, MapStruct, MapTableStruct, ShortStruct, functions
+from .library import functions
+from .structs import GrooveMapStruct, JournalStruct, MapStruct, ShortStruct
 
 _Pair, _Five, _Ten = c_double * 2, c_double * 5, c_double * 10
 
@@ -20,8 +21,10 @@ class Status(IntEnum):
     OK = 0
     OUTSIDE = 1
     UNDEFINED = 2
-    CONTACT = 3
+    AT_WALL = 3
     NOT_FINITE = 4
+    STUCK = 6
+    NO_MEMORY = 7
 
 
 class Batch(NamedTuple):
@@ -111,10 +114,10 @@ class MapKernel(FilmKernel):
     log_center : float
         L0, the logarithm of -J/|w|^2 at the center.
     slenderness : float
-        Length / diameter for the film at contact, as which J goes on beyond the last node; 0, or a map that
+        Length / diameter for the film at the wall, as which J goes on beyond the last node; 0, or a map that
         is no such film at its last node, goes on as a power of X.
     share : float
-        Of the film at contact in units of a journal.
+        Of the film at the wall in units of a journal.
     """
 
     _function: ClassVar[str] = "rf_map_film"
@@ -134,7 +137,7 @@ class MapKernel(FilmKernel):
             raise ValueError(f"coefficients must be finite, 6 x 6 at least, got shape {coefficients.shape}")
         place = self.coefficients.ctypes.data
         self.struct = MapStruct(cells_x, cells_t, reach, log_center, place)
-        functions()["rf_map_contact"](byref(self.struct), slenderness, share)
+        functions()["rf_map_to_wall"](byref(self.struct), slenderness, share)
         self.error = functions()["rf_map_error"](byref(self.struct))
 
 
@@ -244,38 +247,6 @@ def _wrapped(coefficients: Array, axis: int) -> Array:
     """Return periodic coefficients as the kernel reads them: from the one two nodes back, five repeated."""
     count = coefficients.shape[axis]
     return np.take(coefficients, np.arange(-2, count + 3) % count, axis)
-
-
-def slice_table(
-    coefficients: Array, center: Array, slenderness_range: tuple[float, float], slenderness: float
-) -> tuple[Array, float]:
-    """Return the map of one bearing from that of all.
-
-    Parameters
-    ----------
-    coefficients : ndarray, shape (s, x, t)
-        Quintic B-spline coefficients over ln(L/D), X and T; s = 1 for a single bearing.
-    center : ndarray, shape (s,)
-        The same of L0.
-    slenderness_range : (float, float)
-        Smallest and largest L/D.
-    slenderness : float
-        L/D within that range.
-
-    Returns
-    -------
-    coefficients : ndarray, shape (x, t)
-    center : float
-    """
-    layers, x, t = coefficients.shape
-    all_layers, centers = (np.ascontiguousarray(a, dtype=float) for a in (coefficients, center))
-    cells = (layers - 5 if layers > 1 else 0, x - 5, t - 5)
-    table = MapTableStruct(*cells, *slenderness_range, centers.ctypes.data, all_layers.ctypes.data)
-    collapsed, middle = np.empty((x, t)), c_double()
-    status = functions()["rf_map_slice"](byref(table), slenderness, collapsed.ctypes.data, byref(middle))
-    if status:
-        raise ValueError(f"slenderness must be within {slenderness_range}, got {slenderness!r}")
-    return collapsed, middle.value
 
 
 def _run(name: str, of: list[Any], n: int, given: list[Any], shape: tuple[int, ...]) -> Batch:

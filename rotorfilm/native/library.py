@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import ctypes
 import sys
-from collections.abc import Sequence
-from ctypes import c_double, c_int, c_int32, c_size_t, c_void_p
+from ctypes import c_double, c_int, c_int64, c_size_t, c_void_p
 from functools import cache
 from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 from ..errors import RotorfilmError
 
 FOLDER = Path(__file__).parent
+FILMS, LOOPS = "rotorfilm", "rotorfilm_loops"
+"""Libraries that Python calls: films one by one, and loops over them."""
+
 RECORD = "sources.sha256"
 """Of the C sources that an installed distribution was built from; CMakeLists.txt writes it."""
 
@@ -29,70 +31,6 @@ class NativeLibraryError(RotorfilmError, ImportError):
     """The compiled library is not there, or is not of this machine."""
 
 
-class MapStruct(ctypes.Structure):
-    """rf_map of map_kernel.h."""
-
-    _fields_: ClassVar[Sequence[Any]] = [
-        ("cells_x", c_int32),
-        ("cells_t", c_int32),
-        ("x_end", c_double),
-        ("center", c_double),
-        ("coefficients", c_void_p),
-        ("slenderness", c_double),
-        ("share", c_double),
-    ]
-
-
-class ShortStruct(ctypes.Structure):
-    """rf_short of short_kernel.h."""
-
-    _fields_: ClassVar[Sequence[Any]] = [("factor", c_double)]
-
-
-class JournalStruct(ctypes.Structure):
-    """rf_journal of journal_kernel.h."""
-
-    _fields_: ClassVar[Sequence[Any]] = [
-        ("film", c_void_p),
-        ("map", c_void_p),
-        ("clearance", c_double),
-        ("force_scale", c_double),
-        ("error", c_double),
-        ("openings", c_int),
-    ]
-
-
-class GrooveMapStruct(ctypes.Structure):
-    """rf_groove_map of groove_kernel.h."""
-
-    _fields_: ClassVar[Sequence[Any]] = [
-        ("cells_x", c_int32),
-        ("cells_e", c_int32),
-        ("cells_s", c_int32),
-        ("cells_w", c_int32),
-        ("x_end", c_double),
-        ("squeeze", c_double),
-        ("axis", c_double),
-        ("center", c_void_p),
-        ("coefficients", c_void_p),
-        ("slenderness", c_double),
-    ]
-
-
-class MapTableStruct(ctypes.Structure):
-    """rf_map_table of map_table.h."""
-
-    _fields_: ClassVar[Sequence[Any]] = [
-        ("cells_s", c_int32),
-        ("cells_x", c_int32),
-        ("cells_t", c_int32),
-        ("low", c_double),
-        ("high", c_double),
-        ("center", c_void_p),
-        ("coefficients", c_void_p),
-    ]
-
-
 _ROWS = [c_void_p, c_size_t]
 _BATCH: dict[str, list[Any]] = {
     "rf_film_batch": [c_void_p, c_void_p, c_size_t, *_ROWS * 4, c_void_p],
@@ -105,15 +43,26 @@ _SCALAR: dict[str, list[Any]] = {
     "rf_journal_call": [c_void_p, *[c_double] * 5, c_void_p],
     "rf_journal_at": [c_void_p] * 4,
     "rf_map_slice": [c_void_p, c_double, c_void_p, c_void_p],
-    "rf_map_contact": [c_void_p, c_double, c_double],
+    "rf_map_to_wall": [c_void_p, c_double, c_double],
     "rf_map_error": [c_void_p],
     "rf_groove_error": [c_void_p],
+}
+_LOOPS: dict[str, list[Any]] = {
+    "rf_ring_film": [c_void_p] * 5,
+    "rf_ring_pair": [c_void_p, c_size_t, *[c_void_p] * 5],
+    "rf_ring_field": [c_void_p] * 7,
+    "rf_ring_potential": [c_void_p, c_void_p, c_size_t, *[c_void_p] * 4],
+    "rf_ride": [c_void_p, c_void_p, c_double, c_int64, c_void_p, c_void_p],
+    "rf_springs_at": [c_void_p] * 4,
+    "rf_set_step_table": [c_void_p, c_void_p, c_double, c_void_p],
+    "rf_march_to": [c_void_p, c_double, c_int64, c_void_p, c_int64, c_void_p, c_void_p],
+    "rf_journal_forces": [c_void_p, c_int64, c_void_p, c_double, c_void_p, c_void_p],
 }
 
 
 @cache
 def functions() -> dict[str, Any]:
-    """Return the functions of the library by name, loaded on the first call.
+    """Return the functions of the library of films by name, loaded on the first call.
 
     Batches release the interpreter lock; a scalar call is over before that would pay.
 
@@ -122,11 +71,23 @@ def functions() -> dict[str, Any]:
     NativeLibraryError
         If the library is missing or cannot be loaded.
     """
-    return {**_typed(ctypes.CDLL, _BATCH), **_typed(ctypes.PyDLL, _SCALAR)}
+    return {**_typed(ctypes.CDLL, FILMS, _BATCH), **_typed(ctypes.PyDLL, FILMS, _SCALAR)}
 
 
-def _typed(loader: type[ctypes.CDLL], signatures: dict[str, list[Any]]) -> dict[str, Any]:
-    library = _load(loader)
+@cache
+def loops() -> dict[str, Any]:
+    """Return the functions of the library of loops over films by name; all release the interpreter lock.
+
+    Raises
+    ------
+    NativeLibraryError
+        As `functions`.
+    """
+    return _typed(ctypes.CDLL, LOOPS, _LOOPS)
+
+
+def _typed(loader: type[ctypes.CDLL], name: str, signatures: dict[str, list[Any]]) -> dict[str, Any]:
+    library = _load(loader, name)
     try:
         found = {name: getattr(library, name) for name in signatures}
     except AttributeError as error:
@@ -179,8 +140,8 @@ def _installed_folder() -> Path | None:
     return folder if (folder / RECORD).is_file() else None
 
 
-def _load(loader: type[ctypes.CDLL]) -> ctypes.CDLL:
-    path = library_path("rotorfilm")
+def _load(loader: type[ctypes.CDLL], name: str) -> ctypes.CDLL:
+    path = library_path(name)
     try:
         return loader(str(path))
     except OSError as error:

@@ -7,10 +7,10 @@ typedef enum rf_status {
     RF_OK = 0,
     RF_OUTSIDE = 1,    /* an answer, but beyond the verified range of the model */
     RF_UNDEFINED = 2,  /* no derivative exists here */
-    RF_CONTACT = 3,    /* the journal touches the wall */
+    RF_AT_WALL = 3,    /* the journal touches the wall */
     RF_NOT_FINITE = 4, /* an argument or the answer is not finite */
     RF_INVALID = 5,    /* a parameter or a table breaks its rule */
-    RF_STUCK = 6,      /* the time integration cannot go on */
+    RF_STUCK = 6,      /* an iteration or the time integration cannot go on */
     RF_MEMORY = 7
 } rf_status;
 

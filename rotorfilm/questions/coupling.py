@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..answers import ISOTHERMAL, ErrorEstimate, Found, Work
+from ..answers import ISOTHERMAL, ErrorEstimate, Found, Work, WorkUnit
 from ..bearings.journal import ReynoldsFilm
 from ..cosim import Scheme
 from ..cosim.coupling_case import SCHEMES, CouplingCase, PilotRun
 from ..errors import CouplingError, InputError, RotorfilmError
+from ..ladders import BaseRung, Ladder
 from ..linear import equilibrium
 from ..model import Reaction
 from ..rotors import RigidRotor
 from ..scenes.journal.film_rungs import has_map, with_film
-from .walk import Ladder
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -27,9 +27,8 @@ if TYPE_CHECKING:
 ANGLES = (16.0, 8.0, 4.0, 2.0, 1.0, 0.5, 0.25, 0.125)
 """Macro steps of the rungs [deg]."""
 
-FORCES = "film forces"
-SLOPES = "film derivatives"
-STATES = "1000 film states at once"
+FORCES, SLOPES = WorkUnit("film forces"), WorkUnit("film derivatives")
+STATES = WorkUnit("1000 film states at once")
 
 CELLS = (48, 4)
 """Of the film of a bearing without a map, where the scene leaves the film open."""
@@ -45,7 +44,7 @@ SURPLUS = 2.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class CouplingRung:
+class CouplingRung(BaseRung):
     """A coupled run by one scheme at one macro step.
 
     Attributes
@@ -195,7 +194,7 @@ def _case(scene: Scene, quantity: str) -> CouplingCase:
     return CouplingCase(rotor=rotor, reaction=film, revolutions=turns, film=name)
 
 
-def _units(case: CouplingCase) -> dict[str, Callable[[], object]]:
+def _units(case: CouplingCase) -> dict[WorkUnit, Callable[[], object]]:
     """Return calls that do one unit of work each."""
     film, speed = case.reaction, case.rotor.profile.speeds[0]
     q = np.array([0.3, 0.4]) * film.clearance

@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
 from time import perf_counter
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -22,8 +21,10 @@ from ..answers import (
     QuestionAnswer,
     RungReport,
     Work,
+    WorkUnit,
 )
 from ..errors import AbsentError, FilmContactError, RotorfilmError, ValidityWarning, require_positive
+from ..ladders import Ladder, Rung
 
 STALLED = 0.05
 """Relative change of the error over a refinement, below which another one does not help."""
@@ -36,70 +37,12 @@ class NoAnswerError(AbsentError):
     """It does not exist by a model close enough to say so: dearer ones need not be asked."""
 
 
-class Rung(Protocol):
-    """One way to answer a question."""
-
-    @property
-    def name(self) -> str:
-        """What it is called in print."""
-
-    @property
-    def prior(self) -> float:
-        """Order of magnitude of its error known beforehand [1]; 0 where nothing is known."""
-
-    def answer(self, before: Found | None) -> Found:
-        """Return its answer, from that of a lower rung or alone; raises RotorfilmError where it has none.
-
-        NoAnswerError where none has.
-        """
-
-    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the error of its answer without running a richer model.
-
-        A verified bound is enough where it is below the tolerance. `before` is the answer of a lower rung.
-        """
-
-    def expected(self, done: Work) -> Work:
-        """Return the work of an answer, where a lower rung has done this much."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Ladder:
-    """The rungs of one question, the cheapest first.
-
-    Attributes
-    ----------
-    rungs : tuple of Rung
-    units : mapping of str to callable
-        By the name of a unit of work, a call that does one; work without one is timed while it is done.
-    unit : str
-        Of the value.
-    nominal : mapping of str to float [s]
-        Costs of units that are too dear to be tried for a prediction.
-    refined : mapping of str to str
-        By the name of a rung, what its steps refine: rungs of the same differ in nothing else.
-    remarks : tuple of str
-        What the physics of all rungs leaves out and should not.
-    within : str
-        The physics that all rungs share, in which the tolerance is meant; may be empty.
-    """
-
-    rungs: tuple[Rung, ...]
-    unit: str
-    units: Mapping[str, Callable[[], object]] = field(default_factory=dict)
-    nominal: Mapping[str, float] = field(default_factory=dict)
-    refined: Mapping[str, str] = field(default_factory=dict)
-    remarks: tuple[str, ...] = ()
-    within: str = ""
-
-
 class Meter:
     """Costs of work: units are measured once, when they are first needed."""
 
     def __init__(self, ladder: Ladder) -> None:
         self._units = ladder.units
-        self._nominal = ladder.nominal
-        self._costs: dict[str, float] = {}
+        self._costs: dict[WorkUnit, float] = {}
 
     def timed(self, call: Callable[[], Any]) -> tuple[Any, float]:
         """Return what a call returns, and how long it took [s]."""
@@ -119,11 +62,11 @@ class Meter:
         """Return the cost of work not done yet [s]; nan where a unit was never seen."""
         return sum(number * self._unit(unit) for unit, number in work.items())
 
-    def _unit(self, unit: str) -> float:
+    def _unit(self, unit: WorkUnit) -> float:
         if unit not in self._costs and unit in self._units:
             call = self._units[unit]
             self._costs[unit] = min(self.timed(call)[1] for _ in range(REPEATS))
-        return self._costs.get(unit, self._nominal.get(unit, math.nan))
+        return self._costs.get(unit, unit.nominal)
 
 
 def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
@@ -179,7 +122,7 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
         # By the richest model that was tried; what cheaper ones say instead is no answer.
         assert failure is not None
         raise failure
-    return _answer(quantity, ladder, meter, reports, tolerance, failure)
+    return _answer(quantity, ladder, meter, reports, tolerance, before or failure)
 
 
 def _tried(rung: Rung, before: Found | None, meter: Meter, tolerance: float) -> tuple[RungReport, Found]:
@@ -202,7 +145,7 @@ def _tried(rung: Rung, before: Found | None, meter: Meter, tolerance: float) -> 
         method=about.method,
         cost=cost,
         estimate_cost=estimate_cost,
-        work=dict(found.work),
+        work={unit.name: count for unit, count in found.work.items()},
     )
     return report, found
 
@@ -225,8 +168,7 @@ def _refused_more_accurate(rung: Rung, reports: Sequence[RungReport]) -> str | N
 
 def _refined_in_vain(rung: Rung, ladder: Ladder, reports: Sequence[RungReport]) -> str | None:
     """Return why finer steps do not help: the last refinement of the same model changed nothing."""
-    model = ladder.refined.get(rung.name)
-    coarser = [r for r in reports if model and ladder.refined.get(r.name) == model]
+    coarser = [r for other, r in zip(ladder.rungs, reports, strict=False) if _refines_the_same(rung, other)]
     known = [r for r in coarser if r.error_estimate is not None and math.isfinite(r.error_estimate)][-2:]
     if len(known) < 2 or known[0].doubtful != known[1].doubtful:
         return None
@@ -236,24 +178,29 @@ def _refined_in_vain(rung: Rung, ladder: Ladder, reports: Sequence[RungReport]) 
     return f"finer steps do not help: {known[0].name} is off by {before:.2g}, {known[1].name} by {after:.2g}"
 
 
+def _refines_the_same(rung: Rung, other: Rung) -> bool:
+    ours, theirs = rung.refines, other.refines
+    return bool(ours) and len(ours) == len(theirs) and all(a is b for a, b in zip(ours, theirs, strict=True))
+
+
 def _answer(
     quantity: str,
     ladder: Ladder,
     meter: Meter,
     reports: list[RungReport],
     tolerance: float,
-    failure: RotorfilmError | None,
+    last: Found | RotorfilmError | None,
 ) -> QuestionAnswer:
     tried = [report for report in reports if report.error_estimate is not None]
-    if not tried:
-        assert failure is not None  # a ladder has at least one rung, and that was asked
-        raise failure
+    if not isinstance(last, Found):
+        assert last is not None  # a ladder has at least one rung, and that was asked
+        raise last
     best = tried[-1]
     if best.verdict != "chosen":
         best = min(reversed(tried), key=_trusted_error)
     above = ladder.rungs[len(reports) :]
     upper = above[0] if best.verdict == "chosen" and above else None
-    next_cost = meter.predict(upper.expected(best.work)) if upper is not None else math.nan
+    next_cost = meter.predict(upper.expected(last.work)) if upper is not None else math.nan
     waiting = [RungReport(name=rung.name, verdict="not needed") for rung in above]
     return QuestionAnswer(
         quantity=quantity,

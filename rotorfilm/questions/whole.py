@@ -82,15 +82,15 @@ def whole_ladder(scene: Scene) -> WholeLadder:
     assert scene.question is not None  # or there is no ladder
     quantity, tolerance = scene.question.quantity, scene.question.tolerance
     answer = walk(quantity, ladder, tolerance)
-    every = {report.name: report for report in walk(quantity, ladder, NEVER_MET).rungs}
+    every = walk(quantity, ladder, NEVER_MET).rungs
     rows = [
         LadderRow(
             name=report.name,
-            error_estimate=(every[report.name] if report.error_estimate is None else report).error_estimate,
-            cost=(every[report.name] if report.cost is None else report).cost,
+            error_estimate=(tried if report.error_estimate is None else report).error_estimate,
+            cost=(tried if report.cost is None else report).cost,
             chosen=report.verdict == "chosen",
             reason=report.reason,
         )
-        for report in answer.rungs
+        for report, tried in zip(answer.rungs, every, strict=True)
     ]
     return WholeLadder(quantity=quantity, tolerance=tolerance, met=answer.met, rungs=tuple(rows))

@@ -8,51 +8,10 @@ from .profile import SpeedProfile
 from .rigid import RigidRotor
 from .rigid_shaft import RigidShaft
 from .shaft.beam import Beam, ClassicalBeam, FourthOrderBeam, cowper_coefficient
-from .shaft.parts import (
-    Coupling,
-    Disk,
-    ElasticMaterial,
-    LayeredElement,
-    Probe,
-    ShaftElement,
-    Station,
-    Support,
-    TiltSpring,
-    Unbalance,
-)
+from .shaft.elements import Coupling, ElasticMaterial, LayeredElement, ShaftElement
+from .shaft.parts import Disk, Probe, Station, Support, TiltSpring, Unbalance
 from .shaft.reduce_rotor import Reduction, reduce_rotor
 from .shaft.reduced_rotor import ReducedRotor
 from .shaft.shaft_rotor import ShaftRotor
 from .steady import SteadyRotor
 from .structure import FlexibleRotor
-
-__all__ = [
-    "Beam",
-    "ClassicalBeam",
-    "Coupling",
-    "Disk",
-    "ElasticMaterial",
-    "FlexibleRotor",
-    "ForceLaw",
-    "FourthOrderBeam",
-    "JeffcottRotor",
-    "LawRotor",
-    "LayeredElement",
-    "MountedRotor",
-    "Probe",
-    "ReducedRotor",
-    "Reduction",
-    "RigidRotor",
-    "RigidShaft",
-    "ShaftElement",
-    "ShaftRotor",
-    "SpeedProfile",
-    "Station",
-    "SteadyRotor",
-    "Support",
-    "TiltSpring",
-    "Unbalance",
-    "cowper_coefficient",
-    "mount",
-    "reduce_rotor",
-]

@@ -14,8 +14,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..model import FORCE_OUTPUTS, MOTION_NAMES, Array
-from .structure import station_name
+from ..model import Array
+from ..signals import FORCE_OUTPUTS, MOTION_NAMES
+from .stations import station_name
 
 _PAIRS = ("xx", "xy", "yx", "yy")
 

@@ -8,12 +8,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..model import Array, Dynamic, Kinked, Linearization, indices
+from ..model import Array, Dynamic, Linearization
 from ..native.spec import HasKernel, NativeSpec
-from ..signals import Signal, names
+from ..signals import Signal
 from .force_law import BASE_TIME, LAW_NAMES
 from .rigid import RigidRotor
-from .structure import station_name, station_names
+from .stations import AroundRotor, station_name
 
 _UNITS = {"slope": "N/s", "curvature": "N/s2", "stiffness": "N/m", "damping": "N.s/m"}
 _MEANINGS = {
@@ -25,7 +25,7 @@ _MEANINGS = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class LawRotor:
+class LawRotor(AroundRotor):
     """A rotor whose film forces follow `ForceLaw`: what a linearly implicit coupling asks of a rotor FMU.
 
     With all further inputs zero it is the rotor itself. A `RigidRotor` becomes a native FMU, any other rotor
@@ -48,7 +48,7 @@ class LawRotor:
     stations: tuple[str, ...] = ("",)
 
     def __post_init__(self) -> None:
-        _ = self._force, self._motion
+        _ = self.force_places, self.motion_places
 
     @cached_property
     def inputs(self) -> tuple[Signal, ...]:
@@ -56,26 +56,6 @@ class LawRotor:
         further = [s for number in range(len(self.stations)) for s in self._law_signals(number)]
         time = Signal(name=BASE_TIME, unit="s", nominal=1.0, description="time at which the force laws start")
         return (*self.rotor.inputs, *further, time)
-
-    @property
-    def outputs(self) -> tuple[Signal, ...]:
-        """The outputs of the rotor."""
-        return self.rotor.outputs
-
-    @property
-    def states(self) -> tuple[Signal, ...]:
-        """The states of the rotor."""
-        return self.rotor.states
-
-    @property
-    def initial_state(self) -> Array:
-        """The state of the rotor at t = 0."""
-        return self.rotor.initial_state
-
-    @property
-    def breakpoints(self) -> tuple[float, ...]:
-        """Times [s] at which the rotor has kinks."""
-        return self.rotor.breakpoints if isinstance(self.rotor, Kinked) else ()
 
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return dx/dt under the force laws."""
@@ -109,8 +89,10 @@ class LawRotor:
         elapsed = t - u[-1]
         for number in range(len(self.stations)):
             slope, curvature, K, C, base = self._law(number, u)
-            away = sensed[self._motion[number]] - base
-            own[self._force[number]] += elapsed * (slope + elapsed * curvature) - K @ away[:2] - C @ away[2:]
+            away = sensed[self.motion_places[number]] - base
+            own[self.force_places[number]] += (
+                elapsed * (slope + elapsed * curvature) - K @ away[:2] - C @ away[2:]
+            )
         return own
 
     def _law(self, number: int, u: Array) -> tuple[Array, Array, Array, Array, Array]:
@@ -122,11 +104,11 @@ class LawRotor:
         self, number: int, t: float, x: ArrayLike, u: Array, by_state: Array, by_input: Array
     ) -> None:
         """Add the derivatives of one station's force."""
-        count, rows = len(self.rotor.inputs), self._force[number]
+        count, rows = len(self.rotor.inputs), self.force_places[number]
         slope, curvature, K, C, base = self._law(number, u)
         elapsed, first = t - u[-1], count + number * len(LAW_NAMES)
         sensed, sense = self.rotor.output(t, x, u[:count]), self.rotor.linearization(t, x, u[:count]).C
-        motion = self._motion[number]
+        motion = self.motion_places[number]
         gain, away = np.hstack([K, C]), sensed[motion] - base
         by_state[rows] -= gain @ sense[motion]
         by_input[rows, -1] -= slope + 2.0 * elapsed * curvature
@@ -140,8 +122,8 @@ class LawRotor:
     def _law_signals(self, number: int) -> list[Signal]:
         """Return the signals of one station's law, with nominal values that follow from the rotor's."""
         station = self.stations[number]
-        force = self.rotor.inputs[self._force[number][0]].nominal
-        length, _, velocity, _ = (self.rotor.outputs[k].nominal for k in self._motion[number])
+        force = self.rotor.inputs[self.force_places[number][0]].nominal
+        length, _, velocity, _ = (self.rotor.outputs[k].nominal for k in self.motion_places[number])
         scale = {
             "slope": force * velocity / length,
             "curvature": force * (velocity / length) ** 2,
@@ -160,13 +142,3 @@ class LawRotor:
             own = station_name(station, name)
             signals.append(Signal(name=own, unit=unit, nominal=nominal, description=meaning))
         return signals
-
-    @cached_property
-    def _force(self) -> list[list[int]]:
-        available = names(self.rotor.inputs)
-        return [indices("rotor must have the inputs", available, station_names(s)[1]) for s in self.stations]
-
-    @cached_property
-    def _motion(self) -> list[list[int]]:
-        available = names(self.rotor.outputs)
-        return [indices("rotor must have the outputs", available, station_names(s)[0]) for s in self.stations]

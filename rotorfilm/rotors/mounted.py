@@ -12,15 +12,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
-from ..model import JOURNAL_INPUTS, Array, Dynamic, Kinked, Linearization, Reaction, indices
+from ..model import Array, Dynamic, Linearization, Reaction
 from ..native.spec import NativeSpec
-from ..signals import Signal, names
-from .structure import prefixed, station_names
+from ..signals import JOURNAL_INPUTS, Signal, indices, names
+from .stations import AroundRotor, prefixed
 from .system_kernel import system_kernel
 
 
 @dataclass(frozen=True, kw_only=True)
-class MountedRotor:
+class MountedRotor(AroundRotor):
     """A rotor whose stations of the given names rest in bearings; `mount` makes it.
 
     The forces of these bearings are no longer inputs, but outputs, of the same names. States and further
@@ -57,7 +57,7 @@ class MountedRotor:
                 raise InputError(
                     f"bearings must have the inputs {list(JOURNAL_INPUTS)}, got {names(bearing.inputs)}"
                 )
-        _ = self._motion, self._force
+        _ = self._motion, self.force_places
 
     @property
     def bare(self) -> Dynamic:
@@ -67,8 +67,12 @@ class MountedRotor:
     @property
     def all_bearings(self) -> dict[str, Reaction]:
         """All bearings by station, also where the rotor was mounted in several steps."""
-        own = dict(zip(self.stations, self.bearings, strict=True))
-        return {**own, **self.rotor.all_bearings} if isinstance(self.rotor, MountedRotor) else own
+        further = self.rotor.all_bearings if isinstance(self.rotor, MountedRotor) else {}
+        return {**self._own_bearings, **further}
+
+    @property
+    def _own_bearings(self) -> dict[str, Reaction]:
+        return dict(zip(self.stations, self.bearings, strict=True))
 
     @property
     def inputs(self) -> tuple[Signal, ...]:
@@ -78,22 +82,13 @@ class MountedRotor:
     @property
     def outputs(self) -> tuple[Signal, ...]:
         """The outputs of the rotor, force_x, force_y of each bearing, and the further outputs of bearings."""
-        taken = np.ravel(self._force).astype(int)
-        further = [
-            prefixed(name, signal)
-            for name, bearing in zip(self.stations, self.bearings, strict=True)
-            for signal in bearing.outputs[2:]
-        ]
-        return (*self.rotor.outputs, *(self.rotor.inputs[k] for k in taken), *further)
+        further = [prefixed(name, s) for name, b in self._own_bearings.items() for s in b.outputs[2:]]
+        return (*self.rotor.outputs, *(self.rotor.inputs[k] for k in self._taken), *further)
 
     @property
     def states(self) -> tuple[Signal, ...]:
         """The states of the rotor, and those of each bearing."""
-        of_bearings = [
-            prefixed(name, signal)
-            for name, bearing in zip(self.stations, self.bearings, strict=True)
-            for signal in bearing.states
-        ]
+        of_bearings = [prefixed(name, s) for name, b in self._own_bearings.items() for s in b.states]
         return (*self.rotor.states, *of_bearings)
 
     @property
@@ -102,38 +97,31 @@ class MountedRotor:
         of_bearings = [b.initial_state for b in self.bearings if isinstance(b, Dynamic)]
         return np.concatenate([self.rotor.initial_state, *of_bearings])
 
-    @property
-    def breakpoints(self) -> tuple[float, ...]:
-        """Times [s] at which the rotor has kinks."""
-        return self.rotor.breakpoints if isinstance(self.rotor, Kinked) else ()
-
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return dx/dt with the bearings' forces at this state; FilmContactError as the bearings raise it."""
-        own, inner, motion = self._split(t, x)
-        forces = [b.output(t, z, m)[:2] for b, z, m in zip(self.bearings, inner, motion, strict=True)]
+        own, felt = self._split(t, x)
+        forces = [b.output(t, z, m)[:2] for b, z, m in felt]
         rates = [
-            b.derivative(t, z, m)
-            for b, z, m in zip(self._moving, inner, motion, strict=True)
-            if b is not None
+            b.derivative(t, z, m) for b, (_, z, m) in zip(self._moving, felt, strict=True) if b is not None
         ]
         return np.concatenate([self.rotor.derivative(t, own, self._inputs(forces, u)), *rates])
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the outputs of the rotor, the bearings' forces, and their further outputs."""
-        own, inner, motion = self._split(t, x)
-        values = [b.output(t, z, m) for b, z, m in zip(self.bearings, inner, motion, strict=True)]
+        own, felt = self._split(t, x)
+        values = [b.output(t, z, m) for b, z, m in felt]
         forces = [value[:2] for value in values]
         whole = self.rotor.output(t, own, self._inputs(forces, u))
         return np.concatenate([whole, *forces, *(value[2:] for value in values)])
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives of rotor and bearings; the speed is held."""
-        own, inner, motion = self._split(t, x)
-        parts = [b.linearization(t, z, m) for b, z, m in zip(self.bearings, inner, motion, strict=True)]
-        values = [b.output(t, z, m)[:2] for b, z, m in zip(self.bearings, inner, motion, strict=True)]
+        own, felt = self._split(t, x)
+        parts = [b.linearization(t, z, m) for b, z, m in felt]
+        values = [b.output(t, z, m)[:2] for b, z, m in felt]
         rotor = self.rotor.linearization(t, own, self._inputs(values, u))
         slopes = _joined(parts, [rotor.C[rows] for rows in self._motion], rotor.C.shape[1])
-        taken, free = np.ravel(self._force).astype(int), list(self._free)
+        taken, free = self._taken, list(self._free)
         states = len(slopes.A) - len(rotor.A)
         push = np.hstack([rotor.A, np.zeros((len(rotor.A), states))]) + rotor.B[:, taken] @ slopes.forces
         seen = np.hstack([rotor.C, np.zeros((len(rotor.C), states))]) + rotor.D[:, taken] @ slopes.forces
@@ -150,24 +138,25 @@ class MountedRotor:
             return None
         return system_kernel(
             self.rotor,
-            dict(zip(self.stations, self.bearings, strict=True)),
-            carried=np.ravel(self._force).astype(int).tolist(),
+            self._own_bearings,
+            carried=self._taken,
             free=self._free,
-            motion=[row for rows in self._motion for row in rows[:4]],
+            motion=[row for rows in self.motion_places for row in rows],
         )
 
-    def _split(self, t: float, x: ArrayLike) -> tuple[Array, list[Array], list[Array]]:
-        """Return the state of the rotor, those of the bearings, and what the bearings feel."""
+    def _split(self, t: float, x: ArrayLike) -> tuple[Array, list[tuple[Reaction, Array, Array]]]:
+        """Return the state of the rotor; each bearing with its state and what it feels."""
         whole = np.asarray(x, dtype=float)
         own = whole[: self._ends[0]]
         sensed = self.rotor.output(t, own, np.zeros(self._size))
         inner = [whole[a:b] for a, b in pairwise(self._ends)]
-        return own, inner, [sensed[rows] for rows in self._motion]
+        motion = [sensed[rows] for rows in self._motion]
+        return own, list(zip(self.bearings, inner, motion, strict=True))
 
     def _inputs(self, forces: Sequence[Array], u: ArrayLike) -> Array:
         whole = np.empty(self._size)
         whole[list(self._free)] = np.asarray(u, dtype=float)
-        for rows, force in zip(self._force, forces, strict=True):
+        for rows, force in zip(self.force_places, forces, strict=True):
             whole[rows] = force
         return whole
 
@@ -190,23 +179,17 @@ class MountedRotor:
 
     @cached_property
     def _motion(self) -> list[list[int]]:
-        available = names(self.rotor.outputs)
-        return [
-            indices("rotor must have the outputs", available, [*station_names(name)[0], "speed"])
-            for name in self.stations
-        ]
+        speed = indices("rotor must have the outputs", names(self.rotor.outputs), ["speed"])
+        return [rows + speed for rows in self.motion_places]
 
     @cached_property
-    def _force(self) -> list[list[int]]:
-        available = names(self.rotor.inputs)
-        return [
-            indices("rotor must have the inputs", available, station_names(name)[1]) for name in self.stations
-        ]
+    def _taken(self) -> list[int]:
+        """Inputs of the rotor that are forces of the bearings."""
+        return [k for pair in self.force_places for k in pair]
 
     @cached_property
     def _free(self) -> tuple[int, ...]:
-        taken = {k for pair in self._force for k in pair}
-        return tuple(k for k in range(len(self.rotor.inputs)) if k not in taken)
+        return tuple(k for k in range(len(self.rotor.inputs)) if k not in self._taken)
 
 
 class _Slopes(NamedTuple):

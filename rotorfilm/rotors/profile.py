@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,6 +12,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..errors import InputError, require_finite, require_positive
+from ..model import Array
 
 PROBES = (0.25, 0.5, 0.75)
 """Where `SpeedProfile.from_function` compares the function with a chord, in fractions of the chord."""
@@ -140,6 +142,43 @@ class SpeedProfile:
         k = max(bisect_right(self.times, t) - 1, 0)
         elapsed = t - self.times[k]
         return self._angles[k] + elapsed * (self.speeds[k] + 0.5 * self.acceleration(t) * elapsed)
+
+
+class Turning:
+    """What turns with a speed that is a number or a profile.
+
+    Attributes
+    ----------
+    speed : float or SpeedProfile [rad/s]
+        Angular speed about +z.
+    """
+
+    speed: float | SpeedProfile
+
+    # Cached because they are the inner loop of every integrator; a frozen dataclass cannot go stale.
+    @cached_property
+    def profile(self) -> SpeedProfile:
+        """The speed as a profile, also where it was given as a number."""
+        return self.speed if isinstance(self.speed, SpeedProfile) else SpeedProfile.constant(self.speed)
+
+    @cached_property
+    def nominal_speed(self) -> float:
+        """Largest speed [rad/s], 1 at rest."""
+        return max(abs(speed) for speed in self.profile.speeds) or 1.0
+
+    @property
+    def breakpoints(self) -> tuple[float, ...]:
+        """Times [s] at which the angular acceleration jumps, where an integrator should stop."""
+        return self.profile.times if len(self.profile.times) > 1 else ()
+
+    def rotating(self, t: float, angle: float = 0.0) -> Array:
+        """Return (w^2 cos p + a sin p, w^2 sin p - a cos p) of p, the angle turned since t = 0 and `angle`.
+
+        With the angular speed w and acceleration a; times an unbalance [kg m] at `angle` it is its force [N].
+        """
+        p, w, a = self.profile.angle(t) + angle, self.profile.speed(t), self.profile.acceleration(t)
+        cos, sin = math.cos(p), math.sin(p)
+        return np.array([w * w * cos + a * sin, w * w * sin - a * cos])
 
 
 def _refined(

@@ -9,16 +9,13 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, require_finite, require_non_negative, require_number, require_positive
-from ..model import MOTION_NAMES, Array, Linearization, force_outputs, journal_inputs
+from ..errors import require_non_negative, require_number, require_positive
+from ..model import Array, Linearization
 from ..native.spec import NativeParameter, NativeSpec
-from ..signals import Signal
+from ..signals import MOTION_NAMES, Signal, force_outputs, journal_inputs
 from ..units import STANDARD_GRAVITY
-from .profile import SpeedProfile
-from .structure import Operators, unbalance_columns
-
-NOMINAL_LENGTH = 1e-4
-"""Typical journal displacement [m], a radial clearance; the rotor does not know its bearing's."""
+from .profile import SpeedProfile, Turning
+from .structure import NOMINAL_LENGTH, Operators, Structure, keep_pair, unbalance_columns
 
 NATIVE_PARAMETERS = {
     "mass": ("kg", "mass carried by this journal"),
@@ -34,7 +31,7 @@ NATIVE_PARAMETERS = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class RigidRotor:
+class RigidRotor(Turning):
     """One journal's share of a rigid rotor that moves without tilting: a Dynamic model.
 
     m a = film force + m gravity + static force + unbalance force. The mass center lies at
@@ -82,20 +79,12 @@ class RigidRotor:
         for name in ("unbalance_angle", *(() if isinstance(self.speed, SpeedProfile) else ("speed",))):
             require_number(name, getattr(self, name))
         for name in ("gravity", "static_force", "position", "velocity"):
-            pair = require_finite(name, getattr(self, name))
-            if pair.shape != (2,):
-                raise InputError(f"{name} must be a pair of numbers, got {getattr(self, name)!r}")
-            object.__setattr__(self, name, tuple(pair.tolist()))
+            keep_pair(self, name)
 
     @property
     def static_load(self) -> Array:
         """External static force on the journal, mass * gravity + static_force, shape (2,) [N]."""
         return self.mass * np.array(self.gravity) + np.array(self.static_force)
-
-    @property
-    def breakpoints(self) -> tuple[float, ...]:
-        """Times [s] at which the angular acceleration jumps, where an integrator should stop."""
-        return self.profile.times if len(self.profile.times) > 1 else ()
 
     @property
     def inputs(self) -> tuple[Signal, ...]:
@@ -105,7 +94,7 @@ class RigidRotor:
     @property
     def outputs(self) -> tuple[Signal, ...]:
         """Signals x, y, vx, vy, speed: what a film needs."""
-        return journal_inputs(NOMINAL_LENGTH, self._nominal_speed)
+        return journal_inputs(NOMINAL_LENGTH, self.nominal_speed)
 
     @property
     def states(self) -> tuple[Signal, ...]:
@@ -119,10 +108,7 @@ class RigidRotor:
 
     def unbalance_force(self, t: float) -> Array:
         """Return the force of the unbalance on the journal at the time t [s], shape (2,) [N]."""
-        p = self.profile.angle(t) + self.unbalance_angle
-        w, alpha = self.profile.speed(t), self.profile.acceleration(t)
-        cos, sin = math.cos(p), math.sin(p)
-        return self.unbalance * np.array([w * w * cos + alpha * sin, w * w * sin - alpha * cos])
+        return self.unbalance * self.rotating(t, self.unbalance_angle)
 
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return d(x, y, vx, vy)/dt, shape (4,), at the time t [s] for u = (force_x, force_y) [N]."""
@@ -155,15 +141,9 @@ class RigidRotor:
             values["constant_speed"] = self.profile.speeds[0]
         return NativeSpec(
             kernel="rigid_rotor",
-            parameters=tuple(_native_parameter(name, float(value)) for name, value in values.items()),
+            parameters=tuple(native_parameter(name, float(value)) for name, value in values.items()),
             tables={"times": np.array(self.profile.times), "speeds": np.array(self.profile.speeds)},
         )
-
-    # Cached because they are the inner loop of every integrator; a frozen dataclass cannot go stale.
-    @cached_property
-    def profile(self) -> SpeedProfile:
-        """The speed as a profile, also where it was given as a number."""
-        return self.speed if isinstance(self.speed, SpeedProfile) else SpeedProfile.constant(self.speed)
 
     @cached_property
     def operators(self) -> Operators:
@@ -179,15 +159,30 @@ class RigidRotor:
         )
 
     @cached_property
+    def structure(self) -> Structure:
+        """The matrices of the rotor: a mass that nothing holds but its bearing."""
+        none = np.zeros((2, 2))
+        return Structure(
+            mass=self.mass * np.eye(2),
+            damping=none,
+            gyroscopic=none,
+            stiffness=none,
+            circulation=none,
+            stations=("",),
+            journals=np.eye(2),
+            weight=self._static_load,
+            unbalance=unbalance_columns(self.unbalance, self.unbalance_angle),
+            coordinates=(),
+            readouts=(),
+        )
+
+    @cached_property
     def _static_load(self) -> Array:
         return self.static_load
 
-    @cached_property
-    def _nominal_speed(self) -> float:
-        return max(abs(speed) for speed in self.profile.speeds) or 1.0
 
-
-def _native_parameter(name: str, value: float) -> NativeParameter:
+def native_parameter(name: str, value: float) -> NativeParameter:
+    """Return what a simulator may set in the compiled rotor, of `NATIVE_PARAMETERS`."""
     unit, description = NATIVE_PARAMETERS[name]
     return NativeParameter(
         name=name,

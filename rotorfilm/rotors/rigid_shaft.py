@@ -10,6 +10,7 @@ from ..errors import InputError, require_finite, require_non_negative, require_p
 from ..model import Array
 from ..units import STANDARD_GRAVITY
 from .profile import SpeedProfile
+from .stations import checked_stations
 from .structure import (
     NOMINAL_LENGTH,
     Coordinate,
@@ -18,7 +19,6 @@ from .structure import (
     across_planes,
     both_planes,
     check_motion,
-    checked_stations,
     displacements,
     unbalance_columns,
 )

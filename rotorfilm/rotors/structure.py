@@ -13,7 +13,6 @@ itself transmits it; an angular acceleration then has no moment of its own besid
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from functools import cached_property
 from typing import NamedTuple
 
@@ -22,10 +21,11 @@ from numpy.typing import ArrayLike
 from scipy.linalg import cho_factor, cho_solve
 
 from ..errors import InputError, require_finite, require_number
-from ..model import FORCE_OUTPUTS, MOTION_NAMES, Array, Linearization, force_outputs, journal_inputs
-from ..signals import Signal
+from ..model import Array, Linearization
+from ..signals import Signal, force_outputs, journal_inputs
 from ..units import STANDARD_GRAVITY
-from .profile import SpeedProfile
+from .profile import SpeedProfile, Turning
+from .stations import prefixed
 
 NOMINAL_LENGTH = 1e-4
 """Typical journal displacement [m], a radial clearance; the rotor does not know its bearing's."""
@@ -100,21 +100,18 @@ class Operators(NamedTuple):
     sense: Array
 
 
-class FlexibleRotor:
+class FlexibleRotor(Turning):
     """Base of the rotors that are a `Structure`: a Dynamic model with signals for each bearing station.
 
     A subclass is a frozen dataclass with the fields `speed`, `gravity` and `initial` and gives `assembled`.
 
     Attributes
     ----------
-    speed : float or SpeedProfile [rad/s]
-        Angular speed about +z.
     gravity : tuple of two floats [m/s2]
     initial : tuple of float
         State at t = 0; empty for a straight shaft at rest.
     """
 
-    speed: float | SpeedProfile
     gravity: tuple[float, float]
     initial: tuple[float, ...]
 
@@ -128,16 +125,6 @@ class FlexibleRotor:
         return self.assembled()
 
     @cached_property
-    def profile(self) -> SpeedProfile:
-        """The speed as a profile, also where it was given as a number."""
-        return self.speed if isinstance(self.speed, SpeedProfile) else SpeedProfile.constant(self.speed)
-
-    @property
-    def breakpoints(self) -> tuple[float, ...]:
-        """Times [s] at which the angular acceleration jumps, where an integrator should stop."""
-        return self.profile.times if len(self.profile.times) > 1 else ()
-
-    @cached_property
     def inputs(self) -> tuple[Signal, ...]:
         """Signals force_x, force_y of each station: on the journal, and the opposite on its housing."""
         weight = float(np.abs(self.structure.weight).sum()) or STANDARD_GRAVITY
@@ -148,7 +135,7 @@ class FlexibleRotor:
     @cached_property
     def outputs(self) -> tuple[Signal, ...]:
         """Signals x, y, vx, vy of each station, journal less housing; further readouts; speed."""
-        *motion, speed = journal_inputs(NOMINAL_LENGTH, self._nominal_speed)
+        *motion, speed = journal_inputs(NOMINAL_LENGTH, self.nominal_speed)
         journals = [prefixed(name, signal) for name in self.structure.stations for signal in motion]
         return (*journals, *(readout.signal for readout in self.structure.readouts), speed)
 
@@ -165,7 +152,7 @@ class FlexibleRotor:
             Signal(
                 name="v" + c.name.format(axis),
                 unit=rates[c.unit],
-                nominal=c.nominal * self._nominal_speed,
+                nominal=c.nominal * self.nominal_speed,
                 description="rate of the displacement",
             )
             for axis, c in planes
@@ -181,7 +168,7 @@ class FlexibleRotor:
         """Return dx/dt at the time t [s] for the forces u [N] at the stations."""
         state, force, model = np.asarray(x, dtype=float), np.asarray(u, dtype=float), self.operators
         rate = model.steady @ state + self.profile.speed(t) * (model.spin @ state) + model.push @ force
-        total: Array = rate + model.weight + model.unbalance @ self._rotating(t)
+        total: Array = rate + model.weight + model.unbalance @ self.rotating(t)
         return total
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
@@ -195,13 +182,6 @@ class FlexibleRotor:
         A = model.steady + self.profile.speed(t) * model.spin
         return Linearization(A, model.push.copy(), sense, np.zeros((len(sense), model.push.shape[1])))
 
-    def _rotating(self, t: float) -> Array:
-        """Return (w^2 cos p + a sin p, w^2 sin p - a cos p) of the angle p turned since t = 0."""
-        p, w, a = self.profile.angle(t), self.profile.speed(t), self.profile.acceleration(t)
-        cos, sin = math.cos(p), math.sin(p)
-        return np.array([w * w * cos + a * sin, w * w * sin - a * cos])
-
-    # Cached because they are the inner loop of every integrator; a frozen dataclass cannot go stale.
     @cached_property
     def operators(self) -> Operators:
         """The equations solved for the rates; InputError if the rotor has a loss factor."""
@@ -212,10 +192,6 @@ class FlexibleRotor:
                 "the loss factor / the frequency of the bending in the rotating shaft"
             )
         return solved_equations(s)
-
-    @cached_property
-    def _nominal_speed(self) -> float:
-        return max(abs(speed) for speed in self.profile.speeds) or 1.0
 
 
 def solved_equations(s: Structure) -> Operators:
@@ -248,41 +224,9 @@ def output_rows(structure: Structure) -> Array:
     return np.concatenate(rows) if rows else np.zeros((0, 2 * n))
 
 
-def prefixed(station: str, signal: Signal) -> Signal:
-    """Return a signal of a station: its name begins with that of the station, if it has one."""
-    place = f" of {station}" if station else ""
-    return Signal(
-        name=station_name(station, signal.name),
-        unit=signal.unit,
-        nominal=signal.nominal,
-        description=signal.description + place,
-    )
-
-
-def station_name(station: str, name: str) -> str:
-    """Return the name of a signal of a station: `left_x`, or `x` where the station has no name."""
-    return f"{station}_{name}" if station else name
-
-
-def station_names(station: str) -> tuple[list[str], list[str]]:
-    """Return the names of the motion signals and of the force signals of a station."""
-    motion = [station_name(station, name) for name in MOTION_NAMES]
-    return motion, [station_name(station, name) for name in FORCE_OUTPUTS]
-
-
-def checked_stations(names: Sequence[str]) -> tuple[str, ...]:
-    """Return the names of stations; raise InputError where two are equal."""
-    if len(set(names)) < len(names):
-        raise InputError(f"stations must have different names, got {list(names)}")
-    return tuple(names)
-
-
 def check_motion(rotor: FlexibleRotor) -> None:
     """Check speed, gravity and initial state of a rotor; raise InputError where they break a rule."""
-    gravity = require_finite("gravity", rotor.gravity)
-    if gravity.shape != (2,):
-        raise InputError(f"gravity must be a pair of numbers, got {rotor.gravity!r}")
-    object.__setattr__(rotor, "gravity", tuple(gravity.tolist()))
+    keep_pair(rotor, "gravity")
     if not isinstance(rotor.speed, SpeedProfile):
         require_number("speed", rotor.speed)
     size = 2 * len(rotor.structure.weight)
@@ -290,6 +234,15 @@ def check_motion(rotor: FlexibleRotor) -> None:
     if len(rotor.initial) and state.shape != (size,):
         raise InputError(f"initial must be empty or {size} numbers, got shape {state.shape}")
     object.__setattr__(rotor, "initial", tuple(state.tolist()))
+
+
+def keep_pair(rotor: object, name: str) -> None:
+    """Keep a field of two numbers as a tuple of floats; raise InputError where it is none."""
+    value = getattr(rotor, name)
+    pair = require_finite(name, value)
+    if pair.shape != (2,):
+        raise InputError(f"{name} must be a pair of numbers, got {value!r}")
+    object.__setattr__(rotor, name, tuple(pair.tolist()))
 
 
 def both_planes(matrix: Array) -> Array:

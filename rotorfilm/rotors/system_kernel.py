@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from ..model import Array, Dynamic, Reaction
-from ..native.spec import HasKernel, NativeParameter, NativeSpec
+from ..native.spec import HasKernel, NativeSpec
 from .profile import SpeedProfile
-from .rigid import RigidRotor
-from .structure import FlexibleRotor, Operators, station_name
+from .rigid import RigidRotor, native_parameter
+from .stations import prefixed
+from .structure import FlexibleRotor, Operators
 
 KINDS = ("journal", "grooved_journal", "short_journal")
 """Kernels that may be a bearing of a system, in the order of `native/kernels/kernel_rotor_system.c`."""
@@ -44,11 +44,13 @@ def system_kernel(
     if matrices is None or not specs or len(specs) < len(parts):
         return None
     operators, profile = matrices
+    speed = () if len(profile.times) > 1 else (native_parameter("constant_speed", profile.speeds[0]),)
+    own = [prefixed(name, p) for name, spec in zip(bearings, specs, strict=True) for p in spec.parameters]
     places, sets = _distinct(specs)
     kinds = [KINDS.index(spec.kernel) for spec in specs]
     return NativeSpec(
         kernel="rotor_system",
-        parameters=(*_parameters(bearings, specs), *_speed(profile)),
+        parameters=(*own, *speed),
         tables={
             **_matrices(operators, list(carried), list(free), list(motion)),
             "times": np.array(profile.times),
@@ -60,9 +62,8 @@ def system_kernel(
 
 
 def _operators(rotor: Dynamic) -> tuple[Operators, SpeedProfile] | None:
-    if isinstance(rotor, FlexibleRotor) and rotor.structure.hysteresis is None:
-        return rotor.operators, rotor.profile
-    if type(rotor) is RigidRotor:
+    elastic = isinstance(rotor, FlexibleRotor) and rotor.structure.hysteresis is None
+    if isinstance(rotor, FlexibleRotor | RigidRotor) and (elastic or type(rotor) is RigidRotor):
         return rotor.operators, rotor.profile
     return None
 
@@ -97,32 +98,4 @@ def _distinct(specs: Sequence[NativeSpec]) -> tuple[list[int], list[NativeSpec]]
 def _equal(one: NativeSpec, other: NativeSpec) -> bool:
     return one.tables.keys() == other.tables.keys() and all(
         np.array_equal(table, other.tables[name]) for name, table in one.tables.items()
-    )
-
-
-def _parameters(bearings: Mapping[str, Reaction], specs: Sequence[NativeSpec]) -> tuple[NativeParameter, ...]:
-    return tuple(
-        replace(
-            p,
-            name=station_name(station, p.name),
-            description=f"{p.description} of {station}" if station else p.description,
-        )
-        for station, spec in zip(bearings, specs, strict=True)
-        for p in spec.parameters
-    )
-
-
-def _speed(profile: SpeedProfile) -> tuple[NativeParameter, ...]:
-    if len(profile.times) > 1:
-        return ()
-    return (
-        NativeParameter(
-            name="constant_speed",
-            unit="rad/s",
-            value=profile.speeds[0],
-            # A jump of the speed would turn the unbalance by an angle that depends on the time.
-            tunable=False,
-            nominal=abs(profile.speeds[0]) or 1.0,
-            description="angular speed about +z, at all times",
-        ),
     )

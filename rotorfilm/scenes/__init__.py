@@ -5,15 +5,3 @@ from .scene import Scene, bundled_scene, parse_scene, read_scene
 from .shaft.export_rotor import export_rotor_fmu
 from .shaft.ross import RossRotor, read_ross
 from .shaft.ross_bearing import to_ross
-
-__all__ = [
-    "Answer",
-    "RossRotor",
-    "Scene",
-    "bundled_scene",
-    "export_rotor_fmu",
-    "parse_scene",
-    "read_ross",
-    "read_scene",
-    "to_ross",
-]

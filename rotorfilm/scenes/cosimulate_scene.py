@@ -27,6 +27,7 @@ from ..progress import Report, part_of, silent
 from ..results import Trajectory, orbit_distance
 from .export_scene import export_scene, resting_rotor
 from .monolithic import monolithic_solution
+from .reading.shared_fields import made_from
 from .scene import Scene
 from .schema import require_steps
 
@@ -164,39 +165,37 @@ def _coupled(scene: Scene, scheme: Scheme | Auto, report: Report) -> CoSimulatio
 
 
 def _answer(scene: Scene, result: CoSimulation) -> CosimAnswer:
-    rotor, own, clearance = resting_rotor(scene), result.trajectory, scene.bearing.clearance
-    limit = None
-    if not isinstance(result.scheme, Adaptive):
-        found = critical_macro_step(
-            rotor, scene.bearing, state=rotor.initial_state, scheme=result.scheme
-        ).macro_step
-        limit = None if found is None else found * abs(scene.speed)
+    own, clearance, scheme = result.trajectory, scene.bearing.clearance, result.scheme
     times = np.minimum(own.time, scene.duration)
     try:
         whole = monolithic_solution(scene, times)
     except ContactError as wall:
         raise ContactError(f"the monolithic solution: {wall}", result) from wall
-    choice = result.choice
+    tried = () if result.choice is None else result.choice.trials
     return CosimAnswer(
-        scheme=result.scheme.label,
-        order=result.scheme.order,
+        scheme=scheme.label,
+        order=scheme.order,
         macro_angle=scene.cosimulation.macro_angle,
-        critical_macro_angle=limit,
+        critical_macro_angle=None if isinstance(scheme, Adaptive) else critical_macro_angle(scene, scheme),
         orbit_error=orbit_distance(own, whole) / clearance,
         eccentricity_ratio=float(np.hypot(*own.position).max()) / clearance,
         hold_defect=result.coupling.hold_defect,
         watch=result.watch,
         work=own.work,
-        trials=()
-        if choice is None
-        else tuple(
-            TrialRow(
-                scheme=trial.scheme.label,
-                orbit_error=trial.orbit_error,
-                spectral_radius=trial.spectral_radius,
-                film_calls=trial.film_calls,
-                reason=trial.reason,
-            )
-            for trial in choice.trials
-        ),
+        trials=tuple(made_from(TrialRow, trial, scheme=trial.scheme.label) for trial in tried),
     )
+
+
+def critical_macro_angle(scene: Scene, scheme: Scheme | None = None) -> float | None:
+    """Return where a scheme becomes unstable at the static equilibrium [rad]; None where it does not.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a rotor.
+    scheme : Scheme, optional
+        As in `critical_macro_step`.
+    """
+    rotor = resting_rotor(scene)
+    limit = critical_macro_step(rotor, scene.bearing, state=rotor.initial_state, scheme=scheme).macro_step
+    return None if limit is None else limit * abs(scene.speed)

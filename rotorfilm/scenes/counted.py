@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..bearings.reaction import StaticReaction
-from ..model import Array, Reaction, Tangent, prepared_tangent
+from ..model import Array, Reaction, Tangent, largest_eccentricity_ratio, prepared_tangent
 
 
 class Counted(StaticReaction):
@@ -33,7 +33,7 @@ class Counted(StaticReaction):
     @property
     def largest_eccentricity_ratio(self) -> float:
         """Eccentricity ratio to which the reaction is meant."""
-        return getattr(self._reaction, "largest_eccentricity_ratio", 1.0)
+        return largest_eccentricity_ratio(self._reaction)
 
     @property
     def nominal_force(self) -> float:
@@ -52,13 +52,7 @@ class Counted(StaticReaction):
         self.tangents += int(np.prod(result.shape[2:], dtype=int))
         return result
 
-    def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
-        """Return `force` for inner loops."""
-        return self.force(position, velocity, speed)
-
-    def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
-        """Return `jacobian` for inner loops."""
-        return self.jacobian(position, velocity, speed)
+    prepared_force, prepared_jacobian = force, jacobian
 
     def prepare_tangent(self) -> Tangent:
         """Return force and derivatives as a function of five numbers."""

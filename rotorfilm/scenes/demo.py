@@ -18,15 +18,15 @@ from ..comparisons import (
     journal_rungs,
     journal_stability,
 )
-from ..cosim import critical_macro_step
 from ..errors import InputError
 from ..files import write_whole
 from ..linear import speed_parameter
 from ..model import Array
 from ..progress import Report, part_of, silent
 from ..results import Trajectory, to_plain, write_csv
+from .cosimulate_scene import critical_macro_angle
 from .coupling_study import CoupledRun, CouplingStudy, study_coupling
-from .export_scene import ExportedScene, export_scene, resting_rotor
+from .export_scene import ExportedScene, export_scene
 from .journal.locus import attitude_angles
 from .journal.solve_journal import Answer
 from .scene import Scene
@@ -161,7 +161,7 @@ def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
     )
     report(0.3, "FMUs")
     fmus = export_scene(scene, folder)
-    limit = _critical_macro_angle(scene)
+    limit = critical_macro_angle(scene)
     coupling = study_coupling(scene, fmus, _macro_angles(scene, limit), part_of(report, 0.3, 0.95))
     result = DemoResult(
         scene=scene,
@@ -215,12 +215,6 @@ def _without_trajectory(run: CoupledRun) -> dict[str, Any]:
 
 def _write_csv(path: Path, trajectory: Trajectory) -> None:
     write_csv(path, {"time": trajectory.time, **trajectory.signals})
-
-
-def _critical_macro_angle(scene: Scene) -> float | None:
-    rotor = resting_rotor(scene)
-    limit = critical_macro_step(rotor, scene.bearing, state=rotor.initial_state).macro_step
-    return None if limit is None else limit * abs(scene.speed)
 
 
 def _macro_angles(scene: Scene, limit: float | None) -> list[float]:

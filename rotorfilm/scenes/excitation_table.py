@@ -9,8 +9,8 @@ from typing import Annotated
 from ..errors import InputError, require_count, require_non_negative, require_number, require_positive
 from ..limits import SHAFT_ELEMENTS
 from ..rotors.profile import SpeedProfile
-from .readers import Count, read_load
-from .tables import Quantity, flag
+from .reading.readers import Count, read_load
+from .reading.tables import Quantity, flag
 
 
 @dataclass(frozen=True, kw_only=True)

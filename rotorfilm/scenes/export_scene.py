@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from ..files import written_together
 from ..fmu import export_fmu
 from ..linear import equilibrium
-from ..model import Model
 from ..rotors.law_rotor import LawRotor
 from ..rotors.rigid import RigidRotor
-from .damper.damper_runs import export_damper
-from .scene import Scene
+from .families import SceneModels, models_of
+
+if TYPE_CHECKING:
+    from .scene import Scene
 
 
 class ExportedScene(NamedTuple):
@@ -28,6 +30,33 @@ class ExportedScene(NamedTuple):
     rotor: Path
 
 
+def write_models(
+    models: SceneModels,
+    folder: Path,
+    version: str = "2.0",
+    backend: str | None = None,
+    *,
+    platforms: str = "host",
+) -> ExportedScene:
+    """Write the FMUs of a bearing and its rotor; see `export_fmu`."""
+    starts: dict[str, Mapping[str, float]] = {models.name: models.start, "rotor": {}}
+    parts = {models.name: models.bearing, "rotor": models.rotor}
+    with written_together(folder) as part:
+        for name, model in parts.items():
+            export_fmu(
+                model,
+                part / f"{name}.fmu",
+                version,
+                backend,
+                platforms=platforms,
+                component=name,
+                start=starts[name],
+                step_size=models.step,
+                stop_time=models.duration,
+            )
+    return ExportedScene(film=folder / f"{models.name}.fmu", rotor=folder / "rotor.fmu")
+
+
 def resting_rotor(scene: Scene) -> RigidRotor:
     """Return the rotor of a scene at rest in its static equilibrium.
 
@@ -40,6 +69,14 @@ def resting_rotor(scene: Scene) -> RigidRotor:
     """
     at = equilibrium(scene.bearing, scene.static_load, scene.speed)
     return dataclasses.replace(scene.rotor, position=(float(at.position[0]), float(at.position[1])))
+
+
+def film_models(scene: Scene) -> SceneModels:
+    """Return the journal bearing of a scene and its rotor, both at the static equilibrium."""
+    rotor = resting_rotor(scene)
+    start = {"x": rotor.position[0], "y": rotor.position[1], "speed": scene.speed}
+    law = LawRotor(rotor=rotor)
+    return SceneModels("film", scene.bearing, law, start, scene.macro_step, scene.duration)
 
 
 def export_scene(
@@ -66,32 +103,10 @@ def export_scene(
     Raises
     ------
     InputError
-        If the scene has no rotor.
+        If the scene has no rotor, or no bearing that a rotor runs in.
     EquilibriumError
         If the film cannot carry the load.
     FmuError
         If a model cannot be exported.
     """
-    if scene.damper is not None:
-        turning, damper = export_damper(scene, folder, version, backend=backend, platforms=platforms)
-        return ExportedScene(film=damper, rotor=turning)
-    rotor = resting_rotor(scene)
-    start = {"x": rotor.position[0], "y": rotor.position[1], "speed": scene.speed}
-
-    def write(model: Model, name: str, values: dict[str, float]) -> None:
-        export_fmu(
-            model,
-            part / f"{name}.fmu",
-            version,
-            backend,
-            platforms=platforms,
-            component=name,
-            start=values,
-            step_size=scene.macro_step,
-            stop_time=scene.duration,
-        )
-
-    with written_together(folder) as part:
-        write(scene.bearing, "film", start)
-        write(LawRotor(rotor=rotor), "rotor", {})
-    return ExportedScene(film=folder / "film.fmu", rotor=folder / "rotor.fmu")
+    return write_models(models_of(scene), folder, version, backend, platforms=platforms)

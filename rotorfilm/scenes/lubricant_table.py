@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields
 from typing import Annotated
 
 from ..errors import require_positive
-from .tables import Quantity
+from .reading.tables import Quantity
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,7 +7,8 @@ from typing import Annotated, Any
 
 from ..errors import SceneError, require_positive
 from ..printable import brief
-from .tables import Quantity, nearest, text
+from .reading.spelling import nearest
+from .reading.tables import Quantity, text
 
 QUANTITIES = {
     "eccentricity_ratio": "static eccentricity / clearance",

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from importlib import import_module, resources
 from os import PathLike
-from pathlib import Path
 from typing import Annotated, Any
 
 from ..answers import QuestionAnswer
 from ..bearings.journal import JournalBearing
-from ..errors import InputError, SceneError, warn_user
-from ..limits import LINE_DOTS, SCENE_BYTES
-from ..printable import brief, shortened
+from ..errors import InputError, warn_user
 from ..rotors.rigid import RigidRotor
 from ..units import STANDARD_GRAVITY
 from .bush.bush_table import BushTable
@@ -23,27 +19,18 @@ from .bush.solve_bush import BushAnswer, solve_bush
 from .contact.contact_table import ContactTable
 from .damper.damper_table import DamperTable
 from .excitation_table import EXCITATIONS, ExcitationTable, UnbalanceTable
+from .families import FAMILIES, family_of, table_of
 from .journal.journal_remarks import film_remarks
 from .journal.solve_journal import Answer, solve
 from .lubricant_table import LubricantTable
 from .question_table import QuestionTable
-from .schema import SCHEMA, CosimulationTable, JournalTable, OperationTable, RigidRotorTable
+from .reading.tables import Beside, Table, Variant, read_table, text
+from .scene_file import parsed, read_tables, require_schema
+from .schema import CosimulationTable, JournalTable, OperationTable, RigidRotorTable
 from .shaft.shaft_table import ShaftTable, require_node, require_place
-from .tables import Table, Variant, read_table, require_no_near_miss, text
-
-BYTE_ORDER_MARK = "\ufeff"
-"""What some editors put before the text of a file."""
 
 BUNDLED = "friswell_5_9_6.toml"
 """The scene file that ships with the package."""
-
-
-NOT_A_BEARING = ("title", "operation", "lubricant", "rigid_rotor", "excitation", "cosimulation", "question")
-"""Fields of a scene that do not make one by themselves; every other field is a bearing or has some."""
-
-
-COMMANDS = {"shaft": "rotorfilm rotor", "damper": "rotorfilm damper-run", "contact": "rotorfilm contact"}
-"""Where to turn with a scene that has no journal and asks no question."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,6 +53,8 @@ class Scene:
         A polymer bush that wears by melting.
     damper : DamperTable or None
         A squeeze-film damper.
+    others : mapping of str to object
+        Tables of further families, by their names in the file, where each stands beside the ones above.
     operation : OperationTable or None
         Speed and load.
     lubricant : LubricantTable
@@ -88,14 +77,16 @@ class Scene:
 
     title: Annotated[str, text] = "untitled scene"
 
-    # Bearings, and rotors with their own bearings. A family registers its table by one line here, as
-    #     bush: Annotated[BushTable | None, Table(BushTable)] = None
-    # and nowhere else. It checks what it needs of the other tables where it is solved.
+    # Bearings, and rotors with their own bearings. A further family has its line in `FAMILIES`, and its table
+    # in `others`. It checks what it needs of the other tables where it is solved.
     journal: Annotated[JournalTable | None, Table(JournalTable)] = None
     bush: Annotated[BushTable | None, Table(BushTable)] = None
     contact: Annotated[ContactTable | None, Table(ContactTable)] = None
     shaft: Annotated[ShaftTable | None, Table(ShaftTable)] = None
     damper: Annotated[DamperTable | None, Table(DamperTable)] = None
+    others: Annotated[Mapping[str, Any], Beside(tuple(FAMILIES), table_of)] = field(
+        default_factory=dict, hash=False
+    )
 
     # What all families share.
     operation: Annotated[OperationTable | None, Table(OperationTable)] = None
@@ -108,9 +99,8 @@ class Scene:
     question: Annotated[QuestionTable | None, Table(QuestionTable)] = None
 
     def __post_init__(self) -> None:
-        families = [each.name for each in fields(self) if each.name not in NOT_A_BEARING]
-        if all(getattr(self, name) is None for name in families):
-            raise InputError(f"{' or '.join(families)} is required and missing")
+        if all(self.table(name) is None for name in FAMILIES):
+            raise InputError(f"{' or '.join(FAMILIES)} is required and missing")
         if self.question is not None and self.question.at:
             require_place(self.question.at, self.question.quantity, self.shaft)
         if isinstance(self.excitation, UnbalanceTable):
@@ -188,6 +178,10 @@ class Scene:
             raise InputError("bush is required for a critical speed of melting, got no such table")
         return solve_bush(self.bush.build(), math.hypot(*self.static_load), self.speed, 0.0)
 
+    def table(self, name: str) -> Any:
+        """Return the table of a family by its name in the file; None if the scene has none."""
+        return self.others.get(name) or getattr(self, name, None)
+
     @property
     def film_remarks(self) -> tuple[str, ...]:
         """What the physics of the journal's film leaves out and should not, one line each."""
@@ -216,10 +210,9 @@ class Scene:
     def bearing(self) -> JournalBearing:
         """The journal bearing with its film law; raises InputError if the scene has none."""
         if self.journal is None:
-            hints = (
-                f"; `{command}` is for [{name}]" for name, command in COMMANDS.items() if getattr(self, name)
-            )
-            raise InputError(f"journal is required for a film, got no such table{''.join(hints)}")
+            given = {name: family_of(name).command for name in FAMILIES if self.table(name) is not None}
+            hints = "".join(f"; `{command}` is for [{name}]" for name, command in given.items() if command)
+            raise InputError(f"journal is required for a film, got no such table{hints}")
         return self.journal.build()
 
     @property
@@ -256,41 +249,13 @@ class Scene:
 
 def parse_scene(document: str, source: str) -> Scene:
     """Return the scene that a TOML text describes; `source` names it in messages."""
-    return read_scene(_parsed(document, source), source)
-
-
-def read_tables(path: str | PathLike[str]) -> dict[str, Any]:
-    """Return the tables of a scene file as they are; raise SceneError if it cannot be read or is no TOML."""
-    try:
-        with Path(path).open("rb") as file:
-            content = file.read(SCENE_BYTES + 1)
-        document = content.decode("utf-8")
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
-        raise SceneError(f"{path}: scene file cannot be read: {reason}") from None
-    if len(content) > SCENE_BYTES:
-        raise SceneError(f"{path}: scene file must be at most {SCENE_BYTES} bytes long, got more")
-    return _parsed(document, str(path))
-
-
-def _parsed(document: str, source: str) -> dict[str, Any]:
-    if any(line.count(".") > LINE_DOTS for line in document.splitlines()):
-        raise SceneError(f"{source}: lines must not have more than {LINE_DOTS} dots")
-    try:
-        return tomllib.loads(document.removeprefix(BYTE_ORDER_MARK))
-    except tomllib.TOMLDecodeError as error:
-        where = str(error).replace("end of document", f"line {len(document.splitlines())}, the last")
-        raise SceneError(f"{source}: not valid TOML: {shortened(where)}") from None
-    except RecursionError:
-        raise SceneError(f"{source}: tables and lists must not be nested that deep") from None
-    except ValueError:  # Python reads no integer of more than 4300 digits
-        raise SceneError(f"{source}: integers must not have thousands of digits") from None
+    return read_scene(parsed(document, source), source)
 
 
 def read_scene(data: Mapping[str, Any], source: str) -> Scene:
     """Return the scene that the tables of a file describe; `source` names it in messages."""
     tables = dict(data)
-    _require_schema(source, tables)
+    require_schema(source, tables)
     return read_table(Scene, f"{source}: ", tables)
 
 
@@ -298,12 +263,3 @@ def bundled_scene() -> Scene:
     """Return the scene that ships with the package: Friswell et al. (2010), example 5.9.6."""
     document = resources.files(__package__).joinpath("data", BUNDLED).read_text(encoding="utf-8")
     return parse_scene(document, BUNDLED)
-
-
-def _require_schema(source: str, data: dict[str, Any]) -> None:
-    """Take the version out of the data; raise SceneError if it is not the one that is read here."""
-    value = data.pop("schema", None)
-    if type(value) is not int or value != SCHEMA:
-        require_no_near_miss(f"{source}: ", "schema", data)
-        found = "nothing" if value is None else brief(value)
-        raise SceneError(f"{source}: schema must be {SCHEMA} (write `schema = {SCHEMA}`), got {found}")

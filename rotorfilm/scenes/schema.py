@@ -1,7 +1,7 @@
 """Schema 1 of scene files: the tables, their keys and their units.
 
 Each table checks its values by building what it describes. A later family has its table in a file of its own,
-registers it by one line in `rotorfilm.scenes.scene.Scene`, and renames nothing.
+is listed by one line in `rotorfilm.scenes.families`, and renames nothing.
 """
 
 from __future__ import annotations
@@ -10,15 +10,16 @@ import math
 from dataclasses import dataclass
 from typing import Annotated
 
-from ..bearings.films.geometry import FilmGeometry
+from ..bearings.films.geometry import FilmGeometry, Groove, Pad
 from ..bearings.films.law import FilmLaw
 from ..bearings.journal import GroovedMapFilm, JournalBearing, MapFilm, ReynoldsFilm, is_mappable
 from ..errors import InputError, require_finite, require_positive
 from ..limits import STEPS
 from ..rotors.rigid import RigidRotor
-from .journal.film_tables import FILMS, FilmTable, GrooveTable, PadTable
-from .readers import read_load
-from .tables import Quantity, TableList, Variant
+from .journal.film_tables import FILMS, GROOVE, PAD
+from .reading.readers import read_load
+from .reading.shared_fields import made_from
+from .reading.tables import Quantity, TableList, Variant
 
 SCHEMA = 1
 """The version that a scene file states as `schema = 1`."""
@@ -37,11 +38,11 @@ class JournalTable:
     clearance : float [m]
         Radial clearance.
     viscosity : float [Pa s]
-    film : FilmTable or None
+    film : FilmLaw or None
         The film law; if the file does not say, the map where there is one, or what a question needs.
-    pads : tuple of PadTable
+    pads : tuple of Pad
         Where there is a bearing wall; empty for the full circumference.
-    grooves : tuple of GrooveTable
+    grooves : tuple of Groove
         Axial grooves over the whole length.
     supply_pressure : float [Pa]
         Gauge pressure in the grooves.
@@ -51,9 +52,9 @@ class JournalTable:
     length: Annotated[float, Quantity("m")]
     clearance: Annotated[float, Quantity("m")]
     viscosity: Annotated[float, Quantity("Pa.s")]
-    film: Annotated[FilmTable | None, Variant("name", FILMS)] = None
-    pads: Annotated[tuple[PadTable, ...], TableList(PadTable)] = ()
-    grooves: Annotated[tuple[GrooveTable, ...], TableList(GrooveTable)] = ()
+    film: Annotated[FilmLaw | None, Variant("name", FILMS)] = None
+    pads: Annotated[tuple[Pad, ...], TableList(PAD)] = ()
+    grooves: Annotated[tuple[Groove, ...], TableList(GROOVE)] = ()
     supply_pressure: Annotated[float, Quantity("Pa")] = 0.0
 
     def __post_init__(self) -> None:
@@ -64,24 +65,12 @@ class JournalTable:
 
         Where the file names no film: the map if there is one, else the film in two dimensions.
         """
-        return JournalBearing(
-            radius=self.radius,
-            length=self.length,
-            clearance=self.clearance,
-            viscosity=self.viscosity,
-            film=self._film(),
-            pads=tuple(pad.build() for pad in self.pads),
-            grooves=tuple(groove.build() for groove in self.grooves),
-            supply_pressure=self.supply_pressure,
-        )
+        return made_from(JournalBearing, self, film=self._film())
 
     def _film(self) -> FilmLaw:
         if self.film is not None:
-            return self.film.build()
-        geometry = FilmGeometry(
-            grooves=tuple(groove.build() for groove in self.grooves),
-            pads=tuple(pad.build() for pad in self.pads),
-        )
+            return self.film
+        geometry = made_from(FilmGeometry, self)
         low, high = GroovedMapFilm().slenderness_range
         mapped = is_mappable(geometry) and not (self.grooves and self.supply_pressure)
         long_enough = geometry.plain or low <= 0.5 * self.length / self.radius <= high
@@ -138,14 +127,7 @@ class RigidRotorTable:
 
     def build(self, speed: float, load: tuple[float, float]) -> RigidRotor:
         """Return the rotor under the whole static load [N], at a constant speed [rad/s]."""
-        return RigidRotor(
-            mass=self.mass,
-            speed=speed,
-            unbalance=self.unbalance,
-            unbalance_angle=self.unbalance_angle,
-            gravity=(0.0, 0.0),
-            static_force=load,
-        )
+        return made_from(RigidRotor, self, speed=speed, gravity=(0.0, 0.0), static_force=load)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -14,8 +14,8 @@ import numpy as np
 
 from ..errors import InputError, SceneError
 from ..limits import SWEEP_POINTS, require_at_most
+from ..scenes.reading.tables import unit_of
 from ..scenes.scene import Scene, read_scene
-from ..scenes.tables import unit_of
 from ..units import UNITS, parse_quantity, whole_number
 
 Values = Sequence[Any] | tuple[str, Sequence[Any]]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -18,21 +19,31 @@ from .axes import varied
 Row = dict[str, Any]
 """What a point answers, by name: numbers, nested lists of numbers, text."""
 
+Quantities = Mapping[str, tuple[str, str]]
+"""What is kept of an answer: by name its attribute, and the unit."""
+
+AT_REST: Quantities = {
+    "eccentricity_ratio": ("equilibrium.eccentricity_ratio", "1"),
+    "attitude_angle": ("equilibrium.attitude_angle", "rad"),
+    "minimum_film": ("equilibrium.minimum_film", "m"),
+    "stiffness": ("coefficients.stiffness", "N/m"),
+    "damping": ("coefficients.damping", "N.s/m"),
+}
+THRESHOLD: Quantities = {
+    "threshold_speed": ("whirl_threshold.speed", "rad/s"),
+    "whirl_ratio": ("whirl_threshold.whirl_ratio", "1"),
+}
+MELTING: Quantities = {
+    "contact_angle": ("contact.contact_angle", "rad"),
+    "settlement": ("contact.settlement", "m"),
+    "maximum_pressure": ("contact.maximum_pressure", "Pa"),
+    "critical_speed": ("contact.critical_speed", "rad/s"),
+    "onset_speed": ("onset_speed", "rad/s"),
+}
+ASKED: Quantities = {"value": ("value", ""), "error_estimate": ("error_estimate", "1")}
+
 UNITS = {
-    "eccentricity_ratio": "1",
-    "attitude_angle": "rad",
-    "minimum_film": "m",
-    "stiffness": "N/m",
-    "damping": "N.s/m",
-    "critical_mass": "kg",
-    "threshold_speed": "rad/s",
-    "whirl_ratio": "1",
-    "error_estimate": "1",
-    "contact_angle": "rad",
-    "settlement": "m",
-    "maximum_pressure": "Pa",
-    "critical_speed": "rad/s",
-    "onset_speed": "rad/s",
+    name: unit for each in (AT_REST, THRESHOLD, MELTING, ASKED) for name, (_, unit) in each.items() if unit
 }
 """Units of what a scene without a question answers, and of the estimate of one with it."""
 
@@ -57,31 +68,13 @@ def solve_point(scene: Mapping[str, Any], values: Mapping[str, Any], source: str
 
 def _kept(answer: Answer | BushAnswer | QuestionAnswer) -> Row:
     if isinstance(answer, BushAnswer):
-        contact = answer.contact
-        return {
-            "contact_angle": contact.contact_angle,
-            "settlement": contact.settlement,
-            "maximum_pressure": contact.maximum_pressure,
-            "critical_speed": contact.critical_speed,
-            "onset_speed": answer.onset_speed,
-        }
+        return _taken(answer, MELTING)
     if isinstance(answer, QuestionAnswer):
-        return {
-            "value": np.asarray(answer.value, dtype=float).tolist(),
-            "error_estimate": answer.error_estimate,
-            "met": answer.met,
-            "model": answer.model,
-            "unit": answer.unit,
-        }
+        return {**_taken(answer, ASKED), "met": answer.met, "model": answer.model, "unit": answer.unit}
     threshold = answer.whirl_threshold
-    row: Row = {
-        "eccentricity_ratio": answer.equilibrium.eccentricity_ratio,
-        "attitude_angle": answer.equilibrium.attitude_angle,
-        "minimum_film": answer.equilibrium.minimum_film,
-        "stiffness": answer.coefficients.stiffness.tolist(),
-        "damping": answer.coefficients.damping.tolist(),
-        "model": answer.model,
-    }
-    if threshold is not None and threshold.speed is not None:
-        row |= {"threshold_speed": threshold.speed, "whirl_ratio": threshold.whirl_ratio}
-    return row
+    whirls = threshold is not None and threshold.speed is not None
+    return {**_taken(answer, AT_REST), **_taken(answer, THRESHOLD if whirls else {}), "model": answer.model}
+
+
+def _taken(answer: object, quantities: Quantities) -> Row:
+    return {name: np.asarray(attrgetter(path)(answer)).tolist() for name, (path, _) in quantities.items()}

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from ..errors import InputError, require_count, warn_user
 from ..limits import WORKERS, require_at_most
 from ..progress import Report, silent
-from ..scenes.scene import read_tables
+from ..scenes.scene_file import read_tables
 from .axes import Axis, Values, check, points, read_axes
 from .dataset import load, save, to_dataset
 from .point import Row

@@ -244,13 +244,14 @@ def _commands(group, path=()):
         yield from _commands(command, (*path, name))
 
 
-def test_every_command_and_group_shows_an_example(run):
+def test_every_command_shows_an_example_and_prints_json(run):
     every = list(_commands(get_command(cli.app)))
     assert ("chart", "limits") in every
     for words in every:
         code, out, _ = run(*words, "--help")
         assert code == 0
         assert "Example: rotorfilm" in out, words
+        assert ("--json" in out) is (words not in {(), ("chart",), ("fmu",)}), words
 
 
 def test_installed_command_answers_without_heavy_imports(tmp_path):

@@ -31,9 +31,8 @@ from rotorfilm.comparisons import (
     pareto_front,
     random_states,
 )
-from rotorfilm.comparisons.journal.journal_accuracy import relative_error
 from rotorfilm.comparisons.journal.journal_rungs import fitted_bearing
-from rotorfilm.comparisons.journal.journal_states import SPEED, reference_force, squeeze_share
+from rotorfilm.comparisons.journal.journal_states import SPEED, reference_force, relative_error, squeeze_share
 from rotorfilm.errors import InputError
 from rotorfilm.results import to_plain, write_csv
 

@@ -7,6 +7,7 @@ import pytest
 
 from rotorfilm.bearings.journal import JournalBearing, MapFilm
 from rotorfilm.comparisons import failures, limits_atlas
+from rotorfilm.comparisons.journal.journal_states import SPEED
 from rotorfilm.comparisons.limits import (
     limits_bush,
     limits_contact,
@@ -30,14 +31,14 @@ def curves(family):
 @pytest.mark.convergence
 def test_short_bearing_fails_with_the_square_of_its_length():
     # Of the static force the short film leaves out terms of the order (L/D)^2.
-    for curve in curves(limits_journal._lengths()).values():
+    for curve in curves(limits_journal.length.limits()).values():
         slope = np.polyfit(np.log(curve.abscissa[:5]), np.log(curve.ordinate[:5]), 1)[0]
         assert slope == pytest.approx(2.0, abs=0.15), curve.name
 
 
 @pytest.mark.closed_form
 def test_fixed_arc_fails_beyond_half_speed_whirl_and_not_before():
-    found = curves(limits_journal._extents())
+    found = curves(limits_journal.extent.limits())
     fixed, turning = found["arc fixed in small motion"], found["arc that turns"]
     slow = fixed.abscissa < 0.5
     np.testing.assert_allclose(fixed.ordinate[slow], turning.ordinate[slow], rtol=1e-6)
@@ -47,21 +48,21 @@ def test_fixed_arc_fails_beyond_half_speed_whirl_and_not_before():
 
 
 def test_more_functions_are_closer_at_every_eccentricity():
-    found = list(curves(limits_journal._orders()).values())
+    found = list(curves(limits_journal.order.limits()).values())
     for worse, better in pairwise(found[1:]):
         assert np.all(better.ordinate < worse.ordinate)
 
 
 @pytest.mark.convergence
 def test_linearization_fails_in_proportion_to_the_displacement():
-    for curve in curves(limits_journal._linearizations()).values():
+    for curve in curves(limits_journal.linearization.limits()).values():
         slope = np.polyfit(np.log(curve.abscissa[:5]), np.log(curve.ordinate[:5]), 1)[0]
         assert slope == pytest.approx(1.0, abs=0.1), curve.name
 
 
 @pytest.mark.closed_form
 def test_macro_step_of_a_light_rotor_is_proportional_to_its_mass():
-    found = curves(limits_rotor._macro_steps())
+    found = curves(limits_rotor.macro_step.limits())
     light, heavier = (found[f"speed^2 c m / W = {ratio:g}"].ordinate for ratio in (0.01, 0.1))
     np.testing.assert_allclose(heavier / light, 10.0, rtol=0.02)
 
@@ -78,7 +79,7 @@ def test_failure_is_read_off_the_curve():
 @pytest.mark.closed_form
 def test_explicit_steps_end_where_their_stability_does():
     # |1 + z| = 1 at z = -2, and the fourth-order polynomial of exp(z) at -2.785294.
-    found = curves(limits_rotor._time_steps())
+    found = curves(limits_rotor.time_step.limits())
     euler, fourth = found["explicit Euler"], found["explicit Runge-Kutta, order 4"]
     for curve, limit in ((euler, 2.0), (fourth, 2.785294)):
         assert failure(curve, 1.0) == pytest.approx(limit, rel=0.06), curve.name
@@ -96,7 +97,7 @@ def test_explicit_steps_end_where_their_stability_does():
     ],
 )
 def test_errors_of_time_steps_have_the_order_of_the_scheme(name, order):
-    curve = curves(limits_rotor._time_steps())[name]
+    curve = curves(limits_rotor.time_step.limits())[name]
     short = (curve.abscissa > 0.05) & (curve.abscissa < 0.4)
     slope = np.polyfit(np.log(curve.abscissa[short]), np.log(curve.ordinate[short]), 1)[0]
     assert slope == pytest.approx(order, abs=0.15)
@@ -105,7 +106,7 @@ def test_errors_of_time_steps_have_the_order_of_the_scheme(name, order):
 def test_the_film_itself_in_explicit_steps_fails_at_the_limit_of_the_linear_system():
     # The nonlinear equations of motion on the map, on both sides of two shortest time constants.
     bearing: JournalBearing = limits_journal.bearing(MapFilm())
-    speed, ratio = limits_journal.SPEED, limits_rotor.STEP_AT
+    speed, ratio = SPEED, limits_rotor.STEP_AT
     rest = np.array([ratio * bearing.clearance, 0.0])
     load = -bearing.force(rest, [0.0, 0.0], speed)
     mass = limits_rotor.STEP_MASS * np.hypot(*load) / (speed**2 * bearing.clearance)
@@ -126,7 +127,7 @@ def test_the_film_itself_in_explicit_steps_fails_at_the_limit_of_the_linear_syst
 
 @pytest.mark.convergence
 def test_short_damper_fails_with_the_square_of_its_length():
-    for curve in curves(limits_damper._lengths()).values():
+    for curve in curves(limits_damper.damper_length.limits()).values():
         slope = np.polyfit(np.log(curve.abscissa[:4]), np.log(curve.ordinate[:4]), 1)[0]
         assert slope == pytest.approx(2.0, abs=0.1), curve.name
 
@@ -134,7 +135,7 @@ def test_short_damper_fails_with_the_square_of_its_length():
 @pytest.mark.closed_form
 def test_what_is_left_out_of_a_porous_cage_grows_with_its_permeability():
     # A little of it takes away in proportion; the thin layer is exact where there is none.
-    for name, curve in curves(limits_damper._cages()).items():
+    for name, curve in curves(limits_damper.damper_cage.limits()).items():
         slope = np.diff(np.log(curve.ordinate[:2]))[0] / np.diff(np.log(curve.abscissa[:2]))[0]
         assert 0.5 < slope < 1.1, name
         assert np.all(np.diff(curve.ordinate) > -1e-6), name
@@ -143,7 +144,7 @@ def test_what_is_left_out_of_a_porous_cage_grows_with_its_permeability():
 @pytest.mark.closed_form
 def test_linear_damper_fails_with_the_square_of_the_orbit():
     # Of a short full film on a circle pi/(1 - eps^2)^1.5, so that pi is off by 1 - (1 - eps^2)^1.5 of it.
-    found = curves(limits_damper._linearizations())
+    found = curves(limits_damper.damper_linearization.limits())
     curve = found["full film, L/D 0.1"]
     short = 1.0 - (1.0 - curve.abscissa**2) ** 1.5
     np.testing.assert_allclose(curve.ordinate, short, rtol=0.05)
@@ -162,7 +163,7 @@ def test_steps_of_a_contact_are_judged_by_their_known_damping(name, order):
 
 @pytest.mark.convergence
 def test_upwind_grid_of_a_contact_converges():
-    found = curves(limits_contact._grids())
+    found = curves(limits_contact.contact_grid.limits())
     curve = found["film in the middle, upwind"]
     slope = np.polyfit(np.log(curve.abscissa), np.log(curve.ordinate), 1)[0]
     assert slope == pytest.approx(2.0, abs=0.35)
@@ -174,7 +175,7 @@ def test_upwind_grid_of_a_contact_converges():
 
 @pytest.mark.convergence
 def test_nodes_of_a_worn_bush_converge():
-    curve = curves(limits_bush._nodes())["largest"]
+    curve = curves(limits_bush.bush_nodes.limits())["largest"]
     slope = np.polyfit(np.log(curve.abscissa), np.log(curve.ordinate), 1)[0]
     assert 1.5 < slope < 2.5
     assert failure(curve, FAILED) == pytest.approx(9.0, abs=0.5)  # docs/charts.md [deg]
@@ -187,27 +188,27 @@ def failing(family, part):
 
 def test_limits_of_a_damper_are_as_documented():
     # docs/charts.md, to the digits that it gives
-    lengths = {of: failing(limits_damper._lengths(), of) for of in ("solid", "porous")}
+    lengths = {of: failing(limits_damper.damper_length.limits(), of) for of in ("solid", "porous")}
     assert lengths["solid"] == pytest.approx([0.47, 0.30, 0.13], abs=0.006)
     assert lengths["porous"] == pytest.approx([0.50, 0.44, 0.39], abs=0.005)
-    cages = curves(limits_damper._cages())
-    assert failing(limits_damper._cages(), "solid") == pytest.approx([0.008, 0.002, 4e-5], rel=0.1)
+    cages = curves(limits_damper.damper_cage.limits())
+    assert failing(cages.values(), "solid") == pytest.approx([0.008, 0.002, 4e-5], rel=0.1)
     assert max(c.ordinate.max() for n, c in cages.items() if "thin" in n) == pytest.approx(0.04, abs=0.005)
-    orbits = failing(limits_damper._linearizations(), "L/D")
+    orbits = failing(limits_damper.damper_linearization.limits(), "L/D")
     assert (min(orbits), max(orbits)) == pytest.approx((0.26, 0.35), abs=0.005)
 
 
 def test_limits_of_steps_of_a_contact_are_as_documented():
-    euler, bdf = (failing(limits_contact._time_steps(), of) for of in ("Euler", "BDF2"))
+    euler, bdf = (failing(limits_contact.contact_step.limits(), of) for of in ("Euler", "BDF2"))
     assert (min(euler), max(euler)) == pytest.approx((0.001, 0.003), abs=5e-4)
     assert (min(bdf), max(bdf)) == pytest.approx((0.07, 0.26), abs=0.005)
 
 
 def test_limits_of_the_published_models_of_a_bush_are_as_documented():
-    fluxes = curves(limits_bush._fluxes()).values()
+    fluxes = curves(limits_bush.bush_flux.limits()).values()
     assert all(curve.abscissa.max() == 0.3 for curve in fluxes)
     assert max(curve.ordinate.max() for curve in fluxes) == pytest.approx(0.03, abs=0.005)
-    loads = failing(limits_bush._published(), "steps")
+    loads = failing(limits_bush.bush_published.limits(), "steps")
     assert all(1.01 <= load <= 1.02 for load in loads)
 
 

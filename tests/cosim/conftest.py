@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from rotorfilm.errors import FilmContactError
-from rotorfilm.model import force_outputs, journal_inputs, static_linearization
+from rotorfilm.model import static_linearization
 from rotorfilm.rotors import RigidRotor
+from rotorfilm.signals import force_outputs, journal_inputs
 
 GAUSS, WEIGHTS = np.polynomial.legendre.leggauss(120)
 

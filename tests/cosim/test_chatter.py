@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotorfilm.cosim import GaussSeidel, InProcessSlave, couple, critical_macro_step, inspect_coupling
-from rotorfilm.cosim.bench import Partners
+from rotorfilm.cosim.partners import Partners
 from rotorfilm.errors import CouplingError, InputError
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")

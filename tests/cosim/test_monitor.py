@@ -5,8 +5,8 @@ import warnings
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from studies.coupling_cases import coupling_cases
 
-from rotorfilm.comparisons.coupling.coupling_cases import coupling_cases
 from rotorfilm.comparisons.coupling.coupling_limits import limit_case
 from rotorfilm.cosim import GaussSeidel, InProcessSlave, Jacobi, SIExp3, cosimulate, couple
 from rotorfilm.errors import CouplingError, CouplingWarning, PartialResultError

@@ -7,7 +7,8 @@ import pytest
 
 from rotorfilm.bearings.journal.bearing import JournalBearing
 from rotorfilm.bearings.journal.short_film import ShortFilm
-from rotorfilm.model import force_outputs, journal_inputs, static_linearization
+from rotorfilm.model import static_linearization
+from rotorfilm.signals import force_outputs, journal_inputs
 
 
 @dataclass(frozen=True)

@@ -91,7 +91,7 @@ def test_angles_wrap_on_both_axes():
         ((0.0, 0.0), (1.0, 0.0), Status.OK),
         ((0.999, 0.0), (1.0, 0.0), Status.OUTSIDE),
         ((0.0, 0.0), (0.0, 0.0), Status.UNDEFINED),
-        ((1.0, 0.0), (1.0, 0.0), Status.CONTACT),
+        ((1.0, 0.0), (1.0, 0.0), Status.AT_WALL),
         ((np.nan, 0.0), (1.0, 0.0), Status.NOT_FINITE),
         ((0.1, 0.0), (np.inf, 0.0), Status.NOT_FINITE),
     ],

@@ -144,7 +144,7 @@ def test_contiguous_rows_are_read_in_place_and_others_are_copied():
 @pytest.mark.parametrize(
     ("bad", "source", "status"),
     [
-        ([1.0, 0.0], [1.0, 0.0], Status.CONTACT),
+        ([1.0, 0.0], [1.0, 0.0], Status.AT_WALL),
         ([np.nan, 0.0], [1.0, 0.0], Status.NOT_FINITE),
         ([0.1, 0.0], [0.0, np.inf], Status.NOT_FINITE),
         ([0.1, 0.0], [1e308, 1e308], Status.NOT_FINITE),

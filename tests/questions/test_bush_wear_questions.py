@@ -252,12 +252,12 @@ def test_end_of_local_wear_is_that_of_many_nodes():
 
 def test_numbers_by_hand():
     n = bush_numbers(bush_run(scene(), "wear"))
-    assert n.margin == pytest.approx(8.0 / ONSET - 1.0, rel=1e-6)
+    assert n["margin"] == pytest.approx(8.0 / ONSET - 1.0, rel=1e-6)
     # half the width of the contact .2006866 x 13 mm, pressure 11.264319 MPa: `MeltingBush.contact`
-    assert n.slenderness == pytest.approx(1.5 / (0.2006866 * 13.0), rel=1e-6)
+    assert n["slenderness"] == pytest.approx(1.5 / (0.2006866 * 13.0), rel=1e-6)
     compliance = math.log(14.5 / 13.0) * 0.2 / 1.2
-    assert n.strain == pytest.approx(compliance * 11.264319 / 300.0 * 13.0 / 1.5, rel=1e-6)
-    assert n.lean == pytest.approx(1.0 - 1.0 / math.sqrt(1.01))
+    assert n["strain"] == pytest.approx(compliance * 11.264319 / 300.0 * 13.0 / 1.5, rel=1e-6)
+    assert n["lean"] == pytest.approx(1.0 - 1.0 / math.sqrt(1.01))
 
 
 @pytest.mark.parametrize(

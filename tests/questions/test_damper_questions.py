@@ -14,6 +14,7 @@ from scipy.integrate import solve_ivp
 
 from rotorfilm import (
     FiniteMapSqueeze,
+    FiniteSqueeze,
     FullFilm,
     MapSqueeze,
     PorousCage,
@@ -33,7 +34,6 @@ from rotorfilm.scenes.damper.damper_films import damper_films
 from rotorfilm.scenes.damper.damper_models import damper_models
 from rotorfilm.scenes.damper.damper_ranges import damper_numbers, damper_remarks, largest_pressure
 from rotorfilm.scenes.damper.damper_runs import run_damper
-from rotorfilm.scenes.damper.damper_table import FiniteSqueezeTable, RadialFeedTable
 from rotorfilm.scenes.lubricant_table import LubricantTable
 from rotorfilm.scenes.question_table import QuestionTable
 
@@ -164,7 +164,7 @@ def test_a_lost_blade_is_answered_as_it_runs():
     answer = asked(found, "blade_loss_peak", 3e-3).ask()
     assert answer.met
     assert answer.model.startswith("nonlinear")
-    finite = replace(found, damper=replace(found.damper, film=FiniteSqueezeTable()))
+    finite = replace(found, damper=replace(found.damper, film=FiniteSqueeze()))
     with pytest.raises(InputError, match="blade_loss"):
         asked(replace(found, excitation=None), "blade_loss_peak", 0.1).ask()
     models = damper_models(finite)
@@ -259,7 +259,7 @@ def test_what_counts_as_fed(changes, fed):
 
 
 def test_fed_full_film_has_the_film_of_finite_length_above_it():
-    feed = RadialFeedTable(inflow=0.002)
+    feed = RadialFeed(inflow=0.002)
     text = JUMPS.replace("[rigid_rotor]", "[rigid_rotor]\nunbalance = 2e-4")
     found = scene(FULL, text)
     fed = asked(replace(found, damper=replace(found.damper, feed=feed)), "unbalance_amplitude", 1e-2)
@@ -328,10 +328,10 @@ def test_inertia_is_that_of_an_oscillating_flow_between_walls():
         exact = 1j * reynolds / (1.0 - np.tanh(k) / k)
         assert exact.imag / exact.real == pytest.approx(reynolds / 10.0, rel=1e-3)
     n = damper_numbers(BARE, OIL, 20.0, 300.0, 0.01)
-    assert n.inertia == pytest.approx(300.0 * 1e-8 * 900.0 / 0.005 / 10.0)
+    assert n["inertia"] == pytest.approx(300.0 * 1e-8 * 900.0 / 0.005 / 10.0)
     # the film that moves along has the mass pi density radius length^3/(10 clearance)
     mass = math.pi * 900.0 * 0.05 * 0.02**3 / (10.0 * 1e-4)
-    assert n.added_mass == pytest.approx(mass / 20.0, rel=1e-3)
+    assert n["added_mass"] == pytest.approx(mass / 20.0, rel=1e-3)
 
 
 @pytest.mark.closed_form
@@ -349,12 +349,13 @@ def test_heat_is_the_power_of_the_film():
     n = damper_numbers(BARE, OIL, 20.0, 300.0, 0.5)
     force = math.pi * 0.005 * 0.05 * 0.02**3 / 1e-12 * 300.0 * 0.5e-4 / 0.75**1.5
     flow = 2.0 * 0.05 * 0.02 * 0.5e-4 * 300.0
-    assert n.peclet == pytest.approx(300.0 * 1e-8 * 1.8e6 / 0.15)
-    assert n.warming == pytest.approx(force * 300.0 * 0.5e-4 / (1.8e6 * flow), rel=1e-6)
+    assert n["peclet"] == pytest.approx(300.0 * 1e-8 * 1.8e6 / 0.15)
+    assert n["warming"] == pytest.approx(force * 300.0 * 0.5e-4 / (1.8e6 * flow), rel=1e-6)
     slow = damper_numbers(BARE, OIL, 20.0, 2.0, 0.5)
     volume = 2.0 * math.pi * 0.05 * 0.02 * 1e-4
     power = force * (2.0 / 300.0) ** 2 * 300.0 * 0.5e-4
-    assert slow.warming == pytest.approx(min(power / volume * 1e-8 / (8.0 * 0.15), n.warming * 2.0 / 300.0))
+    conducted = power / volume * 1e-8 / (8.0 * 0.15)
+    assert slow["warming"] == pytest.approx(min(conducted, n["warming"] * 2.0 / 300.0))
 
 
 def test_remarks_name_what_is_left_out():
@@ -427,9 +428,9 @@ def test_bound_of_a_jump_is_that_of_the_force_there():
 
 def test_jumps_of_a_fed_film_of_finite_length_are_left_out_unless_it_is_named():
     fed = scene(FULL, JUMPS)
-    fed = replace(fed, damper=replace(fed.damper, feed=RadialFeedTable(inflow=0.002)))
+    fed = replace(fed, damper=replace(fed.damper, feed=RadialFeed(inflow=0.002)))
     assert [rung.name for rung in ladder_of(asked(fed, "jump_up", 0.1)).rungs] == ["short film"]
-    named = replace(fed, damper=replace(fed.damper, film=FiniteSqueezeTable()))
+    named = replace(fed, damper=replace(fed.damper, film=FiniteSqueeze()))
     assert len(ladder_of(asked(named, "jump_up", 0.1)).rungs) == 1
     (film,) = damper_films(named.damper)
     # whatever it is called

@@ -6,13 +6,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotorfilm.answers import ErrorEstimate, Found, beside_bound
+from rotorfilm.answers import ErrorEstimate, Found, WorkUnit, beside_bound
 from rotorfilm.errors import FilmContactError, InputError, RotorfilmError
-from rotorfilm.questions.walk import Ladder, Meter, walk
+from rotorfilm.ladders import Ladder
+from rotorfilm.questions.walk import Meter, walk
+
+CALLS, MAPS, GRIDS = WorkUnit("calls"), WorkUnit("maps", nominal=7.0), WorkUnit("grids")
 
 
 class Made:
     """A rung with a given error and work."""
+
+    refines = ()
 
     def __init__(self, name, error, prior=0.0, work=1, doubt="", fails=False):
         self.name, self.error, self.prior, self.work, self.doubt, self.fails = (
@@ -29,18 +34,19 @@ class Made:
         self.asked += 1
         if self.fails:
             raise self.fails if isinstance(self.fails, RotorfilmError) else RotorfilmError("the film cannot")
-        return Found(1.0 + self.error, {"calls": self.work})
+        return Found(1.0 + self.error, {CALLS: self.work})
 
     def estimate(self, found, before, tolerance):
         return ErrorEstimate(self.error, "by construction", doubt=self.doubt)
 
     def expected(self, done):
-        return {"calls": 10 * sum(done.values())}
+        return {CALLS: 10 * sum(done.values())}
 
 
 def ladder(*rungs, refined=""):
-    models = {rung.name: "one film" for rung in rungs if rung.name in refined}
-    return Ladder(rungs=rungs, unit="m", units={"calls": lambda: None}, refined=models)
+    for rung in rungs:
+        rung.refines = (ladder,) if rung.name in refined else ()
+    return Ladder(rungs=rungs, unit="m", units={CALLS: lambda: None})
 
 
 def test_first_rung_below_the_tolerance_is_chosen_and_the_rest_is_not_asked():
@@ -93,16 +99,14 @@ def test_closest_of_refused_rungs_is_not_one_in_doubt():
 
 
 def test_cost_is_work_times_unit_cost():
-    meter = Meter(
-        Ladder(rungs=(), unit="m", units={"calls": lambda: sum(range(20000))}, nominal={"maps": 7.0})
-    )
-    one = meter.predict({"calls": 1})
+    meter = Meter(Ladder(rungs=(), unit="m", units={CALLS: lambda: sum(range(20000))}))
+    one = meter.predict({CALLS: 1})
     assert one > 0.0
-    assert meter.cost({"calls": 5}, 99.0) == pytest.approx(5.0 * one)
-    assert meter.predict({"maps": 2}) == 14.0
-    assert math.isnan(meter.predict({"unknown": 1}))
-    assert meter.cost({"grids": 4}, 2.0) == pytest.approx(2.0)
-    assert meter.predict({"grids": 6}) == pytest.approx(3.0)
+    assert meter.cost({CALLS: 5}, 99.0) == pytest.approx(5.0 * one)
+    assert meter.predict({MAPS: 2}) == 14.0
+    assert math.isnan(meter.predict({WorkUnit("unknown"): 1}))
+    assert meter.cost({GRIDS: 4}, 2.0) == pytest.approx(2.0)
+    assert meter.predict({GRIDS: 6}) == pytest.approx(3.0)
 
 
 def test_cost_of_the_next_rung_is_predicted_from_the_work_done():

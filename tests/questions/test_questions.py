@@ -10,18 +10,19 @@ import pytest
 import scene_battery
 from families import FAMILIES
 
+from rotorfilm.bearings.journal import ShortFilm
 from rotorfilm.errors import InputError, ValidityWarning
 from rotorfilm.linear import equilibrium
-from rotorfilm.motion.periodic.sampled_orbit import SampledOrbit, nonlinear_orbit, rate_matrix
+from rotorfilm.motion.periodic.driven_rotor import rest_on_film, rest_position, rotor_answers
+from rotorfilm.motion.periodic.harmonics import basis, constant
+from rotorfilm.motion.periodic.orbit_newton import solve
 from rotorfilm.motion.transient.equal_steps import ORDER, linear_march, march, peak
 from rotorfilm.questions import ladder_of
-from rotorfilm.questions.registry import LADDERS
 from rotorfilm.questions.walk import NoAnswerError
-from rotorfilm.scenes import Scene, bundled_scene, parse_scene
+from rotorfilm.scenes import Scene, bundled_scene, families, parse_scene
 from rotorfilm.scenes.damper.damper_table import DamperTable
 from rotorfilm.scenes.excitation_table import BladeLossTable, UnbalanceTable
 from rotorfilm.scenes.journal.film_rungs import extrapolated
-from rotorfilm.scenes.journal.film_tables import ShortFilmTable
 from rotorfilm.scenes.question_table import QUANTITIES, QuestionTable
 
 ROOT = Path(__file__).parents[2]
@@ -119,11 +120,11 @@ def test_an_impossible_tolerance_is_answered_honestly():
 
 def test_named_film_is_the_only_one_that_answers():
     scene = bundled_scene()
-    named = replace(scene, journal=replace(scene.journal, film=ShortFilmTable()))
+    named = replace(scene, journal=replace(scene.journal, film=ShortFilm()))
     answer = asked("eccentricity_ratio", 1e-3, named).ask()
     assert [report.name for report in answer.rungs] == ["ShortFilm()"]
     assert not answer.met
-    # the short film rests at .26630, the map at .27504: benchmarks of the map in tests/films/test_map.py
+    # the short film rests at .26630, the map at .27504: tests/bearings/journal/test_map.py
     assert answer.error_estimate == pytest.approx(0.27504 / 0.2663 - 1.0, rel=0.05)
 
 
@@ -139,7 +140,8 @@ def test_cost_of_the_answer_is_its_work_and_the_next_rung_is_priced():
 
 
 def test_every_quantity_that_a_scene_may_ask_for_has_a_meaning_and_every_ladder_a_quantity():
-    assert {quantity for _, quantity in LADDERS} <= set(QUANTITIES)
+    asked_for = {quantity for name in families.FAMILIES for quantity in families.family_of(name).ladders}
+    assert asked_for == set(QUANTITIES)
 
 
 def test_quantity_without_its_table_is_refused_by_name():
@@ -198,7 +200,9 @@ def test_march_is_of_the_declared_order_and_meets_the_closed_form():
         K, C = 4.0 * np.eye(2)[:, :, None].repeat(t.size, 2), 0.4 * np.eye(2)[:, :, None].repeat(t.size, 2)
         pull = np.zeros((2, t.size))
         pull[0] = 0.1
-        np.testing.assert_allclose(linear_march(1.0, K, C, pull, 5.0 / count), path.position, atol=1e-9)
+        np.testing.assert_allclose(
+            linear_march(1.0, K, C, pull, 5.0 / count).position, path.position, atol=1e-9
+        )
         return np.abs(path.position[0] - exact).max()
 
     assert math.log2(error(100) / error(200)) == pytest.approx(ORDER, abs=0.05)
@@ -210,23 +214,25 @@ def test_peak_is_found_between_samples():
     assert peak(position) == pytest.approx(1.0, abs=1e-12)
 
 
-def test_rate_matrix_differentiates_a_series_exactly():
-    angle = 2.0 * np.pi * np.arange(15) / 15
-    np.testing.assert_allclose(rate_matrix(15) @ np.sin(3.0 * angle), 3.0 * np.cos(3.0 * angle), atol=1e-12)
+def test_samples_of_an_odd_number_differentiate_a_series_exactly():
+    angle, series = 2.0 * np.pi * np.arange(15) / 15, basis(7, 15)
+    rate = series.slopes @ series.back
+    np.testing.assert_allclose(rate @ np.sin(3.0 * angle), 3.0 * np.cos(3.0 * angle), atol=1e-12)
+    np.testing.assert_allclose(series.values @ series.back, np.eye(15), atol=1e-12)
 
 
 def test_nonlinear_orbit_is_a_solution_of_the_time_integration():
-    from rotorfilm.linear import equilibrium
     from rotorfilm.motion import simulate
 
     scene = bundled_scene()
     bearing = scene.bearing
     rotor = replace(scene.rotor, unbalance=0.006)
-    at = equilibrium(bearing, scene.static_load, scene.speed)
-    start = SampledOrbit(position=np.repeat(at.position[:, None], 65, axis=1), velocity=np.zeros((2, 65)))
-    orbit, _ = nonlinear_orbit(rotor, bearing, start)
+    at = rest_on_film(replace(rotor, speed=scene.speed), bearing)
+    answers = rotor_answers(rotor.structure, at, (), 65)
+    found = solve(answers.on({"": bearing}), constant(rest_position(at, ("",)), 32), scene.speed)
+    position = found.series @ basis(32, 65).values.T
     period = 2.0 * math.pi / scene.speed
-    begun = [*orbit.position[:, 0], *orbit.velocity[:, 0]]
+    begun = [*position[:, 0], *(scene.speed * found.series @ basis(32, 65).slopes[0])]
     times = period * np.arange(65) / 65
     # short steps, because Radau's interpolation between them is of low order
     run = simulate(
@@ -238,7 +244,7 @@ def test_nonlinear_orbit_is_a_solution_of_the_time_integration():
         rtol=1e-9,
         max_step=period / 195,
     )
-    np.testing.assert_allclose(run.position, orbit.position, atol=1e-6 * bearing.clearance)
+    np.testing.assert_allclose(run.position, position, atol=1e-6 * bearing.clearance)
 
 
 def test_blade_loss_needs_a_lost_blade():

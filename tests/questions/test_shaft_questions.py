@@ -21,12 +21,7 @@ from rotorfilm.linear import (
     rotor_threshold,
     unbalance_response,
 )
-from rotorfilm.motion import periodic_orbit
-from rotorfilm.motion.periodic.sampled_shaft_orbit import linear_shaft_orbit, shaft_answers
-from rotorfilm.questions import ladder_of
-from rotorfilm.questions.shaft.shaft_events import Critical, Threshold
-from rotorfilm.questions.shaft.shaft_films import REST_BOUNDS, coefficient_bounds, film_levels
-from rotorfilm.questions.shaft.shaft_whirl import (
+from rotorfilm.linear.rotor_whirl import (
     Start,
     mode_near,
     on_films,
@@ -34,6 +29,11 @@ from rotorfilm.questions.shaft.shaft_whirl import (
     value_rate,
     whirl_of,
 )
+from rotorfilm.linear.speed_events import Critical, Threshold
+from rotorfilm.motion import periodic_orbit
+from rotorfilm.motion.periodic.driven_rotor import rest_position, rotor_answers
+from rotorfilm.questions import ladder_of
+from rotorfilm.questions.shaft.shaft_films import REST_BOUNDS, coefficient_bounds, film_levels
 from rotorfilm.rotors import JeffcottRotor, mount
 from rotorfilm.rotors.shaft.shaft_models import ShaftModel, shaft_models, split
 from rotorfilm.scenes import Scene, parse_scene, read_scene
@@ -95,7 +95,7 @@ def test_every_rung_knows_its_error_of_a_simply_supported_shaft():
     scene = parse_scene(UNIFORM, "uniform")
     exact = timoshenko_speed(1.2, 0.04, 2.1e11, 8.0e10, 7850.0)
     rungs = ladder_of(scene).rungs
-    found = critical_speeds(rungs[0].model.rotor, rungs[0].films.reactions, rungs[0].speeds)
+    found = critical_speeds(rungs[0].model.rotor, rungs[0].films.reaction, rungs[0].speeds)
     forward = next(
         one.speed for one in found if one.direction > 0.5
     )  # the first of all is the backward whirl
@@ -113,7 +113,7 @@ def test_every_rung_knows_its_error_of_a_simply_supported_shaft():
 
 
 def at_speed(rung, speed):
-    at = rotor_equilibrium(rung.model.rotor, rung.films.reactions, speed)
+    at = rotor_equilibrium(rung.model.rotor, rung.films.reaction, speed)
     return small_motion(rung.model.rotor.structure, at, speed)
 
 
@@ -208,7 +208,7 @@ def test_derivative_of_an_eigenvalue_by_the_speed():
     scene = asked("whirl_threshold", 0.02)
     rung = ladder_of(scene).rungs[1]
     whirl = rung.answer(None).solution.whirls[0]
-    rotor, reactions = rung.model.rotor, rung.films.reactions
+    rotor, reactions = rung.model.rotor, rung.films.reaction
     speed, step = whirl.at.speed, 1e-4 * whirl.at.speed
 
     def nearest(at):
@@ -285,8 +285,8 @@ def test_bound_of_films_is_that_of_what_is_asked(quantity, at, sense):
         # to 1e-3 of the largest entry, in the corners of that box
         off = {name: with_error(film, random) for name, film in turn.at.coefficients.items()}
         at_rest = on_films(turn.at, off)
-        answers = shaft_answers(structure, at_rest, rung.place.probes, 15)
-        moved = rung.place.value(answers, linear_shaft_orbit(answers, at_rest))
+        answers = rotor_answers(structure, at_rest, rung.place.probes, 15)
+        moved = rung.place.value(answers, answers.linear_orbit(rest_position(at_rest, answers.stations)))
         changes.append(rung.place.change(found.value, moved))
     assert 0.3 * bound < max(changes) < 1.02 * bound
 

@@ -163,12 +163,12 @@ def test_exported_scene_starts_at_rest_in_the_center(tmp_path):
     assert float(rotor["rotor.unbalance"].start) == 3.5e-4
 
 
-@pytest.mark.parametrize("module", ["damper.damper_runs", "export_scene"])
-def test_two_fmus_are_written_or_none(tmp_path, monkeypatch, module):
+@pytest.mark.parametrize("bearing", ["damper", "film"])
+def test_two_fmus_are_written_or_none(tmp_path, monkeypatch, bearing):
     # The second export fails, over FMUs of an earlier time.
-    home = import_module(f"rotorfilm.scenes.{module}")
-    told = scene(SPRINGS + CAGE) if module == "damper.damper_runs" else bundled_scene()
-    names = ["damper.fmu", "rotor.fmu"] if module == "damper.damper_runs" else ["film.fmu", "rotor.fmu"]
+    home = import_module("rotorfilm.scenes.export_scene")
+    told = scene(SPRINGS + CAGE) if bearing == "damper" else bundled_scene()
+    names = [f"{bearing}.fmu", "rotor.fmu"]
     for name in names:
         (tmp_path / name).write_bytes(b"earlier")
     export, done = home.export_fmu, []

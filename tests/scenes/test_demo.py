@@ -12,8 +12,8 @@ import pytest
 
 from rotorfilm import scenes
 from rotorfilm.bearings.journal import ComplementarityArc, SplittingFilm
-from rotorfilm.cli import main as cli
-from rotorfilm.cli.printing import print_demo
+from rotorfilm.cli.demo_command import print_demo
+from rotorfilm.cli.main import main
 from rotorfilm.errors import InputError
 from rotorfilm.linear import equilibrium
 from rotorfilm.scenes import demo as demo_module
@@ -61,13 +61,12 @@ def whole(scene, tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(scenes, "bundled_scene", lambda: scene)
         patch.setattr(demo_module, "run_demo", recorded)
-        command = ["demo", "--out", str(folder), "--json"]
         with (
             redirect_stdout(StringIO()) as out,
             redirect_stderr(StringIO()) as err,
             pytest.raises(SystemExit) as exit_,
         ):
-            cli.main(command)
+            main(["demo", "--out", str(folder), "--json"])
     return (results[0], folder, reports), Printed(exit_.value.code, out.getvalue(), err.getvalue())
 
 

@@ -436,3 +436,7 @@ def test_errors_have_the_unit_and_the_text_of_the_file(old, new, told):
 )
 def test_a_film_that_is_not_named_is_one_that_the_openings_can_have(openings, film):
     assert parse(GOOD.replace("[operation]", f"{openings}\n[operation]")).bearing.film == film
+
+
+def test_a_scene_is_hashable():
+    assert hash(bundled_scene()) == hash(bundled_scene())

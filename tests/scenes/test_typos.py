@@ -1,17 +1,15 @@
 """A typo in any key of a scene is reported with the file, the dotted key and the nearest valid one."""
 
-import dataclasses
 import re
 import tomllib
 from importlib import resources
 from pathlib import Path
-from typing import get_type_hints
 
 import pytest
 
 from rotorfilm.errors import SceneError
 from rotorfilm.scenes import Scene, parse_scene, read_scene
-from rotorfilm.scenes.tables import Quantity, Table, TableList, Variant, nearest
+from rotorfilm.scenes.reading.tables import Quantity, Table, TableList, Variant, keyed, nearest
 
 DATA = Path(str(resources.files("rotorfilm.scenes"))) / "data"
 SHIPPED = sorted([*(Path(__file__).parents[2] / "examples").glob("**/*.toml"), *DATA.glob("*.toml")])
@@ -56,21 +54,17 @@ def dotted(path):
 def table_types(table):
     """Return a table of the schema and all tables below it."""
     yield table
-    for hint in get_type_hints(table, include_extras=True).values():
-        reader = hint.__metadata__[0]
+    for reader in keyed(table).readers.values():
         if isinstance(reader, Table | TableList):
             yield from table_types(reader.table)
         elif isinstance(reader, Variant):
             for variant in reader.variants.values():
-                if dataclasses.is_dataclass(variant):
-                    yield from table_types(variant)
+                yield from table_types(variant)
 
 
 def known_keys(table):
-    hints = get_type_hints(table, include_extras=True)
-    names = [field.name for field in dataclasses.fields(table)]
-    readers = [hints[name].__metadata__[0] for name in names if name in hints]
-    return names + [reader.twice for reader in readers if isinstance(reader, Quantity) and reader.twice]
+    readers = keyed(table).readers
+    return [*readers, *(r.twice for r in readers.values() if isinstance(r, Quantity) and r.twice)]
 
 
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.name)
@@ -87,7 +81,10 @@ def test_typo_in_any_key_of_a_shipped_scene_is_reported(path):
                 read_scene(broken, path.name)
 
 
-@pytest.mark.parametrize("table", sorted(set(table_types(Scene)), key=lambda table: table.__name__))
+TABLES = {keyed(table).makes.__name__: table for table in table_types(Scene)}
+
+
+@pytest.mark.parametrize("table", TABLES.values(), ids=TABLES)
 def test_typo_in_any_key_of_any_table_has_that_key_as_the_nearest(table):
     for key in known_keys(table):
         for typo in typos(key):

@@ -13,7 +13,7 @@ import pytest
 from rotorfilm import JournalBearing, ShortFilm, equilibrium, sweep
 from rotorfilm.errors import InputError, SceneError
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.tables import unit_of
+from rotorfilm.scenes.reading.tables import unit_of
 from rotorfilm.sweeps.store import Store
 
 xarray = pytest.importorskip("xarray")

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, require_finite, require_non_negative, require_number
+from ...errors import InputError, require_finite, require_kind, require_non_negative, require_number
 from ...model import Array
 from . import contact_arc as contact
 from .heat import ContactBalance, ExactShaft, HeatBalance, ShaftHeat
@@ -97,12 +97,8 @@ class MeltingBush:
     balance: HeatBalance = field(default_factory=ContactBalance)
 
     def __post_init__(self) -> None:
-        if isinstance(self.shaft_heat, type) or not isinstance(self.shaft_heat, ShaftHeat):
-            raise InputError(
-                f"shaft_heat must be ExactShaft() or ApproximateShaft(), got {self.shaft_heat!r}"
-            )
-        if isinstance(self.balance, type) or not isinstance(self.balance, HeatBalance):
-            raise InputError(f"balance must be ContactBalance() or GlobalBalance(), got {self.balance!r}")
+        require_kind("shaft_heat", self.shaft_heat, ShaftHeat, "ExactShaft() or ApproximateShaft()")
+        require_kind("balance", self.balance, HeatBalance, "ContactBalance() or GlobalBalance()")
         require_number("outer_mean", self.outer_mean)
         require_non_negative("outer_swing", self.outer_swing)
         hottest, melting = self.outer_mean + self.outer_swing, self.liner.melting_point
@@ -298,21 +294,3 @@ class MeltingBush:
 
     def _temperature(self, temperature: ArrayLike | None) -> Array:
         return require_finite("temperature", self.liner.melting_point if temperature is None else temperature)
-
-
-def f4k20_bush() -> MeltingBush:
-    """Return the example of Evtushenko & Kovalenko (1993), section 4, as a `MeltingBush`.
-
-    Shaft and housing of steel, liner of filled PTFE F4K20. The source calculates with `ApproximateShaft()`;
-    take it by `dataclasses.replace`.
-    """
-    return MeltingBush(
-        geometry=BushGeometry(radius=13e-3, outer_radius=14.5e-3, shaft_radius=12.5e-3, length=0.1),
-        liner=LinerMaterial(
-            shear_modulus=3e8, poisson_ratio=0.4, expansion=8e-5, conductivity=0.39, melting_point=250.0
-        ),
-        shaft=ShaftMaterial(conductivity=25.35, air_transfer=402.0),
-        friction=Friction(f0=0.1),
-        outer_mean=235.0,
-        outer_swing=4.0,
-    )

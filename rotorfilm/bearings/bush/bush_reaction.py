@@ -11,39 +11,23 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from ...errors import (
-    FilmContactError,
     InputError,
     require_finite,
-    require_inside,
+    require_kind,
     require_non_negative,
     require_number,
     require_positive,
-    require_vector,
-    warn_user,
 )
-from ...model import Array, Linearization, force_outputs, journal_inputs
-from ...native.spec import NativeParameter, NativeSpec
+from ...model import Array, Linearization
+from ...native.spec import NativeSpec
 from ...signals import Signal
+from ..reaction import broadcast_state
 from . import worn_profile as profile
 from .bearing import MeltingBush
-from .bush_kernel import bush_parameters, bush_table, has_kernel
-from .settle import settle, stiffness
-from .worn_profile import HeatState, LocalMelting, Melting, MeltingRule, Nodes, Pressed, SharedMelting
-
-NOMINAL_LOAD = 1e-2
-"""Typical load in units of `MeltingBush.force_unit`."""
-
-NOMINAL_PRESSURE = 4e-2
-"""Typical contact pressure in shear moduli."""
-
-NOMINAL_SPEED = 10.0
-"""Typical angular speed [rad/s]."""
-
-LEAST_ANGLE = 1e-9
-"""Contact angle [rad] that stands for none in the heat balance."""
-
-COVERED_TO = 0.05
-"""Share of the losses by which friction heat may fall short without a word."""
+from .bush_kernel import has_kernel, reaction_spec
+from .bush_signals import moved_inputs, profile_outputs, profile_states
+from .held_liner import HeldLiner, Melt, NodeArc
+from .worn_profile import LocalMelting, MeltingRule, Pressed, SharedMelting
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -99,8 +83,7 @@ class BushReaction:
     temperature: float | None = None
 
     def __post_init__(self) -> None:
-        if not isinstance(self.bush, MeltingBush):
-            raise InputError(f"bush must be a MeltingBush, got {self.bush!r}")
+        require_kind("bush", self.bush, MeltingBush, "a MeltingBush")
         require_positive("melting_heat", self.melting_heat)
         if not isinstance(self.nodes, int) or self.nodes < 8:
             raise InputError(f"nodes must be an integer of at least 8, got {self.nodes!r}")
@@ -108,8 +91,7 @@ class BushReaction:
         require_positive("extent", self.extent)
         if self.extent > profile.FULL_TURN:
             raise InputError(f"extent must not exceed 2 pi, got {self.extent!r}")
-        if isinstance(self.melting, type) or not isinstance(self.melting, MeltingRule):
-            raise InputError(f"melting must be SharedMelting() or LocalMelting(), got {self.melting!r}")
+        require_kind("melting", self.melting, MeltingRule, "SharedMelting() or LocalMelting()")
         require_non_negative("retardation", self.retardation)
         depths = require_finite("wear_depth", self.wear_depth)
         if depths.shape not in ((0,), (self.nodes,)) or np.any(depths < 0.0):
@@ -117,50 +99,29 @@ class BushReaction:
                 f"wear_depth must hold no or {self.nodes} numbers, none negative, got {self.wear_depth!r}"
             )
         object.__setattr__(self, "wear_depth", tuple(depths.tolist()))
-        if self.temperature is not None:
-            require_number("temperature", self.temperature)
-        if self._held > self._melting_point:
-            raise InputError(
-                f"temperature must not exceed the melting point {self._melting_point!r}, "
-                f"got {self.temperature!r}"
-            )
+        most, held = self.bush.liner.melting_point, self.temperature
+        if held is not None and require_number("temperature", held) > most:
+            raise InputError(f"temperature must not exceed the melting point {most!r}, got {held!r}")
 
     @property
     def clearance(self) -> float:
         """Distance of the shaft from the housing [m]: radial clearance and thickness of the liner."""
-        return self.bush.geometry.outer_radius - self.bush.geometry.shaft_radius
+        return self._liner.clearance
 
     @property
     def inputs(self) -> tuple[Signal, ...]:
         """Signals x, y, vx, vy, speed."""
-        return journal_inputs(
-            self.bush.geometry.radius * self.bush.compliance * NOMINAL_PRESSURE, NOMINAL_SPEED
-        )
+        return moved_inputs(self.bush)
 
     @property
     def outputs(self) -> tuple[Signal, ...]:
         """Signals force_x, force_y, friction_torque, contact_angle, maximum_pressure."""
-        load = NOMINAL_LOAD * self.bush.force_unit
-        torque = load * self._friction * self.bush.geometry.shaft_radius
-        pressure = NOMINAL_PRESSURE * self.bush.liner.shear_modulus
-        rows = (
-            ("friction_torque", "N.m", torque, "torque about +z that keeps the shaft turning"),
-            ("contact_angle", "rad", 0.1, "half the angle in contact"),
-            ("maximum_pressure", "Pa", pressure, "largest contact pressure at a node"),
-        )
-        return (
-            *force_outputs(load),
-            *(Signal(name=n, unit=u, nominal=v, description=d) for n, u, v, d in rows),
-        )
+        return profile_outputs(self.bush, self._liner.friction)
 
     @property
     def states(self) -> tuple[Signal, ...]:
         """Signals wear_0, wear_1, ...: wear depths at the nodes [m]."""
-        nominal = self.bush.geometry.radius * self.bush.compliance * NOMINAL_PRESSURE
-        return tuple(
-            Signal(name=f"wear_{i}", unit="m", nominal=nominal, description=f"wear depth at node {i}")
-            for i in range(self.nodes)
-        )
+        return profile_states(self.bush, self.nodes)
 
     @property
     def initial_state(self) -> Array:
@@ -170,40 +131,17 @@ class BushReaction:
     @property
     def angles(self) -> Array:
         """Angles of the nodes, bearing frame, shape (nodes,) [rad]."""
-        return np.arctan2(self._nodes.normal[1], self._nodes.normal[0])
+        return np.arctan2(self._liner.nodes.normal[1], self._liner.nodes.normal[0])
 
     def native(self) -> NativeSpec | None:
         """Return the kernel of the C library that is this model; None for a subclass or a rule of others."""
         known = type(self.melting) in (SharedMelting, LocalMelting) and has_kernel(self.bush)
         if type(self) is not BushReaction or not known:
             return None
-        retardation = NativeParameter(
-            name="retardation",
-            unit="s",
-            value=float(self.retardation),
-            tunable=True,
-            minimum=0.0,
-            nominal=1e-3,
-            description="retardation time of the liner as a Kelvin-Voigt solid",
-        )
-        held = NativeParameter(
-            name="temperature",
-            unit="K",
-            value=float(self._held),
-            tunable=True,
-            minimum=-np.inf,
-            nominal=float(self._melting_point),
-            description="temperature at which the contact is held, above ambient",
-        )
         flags = isinstance(self.melting, LocalMelting), self.temperature is not None
-        return NativeSpec(
-            kernel="bush_reaction",
-            parameters=(*bush_parameters(self.bush, self.melting_heat), retardation, held),
-            tables={
-                "bush": bush_table(self.bush),
-                "profile": np.array([self.nodes, self.center, self.extent, *map(float, flags)]),
-            },
-        )
+        numbers = [self.nodes, self.center, self.extent, *map(float, flags)]
+        held = self._liner.temperature
+        return reaction_spec(self.bush, self.melting_heat, self.retardation, held, numbers)
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the force on the journal, with the wear at t = 0.
@@ -225,36 +163,34 @@ class BushReaction:
         FilmContactError
             If the shaft reaches the housing, or the contact an end of the arc of nodes.
         """
-        q, v, omega = _broadcast(position, velocity, speed)
-        pressed = self._press(q, v, self._depths(self.initial_state, q))
+        q, v, omega = broadcast_state(position, velocity, speed)
+        pressed = self._liner.press(q, v, self.initial_state.reshape(-1, *(1,) * (q.ndim - 1)))
         if omega.ndim == 0:
-            self._require_heat(self.initial_state, pressed, float(omega))
-        return self._force(pressed.load, omega)
+            self._liner.require_heat(self.initial_state, pressed, float(omega))
+        return self._liner.force(pressed.load, omega)
 
     def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return d(force_x, force_y)/d(x, y, vx, vy, speed) with the wear at t = 0, shape (2, 5, ...)."""
-        q, v, omega = _broadcast(position, velocity, speed)
-        pressed = self._press(q, v, self._depths(self.initial_state, q))
-        by_position = self._stiffness(pressed, omega)
+        q, v, omega = broadcast_state(position, velocity, speed)
+        pressed = self._liner.press(q, v, self.initial_state.reshape(-1, *(1,) * (q.ndim - 1)))
+        by_position = self._liner.stiffness(pressed, omega)
         return np.concatenate(
             [by_position, self.retardation * by_position, np.zeros((2, 1, *omega.shape))], axis=1
         )
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the outputs, shape (5,), for the wear depths x [m] and u = (x, y, vx, vy, speed)."""
-        wear, values = self._point(x, u)
-        pressed = self._press(values[:2], values[2:4], wear)
-        self._require_heat(wear, pressed, values[4])
-        torque = self._torque_unit(values[4]) * pressed.load.sum()
-        depth = max(self._depth(values[:2], values[2:4], wear).max(), 0.0)
+        wear, values, pressed = self._pressed(x, u)
+        self._liner.require_heat(wear, pressed, values[4])
+        torque = self._liner.torque_unit(values[4]) * pressed.load.sum()
+        depth = max(self._liner.depth(values[:2], values[2:4], wear).max(), 0.0)
         peak = self.bush.liner.shear_modulus / self.bush.compliance * depth
-        return np.array([*self._force(pressed.load, values[4]), torque, pressed.angle, peak])
+        return np.array([*self._liner.force(pressed.load, values[4]), torque, pressed.angle, peak])
 
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the rates of wear at the nodes [m/s], shape (nodes,), none negative."""
-        wear, values = self._point(x, u)
-        pressed = self._press(values[:2], values[2:4], wear)
-        return self._melted(pressed, values[4]).heat / self.melting_heat
+        _, values, pressed = self._pressed(x, u)
+        return self._liner.melted(pressed, values[4]).heat / self.melting_heat
 
     def events(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the switching functions: depths at the nodes, margins of melting, speed.
@@ -263,23 +199,22 @@ class BushReaction:
         them changes sign; between such events the model is smooth.
         """
         wear, values = self._point(x, u)
-        depth = self._depth(values[:2], values[2:4], wear)
-        margins = self.melting.margins(self._heat_state(profile.press(self._nodes, depth), values[4]))
+        depth = self._liner.depth(values[:2], values[2:4], wear)
+        margins = self._liner.margins(profile.press(self._liner.nodes, depth), values[4])
         return np.concatenate([depth, margins, values[4:]])
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives on the present side of every event."""
-        wear, values = self._point(x, u)
-        depth = self._depth(values[:2], values[2:4], wear)
-        pressed = self._press(values[:2], values[2:4], wear)
+        wear, values, pressed = self._pressed(x, u)
+        depth = self._liner.depth(values[:2], values[2:4], wear)
         # d(depth)/d(wear, x, y): the rest of the model follows from the depth.
-        by_depth = np.hstack([-np.eye(self.nodes), self._nodes.normal.T]) / self.bush.geometry.radius
-        loads = profile.times_stiffness(self._nodes, pressed, by_depth) / self.bush.compliance
-        angle = profile.angle_slope(self._nodes, depth) @ by_depth
-        rates, by_speed = self._rate_slopes(pressed, loads, angle, values[4])
+        by_depth = np.hstack([-np.eye(self.nodes), self._liner.nodes.normal.T]) / self.bush.geometry.radius
+        loads = profile.times_stiffness(self._liner.nodes, pressed, by_depth) / self.bush.compliance
+        angle = profile.angle_slope(self._liner.nodes, depth) @ by_depth
+        rates, by_speed = self._liner.rate_slopes(pressed, loads, angle, values[4])
         top = int(np.argmax(depth))
         peak = by_depth[top] * (self.bush.liner.shear_modulus / self.bush.compliance * (depth[top] > 0.0))
-        outputs = np.vstack([self._load_slopes(loads, values[4]), angle, peak])
+        outputs = np.vstack([self._liner.load_slopes(loads, values[4]), angle, peak])
         n = self.nodes
         return Linearization(
             rates[:, :n],
@@ -305,12 +240,12 @@ class BushReaction:
 
         def excess(temperature: float) -> float:
             held = replace(self, temperature=temperature)
-            _, pressed = held._settled(load, speed, depths)
-            return float(self.melting.margins(held._heat_state(pressed, speed)).max())
+            _, pressed = held._liner.settled(load, speed, depths)
+            return float(held._liner.margins(pressed, speed).max())
 
-        low, high = min(0.0, self.bush.outer_mean), self._melting_point
+        low, high = min(0.0, self.bush.outer_mean), self.bush.liner.melting_point
         temperature = high if excess(high) >= 0.0 else float(brentq(excess, low, high, xtol=1e-9))
-        return replace(self, temperature=temperature)._settled(load, speed, depths)[0], temperature
+        return replace(self, temperature=temperature)._liner.settled(load, speed, depths)[0], temperature
 
     def position(self, load: ArrayLike, speed: float, wear: ArrayLike | None = None) -> Array:
         """Return the position at which the bush carries a static load at the temperature it is held at.
@@ -338,143 +273,21 @@ class BushReaction:
             If no position is found, for a load beyond the arc of nodes or worn through.
         """
         depths = self.initial_state if wear is None else require_finite("wear", wear)
-        at, pressed = self._settled(load, speed, depths)
+        at, pressed = self._liner.settled(load, speed, depths)
         if speed != 0.0:
-            self._require_heat(depths, pressed, speed)
+            self._liner.require_heat(depths, pressed, speed)
         return at
 
-    def _settled(self, load: ArrayLike, speed: float, depths: Array) -> tuple[Array, Pressed]:
-        """Return the position that carries a load, and the contact there."""
-        target = require_vector("load", load)
-        size = math.hypot(*target)
-        if target.shape != (2,) or size == 0.0:
-            raise InputError(f"load must be a vector of two numbers, not both zero, got {load!r}")
-        # Part of the load that the pressure carries: the load is that of pressure and friction.
-        lean = self._friction * np.sign(speed)
-        normal = np.array([target[0] + lean * target[1], target[1] - lean * target[0]]) / (1.0 + lean**2)
-        angle = float(self.bush.contact_angle(size))
-        radius = self.bush.geometry.radius
-        start = (self._gap / math.cos(angle) + depths.max() / radius) * normal / math.hypot(*normal)
-        at = radius * settle(self._nodes, self._gap + depths / radius, normal / self._unit, start)
-        return at, profile.press(self._nodes, self._depth(at, np.zeros(2), depths))
-
     @cached_property
-    def _nodes(self) -> Nodes:
-        return profile.arc_nodes(self.nodes, self.center, self.extent)
+    def _liner(self) -> HeldLiner:
+        arc = NodeArc(self.nodes, self.center, self.extent)
+        melting = Melt(self.melting, self.melting_heat, warns=self.temperature is None)
+        held = self.bush.liner.melting_point if self.temperature is None else float(self.temperature)
+        return HeldLiner(self.bush, arc, held, float(self.retardation), melting)
 
-    @cached_property
-    def _melting_point(self) -> float:
-        return self.bush.liner.melting_point
-
-    @cached_property
-    def _held(self) -> float:
-        return self._melting_point if self.temperature is None else float(self.temperature)
-
-    @cached_property
-    def _friction(self) -> float:
-        return float(self.bush.friction.at(self._held))
-
-    @cached_property
-    def _gap(self) -> float:
-        return float(self.bush.gap(self._held))
-
-    @cached_property
-    def _unit(self) -> float:
-        """Force [N] of a unit of the integral of d over the angle."""
-        return self.bush.force_unit / self.bush.compliance
-
-    def _depths(self, wear: Array, position: Array) -> Array:
-        return wear.reshape(-1, *(1,) * (position.ndim - 1))
-
-    def _depth(self, position: Array, velocity: Array, wear: Array) -> Array:
-        """Return the depth of the shaft in the liner at the nodes, shape (n, ...), per radius."""
-        moved = np.tensordot(self._nodes.normal, position + self.retardation * velocity, (0, 0))
-        return (moved - wear) / self.bush.geometry.radius - self._gap
-
-    def _press(self, position: Array, velocity: Array, wear: Array) -> Pressed:
-        require_inside(position, self.clearance)
-        depth = self._depth(position, velocity, wear)
-        if not self._nodes.closed:
-            self._require_on_arc(position + self.retardation * velocity, depth)
-        return profile.press(self._nodes, depth)
-
-    def _require_on_arc(self, moved: Array, depth: Array) -> None:
-        """Raise unless the contact of a shaft at `moved` ends within the arc of nodes."""
-        reach = np.hypot(*moved)
-        along = math.cos(self.center) * moved[0] + math.sin(self.center) * moved[1]
-        beside = along < reach * math.cos(0.5 * self.extent)
-        touches = reach > self._gap * self.bush.geometry.radius
-        if np.any(beside & touches) or max(depth[0].max(), depth[-1].max()) > 0.0:
-            raise FilmContactError(
-                f"contact must stay on the arc of nodes, {self.extent!r} rad about {self.center!r} rad, "
-                f"got a shaft moved by {np.max(reach):.6g} m"
-            )
-
-    def _force(self, load: Array, speed: Array | float) -> Array:
-        """Return the force of pressure and friction on the journal [N], shape (2, ...)."""
-        return self._with_friction(-self._unit * np.tensordot(self._nodes.normal, load, (1, 0)), speed)
-
-    def _with_friction(self, pressure: Array, speed: Array | float) -> Array:
-        """Return a force of pressure together with its friction, -f q t sign(speed) at each angle.
-
-        t is n a quarter turn ahead, so the friction is the force, turned and multiplied by f.
-        """
-        return pressure + self._friction * np.sign(speed) * np.stack([-pressure[1], pressure[0]])
-
-    def _stiffness(self, pressed: Pressed, speed: Array) -> Array:
-        """Return d(force)/d(position) [N/m], shape (2, 2, ...)."""
-        columns = stiffness(self._nodes, pressed) * (-self._unit / self.bush.geometry.radius)
-        return np.stack([self._with_friction(columns[:, k], speed) for k in (0, 1)], axis=1)
-
-    def _pressure(self, pressed: Pressed) -> Array:
-        """Return the pressure at the nodes, shape (n,), in shear moduli."""
-        return pressed.load / (self.bush.compliance * self._nodes.weight)
-
-    def _heat_state(self, pressed: Pressed, speed: float) -> HeatState:
-        law, angle = self.bush.law, max(float(pressed.angle), LEAST_ANGLE)
-        return HeatState(
-            pressure=self._pressure(pressed),
-            total=float(pressed.load.sum()) / self.bush.compliance,
-            angle=angle,
-            work=law.pressure_work * self._friction * abs(speed),
-            losses=law.losses(angle, self._held),
-            losses_slope=law.heat_slopes(angle, self._held, 0.0, 0.0)[0],
-        )
-
-    def _melted(self, pressed: Pressed, speed: float) -> Melting:
-        if self._held < self._melting_point:
-            return Melting(*np.zeros((5, self.nodes)))
-        return self.melting.melting(self._heat_state(pressed, speed))
-
-    def _require_heat(self, wear: Array, pressed: Pressed, speed: float) -> None:
-        """Warn of a worn contact that is held at the melting point for nothing."""
-        if self.temperature is not None or not wear.max() > 0.0 or not pressed.angle > 0.0:
-            return
-        at = self._heat_state(pressed, speed)
-        lost = -self.melting.margins(at._replace(work=0.0)).max()
-        if self.melting.margins(at).max() < -COVERED_TO * lost:
-            # Without the number: Python tells a text once for each line of the user.
-            warn_user(
-                "friction must cover the losses of a worn contact at its melting point, got less than "
-                f"{1.0 - COVERED_TO:.0%} of them: it cools; `rest` answers how far, `temperature` holds it"
-            )
-
-    def _rate_slopes(self, pressed: Pressed, loads: Array, angle: Array, speed: float) -> tuple[Array, Array]:
-        """Return d(rate of wear)/d(wear, x, y), shape (n, n + 2), and by the speed, shape (n,)."""
-        by = self._melted(pressed, speed)
-        rates = (by.by_pressure / self._nodes.weight)[:, None] * loads
-        rates += np.outer(by.by_total, loads.sum(axis=0)) + np.outer(by.by_angle, angle)
-        work = self.bush.law.pressure_work * self._friction * math.copysign(1.0, speed)
-        return rates / self.melting_heat, by.by_work * work / self.melting_heat
-
-    def _load_slopes(self, loads: Array, speed: float) -> Array:
-        """Return d(force_x, force_y, friction_torque)/d(wear, x, y), shape (3, n + 2)."""
-        force = self._force(loads * self.bush.compliance, speed)
-        return np.vstack([force, self._torque_unit(speed) * self.bush.compliance * loads.sum(axis=0)])
-
-    def _torque_unit(self, speed: float) -> float:
-        """Return the friction torque [N m] of a unit of the integral of d over the angle."""
-        return self._friction * float(np.sign(speed)) * self._unit * self.bush.geometry.shaft_radius
+    def _pressed(self, x: ArrayLike, u: ArrayLike) -> tuple[Array, Array, Pressed]:
+        wear, values = self._point(x, u)
+        return wear, values, self._liner.press(values[:2], values[2:4], wear)
 
     def _point(self, x: ArrayLike, u: ArrayLike) -> tuple[Array, Array]:
         wear, values = require_finite("x", x), require_finite("u", u)
@@ -484,16 +297,3 @@ class BushReaction:
                 f"got {wear.shape} and {values.shape}"
             )
         return wear, values
-
-
-def _broadcast(position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> tuple[Array, Array, Array]:
-    q, v = require_vector("position", position), require_vector("velocity", velocity)
-    omega = require_finite("speed", speed)
-    try:
-        x, y, vx, vy, omega = np.broadcast_arrays(q[0], q[1], v[0], v[1], omega)
-    except ValueError:
-        raise InputError(
-            "position (2, ...), velocity (2, ...) and speed (...) must broadcast, "
-            f"got shapes {q.shape}, {v.shape} and {omega.shape}"
-        ) from None
-    return np.stack([x, y]), np.stack([vx, vy]), omega

@@ -13,6 +13,7 @@ from ...errors import (
     FilmContactError,
     InputError,
     require_finite,
+    require_kind,
     require_non_negative,
     require_positive,
     warn_user,
@@ -23,13 +24,8 @@ from ...signals import Signal
 from . import contact_arc as arc
 from .bearing import MeltingBush
 from .bush_kernel import bush_parameters, bush_table, has_kernel
+from .bush_signals import load_inputs, moment_outputs
 from .melting import MeltingContact, MeltingLaw
-
-NOMINAL_LOAD = 1e-2
-"""Typical load in units of `MeltingBush.force_unit`."""
-
-NOMINAL_SPEED = 10.0
-"""Typical angular speed [rad/s]."""
 
 COOLED = 0.02
 """Part of the melting point by which a worn contact may be colder without a word."""
@@ -72,40 +68,19 @@ class BushWear:
     wear: float = 0.0
 
     def __post_init__(self) -> None:
-        if not isinstance(self.bush, MeltingBush):
-            raise InputError(f"bush must be a MeltingBush, got {self.bush!r}")
+        require_kind("bush", self.bush, MeltingBush, "a MeltingBush")
         require_positive("melting_heat", self.melting_heat)
         require_non_negative("wear", self.wear)
 
     @property
     def inputs(self) -> tuple[Signal, ...]:
         """Signals load, speed."""
-        load = NOMINAL_LOAD * self.bush.force_unit
-        return (
-            Signal(name="load", unit="N", nominal=load, description="radial load, not negative"),
-            Signal(name="speed", unit="rad/s", nominal=NOMINAL_SPEED, description="angular speed about +z"),
-        )
+        return load_inputs(self.bush)
 
     @property
     def outputs(self) -> tuple[Signal, ...]:
         """Contact angle, settlement, temperature, pressure, friction torque, melt rate and speed ratio."""
-        bush, melting = self.bush, self.bush.liner.melting_point
-        pressure = NOMINAL_LOAD * bush.liner.shear_modulus
-        torque = (
-            float(bush.friction.at(melting)) * NOMINAL_LOAD * bush.force_unit * bush.geometry.shaft_radius
-        )
-        depth = bush.geometry.radius * bush.clearance_ratio
-        rate = self._law.losses(0.1) / self.melting_heat
-        rows = (
-            ("contact_angle", "rad", 0.1, "half the contact angle"),
-            ("settlement", "m", depth, "displacement of the shaft beyond the clearance"),
-            ("temperature", "K", melting, "contact temperature above ambient"),
-            ("maximum_pressure", "Pa", pressure, "pressure on the load line"),
-            ("friction_torque", "N.m", torque, "torque about +z that keeps the shaft turning"),
-            ("melt_rate", "m/s", rate, "mean rate of wear over the contact"),
-            ("speed_ratio", "1", 1.0, "speed / critical speed at the present contact angle"),
-        )
-        return tuple(Signal(name=n, unit=u, nominal=v, description=d) for n, u, v, d in rows)
+        return moment_outputs(self.bush, self.melting_heat)
 
     @property
     def states(self) -> tuple[Signal, ...]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, require_number, require_positive
+from ...errors import InputError, require_each, require_number, require_positive
 from ...model import Array
 
 
@@ -38,8 +38,7 @@ class BushGeometry:
     length: float
 
     def __post_init__(self) -> None:
-        for name in ("radius", "outer_radius", "shaft_radius", "length"):
-            require_positive(name, getattr(self, name))
+        require_each(self, require_positive, "radius", "outer_radius", "shaft_radius", "length")
         if self.shaft_radius >= self.radius:
             raise InputError(
                 f"shaft_radius must be below the radius {self.radius!r}, got {self.shaft_radius!r}"
@@ -80,8 +79,7 @@ class LinerMaterial:
     melting_point: float
 
     def __post_init__(self) -> None:
-        for name in ("shear_modulus", "expansion", "conductivity", "melting_point"):
-            require_positive(name, getattr(self, name))
+        require_each(self, require_positive, "shear_modulus", "expansion", "conductivity", "melting_point")
         if not 0.0 <= require_number("poisson_ratio", self.poisson_ratio) < 0.5:
             raise InputError(f"poisson_ratio must be at least 0 and below 0.5, got {self.poisson_ratio!r}")
 
@@ -107,8 +105,7 @@ class ShaftMaterial:
     air_transfer: float
 
     def __post_init__(self) -> None:
-        for name in ("conductivity", "air_transfer"):
-            require_positive(name, getattr(self, name))
+        require_each(self, require_positive, "conductivity", "air_transfer")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -135,8 +132,7 @@ class Friction:
     f2: float = 0.0
 
     def __post_init__(self) -> None:
-        for name in ("f0", "f1", "f2"):
-            require_number(name, getattr(self, name))
+        require_each(self, require_number, "f0", "f1", "f2")
 
     def at(self, temperature: ArrayLike) -> Array:
         """Return f at a temperature [K]."""

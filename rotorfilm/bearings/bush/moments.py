@@ -39,9 +39,6 @@ ATOL = 1e-2
 WIDEST = 1.55
 """Half the contact angle [rad] beyond which no end of the wear is looked for."""
 
-WIDEST_TRIAL = 1.57
-"""Of a trial step."""
-
 
 class Stage(NamedTuple):
     """A time in which the load is constant.
@@ -252,7 +249,7 @@ Rate = Callable[[Array, float, float], tuple[float, float]]
 
 def _shifted(rate: Rate, alpha: Array, load: float, t: float, state: Array) -> tuple[float, float]:
     # Trial steps go astray; a contact neither shrinks nor is wider than half a turn.
-    return rate(np.clip(alpha + state[0], alpha, WIDEST_TRIAL), float(state[1]), load)
+    return rate(np.clip(alpha + state[0], alpha, WIDEST + 0.02), float(state[1]), load)
 
 
 def _march(bush: Wearing, stages: tuple[Stage, ...], rate: Rate, rtol: float) -> Path:
@@ -262,8 +259,7 @@ def _march(bush: Wearing, stages: tuple[Stage, ...], rate: Rate, rtol: float) ->
         load = stage.load_ratio
         # The angle grows by very little near the critical speed: its change is the state, not itself.
         alpha = bush.angle(moment, load)
-        room = WIDEST - float(alpha)
-        run = _stage(partial(_shifted, rate, alpha, load), stage.duration, first, room, rtol)
+        run = _stage(partial(_shifted, rate, alpha, load), stage.duration, first, WIDEST - float(alpha), rtol)
         grown = moment + bush.gap * _rise(alpha, run.change)
         parts.append(np.stack([time + run.time, np.full(run.time.size, load), grown, run.first]))
         moment, first = float(grown[-1]), float(run.first[-1])

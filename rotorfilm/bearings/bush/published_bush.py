@@ -1,4 +1,9 @@
-"""The melting stage as published, for a `MeltingBush`: a comparison, not a model to use."""
+"""The example and the melting stage of Evtushenko & Kovalenko (1993): a comparison, not a model to use.
+
+The wear of the source, (3.3), counts the heat losses from t = 0 also at points that are not yet in contact:
+they enter the contact with negative wear, and the contact grows even without rotation. It holds for loads
+under which the contact grows, and no others. `BushWear` has neither defect.
+"""
 
 from __future__ import annotations
 
@@ -7,18 +12,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, require_finite, require_number, require_positive
+from ...errors import ConvergenceError, InputError, require_finite, require_number, require_positive
 from ...model import Array
-from . import published_equations as stage
 from .bearing import MeltingBush
+from .contact_arc import arc_angle, sinc
+from .materials import BushGeometry, Friction, LinerMaterial, ShaftMaterial
 
 
 @dataclass(frozen=True, kw_only=True)
 class PublishedStage:
     """The melting stage by the step method of Evtushenko & Kovalenko (1993), (3.7)-(3.9), as published.
 
-    For loads under which the contact grows only. Points enter the contact with negative wear and the contact
-    grows without rotation: see `films.bush_published`.
+    For loads under which the contact grows only.
 
     Attributes
     ----------
@@ -42,26 +47,36 @@ class PublishedStage:
     removed: Array
 
     def pressure(self, angle: ArrayLike) -> Array:
-        """Return the pressure [Pa] at angles [rad] from the load line, shape (n, k)."""
-        ratio = stage.pressure(
-            self._stage, np.atleast_1d(angle), compliance=self.bush.compliance, rate=self._rate
-        )
-        return self.bush.liner.shear_modulus * ratio
+        """Return the pressure [Pa] at angles [rad] from the load line, shape (n, k).
+
+        a_1 q = g - a_2 int q dt from first contact on, g = f (cos(phi)/cos(alpha) - 1): (3.6), solved by its
+        resolvent as in (3.8), but with the level that each time had (and with the term that (3.8) lacks). The
+        exponential is integrated exactly against g, linear between the times.
+        """
+        driving = self._driving(angle)
+        memory = np.zeros_like(driving)
+        theta = _groups(self.bush, self.speed)[0] / self.bush.compliance
+        for i, step in enumerate(np.diff(self.times)):
+            x = theta * step
+            decay = np.exp(-x)
+            mean = -np.expm1(-x) / x if x > 0.0 else 1.0
+            change = driving[i + 1] - driving[i]
+            memory[i + 1] = memory[i] * decay + driving[i] * (1.0 - decay) + change * (1.0 - mean)
+        return self.bush.liner.shear_modulus * (driving - memory) / self.bush.compliance
 
     def wear(self, angle: ArrayLike) -> Array:
-        """Return the wear depth [m] at angles [rad] from the load line, shape (n, k), by (3.3)."""
-        depth = stage.wear(
-            self._stage, np.atleast_1d(angle), compliance=self.bush.compliance, rate=self._rate
-        )
-        return self.bush.geometry.radius * depth
+        """Return the wear depth [m] at angles [rad] from the load line, shape (n, k), by (3.3).
 
-    @property
-    def _rate(self) -> float:
-        return _groups(self.bush, self.speed)[0]
+        It can be negative.
+        """
+        # a_2 int q dt = g - a_1 q.
+        elastic = self.bush.compliance * self.pressure(angle) / self.bush.liner.shear_modulus
+        return self.bush.geometry.radius * (self._driving(angle) - elastic - self.removed[:, None])
 
-    @property
-    def _stage(self) -> stage.StageShape:
-        return stage.StageShape(self.times, self.contact_angle, self.level, self.removed)
+    def _driving(self, angle: ArrayLike) -> Array:
+        """Return g at the times and angles."""
+        rise = np.cos(np.atleast_1d(angle)) / np.cos(self.contact_angle)[:, None] - 1.0
+        return self.level[:, None] * np.maximum(rise, 0.0)
 
 
 def published_stage(bush: MeltingBush, load: ArrayLike, speed: float, times: ArrayLike) -> PublishedStage:
@@ -93,7 +108,7 @@ def published_stage(bush: MeltingBush, load: ArrayLike, speed: float, times: Arr
     require_positive("outer_swing", bush.outer_swing)
     rate, losses = _groups(bush, speed)
     gap = float(bush.gap(bush.liner.melting_point))
-    found = stage.step_method(
+    alpha, level, removed = _step_method(
         times=grid,
         load=np.broadcast_to(bush.load_ratio(load), grid.shape),
         gap=gap,
@@ -101,15 +116,15 @@ def published_stage(bush: MeltingBush, load: ArrayLike, speed: float, times: Arr
         rate=rate,
         losses=losses,
     )
-    settlement = bush.geometry.radius * (found.level / np.cos(found.alpha) - bush.clearance_ratio)
+    settlement = bush.geometry.radius * (level / np.cos(alpha) - bush.clearance_ratio)
     return PublishedStage(
         bush=bush,
         speed=float(speed),
         times=grid,
-        contact_angle=found.alpha,
+        contact_angle=alpha,
         settlement=settlement,
-        level=found.level,
-        removed=found.removed,
+        level=level,
+        removed=removed,
     )
 
 
@@ -121,4 +136,66 @@ def _groups(bush: MeltingBush, speed: float) -> tuple[float, float]:
     return (
         law.pressure_work * friction * speed / swing,
         (law.shaft * law.melting + law.liner * (law.melting - bush.outer_mean)) / swing,
+    )
+
+
+def _step_method(
+    *, times: Array, load: Array, gap: float, compliance: float, rate: float, losses: float
+) -> tuple[Array, Array, Array]:
+    """Return angle, level and losses by the step method (3.7)-(3.9); first order in the step.
+
+    Parameters
+    ----------
+    times : ndarray, shape (n,)
+        Increasing from 0, in the units of `PublishedStage`.
+    load : ndarray, shape (n,)
+        N at these times.
+    gap, compliance : float
+        c(T_*) and a_1, per liner radius.
+    rate, losses : float
+        a_2 and m of (3.3).
+
+    Raises
+    ------
+    InputError
+        If the contact shrinks, where the method has no solution.
+    ConvergenceError
+        If the losses have used up the clearance.
+    """
+    impulse = np.concatenate([[0.0], np.cumsum(0.5 * (load[1:] + load[:-1]) * np.diff(times))])
+    alpha, level, removed = np.empty((3, len(times)))
+    alpha[0], level[0], removed[0] = float(arc_angle(compliance * load[0] / gap)), gap, 0.0
+    sigma = 0.0
+    for i, t in enumerate(times[1:]):
+        mean = float(sinc(alpha[i]))
+        if i > 0:
+            sigma += (float(sinc(alpha[i - 1])) - mean) * times[i]
+        removed[i + 1] = losses * t - (sigma + mean * t)
+        level[i + 1] = gap - removed[i + 1]
+        if level[i + 1] <= 0.0:
+            raise ConvergenceError(f"times must end before the losses use up the clearance, got {t!r}")
+        alpha[i + 1] = float(arc_angle((compliance * load[i + 1] + rate * impulse[i + 1]) / level[i + 1]))
+        if alpha[i + 1] < alpha[i]:
+            raise InputError(
+                f"load must keep the contact growing, got {alpha[i + 1]:.6g} rad after {alpha[i]:.6g} rad "
+                f"at t = {t!r}"
+            )
+    return alpha, level, removed
+
+
+def f4k20_bush() -> MeltingBush:
+    """Return the example of Evtushenko & Kovalenko (1993), section 4, as a `MeltingBush`.
+
+    Shaft and housing of steel, liner of filled PTFE F4K20. The source calculates with `ApproximateShaft()`;
+    take it by `dataclasses.replace`.
+    """
+    return MeltingBush(
+        geometry=BushGeometry(radius=13e-3, outer_radius=14.5e-3, shaft_radius=12.5e-3, length=0.1),
+        liner=LinerMaterial(
+            shear_modulus=3e8, poisson_ratio=0.4, expansion=8e-5, conductivity=0.39, melting_point=250.0
+        ),
+        shaft=ShaftMaterial(conductivity=25.35, air_transfer=402.0),
+        friction=Friction(f0=0.1),
+        outer_mean=235.0,
+        outer_swing=4.0,
     )

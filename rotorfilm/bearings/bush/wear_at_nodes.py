@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 
 from ...errors import ConvergenceError
 from ...model import Array
-from .moments import WIDEST, Stage, Wearing
+from .moments import WIDEST, Stage, Wearing, wear_by_one_moment
 from .worn_profile import (
     HeatState,
     LocalMelting,
@@ -26,6 +26,12 @@ from .worn_profile import (
     press,
     times_stiffness,
 )
+
+WIDEST_ARC = 1.5
+"""Half the widest arc of nodes [rad]."""
+
+MARGIN, WIDER = 1.08, 1.25
+"""Arc of nodes over the widest contact found by few of them; by how much it is widened where that fails."""
 
 MAX_ITERATIONS = 60
 REST = 1e-7
@@ -235,3 +241,37 @@ def _edge(nodes: Nodes, at: float, offset: Array, depth: Array) -> float:
     ground = offset[middle + last] + part * (offset[middle + last + 1] - offset[middle + last])
     slope = -at * math.sin(angle) - (offset[middle + last + 1] - offset[middle + last]) / nodes.step
     return float(angle - (at * math.cos(angle) - ground) / slope)
+
+
+def arc_of_wear(bush: Wearing, rule: MeltingRule, stages: tuple[Stage, ...], count: int) -> tuple[float, int]:
+    """Return half the arc of nodes [rad] that the contact fills at the end, and the profiles it took.
+
+    Parameters
+    ----------
+    bush : Wearing
+    rule : MeltingRule
+    stages : tuple of Stage
+    count : int
+        Nodes to one side of the load line by which it is found; few are enough.
+
+    Raises
+    ------
+    ConvergenceError
+        If the contact is wider than `WIDEST_ARC`.
+    """
+    path = wear_by_one_moment(bush, stages)
+    reach = min(1.2 * float(bush.angle(path.moment, path.load_ratio).max()), WIDEST_ARC)
+    calls = path.calls
+    while True:
+        try:
+            first = wear_at_nodes(bush, rule, stages, count, reach)
+        except ConvergenceError:
+            if reach >= WIDEST_ARC:
+                raise
+            reach = min(WIDER * reach, WIDEST_ARC)
+            continue
+        calls += first.calls
+        fits = MARGIN * first.angle
+        if fits > 0.7 * reach:
+            return min(fits, WIDEST_ARC), calls
+        reach = 0.5 * (fits + reach)

@@ -8,10 +8,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, require_finite, require_number, require_vector
-from ...model import Array, Linearization, force_outputs, journal_inputs
+from ...errors import InputError, require_finite, require_kind, require_number, require_vector
+from ...model import Array, Linearization
 from ...native.spec import NativeSpec
-from ...signals import Signal
+from ...signals import Signal, force_outputs, journal_inputs
 from .contact_kernel import MOST_CONTACTS, contact_spec
 from .contact_law import ContactLaw
 
@@ -49,8 +49,7 @@ class BallSupport:
     position: tuple[float, float] = (0.0, 0.0)
 
     def __post_init__(self) -> None:
-        if not isinstance(self.law, ContactLaw):
-            raise InputError(f"law must be a ContactLaw, got {self.law!r}")
+        require_kind("law", self.law, ContactLaw, "a ContactLaw")
         angles = require_finite("angles", self.angles)
         if angles.ndim != 1 or not angles.size:
             raise InputError(f"angles must be a list of at least one angle, got {self.angles!r}")

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, require_finite, require_positive
+from ...errors import InputError, require_each, require_finite, require_positive
 from ...model import Array, Linearization
 from ...native.spec import NativeSpec
 from ...signals import Signal
@@ -61,8 +61,7 @@ class ContactLaw:
     force_scale: float = 1.0
 
     def __post_init__(self) -> None:
-        for name in ("span", "exponent", "film_scale", "time_scale", "force_scale"):
-            require_positive(name, getattr(self, name))
+        require_each(self, require_positive, "span", "exponent", "film_scale", "time_scale", "force_scale")
         size = len(require_finite("A", self.A))
         for name, shape in (("A", (size, size)), ("B", (size, 1)), ("C", (1, size)), ("D", (1, 1))):
             if np.shape(getattr(self, name)) != shape:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import ConvergenceError, InputError, require_positive
+from ...errors import ConvergenceError, InputError, require_each, require_kind, require_positive
 from ...model import Array
 from ...signals import Signal
 from .film.stationary import HERTZ_LOAD, stationary_at
@@ -58,10 +58,8 @@ class MovingContact:
     largest: float = 0.1
 
     def __post_init__(self) -> None:
-        if not isinstance(self.contact, PointContact):
-            raise InputError(f"contact must be a PointContact, got {self.contact!r}")
-        for name in ("film_scale", "time_scale", "force_scale", "largest"):
-            require_positive(name, getattr(self, name))
+        require_kind("contact", self.contact, PointContact, "a PointContact")
+        require_each(self, require_positive, "film_scale", "time_scale", "force_scale", "largest")
 
     @cached_property
     def inputs(self) -> tuple[Signal, ...]:

@@ -10,7 +10,15 @@ from pathlib import Path
 
 import numpy as np
 
-from ...errors import FileWarning, InputError, ValidityWarning, require_number, require_positive, warn_user
+from ...errors import (
+    FileWarning,
+    InputError,
+    ValidityWarning,
+    require_kind,
+    require_number,
+    require_positive,
+    warn_user,
+)
 from .film.contact_grid import ContactGrid
 from .film.contact_newton import Contact
 from .film.contact_scheme import ContactScheme, UpwindScheme
@@ -71,8 +79,9 @@ class PointContact:
         for name, kind in kinds.items():
             if not isinstance(getattr(self, name), kind):
                 raise InputError(f"{name} must be a {kind.__name__}, got {getattr(self, name)!r}")
-        if self.density is not None and not isinstance(self.density, DowsonHigginsonDensity):
-            raise InputError(f"density must be a DowsonHigginsonDensity or None, got {self.density!r}")
+        require_kind(
+            "density", self.density, DowsonHigginsonDensity | None, "a DowsonHigginsonDensity or None"
+        )
 
     @cached_property
     def equations(self) -> ContactEquations:

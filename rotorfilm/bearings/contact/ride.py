@@ -9,10 +9,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ...errors import ConvergenceError, require_number, require_positive, warn_user
-from ...model import Array
+from ...model import Array, breakpoints
 from ...results import Trajectory
 from .contact_law import ContactLaw
-from .ride_steps import forces_of, ride_steps
+from .ride_steps import RideLaw
 
 FINEST = 12
 """Halvings of the steps after which an integration is given up."""
@@ -28,9 +28,7 @@ class _Part(NamedTuple):
 class _Rider(NamedTuple):
     """The law and the ball in the units of the contact."""
 
-    W: float
-    matrices: tuple[Array, Array, Array, float]
-    law: Array
+    law: RideLaw
     fastest: float
     load: Callable[[float], float]
     time_scale: float
@@ -66,13 +64,7 @@ class _Rider(NamedTuple):
 
     def _steps(self, begin: float, end: float, start: Array, pushes: Array) -> _Part:
         n = len(pushes) // 2
-        y = ride_steps(start, (end - begin) / n, pushes, self.W, *self.matrices, self.law)
-        return _Part(np.linspace(begin, end, n + 1), y)
-
-    def force(self, y: Array) -> Array:
-        """Return the film's force, shape (n,), for rows of y."""
-        _, _, C, D = self.matrices
-        return np.asarray(forces_of(np.ascontiguousarray(y), C, D, self.law))
+        return _Part(np.linspace(begin, end, n + 1), self.law.steps(start, (end - begin) / n, pushes))
 
 
 def ride(
@@ -126,7 +118,7 @@ def ride(
     require_number("start", start)
     rider = _rider(law, mass, load)
     span = duration / law.time_scale
-    jumps = sorted(t / law.time_scale for t in getattr(load, "breakpoints", ()) if 0.0 < t < duration)
+    jumps = sorted(t / law.time_scale for t in breakpoints(load) if 0.0 < t < duration)
     delta = start / law.film_scale
     y = np.array([delta, velocity * law.time_scale / law.film_scale, *law.resting(delta)])
     parts: list[_Part] = []
@@ -136,7 +128,7 @@ def ride(
         except ConvergenceError as error:
             raise ConvergenceError(str(error), _motion(law, rider, parts, samples)) from error
         y = parts[-1].y[-1]
-    _require_range(law, np.concatenate([rider.force(part.y) for part in parts]) * law.force_scale)
+    _require_range(law, np.concatenate([rider.law.force(part.y) for part in parts]) * law.force_scale)
     return _motion(law, rider, parts, samples)
 
 
@@ -152,15 +144,11 @@ def _require_range(law: ContactLaw, force: Array) -> None:
 
 def _rider(law: ContactLaw, mass: float, load: Callable[[float], float]) -> _Rider:
     W = mass * law.film_scale / (law.time_scale**2 * law.force_scale)
-    A, B = np.ascontiguousarray(law.A, dtype=float), np.ascontiguousarray(law.B[:, 0], dtype=float)
-    C = np.ascontiguousarray(law.C[0], dtype=float)
-    static = np.array([law.offset, law.span, law.exponent, law.operating])
-    poles = np.abs(np.linalg.eigvals(A)) if law.order else np.zeros(1)
+    static = law.offset, law.span, law.exponent, law.operating
+    poles = np.abs(np.linalg.eigvals(law.A)) if law.order else np.zeros(1)
     natural = math.sqrt(law.exponent / law.span / W)
     return _Rider(
-        W,
-        (A, B, C, float(law.D[0, 0])),
-        static,
+        RideLaw(law.A, law.B[:, 0], law.C[0], float(law.D[0, 0]), *static, W),
         max(natural, float(poles.max())),
         load,
         law.time_scale,
@@ -177,7 +165,7 @@ def _motion(law: ContactLaw, rider: _Rider, parts: list[_Part], samples: int) ->
     signals = {
         "z": rows[:, 0] * law.film_scale,
         "vz": rows[:, 1] * law.film_scale / law.time_scale,
-        "force_z": rider.force(rows) * law.force_scale,
+        "force_z": rider.law.force(rows) * law.force_scale,
     }
     steps = sum(len(part.time) - 1 for part in parts)
     return Trajectory(time=time * law.time_scale, signals=signals, work={"steps": steps})

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from ...errors import InputError, require_non_negative, require_number, require_positive
+from ...errors import InputError, require_each, require_non_negative, require_number, require_positive
 from .film.contact_grid import ContactGrid
 from .film.contact_scheme import ContactScheme, UpwindScheme
 from .film.pressure_fluid import HIGGINSON_PRESSURE, BarusViscosity, DowsonHigginsonDensity, RoelandsViscosity
@@ -85,8 +85,9 @@ class RollingBall:
     plane_poisson_ratio: float = 0.3
 
     def __post_init__(self) -> None:
-        for name in ("radius", "modulus", "viscosity", "pressure_coefficient", "speed", "load"):
-            require_positive(name, getattr(self, name))
+        require_each(
+            self, require_positive, "radius", "modulus", "viscosity", "pressure_coefficient", "speed", "load"
+        )
         require_non_negative("mass", self.mass)
         if self.plane_modulus != math.inf:
             require_positive("plane_modulus", self.plane_modulus)

@@ -1,6 +1,8 @@
 """Squeeze-film dampers with a porous cage."""
 
-from .bearing import AxialFeed, DamperGroups, PorousCage, PorousDamper, RadialFeed, damper_groups
+from .bearing import PorousDamper
+from .cage import AxialFeed, PorousCage, RadialFeed
+from .damper_groups import DamperGroups, damper_groups
 from .full_squeeze import SqueezeFilm
 from .mapped_squeeze import FiniteMapSqueeze, MapSqueeze
 from .porous_layer import layer_modes

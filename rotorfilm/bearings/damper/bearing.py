@@ -9,108 +9,27 @@ from functools import cached_property
 
 import numpy as np
 
-from ...errors import InputError, require_non_negative, require_number, require_positive, warn_user
+from ...errors import (
+    InputError,
+    require_each,
+    require_kind,
+    require_positive,
+    warn_user,
+)
 from ...model import Array, Tangent, tangent_of
 from ...native.spec import NativeSpec
 from ..films.cavitation import FullFilm, HalfSommerfeld
+from ..films.law import options
 from ..reaction import NOMINAL_SPEED, StaticReaction
+from .cage import AxialFeed, PorousCage, RadialFeed
 from .damper_kernel import DIMENSIONS, damper_spec
 from .full_squeeze import SqueezeFilm
-from .mapped_squeeze import MappedSqueezeFilm, TabulatedSqueeze
+from .mapped_squeeze import MappedSqueezeFilm
 from .porous_layer import LayerModes, PorousLayer, layer_modes
-from .squeeze_laws import ShortSqueeze, SqueezeCase, SqueezeLaw, parabola_mean
+from .squeeze_laws import ShortSqueeze, SqueezeCase, SqueezeLaw, SqueezeOptions, parabola_mean
 
 LARGEST_RATIO = 0.5
 """Largest thickness / radius of a layer that may be unrolled to a plane."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class PorousCage:
-    """A porous ring around the film, Darcy's law in it: k(y) = permeability exp(grading y/thickness), y <= 0.
-
-    Parameters
-    ----------
-    thickness : float [m]
-        H, radial thickness of the layer.
-    permeability : float [m2]
-        A, through the layer, at its face to the film.
-    grading : float [1]
-        lambda; positive where the layer is tighter at its back.
-    anisotropy : float [1]
-        k_z/k_y: permeability along the layer, per that through it.
-    vented : bool
-        Whether the back of the layer is open to `supply_pressure`; otherwise it is sealed.
-    supply_pressure : float [Pa]
-        Gauge pressure at a vented back.
-    thin : bool
-        Morgan & Cameron's layer in place of Darcy's: no pressure drop through a sealed layer, no flow along a
-        vented one.
-
-    Raises
-    ------
-    InputError
-        If a value breaks its rule, or there is a supply pressure behind a sealed back.
-    """
-
-    thickness: float
-    permeability: float
-    grading: float = 0.0
-    anisotropy: float = 1.0
-    vented: bool = False
-    supply_pressure: float = 0.0
-    thin: bool = False
-
-    def __post_init__(self) -> None:
-        for name in ("thickness", "permeability", "anisotropy"):
-            require_positive(name, getattr(self, name))
-        for name in ("grading", "supply_pressure"):
-            require_number(name, getattr(self, name))
-        if self.supply_pressure and not self.vented:
-            raise InputError(f"supply_pressure must be 0 behind a sealed back, got {self.supply_pressure!r}")
-
-
-@dataclass(frozen=True, kw_only=True)
-class RadialFeed:
-    """Lubricant pressed through the layer: a given velocity at the back of a sealed layer, or at the film.
-
-    What the layer passes from its back to the film, the rest leaving by the layer's ends, follows from
-    Darcy's law (95 % at H/L = 0.1); through a thin layer or a solid cage (jets) it is all.
-
-    Parameters
-    ----------
-    inflow : float [m/s]
-        Velocity towards the film, its largest along the axis; negative for suction.
-    cosine : bool
-        Whether the velocity falls as cos(pi z/length) from the middle to the ends; otherwise it is uniform.
-    at_film : bool
-        Whether it is what enters a film without pressure; otherwise what enters the back of the layer, as in
-        Akhverdiev et al. (11).
-    """
-
-    inflow: float
-    cosine: bool = False
-    at_film: bool = False
-
-    def __post_init__(self) -> None:
-        require_number("inflow", self.inflow)
-
-
-@dataclass(frozen=True, kw_only=True)
-class AxialFeed:
-    """Lubricant fed at the ends of film and layer.
-
-    Parameters
-    ----------
-    start_pressure, end_pressure : float [Pa]
-        Gauge pressure at z = -length/2 and z = length/2. Zero is the pressure at which the film ruptures.
-    """
-
-    start_pressure: float
-    end_pressure: float
-
-    def __post_init__(self) -> None:
-        require_number("start_pressure", self.start_pressure)
-        require_number("end_pressure", self.end_pressure)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -160,18 +79,13 @@ class PorousDamper(StaticReaction):
     film: SqueezeLaw = field(default_factory=ShortSqueeze)
 
     def __post_init__(self) -> None:
-        for name in ("radius", "length", "clearance", "viscosity"):
-            require_positive(name, getattr(self, name))
+        require_each(self, require_positive, "radius", "length", "clearance", "viscosity")
         if self.clearance >= self.radius:
             raise InputError(f"clearance must be below the radius {self.radius!r}, got {self.clearance!r}")
-        if self.cage is not None and not isinstance(self.cage, PorousCage):
-            raise InputError(f"cage must be a PorousCage or None, got {self.cage!r}")
-        if not isinstance(self.extent, FullFilm | HalfSommerfeld):
-            raise InputError(f"extent must be FullFilm() or HalfSommerfeld(), got {self.extent!r}")
-        if self.feed is not None and not isinstance(self.feed, RadialFeed | AxialFeed):
-            raise InputError(f"feed must be a RadialFeed, an AxialFeed or None, got {self.feed!r}")
-        if isinstance(self.film, type) or not isinstance(self.film, SqueezeLaw):
-            raise InputError(f"film must be a squeeze film such as ShortSqueeze(), got {self.film!r}")
+        require_kind("cage", self.cage, PorousCage | None, "a PorousCage or None")
+        require_kind("extent", self.extent, FullFilm | HalfSommerfeld, "FullFilm() or HalfSommerfeld()")
+        require_kind("feed", self.feed, RadialFeed | AxialFeed | None, "a RadialFeed, an AxialFeed or None")
+        require_kind("film", self.film, SqueezeLaw, "a squeeze film such as ShortSqueeze()")
         if self._back_is_open and isinstance(self.feed, RadialFeed):
             raise InputError("feed must not be a RadialFeed where the back of the cage is vented, got both")
         _ = self.bound_film
@@ -195,7 +109,7 @@ class PorousDamper(StaticReaction):
     @property
     def largest_eccentricity_ratio(self) -> float:
         """Eccentricity ratio to which the film is meant: the last node of a map, 0.99 for finite length."""
-        return getattr(self.film, "largest_eccentricity_ratio", 1.0)
+        return self._options.largest_eccentricity_ratio
 
     @property
     def is_fed(self) -> bool:
@@ -206,16 +120,7 @@ class PorousDamper(StaticReaction):
     @cached_property
     def layer(self) -> PorousLayer | None:
         """The cage in the film's units; None for a solid one."""
-        if self.cage is None:
-            return None
-        return PorousLayer(
-            permeability_number=self.cage.permeability * self.cage.thickness / self.clearance**3,
-            grading=self.cage.grading,
-            thickness_ratio=self.cage.thickness / self.length,
-            anisotropy=self.cage.anisotropy,
-            vented=self.cage.vented,
-            thin=self.cage.thin,
-        )
+        return None if self.cage is None else self.cage.layer(self.length, self.clearance)
 
     @cached_property
     def bound_film(self) -> SqueezeFilm:
@@ -235,8 +140,12 @@ class PorousDamper(StaticReaction):
 
     def portable(self) -> PorousDamper:
         """Return this damper with a film that carries the table it needs; see `model.Portable`."""
-        film = self.film
-        return replace(self, film=film.tabulated(self._case)) if isinstance(film, TabulatedSqueeze) else self
+        carried = self._options.tabulated(self._case)
+        return self if carried is None else replace(self, film=carried)
+
+    @property
+    def _options(self) -> SqueezeOptions:
+        return options(self.film, SqueezeOptions)
 
     @property
     def _case(self) -> SqueezeCase:
@@ -311,8 +220,8 @@ class PorousDamper(StaticReaction):
         return self.cage is not None and self.cage.vented
 
     def _warn(self) -> None:
-        limit = getattr(self.film, "slenderness_limit", None)
-        if limit is not None and self.slenderness > limit:
+        limit = self._options.slenderness_limit
+        if self.slenderness > limit:
             excess = 1.0 / parabola_mean(self.slenderness) - 1.0
             warn_user(
                 f"length / diameter must not exceed {limit} for {self.film!r}, got {self.slenderness:.6g}: "
@@ -324,90 +233,3 @@ class PorousDamper(StaticReaction):
                 f"thickness must not exceed {LARGEST_RATIO} radii of {self.radius!r} m, got "
                 f"{self.cage.thickness!r}: the layer is unrolled to a plane",
             )
-
-
-@dataclass(frozen=True, kw_only=True)
-class DamperGroups:
-    """The dimensionless groups of a rotor on a damper, w_r being any reference speed.
-
-    Attributes
-    ----------
-    squeeze_number : float [1]
-        Bs = mu R L^3/(m w_r C^3).
-    damper_number : float [1]
-        B = mu R^3 L/(2 m w_r C^3) = Bs/(8 (L/D)^2).
-    permeability_number : float [1]
-        Phi = A H/C^3; 0 for a solid cage.
-    grading : float [1]
-        lambda.
-    thickness_ratio : float [1]
-        H/L.
-    slenderness : float [1]
-        L/D.
-    speed_ratio : float [1]
-        Omega = omega/w_r.
-    spring_ratio : float [1]
-        Omega_s = sqrt(K/m)/w_r, K the stiffness of the retainer springs.
-    unbalance_ratio : float [1]
-        U = u/(m C).
-    """
-
-    squeeze_number: float
-    damper_number: float
-    permeability_number: float
-    grading: float
-    thickness_ratio: float
-    slenderness: float
-    speed_ratio: float
-    spring_ratio: float
-    unbalance_ratio: float
-
-
-def damper_groups(
-    damper: PorousDamper,
-    *,
-    mass: float,
-    speed: float,
-    stiffness: float = 0.0,
-    unbalance: float = 0.0,
-    reference_speed: float | None = None,
-) -> DamperGroups:
-    """Return the dimensionless groups of a rigid rotor on a damper.
-
-    Parameters
-    ----------
-    damper : PorousDamper
-    mass : float [kg]
-        Carried by this damper.
-    speed : float [rad/s]
-        Of the rotor.
-    stiffness : float [N/m]
-        Of the retainer springs.
-    unbalance : float [kg m]
-    reference_speed : float [rad/s], optional
-        w_r; the speed itself by default.
-
-    Raises
-    ------
-    InputError
-        If a value breaks its rule.
-    """
-    reference = abs(speed) if reference_speed is None else reference_speed
-    require_positive("mass", mass)
-    require_number("speed", speed)
-    require_positive("reference_speed", reference)
-    require_non_negative("stiffness", stiffness)
-    require_non_negative("unbalance", unbalance)
-    layer = damper.layer
-    squeeze = damper.force_scale / (damper.clearance * mass * reference)
-    return DamperGroups(
-        squeeze_number=squeeze,
-        damper_number=squeeze / (8.0 * damper.slenderness**2),
-        permeability_number=0.0 if layer is None else layer.permeability_number,
-        grading=0.0 if layer is None else layer.grading,
-        thickness_ratio=0.0 if layer is None else layer.thickness_ratio,
-        slenderness=damper.slenderness,
-        speed_ratio=speed / reference,
-        spring_ratio=math.sqrt(stiffness / mass) / reference,
-        unbalance_ratio=unbalance / (mass * damper.clearance),
-    )

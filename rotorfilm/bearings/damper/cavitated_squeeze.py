@@ -103,7 +103,7 @@ def arc_nodes(eps: Array, start: Array, end: Array, depth: float, nodes: Array, 
     """Return the nodes of an arc, angles from the minimum film, each (M, B) for (M,) nodes and (B,) arcs.
 
     psi = xi - 2 atan2(b sin xi, 1 + b cos xi), the Sommerfeld angle of a film thicker by `depth`; 1 - eps is
-    kept apart from the rest of h, so nothing cancels near contact.
+    kept apart from the rest of h, so nothing cancels near the wall.
     """
     rho = np.sqrt((1.0 - eps + depth) / (1.0 + eps + depth))
     b = (1.0 - rho) / (1.0 + rho)

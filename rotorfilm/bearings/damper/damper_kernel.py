@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from ...model import MOTION_NAMES
 from ...native.spec import NativeParameter, NativeSpec
+from ...signals import MOTION_NAMES
 from .full_squeeze import SqueezeFilm
 from .mapped_squeeze import MappedSqueezeFilm
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import ClassVar, Protocol, runtime_checkable
+from typing import ClassVar
 
 import numpy as np
 
@@ -21,26 +21,15 @@ from ..films.kernel_film import BoundKernel
 from ..films.map_table import MapTable
 from ..journal import MapFilm
 from .full_squeeze import SqueezeFilm
-from .squeeze_laws import SqueezeCase
+from .squeeze_laws import SqueezeCase, SqueezeOptions
 from .squeeze_table import LARGEST, LARGEST_FINITE, RATIO, SqueezeTable, finite_table, short_table
 
 SHORT = 1e-6
-"""Length / diameter of a short film, at contact too."""
-
-
-@runtime_checkable
-class TabulatedSqueeze(Protocol):
-    """A squeeze law that makes a table on first use."""
-
-    def bind(self, case: SqueezeCase) -> SqueezeFilm:
-        """Return the film of one damper; see `SqueezeLaw`."""
-
-    def tabulated(self, case: SqueezeCase) -> TabulatedSqueeze:
-        """Return the same law with the table that it would make in this damper."""
+"""Length / diameter of a short film, at the wall too."""
 
 
 @dataclass(frozen=True)
-class MapSqueeze:
+class MapSqueeze(SqueezeOptions):
     """Short film from a table: within 1e-4 of `ShortSqueeze()`, some hundred times faster alone.
 
     The table is made at the first use of a damper and kept in memory for dampers of the same layer.
@@ -68,7 +57,7 @@ class MapSqueeze:
         return MappedSqueezeFilm(_squeeze_map(self._table(case), SHORT), one_slenderness=False)
 
     def tabulated(self, case: SqueezeCase) -> MapSqueeze:
-        """Return this law with the table of one damper; see `TabulatedSqueeze`."""
+        """Return this law with the table of one damper; see `SqueezeOptions`."""
         return replace(self, table=self._table(case))
 
     def _table(self, case: SqueezeCase) -> SqueezeTable:
@@ -78,7 +67,7 @@ class MapSqueeze:
 
 
 @dataclass(frozen=True)
-class FiniteMapSqueeze:
+class FiniteMapSqueeze(SqueezeOptions):
     """Film of finite length from a table of its potential, flow around the circumference included.
 
     The table takes some seconds for a damper and is kept on disk; L/D to 2, eccentricity ratio to 0.985.
@@ -104,7 +93,7 @@ class FiniteMapSqueeze:
         return MappedSqueezeFilm(_squeeze_map(self._table(case), case.slenderness), one_slenderness=True)
 
     def tabulated(self, case: SqueezeCase) -> FiniteMapSqueeze:
-        """Return this law with the table of one damper; see `TabulatedSqueeze`."""
+        """Return this law with the table of one damper; see `SqueezeOptions`."""
         return replace(self, table=self._table(case))
 
     def _table(self, case: SqueezeCase) -> SqueezeTable:
@@ -119,20 +108,20 @@ class SqueezeMapFilm(MapFilm):
 
     Parameters
     ----------
-    contact : (float, float) [1]
-        Length / diameter of the film at contact, as which it goes on beyond the table, and that film's share
+    wall : (float, float) [1]
+        Length / diameter of the film at the wall, as which it goes on beyond the table, and that film's share
         in units of a journal; zeros where that is not its law.
     """
 
-    contact: tuple[float, float] = (0.0, 0.0)
+    wall: tuple[float, float] = (0.0, 0.0)
 
     def _kernel(self, slenderness: float) -> MapKernel:
-        return _collapsed(self._table(slenderness), self.contact)
+        return _collapsed(self._table(slenderness), self.wall)
 
 
 @lru_cache(maxsize=64)
-def _collapsed(table: MapTable, contact: tuple[float, float]) -> MapKernel:
-    return MapKernel(*table.at(RATIO), *contact)
+def _collapsed(table: MapTable, wall: tuple[float, float]) -> MapKernel:
+    return MapKernel(*table.at(RATIO), *wall)
 
 
 @dataclass(frozen=True)
@@ -162,7 +151,7 @@ class MappedSqueezeFilm:
         tables = dict(self.film.native(RATIO)[1])
         return {name: tables[name] for name in ("center", "reach")} | {
             "coefficients": tables["coefficients"][0],
-            "contact": np.array(self.film.contact),
+            "wall": np.array(self.film.wall),
         }
 
     def force(self, eccentricity: Array, rate: Array) -> Array:
@@ -181,7 +170,7 @@ class MappedSqueezeFilm:
 
 
 def _squeeze_map(table: SqueezeTable, slenderness: float) -> SqueezeMapFilm:
-    """Return the map of a table; a full film, or one on a porous layer, is another one at contact."""
+    """Return the map of a table; a full film, or one on a porous layer, is another one at the wall."""
     journal = table.cavitated and table.layer is None
     return SqueezeMapFilm(table.table, (slenderness, 0.25 / slenderness**2) if journal else (0.0, 0.0))
 

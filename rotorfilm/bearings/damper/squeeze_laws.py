@@ -51,8 +51,26 @@ class SqueezeLaw(Protocol):
         """Return the film of one damper; raise InputError where the law cannot represent it."""
 
 
+class SqueezeOptions:
+    """What a squeeze law may have besides `bind`: what it leaves as it is here, it has not."""
+
+    @property
+    def slenderness_limit(self) -> float:
+        """Largest length / diameter for which the film is meant; beyond, a damper warns."""
+        return math.inf
+
+    @property
+    def largest_eccentricity_ratio(self) -> float:
+        """Eccentricity ratio to which the film is meant; 1 where it is meant up to the wall."""
+        return 1.0
+
+    def tabulated(self, case: SqueezeCase) -> SqueezeLaw | None:
+        """Return this law with the table that it would make in a damper; None if it makes none."""
+        return None
+
+
 @dataclass(frozen=True)
-class ShortSqueeze:
+class ShortSqueeze(SqueezeOptions):
     """Short film: no flow around the circumference, neither in the film nor in the layer."""
 
     slenderness_limit: ClassVar[float] = 0.25
@@ -68,7 +86,7 @@ class ShortSqueeze:
 
 
 @dataclass(frozen=True)
-class FiniteSqueeze:
+class FiniteSqueeze(SqueezeOptions):
     """Full film of finite length, some milliseconds for a force: the reference of the short film."""
 
     largest_eccentricity_ratio: ClassVar[float] = LARGEST
@@ -82,7 +100,7 @@ class FiniteSqueeze:
 
 
 @dataclass(frozen=True)
-class PublishedSqueeze:
+class PublishedSqueeze(SqueezeOptions):
     """Historical: small motion as published by Akhverdiev et al., with the signs corrected.
 
     Full film, linear in eccentricity and velocity. The leak is that of a vented back with the flux number

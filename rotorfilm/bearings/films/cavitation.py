@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
+from typing import ClassVar, Protocol, runtime_checkable
 
 
 @runtime_checkable
@@ -23,42 +23,30 @@ class Cavitation(Protocol):
 class Complementarity:
     """Reynolds rupture: p >= 0, and no flux out of the ruptured zone (p and its slope vanish at its edge)."""
 
-    @property
-    def searched(self) -> bool:
-        """The ruptured zone is searched for."""
-        return True
+    searched: ClassVar[bool] = True
+    """The ruptured zone is searched for."""
 
-    @property
-    def clipped(self) -> bool:
-        """Nothing is left to clip."""
-        return False
+    clipped: ClassVar[bool] = False
+    """Nothing is left to clip."""
 
 
 @dataclass(frozen=True)
 class HalfSommerfeld:
     """Guembel rupture: the negative pressures of the full film are dropped; flow is not conserved."""
 
-    @property
-    def searched(self) -> bool:
-        """The film is solved full."""
-        return False
+    searched: ClassVar[bool] = False
+    """The film is solved full."""
 
-    @property
-    def clipped(self) -> bool:
-        """Negative pressures are dropped."""
-        return True
+    clipped: ClassVar[bool] = True
+    """Negative pressures are dropped."""
 
 
 @dataclass(frozen=True)
 class FullFilm:
     """Sommerfeld film: no rupture, tension included."""
 
-    @property
-    def searched(self) -> bool:
-        """The film is solved full."""
-        return False
+    searched: ClassVar[bool] = False
+    """The film is solved full."""
 
-    @property
-    def clipped(self) -> bool:
-        """Negative pressures stay."""
-        return False
+    clipped: ClassVar[bool] = False
+    """Negative pressures stay."""

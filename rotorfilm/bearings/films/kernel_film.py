@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,11 +11,11 @@ from ...errors import InputError, require_inside, warn_user
 from ...model import Array
 from ...native import FilmKernel, JournalKernel, Status
 from ...native.film_kernels import Batch, MapKernel
-from .law import vanishing_source, wall_contact
+from .law import FilmOptions, endless_search, vanishing_source, wall_contact
 
 
-class KernelFilm(ABC):
-    """A film law in compiled code: what `ShortFilm`, `MapFilm` and `GroovedMapFilm` have in common."""
+class KernelFilm(FilmOptions):
+    """A film law in compiled code, as that of `ShortFilm`, `MapFilm`, `GroovedMapFilm` and `ReynoldsFilm`."""
 
     @abstractmethod
     def _kernel(self, slenderness: float) -> FilmKernel:
@@ -34,7 +34,7 @@ class KernelFilm(ABC):
         e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
         kernel = self._kernel(slenderness)
         batch = kernel.force(e, w)
-        _report_law(batch, e, w, kernel)
+        report_law(batch, e, w, kernel)
         return batch.values.reshape(eccentricity.shape)
 
     def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
@@ -50,11 +50,11 @@ class KernelFilm(ABC):
         e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
         kernel = self._kernel(slenderness)
         batch = kernel.jacobian(e, w)
-        _report_law(batch, e, w, kernel)
+        report_law(batch, e, w, kernel)
         return batch.values.reshape(2, 4, *eccentricity.shape[1:])
 
     def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundKernel:
-        """Return this film in one bearing, in SI units; see `law.BindableFilm`."""
+        """Return this film in one bearing, in SI units; see `FilmOptions`."""
         return BoundKernel(JournalKernel(self._kernel(slenderness), clearance, force_scale), clearance)
 
 
@@ -118,7 +118,7 @@ class BoundKernel:
 
     def _report_batch(self, batch: Batch, q: Array, v: Array, omega: Array) -> None:
         if batch.status:
-            at = np.argmax(np.hypot(*q)) if batch.status == Status.CONTACT else batch.first
+            at = np.argmax(np.hypot(*q)) if batch.status == Status.AT_WALL else batch.first
             (x, y), (vx, vy) = q[:, at].tolist(), v[:, at].tolist()
             self._report(batch.status, x, y, vx, vy, float(np.broadcast_to(omega, q.shape[1:])[at]))
 
@@ -129,16 +129,23 @@ class BoundKernel:
                 "position, velocity and speed must be finite and not overflow, "
                 f"got ({x!r}, {y!r}) m, ({vx!r}, {vy!r}) m/s and {speed!r} rad/s"
             )
-        if status == Status.CONTACT:
+        if status == Status.AT_WALL:
             require_inside(np.array([x, y]), self.clearance)
+        if status == Status.STUCK:
+            e = np.array([x, y]) / self.clearance
+            raise endless_search(
+                e, np.array([vx, vy]) / self.clearance - 0.5 * speed * np.array([-e[1], e[0]])
+            )
         _report_film(status, float(np.hypot(x, y)) / self.clearance, self.kernel.film)
 
 
-def _report_law(batch: Batch, e: Array, w: Array, kernel: FilmKernel) -> None:
+def report_law(batch: Batch, e: Array, w: Array, kernel: FilmKernel) -> None:
     """Raise, or warn, about the most severe status of a batch of eccentricities and sources (2, n)."""
     if not batch.status:
         return
     at = e[:, batch.first]
+    if batch.status == Status.STUCK:
+        raise endless_search(at, w[:, batch.first])
     if batch.status == Status.NOT_FINITE:
         raise InputError(
             "eccentricity and source must be finite and not overflow, "
@@ -148,7 +155,9 @@ def _report_law(batch: Batch, e: Array, w: Array, kernel: FilmKernel) -> None:
 
 
 def _report_film(status: int, chi: float, kernel: FilmKernel) -> None:
-    if status == Status.CONTACT:
+    if status == Status.NO_MEMORY:
+        raise MemoryError("no memory for a film")
+    if status == Status.AT_WALL:
         raise wall_contact(chi)
     if status == Status.UNDEFINED:
         raise vanishing_source(chi)
@@ -160,4 +169,4 @@ def continued(kernel: FilmKernel) -> str:
     if not kernel.error:
         return "extrapolated there, with an error that is not known"
     where = " where no opening is near" if kernel.openings else ""
-    return f"continued as that of a film at contact, within {kernel.error:g} %{where}"
+    return f"continued as that of a film at the wall, within {kernel.error:g} %{where}"

@@ -12,12 +12,13 @@ Forces are in units of viscosity * length * radius^3 / clearance^2.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
-from typing import NamedTuple, Protocol, runtime_checkable
+from typing import NamedTuple, Protocol, TypeVar, cast, runtime_checkable
 
 import numpy as np
 
-from ...errors import FilmContactError, UndefinedDerivativeError
+from ...errors import ConvergenceError, FilmContactError, UndefinedDerivativeError
 from ...model import Array
 from .geometry import FilmGeometry
 
@@ -79,36 +80,52 @@ class BoundFilm(Protocol):
         """Return d force / d (x, y, vx, vy, speed), shape (2, 5, ...)."""
 
 
-@runtime_checkable
-class BindableFilm(FilmLaw, Protocol):
-    """A film law that does the kinematics and the scaling of a bearing by itself, in compiled code."""
+class FilmOptions:
+    """What a film law may have besides `force` and `jacobian`: what it leaves as it is here, it has not."""
 
-    def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundFilm:
-        """Return the film of one bearing; force_scale is viscosity length radius^3 / clearance^2 [N s]."""
+    @property
+    def slenderness_range(self) -> tuple[float, float]:
+        """Smallest and largest length / diameter that this law takes."""
+        return 0.0, math.inf
+
+    @property
+    def slenderness_limit(self) -> float:
+        """Largest length / diameter for which this law is meant; beyond, a bearing warns."""
+        return math.inf
+
+    def fitted(self, geometry: FilmGeometry) -> FilmLaw | None:
+        """Return the law in a bearing of this geometry; None if it can represent no openings nor supply."""
+        return None
+
+    def bind(self, *, slenderness: float, clearance: float, force_scale: float) -> BoundFilm | None:
+        """Return the film of one bearing in compiled code; None if there is none.
+
+        The force_scale is viscosity length radius^3 / clearance^2 [N s].
+        """
+        return None
+
+    def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]] | None:
+        """Return the kernel of the C library that is a bearing of this length/diameter, and its tables."""
+        return None
+
+    def tabulated(self, slenderness: float) -> FilmLaw | None:
+        """Return this law with the table that it would make on first use; None if it makes none."""
+        return None
 
 
-@runtime_checkable
-class NativeFilm(FilmLaw, Protocol):
-    """A film law that the C library knows, for FMUs that need no Python."""
-
-    def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
-        """Return the kernel of a bearing of this length/diameter with this film, and its tables."""
+Kind = TypeVar("Kind")
 
 
-@runtime_checkable
-class TabulatedFilm(FilmLaw, Protocol):
-    """A film law that makes a table on first use, for FMUs that must not."""
+def options(law: object, kind: type[Kind]) -> Kind:
+    """Return the options of any law, of a `kind` such as `FilmOptions`.
 
-    def tabulated(self, slenderness: float) -> FilmLaw:
-        """Return this law in a bearing of this length/diameter, with the table that it would make there."""
-
-
-@runtime_checkable
-class FittedFilm(FilmLaw, Protocol):
-    """A film law that can represent pads, grooves and supply; then it is no longer isotropic."""
-
-    def fitted(self, geometry: FilmGeometry) -> FilmLaw:
-        """Return the law in a bearing of this geometry."""
+    A law that does not derive from it, but has one of them under its name, has that one.
+    """
+    if isinstance(law, kind):
+        return law
+    names = [name for name in dir(kind) if not name.startswith("_") and hasattr(law, name)]
+    own = type(kind.__name__, (kind,), {name: getattr(law, name) for name in names})
+    return cast(Kind, own())
 
 
 class PolarFrame(NamedTuple):
@@ -242,6 +259,14 @@ def require_direction(frame: PolarFrame) -> None:
     vanishing = ~np.any(frame.source, axis=-1)
     if np.any(vanishing):
         raise vanishing_source(frame.chi[vanishing][0])
+
+
+def endless_search(eccentricity: Array, source: Array) -> ConvergenceError:
+    """Return the error of a film whose edge is not found, at one state (2,)."""
+    return ConvergenceError(
+        "the search for the ruptured zone must end, and did not at "
+        f"eccentricity {eccentricity.tolist()}, source {source.tolist()} 1/s"
+    )
 
 
 def vanishing_source(chi: float) -> UndefinedDerivativeError:

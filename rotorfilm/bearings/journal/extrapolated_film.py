@@ -5,14 +5,15 @@ from __future__ import annotations
 import dataclasses
 from dataclasses import dataclass, field
 
-from ...errors import InputError
+from ...errors import InputError, require_kind
 from ...model import Array
 from ..films.geometry import FilmGeometry
+from ..films.law import FilmOptions
 from .reynolds_film import ReynoldsFilm, richardson
 
 
 @dataclass(frozen=True, kw_only=True)
-class ExtrapolatedFilm:
+class ExtrapolatedFilm(FilmOptions):
     """Richardson extrapolation of a `ReynoldsFilm` and of the same film with half the cells.
 
     The force is F_h + (F_h - F_2h)/3, its derivatives are the same of the derivatives of both.
@@ -31,8 +32,7 @@ class ExtrapolatedFilm:
     film: ReynoldsFilm = field(default_factory=ReynoldsFilm)
 
     def __post_init__(self) -> None:
-        if not isinstance(self.film, ReynoldsFilm):
-            raise InputError(f"film must be a ReynoldsFilm, got {self.film!r}")
+        require_kind("film", self.film, ReynoldsFilm, "a ReynoldsFilm")
         around, along = self.film.cells
         if around % 8 or along % 8 or around < 32:
             raise InputError(f"cells must be multiples of 8, at least (32, 8), got {self.film.cells!r}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...errors import InputError
 from ..films.geometry import FilmGeometry
-from ..films.law import FilmLaw, FittedFilm
+from ..films.law import FilmLaw, FilmOptions, options
 from .grooves.grooved_film import GroovedMapFilm
 from .map.map_film import MapFilm
 
@@ -25,11 +25,10 @@ def fitted_film(film: FilmLaw, geometry: FilmGeometry) -> FilmLaw:
                 "or GroovedMapFilm(table=...)"
             )
         film = GroovedMapFilm()
-    if isinstance(film, FittedFilm):
-        return film.fitted(geometry)
-    if not geometry.plain:
+    fitted = options(film, FilmOptions).fitted(geometry)
+    if fitted is None and not geometry.plain:
         raise InputError(
             f"film must represent the bearing's geometry, which {type(film).__name__} cannot: "
             f"got {geometry!r}; ReynoldsFilm and, without supply, MapFilm can"
         )
-    return film
+    return film if fitted is None else fitted

@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
 
-from ...errors import ConvergenceError, InputError
+from ...errors import require_kind
 from ...model import Array
 from ..films.cavitation import Cavitation, Complementarity
 from ..films.film_field import FilmField
 from ..films.geometry import FilmGeometry
-from ..films.law import CENTER, require_film, vanishing_source
+from ..films.kernel_film import KernelFilm
+from ..films.law import require_film
+from ..films.ring.ring_field import film_field
 from ..films.ring.ring_grids import LONG, Grid, Spans, require_cells, ring_grids, ring_spans
+from ..films.ring.ring_kernel import RingKernel
 
 
 @dataclass(frozen=True, kw_only=True)
-class ReynoldsFilm:
+class ReynoldsFilm(KernelFilm):
     """Two-dimensional film: Reynolds' equation by finite volumes of second order.
 
     With p = 12 viscosity (R/c)^2 P, H = 1 - e.n, n = (cos theta, sin theta) and z the axial coordinate over
@@ -65,17 +70,15 @@ class ReynoldsFilm:
 
     def __post_init__(self) -> None:
         require_cells(self.cells)
-        if not isinstance(self.cavitation, Cavitation):
-            raise InputError(f"cavitation must be such as Complementarity(), got {self.cavitation!r}")
-        if not isinstance(self.geometry, FilmGeometry):
-            raise InputError(f"geometry must be a FilmGeometry, got {self.geometry!r}")
+        require_kind("cavitation", self.cavitation, Cavitation, "such as Complementarity()")
+        require_kind("geometry", self.geometry, FilmGeometry, "a FilmGeometry")
 
     def fitted(self, geometry: FilmGeometry) -> ReynoldsFilm:
         """Return this film in a bearing of the given geometry."""
         return dataclasses.replace(self, geometry=geometry)
 
-    def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
-        """Return the force on the journal, shape (2, ...); see `FilmLaw.force`.
+    def force_pair(self, eccentricity: Array, source: Array, slenderness: float) -> tuple[Array, Array]:
+        """Return the forces on the grid and on one with half the cells, each of shape (2, ...).
 
         Raises
         ------
@@ -84,12 +87,9 @@ class ReynoldsFilm:
         ConvergenceError
             If the search for the ruptured zone does not end.
         """
-        return self.force_pair(eccentricity, source, slenderness)[0]
-
-    def force_pair(self, eccentricity: Array, source: Array, slenderness: float) -> tuple[Array, Array]:
-        """Return the forces on the grid and on one with half the cells, each of shape (2, ...)."""
-        e, w = _batch(eccentricity), _batch(source)
-        fine, coarse, _ = self._solved(e, w, slenderness, slopes=False)
+        e, w = eccentricity.reshape(2, -1), source.reshape(2, -1)
+        require_film(e)
+        fine, coarse = self._kernel(slenderness).pair(e, w)
         return fine.reshape(eccentricity.shape), coarse.reshape(eccentricity.shape)
 
     def extrapolated(self, eccentricity: Array, source: Array, slenderness: float) -> tuple[Array, Array]:
@@ -103,24 +103,6 @@ class ReynoldsFilm:
         extrapolated = richardson(fine, coarse, self.order)
         return extrapolated, np.hypot(*(extrapolated - fine))
 
-    def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
-        """Return d force / d (eccentricity, source), shape (2, 4, ...); see `FilmLaw.jacobian`.
-
-        Raises
-        ------
-        UndefinedDerivativeError
-            Where the source vanishes off center and nothing but the source drives a ruptured film.
-        FilmContactError, ConvergenceError
-            As `force`.
-        """
-        e, w = _batch(eccentricity), _batch(source)
-        still = self._undriven(e, w)
-        # A plain centered film is linear in w, so any direction gives its damping.
-        driven = np.where(still, np.array([[1.0], [0.0]]), w)
-        _, _, jacobian = self._solved(e, driven, slenderness, slopes=True)
-        jacobian[:, :2, still] = 0.0
-        return jacobian.reshape(2, 4, *eccentricity.shape[1:])
-
     def solve(self, eccentricity: Array, source: Array, slenderness: float) -> FilmField:
         """Return pressure, force with its error estimate, flow and shear of one state.
 
@@ -131,49 +113,39 @@ class ReynoldsFilm:
         slenderness : float [1]
             Length / diameter.
         """
-        from ..films.ring.ring_field import film_field
-
-        return film_field(self, eccentricity, source, slenderness)
+        e, w = np.asarray(eccentricity, dtype=float), np.asarray(source, dtype=float)
+        fine, coarse = self.force_pair(e, w, slenderness)
+        extrapolated = richardson(fine, coarse, self.order)
+        return film_field(self._kernel(slenderness), e, w, slenderness, fine, extrapolated)
 
     def grids(self, slenderness: float) -> tuple[Spans, tuple[Grid, ...]]:
         """Return the edges and the grids, finest first, for a length/diameter."""
         return ring_spans(self.geometry), ring_grids(self.geometry, *self.cells, max(slenderness, LONG))
 
-    @property
-    def _switches(self) -> tuple[bool, bool]:
-        return self.cavitation.searched, self.cavitation.clipped
+    def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
+        """Return the kernel and its tables; see `law.FilmOptions.native`."""
+        spans, grids = self.grids(slenderness)
+        tables = {"spans": np.stack([spans.start, spans.extent])}
+        for level, grid in enumerate(grids):
+            lines = [grid.span, grid.line, grid.face, grid.held, grid.value]
+            tables[f"lines{level}"] = np.stack([np.asarray(row, dtype=float) for row in lines])
+            tables[f"nodes{level}"] = np.stack([grid.width, grid.conductance])
+        flags = [self.cavitation.searched, self.cavitation.clipped, spans.pinned]
+        tables["ring"] = np.array([slenderness, *flags], dtype=float)
+        if self.geometry.plain:
+            # The nodes along a film that is not long are those of any other.
+            tables["range"] = np.array([0.0, LONG] if slenderness <= LONG else [slenderness, slenderness])
+        return "reynolds_journal", tables
 
-    def _undriven(self, e: Array, w: Array) -> np.ndarray:
-        """Return where a ruptured film is at rest, shape (B,); raise where it has no derivative there."""
-        still = ~np.any(w, axis=0)
-        if self.geometry.supply > 0.0 or not any(self._switches):
-            return np.zeros_like(still)
-        chi = np.hypot(e[0], e[1])
-        undefined = still & ((chi > CENTER) | (not self.geometry.plain))
-        if np.any(undefined):
-            raise vanishing_source(chi[undefined][0])
-        return still
+    def _kernel(self, slenderness: float) -> RingKernel:
+        return _ring_kernel(self, slenderness)
 
-    def _solved(self, e: Array, w: Array, slenderness: float, *, slopes: bool) -> tuple[Array, Array, Array]:
-        """Return forces on this grid and on one with half the cells, (2, B), and, if wanted, derivatives."""
-        # Imported here so that a bearing with another film, in an FMU too, needs no compiler.
-        from ..films.ring.ring_forces import film_batch
 
-        require_film(e)
-        *solution, failed = film_batch(e, w, slenderness, *self.grids(slenderness), *self._switches, slopes)
-        if failed >= 0:
-            raise ConvergenceError(
-                "the search for the ruptured zone must end, and did not at "
-                f"eccentricity {e[:, failed].tolist()}, source {w[:, failed].tolist()} 1/s"
-            )
-        fine, coarse, jacobian = solution
-        return fine, coarse, jacobian
+@lru_cache(maxsize=64)
+def _ring_kernel(film: ReynoldsFilm, slenderness: float) -> RingKernel:
+    return RingKernel(slenderness, *film.grids(slenderness), film.cavitation)
 
 
 def richardson(fine: Array, coarse: Array, order: int = ReynoldsFilm.order) -> Array:
     """Return the extrapolation of what errs by the given order, from a grid and one with half its cells."""
     return fine + (fine - coarse) / (2.0**order - 1.0)
-
-
-def _batch(vectors: Array) -> Array:
-    return np.ascontiguousarray(vectors, dtype=np.float64).reshape(2, -1)

@@ -30,7 +30,7 @@ class ShortFilm(KernelFilm):
     """Largest length / diameter for which the film is meant [1]."""
 
     def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
-        """Return the kernel, which needs no tables; see `law.NativeFilm`."""
+        """Return the kernel, which needs no tables; see `FilmOptions`."""
         return "short_journal", {}
 
     def _kernel(self, slenderness: float) -> ShortKernel:

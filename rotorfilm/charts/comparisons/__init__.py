@@ -1,1 +1,1 @@
-"""Comparisons."""
+"""Charts of models side by side: error over cost, verdicts, limits."""

@@ -9,11 +9,21 @@ from matplotlib.axes import Axes
 
 from ...comparisons.coupling.coupling_cost import CouplingCost
 from ...comparisons.coupling.coupling_limits import CouplingLimits, LimitRow
+from ...comparisons.coupling.coupling_setup import SchemeName
 from ..canvas import new_figure
 
-_COLORS = {"Gauss-Seidel": "#1f4fb4", "Jacobi": "#d62728", "SI-exp": "#2ca02c", "SI-exp3": "#000000"}
-_LINES = {"0": "-", "1": "--", "2": ":"}
-_MARKS = {"0": "o", "1": "s", "2": "^"}
+STYLES = {
+    SchemeName.HELD: ("#1f4fb4", "-", "o"),
+    SchemeName.LINEAR: ("#1f4fb4", "--", "s"),
+    SchemeName.QUADRATIC: ("#1f4fb4", ":", "^"),
+    SchemeName.JACOBI_HELD: ("#d62728", "-", "o"),
+    SchemeName.JACOBI_LINEAR: ("#d62728", "--", "s"),
+    SchemeName.JACOBI_QUADRATIC: ("#d62728", ":", "^"),
+    SchemeName.SI_EXP: ("#2ca02c", "-", "D"),
+    SchemeName.SI_EXP3: ("#000000", "-", "D"),
+    SchemeName.NEWTON: ("#ff7f0e", "-", "D"),
+}
+"""Color, line and mark of each scheme: kinds by color, degrees by line."""
 
 
 def plot_coupling_limits(limits: CouplingLimits) -> Sequence[Axes]:
@@ -56,7 +66,7 @@ def plot_coupling_cost(cost: CouplingCost) -> Sequence[Axes]:
         rows = [row for row in cost.rows if row.scheme == scheme]
         good = [row for row in rows if row.orbit_error is not None]
         bad = [row for row in rows if row.orbit_error is None]
-        color, line, mark = _style(scheme)
+        color, line, mark = STYLES[scheme]
         errors = [row.orbit_error for row in good]
         angles = np.degrees([row.macro_angle for row in good])
         left.loglog([row.film_calls for row in good], errors, line, marker=mark, color=color, label=scheme)
@@ -76,17 +86,11 @@ def _draw(axes: Axes, rows: Sequence[LimitRow], place: Callable[[LimitRow], floa
         own = sorted((row for row in rows if row.scheme == scheme), key=place)
         theory = [row for row in own if row.critical_macro_angle is not None]
         runs = [row for row in own if row.simulated is not None]
-        color, line, mark = _style(scheme)
+        color, line, mark = STYLES[scheme]
         angles = np.degrees([row.critical_macro_angle or np.nan for row in theory])
         axes.plot([place(row) for row in theory], angles, line, color=color, label=scheme)
         found = np.degrees([row.simulated or np.nan for row in runs])
         axes.plot([place(row) for row in runs], found, mark, color=color, markersize=5, fillstyle="none")
-
-
-def _style(scheme: str) -> tuple[str, str, str]:
-    """Return color, line and mark of a scheme: kinds by color, degrees by line."""
-    kind, _, degree = scheme.rpartition(" ")
-    return _COLORS.get(kind or scheme, "#ff7f0e"), _LINES.get(degree, "-"), _MARKS.get(degree, "D")
 
 
 def _limited(row: LimitRow) -> bool:

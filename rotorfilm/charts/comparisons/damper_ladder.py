@@ -6,12 +6,19 @@ from collections.abc import Sequence
 
 from matplotlib.axes import Axes
 
-from ...comparisons import DamperAccuracy, DamperRung
+from ...comparisons import DamperAccuracy, DamperRung, SqueezeFamily
 from ..canvas import new_figure
-from ..labels import Label, place_labels
+from .rung_marks import RungMark, draw_marks, label_marks
 
-COLORS = {"series": "#2ca02c", "finite length": "#1f4fb4", "map": "#000000", "published": "#e377c2"}
-OTHER = "#d62728"
+COLORS = {
+    SqueezeFamily.SERIES: "#2ca02c",
+    SqueezeFamily.FINITE: "#1f4fb4",
+    SqueezeFamily.MAP: "#000000",
+    SqueezeFamily.PUBLISHED: "#e377c2",
+    SqueezeFamily.REDUCED: "#d62728",
+}
+SHORT = (SqueezeFamily.SERIES, SqueezeFamily.MAP, SqueezeFamily.REDUCED)
+"""Families of short films."""
 
 
 def plot_damper_accuracy(result: DamperAccuracy) -> list[Axes]:
@@ -23,11 +30,10 @@ def plot_damper_accuracy(result: DamperAccuracy) -> list[Axes]:
     shown = figure.subplots(1, 3)
     for axes, cavitated, title in zip(shown, (True, False), ("cavitated", "full film"), strict=False):
         rungs = [rung for rung in result.rungs if rung.cavitated is cavitated]
-        _draw(axes, [(rung, rung.high_error, rung.median_error) for rung in rungs if rung.high_error > 0.0])
+        _draw(axes, [_mark(rung, rung.high_error, rung.median_error) for rung in rungs if rung.high_error])
         axes.set_title(f"{title}, against the film of finite length")
-    short = [rung for rung in result.rungs if rung.cavitated and rung.series_error > 0.0]
-    kept = [rung for rung in short if rung.name.startswith(("series", "map", "Morgan", "solid"))]
-    _draw(shown[2], [(rung, rung.series_error, None) for rung in kept])
+    short = [rung for rung in result.rungs if rung.cavitated and rung.family in SHORT and rung.series_error]
+    _draw(shown[2], [_mark(rung, rung.series_error, None) for rung in short])
     shown[2].set_title("cavitated, against the whole series (short film)")
     figure.suptitle(
         f"Squeeze films at L/D = {result.slenderness:g}, Phi = {result.permeability_number:g}: error of the "
@@ -38,23 +44,11 @@ def plot_damper_accuracy(result: DamperAccuracy) -> list[Axes]:
     return list(shown)
 
 
-def _draw(axes: Axes, points: Sequence[tuple[DamperRung, float, float | None]]) -> None:
-    axes.set(xscale="log", yscale="log")
-    axes.grid(visible=True, which="major", alpha=0.3)
+def _mark(rung: DamperRung, high: float, median: float | None) -> RungMark:
+    return RungMark(1e6 * rung.cost.force_time, high, median, rung.name, COLORS[rung.family])
+
+
+def _draw(axes: Axes, marks: Sequence[RungMark]) -> None:
     axes.set(xlabel="time of one force in a batch [us]", ylabel="relative error [1]")
-    labels, medians = [], []
-    for rung, high, median in points:
-        x, color = 1e6 * rung.cost.force_time, _color(rung.name)
-        axes.plot(x, high, "o", color=color, markersize=7)
-        if median is not None:
-            axes.plot([x, x], [median, high], "-", color=color, linewidth=1.0, alpha=0.5)
-            axes.plot(x, median, "o", color=color, markerfacecolor="white", markersize=4.5)
-            medians.append((x, median))
-        labels.append(Label(x, high, rung.name, color))
-    times = [1e6 * rung.cost.force_time for rung, _, _ in points]
-    axes.set_xlim(0.3 * min(times), 6.0 * max(times))
-    place_labels(axes, labels, obstacles=medians)
-
-
-def _color(name: str) -> str:
-    return next((color for start, color in COLORS.items() if name.startswith(start)), OTHER)
+    draw_marks(axes, marks, margins=(0.3, 6.0))
+    label_marks(axes, marks)

@@ -91,8 +91,8 @@ def _draw_curves(axes: Axes, result: JournalStability) -> None:
     ratios, exact = np.array(result.eccentricity_ratio), _numbers(result.speed_parameter)
     low, high = (1.0 - result.tolerance) * exact, (1.0 + result.tolerance) * exact
     axes.fill_between(ratios, low, high, color="0.8", linewidth=0.0, zorder=0)
-    for rung in sorted(result.rungs, key=_width, reverse=True):
-        values, color, width = _numbers(rung.speed_parameter), color_of(rung), _width(rung)
+    for rung in sorted(result.rungs, key=lambda rung: FAMILY_WIDTHS[rung.family], reverse=True):
+        values, color, width = _numbers(rung.speed_parameter), color_of(rung), FAMILY_WIDTHS[rung.family]
         good = ~(np.array(result.wrong(rung)) | np.array(result.invented(rung)))
         axes.plot(ratios, values, ":", color=color, linewidth=max(1.2, 0.5 * width))
         right = np.where(good, values, np.nan)
@@ -185,10 +185,6 @@ def color_of(rung: RungStability) -> str:
     return FAMILY_COLORS[rung.family]
 
 
-def _width(rung: RungStability) -> float:
-    return FAMILY_WIDTHS[rung.family]
-
-
 def _numbers(values: tuple[float | None, ...]) -> np.ndarray:
     return np.array([np.nan if value is None else value for value in values])
 
@@ -208,12 +204,12 @@ def _legend(result: JournalStability) -> list[Line2D]:
             Line2D(
                 [],
                 [],
-                color=FAMILY_COLORS[name],
-                label=name,
-                linewidth=FAMILY_WIDTHS[name],
-                linestyle=DASHES.get(name, "-"),
+                color=FAMILY_COLORS[family],
+                label=family,
+                linewidth=FAMILY_WIDTHS[family],
+                linestyle=DASHES.get(family, "-"),
             )
-            for name in families
+            for family in families
         ),
         Line2D([], [], marker="o", color="k", markerfacecolor="w", linestyle="", label="reference"),
         Line2D([], [], color="0.8", linewidth=7, label=f"reference +-{100.0 * result.tolerance:g} %"),

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from ...comparisons import JournalAccuracy, RungAccuracy, pareto_front
+from ...comparisons import FilmFamily, JournalAccuracy, RungAccuracy, pareto_front
 from ..canvas import new_axes, new_figure
-from ..labels import Label, place_labels
 from ..palette import FAMILY_COLORS, FRONT
+from .rung_marks import RungMark, draw_marks, label_marks
 
 Cost = Callable[[RungAccuracy], float]
 
@@ -64,23 +65,31 @@ def _call_time(rung: RungAccuracy) -> float:
     return 1e6 * rung.cost.call_time
 
 
+def _marks(result: JournalAccuracy, cost: Cost) -> list[RungMark]:
+    return [
+        RungMark(
+            cost(rung),
+            rung.high_error,
+            rung.median_error,
+            rung.label or rung.family,
+            FAMILY_COLORS[rung.family],
+        )
+        for rung in result.rungs
+    ]
+
+
 def _draw(axes: Axes, result: JournalAccuracy, cost: Cost) -> None:
-    axes.set(xscale="log", yscale="log")
-    axes.grid(visible=True, which="major", alpha=0.3)
     axes.axhspan(1e-12, result.reference_high, color="0.85", zorder=0)
-    for rung in result.rungs:
-        color = FAMILY_COLORS[rung.family]
-        x = cost(rung)
-        axes.plot([x, x], [rung.median_error, rung.high_error], "-", color=color, linewidth=1.0, alpha=0.5)
-        axes.plot(x, rung.median_error, "o", color=color, markerfacecolor="white", markersize=4.5)
-        axes.plot(x, rung.high_error, "o", color=color, markersize=7)
-    times = [cost(rung) for rung in result.rungs]
-    axes.set_xlim(0.4 * min(times), 4.0 * max(times))
-    everything = list(result.rungs)
-    without_map = [rung for rung in result.rungs if rung.family != "map"]
-    _draw_front(axes, everything, cost, "-")
-    if len(without_map) < len(everything):
-        _draw_front(axes, without_map, cost, ":")
+    draw_marks(axes, _marks(result, cost), margins=(0.4, 4.0))
+    maps, others = _maps_and_others(result)
+    _draw_front(axes, result.rungs, cost, "-")
+    if maps:
+        _draw_front(axes, others, cost, ":")
+
+
+def _maps_and_others(result: JournalAccuracy) -> tuple[list[RungAccuracy], list[RungAccuracy]]:
+    maps = [rung for rung in result.rungs if rung.family == FilmFamily.MAP]
+    return maps, [rung for rung in result.rungs if rung.family != FilmFamily.MAP]
 
 
 def _draw_front(axes: Axes, rungs: Sequence[RungAccuracy], cost: Cost, style: str) -> None:
@@ -96,8 +105,7 @@ def _draw_front(axes: Axes, rungs: Sequence[RungAccuracy], cost: Cost, style: st
 
 def _draw_gain(axes: Axes, result: JournalAccuracy, cost: Cost) -> None:
     """Draw how much cheaper the map is than the closest of the other rungs."""
-    maps = [rung for rung in result.rungs if rung.family == "map"]
-    others = [rung for rung in result.rungs if rung.family != "map"]
+    maps, others = _maps_and_others(result)
     if not maps or not others:
         return
     best = min(others, key=lambda rung: rung.high_error)
@@ -128,12 +136,7 @@ def _limit_errors(axes: Axes, result: JournalAccuracy) -> None:
 
 
 def _label(axes: Axes, result: JournalAccuracy, cost: Cost) -> None:
-    labels = [
-        Label(cost(rung), rung.high_error, rung.label or rung.family, FAMILY_COLORS[rung.family])
-        for rung in result.rungs
-    ]
-    medians = [(cost(rung), rung.median_error) for rung in result.rungs]
-    place_labels(axes, labels, obstacles=medians)
+    label_marks(axes, _marks(result, cost))
     _draw_gain(axes, result, cost)
     axes.text(
         0.99,
@@ -159,13 +162,11 @@ def _title(result: JournalAccuracy) -> str:
 
 def _legend(result: JournalAccuracy) -> list[Line2D]:
     families = list(dict.fromkeys(rung.family for rung in result.rungs))
-    dots = [
-        Line2D([], [], marker="o", linestyle="", color=FAMILY_COLORS[name], label=name) for name in families
-    ]
+    dot = partial(Line2D, [], [], marker="o", linestyle="")
     return [
-        *dots,
-        Line2D([], [], marker="o", linestyle="", color="0.3", label="99 % of the states"),
-        Line2D([], [], marker="o", linestyle="", color="0.3", markerfacecolor="w", label="median"),
+        *(dot(color=FAMILY_COLORS[family], label=family) for family in families),
+        dot(color="0.3", label="99 % of the states"),
+        dot(color="0.3", markerfacecolor="w", label="median"),
         Line2D([], [], color=FRONT, label="best at its cost (99 %)"),
         Line2D([], [], color=FRONT, linestyle=":", label="the same without the map"),
     ]

@@ -1,1 +1,1 @@
-"""Contact."""
+"""Published cases of a rolling ball, judged."""

@@ -9,17 +9,18 @@ says of its figures is asked of all three.
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
 from typing import NamedTuple
+
+import numpy as np
 
 from ...bearings.contact import (
     AdaptiveSteps,
     ContactGrid,
     ContactRun,
     ContactScheme,
-    ContactState,
     FixedSteps,
     PointContact,
     SineLoad,
@@ -29,9 +30,8 @@ from ...bearings.contact import (
     perturbed,
 )
 from ...errors import ConvergenceError, ValidityWarning
-from ...model import Array
 from ...progress import Report, silent
-from .contact_statements import STEP, SWEEP, Statement, statements
+from .contact_statements import STEP, SWEEP, CaseSection, CaseSolution, SolutionKind, Statement, statements
 
 SPEED_PARAMETER, PRESSURE_COEFFICIENT = 0.1, 5.0
 PUBLISHED_CELLS, PUBLISHED_STEP = 40, 0.2
@@ -46,16 +46,6 @@ SHARE = -0.2
 """By which pressure and approach are off at the start of case 4.1."""
 
 
-class CaseSolution(NamedTuple):
-    """One way to solve the cases: name, contact, its rest under f = 1 and under f = 1.7, and its steps."""
-
-    name: str
-    contact: PointContact
-    rest: ContactState
-    pressed: ContactState
-    control: AdaptiveSteps | FixedSteps
-
-
 class CaseRun(NamedTuple):
     """One curve of a figure, by every solution."""
 
@@ -67,7 +57,7 @@ class ContactCases(NamedTuple):
     """Solutions, curves by section of the paper, and the statements of its text."""
 
     solutions: tuple[CaseSolution, ...]
-    curves: dict[str, list[CaseRun]]
+    curves: dict[CaseSection, list[CaseRun]]
     statements: list[Statement]
 
     def columns(self) -> dict[str, list[object]]:
@@ -77,11 +67,11 @@ class ContactCases(NamedTuple):
     def series(self) -> dict[str, list[object]]:
         """Return the curves as columns of a table."""
         rows = [
-            (section, curve.name, solution.name, *point)
+            (section, curve.name, solution.kind, *point)
             for section, curves in self.curves.items()
             for curve in curves
             for solution, run in zip(self.solutions, curve.runs, strict=True)
-            for point in zip(*_lists(run.time, run.central_film, run.delta), strict=True)
+            for point in np.transpose([run.time, run.central_film, run.delta]).tolist()
         ]
         headings = ("section", "curve", "solution", "time", "H0", "delta")
         return dict(zip(headings, map(list, zip(*rows, strict=True)), strict=True))
@@ -105,9 +95,16 @@ def contact_cases(
     """
     report(0.0, "stationary contacts")
     solutions = (
-        _solution("published", PUBLISHED_CELLS, StaggeredScheme(), FixedSteps(step=PUBLISHED_STEP, order=1)),
-        _solution("same grid", PUBLISHED_CELLS, StaggeredScheme(), FixedSteps(step=SAME_GRID_STEP)),
-        _solution("converged", cells, UpwindScheme(), AdaptiveSteps(tolerance=tolerance)),
+        _solution(
+            SolutionKind.PUBLISHED,
+            PUBLISHED_CELLS,
+            StaggeredScheme(),
+            FixedSteps(step=PUBLISHED_STEP, order=1),
+        ),
+        _solution(
+            SolutionKind.SAME_GRID, PUBLISHED_CELLS, StaggeredScheme(), FixedSteps(step=SAME_GRID_STEP)
+        ),
+        _solution(SolutionKind.CONVERGED, cells, UpwindScheme(), AdaptiveSteps(tolerance=tolerance)),
     )
     with as_published():
         curves = _curves(solutions, settle, report)
@@ -126,14 +123,16 @@ def as_published() -> Iterator[None]:
         yield
 
 
-def _curves(solutions: tuple[CaseSolution, ...], settle: float, report: Report) -> dict[str, list[CaseRun]]:
+def _curves(
+    solutions: tuple[CaseSolution, ...], settle: float, report: Report
+) -> dict[CaseSection, list[CaseRun]]:
     plan = [(section, *case) for section, cases in case_plan(settle).items() for case in cases]
-    curves: dict[str, list[CaseRun]] = {}
+    curves: dict[CaseSection, list[CaseRun]] = {}
     count = len(plan) * len(solutions)
     for number, (section, name, run) in enumerate(plan):
         runs = []
         for k, solution in enumerate(solutions):
-            report((number * len(solutions) + k) / count, f"{section}, {name}, {solution.name}")
+            report((number * len(solutions) + k) / count, f"{section}, {name}, {solution.kind}")
             runs.append(_as_far_as_it_goes(run, solution))
         curves.setdefault(section, []).append(CaseRun(name, tuple(runs)))
     return curves
@@ -165,17 +164,19 @@ def loaded_motion(
     )
 
 
-def case_plan(settle: float) -> dict[str, list[tuple[str, Callable[[CaseSolution], ContactRun]]]]:
+def case_plan(settle: float) -> dict[CaseSection, list[tuple[str, Callable[[CaseSolution], ContactRun]]]]:
     """Return the curves of each section: name and run."""
     slow = SineLoad(amplitude=0.2, frequency=1.0)
     return {
-        "4.1": [(f"W = {W:g}", partial(free_motion, W=W)) for W in (0.0, 0.5, 1.0)],
-        "4.2": [(f"W = {W:g}", partial(loaded_motion, W=W, load=StepLoad(**STEP))) for W in (0.3, 1.0, 3.0)],
-        "4.3, A = 0.2": [
+        CaseSection.FREE: [(f"W = {W:g}", partial(free_motion, W=W)) for W in (0.0, 0.5, 1.0)],
+        CaseSection.STEPPED: [
+            (f"W = {W:g}", partial(loaded_motion, W=W, load=StepLoad(**STEP))) for W in (0.3, 1.0, 3.0)
+        ],
+        CaseSection.SLOW: [
             (f"W = {W:g}", partial(loaded_motion, W=W, load=slow, duration=settle if W == 1.0 else 30.0))
             for W in (0.01, 0.1, 1.0)
         ],
-        "4.3, A = 0.5": [
+        CaseSection.FAST: [
             (
                 f"omega = {w:g}",
                 partial(loaded_motion, W=1.0, load=SineLoad(amplitude=0.5, frequency=w), duration=settle),
@@ -185,14 +186,15 @@ def case_plan(settle: float) -> dict[str, list[tuple[str, Callable[[CaseSolution
     }
 
 
-def _solution(
-    name: str, cells: int, scheme: ContactScheme, control: AdaptiveSteps | FixedSteps
-) -> CaseSolution:
+def published_contact(cells: int, scheme: ContactScheme) -> PointContact:
+    """Return the contact of the published cases on cells x cells."""
     grid = ContactGrid(cells=(cells, cells))
-    contact = PointContact(V=SPEED_PARAMETER, Q0=PRESSURE_COEFFICIENT, grid=grid, scheme=scheme)
+    return PointContact(V=SPEED_PARAMETER, Q0=PRESSURE_COEFFICIENT, grid=grid, scheme=scheme)
+
+
+def _solution(
+    kind: SolutionKind, cells: int, scheme: ContactScheme, control: AdaptiveSteps | FixedSteps
+) -> CaseSolution:
+    contact = published_contact(cells, scheme)
     rest = contact.stationary()
-    return CaseSolution(name, contact, rest, contact.stationary(1.0 + STEP["amplitude"], near=rest), control)
-
-
-def _lists(*series: Array) -> Sequence[list[float]]:
-    return [values.tolist() for values in series]
+    return CaseSolution(kind, contact, rest, contact.stationary(1.0 + STEP["amplitude"], near=rest), control)

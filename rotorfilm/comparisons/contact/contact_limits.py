@@ -8,7 +8,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ...bearings.contact import (
-    ContactGrid,
     ContactState,
     FixedSteps,
     PointContact,
@@ -17,14 +16,18 @@ from ...bearings.contact import (
     StepLoad,
 )
 from ...errors import ConvergenceError
-from ...progress import Report, silent
-from .contact_cases import PRESSURE_COEFFICIENT, PUBLISHED_CELLS, SPEED_PARAMETER, as_published
+from ...model import Array
+from ...progress import Report, part_of, silent
+from .contact_cases import PUBLISHED_CELLS, as_published, published_contact
 
 STEPS = (0.05, 0.1, 0.2, 0.5, 1.0)
 AMPLITUDES = (0.7, 1.5, 3.0, 5.0, 8.0)
 INERTIAS = (0.1, 0.3, 0.5, 1.0, 3.0)
 SPAN = 4.0
 """Time after a load step within which a run has to hold."""
+
+STIFFNESS = 1.57
+"""Static stiffness of the contact, from which the search for its natural motion starts."""
 
 
 class ContactLimits(NamedTuple):
@@ -76,23 +79,29 @@ def contact_limits(
     report: Report = silent,
 ) -> ContactLimits:
     """Return the limits of the published scheme on its grid, or one of `cells` x `cells`; a minute."""
-    grid = ContactGrid(cells=(cells, cells))
-    contact = PointContact(V=SPEED_PARAMETER, Q0=PRESSURE_COEFFICIENT, grid=grid, scheme=StaggeredScheme())
+    contact = published_contact(cells, StaggeredScheme())
     with as_published():
         rest = contact.stationary()
-    small = SmallMotion(contact.equations, rest.levels[0].pressure, rest.delta)
-    natural = []
-    for number, W in enumerate(inertias):
-        report(0.3 * number / len(inertias), f"natural motion, W = {W:g}")
-        natural.append(small.natural_motion(W, 1j * np.sqrt(1.57 / W)))
+    s = natural_motions(contact, rest, inertias, part_of(report, 0.0, 0.3))
     reached = np.full((len(steps), len(amplitudes)), np.inf)
     for i, step in enumerate(steps):
         for j, amplitude in enumerate(amplitudes):
             report(0.3 + 0.7 * (i + j / len(amplitudes)) / len(steps), f"dt = {step:g}, A = {amplitude:g}")
             reached[i, j] = _reached(contact, rest, step, amplitude)
-    s = np.array(natural)
     shown = np.array([step / np.log(np.abs(1.0 - step * s)) for step in steps])
     return ContactLimits(tuple(steps), tuple(amplitudes), tuple(inertias), reached, -1.0 / s.real, shown)
+
+
+def natural_motions(
+    contact: PointContact, rest: ContactState, inertias: Sequence[float], report: Report = silent
+) -> Array:
+    """Return s of the natural motions exp(s t) about rest with some inertias, by the linearized equations."""
+    small = SmallMotion(contact.equations, rest.levels[0].pressure, rest.delta)
+    found = []
+    for number, W in enumerate(inertias):
+        report(number / len(inertias), f"natural motion, W = {W:g}")
+        found.append(small.natural_motion(W, 1j * np.sqrt(STIFFNESS / W)))
+    return np.array(found)
 
 
 def _reached(contact: PointContact, rest: ContactState, step: float, amplitude: float) -> float:

@@ -12,10 +12,8 @@ from scipy.interpolate import CubicSpline
 from ...bearings.contact import (
     HERTZ_LOAD,
     AdaptiveSteps,
-    ContactGrid,
     ContactScheme,
     FixedSteps,
-    PointContact,
     SineLoad,
     StaggeredScheme,
     UpwindScheme,
@@ -25,11 +23,10 @@ from ...bearings.contact import (
 from ...model import Array
 from ...progress import Report, silent
 from .contact_cases import (
-    PRESSURE_COEFFICIENT,
     PUBLISHED_CELLS,
     PUBLISHED_STEP,
-    SPEED_PARAMETER,
     as_published,
+    published_contact,
 )
 
 LOAD = SineLoad(amplitude=0.5, frequency=2.0)
@@ -134,7 +131,7 @@ def _full_plan(cells: int, duration: float) -> Iterator[tuple[str, str, Callable
 def _law_plan(
     cells: int, duration: float, orders: tuple[int, ...]
 ) -> Iterator[tuple[str, str, Callable[[], Series], int]]:
-    contact = _contact(cells, UpwindScheme())
+    contact = published_contact(cells, UpwindScheme())
     for order in orders:
         law = reduce_contact(contact, order)
 
@@ -151,7 +148,7 @@ def _law_plan(
 def _full(
     cells: int, scheme: ContactScheme, control: AdaptiveSteps | FixedSteps, duration: float
 ) -> Callable[[], Series]:
-    contact = _contact(cells, scheme)
+    contact = published_contact(cells, scheme)
     rest = contact.stationary()
 
     def run() -> Series:
@@ -160,8 +157,3 @@ def _full(
         return motion.time, motion.delta
 
     return run
-
-
-def _contact(cells: int, scheme: ContactScheme) -> PointContact:
-    grid = ContactGrid(cells=(cells, cells))
-    return PointContact(V=SPEED_PARAMETER, Q0=PRESSURE_COEFFICIENT, grid=grid, scheme=scheme)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from enum import StrEnum
 from itertools import pairwise
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 
-from ...bearings.contact import ContactRun, ContactState, PointContact
+from ...bearings.contact import AdaptiveSteps, ContactRun, ContactState, FixedSteps, PointContact
 from .motion_features import amplitude, decay_time, overshoot, unrest, wave_height, wave_speed
 
 STEP = {"amplitude": 0.7, "start": 1.0, "end": 20.0}
@@ -21,6 +22,15 @@ PUBLISHED_REST = (0.1761, -1.793)
 """H0 and delta of the stationary contact, with the sign of delta that the paper lost."""
 
 PERIOD = 2.0 * np.pi
+
+
+class CaseSection(StrEnum):
+    """Sections of the paper whose figures are redrawn, case 4.3 by its two amplitudes."""
+
+    FREE = "4.1"
+    STEPPED = "4.2"
+    SLOW = "4.3, A = 0.2"
+    FAST = "4.3, A = 0.5"
 
 
 class Claim(NamedTuple):
@@ -60,30 +70,31 @@ class Statement(NamedTuple):
         return cls(published.section, published.text, published.measure, first, second, third, verdict)
 
 
-class Solved(Protocol):
-    """A solution of the cases."""
+class SolutionKind(StrEnum):
+    """The ways to solve the cases."""
 
-    @property
-    def contact(self) -> PointContact:
-        """The contact."""
-
-    @property
-    def rest(self) -> ContactState:
-        """Stationary under the load 1."""
-
-    @property
-    def pressed(self) -> ContactState:
-        """Stationary under the load of case 4.2."""
+    PUBLISHED = "published"
+    SAME_GRID = "same grid"
+    CONVERGED = "converged"
 
 
-def statements(runs: dict[str, list[ContactRun]], solution: Solved) -> list[Claim]:
+class CaseSolution(NamedTuple):
+    """One way to solve the cases: which, contact, its rest under f = 1 and under f = 1.7, and its steps."""
+
+    kind: SolutionKind
+    contact: PointContact
+    rest: ContactState
+    pressed: ContactState
+    control: AdaptiveSteps | FixedSteps
+
+
+def statements(runs: Mapping[CaseSection, list[ContactRun]], solution: CaseSolution) -> list[Claim]:
     """Return what a solution has to say on every sentence, from its runs by section."""
-    slow, fast = runs["4.3, A = 0.2"], runs["4.3, A = 0.5"]
     return [
         *_at_rest(solution),
-        *_free(runs["4.1"], solution),
-        *_stepped(runs["4.2"], solution),
-        *_driven(slow, fast),
+        *_free(runs[CaseSection.FREE], solution),
+        *_stepped(runs[CaseSection.STEPPED], solution),
+        *_driven(runs[CaseSection.SLOW], runs[CaseSection.FAST]),
     ]
 
 
@@ -97,7 +108,7 @@ def _claim(
     return Claim(section, text, measure, tuple(numbers), bool(holds(numbers)))
 
 
-def _at_rest(solution: Solved) -> list[Claim]:
+def _at_rest(solution: CaseSolution) -> list[Claim]:
     found = (solution.rest.central_film, solution.rest.delta)
 
     def near(row: Sequence[float]) -> bool:
@@ -106,7 +117,7 @@ def _at_rest(solution: Solved) -> list[Claim]:
     return [_claim("4", "H0 = 0.1761 and delta = -1.793 at rest, to 3 %", "H0, delta", found, near)]
 
 
-def _free(runs: list[ContactRun], solution: Solved) -> list[Claim]:
+def _free(runs: list[ContactRun], solution: CaseSolution) -> list[Claim]:
     rest, x = solution.rest, solution.contact.grid.x
     swing = [overshoot(run, rest.delta) for run in runs]
     decay = [decay_time(run, rest.delta) for run in runs[1:]]
@@ -127,7 +138,7 @@ def _free(runs: list[ContactRun], solution: Solved) -> list[Claim]:
     ]  # fmt: skip
 
 
-def _stepped(runs: list[ContactRun], solution: Solved) -> list[Claim]:
+def _stepped(runs: list[ContactRun], solution: CaseSolution) -> list[Claim]:
     pressed, start, end = solution.pressed, STEP["start"], STEP["end"]
     swing = [overshoot(run, pressed.delta, start, end) for run in runs]
     decay = [decay_time(run, pressed.delta, start + 0.5, end) for run in runs]

@@ -1,1 +1,1 @@
-"""Coupling."""
+"""Coupling schemes beside the monolithic solution."""

@@ -15,9 +15,8 @@ from ...motion import simulate
 from ...progress import Report, silent
 from ...results import Trajectory, orbit_distance
 from ...rotors.rigid import RigidRotor
-from .coupling_schemes import EXPLICIT, IMPLICIT
+from .coupling_setup import SCHEMES, SPEED, SchemeName, resting_rotor
 
-SPEED = 157.0
 REVOLUTIONS = 2
 ECCENTRICITY_RATIO = 0.7
 UNBALANCE_RATIO = 0.45
@@ -30,7 +29,7 @@ class CostRow:
 
     Attributes
     ----------
-    scheme : str
+    scheme : SchemeName
     macro_angle : float [rad]
     orbit_error : float or None [1]
         Largest distance from the monolithic solution / clearance; None where the run was refused.
@@ -40,7 +39,7 @@ class CostRow:
         Empty, or why the run is no answer.
     """
 
-    scheme: str
+    scheme: SchemeName
     macro_angle: float
     orbit_error: float | None
     film_calls: float
@@ -84,16 +83,17 @@ def coupling_cost(*, macro_angles: Sequence[float] = ANGLES, report: Report = si
         Told how far the job is.
     """
     rotor, bearing = cost_case()
-    schemes = (*EXPLICIT, *IMPLICIT)
     duration = REVOLUTIONS * 2.0 * np.pi / SPEED
     # Schemes that begin with short steps have more points than these.
     starts = [angle / SPEED * (2.0**k - 1.0) / 63.0 for angle in macro_angles for k in range(6)]
-    points = np.concatenate([*(_times(angle, duration) for angle in macro_angles), starts])
+    points = np.concatenate(
+        [*(np.linspace(0.0, duration, round(duration * SPEED / angle) + 1) for angle in macro_angles), starts]
+    )
     exact = simulate(rotor, bearing, duration=duration, times=np.unique(points), rtol=1e-10)
     rows = []
     for number, angle in enumerate(macro_angles):
-        for count, scheme in enumerate(schemes):
-            done = (number + count / len(schemes)) / len(macro_angles)
+        for count, scheme in enumerate(SCHEMES):
+            done = (number + count / len(SCHEMES)) / len(macro_angles)
             report(done, f"{scheme.label}, {np.degrees(angle):.3g} deg")
             rows.append(_row(rotor, bearing, scheme, angle, exact))
     largest = float(np.hypot(*exact.position).max()) / bearing.clearance
@@ -103,49 +103,33 @@ def coupling_cost(*, macro_angles: Sequence[float] = ANGLES, report: Report = si
 def cost_case() -> tuple[RigidRotor, JournalBearing]:
     """Return a rotor with strong unbalance on a map film, from rest at eccentricity ratio .7."""
     bearing = JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.05, film=MapFilm())
-    rest = np.array([ECCENTRICITY_RATIO * bearing.clearance, 0.0])
-    load = -bearing.force(rest, (0.0, 0.0), SPEED)
-    mass = float(np.hypot(*load)) / (bearing.clearance * SPEED**2)
-    rotor = RigidRotor(
-        mass=mass,
-        speed=SPEED,
-        unbalance=UNBALANCE_RATIO * bearing.clearance * mass,
-        gravity=(0.0, 0.0),
-        static_force=(float(load[0]), float(load[1])),
-        position=(float(rest[0]), float(rest[1])),
-    )
+    rotor = resting_rotor(bearing, ECCENTRICITY_RATIO, unbalance_ratio=UNBALANCE_RATIO)
     return rotor, bearing
 
 
 def _row(
     rotor: RigidRotor, bearing: JournalBearing, scheme: Scheme, angle: float, exact: Trajectory
 ) -> CostRow:
-    duration = float(exact.time[-1])
     try:
         with quietly():
             run = couple(
                 InProcessSlave(rotor),
                 InProcessSlave(bearing),
                 macro_step=angle / SPEED,
-                duration=duration,
+                duration=float(exact.time[-1]),
                 scheme=scheme,
             )
     except PartialResultError as failure:
-        return _refused(scheme, angle, failure.partial, str(failure))
+        partial: CoSimulation = failure.partial
+        turns = max(partial.trajectory.work["steps"], 1) * angle / (2.0 * np.pi)
+        error, calls, refused = None, partial.film_calls / turns, str(failure)
+    else:
+        error = orbit_distance(run.trajectory, exact) / bearing.clearance
+        calls, refused = run.film_calls / REVOLUTIONS, ""
     return CostRow(
-        scheme=scheme.label,
+        scheme=SchemeName(scheme.label),
         macro_angle=angle,
-        orbit_error=orbit_distance(run.trajectory, exact) / bearing.clearance,
-        film_calls=run.film_calls / REVOLUTIONS,
-        refused="",
+        orbit_error=error,
+        film_calls=calls,
+        refused=refused,
     )
-
-
-def _refused(scheme: Scheme, angle: float, run: CoSimulation, reason: str) -> CostRow:
-    calls = run.film_calls / max(run.trajectory.work["steps"], 1) * 2.0 * np.pi / angle
-    return CostRow(scheme=scheme.label, macro_angle=angle, orbit_error=None, film_calls=calls, refused=reason)
-
-
-def _times(angle: float, duration: float) -> np.ndarray:
-    count = round(duration * SPEED / angle)
-    return np.linspace(0.0, duration, count + 1)

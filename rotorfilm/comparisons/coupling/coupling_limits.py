@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,9 +15,8 @@ from ...model import Array, Dynamic
 from ...progress import Report, silent
 from ...rotors.jeffcott import JeffcottRotor
 from ...rotors.rigid import RigidRotor
-from .coupling_schemes import EXPLICIT, IMPLICIT
+from .coupling_setup import SCHEMES, SPEED, SchemeName, resting_rotor
 
-SPEED = 157.0
 SHAFT = 4.0
 """Stiffness of the shaft of the rotor with a light journal, in load / clearance."""
 
@@ -37,7 +36,7 @@ class LimitRow:
 
     Attributes
     ----------
-    scheme : str
+    scheme : SchemeName
     eccentricity_ratio : float [1]
         Of the static equilibrium.
     mass_ratio : float [1]
@@ -48,7 +47,7 @@ class LimitRow:
         From where a run of the scheme grows; None where it was not asked for.
     """
 
-    scheme: str
+    scheme: SchemeName
     eccentricity_ratio: float
     mass_ratio: float
     critical_macro_angle: float | None
@@ -106,11 +105,10 @@ def coupling_limits(
         *((0.7, float(ratio), False) for ratio in mass_ratios),
         *((0.7, float(ratio), True) for ratio in simulated_ratios),
     ]
-    schemes = (*EXPLICIT, *IMPLICIT)
     rows = []
     for number, (eccentricity, ratio, run) in enumerate(jobs):
         report(number / len(jobs), f"eccentricity ratio {eccentricity:.2f}, mass ratio {ratio:.3g}")
-        rows += [limit_row(scheme, eccentricity, ratio, run) for scheme in schemes]
+        rows += [limit_row(scheme, eccentricity, ratio, run) for scheme in SCHEMES]
     return CouplingLimits(speed_parameter=1.0, rows=tuple(rows))
 
 
@@ -120,7 +118,7 @@ def limit_row(scheme: Scheme, eccentricity: float, ratio: float, run: bool) -> L
     theory = critical_macro_step(rotor, bearing, state=state, scheme=scheme).macro_step
     found = None if theory is None or not run else simulated_limit(rotor, bearing, scheme, theory)
     return LimitRow(
-        scheme=scheme.label,
+        scheme=SchemeName(scheme.label),
         eccentricity_ratio=eccentricity,
         mass_ratio=ratio,
         critical_macro_angle=None if theory is None else theory * SPEED,
@@ -142,28 +140,18 @@ def limit_case(
         Speed parameter.
     """
     bearing = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())
-    c = bearing.clearance
-    rest = np.array([eccentricity * c, 0.0])
-    load = -bearing.force(rest, (0.0, 0.0), SPEED)
-    size = float(np.hypot(*load))
-    mass = size * w**2 / (SPEED**2 * c)
+    rigid = resting_rotor(bearing, eccentricity, mass_ratio=w**2)
     if ratio == 1.0:
-        rigid = RigidRotor(
-            mass=mass,
-            speed=SPEED,
-            gravity=(0.0, 0.0),
-            static_force=(float(load[0]), float(load[1])),
-            position=(float(rest[0]), float(rest[1])),
-        )
         return rigid, bearing, rigid.initial_state
+    rest, load = np.array(rigid.position), np.array(rigid.static_force)
     # The weight of both masses is the load, so each hangs by its own share.
-    pull = load / mass
-    stiffness = SHAFT * size / c
+    pull = load / rigid.mass
+    stiffness = SHAFT * float(np.hypot(*load)) / bearing.clearance
     disk = rest + load * (1.0 - ratio) / stiffness
     state = np.array([disk[0], rest[0], disk[1], rest[1], 0.0, 0.0, 0.0, 0.0])
     light = JeffcottRotor(
-        mass=(1.0 - ratio) * mass,
-        journal_mass=ratio * mass,
+        mass=(1.0 - ratio) * rigid.mass,
+        journal_mass=ratio * rigid.mass,
         stiffness=stiffness,
         speed=SPEED,
         gravity=(float(pull[0]), float(pull[1])),
@@ -216,24 +204,11 @@ def nudged(rotor: Dynamic, distance: float) -> Dynamic:
     """Return the rotor with its journal moved along x [m]."""
     if isinstance(rotor, RigidRotor):
         x, y = rotor.position
-        return RigidRotor(
-            mass=rotor.mass,
-            speed=rotor.speed,
-            gravity=rotor.gravity,
-            static_force=rotor.static_force,
-            position=(x + distance, y),
-        )
+        return replace(rotor, position=(x + distance, y))
     assert isinstance(rotor, JeffcottRotor)
     initial = np.array(rotor.initial)
     initial[1] += distance
-    return JeffcottRotor(
-        mass=rotor.mass,
-        journal_mass=rotor.journal_mass,
-        stiffness=rotor.stiffness,
-        speed=rotor.speed,
-        gravity=rotor.gravity,
-        initial=tuple(initial.tolist()),
-    )
+    return replace(rotor, initial=tuple(initial.tolist()))
 
 
 def _degrees(angle: float | None) -> float | None:

@@ -1,1 +1,1 @@
-"""Journal."""
+"""Journal films beside the reference."""

@@ -9,7 +9,6 @@ import numpy as np
 
 from ...bearings.journal import JournalBearing, tension
 from ...errors import require_count
-from ...model import Array
 from ...progress import Report, part_of, silent
 from .journal_rungs import ComparedFilm, RungName, chosen_rungs, comparison_bearing, fitted_bearing
 from .journal_states import (
@@ -21,6 +20,7 @@ from .journal_states import (
     States,
     random_states,
     reference_force,
+    relative_error,
     squeeze_share,
 )
 from .timing import FilmCost, film_costs
@@ -160,10 +160,10 @@ def journal_accuracy(
     reference = reference_force(bearing, sample, cells=cells, report=part_of(report, 0.0, 0.5))
     bearings = {rung.name: fitted_bearing(bearing, rung.film) for rung in rungs}
     costs = film_costs(bearings, sample, rounds=rounds, report=part_of(report, 0.5, 0.8))
-    measured = []
-    for number, rung in enumerate(rungs):
-        report(0.8 + 0.2 * number / len(rungs), f"error of {rung.name}")
-        measured.append(_measured(rung, bearings[rung.name], sample, reference, costs[rung.name]))
+    measured: list[RungAccuracy] = []
+    for rung, fitted, cost in zip(rungs, bearings.values(), costs.values(), strict=True):
+        report(0.8 + 0.2 * len(measured) / len(rungs), f"error of {rung.name}")
+        measured.append(_measured(rung, fitted, sample, reference, cost))
     return JournalAccuracy(
         slenderness=slenderness,
         ranges=ranges,
@@ -184,11 +184,6 @@ def pareto_front(costs: Sequence[float], errors: Sequence[float]) -> list[int]:
         if not front or errors[i] < errors[front[-1]]:
             front.append(i)
     return front
-
-
-def relative_error(force: Array, reference: Array) -> Array:
-    """Return |force - reference| / |reference| of vectors (2, n)."""
-    return np.asarray(np.hypot(*(force - reference)) / np.hypot(*reference))
 
 
 def _measured(

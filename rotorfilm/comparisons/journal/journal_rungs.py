@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from enum import StrEnum
 
 from ...bearings.films.law import FilmLaw
 from ...bearings.journal import (
@@ -32,9 +33,19 @@ CONVERGED = 24
 ROTATING_ORDERS = ((1, 1), (2, 1), (2, None), (4, 2), (6, None))
 """Orders on the rotating arc, from the published first approximation to all but converged."""
 
-PUBLISHED = "published"
-FIXED, ROTATING, REYNOLDS, FREE = "fixed arc", "rotating arc", "Reynolds arc", "free arc"
-SHORT, MAP, GRID, EXTRAPOLATED = "short film", "map", "2-D", "2-D extrapolated"
+
+class FilmFamily(StrEnum):
+    """What films of the ladder have in common: where they end, or how they are solved."""
+
+    SHORT = "short film"
+    PUBLISHED = "published"
+    FIXED = "fixed arc"
+    ROTATING = "rotating arc"
+    REYNOLDS = "Reynolds arc"
+    FREE = "free arc"
+    GRID = "2-D"
+    EXTRAPOLATED = "2-D extrapolated"
+    MAP = "map"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,13 +54,13 @@ class RungName:
 
     Attributes
     ----------
-    family : str
-        What it has in common with its neighbors: where the film ends, or how it is solved.
+    family : FilmFamily
+        What it has in common with its neighbors.
     label : str
         What tells it from them; empty if nothing has to.
     """
 
-    family: str
+    family: FilmFamily
     label: str
 
     @property
@@ -72,19 +83,20 @@ class ComparedFilm(RungName):
 
 def journal_rungs() -> tuple[ComparedFilm, ...]:
     """Return the ladder, families from the cheapest to the closest."""
+    fixed, rotating, free = FixedArc(), RotatingArc(), ComplementarityArc()
     return (
-        ComparedFilm(family=SHORT, label="", film=ShortFilm()),
-        *(_splitting(PUBLISHED, FixedArc(), n, 1) for n in (1, 2)),
-        *(_splitting(FIXED, FixedArc(), n, None) for n in (2, 6)),
-        _converged(FIXED, FixedArc()),
-        *(_splitting(ROTATING, RotatingArc(), n, m) for n, m in ROTATING_ORDERS),
-        _converged(ROTATING, RotatingArc()),
-        *(_splitting(REYNOLDS, ReynoldsArc(), n, None, constant=True) for n in (4, 6)),
-        *(_splitting(FREE, ComplementarityArc(), n, m, constant=True) for n, m in ((4, 8), (6, None))),
-        _converged(FREE, ComplementarityArc()),
-        *(_grid(*cells) for cells in ((48, 4), (96, 8), (192, 16))),
-        *(_extrapolated(*cells) for cells in ((48, 8), (96, 8), (192, 8), (384, 16))),
-        ComparedFilm(family=MAP, label="", film=MapFilm()),
+        ComparedFilm(family=FilmFamily.SHORT, label="", film=ShortFilm()),
+        *(_splitting(FilmFamily.PUBLISHED, fixed, n, 1) for n in (1, 2)),
+        *(_splitting(FilmFamily.FIXED, fixed, n, None) for n in (2, 6)),
+        _converged(FilmFamily.FIXED, fixed),
+        *(_splitting(FilmFamily.ROTATING, rotating, n, m) for n, m in ROTATING_ORDERS),
+        _converged(FilmFamily.ROTATING, rotating),
+        *(_splitting(FilmFamily.REYNOLDS, ReynoldsArc(), n, None, constant=True) for n in (4, 6)),
+        *(_splitting(FilmFamily.FREE, free, n, m, constant=True) for n, m in ((4, 8), (6, None))),
+        _converged(FilmFamily.FREE, free),
+        *(_grid(FilmFamily.GRID, *cells) for cells in ((48, 4), (96, 8), (192, 16))),
+        *(_grid(FilmFamily.EXTRAPOLATED, *cells) for cells in ((48, 8), (96, 8), (192, 8), (384, 16))),
+        ComparedFilm(family=FilmFamily.MAP, label="", film=MapFilm()),
     )
 
 
@@ -131,21 +143,20 @@ def fitted_bearing(bearing: JournalBearing, film: FilmLaw) -> JournalBearing:
         return replace(bearing, film=film)
 
 
-def _splitting(family: str, arc: Rupture, n: int, m: int | None, constant: bool = False) -> ComparedFilm:
+def _splitting(
+    family: FilmFamily, arc: Rupture, n: int, m: int | None, constant: bool = False
+) -> ComparedFilm:
     label = f"({n}{'+c' if constant else ''}, {'all' if m is None else m})"
     return ComparedFilm(
         family=family, label=label, film=SplittingFilm(order=(n, m), constant=constant, rupture=arc)
     )
 
 
-def _converged(family: str, arc: Rupture) -> ComparedFilm:
+def _converged(family: FilmFamily, arc: Rupture) -> ComparedFilm:
     return ComparedFilm(family=family, label="converged", film=SpectralArcFilm(rupture=arc, degree=CONVERGED))
 
 
-def _grid(around: int, along: int) -> ComparedFilm:
-    return ComparedFilm(family=GRID, label=f"{around} x {along}", film=ReynoldsFilm(cells=(around, along)))
-
-
-def _extrapolated(around: int, along: int) -> ComparedFilm:
-    film = ExtrapolatedFilm(film=ReynoldsFilm(cells=(around, along)))
-    return ComparedFilm(family=EXTRAPOLATED, label=f"{around} x {along}", film=film)
+def _grid(family: FilmFamily, around: int, along: int) -> ComparedFilm:
+    plain = ReynoldsFilm(cells=(around, along))
+    film = plain if family is FilmFamily.GRID else ExtrapolatedFilm(film=plain)
+    return ComparedFilm(family=family, label=f"{around} x {along}", film=film)

@@ -130,6 +130,11 @@ def squeeze_share(bearing: JournalBearing, states: States) -> float:
     return float(np.mean(np.abs(np.sum(e * w, axis=0)) > np.abs(e[0] * w[1] - e[1] * w[0])))
 
 
+def relative_error(force: Array, reference: Array) -> Array:
+    """Return |force - reference| / |reference| of vectors (2, n)."""
+    return np.asarray(np.hypot(*(force - reference)) / np.hypot(*reference))
+
+
 def reference_force(
     bearing: JournalBearing,
     states: States,

@@ -1,1 +1,1 @@
-"""Limits."""
+"""Where methods fail: the atlas."""

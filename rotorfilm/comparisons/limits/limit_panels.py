@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...model import Array
 
@@ -63,11 +64,40 @@ class Panel:
     logarithmic: bool = False
 
 
-class PanelCurves(NamedTuple):
-    """A panel, and what computes its curves."""
+Curve = tuple[str, ArrayLike, ArrayLike]
+"""Name, abscissa and ordinate of one curve."""
 
+
+@dataclass(frozen=True, kw_only=True)
+class PanelCurves:
+    """A panel, its name in the atlas, and what computes its curves.
+
+    Attributes
+    ----------
+    key : str
+    panel : Panel
+    curves : callable
+        Yields name, abscissa and ordinate of each curve.
+    """
+
+    key: str
     panel: Panel
-    curves: Callable[[], Iterator[Limit]]
+    curves: Callable[[], Iterator[Curve]]
+
+    def limits(self) -> list[Limit]:
+        """Return the curves."""
+        return [
+            Limit(panel=self.key, name=name, abscissa=np.asarray(x), ordinate=np.asarray(y))
+            for name, x, y in self.curves()
+        ]
+
+
+def panel(
+    physics: str, title: str, x_label: str, y_label: str, **reading: Any
+) -> Callable[[Callable[[], Iterator[Curve]]], PanelCurves]:
+    """Make a panel of the function below, whose name is its name in the atlas; arguments as of `Panel`."""
+    found = Panel(physics=physics, title=title, x_label=x_label, y_label=y_label, **reading)
+    return lambda curves: PanelCurves(key=curves.__name__, panel=found, curves=curves)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,11 +11,9 @@ from . import limits_bush, limits_contact, limits_damper, limits_journal, limits
 from .limit_panels import Limit, LimitAtlas, PanelCurves
 
 PANELS: dict[str, PanelCurves] = {
-    **limits_journal.PANELS,
-    **limits_rotor.PANELS,
-    **limits_damper.PANELS,
-    **limits_contact.PANELS,
-    **limits_bush.PANELS,
+    each.key: each
+    for physics in (limits_journal, limits_rotor, limits_damper, limits_contact, limits_bush)
+    for each in physics.PANELS
 }
 """All panels by their names, in the order in which they are drawn."""
 
@@ -23,13 +21,13 @@ PHYSICS = tuple(dict.fromkeys(each.panel.physics for each in PANELS.values()))
 """What the panels are about."""
 
 
-def limits_atlas(physics: Sequence[str] = PHYSICS, *, report: Report = silent) -> LimitAtlas:
+def limits_atlas(physics: Sequence[str] | None = None, *, report: Report = silent) -> LimitAtlas:
     """Return the atlas of limits; all of it takes some 12 s of CPU.
 
     Parameters
     ----------
-    physics : sequence of str
-        Which of `PHYSICS`.
+    physics : sequence of str, optional
+        Which of `PHYSICS`; all by default.
     report : callable
         Called with the fraction done and a text.
 
@@ -38,6 +36,7 @@ def limits_atlas(physics: Sequence[str] = PHYSICS, *, report: Report = silent) -
     InputError
         If one is not in `PHYSICS`, or there is none.
     """
+    physics = PHYSICS if physics is None else physics
     for name in physics:
         if name not in PHYSICS:
             raise InputError(f"physics must be among {', '.join(PHYSICS)}, got {name!r}")
@@ -50,5 +49,5 @@ def limits_atlas(physics: Sequence[str] = PHYSICS, *, report: Report = silent) -
         with warnings.catch_warnings():
             # That a model is used beyond its range is what the atlas shows.
             warnings.simplefilter("ignore", ValidityWarning)
-            found += each.curves()
+            found += each.limits()
     return LimitAtlas(panels={key: each.panel for key, each in chosen.items()}, limits=tuple(found))

@@ -25,7 +25,7 @@ from ..bush_tiers import (
     two_moments,
     worn_run,
 )
-from .limit_panels import Limit, Panel, PanelCurves
+from .limit_panels import Curve, panel
 
 STEPS = (20, 200, 2000)
 NODES = (129, 65, 33, 17, 9)
@@ -33,37 +33,41 @@ EXTENT = 1.5
 """Angle that the worn profile covers [rad]."""
 
 
-def _fluxes() -> Iterator[Limit]:
-    errors = shaft_flux_errors()
+@panel("bush", "closed form of the heat into the shaft", "Biot number of the shaft", "error of the flux")
+def bush_flux() -> Iterator[Curve]:
+    """Yield what the closed form errs by."""
     for stubbiness in STUBBINESSES:
-        yield Limit(
-            panel="bush_flux",
-            name=f"shaft radius / half length {stubbiness:g}",
-            abscissa=np.array(COOLINGS),
-            ordinate=np.array([abs(row.error) for row in errors if row.stubbiness == stubbiness]),
-        )
+        errors = [abs(row.error) for row in shaft_flux_errors(stubbinesses=(stubbiness,))]
+        yield f"shaft radius / half length {stubbiness:g}", COOLINGS, errors
 
 
-def _published() -> Iterator[Limit]:
+@panel("bush", "melting in stages, as published", "load / first load", "error of the contact angle")
+def bush_published() -> Iterator[Curve]:
+    """Yield what the published stage errs by under a growing load."""
     times, exact = _exact()
     grown = 1.0 + (LOADS[1] / LOADS[0] - 1.0) * times / DURATION
     for steps in STEPS:
         error = np.abs(published_run(f4k20_bush(), times, steps) / exact - 1.0)
-        yield Limit(panel="bush_published", name=f"{steps} steps", abscissa=grown[1:], ordinate=error[1:])
+        yield f"{steps} steps", grown[1:], error[1:]
 
 
-def _nodes() -> Iterator[Limit]:
+@panel(
+    "bush",
+    "nodes of the worn profile",
+    "angle between nodes [deg]",
+    "error of the contact angle",
+    logarithmic=True,
+)
+def bush_nodes() -> Iterator[Curve]:
+    """Yield what few nodes err by."""
     times, exact = _exact()
     errors = []
     for nodes in NODES:
         worn = BushReaction(bush=f4k20_bush(), melting_heat=HEAT, extent=EXTENT, nodes=nodes)
         errors.append(np.abs(worn_run(times, worn) / exact - 1.0))
     between = np.degrees(EXTENT) / (np.array(NODES) - 1.0)
-    for name, values in (
-        ("largest", [error.max() for error in errors]),
-        ("at the end", [error[-1] for error in errors]),
-    ):
-        yield Limit(panel="bush_nodes", name=name, abscissa=between, ordinate=np.array(values))
+    yield "largest", between, [error.max() for error in errors]
+    yield "at the end", between, [error[-1] for error in errors]
 
 
 def _exact() -> tuple[Array, Array]:
@@ -71,34 +75,5 @@ def _exact() -> tuple[Array, Array]:
     return times, two_moments(f4k20_bush(), times, **TIGHT)
 
 
-PANELS: dict[str, PanelCurves] = {
-    "bush_flux": PanelCurves(
-        Panel(
-            physics="bush",
-            title="closed form of the heat into the shaft",
-            x_label="Biot number of the shaft",
-            y_label="error of the flux",
-        ),
-        _fluxes,
-    ),
-    "bush_published": PanelCurves(
-        Panel(
-            physics="bush",
-            title="melting in stages, as published",
-            x_label="load / first load",
-            y_label="error of the contact angle",
-        ),
-        _published,
-    ),
-    "bush_nodes": PanelCurves(
-        Panel(
-            physics="bush",
-            title="nodes of the worn profile",
-            x_label="angle between nodes [deg]",
-            y_label="error of the contact angle",
-            logarithmic=True,
-        ),
-        _nodes,
-    ),
-}
+PANELS = (bush_flux, bush_published, bush_nodes)
 """Panels of the polymer bush, in the order in which they are drawn."""

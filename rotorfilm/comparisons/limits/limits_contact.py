@@ -7,24 +7,15 @@ closed form. What load steps the published scheme survives has a chart of its ow
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from ...bearings.contact import (
-    ContactGrid,
-    ContactScheme,
-    ContactState,
-    PointContact,
-    SmallMotion,
-    StaggeredScheme,
-    UpwindScheme,
-)
-from ...errors import ValidityWarning
+from ...bearings.contact import ContactScheme, PointContact, StaggeredScheme, UpwindScheme
 from ...model import Array
-from ..contact.contact_cases import PRESSURE_COEFFICIENT, SPEED_PARAMETER
-from .limit_panels import Limit, Panel, PanelCurves
+from ..contact.contact_cases import published_contact
+from ..contact.contact_limits import natural_motions
+from .limit_panels import Curve, panel
 
 CELLS = (64, 56, 48, 40, 32, 28, 24, 20, 16)
 REFERENCE = (96, 48)
@@ -32,41 +23,6 @@ REFERENCE = (96, 48)
 
 STEP_CELLS = 24
 INERTIAS = (0.1, 1.0, 3.0)
-STIFFNESS = 1.57
-"""Static stiffness of the contact, from which the search for its natural motion starts."""
-
-
-def contact(cells: int, scheme: ContactScheme) -> PointContact:
-    """Return the contact of the atlas on cells x cells."""
-    grid = ContactGrid(cells=(cells, cells))
-    return PointContact(V=SPEED_PARAMETER, Q0=PRESSURE_COEFFICIENT, grid=grid, scheme=scheme)
-
-
-def _grids() -> Iterator[Limit]:
-    fine, coarse = (_numbers(contact(cells, UpwindScheme())) for cells in REFERENCE)
-    right = fine + (fine - coarse) / ((REFERENCE[0] / REFERENCE[1]) ** UpwindScheme.order - 1.0)
-    schemes: dict[str, ContactScheme] = {"upwind": UpwindScheme(), "as published": StaggeredScheme()}
-    for name, scheme in schemes.items():
-        models = [contact(cells, scheme) for cells in CELLS]
-        sizes = np.array([model.grid.spacing[0] for model in models])
-        errors = np.array([np.abs(_numbers(model) / right - 1.0) for model in models])
-        for k, quantity in enumerate(("film in the middle", "smallest film")):
-            yield Limit(
-                panel="contact_grid", name=f"{quantity}, {name}", abscissa=sizes, ordinate=errors[:, k]
-            )
-
-
-def _numbers(model: PointContact) -> Array:
-    state = _stationary(model)
-    return np.array([state.central_film, state.minimum_film])
-
-
-def _stationary(model: PointContact) -> ContactState:
-    with warnings.catch_warnings():
-        # That a pressure alternates on a grid too coarse is what the atlas shows.
-        warnings.simplefilter("ignore", ValidityWarning)
-        return model.stationary()
-
 
 STEPPERS: dict[str, Callable[[complex], complex]] = {
     "Euler": lambda z: 1.0 / (1.0 - z),
@@ -75,43 +31,47 @@ STEPPERS: dict[str, Callable[[complex], complex]] = {
 """Growth of exp(s t) over one implicit step, by z = s times the step."""
 
 
-def _time_steps() -> Iterator[Limit]:
+@panel(
+    "contact",
+    "grid of a rolling ball",
+    "size of a cell / Hertzian radius",
+    "error of the film",
+    logarithmic=True,
+)
+def contact_grid() -> Iterator[Curve]:
+    """Yield what coarse grids err by, upwind and staggered."""
+    fine, coarse = (_films(published_contact(cells, UpwindScheme())) for cells in REFERENCE)
+    right = fine + (fine - coarse) / ((REFERENCE[0] / REFERENCE[1]) ** UpwindScheme.order - 1.0)
+    schemes: dict[str, ContactScheme] = {"upwind": UpwindScheme(), "as published": StaggeredScheme()}
+    for name, scheme in schemes.items():
+        models = [published_contact(cells, scheme) for cells in CELLS]
+        sizes = [model.grid.spacing[0] for model in models]
+        errors = np.array([np.abs(_films(model) / right - 1.0) for model in models])
+        for quantity, values in zip(("film in the middle", "smallest film"), errors.T, strict=True):
+            yield f"{quantity}, {name}", sizes, values
+
+
+def _films(model: PointContact) -> Array:
+    state = model.stationary()
+    return np.array([state.central_film, state.minimum_film])
+
+
+@panel(
+    "contact",
+    "time step of a rolling ball",
+    "step / time scale of the contact",
+    "error of the decay time",
+    logarithmic=True,
+)
+def contact_step() -> Iterator[Curve]:
+    """Yield what implicit steps make of the decay of small oscillations."""
     steps = np.geomspace(1e-3, 1.0, 25)
-    model = contact(STEP_CELLS, UpwindScheme())
-    rest = _stationary(model)
-    small = SmallMotion(model.equations, rest.levels[0].pressure, rest.delta)
-    for W in INERTIAS:
-        s = complex(small.natural_motion(W, 1j * np.sqrt(STIFFNESS / W)))
+    model = published_contact(STEP_CELLS, UpwindScheme())
+    for W, s in zip(INERTIAS, natural_motions(model, model.stationary(), INERTIAS), strict=True):
         for name, growth in STEPPERS.items():
             shown = np.array([-step / np.log(abs(growth(s * step))) for step in steps.tolist()])
-            yield Limit(
-                panel="contact_step",
-                name=f"{name}, W = {W:g}",
-                abscissa=steps,
-                ordinate=np.abs(shown * -s.real - 1.0),
-            )
+            yield f"{name}, W = {W:g}", steps, np.abs(shown * -s.real - 1.0)
 
 
-PANELS: dict[str, PanelCurves] = {
-    "contact_grid": PanelCurves(
-        Panel(
-            physics="contact",
-            title="grid of a rolling ball",
-            x_label="size of a cell / Hertzian radius",
-            y_label="error of the film",
-            logarithmic=True,
-        ),
-        _grids,
-    ),
-    "contact_step": PanelCurves(
-        Panel(
-            physics="contact",
-            title="time step of a rolling ball",
-            x_label="step / time scale of the contact",
-            y_label="error of the decay time",
-            logarithmic=True,
-        ),
-        _time_steps,
-    ),
-}
+PANELS = (contact_grid, contact_step)
 """Panels of the rolling contact, in the order in which they are drawn."""

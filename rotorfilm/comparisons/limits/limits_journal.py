@@ -24,10 +24,9 @@ from ...bearings.journal import (
 )
 from ...linear import coefficients
 from ...model import Array
-from .limit_panels import Limit, Panel, PanelCurves
-
-SPEED = 100.0
-"""Angular speed [rad/s]; in dimensionless form nothing depends on it."""
+from ..journal.journal_rungs import comparison_bearing, fitted_bearing
+from ..journal.journal_states import SPEED, relative_error
+from .limit_panels import Curve, panel
 
 DIRECTIONS = 16
 """Directions in which a displacement is tried."""
@@ -39,11 +38,7 @@ ECCENTRICITY_RATIOS = (0.1, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95)
 
 def bearing(film: FilmLaw, slenderness: float = 0.5) -> JournalBearing:
     """Return the bearing of the atlas with a film."""
-    return JournalBearing(radius=0.05, length=0.1 * slenderness, clearance=1e-4, viscosity=0.1, film=film)
-
-
-def _relative(force: Array, right: Array) -> Array:
-    return np.asarray(np.linalg.norm(force - right, axis=0) / np.linalg.norm(right, axis=0))
+    return fitted_bearing(comparison_bearing(slenderness), film)
 
 
 def _static(model: JournalBearing, ratios: Array) -> Array:
@@ -51,7 +46,14 @@ def _static(model: JournalBearing, ratios: Array) -> Array:
     return model.force(position, np.zeros_like(position), SPEED)
 
 
-def _extents() -> Iterator[Limit]:
+@panel(
+    "journal",
+    "where the film ends",
+    "whirl speed / shaft speed at eccentricity ratio .5",
+    "error of the force",
+)
+def extent() -> Iterator[Curve]:
+    """Yield what arcs err by in circular whirl."""
     whirl = np.linspace(-0.5, 1.5, 33)
     whirl = whirl[np.abs(whirl - 0.5) > 0.02]  # no source of pressure there
     exact = bearing(MapFilm())
@@ -61,37 +63,36 @@ def _extents() -> Iterator[Limit]:
     right = exact.force(position, velocity, SPEED)
     for name, rupture in (("arc fixed in small motion", FixedArc()), ("arc that turns", RotatingArc())):
         model = bearing(SplittingFilm(order=(5, None), rupture=rupture))
-        error = _relative(model.force(position, velocity, SPEED), right)
-        yield Limit(panel="extent", name=name, abscissa=whirl, ordinate=error)
+        yield name, whirl, relative_error(model.force(position, velocity, SPEED), right)
 
 
-def _orders() -> Iterator[Limit]:
+@panel("journal", "order of the splitting film", "eccentricity ratio", "error of the force, same arc")
+def order() -> Iterator[Curve]:
+    """Yield what few functions err by."""
     ratios = np.linspace(0.05, 0.95, 19)
     right = _static(bearing(SplittingFilm(order=(10, None), rupture=RotatingArc())), ratios)
     for n, m in ORDERS:
         film = SplittingFilm(order=(n, m), rupture=RotatingArc())
         name = f"({n}, {'all' if m is None else m})"
-        error = _relative(_static(bearing(film), ratios), right)
-        yield Limit(panel="order", name=name, abscissa=ratios, ordinate=error)
+        yield name, ratios, relative_error(_static(bearing(film), ratios), right)
 
 
-def _lengths() -> Iterator[Limit]:
+@panel("journal", "short bearing", "length / diameter", "error of the static force", logarithmic=True)
+def length() -> Iterator[Curve]:
+    """Yield what the short film errs by."""
     slenderness = np.geomspace(0.1, 2.0, 14)
     for ratio in (0.2, 0.6, 0.9):
         at = np.array([ratio])
         errors = [
-            _relative(_static(bearing(ShortFilm(), ld), at), _static(bearing(MapFilm(), ld), at))[0]
+            relative_error(_static(bearing(ShortFilm(), ld), at), _static(bearing(MapFilm(), ld), at))[0]
             for ld in slenderness.tolist()
         ]
-        yield Limit(
-            panel="length",
-            name=f"eccentricity ratio {ratio:g}",
-            abscissa=slenderness,
-            ordinate=np.array(errors),
-        )
+        yield f"eccentricity ratio {ratio:g}", slenderness, errors
 
 
-def _grids() -> Iterator[Limit]:
+@panel("journal", "grid of the Reynolds film", "eccentricity ratio", "error of K")
+def grid() -> Iterator[Curve]:
+    """Yield what coarse grids err by."""
     exact = bearing(MapFilm())
     positions = [np.array([ratio * exact.clearance, 0.0]) for ratio in ECCENTRICITY_RATIOS]
     right = [coefficients(exact, position, SPEED).stiffness for position in positions]
@@ -101,15 +102,12 @@ def _grids() -> Iterator[Limit]:
             np.linalg.norm(coefficients(model, position, SPEED).stiffness - K) / np.linalg.norm(K)
             for position, K in zip(positions, right, strict=True)
         ]
-        yield Limit(
-            panel="grid",
-            name=f"{cells[0]} x {cells[1]} cells",
-            abscissa=np.array(ECCENTRICITY_RATIOS),
-            ordinate=np.array(errors),
-        )
+        yield f"{cells[0]} x {cells[1]} cells", ECCENTRICITY_RATIOS, errors
 
 
-def _linearizations() -> Iterator[Limit]:
+@panel("journal", "linearization", "displacement / gap to the wall", "error of the change of force")
+def linearization() -> Iterator[Curve]:
+    """Yield what stiffness errs by in large displacements."""
     model, parts = bearing(MapFilm()), np.geomspace(0.01, 0.8, 20)
     angles = np.linspace(0.0, 2.0 * np.pi, DIRECTIONS, endpoint=False)
     for ratio in (0.2, 0.5, 0.8):
@@ -118,8 +116,7 @@ def _linearizations() -> Iterator[Limit]:
         still = model.force(at, np.zeros(2), SPEED)
         gap = (1.0 - ratio) * model.clearance
         errors = [_worst_direction(model, at, K, still, part * gap, angles) for part in parts.tolist()]
-        name = f"about eccentricity ratio {ratio:g}"
-        yield Limit(panel="linearization", name=name, abscissa=parts, ordinate=np.array(errors))
+        yield f"about eccentricity ratio {ratio:g}", parts, errors
 
 
 def _worst_direction(
@@ -132,52 +129,5 @@ def _worst_direction(
     return float(wrong.max() / np.linalg.norm(right, axis=0).max())
 
 
-PANELS: dict[str, PanelCurves] = {
-    "extent": PanelCurves(
-        Panel(
-            physics="journal",
-            title="where the film ends",
-            x_label="whirl speed / shaft speed at eccentricity ratio .5",
-            y_label="error of the force",
-        ),
-        _extents,
-    ),
-    "order": PanelCurves(
-        Panel(
-            physics="journal",
-            title="order of the splitting film",
-            x_label="eccentricity ratio",
-            y_label="error of the force, same arc",
-        ),
-        _orders,
-    ),
-    "length": PanelCurves(
-        Panel(
-            physics="journal",
-            title="short bearing",
-            x_label="length / diameter",
-            y_label="error of the static force",
-            logarithmic=True,
-        ),
-        _lengths,
-    ),
-    "grid": PanelCurves(
-        Panel(
-            physics="journal",
-            title="grid of the Reynolds film",
-            x_label="eccentricity ratio",
-            y_label="error of K",
-        ),
-        _grids,
-    ),
-    "linearization": PanelCurves(
-        Panel(
-            physics="journal",
-            title="linearization",
-            x_label="displacement / gap to the wall",
-            y_label="error of the change of force",
-        ),
-        _linearizations,
-    ),
-}
+PANELS = (extent, order, length, grid, linearization)
 """Panels of the journal bearing, in the order in which they are drawn."""

@@ -9,7 +9,6 @@ number in the name.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from itertools import chain
 
 import numpy as np
 from scipy.linalg import expm
@@ -18,9 +17,10 @@ from ...bearings.journal import MapFilm
 from ...cosim import critical_macro_step
 from ...linear import coefficients
 from ...model import Array
-from ...rotors import RigidRotor
-from .limit_panels import Limit, Panel, PanelCurves
-from .limits_journal import ECCENTRICITY_RATIOS, SPEED, bearing
+from ..coupling.coupling_setup import resting_rotor
+from ..journal.journal_states import SPEED
+from .limit_panels import Curve, panel
+from .limits_journal import ECCENTRICITY_RATIOS, bearing
 
 MASS_RATIOS = (0.01, 0.1, 1.0)
 """Speed^2 clearance mass / load of the rotor whose macro step is limited."""
@@ -47,30 +47,15 @@ SCHEMES: dict[str, Callable[[Array], Array]] = {
 """What a step does to the linearized state, by the step times its matrix."""
 
 
-def _macro_steps() -> Iterator[Limit]:
-    ratios = np.array(ECCENTRICITY_RATIOS)
-    for mass_ratio in MASS_RATIOS:
-        steps = [_critical_angle(ratio, mass_ratio) for ratio in ECCENTRICITY_RATIOS]
-        yield Limit(
-            panel="macro_step",
-            name=f"speed^2 c m / W = {mass_ratio:g}",
-            abscissa=ratios,
-            ordinate=np.degrees(steps),
-        )
-
-
-def _critical_angle(ratio: float, mass_ratio: float) -> float:
-    """Return the critical macro step in shaft rotation [rad]; not-a-number where the rotor whirls anyway."""
-    model = bearing(MapFilm())
-    position = np.array([ratio * model.clearance, 0.0])
-    load = -model.force(position, np.zeros(2), SPEED)
-    mass = mass_ratio * float(np.linalg.norm(load)) / (SPEED**2 * model.clearance)
-    rotor = RigidRotor(mass=mass, speed=SPEED, gravity=(0.0, 0.0), static_force=(load[0], load[1]))
-    found = critical_macro_step(rotor, model, state=list(chain(position, (0.0, 0.0))))
-    return np.nan if found.macro_step is None else float(found.macro_step) * SPEED
-
-
-def _time_steps() -> Iterator[Limit]:
+@panel(
+    "rotor",
+    "time step, rigid rotor on the film",
+    "step / shortest time constant",
+    "error of the path / first displacement",
+    logarithmic=True,
+)
+def time_step() -> Iterator[Curve]:
+    """Yield what steps of each scheme err by."""
     matrix = _rotor_matrix(STEP_AT, STEP_MASS)
     shortest = 1.0 / float(np.abs(np.linalg.eigvals(matrix)).max())
     whole = TURNS * 2.0 * np.pi / SPEED
@@ -78,17 +63,32 @@ def _time_steps() -> Iterator[Limit]:
     steps = whole / counts[::-1]
     for name, scheme in SCHEMES.items():
         errors = [_step_error(scheme(matrix * step), matrix * step, whole / step) for step in steps.tolist()]
-        yield Limit(panel="time_step", name=name, abscissa=steps / shortest, ordinate=np.array(errors))
+        yield name, steps / shortest, errors
+
+
+@panel("rotor", "macro step, force held", "eccentricity ratio", "longest stable macro step [deg]", level=None)
+def macro_step() -> Iterator[Curve]:
+    """Yield the longest macro steps of rotors of several masses."""
+    for mass_ratio in MASS_RATIOS:
+        steps = [_critical_angle(ratio, mass_ratio) for ratio in ECCENTRICITY_RATIOS]
+        yield f"speed^2 c m / W = {mass_ratio:g}", ECCENTRICITY_RATIOS, np.degrees(steps)
+
+
+def _critical_angle(ratio: float, mass_ratio: float) -> float:
+    """Return the critical macro step in shaft rotation [rad]; not-a-number where the rotor whirls anyway."""
+    model = bearing(MapFilm())
+    rotor = resting_rotor(model, ratio, speed=SPEED, mass_ratio=mass_ratio)
+    found = critical_macro_step(rotor, model, state=rotor.initial_state)
+    return np.nan if found.macro_step is None else float(found.macro_step) * SPEED
 
 
 def _rotor_matrix(ratio: float, mass_ratio: float) -> Array:
     """Return A of d/dt (x, y, vx, vy) = A (x, y, vx, vy) about an equilibrium [1/s]; lengths / clearance."""
     model = bearing(MapFilm())
-    position = np.array([ratio * model.clearance, 0.0])
-    load = float(np.linalg.norm(model.force(position, np.zeros(2), SPEED)))
-    mass = mass_ratio * load / (SPEED**2 * model.clearance)
-    found = coefficients(model, position, SPEED)
-    return np.block([[np.zeros((2, 2)), np.eye(2)], [-found.stiffness / mass, -found.damping / mass]])
+    rotor = resting_rotor(model, ratio, speed=SPEED, mass_ratio=mass_ratio)
+    found = coefficients(model, rotor.position, SPEED)
+    blocks = [[np.zeros((2, 2)), np.eye(2)], [-found.stiffness / rotor.mass, -found.damping / rotor.mass]]
+    return np.block(blocks)
 
 
 def _step_error(by_scheme: Array, exponent: Array, count: float) -> float:
@@ -103,26 +103,5 @@ def _step_error(by_scheme: Array, exponent: Array, count: float) -> float:
     return worst
 
 
-PANELS: dict[str, PanelCurves] = {
-    "time_step": PanelCurves(
-        Panel(
-            physics="rotor",
-            title="time step, rigid rotor on the film",
-            x_label="step / shortest time constant",
-            y_label="error of the path / first displacement",
-            logarithmic=True,
-        ),
-        _time_steps,
-    ),
-    "macro_step": PanelCurves(
-        Panel(
-            physics="rotor",
-            title="macro step, force held",
-            x_label="eccentricity ratio",
-            y_label="longest stable macro step [deg]",
-            level=None,
-        ),
-        _macro_steps,
-    ),
-}
+PANELS = (time_step, macro_step)
 """Panels of steps in time, in the order in which they are drawn."""

@@ -1,1 +1,1 @@
-"""Schemes."""
+"""Schemes that couple a rotor and its bearings over macro steps."""

@@ -17,8 +17,15 @@ class _Extrapolating:
 
     degree: int = 0
 
+    _name = ""
+
     def __post_init__(self) -> None:
         require_degree(self.degree)
+
+    @property
+    def label(self) -> str:
+        """Its name in print."""
+        return f"{self._name} {self.degree}"
 
     @property
     def order(self) -> int:
@@ -46,10 +53,7 @@ class GaussSeidel(_Extrapolating):
         If the degree is none of these.
     """
 
-    @property
-    def label(self) -> str:
-        """Its name in print."""
-        return f"Gauss-Seidel {self.degree}"
+    _name = "Gauss-Seidel"
 
     def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
         """Advance by one macro step, at the start by a part of it; see `Scheme`."""
@@ -73,10 +77,7 @@ class Jacobi(_Extrapolating):
         If the degree is none of these.
     """
 
-    @property
-    def label(self) -> str:
-        """Its name in print."""
-        return f"Jacobi {self.degree}"
+    _name = "Jacobi"
 
     def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
         """Advance by one macro step, at the start by a part of it; see `Scheme`."""

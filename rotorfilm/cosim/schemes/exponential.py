@@ -13,7 +13,7 @@ linear is integrated by Radau's method.
 
 from __future__ import annotations
 
-from typing import NamedTuple, Protocol
+from typing import Protocol
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -22,6 +22,7 @@ from scipy.linalg import expm
 from ...errors import ConvergenceError
 from ...model import Array, Linearization
 from ...rotors.force_law import ForceLaw
+from ..wiring import Wiring
 
 DEGREE = 6
 """Degree of the polynomial of the rates in time."""
@@ -69,39 +70,6 @@ class System(Protocol):
         """Go beyond a kink at the time t."""
 
 
-class Wiring(NamedTuple):
-    """Which signals of a rotor belong to its journals, by name; x and y of each station in turn.
-
-    Attributes
-    ----------
-    stations : tuple of str
-        The empty name is that of a rotor with one journal.
-    force, position, velocity : tuple of str, length 2 n_stations
-    """
-
-    stations: tuple[str, ...]
-    force: tuple[str, ...]
-    position: tuple[str, ...]
-    velocity: tuple[str, ...]
-
-
-class Journals(NamedTuple):
-    """The same as indices of a system's inputs and outputs."""
-
-    force: list[int]
-    position: list[int]
-    velocity: list[int]
-
-
-def journals_of(system: System, wiring: Wiring) -> Journals:
-    """Return where the signals of the journals are."""
-    return Journals(
-        [system.inputs.index(name) for name in wiring.force],
-        [system.outputs.index(name) for name in wiring.position],
-        [system.outputs.index(name) for name in wiring.velocity],
-    )
-
-
 class LawIntegrator:
     """Advances the state of a rotor under force laws.
 
@@ -115,7 +83,7 @@ class LawIntegrator:
 
     def __init__(self, system: System, wiring: Wiring, inputs: Array) -> None:
         self._system, self._inputs = system, inputs
-        self._at = journals_of(system, wiring)
+        self._at = wiring.places(system.inputs, system.outputs)
         self._matrices: Linearization | None = None
 
     def advance(self, t: float, x: Array, dt: float, law: ForceLaw) -> Array:
@@ -135,10 +103,6 @@ class LawIntegrator:
                 self._matrices = None
             t, dt = t + step, dt - step if step < dt else 0.0
         return x
-
-    def linear(self, t: float, x: Array) -> Linearization:
-        """Return the exact derivatives of the rotor without its films."""
-        return self._system.matrices(t, x, self._inputs)
 
     def _smooth(self, t: float, x: Array, dt: float, law: ForceLaw, halvings: int) -> Array:
         for fresh in (False, True):

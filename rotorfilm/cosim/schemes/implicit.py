@@ -12,8 +12,23 @@ from ...rotors.force_law import ForceLaw
 from ..bench import Bench, Needs, Sample
 
 
+class _Tangential:
+    """What the linearly implicit schemes share: a law of the films' tangents, and of what they leave over."""
+
+    needs = Needs(derivatives=True, laws=True)
+
+    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
+        """Advance by one macro step; see `Scheme`."""
+        motion = bench.drive(t, dt, _law(history, self.curvature(history)))
+        return bench.evaluate(t, dt, motion, True)
+
+    def curvature(self, history: Sequence[Sample]) -> Array:
+        """Return half the second derivative in time that is left of the force, shape (m,) [N/s2]."""
+        return np.zeros_like(history[-1].force)
+
+
 @dataclass(frozen=True)
-class SIExp:
+class SIExp(_Tangential):
     """The rotor integrates F + dF/dq dq + dF/dv dv of its films through the step: one film call, no rollback.
 
     Stable at every macro step where the coupled system itself is; of second order.
@@ -21,16 +36,10 @@ class SIExp:
 
     order = 2
     label = "SI-exp"
-    needs = Needs(derivatives=True, laws=True)
-
-    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
-        """Advance by one macro step; see `Scheme`."""
-        motion = bench.drive(t, dt, _law(history, np.zeros_like(history[-1].force)))
-        return bench.evaluate(t, dt, motion, True)
 
 
 @dataclass(frozen=True)
-class SIExp3:
+class SIExp3(_Tangential):
     """SI-exp, and the parabola in time that the last step left over: of third order at the same price.
 
     With s = (t - t_n)/H and D = F_(n-1) - F_n - dF/dq (q_(n-1) - q_n) - dF/dv (v_(n-1) - v_n), derivatives at
@@ -41,12 +50,14 @@ class SIExp3:
 
     order = 3
     label = "SI-exp3"
-    needs = Needs(derivatives=True, laws=True)
 
-    def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
-        """Advance by one macro step; see `Scheme`."""
-        motion = bench.drive(t, dt, _law(history, _curvature(history)))
-        return bench.evaluate(t, dt, motion, True)
+    def curvature(self, history: Sequence[Sample]) -> Array:
+        """Return what the last step left over."""
+        if len(history) < 2:
+            return super().curvature(history)
+        before, now = history[-2:]
+        curvature: Array = defect(before, now) / (now.time - before.time) ** 2
+        return curvature
 
 
 def defect(before: Sample, now: Sample) -> Array:
@@ -61,14 +72,6 @@ def defect(before: Sample, now: Sample) -> Array:
         - tangents.by_speed_change(before.motion.speed - now.motion.speed, now.force)
     )
     return left
-
-
-def _curvature(history: Sequence[Sample]) -> Array:
-    if len(history) < 2:
-        return np.zeros_like(history[-1].force)
-    before, now = history[-2:]
-    curvature: Array = defect(before, now) / (now.time - before.time) ** 2
-    return curvature
 
 
 def _law(history: Sequence[Sample], curvature: Array) -> ForceLaw:

@@ -41,24 +41,13 @@ class Newton:
     tolerance: float = 1e-6
     most: int = 12
 
+    order = 2
+    label = "Newton"
+    needs = Needs(derivatives=True, rollback=True)
+
     def __post_init__(self) -> None:
         require_positive("tolerance", self.tolerance)
         require_count("most", self.most)
-
-    @property
-    def order(self) -> int:
-        """Order of convergence in the macro step."""
-        return 2
-
-    @property
-    def label(self) -> str:
-        """Its name in print."""
-        return "Newton"
-
-    @property
-    def needs(self) -> Needs:
-        """Derivatives of the films, and a way back for all."""
-        return Needs(derivatives=True, rollback=True)
 
     def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
         """Advance by one macro step; see `Scheme`.

@@ -79,8 +79,7 @@ def extrapolated_law(history: Sequence[Sample], degree: int) -> ForceLaw:
     if len(latest) == 1:
         return held_law(latest[-1].time, latest[-1].force)
     value, slope, curvature = extrapolation([s.time for s in latest], [s.force for s in latest])
-    none, zero = np.zeros((len(value), len(value))), np.zeros_like(value)
-    return ForceLaw(latest[-1].time, value, slope, curvature, none, none, zero, zero)
+    return held_law(latest[-1].time, value)._replace(slope=slope, curvature=curvature)
 
 
 def started(history: Sequence[Sample], degree: int, dt: float) -> float:

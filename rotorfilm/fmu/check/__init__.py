@@ -1,1 +1,1 @@
-"""Check."""
+"""Checks of FMUs: description, calls, states, reference."""

@@ -14,8 +14,19 @@ from fmpy.validation import validate_fmu
 from ...errors import FmuError
 from ...model import Array
 from ..binaries import libraries, require_whole
-from .described import common_capabilities, nominal_of, references_of, starts_of, variables_of
-from .instance import Instance, extracted, instantiated
+from .calls import Instance
+from .described import (
+    ADJOINT_DERIVATIVES,
+    DERIVATIVES,
+    SERIAL_STATES,
+    STATES,
+    nominal_of,
+    provides,
+    references_of,
+    starts_of,
+    variables_of,
+)
+from .instance import extracted, instantiated
 from .measure import adjoint_error, derivative_error, state_differences
 from .replay import replay_exchange, replay_steps
 
@@ -115,25 +126,21 @@ def _check_libraries(subject: _Subject) -> CheckItem:
 
 
 def _check_derivatives(subject: _Subject) -> CheckItem:
-    if not _provides(subject, "providesDirectionalDerivative", "providesDirectionalDerivatives"):
+    if not provides(subject.folder, DERIVATIVES):
         return _absent("no directional derivatives")
     worst = _visit(subject, derivative_error)
     return CheckItem("", worst <= DERIVATIVE_TOLERANCE, worst, "largest deviation from central differences")
 
 
 def _check_adjoint(subject: _Subject) -> CheckItem:
-    if not _provides(subject, "providesAdjointDerivatives"):
+    if not provides(subject.folder, ADJOINT_DERIVATIVES):
         return _absent("no adjoint derivatives")
     worst = _visit(subject, adjoint_error)
     return CheckItem("", worst <= 1e-12, worst, "largest deviation from the directional derivatives")
 
 
 def _check_state(subject: _Subject) -> CheckItem:
-    wanted = [
-        ("canGetAndSetFMUstate", "canGetAndSetFMUState"),
-        ("canSerializeFMUstate", "canSerializeFMUState"),
-    ]
-    if subject.description.coSimulation is None or not all(_provides(subject, *names) for names in wanted):
+    if subject.description.coSimulation is None or not provides(subject.folder, STATES, SERIAL_STATES):
         return _absent("no FMU states in Co-Simulation")
     first = instantiated(subject.description, subject.folder, False)
     second = instantiated(subject.description, subject.folder, False)
@@ -182,11 +189,6 @@ def _visit(subject: _Subject, measure: Callable[[Any, Instance, Array], float]) 
 
 def _absent(remark: str) -> CheckItem:
     return CheckItem("", None, None, remark)
-
-
-def _provides(subject: _Subject, *names: str) -> bool:
-    """Return whether every interface has a capability, spelled one way or the other."""
-    return bool(common_capabilities(subject.folder) & set(names))
 
 
 def _reference(description: Any, folder: str) -> Array | None:

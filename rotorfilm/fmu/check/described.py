@@ -54,6 +54,19 @@ def common_capabilities(folder: str) -> set[str]:
     return set.intersection(*yes) if yes else set()
 
 
+DERIVATIVES = {"providesDirectionalDerivative", "providesDirectionalDerivatives"}
+STATES = {"canGetAndSetFMUstate", "canGetAndSetFMUState"}
+SERIAL_STATES = {"canSerializeFMUstate", "canSerializeFMUState"}
+ADJOINT_DERIVATIVES = {"providesAdjointDerivatives"}
+"""Capabilities, as FMI 2.0 and 3.0 spell them."""
+
+
+def provides(folder: str, *capabilities: set[str]) -> bool:
+    """Return whether every interface has all of these capabilities, spelled one way or the other."""
+    common = common_capabilities(folder)
+    return all(common & spellings for spellings in capabilities)
+
+
 def _row(variable: Any) -> dict[str, Any]:
     keys = ("name", "causality", "variability", "unit", "start", "description")
     return {key: getattr(variable, key) for key in keys}

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from ...model import Array
+from .calls import Instance, Instance3
 from .described import known_nominals, knowns_of, reals_of, references_of, starts_of, unknowns_of
-from .instance import Instance, Instance3
 
 DIFFERENCE_STEP = 1e-4
 """Step of the differences in nominal values, where their errors of fourth order and of roundoff balance."""

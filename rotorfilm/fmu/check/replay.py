@@ -11,8 +11,9 @@ from scipy.integrate import DOP853
 
 from ...errors import FmuError
 from ...model import Array
+from .calls import Instance
 from .described import nominal_of, references_of, variables_of
-from .instance import Instance, instantiated
+from .instance import instantiated
 
 STEP_TOLERANCE = 1e-12
 """Of the time integration inside an FMU in Co-Simulation."""

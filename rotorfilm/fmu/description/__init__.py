@@ -1,1 +1,1 @@
-"""Description."""
+"""The model descriptions of FMI 2 and 3."""

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from ...signals import Variable
 from ...units import DISPLAY_UNITS, UNITS
-from .dependencies import Dependencies
+from .dependencies import Dependencies, Unknown
 
 QUANTITIES = {
     "m": "Length",
@@ -75,14 +75,41 @@ class Description(NamedTuple):
         return any(variable.variability == "tunable" for variable in self.variables)
 
 
-def header(description: Description, version: str, token: str) -> Element:
-    """Return the root element; `token` is the attribute that FMI calls guid or instantiationToken."""
-    return Element(
+class Dialect(Protocol):
+    """How one FMI version writes what both say."""
+
+    version: str
+    token: str
+
+    def add_interface(self, root: Element, name: str, description: Description) -> None:
+        """Add ModelExchange or CoSimulation."""
+
+    def add_type(self, parent: Element, attributes: Mapping[str, str]) -> None:
+        """Add the type of a quantity."""
+
+    def add_variable(self, parent: Element, reference: int, variable: Variable) -> None:
+        """Add a variable."""
+
+    def add_structure(self, structure: Element, description: Description) -> None:
+        """Add what the unknowns depend on."""
+
+
+def to_xml(description: Description, dialect: Dialect, token: str) -> bytes:
+    """Return modelDescription.xml; equal arguments give equal bytes.
+
+    Parameters
+    ----------
+    description : Description
+    dialect : Dialect
+    token : str
+        What FMI 2.0 calls guid, FMI 3.0 instantiationToken.
+    """
+    root = Element(
         "fmiModelDescription",
         {
-            "fmiVersion": version,
+            "fmiVersion": dialect.version,
             "modelName": description.identifier,
-            "guid" if version == "2.0" else "instantiationToken": token,
+            dialect.token: token,
             "description": description.title,
             "copyright": description.copyright,
             "license": "MIT, see documentation/licenses",
@@ -90,9 +117,25 @@ def header(description: Description, version: str, token: str) -> Element:
             "variableNamingConvention": "structured",
         },
     )
+    for name in description.interfaces:
+        dialect.add_interface(root, name, description)
+    _add_units(root, description.variables)
+    types = SubElement(root, "TypeDefinitions")
+    for attributes in _type_attributes(description.variables):
+        dialect.add_type(types, attributes)
+    categories = SubElement(root, "LogCategories")
+    for name, text in description.categories.items():
+        SubElement(categories, "Category", name=name, description=text)
+    experiment = {"stopTime": repr(description.stop_time), "stepSize": repr(description.step_size)}
+    SubElement(root, "DefaultExperiment", {"startTime": "0.0", **experiment})
+    variables = SubElement(root, "ModelVariables")
+    for reference, variable in enumerate(description.variables):
+        dialect.add_variable(variables, reference, variable)
+    dialect.add_structure(SubElement(root, "ModelStructure"), description)
+    return to_bytes(root)
 
 
-def add_units(root: Element, variables: tuple[Variable, ...]) -> None:
+def _add_units(root: Element, variables: tuple[Variable, ...]) -> None:
     """Add the units in use, each with its SI base units and the unit to show it in."""
     definitions = SubElement(root, "UnitDefinitions")
     for name in sorted({variable.unit for variable in variables if variable.unit is not None}):
@@ -104,7 +147,7 @@ def add_units(root: Element, variables: tuple[Variable, ...]) -> None:
             SubElement(unit, "DisplayUnit", name=SHOWN[name], factor=repr(factor))
 
 
-def type_attributes(variables: tuple[Variable, ...]) -> list[dict[str, str]]:
+def _type_attributes(variables: tuple[Variable, ...]) -> list[dict[str, str]]:
     """Return the attributes of the types in use: quantity, unit and display unit, sorted by name."""
     units = {v.unit for v in variables if v.unit in QUANTITIES}
     types = [{"quantity": QUANTITIES[unit], "unit": unit, **_shown(unit)} for unit in units if unit]
@@ -123,29 +166,26 @@ def value_attributes(variable: Variable) -> dict[str, str]:
     return attributes | {name: repr(float(value)) for name, value in numbers.items()}
 
 
-def initial(variable: Variable) -> dict[str, str]:
-    """Return the attribute `initial`, where FMI does not fix it."""
-    if variable.causality in ("input", "independent"):
-        return {}
-    return {"initial": "calculated" if variable.start is None else "exact"}
+def variable_attributes(variable: Variable, reference: int) -> dict[str, str]:
+    """Return what is said of a variable besides its values."""
+    attributes = {
+        "name": variable.name,
+        "valueReference": str(reference),
+        "description": variable.description,
+        "causality": variable.causality,
+        "variability": variable.variability,
+    }
+    if variable.causality in ("input", "independent"):  # where FMI fixes `initial`
+        return attributes
+    return {**attributes, "initial": "calculated" if variable.start is None else "exact"}
 
 
-def add_experiment(root: Element, description: Description) -> None:
-    """Add the default experiment."""
-    SubElement(
-        root,
-        "DefaultExperiment",
-        startTime="0.0",
-        stopTime=repr(description.stop_time),
-        stepSize=repr(description.step_size),
-    )
-
-
-def add_categories(root: Element, categories: Mapping[str, str]) -> None:
-    """Add the log categories."""
-    parent = SubElement(root, "LogCategories")
-    for name, text in categories.items():
-        SubElement(parent, "Category", name=name, description=text)
+def unknown_attributes(unknown: Unknown, first: int) -> dict[str, str]:
+    """Return what an unknown depends on, by places among the variables that count from `first`."""
+    return {
+        "dependencies": " ".join(str(known + first) for known in unknown.knowns),
+        "dependenciesKind": " ".join(unknown.kinds),
+    }
 
 
 def to_bytes(root: Element) -> bytes:

@@ -2,42 +2,54 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from xml.etree.ElementTree import Element, SubElement
 
 from ...signals import Variable
-from .dependencies import Unknown, initial_unknowns, running_unknowns
+from .dependencies import initial_unknowns, running_unknowns
 from .model_description import (
     Description,
-    add_categories,
-    add_experiment,
-    add_units,
-    header,
-    initial,
     to_bytes,
-    type_attributes,
+    unknown_attributes,
     value_attributes,
+    variable_attributes,
 )
 from .variables import derivative_references, switch_references
 
 VERSION = "3.0"
 
 
-def to_xml3(description: Description, token: str) -> bytes:
-    """Return modelDescription.xml; equal arguments give equal bytes."""
-    root = header(description, VERSION, token)
-    for name, attributes in description.interfaces.items():
-        SubElement(root, name, {"modelIdentifier": description.identifier, **attributes})
-    add_units(root, description.variables)
-    types = SubElement(root, "TypeDefinitions")
-    for attributes in type_attributes(description.variables):
-        SubElement(types, "Float64Type", {"name": attributes["quantity"], **attributes})
-    add_categories(root, description.categories)
-    add_experiment(root, description)
-    parent = SubElement(root, "ModelVariables")
-    for reference, variable in enumerate(description.variables):
-        _add_variable(parent, reference, variable)
-    _add_structure(root, description)
-    return to_bytes(root)
+class Dialect3:
+    """How FMI 3.0 writes it; see `Dialect`."""
+
+    version, token = VERSION, "instantiationToken"
+
+    def add_interface(self, root: Element, name: str, description: Description) -> None:
+        """Add an interface."""
+        SubElement(root, name, {"modelIdentifier": description.identifier, **description.interfaces[name]})
+
+    def add_type(self, parent: Element, attributes: Mapping[str, str]) -> None:
+        """Add a type."""
+        SubElement(parent, "Float64Type", {"name": attributes["quantity"], **attributes})
+
+    def add_variable(self, parent: Element, reference: int, variable: Variable) -> None:
+        """Add a variable."""
+        slope = {} if variable.state is None else {"derivative": str(variable.state)}
+        attributes = variable_attributes(variable, reference) | value_attributes(variable) | slope
+        SubElement(parent, "Float64", attributes)
+
+    def add_structure(self, structure: Element, description: Description) -> None:
+        """Add outputs, derivatives, initial unknowns and event indicators."""
+        variables = description.variables
+        slopes = set(derivative_references(variables))
+        running = running_unknowns(variables, description.dependencies, description.tunable)
+        unknowns = [("ContinuousStateDerivative" if u.reference in slopes else "Output", u) for u in running]
+        initial = initial_unknowns(variables, description.dependencies)
+        for name, unknown in [*unknowns, *(("InitialUnknown", u) for u in initial)]:
+            attributes = {"valueReference": str(unknown.reference), **unknown_attributes(unknown, 0)}
+            SubElement(structure, name, attributes)
+        for reference in switch_references(variables):
+            SubElement(structure, "EventIndicator", valueReference=str(reference))
 
 
 def build_description(identifier: str, sources: tuple[str, ...]) -> bytes:
@@ -58,44 +70,3 @@ def icon_description() -> bytes:
     SubElement(graphics, "CoordinateSystem", {**corners, "suggestedScalingFactorTo_mm": "0.1"})
     SubElement(graphics, "Icon", corners)
     return to_bytes(root)
-
-
-def _add_variable(parent: Element, reference: int, variable: Variable) -> None:
-    attributes = value_attributes(variable)
-    if variable.state is not None:
-        attributes["derivative"] = str(variable.state)
-    SubElement(
-        parent,
-        "Float64",
-        {
-            "name": variable.name,
-            "valueReference": str(reference),
-            "description": variable.description,
-            "causality": variable.causality,
-            "variability": variable.variability,
-            **initial(variable),
-            **attributes,
-        },
-    )
-
-
-def _add_structure(root: Element, description: Description) -> None:
-    variables = description.variables
-    slopes = set(derivative_references(variables))
-    structure = SubElement(root, "ModelStructure")
-    for unknown in running_unknowns(variables, description.dependencies, description.tunable):
-        _add(structure, "ContinuousStateDerivative" if unknown.reference in slopes else "Output", unknown)
-    for unknown in initial_unknowns(variables, description.dependencies):
-        _add(structure, "InitialUnknown", unknown)
-    for reference in switch_references(variables):
-        SubElement(structure, "EventIndicator", valueReference=str(reference))
-
-
-def _add(structure: Element, name: str, unknown: Unknown) -> None:
-    SubElement(
-        structure,
-        name,
-        valueReference=str(unknown.reference),
-        dependencies=" ".join(map(str, unknown.knowns)),
-        dependenciesKind=" ".join(unknown.kinds),
-    )

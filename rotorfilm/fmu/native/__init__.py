@@ -1,1 +1,1 @@
-"""Native."""
+"""FMUs of kernels of the C library."""

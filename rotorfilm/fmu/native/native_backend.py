@@ -17,7 +17,7 @@ from ...native.spec import NativeSpec
 from ...signals import Variable
 from ..archive import licenses
 from ..description.documentation import NATIVE, to_html
-from ..description.variables import labelled, references, require_unique, structured_name
+from ..description.variables import fmi_variables, labelled, references, require_unique, structured_name
 from ..description.xml3 import build_description, icon_description
 from ..python.bundle import PACKAGE
 from ..reference import reference_table, to_csv
@@ -136,33 +136,25 @@ def native_model_variables(export: Export) -> tuple[Variable, ...]:
         replace(labelled(component, "parameter", p, p.value), tunable=p.tunable)
         for p in export.spec.parameters
     ]
-    inputs = [
-        labelled(component, "input", s, float(value))
-        for s, value in zip(model.inputs, export.inputs, strict=True)
-    ]
-    outputs = [labelled(component, "output", s) for s in model.outputs]
-    before = [time, *parameters, *inputs, *outputs]
-    variables = (*before, *_state_variables(model, component, len(before)), *_switches(export))
+    start = {s.name: float(value) for s, value in zip(model.inputs, export.inputs, strict=True)}
+    known = (time, *parameters, *fmi_variables(model, component, start))
+    variables = (*known, *_slopes(known), *_switches(export))
     require_unique(variables)
     return variables
 
 
-def _state_variables(model: Model, component: str, first: int) -> list[Variable]:
-    initial = model.initial_state if isinstance(model, Dynamic) else np.zeros(0)
-    states = [
-        labelled(component, "local", s, float(value)) for s, value in zip(model.states, initial, strict=True)
-    ]
-    slopes = [
+def _slopes(known: tuple[Variable, ...]) -> list[Variable]:
+    """Return the derivatives of the states among the variables so far."""
+    return [
         Variable(
-            name=f"der({s.name})",
+            name=f"der({known[k].name})",
             causality="local",
-            unit=RATES.get(s.unit or ""),
-            description=f"derivative of {s.name}",
-            state=first + k,
+            unit=RATES.get(known[k].unit or ""),
+            description=f"derivative of {known[k].name}",
+            state=k,
         )
-        for k, s in enumerate(states)
+        for k in references(known, "local")
     ]
-    return [*states, *slopes]
 
 
 def _switches(export: Export) -> list[Variable]:

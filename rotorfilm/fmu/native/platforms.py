@@ -65,7 +65,7 @@ _TRIMMED = {"dylib": ("-Wl,-dead_strip",), "so": ("-Wl,--gc-sections",), "dll": 
 
 
 def native_sources() -> dict[str, bytes]:
-    """Return the C files of the library, and their headers, by path.
+    """Return the C files of the libraries of FMUs, and their headers, by path.
 
     Raises
     ------
@@ -73,7 +73,8 @@ def native_sources() -> dict[str, bytes]:
         If the installation lacks them.
     """
     root = Path(str(files(NATIVE)))
-    found = {path.relative_to(root).as_posix(): path.read_bytes() for path in sorted(root.rglob("*.[ch]"))}
+    paths = sorted(path for path in root.rglob("*.[ch]") if path.parent.name != "loops")
+    found = {path.relative_to(root).as_posix(): path.read_bytes() for path in paths}
     if not any(name.endswith(".c") for name in found):
         raise FmuError(f"the C sources of the library must lie in {root}, got none; install rotorfilm again")
     return found

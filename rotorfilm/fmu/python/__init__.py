@@ -1,1 +1,1 @@
-"""Python."""
+"""FMUs that run models in Python."""

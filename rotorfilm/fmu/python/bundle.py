@@ -7,11 +7,11 @@ import hashlib
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
-from ...native.library import library_path
+from ...native.library import FILMS, LOOPS, library_path
 from ...sources import PACKAGE, ROOT, import_closure, imported_names, module_path, source_of
 from .usermodule import read_user_module, renamed_source
 
-SHELVES = {PACKAGE, f"{PACKAGE}.bearings", f"{PACKAGE}.fmu"}
+SHELVES = {PACKAGE, f"{PACKAGE}.bearings", f"{PACKAGE}.fmu", f"{PACKAGE}.scenes"}
 """Packages whose __init__ only gathers names, from far more than an FMU needs: they go empty."""
 
 SLAVE = f"{PACKAGE}.fmu.python.slave"
@@ -88,8 +88,8 @@ def _companions(modules: Iterable[str]) -> dict[str, bytes]:
     if not any(LIBRARY in imported_names(name, source) for name, source in sources.items()):
         return {}
     found = sorted(path for path in ROOT.glob(COMPANIONS) if path.is_file())
-    library = library_path("rotorfilm")
+    libraries = [library_path(name) for name in (FILMS, LOOPS)]
     return {
         **{path.relative_to(ROOT).as_posix(): path.read_bytes() for path in found},
-        f"native/{library.name}": library.read_bytes(),
+        **{f"native/{library.name}": library.read_bytes() for library in libraries},
     }

@@ -18,7 +18,7 @@ from typing import Any, ClassVar, TypeVar
 import numpy as np
 
 from ...errors import FmuError, InputError
-from ...model import Array, Dynamic
+from ...model import Array, Dynamic, Stepped
 from ...signals import Variable
 from ..advance import advance
 from ..description.variables import fmi_variables
@@ -119,12 +119,14 @@ class ModelSlave(Fmi2Slave):
     @staticmethod
     def _fmu_state_to_bytes(state: dict[str, Any]) -> bytes:
         # JSON writes the shortest decimals that read back as the same doubles.
-        return sealed(json.dumps(state).encode())
+        values = {name: value for name, value in state.items() if name != "blob"}
+        return sealed(json.dumps(values).encode() + b"\n" + state["blob"])
 
     @staticmethod
     def _fmu_state_from_bytes(data: bytes) -> dict[str, Any]:
         try:
-            return json.loads(unsealed(data))
+            values, _, blob = unsealed(data).partition(b"\n")
+            return {**json.loads(values), "blob": blob}
         except ValueError:
             # Raising here would harm an instance that is not known here; restoring it is refused instead.
             return {"tag": "unreadable bytes"}
@@ -157,24 +159,28 @@ class ModelSlave(Fmi2Slave):
 
     def _step(self, current_time: float, step_size: float) -> bool:
         self._require_step(current_time, step_size)
-        if not isinstance(self._model, Dynamic):
-            self._move(current_time + step_size, self._state)
-            return True
         try:
-            state = advance(self._model, current_time, self._state, self._inputs, step_size)
-            self._move(current_time + step_size, state)
+            self._advance(current_time, step_size)
         except Exception as error:
+            if not isinstance(self._model, Dynamic | Stepped):
+                raise
             self._log_queue.append(LogMessage(DISCARD, "logStatusDiscard", self._described(error)))
             return False
         return True
 
-    def _move(self, time: float, state: Array) -> None:
-        """Go to a new time and state, if the outputs exist there."""
-        output = self._evaluate(time, state)
-        self._time, self._state, self._output = time, state, output
+    def _advance(self, time: float, step_size: float) -> None:
+        """Go to the end of a step, if the outputs exist there."""
+        state, end = self._state, time + step_size
+        if isinstance(self._model, Dynamic):
+            state = advance(self._model, time, state, self._inputs, step_size)
+        output = self._evaluate(end, state)
+        self._time, self._state, self._output = end, state, output
 
     def _evaluate(self, time: float, state: Array) -> list[float]:
-        output = [float(value) for value in self._model.output(time, state, self._inputs)]
+        return self._finite(self._model.output(time, state, self._inputs))
+
+    def _finite(self, values: Array) -> list[float]:
+        output = [float(value) for value in values]
         for signal, value in zip(self._model.outputs, output, strict=True):
             if not math.isfinite(value):
                 raise FmuError(f"output {signal.name} must be finite, got {value!r}")
@@ -232,6 +238,7 @@ class ModelSlave(Fmi2Slave):
             "running": self._running,
             "inputs": self._inputs.tolist(),
             "state": self._state.tolist(),
+            "blob": b"",
         }
 
     def _restore(self, state: dict[str, Any]) -> None:

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
-from ...errors import FmuError
 from ...model import Array
-from .pythonfmu_api import LogMessage
-from .slave import DISCARD, ModelSlave, sealed, unsealed
+from .slave import ModelSlave
 
 
 class SteppedSlave(ModelSlave):
@@ -28,16 +25,10 @@ class SteppedSlave(ModelSlave):
         self._held, self._output = None, None
         super()._start()
 
-    def _step(self, current_time: float, step_size: float) -> bool:
-        self._require_step(current_time, step_size)
-        try:
-            held, _, _ = self._model.step(self._held, current_time, self._inputs.copy(), step_size)
-            output = self._finite(self._model.answer(held))
-        except Exception as error:
-            self._log_queue.append(LogMessage(DISCARD, "logStatusDiscard", self._described(error)))
-            return False
-        self._held, self._time, self._output = held, current_time + step_size, output
-        return True
+    def _advance(self, time: float, step_size: float) -> None:
+        held, _, _ = self._model.step(self._held, time, self._inputs.copy(), step_size)
+        output = self._finite(self._model.answer(held))
+        self._held, self._time, self._output = held, time + step_size, output
 
     def _evaluate(self, time: float, state: Array) -> list[float]:
         if self._held is None or not self._running:
@@ -50,23 +41,3 @@ class SteppedSlave(ModelSlave):
     def _restore(self, state: dict[str, Any]) -> None:
         super()._restore(state)
         self._held = self._model.unpack(state["blob"]) if state["blob"] else None
-
-    @staticmethod
-    def _fmu_state_to_bytes(state: dict[str, Any]) -> bytes:
-        return sealed(json.dumps({**state, "blob": ""}).encode() + b"\n" + state["blob"])
-
-    @staticmethod
-    def _fmu_state_from_bytes(data: bytes) -> dict[str, Any]:
-        try:
-            head, _, blob = unsealed(data).partition(b"\n")
-            return {**json.loads(head), "blob": blob}
-        except ValueError:
-            # Raising here would harm an instance that is not known here; restoring it is refused instead.
-            return {"tag": "unreadable bytes"}
-
-    def _finite(self, values: Array) -> list[float]:
-        output = [float(value) for value in values]
-        for signal, value in zip(self._model.outputs, output, strict=True):
-            if value - value != 0.0:
-                raise FmuError(f"output {signal.name} must be finite, got {value!r}")
-        return output

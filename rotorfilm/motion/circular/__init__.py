@@ -1,1 +1,1 @@
-"""Circular."""
+"""Synchronous circular orbits of a rotor in a damper, in closed form."""

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...errors import InputError, require_positive
-from ...model import Array, Reaction
+from ...model import Array, Reaction, largest_eccentricity_ratio
 from ...rotors import RigidRotor
 from ...rotors.rotating import rotating_linearization
 
@@ -81,7 +81,7 @@ def orbit_rotor(rotor: RigidRotor, reaction: Reaction) -> OrbitRotor:
             "preload the springs and set gravity to (0, 0)"
         )
     # A film that does not depend on direction answers the mirrored motion with the mirrored force.
-    reach = getattr(reaction, "largest_eccentricity_ratio", 1.0)
+    reach = largest_eccentricity_ratio(reaction)
     system = OrbitRotor(rotor.mass, abs(speeds.pop()), reaction.clearance, reaction, reach)
     _require_isotropy(system)
     return system

@@ -5,20 +5,18 @@ Every such function is that of the C library (native/films/journal_kernel.h),
     int f(const void *bearing, const double state[5], double force[2], double jacobian[2][5]),
 
 with state = (x, y, vx, vy, speed). Journal bearings on a film of that library bring it along, `LinearBearing`
-has one here, and any other reaction is called back in Python: slower, with the same result.
+has one in native/loops/springs.h, and any other reaction is called back in Python: slower, with the same
+result.
 """
 
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Iterable, Sequence
 from ctypes import CFUNCTYPE, POINTER, c_double, c_int, c_void_p
 from typing import Any, NamedTuple
 
 import numpy as np
-from llvmlite import ir
-from numba import types
-from numba.core import cgutils
-from numba.extending import intrinsic
 
 from ...bearings.films.kernel_film import BoundKernel
 from ...bearings.journal import JournalBearing
@@ -26,13 +24,7 @@ from ...bearings.linear import LinearBearing
 from ...errors import FilmContactError, RotorfilmError, UndefinedDerivativeError
 from ...model import Reaction
 from ...native import Status
-from ...native.library import functions
-from .linear_kernel import linear_bearing
-
-CONTACT = int(Status.CONTACT)
-UNDEFINED = int(Status.UNDEFINED)
-OUTSIDE = int(Status.OUTSIDE)
-NOT_FINITE = int(Status.NOT_FINITE)
+from ...native.library import functions, loops
 
 _CALLBACK = CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double))
 
@@ -50,12 +42,22 @@ class FilmCall(NamedTuple):
         What must live as long as both.
     beyond : str
         How the force goes on beyond the map of its film; empty where it has none.
+    raised : list of BaseException
+        What a force in Python raised besides errors of this package, until `raise_foreign`.
     """
 
     address: int
     data: int
     owner: Any
     beyond: str = ""
+    raised: Sequence[BaseException] = ()
+
+
+def raise_foreign(calls: Iterable[FilmCall]) -> None:
+    """Raise what a force in Python raised that the loop around it could not: an error of its own, Ctrl-C."""
+    for call in calls:
+        if call.raised:
+            raise call.raised[0]
 
 
 def film_call(reaction: Reaction) -> FilmCall:
@@ -68,11 +70,14 @@ def film_call(reaction: Reaction) -> FilmCall:
             return FilmCall(address=address, data=ctypes.addressof(struct), owner=bound, beyond=bound.beyond)
     if type(reaction) is LinearBearing:
         values = np.concatenate([np.ravel(reaction.stiffness), np.ravel(reaction.damping)])
-        return FilmCall(address=linear_bearing.address, data=values.ctypes.data, owner=values)
+        address = ctypes.cast(loops()["rf_springs_at"], c_void_p).value or 0
+        return FilmCall(address=address, data=values.ctypes.data, owner=values)
     return _called_back(reaction)
 
 
 def _called_back(reaction: Reaction) -> FilmCall:
+    raised: list[BaseException] = []
+
     def answer(_: Any, state: Any, force: Any, jacobian: Any) -> int:
         position, velocity = np.array(state[:2]), np.array(state[2:4])
         try:
@@ -82,26 +87,17 @@ def _called_back(reaction: Reaction) -> FilmCall:
             for i, value in enumerate(slopes.ravel().tolist()):
                 jacobian[i] = value
         except FilmContactError:
-            return CONTACT
+            return Status.AT_WALL
         except UndefinedDerivativeError:
-            return UNDEFINED
+            return Status.UNDEFINED
         except RotorfilmError:
-            return NOT_FINITE
-        return 0
+            return Status.NOT_FINITE
+        except BaseException as error:
+            raised[:] = [error]
+            return Status.NOT_FINITE
+        return Status.OK
 
     function = _CALLBACK(answer)
-    return FilmCall(address=ctypes.cast(function, c_void_p).value or 0, data=0, owner=(function, reaction))
-
-
-@intrinsic
-def call_film(typing, address, data, state, force, jacobian):  # type: ignore[no-untyped-def]
-    """Call a film by address, inside compiled code; all arguments are addresses. Returns the status."""
-    signature = types.int32(types.intp, types.intp, types.intp, types.intp, types.intp)
-
-    def generate(context, builder, signature, arguments):  # type: ignore[no-untyped-def]
-        pointer = cgutils.voidptr_t
-        kind = ir.FunctionType(ir.IntType(32), [pointer] * 4)
-        function = builder.inttoptr(arguments[0], kind.as_pointer())
-        return builder.call(function, [builder.inttoptr(value, pointer) for value in arguments[1:]])
-
-    return signature, generate
+    return FilmCall(
+        address=ctypes.cast(function, c_void_p).value or 0, data=0, owner=(function, reaction), raised=raised
+    )

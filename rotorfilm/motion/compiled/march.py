@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from functools import lru_cache
+import math
+from ctypes import byref, c_int32, c_int64
+from enum import IntEnum
 
 import numpy as np
-from scipy.special import roots_jacobi
 
 from ...errors import ContactError, ConvergenceError, warn_user
 from ...model import Array
+from ...native.library import loops
+from ...native.structs import SLOTS, STEPS, MarchStruct, SpeedsStruct, StepTableStruct
 from ...rotors import SpeedProfile
-from . import rotor_kernels as kernels
+from .collocation import STAGES, ModalArrays, StepTable, radau_scheme
+from .film_calls import raise_foreign
+from .journal_films import JournalFilms
 from .modal import Complex, ModalRotor
-
-STAGES = 4
-"""Collocation nodes of a step: order 7."""
 
 BUDGET = 20000
 """Steps between two looks at the interpreter, where a user may interrupt."""
@@ -29,31 +30,23 @@ NEWTON = 0.01
 _COUNTERS = ("film_evaluations", "jacobians", "steps", "rejected")
 
 
-@lru_cache(maxsize=8)
-def radau_scheme(stages: int) -> tuple[Array, Array, Array]:
-    """Return the nodes of Radau's right rule and polynomials on them, coefficients by rising power.
-
-    Returns
-    -------
-    nodes : ndarray, shape (s,)
-    lagrange : ndarray, shape (s, s)
-    remainder : ndarray, shape (1, s + 1)
-        The polynomial that vanishes at the nodes and is 1 at the start.
-    """
-    # The inner nodes are the zeros of Jacobi's polynomial of weight 1 - x on [0, 1].
-    inner = 0.5 * (1.0 + roots_jacobi(stages - 1, 1.0, 0.0)[0])
-    nodes = np.append(inner, 1.0)
-    lagrange = np.linalg.inv(np.vander(nodes, increasing=True)).T
-    remainder = np.polynomial.polynomial.polyfromroots(nodes)
-    return nodes, np.ascontiguousarray(lagrange), (remainder / remainder[0])[None]
-
-
 def profile_rows(profile: SpeedProfile) -> tuple[Array, Array, Array, Array]:
     """Return times, speeds, slopes after them and angles turned since t = 0."""
     times = np.array(profile.times, dtype=float)
     slopes = np.array([profile.acceleration(t) for t in profile.times])
     angles = np.array([profile.angle(t) for t in profile.times])
     return times, np.array(profile.speeds, dtype=float), slopes, angles
+
+
+class End(IntEnum):
+    """Why a march ended: rf_march_end of march.h."""
+
+    DONE = 0
+    WALL = 1
+    SHORT = 2
+    BUSY = 3
+    BROKEN = 4
+    NO_MEMORY = 5
 
 
 class March:
@@ -72,11 +65,6 @@ class March:
         Of the whole run, which says what step is too short.
     stages : int
         Collocation nodes.
-
-    Attributes
-    ----------
-    work : Counter
-        Film_evaluations, jacobians, steps, rejected.
     """
 
     def __init__(
@@ -89,25 +77,39 @@ class March:
         duration: float,
         stages: int = STAGES,
     ) -> None:
-        self.modal, self.state, self.work = modal, state, Counter[str]()
-        self._rtol, self._longest, self._duration = rtol, longest, duration
-        self._rotor = rotor_arrays(modal)
-        self._scheme = radau_scheme(stages)
-        self._tables = new_tables(self._rotor, stages)
-        self._films = np.array([(call.address, call.data) for call in modal.calls], dtype=np.intp)
-        self._supports = (modal.journal_rest, modal.spring, modal.damper, modal.parts.lengths)
-        self._profile = profile_rows(modal.parts.profile)
-        self._scales = journal_scales(modal)
-        self._newton = max(NEWTON * rtol, 1e-12)
-        self._counts = np.zeros(5, dtype=np.int64)
+        self.modal, self.state = modal, np.array(state, dtype=complex)
+        self._duration = duration
+        self._kept = ModalArrays.of(modal), radau_scheme(stages), JournalFilms.of_rotor(modal)
+        self._numbers = *profile_rows(modal.parts.profile), journal_scales(modal)
+        self._tables = [StepTable.unfilled(self._kept[0], stages) for _ in range(SLOTS + 1)]
+        times = len(self._numbers[0])
+        self._struct = MarchStruct(
+            *(of.struct() for of in self._kept),
+            SpeedsStruct(times, *(row.ctypes.data for row in self._numbers[:4])),
+            self._numbers[4].ctypes.data,
+            longest,
+            SHORTEST * duration,
+            rtol,
+            max(NEWTON * rtol, 1e-12),
+            (StepTableStruct * (SLOTS + 1))(*(table.struct() for table in self._tables)),
+            (c_int32 * STEPS)(*[-1] * STEPS),
+            (c_int32 * SLOTS)(*[-1] * SLOTS),
+        )
         # A first step that the error control need not believe in: a hundredth of a turn or less.
         first = 0.01 * 2.0 * np.pi / max(rate_of(modal), 1.0 / duration)
-        self._clock = np.array([0.0, np.ceil(4.0 * np.log2(max(1.0, longest / first))), 0.0])
+        self._struct.step = math.ceil(4.0 * math.log2(max(1.0, longest / first)))
+        self._struct.z = self.state.ctypes.data
+
+    @property
+    def work(self) -> dict[str, int]:
+        """Film_evaluations, jacobians, steps and rejected steps so far."""
+        counts = (getattr(self._struct, name) for name in ("films", "jacobians", "steps", "rejected"))
+        return dict(zip(_COUNTERS, counts, strict=True))
 
     @property
     def time(self) -> float:
         """How far the run is [s]."""
-        return float(self._clock[0])
+        return float(self._struct.time)
 
     def to(self, stop: float, grid: Array) -> Complex:
         """Integrate to a time and return the modal coordinates at the times of `grid` after the last stop.
@@ -117,57 +119,34 @@ class March:
         ContactError, ConvergenceError
             With the modal coordinates until then as partial result.
         """
-        self._clock[2] = 0.0
-        out = np.empty((len(grid), len(self.state)), dtype=complex)
-        options = (self._longest, self._rtol, SHORTEST * self._duration, BUDGET, self._newton)
-        reason = kernels.BUSY
-        while reason == kernels.BUSY:
-            reason = kernels.march(
-                self.state,
-                self._clock,
-                stop,
-                self._rotor,
-                self._scheme,
-                self._tables,
-                self._films,
-                self._supports,
-                self._profile,
-                self._scales,
-                options,
-                grid,
-                out,
-                self._counts,
-            )
-        for name, count in zip(_COUNTERS, self._counts, strict=False):
-            self.work[name] = int(count)
-        if reason != kernels.DONE:
-            raise self._failure(reason, out[: int(self._clock[2])])
+        out, place = np.empty((len(grid), len(self.state)), dtype=complex), c_int64()
+        times = np.ascontiguousarray(grid, dtype=float)
+        arguments = times.ctypes.data, len(times), byref(place), out.ctypes.data
+        end = End.BUSY
+        while end == End.BUSY:
+            end = End(loops()["rf_march_to"](byref(self._struct), stop, BUDGET, *arguments))
+        raise_foreign(self.modal.calls)
+        if end == End.NO_MEMORY:
+            raise MemoryError("no memory for the steps of a rotor")
+        if end != End.DONE:
+            raise self._failure(end, out[: place.value])
         return out
 
     def warn(self) -> None:
         """Warn if a film was asked beyond its map."""
-        if self._counts[4]:
+        if self._struct.left_map:
             how = " or ".join(dict.fromkeys(c.beyond for c in self.modal.calls if c.beyond))
             warn_user(f"a journal went beyond the map of its film; its force is {how}")
 
-    def _failure(self, reason: int, kept: Complex) -> ContactError | ConvergenceError:
+    def _failure(self, end: End, kept: Complex) -> ContactError | ConvergenceError:
         at = f"at t = {self.time:.9g} s"
-        if reason == kernels.WALL:
+        if end == End.WALL:
             return ContactError(f"journal reached the wall {at}", kept)
-        if reason == kernels.BROKEN:
+        if end == End.BROKEN:
             return ConvergenceError(
                 f"film force must be finite and the forces of a step solvable, {at}", kept
             )
         return ConvergenceError(f"integration needs steps below {SHORTEST:g} of the duration {at}", kept)
-
-
-def rotor_arrays(modal: ModalRotor) -> tuple[Complex, Complex, Complex]:
-    """Return values, push and sense as the kernels want them."""
-    return (
-        np.ascontiguousarray(modal.values),
-        np.ascontiguousarray(modal.push),
-        np.ascontiguousarray(modal.sense),
-    )
 
 
 def rate_of(modal: ModalRotor) -> float:
@@ -180,24 +159,3 @@ def journal_scales(modal: ModalRotor) -> Array:
     """Return what makes x, y, vx, vy of each journal dimensionless, shape (4 n_bearings,)."""
     rate = rate_of(modal)
     return np.concatenate([np.array([1.0, 1.0, 1.0 / rate, 1.0 / rate]) / c for c in modal.parts.lengths])
-
-
-def new_tables(rotor: tuple[Complex, Complex, Complex], stages: int) -> tuple[Array, ...]:
-    """Return unfilled tables of steps; the last slot is for steps that happen once.
-
-    They are the slot of each level, the level in each slot, the slot to be filled next; and per slot the
-    motion of the journals at the nodes per modal coordinate (real, imaginary), per force at each node, per
-    gap of the force at the start; and the modal coordinates at the end, per themselves and per force.
-    """
-    modes, channels = rotor[1].shape
-    rows, slots = len(rotor[2]), kernels.SLOTS + 1
-    return (
-        np.full(kernels.LEVELS, -1, dtype=np.int64),
-        np.full(slots, -1, dtype=np.int64),
-        np.zeros(1, dtype=np.int64),
-        np.empty((slots, stages * rows, 2 * modes)),
-        np.empty((slots, stages, stages, rows, channels)),
-        np.empty((slots, stages, rows, channels)),
-        np.empty((slots, modes), dtype=complex),
-        np.empty((slots, 2 * modes, stages * channels)),
-    )

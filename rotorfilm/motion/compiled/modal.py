@@ -19,7 +19,7 @@ import numpy as np
 from ...errors import ConvergenceError, InputError
 from ...model import Array, Dynamic, Reaction
 from ...rotors import FlexibleRotor, MountedRotor, RigidRotor, SpeedProfile
-from ...rotors.structure import NOMINAL_LENGTH, Structure, solved_equations, unbalance_columns
+from ...rotors.structure import NOMINAL_LENGTH, Structure, solved_equations
 from .film_calls import FilmCall, film_call
 
 Complex = np.ndarray
@@ -137,28 +137,11 @@ def take_apart(mounted: MountedRotor) -> Parts:
 
 
 def _structure(rotor: Dynamic) -> tuple[Structure, SpeedProfile]:
-    if isinstance(rotor, RigidRotor):
-        none = np.zeros((2, 2))
-        unbalance = unbalance_columns(rotor.unbalance, rotor.unbalance_angle)
-        structure = Structure(
-            mass=rotor.mass * np.eye(2),
-            damping=none,
-            gyroscopic=none,
-            stiffness=none,
-            circulation=none,
-            stations=("",),
-            journals=np.eye(2),
-            weight=rotor.static_load,
-            unbalance=unbalance,
-            coordinates=(),
-            readouts=(),
-        )
-        return structure, rotor.profile
-    if isinstance(rotor, FlexibleRotor):
-        if rotor.structure.hysteresis is not None:
-            raise InputError("loss_factor must be 0 in large motion, where hysteresis is not a force")
-        return rotor.structure, rotor.profile
-    raise InputError(f"rotor must be a RigidRotor or a FlexibleRotor in its bearings, got {rotor!r}")
+    if not isinstance(rotor, RigidRotor | FlexibleRotor):
+        raise InputError(f"rotor must be a RigidRotor or a FlexibleRotor in its bearings, got {rotor!r}")
+    if rotor.structure.hysteresis is not None:
+        raise InputError("loss_factor must be 0 in large motion, where hysteresis is not a force")
+    return rotor.structure, rotor.profile
 
 
 def journal_rows(parts: Parts) -> Array:

@@ -33,7 +33,7 @@ def simulate_rotor(
     """Return the motion of a rotor on films from t = 0.
 
     The shaft is integrated exactly in its modes, and the film forces by collocation of order 7 with their
-    exact derivatives (`kernels.py`), all of it compiled. A step costs some ten microseconds.
+    exact derivatives (`native/loops/march.h`), all of it compiled. A step costs some ten microseconds.
 
     Parameters
     ----------
@@ -105,7 +105,8 @@ def _speed(parts: Parts) -> float:
     if len(set(profile.speeds)) > 1 and turning:
         raise InputError(
             "speed must be constant for a rotor with gyroscopic effect or rotating damping, got a profile: "
-            "take simulate(mount(rotor, ...), bearing)"
+            "reduce the rotor (reduce_rotor) and take simulate(mount(rotor, bearings), last bearing), where "
+            "the station of the last bearing has no name"
         )
     return float(max(profile.speeds, key=abs))
 

@@ -1,1 +1,1 @@
-"""Periodic."""
+"""Periodic orbits: harmonic balance, continuation, stability, basins."""

@@ -14,7 +14,7 @@ from ...rotors import MountedRotor
 from ..compiled.march import March
 from ..compiled.modal import Complex, ModalRotor, Parts, modal_rotor, take_apart
 from ..compiled.simulate_rotor import LONGEST_TURN
-from .balance import film_forces
+from .modal_films import film_forces
 from .rest import Rest, rest_of
 
 BLOCK = 10

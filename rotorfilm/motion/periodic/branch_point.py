@@ -12,7 +12,9 @@ from ...model import Array
 from ...rotors import MountedRotor
 from ..compiled.modal import modal_rotor, take_apart
 from .balance import Balance, Residual
-from .periodic_orbit import CONVERGED, Solution, phase_row, resized, solve
+from .harmonics import resized
+from .modal_films import ModalFilms
+from .orbit_newton import CONVERGED, Solution, phase_row, solve
 
 Family = Callable[[float], MountedRotor]
 
@@ -27,7 +29,7 @@ _BISECTIONS = 5
 class Point(NamedTuple):
     """A solution, its parameter, and the unit tangent in (series / clearance, ln frequency, parameter)."""
 
-    solution: Solution
+    solution: Solution[ModalFilms]
     parameter: float
     tangent: Array
 
@@ -46,12 +48,14 @@ class Curve(NamedTuple):
     family: Family
     scale: float
 
-    def balance(self, parameter: float, harmonics: int, periods: int) -> Balance:
+    def balance(self, parameter: float, harmonics: int, periods: int) -> Balance[ModalFilms]:
         """Return the equations at a parameter."""
         parts = take_apart(self.family(parameter))
-        return Balance(modal=modal_rotor(parts, parts.speed), harmonics=harmonics, periods=periods)
+        return Balance(
+            rotor=ModalFilms(modal_rotor(parts, parts.speed)), harmonics=harmonics, periods=periods
+        )
 
-    def point(self, solution: Solution, parameter: float, before: Array | None) -> Point:
+    def point(self, solution: Solution[ModalFilms], parameter: float, before: Array | None) -> Point:
         """Return a solution as a point; its tangent goes on as the one before, else with the parameter."""
         matrix = self._equations(solution, parameter)
         if before is None:
@@ -142,13 +146,13 @@ class Curve(NamedTuple):
             parameter += step[-1] * self.scale
         raise ConvergenceError("no orbit at the next step: Newton's method does not converge")
 
-    def _equations(self, solution: Solution, parameter: float) -> Array:
+    def _equations(self, solution: Solution[ModalFilms], parameter: float) -> Array:
         at = solution.balance.residual(solution.series, solution.frequency)
         reference = phase_row(solution.series, solution.balance)
         slope = self._by_parameter(solution, parameter)
         return _bordered(at, slope, reference, solution.frequency, bool(solution.balance.periods))
 
-    def _by_parameter(self, solution: Solution, parameter: float) -> Array:
+    def _by_parameter(self, solution: Solution[ModalFilms], parameter: float) -> Array:
         harmonics, periods = solution.balance.harmonics, solution.balance.periods
         ends = []
         for side in (-1.0, 1.0):
@@ -160,8 +164,8 @@ class Curve(NamedTuple):
         return np.asarray((ends[1] - ends[0]) / (2.0 * RELATIVE_STEP) / units)
 
 
-def _frequency(balance: Balance, frequency: float) -> float:
-    return abs(balance.modal.parts.speed) / balance.periods if balance.periods else frequency
+def _frequency(balance: Balance[ModalFilms], frequency: float) -> float:
+    return balance.frequency if balance.periods else frequency
 
 
 def _bordered(at: Residual, by_parameter: Array, reference: Array, rate: float, driven: bool) -> Array:

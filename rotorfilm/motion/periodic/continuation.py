@@ -12,16 +12,10 @@ from scipy.optimize import brentq
 from ...errors import ConvergenceError, InputError, require_count, require_finite, require_positive
 from ...model import Array
 from .branch_point import Curve, Family, Point
+from .harmonics import constant, with_wave
 from .hopf import HopfPoint
-from .periodic_orbit import (
-    HARMONICS,
-    MOST_HARMONICS,
-    TRUNCATION,
-    PeriodicOrbit,
-    Solution,
-    finished,
-    truncation_of,
-)
+from .orbit_newton import MOST_HARMONICS, Solution, truncation_of
+from .periodic_orbit import HARMONICS, TRUNCATION, PeriodicOrbit, finished
 
 FIRST_STEP = 0.02
 SHORTEST_STEP = 1e-6
@@ -162,14 +156,12 @@ def _from_orbit(curve: Curve, orbit: PeriodicOrbit, parameter: float, direction:
 def _from_hopf(curve: Curve, hopf: HopfPoint) -> Point:
     """Return the first small orbit: one step from the rest along the whirling mode."""
     balance = curve.balance(hopf.parameter, HARMONICS, 0)
-    rest = np.zeros((len(balance.units), 2 * HARMONICS + 1))
-    rest[:, 0] = hopf.position
-    mode = np.zeros_like(rest)
-    mode[:, 1], mode[:, HARMONICS + 1] = hopf.shape.real, -hopf.shape.imag
+    mode = with_wave(np.zeros_like(hopf.position), hopf.shape, HARMONICS)
     tangent = np.concatenate([(mode / balance.units[:, None]).ravel(), [0.0, 0.0]])
     tangent /= np.linalg.norm(tangent)
     # The mode stands in for the orbit in the phase condition, which at rest is none.
-    trace = rest + 1e-6 * mode / np.abs(mode).max() * balance.units.min()
+    trace = constant(hopf.position, HARMONICS)
+    trace += 1e-6 * mode / np.abs(mode).max() * balance.units.min()
     point = Point(Solution(trace, hopf.frequency, balance, 0.0, 0), hopf.parameter, tangent)
     return curve.stepped(point, FIRST_STEP)
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ...model import Array
-from ..compiled import rotor_kernels as kernels
-from ..compiled.march import STAGES, new_tables, radau_scheme, rotor_arrays
+from ..compiled.collocation import STAGES, ModalArrays, StepTable, radau_scheme
 from ..compiled.modal import Complex, ModalRotor, journal_rows, modes
-from .balance import film_forces, series_rows
+from .harmonics import series_rows
+from .modal_films import film_forces
 
 STEPS_PER_HARMONIC = 2
 LEAST_STEPS = 64
@@ -33,28 +33,26 @@ def monodromy(modal: ModalRotor, series: Array, frequency: float, steps: int | N
     slopes = _slopes(modal, series, frequency, steps)
     mean = slopes.mean(axis=(0, 1))
     modal, slopes = on_mean_films(modal, mean), slopes - mean
-    rotor = rotor_arrays(modal)
-    tables = [table[0] for table in new_tables(rotor, STAGES)[3:]]
-    kernels.set_tables(2.0 * np.pi / (frequency * steps), rotor, radau_scheme(STAGES), *tables)
-    move, gain, _, advance_z, advance_u = tables
+    step = 2.0 * np.pi / (frequency * steps)
+    table = StepTable.of_step(ModalArrays.of(modal), radau_scheme(STAGES), step)
     modes, count = len(modal.values), slopes.shape[2]
     channels = np.arange(STAGES)[:, None] * (count + 2) + np.arange(count)
-    forced = advance_u[:modes, channels.ravel()] + 1j * advance_u[modes:, channels.ravel()]
+    forced = table.forced[:modes, channels.ravel()] + 1j * table.forced[modes:, channels.ravel()]
     z: Complex = modal.inverse.astype(complex)
     identity = np.eye(STAGES * count)
-    for step in slopes:
-        moved = (move @ np.vstack([z.real, z.imag])).reshape(STAGES, -1, 4, z.shape[1])
-        local = step.reshape(STAGES, -1, 2, 4)
+    for local_slopes in slopes:
+        moved = (table.move @ np.vstack([z.real, z.imag])).reshape(STAGES, -1, 4, z.shape[1])
+        local = local_slopes.reshape(STAGES, -1, 2, 4)
         right = np.einsum("ibrk,ibkn->ibrn", local, moved).reshape(STAGES * count, -1)
-        by_force = gain[..., :count].reshape(STAGES, STAGES, -1, 4, count)
+        by_force = table.gain[..., :count].reshape(STAGES, STAGES, -1, 4, count)
         matrix = np.einsum("ibrk,ijbkc->ibrjc", local, by_force).reshape(STAGES * count, STAGES * count)
-        z = advance_z[:, None] * z + forced @ np.linalg.solve(identity - matrix, right)
+        z = table.keep[:, None] * z + forced @ np.linalg.solve(identity - matrix, right)
     return np.asarray((modal.shapes @ z).real)
 
 
 def _slopes(modal: ModalRotor, series: Array, frequency: float, steps: int) -> Array:
     """Return the films' slopes at the nodes of all steps, shape (steps, stages, 2 n_bearings, 4)."""
-    nodes = radau_scheme(STAGES)[0]
+    nodes = radau_scheme(STAGES).nodes
     phase = (2.0 * np.pi / steps * (np.arange(steps)[:, None] + nodes)).ravel()
     values, rates = series_rows(series.shape[1] // 2, phase)
     _, stiffness, damping = film_forces(modal, series @ values.T, frequency * (series @ rates.T))

@@ -13,7 +13,7 @@ from ...errors import ConvergenceError, InputError, require_finite
 from ...model import Array
 from ...rotors import MountedRotor
 from ..compiled.modal import Complex, ModalRotor, journal_rows, modal_rotor, take_apart
-from .balance import film_forces
+from .modal_films import film_forces
 from .rest import Rest, force_columns, leading, rest_of
 
 STENCIL = 3

@@ -5,31 +5,28 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import ConvergenceError, FilmContactError, InputError, require_count, require_positive
+from ...errors import InputError, require_count, require_positive
 from ...model import Array
 from ...results import Trajectory
 from ...rotors import MountedRotor
 from ..compiled.modal import Complex, ModalRotor, modal_rotor, take_apart
-from .balance import Balance, series_rows
+from .balance import Balance
 from .floquet import multipliers, state_at_start
+from .harmonics import constant, resized, series_rows
+from .modal_films import ModalFilms
+from .orbit_newton import Solution, driven, lengthened, solve, truncation_of
 from .rest import first_guess
+from .start_series import end_of, subharmonic
 
 HARMONICS = 8
 """Harmonics at first."""
 
-MOST_HARMONICS = 128
-
 TRUNCATION = 1e-7
 """Largest of the last harmonics / clearance at which a series is long enough."""
-
-CONVERGED = 1e-11
-_NEWTON_STEPS = 40
-_RAMPS = 6
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -114,16 +111,6 @@ class PeriodicOrbit:
         return bool(np.all(np.abs(self.free_multipliers) < 1.0))
 
 
-class Solution(NamedTuple):
-    """A solved series, its frequency, and how it was found."""
-
-    series: Array
-    frequency: float
-    balance: Balance
-    residual: float
-    iterations: int
-
-
 def periodic_orbit(
     mounted: MountedRotor,
     *,
@@ -162,167 +149,33 @@ def periodic_orbit(
     require_count("periods", periods)
     require_positive("tolerance", tolerance)
     modal = modal_rotor(parts := take_apart(mounted), parts.speed)
-    driven = bool(np.any(parts.structure.unbalance)) and parts.speed != 0.0
-    if driven:
+    if bool(np.any(parts.structure.unbalance)) and parts.speed != 0.0:
         found = _driven(mounted, modal, start, periods)
     elif start is None:
         raise InputError("start must be an orbit or a run that ends in whirl for a rotor without unbalance")
     else:
         series, frequency = _start_series(modal, start, None)
-        found = solve(
-            Balance(modal=modal, harmonics=HARMONICS, periods=0), resized(series, HARMONICS), frequency
-        )
+        balance = Balance(rotor=ModalFilms(modal), harmonics=HARMONICS, periods=0)
+        found = solve(balance, resized(series, HARMONICS), frequency)
     return finished(lengthened(found, tolerance), stability=stability)
 
 
 def _driven(
     mounted: MountedRotor, modal: ModalRotor, start: PeriodicOrbit | Trajectory | None, periods: int
-) -> Solution:
-    frequency = abs(modal.parts.speed) / periods
+) -> Solution[ModalFilms]:
     harmonics = HARMONICS * periods
-    balance = Balance(modal=modal, harmonics=harmonics, periods=periods)
+    balance = Balance(rotor=ModalFilms(modal), harmonics=harmonics, periods=periods)
     if start is not None:
-        series, _ = _start_series(modal, start, frequency)
-        return solve(balance, resized(series, harmonics), frequency)
-    rest = np.zeros((len(balance.units), 2 * harmonics + 1))
-    rest[:, 0] = first_guess(mounted, modal)
-    try:
-        return solve(balance, rest, frequency)
-    except ConvergenceError:
-        return _ramped(balance, rest, frequency)
+        series, _ = _start_series(modal, start, balance.frequency)
+        return solve(balance, resized(series, harmonics), balance.frequency)
+    rest = first_guess(mounted, modal)
+    return driven(balance, constant(rest, harmonics), rest)
 
 
-def _ramped(balance: Balance, series: Array, frequency: float) -> Solution:
-    """Return the orbit reached by raising the unbalance from nothing."""
-    part, step = 0.0, 0.25
-    modal = balance.modal
-    while part < 1.0:
-        after = min(1.0, part + step)
-        push = modal.push.copy()
-        push[:, -2:] *= after
-        try:
-            found = solve(balance._replace(modal=modal._replace(push=push)), series, frequency)
-        except ConvergenceError:
-            step *= 0.5
-            if step < 2.0**-_RAMPS:
-                raise
-            continue
-        series, part = found.series, after
-    return solve(balance, series, frequency)
-
-
-def solve(balance: Balance, series: Array, frequency: float) -> Solution:
-    """Return the orbit near a series by Newton's method, whose steps keep the journals inside.
-
-    Raises
-    ------
-    ConvergenceError
-        If it does not converge.
-    """
-    whirl = balance.periods == 0
-    reference = phase_row(series, balance)
-    try:
-        at, residual = _system(balance, series, frequency, reference)
-        for iteration in range(_NEWTON_STEPS):
-            size = float(np.abs(residual).max())
-            if size < CONVERGED:
-                return Solution(series, frequency, balance, size, iteration)
-            step = np.asarray(np.linalg.solve(at, -residual), dtype=float)
-            series, frequency, at, residual = _damped(
-                balance, series, frequency, step, reference, float(np.linalg.norm(residual)), whirl
-            )
-    except (FilmContactError, np.linalg.LinAlgError) as failure:
-        raise ConvergenceError(f"no periodic orbit found: {failure}") from failure
-    raise ConvergenceError(f"no periodic orbit found: {size:.3g} of the clearance left")
-
-
-def _system(balance: Balance, series: Array, frequency: float, reference: Array) -> tuple[Array, Array]:
-    """Return matrix and values of the equations; of whirl with the phase condition and the frequency."""
-    at = balance.residual(series, frequency)
-    if balance.periods:
-        return at.by_series, at.values
-    matrix = np.block(
-        [[at.by_series, frequency * at.by_frequency[:, None]], [reference[None], np.zeros((1, 1))]]
-    )
-    return matrix, np.append(at.values, 0.0)
-
-
-def _damped(
-    balance: Balance,
-    series: Array,
-    frequency: float,
-    step: Array,
-    reference: Array,
-    before: float,
-    whirl: bool,
-) -> tuple[Array, float, Array, Array]:
-    size = series.size
-    change = step[:size].reshape(series.shape) * balance.units[:, None]
-    part, last = 1.0, None
-    for _ in range(8):
-        moved = series + part * change
-        rate = frequency * (1.0 + part * float(step[-1])) if whirl else frequency
-        try:
-            at, residual = _system(balance, moved, rate, reference)
-        except FilmContactError:
-            part *= 0.5
-            continue
-        last = moved, rate, at, residual
-        if float(np.linalg.norm(residual)) <= (1.0 - 0.1 * part) * before or before < 1e3 * CONVERGED:
-            return last
-        part *= 0.5
-    if last is None:
-        raise FilmContactError("the journals leave their bearings at every part of a Newton step")
-    return last
-
-
-def phase_row(series: Array, balance: Balance) -> Array:
-    """Return the phase condition: a step must not move along the orbit, shape (2 n (2 H + 1),)."""
-    harmonics = series.shape[1] // 2
-    order = np.arange(1, harmonics + 1)
-    turned = np.zeros_like(series)
-    turned[:, 1 : harmonics + 1] = order * series[:, harmonics + 1 :]
-    turned[:, harmonics + 1 :] = -order * series[:, 1 : harmonics + 1]
-    row = (turned / balance.units[:, None]).ravel()
-    norm = float(np.linalg.norm(row))
-    return row / norm if norm else row
-
-
-def resized(series: Array, harmonics: int) -> Array:
-    """Return a series with another number of harmonics."""
-    old = series.shape[1] // 2
-    kept = min(old, harmonics)
-    out = np.zeros((len(series), 2 * harmonics + 1))
-    out[:, : kept + 1] = series[:, : kept + 1]
-    out[:, harmonics + 1 : harmonics + 1 + kept] = series[:, old + 1 : old + 1 + kept]
-    return out
-
-
-def truncation_of(solution: Solution) -> float:
-    """Return the largest of the last quarter of the harmonics / clearance."""
-    harmonics = solution.balance.harmonics
-    last = max(1, harmonics // 4)
-    scaled = np.abs(solution.series / solution.balance.units[:, None])
-    tail = np.maximum(scaled[:, harmonics + 1 - last : harmonics + 1], scaled[:, -last:])
-    return float(tail.max())
-
-
-def lengthened(solution: Solution, tolerance: float) -> Solution:
-    """Return the solution with harmonics added until the last ones are small enough."""
-    while truncation_of(solution) > tolerance:
-        harmonics = min(2 * solution.balance.harmonics, MOST_HARMONICS * max(1, solution.balance.periods))
-        if harmonics == solution.balance.harmonics:
-            break
-        balance = solution.balance._replace(harmonics=harmonics)
-        found = solve(balance, resized(solution.series, harmonics), solution.frequency)
-        solution = found._replace(iterations=found.iterations + solution.iterations)
-    return solution
-
-
-def finished(solution: Solution, *, stability: bool = True) -> PeriodicOrbit:
+def finished(solution: Solution[ModalFilms], *, stability: bool = True) -> PeriodicOrbit:
     """Return the orbit of a solution, with its multipliers if asked for."""
     balance, series = solution.balance, solution.series
-    modal = balance.modal
+    modal = balance.rotor.modal
     parts = modal.parts
     return PeriodicOrbit(
         frequency=solution.frequency,
@@ -357,45 +210,5 @@ def _start_series(
         if frequency is None or start.periods * frequency == 0.0:
             return series, start.frequency
         ratio = start.frequency / frequency
-        return _subharmonic(series, round(ratio)), frequency
-    return _end_of(modal, start, frequency)
-
-
-def _subharmonic(series: Array, ratio: int) -> Array:
-    """Return a series whose harmonic k becomes k * ratio."""
-    if ratio <= 1:
-        return series
-    old = series.shape[1] // 2
-    out = np.zeros((len(series), 2 * old * ratio + 1))
-    out[:, 0 : old * ratio + 1 : ratio] = series[:, : old + 1]
-    out[:, old * ratio + ratio :: ratio] = series[:, old + 1 :]
-    return out
-
-
-def _end_of(modal: ModalRotor, run: Trajectory, frequency: float | None) -> tuple[Array, float]:
-    """Return the series of the last orbit of a run; without a frequency, that at which it comes back."""
-    keys = [f"{name}_" if name else "" for name in modal.parts.names]
-    motion = np.concatenate([np.stack([run[key + "x"], run[key + "y"]]) for key in keys])
-    if frequency is None:
-        frequency = _recurrence(run.time, motion / np.repeat(modal.parts.lengths, 2)[:, None])
-    begin = run.time[-1] - 2.0 * math.pi / frequency
-    if begin < run.time[0]:
-        raise InputError(f"start must last one orbit of {2.0 * math.pi / frequency:.6g} s at least")
-    late = run.time >= begin
-    # The phase counts from t = 0, where the unbalance of a driven orbit has its own.
-    values, _ = series_rows(HARMONICS, frequency * run.time[late])
-    fit, *_ = np.linalg.lstsq(values, motion[:, late].T, rcond=None)
-    return np.ascontiguousarray(fit.T), frequency
-
-
-def _recurrence(time: Array, motion: Array) -> float:
-    """Return the frequency of the end of a run [rad/s]: from crossings of its mean in the same sense."""
-    late = time >= 0.5 * (time[0] + time[-1])
-    t = time[late]
-    widest = int(np.argmax(np.ptp(motion[:, late], axis=1)))
-    signal = motion[widest, late] - motion[widest, late].mean()
-    up = np.nonzero((signal[:-1] < 0.0) & (signal[1:] >= 0.0))[0]
-    if len(up) < 3:
-        raise InputError("start must hold four orbits at least in its last half")
-    crossings = t[up] - signal[up] * (t[up + 1] - t[up]) / (signal[up + 1] - signal[up])
-    return 2.0 * math.pi * (len(up) - 1) / float(crossings[-1] - crossings[0])
+        return subharmonic(series, round(ratio)), frequency
+    return end_of(modal, start, frequency, HARMONICS)

@@ -11,7 +11,9 @@ from ...linear import equilibrium, rotor_equilibrium
 from ...model import Array
 from ...rotors import FlexibleRotor, MountedRotor, RigidRotor
 from ..compiled.modal import Complex, ModalRotor, journal_rows
-from .balance import Balance, film_forces
+from .balance import Balance
+from .harmonics import constant
+from .modal_films import ModalFilms, film_forces
 
 TOLERANCE = 1e-12
 _NEWTON_STEPS = 30
@@ -76,13 +78,13 @@ def leading(matrix: Array) -> Complex:
 
 
 def _newton(modal: ModalRotor, start: Array) -> Array:
-    balance = Balance(modal=modal, harmonics=0, periods=0)
-    series = start[:, None].copy()
+    balance = Balance(rotor=ModalFilms(modal), harmonics=0, periods=0)
+    series = constant(start, 0)
     for _ in range(_NEWTON_STEPS):
         at = balance.residual(series, 1.0)
-        step = np.linalg.solve(at.by_series, -at.values)
+        step = np.asarray(np.linalg.solve(at.by_series, -at.values))
         size = float(np.abs(step).max())
-        series += (min(1.0, 0.2 / size) if size else 1.0) * (step * balance.units)[:, None]
+        series += (min(1.0, 0.2 / size) if size else 1.0) * balance.in_length(step)
         if size < TOLERANCE:
             return np.asarray(series[:, 0])
     raise EquilibriumError(f"no rest found: the last Newton step was {size:.3g} of the clearance")

@@ -1,1 +1,1 @@
-"""Transient."""
+"""Motion over time, step by step: any models, or rotors that something shakes."""

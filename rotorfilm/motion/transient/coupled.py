@@ -8,18 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ...errors import ConvergenceError, InputError, UndefinedDerivativeError, require_inside
-from ...model import (
-    FORCE_OUTPUTS,
-    JOURNAL_INPUTS,
-    Array,
-    Dynamic,
-    Linearization,
-    Reaction,
-    indices,
-    prepared_force,
-    static_linearization,
-)
-from ...signals import names
+from ...model import Array, Dynamic, Linearization, Reaction, prepared_force, static_linearization
+from ...signals import FORCE_OUTPUTS, JOURNAL_INPUTS, indices, names
 
 NUDGE = 1e-6
 """Velocity, in nominal velocities, at which a derivative is taken where the film has none."""

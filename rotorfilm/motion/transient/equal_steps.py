@@ -116,22 +116,27 @@ def _acceleration(
     return (fx + px) / mass, (fy + py) / mass
 
 
-def linear_march(mass: float, stiffness: Array, damping: Array, pull: Array, step: float) -> Array:
-    """Return the answer q (2, n) of m q'' + C q' + K q = pull (2, n), from rest; K and C (2, 2, n)."""
+def linear_march(mass: float, stiffness: Array, damping: Array, pull: Array, step: float) -> MarchMotion:
+    """Return the answer to m q'' + C q' + K q = pull (2, n) by the same steps from rest; K, C (2, 2, n)."""
     count = pull.shape[1]
-    path: Array = np.zeros((2, count))
-    q: Array = np.zeros(2)
-    v: Array = np.zeros(2)
-    a: Array = pull[:, 0] / mass
+    path, rates = np.zeros((2, count)), np.zeros((2, count))
     k2, k1, one = 4.0 / step**2, 2.0 / step, np.eye(2)[:, :, None]
-    inverse = np.linalg.inv(np.moveaxis(mass * k2 * one + k1 * damping + stiffness, -1, 0))
+    whole = mass * k2 * one + k1 * damping + stiffness
+    inverse = np.moveaxis(np.linalg.inv(np.moveaxis(whole, -1, 0)), 0, -1).reshape(4, -1).T.tolist()
+    dampers, pulls = damping.reshape(4, -1).T.tolist(), pull.T.tolist()
+    x, y, vx, vy = 0.0, 0.0, 0.0, 0.0
+    ax, ay = (force / mass for force in pulls[0])
     for n in range(1, count):
-        known = mass * (k2 * (q + step * v) + a) + damping[:, :, n] @ (k1 * q + v)
-        new = inverse[n] @ (pull[:, n] + known)
-        a, v = np.asarray(k2 * (new - q - step * v) - a), np.asarray(k1 * (new - q) - v)
-        q = new
-        path[:, n] = q
-    return path
+        (a, b, c, d), (dxx, dxy, dyx, dyy), (px, py) = inverse[n], dampers[n], pulls[n]
+        wx, wy = k1 * x + vx, k1 * y + vy
+        kx = px + mass * (k2 * (x + step * vx) + ax) + dxx * wx + dxy * wy
+        ky = py + mass * (k2 * (y + step * vy) + ay) + dyx * wx + dyy * wy
+        qx, qy = a * kx + b * ky, c * kx + d * ky
+        ax, ay = k2 * (qx - x - step * vx) - ax, k2 * (qy - y - step * vy) - ay
+        vx, vy = k1 * (qx - x) - vx, k1 * (qy - y) - vy
+        x, y = qx, qy
+        path[:, n], rates[:, n] = (x, y), (vx, vy)
+    return MarchMotion(time=np.asarray(step * np.arange(count)), position=path, velocity=rates)
 
 
 def peak(position: Array) -> float:

@@ -10,10 +10,10 @@
 #include "../export.h"
 #include "../status.h"
 
-/* Force f[2] at e[2], w[2] and, unless `jacobian` is NULL, jacobian[2][4] = d f/d(e, w); `map` is what the
+/* Force f[2] at e[2], w[2] and, unless `jacobian` is NULL, jacobian[2][4] = d f/d(e, w); `data` is what the
    film reads. Without source the force is zero; where it has no derivative there: RF_UNDEFINED. What fails
    answers not-a-number together with its status. */
-typedef int (*rf_film)(const void *map, const double *e, const double *w, double *f, double *jacobian);
+typedef int (*rf_film)(const void *data, const double *e, const double *w, double *f, double *jacobian);
 
 /* The same of anything: f[2] and, unless NULL, jacobian[2][components] at a state of some components. */
 typedef int (*rf_response)(const void *of, const double *state, double *f, double *jacobian);
@@ -60,7 +60,7 @@ static inline int rf_each(rf_response respond, const void *of, const rf_states *
 
 /* A batch of n states: the components lead, one contiguous row of n each, the rows of e, w, f and jacobian
    (2 x 4 rows, or NULL) one stride apart. */
-RF_EXPORT int rf_film_batch(rf_film film, const void *map, size_t n, const double *e, size_t e_stride,
+RF_EXPORT int rf_film_batch(rf_film film, const void *data, size_t n, const double *e, size_t e_stride,
                             const double *w, size_t w_stride, double *f, size_t f_stride, double *jacobian,
                             size_t jacobian_stride, size_t *first);
 

@@ -2,11 +2,11 @@
 
 #include <math.h>
 
-#include "contact.h"
+#include "wall.h"
 #include "map_frame.h"
 
 #define EDGE (-0.414) /* sinh(ln(s)/3) of a contact at the edge: .23 of a film between parabola and edge is left */
-#define LEAST 1e-9    /* share of the film at contact */
+#define LEAST 1e-9    /* share of the film at the wall */
 #define MOST 0.999
 #define TURN 6.283185307179586476925286766559
 
@@ -136,7 +136,7 @@ static field film(const rf_groove_map *map, const rf_frame *at, double x, double
     return all;
 }
 
-/* The share of the film at contact that the openings leave, and its derivatives in the angle of e and in chi. */
+/* The share of the film at the wall that the openings leave, and its derivatives in the angle of e and in chi. */
 typedef struct share {
     double value, side, slope;
 } share;
@@ -155,7 +155,7 @@ static share left(double kept, double kept_side, double chi_end, double chi)
     return at;
 }
 
-/* Beyond the last node: J there, and what the openings leave of the gain of the film at contact. */
+/* Beyond the last node: J there, and what the openings leave of the gain of the film at the wall. */
 static int beyond(const rf_groove_map *map, const rf_frame *at, double x, double *f, double *jacobian)
 {
     const double end = rf_unstretch(map->x_end), S = map->slenderness;
@@ -168,8 +168,8 @@ static int beyond(const rf_groove_map *map, const rf_frame *at, double x, double
     const field here = film(map, &edge, map->x_end, 0.0, 1), towards = film(map, &straight, map->x_end, 0.0, 1);
     const double value = -exp(here.value), turn = value * here.turn;
     rf_potential e = {value, turn, turn * here.turn + value * here.turn_turn, 0.0, 0.0}, full, gain;
-    rf_at_contact(S, end, 1.0, 0.0, &full);
-    rf_contact_gain(S, end, at->chi, at->cos, -at->sin, &gain);
+    rf_at_wall(S, end, 1.0, 0.0, &full);
+    rf_wall_gain(S, end, at->chi, at->cos, -at->sin, &gain);
     const double kept = -exp(towards.value) / full.value;
     const share part = left(kept, kept * (end * towards.across + towards.turn), end, at->chi);
     const double side = end * value * here.across + turn + part.side * gain.value;
@@ -184,7 +184,7 @@ static int beyond(const rf_groove_map *map, const rf_frame *at, double x, double
 
 int rf_groove_error(const rf_groove_map *map)
 {
-    return rf_contact_error(map->x_end);
+    return rf_wall_error(map->x_end);
 }
 
 int rf_groove_film(const void *of, const double *e, const double *w, double *f, double *jacobian)

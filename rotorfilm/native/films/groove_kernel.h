@@ -29,10 +29,10 @@ typedef struct rf_groove_map {
     const double *center;       /* cells_w + 5 of L0; the last five repeat the first */
     const double *coefficients; /* (cells_x + 5) x (cells_e + 5) x (cells_s + 5) of M, s fastest; of the
                                    angles the last five repeat the first */
-    double slenderness;         /* length/diameter, for the film at contact */
+    double slenderness;         /* length/diameter, for the film at the wall */
 } rf_groove_map;
 
-/* The film of an rf_groove_map. Beyond the last node J goes on as the film at contact (contact.h), as far
+/* The film of an rf_groove_map. Beyond the last node J goes on as the film at the wall (wall.h), as far
    as the openings leave it: RF_OUTSIDE. Without
    source there is no derivative, not at the center either. */
 RF_EXPORT int rf_groove_film(const void *map, const double *e, const double *w, double *f, double *jacobian);

@@ -44,7 +44,7 @@ int rf_journal_at(const rf_journal *journal, const double *state, double *f, dou
     if (rf_is_broken(state, 5))
         return rf_fail(RF_NOT_FINITE, f, jacobian, 10);
     set_kinematics(journal->clearance, state, e, w);
-    const int status = journal->film(journal->map, e, w, f, jacobian ? film : NULL);
+    const int status = journal->film(journal->data, e, w, f, jacobian ? film : NULL);
     f[0] *= journal->force_scale;
     f[1] *= journal->force_scale;
     if (jacobian)

@@ -8,7 +8,7 @@
    [rad/s] about +z. */
 typedef struct rf_journal {
     rf_film film;
-    const void *map;    /* of the film */
+    const void *data;   /* of the film */
     double clearance;   /* m */
     double force_scale; /* viscosity * length * radius^3 / clearance^2 [N s] */
     double error;       /* of the force where the film answers RF_OUTSIDE [%]; 0 where none is known */

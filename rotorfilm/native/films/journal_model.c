@@ -37,17 +37,21 @@ static int explain(const rf_journal *journal, int status, const double *u, rf_me
         return journal->error > 0.0
                    ? rf_say(why, status,
                             "eccentricity ratio %.6g is beyond the map of the film; its force is continued as that "
-                            "of a film at contact, within %g %%%s",
+                            "of a film at the wall, within %g %%%s",
                             e / c, journal->error, journal->openings ? " where no opening is near" : "")
                    : rf_say(why, status,
                             "eccentricity ratio %.6g is beyond the map of the film; its force is extrapolated "
                             "there, with an error that is not known",
                             e / c);
-    case RF_CONTACT:
+    case RF_AT_WALL:
         return rf_say(why, status,
                       "the journal must stay inside the clearance %.9g m, got an eccentricity of %.9g m "
                       "(x = %.9g, y = %.9g)",
                       c, e, u[0], u[1]);
+    case RF_STUCK:
+        return rf_say(why, status, "the search for the ruptured zone of the film must end, and did not at x = %.9g, "
+                      "y = %.9g m, vx = %.9g, vy = %.9g m/s, speed = %.9g rad/s", u[0], u[1], u[2], u[3], u[4]);
+    case RF_MEMORY: return rf_say(why, status, "no memory for the grids of a film");
     default:
         return rf_say(
             why, status, "%s: x = %.9g, y = %.9g m, vx = %.9g, vy = %.9g m/s, speed = %.9g rad/s",

@@ -49,7 +49,7 @@ static inline int rf_orient(const double *e, const double *w, rf_frame *at)
         return RF_NOT_FINITE;
     at->chi = rf_length(e[0], e[1]);
     if (at->chi >= 1.0)
-        return RF_CONTACT;
+        return RF_AT_WALL;
     at->size = rf_length(w[0], w[1]);
     if (at->size == 0.0)
         return RF_UNDEFINED;

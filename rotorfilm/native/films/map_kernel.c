@@ -2,10 +2,10 @@
 
 #include <math.h>
 
-#include "contact.h"
+#include "wall.h"
 #include "map_frame.h"
 
-#define SAME 0.05         /* relative difference from the film at contact, of a map that has it as its limit */
+#define SAME 0.05         /* relative difference from the film at the wall, of a map that has it as its limit */
 #define CENTER 1e-8       /* eccentricity ratio below which w = 0 has a derivative, by isotropy */
 
 /* M and the derivatives of it that the force and its Jacobian need; s = cos = 2 T - 1. */
@@ -86,7 +86,7 @@ static int resting(const rf_map *map, double chi, double *f, double *jacobian)
     return RF_OK;
 }
 
-/* Beyond the last node: J there, and what the film at contact gains from there on. */
+/* Beyond the last node: J there, and what the film at the wall gains from there on. */
 static RF_ONCE int beyond(const rf_map *map, const rf_frame *at, double x, double *f, double *jacobian)
 {
     const double end = rf_unstretch(map->x_end), c = at->cos, s = -at->sin;
@@ -94,13 +94,13 @@ static RF_ONCE int beyond(const rf_map *map, const rf_frame *at, double x, doubl
     const double value = -exp(map->center + end * m.m), turn = -end * m.m_s * s;
     rf_potential e = {value, value * turn, value * (turn * turn + end * (m.m_ss * s * s - m.m_s * c)), 0.0, 0.0};
     rf_potential gain;
-    rf_contact_gain(map->slenderness, end, at->chi, c, s, &gain);
+    rf_wall_gain(map->slenderness, end, at->chi, c, s, &gain);
     rf_add_gain(&gain, map->share, &e);
     rf_set_film(at, &e, 0.0, 0.0, f, jacobian);
     return rf_judge(x, map->x_end, f, jacobian);
 }
 
-void rf_map_contact(rf_map *map, double slenderness, double share)
+void rf_map_to_wall(rf_map *map, double slenderness, double share)
 {
     rf_potential full;
     const double end = rf_unstretch(map->x_end);
@@ -110,14 +110,14 @@ void rf_map_contact(rf_map *map, double slenderness, double share)
     map->share = share;
     if (!(slenderness > 0.0))
         return;
-    rf_at_contact(slenderness, end, 1.0, 0.0, &full);
+    rf_at_wall(slenderness, end, 1.0, 0.0, &full);
     if (fabs(towards / (-share * full.value) - 1.0) < SAME && away < 0.5 * towards)
         map->slenderness = slenderness;
 }
 
 int rf_map_error(const rf_map *map)
 {
-    return map->slenderness > 0.0 ? rf_contact_error(map->x_end) : 0;
+    return map->slenderness > 0.0 ? rf_wall_error(map->x_end) : 0;
 }
 
 int rf_map_film(const void *of, const double *e, const double *w, double *f, double *jacobian)

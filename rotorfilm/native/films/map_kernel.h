@@ -22,17 +22,17 @@ typedef struct rf_map {
     double x_end;               /* X of the last node */
     double center;              /* L0 = ln(-J/|w|^2) at e = 0 */
     const double *coefficients; /* (cells_x + 5) x (cells_t + 5), T fastest */
-    double slenderness;         /* length/diameter for the film at contact; 0 where that is not its law */
-    double share;               /* of the film at contact: 1 in units of a journal */
+    double slenderness;         /* length/diameter for the film at the wall; 0 where that is not its law */
+    double share;               /* of the film at the wall: 1 in units of a journal */
 } rf_map;
 
-/* The film of an rf_map. Beyond the last node J goes on as the film at contact (contact.h), or, where that is not
+/* The film of an rf_map. Beyond the last node J goes on as the film at the wall (wall.h), or, where that is not
    its law, as a power of X: RF_OUTSIDE. Without source there is a derivative at the center only. */
 RF_EXPORT int rf_map_film(const void *map, const double *e, const double *w, double *f, double *jacobian);
 
-/* Let a map go on as the film at contact where its last node says that it is one, in motion to the wall and away from
+/* Let a map go on as the film at the wall where its last node says that it is one, in motion to the wall and away from
    it; else as a power of X. */
-RF_EXPORT void rf_map_contact(rf_map *map, double slenderness, double share);
+RF_EXPORT void rf_map_to_wall(rf_map *map, double slenderness, double share);
 
 /* Largest error of a force beyond the last node that was measured [%]; 0 where none was measured. */
 RF_EXPORT int rf_map_error(const rf_map *map);

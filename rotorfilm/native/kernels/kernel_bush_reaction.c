@@ -95,14 +95,14 @@ static int require_place(const model *m, const double *u, rf_message *why)
     const double housing = m->bush.is.radius + m->bush.is.thickness - m->bush.is.shaft_radius;
     const double moved = hypot(u[0], u[1]), mx = u[0] + m->retardation * u[2], my = u[1] + m->retardation * u[3];
     if (!(moved < housing))
-        return rf_say(why, RF_CONTACT,
+        return rf_say(why, RF_AT_WALL,
                       "position must keep the journal inside the clearance %.6g m, got an eccentricity of %.6g m",
                       housing, moved);
     const double reach = hypot(mx, my), along = cos(m->center) * mx + sin(m->center) * my;
     const int beyond = along < reach * cos(0.5 * m->extent) && reach > m->gap * m->bush.is.radius;
     if (p->closed || (!beyond && !(p->depth[0] > 0.0) && !(p->depth[p->n - 1] > 0.0)))
         return RF_OK;
-    return rf_say(why, RF_CONTACT,
+    return rf_say(why, RF_AT_WALL,
                   "contact must stay on the arc of nodes, %.6g rad about %.6g rad, got a shaft moved by %.6g m",
                   m->extent, m->center, reach);
 }

@@ -236,7 +236,7 @@ static int output(const void *kernel, const rf_point *at, double *y, rf_message 
     y[2] = c.temperature;
     y[3] = y[4] = y[5] = y[6] = 0.0;
     if (!(y[1] < b->is.thickness))
-        return rf_say(why, RF_CONTACT,
+        return rf_say(why, RF_AT_WALL,
                       "settlement must be below the thickness of the liner %.6g m, got %.6g m",
                       b->is.thickness, y[1]);
     if (c.at.a == 0.0)

@@ -2,7 +2,7 @@
 
    Parameters of a journal (journal_model.h) and stiffness [N/m]; inputs x, y [m], vx, vy [m/s]; outputs force_x, force_y [N].
    Forces of the film are in units of viscosity * radius * length^3 / clearance^2 per 1/s. Tables: coefficients (x, t), center (1),
-   reach (1), contact (2: length/diameter and share of the film at contact, rf_map). What of the dimensions the map holds for is up to the bounds of the parameters. */
+   reach (1), wall (2: length/diameter and share of the film at the wall, rf_map). What of the dimensions the map holds for is up to the bounds of the parameters. */
 
 /* Documentation of the FMU
 
@@ -41,18 +41,18 @@ static int take_tables(model *self, const rf_tables *tables, rf_message *why)
     const rf_table *c = rf_find_table(tables, "coefficients", 2, why);
     const rf_table *center = c ? rf_find_table(tables, "center", 1, why) : NULL;
     const rf_table *reach = center ? rf_find_table(tables, "reach", 1, why) : NULL;
-    const rf_table *contact = reach ? rf_find_table(tables, "contact", 1, why) : NULL;
-    if (!contact)
+    const rf_table *wall = reach ? rf_find_table(tables, "wall", 1, why) : NULL;
+    if (!wall)
         return RF_INVALID;
     const uint32_t x = c->extent[0], t = c->extent[1];
     if (x < 6 || t < 6 || x > 10000 || t > 10000 || center->extent[0] != 1 || reach->extent[0] != 1
-        || !(reach->numbers[0] > 0.0) || contact->extent[0] != 2)
+        || !(reach->numbers[0] > 0.0) || wall->extent[0] != 2)
         return rf_say(why, RF_INVALID, "the tables of a damper must fit each other, got %u x %u", (unsigned)x,
                       (unsigned)t);
     const rf_map map = {(int32_t)x - 5, (int32_t)t - 5, reach->numbers[0], center->numbers[0],
                         c->numbers, 0.0, 0.0};
     self->map = map;
-    rf_map_contact(&self->map, contact->numbers[0], contact->numbers[1]);
+    rf_map_to_wall(&self->map, wall->numbers[0], wall->numbers[1]);
     return RF_OK;
 }
 
@@ -68,7 +68,7 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
         return NULL;
     }
     self->journal.film = rf_map_film;
-    self->journal.map = &self->map;
+    self->journal.data = &self->map;
     self->journal.error = rf_map_error(&self->map);
     const rf_sizes own = {PARAMETERS, INPUTS, 2, 0, 0};
     *sizes = own;

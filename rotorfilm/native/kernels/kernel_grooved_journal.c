@@ -73,7 +73,7 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
         return NULL;
     }
     self->journal.film = rf_groove_film;
-    self->journal.map = &self->map;
+    self->journal.data = &self->map;
     self->journal.error = rf_groove_error(&self->map);
     self->journal.openings = 1;
     *sizes = RF_JOURNAL_SIZES;

@@ -93,7 +93,7 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
         return NULL;
     }
     self->journal.film = rf_map_film;
-    self->journal.map = &self->map;
+    self->journal.data = &self->map;
     *sizes = RF_JOURNAL_SIZES;
     return self;
 }
@@ -117,7 +117,7 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
         self->slenderness = slenderness;
         self->map.center = center;
         self->map.coefficients = self->slice;
-        rf_map_contact(&self->map, slenderness, 1.0);
+        rf_map_to_wall(&self->map, slenderness, 1.0);
         scaled.error = rf_map_error(&self->map);
     }
     self->journal = scaled;

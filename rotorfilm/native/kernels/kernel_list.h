@@ -1,12 +1,14 @@
 /* The libraries and their kernels: the one list of them, which C, CMake and native/kernel_table.py read.
 
    A library is a bit. It is compiled with RF_SUBSET set to its name, into a file of that name in lower case
-   without RF_; Python calls the first of them. Without RF_SUBSET, as from the sources in an FMU, a library
-   has all kernels. */
+   without RF_. Python calls the first of them, and the last, whose loops over films no FMU needs. Without
+   RF_SUBSET, as from the sources in an FMU, a library has all kernels. */
 #define RF_ROTORFILM 1
 #define RF_ROTORFILM_STATES 2
 #define RF_ROTORFILM_SYSTEMS 4
 #define RF_ROTORFILM_BUSHES 8
+#define RF_ROTORFILM_GRIDS 16
+#define RF_ROTORFILM_LOOPS 32
 
 /* RF_KERNEL(name, libraries, picture): rf_<name>_type of kernel_<name>.c, which also has the text for the
    documentation of its FMUs; libraries that have it, the first the one that its FMUs carry; their picture,
@@ -19,6 +21,7 @@ RF_KERNEL(damper, RF_ROTORFILM, damper)
 RF_KERNEL(grooved_journal, RF_ROTORFILM | RF_ROTORFILM_SYSTEMS, grooved_journal)
 RF_KERNEL(journal, RF_ROTORFILM | RF_ROTORFILM_SYSTEMS, journal)
 RF_KERNEL(linear, RF_ROTORFILM_STATES, linear)
+RF_KERNEL(reynolds_journal, RF_ROTORFILM_GRIDS, grooved_journal)
 RF_KERNEL(rigid_rotor, RF_ROTORFILM_STATES, rotor)
 RF_KERNEL(rotor_system, RF_ROTORFILM_SYSTEMS, rotor_system)
 RF_KERNEL(short_journal, RF_ROTORFILM | RF_ROTORFILM_SYSTEMS, short_journal)

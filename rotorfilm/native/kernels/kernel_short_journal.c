@@ -37,7 +37,7 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
         return NULL;
     }
     self->journal.film = rf_short_film;
-    self->journal.map = &self->film;
+    self->journal.data = &self->film;
     *sizes = RF_JOURNAL_SIZES;
     return self;
 }

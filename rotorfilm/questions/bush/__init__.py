@@ -1,1 +1,1 @@
-"""Bush."""
+"""Questions about bushes."""

@@ -5,17 +5,18 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ...answers import ErrorEstimate, Found, Work
+from ...answers import ErrorEstimate, Found, Work, WorkUnit
 from ...bearings.bush import (
     WIDEST,
     LocalEnd,
     Wearing,
     Worn,
+    arc_of_wear,
     end_of_local_wear,
     wear_at_nodes,
-    wear_by_one_moment,
 )
-from ...errors import ConvergenceError, RotorfilmError
+from ...errors import RotorfilmError
+from ...ladders import BaseRung
 from ...scenes.bush.bush_run import BushRun, unworn
 
 NODES = (12, 24, 48, 96)
@@ -33,15 +34,9 @@ Fitted to falling loads, of orders 1.3 to 1.8: an error is 1.6 times its estimat
 AT_CRITICAL = 1e-6
 """Speed over the critical one, less one, within which it is not known whether an unworn bush melts."""
 
-WIDEST_ARC = 1.5
-"""Half the widest arc of nodes [rad]."""
-
-MARGIN, WIDER = 1.08, 1.25
-"""Arc of nodes over the widest contact found by few of them; by how much it is widened where that fails."""
-
 
 @dataclass(frozen=True, kw_only=True)
-class NodesRung:
+class NodesRung(BaseRung):
     """Wear by nodes on an arc that the contact just fills at the end.
 
     Attributes
@@ -75,34 +70,16 @@ class NodesRung:
     def answer(self, before: Found | None) -> Found:
         """Return by how much farther than unworn the shaft settles [m]."""
         if self.run.margin(self.own) < 0.0:
-            return Found(0.0, {"critical speeds": len(self.run.stages)}, math.nan)
-        reach, work = math.nan, dict[str, int]()
+            return Found(0.0, {CRITICAL_SPEEDS: len(self.run.stages)}, math.nan)
+        reach, work = math.nan, dict[WorkUnit, int]()
         if before is not None and isinstance(before.solution, float) and math.isfinite(before.solution):
             reach = before.solution
         else:
-            reach, work = self._reach()
+            reach, calls = arc_of_wear(self.own, self.run.rule, self.run.stages, NODES[0])
+            work = {profiles(NODES[0], ", first"): calls}
         worn = self._worn(self.nodes, reach)
         value = self.run.require_liner(self.run.radius * worn.settlement)
         return Found(value, {profiles(self.nodes): worn.calls, **work}, reach)
-
-    def _reach(self) -> tuple[float, dict[str, int]]:
-        """Return half the arc of nodes [rad] that the contact fills, found by few nodes, and the work."""
-        path = wear_by_one_moment(self.own, self.run.stages)
-        reach = min(1.2 * float(self.own.angle(path.moment, path.load_ratio).max()), WIDEST_ARC)
-        calls = path.calls
-        while True:
-            try:
-                first = self._worn(NODES[0], reach)
-            except ConvergenceError:
-                if reach >= WIDEST_ARC:
-                    raise
-                reach = min(WIDER * reach, WIDEST_ARC)
-                continue
-            calls += first.calls
-            fits = MARGIN * first.angle
-            if fits > 0.7 * reach:
-                return min(fits, WIDEST_ARC), {f"{profiles(NODES[0])}, first": calls}
-            reach = 0.5 * (fits + reach)
 
     def _worn(self, nodes: int, reach: float) -> Worn:
         return wear_at_nodes(self.own, self.run.rule, self.run.stages, nodes, reach)
@@ -126,10 +103,10 @@ class NodesRung:
             exact = wear_at_nodes(self.run.exact, self.run.rule, self.run.stages, self.nodes // 2, reach)
             error += abs(self.run.radius * exact.settlement - coarse)
             method += "; exact flux at half the nodes"
-            work = {**work, f"{profiles(self.nodes // 2)}, exact flux": exact.calls}
+            work = {**work, profiles(self.nodes // 2, ", exact flux"): exact.calls}
         return ErrorEstimate(error / abs(found.value), method, work)
 
-    def _half(self, found: Found, before: Found | None) -> tuple[float, dict[str, int]]:
+    def _half(self, found: Found, before: Found | None) -> tuple[float, dict[WorkUnit, int]]:
         """Return the wear by half the nodes, that of the rung below if there is one."""
         if before is not None and profiles(self.nodes // 2) in before.work:
             return float(before.value), {}
@@ -142,7 +119,7 @@ class NodesRung:
 
 
 @dataclass(frozen=True, kw_only=True)
-class LocalEndRung:
+class LocalEndRung(BaseRung):
     """Where the wear under a constant load ends if each point melts by itself, in closed form.
 
     Attributes
@@ -152,15 +129,12 @@ class LocalEndRung:
 
     run: BushRun
 
-    @property
-    def name(self) -> str:
-        """What it is."""
-        return "end of the wear"
+    name = "end of the wear"
 
     @property
-    def prior(self) -> float:
-        """Nothing is known beforehand."""
-        return 0.0
+    def unit(self) -> WorkUnit:
+        """One end."""
+        return ENDS
 
     def answer(self, before: Found | None) -> Found:
         """Return the wear after a long time [m]; raises RotorfilmError where it has no end."""
@@ -181,16 +155,12 @@ class LocalEndRung:
         error = to_come / (1.0 - to_come) if to_come < 1.0 else math.inf
         return ErrorEstimate(error + END_ERROR, "overestimated: time to the end", bound=True, doubt=doubt)
 
-    def expected(self, done: Work) -> Work:
-        """Return one."""
-        return {ENDS: 1}
 
-
-ENDS = "ends of the wear"
+ENDS, CRITICAL_SPEEDS = WorkUnit("ends of the wear"), WorkUnit("critical speeds")
 END_ERROR = 1e-5
 """Verified error of the end of the wear: tests/bearings/bush/test_bush_worn.py."""
 
 
-def profiles(nodes: int) -> str:
-    """Return the name of one profile for which the shaft is settled."""
-    return f"profiles of {2 * nodes + 1} nodes"
+def profiles(nodes: int, why: str = "") -> WorkUnit:
+    """Return the unit of one profile for which the shaft is settled."""
+    return WorkUnit(f"profiles of {2 * nodes + 1} nodes{why}", (nodes, why))

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, ErrorEstimate, Found, Work
+from ...answers import DISAGREEMENT, ErrorEstimate, Found, Work, WorkUnit
 from ...bearings.bush import (
     WIDEST,
     ApproximateShaft,
@@ -19,11 +19,11 @@ from ...bearings.bush import (
     wear_by_two_moments,
 )
 from ...errors import RotorfilmError
-from ...model import Array
+from ...ladders import BaseRung, Ladder
+from ...motion.transient.scalar_drift import scalar_drift
 from ...scenes.bush.bush_remarks import bush_remarks
 from ...scenes.bush.bush_run import BushRun, bush_run, unworn
-from ..walk import Ladder
-from .bush_nodes import NODES, LocalEndRung, NodesRung
+from .bush_nodes import CRITICAL_SPEEDS, NODES, LocalEndRung, NodesRung
 from .bushes import EXACT_ERROR
 
 if TYPE_CHECKING:
@@ -37,14 +37,22 @@ SAMPLES = 33
 
 CLOSED = ", closed-form flux"
 
+DEFECTS = WorkUnit("defects of two moments")
+
+
+class RateKey(NamedTuple):
+    """By which moments, and whether with the closed form of the flux, a rate of wear is found."""
+
+    moments: int
+    closed: bool
+
 
 @dataclass(frozen=True, kw_only=True)
-class MomentRung:
+class MomentRung(BaseRung):
     """Wear by one or two moments of the profile, under a load that does not fall.
 
     Attributes
     ----------
-    name : str
     run : BushRun
         How the bush is run.
     closed : bool
@@ -53,20 +61,19 @@ class MomentRung:
         1 or 2.
     """
 
-    name: str
     run: BushRun
     closed: bool
     moments: int
 
     @property
-    def prior(self) -> float:
-        """Nothing is known beforehand."""
-        return 0.0
+    def name(self) -> str:
+        """Number of moments, and how the flux is found."""
+        return f"{'one moment' if self.moments == 1 else 'two moments'}{CLOSED if self.closed else ''}"
 
     @property
-    def unit(self) -> str:
-        """Name of one rate of wear."""
-        return f"rates of {self.name}"
+    def unit(self) -> WorkUnit:
+        """One rate of wear."""
+        return WorkUnit(f"rates of {self.name}", RateKey(self.moments, self.closed))
 
     @property
     def own(self) -> Wearing:
@@ -95,15 +102,13 @@ class MomentRung:
         rate = path.load_ratio * np.maximum(rich.surplus(alpha, total), 0.0)
         defect = rate - path.load_ratio * np.maximum(own.surplus(alpha, shaped), 0.0)
         slopes = rich.slope(alpha, total, path.load_ratio), own.shaped_slope(alpha, path.load_ratio)
-        moved, other = (propagated(path.time, defect, slope) for slope in slopes)
+        moved, other = (scalar_drift(path.time, defect, slope) for slope in slopes)
         error, doubt = self._relative(path, moved, other)
-        return ErrorEstimate(
-            error + STEPS_ERROR, "defect of two moments", {"defects of two moments": alpha.size}, doubt=doubt
-        )
+        return ErrorEstimate(error + STEPS_ERROR, "defect of two moments", {DEFECTS: alpha.size}, doubt=doubt)
 
     def expected(self, done: Work) -> Work:
         """Return as many rates as the rung below took, or a usual number."""
-        known = [number for unit, number in done.items() if unit.startswith("rates of")]
+        known = [number for unit, number in done.items() if isinstance(unit.key, RateKey)]
         return {self.unit: max(known, default=100)}
 
     def _bound(self, path: Path) -> ErrorEstimate:
@@ -113,7 +118,7 @@ class MomentRung:
         total = own.total(alpha, path.first)
         flux = EXACT_ERROR * own.law.balance.share(alpha) * own.law.shaft * own.law.melting
         defect = 2.0 * alpha * flux * path.load_ratio / (total * own.heat)
-        moved = propagated(path.time, defect, own.slope(alpha, total, path.load_ratio))
+        moved = scalar_drift(path.time, defect, own.slope(alpha, total, path.load_ratio))
         error, _ = self._relative(path, moved, moved)
         return ErrorEstimate(error + STEPS_ERROR, "verified bound of flux and steps", bound=True)
 
@@ -133,37 +138,18 @@ def relative(bush: Wearing, load: float, moment: float, moved: float, other: flo
     return error, doubt if apart > DISAGREEMENT else ""
 
 
-def propagated(time: Array, defect: Array, slope: Array) -> float:
-    """Return the end of d' = slope d + defect from zero, by exponential steps with means of the slope."""
-    moved = 0.0
-    for k in range(1, time.size):
-        step = float(time[k] - time[k - 1])
-        z = 0.5 * float(slope[k] + slope[k - 1]) * step
-        grown = math.exp(z)
-        # Integrals of exp(z (1 - s)) and of exp(z (1 - s)) s over the step.
-        one = math.expm1(z) / z if abs(z) > 1e-6 else 1.0 + 0.5 * z
-        two = (one - 1.0) / z if abs(z) > 1e-3 else 0.5 + z / 6.0
-        moved = grown * moved + step * float((one - two) * defect[k - 1] + two * defect[k])
-    return moved
-
-
 @dataclass(frozen=True, kw_only=True)
-class EndRung:
+class EndRung(BaseRung):
     """Where the wear under a constant load ends: the critical speed has grown to the speed.
 
     Attributes
     ----------
-    name : str
     run : BushRun
     """
 
-    name: str
     run: BushRun
 
-    @property
-    def prior(self) -> float:
-        """Nothing is known beforehand."""
-        return 0.0
+    name = "end of the wear" + CLOSED
 
     def answer(self, before: Found | None) -> Found:
         """Return the wear after a long time [m]; raises RotorfilmError where it has no end."""
@@ -172,7 +158,7 @@ class EndRung:
         if math.isinf(moment):
             raise RotorfilmError(f"the wear has no end below {WIDEST} rad of half the contact")
         value = self.run.radius * bush.settlement(moment, load)
-        return Found(self.run.require_liner(value), {"critical speeds": calls}, moment)
+        return Found(self.run.require_liner(value), {CRITICAL_SPEEDS: calls}, moment)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the wear still to come, at most, and what both moments with the exact flux would change.
@@ -199,12 +185,12 @@ class EndRung:
         # What is still to come is overestimated, the defect is not.
         bound = left > error
         method = f"{'overestimated: ' if bound else ''}defect of two moments; time to the end"
-        work = {"defects of two moments": SAMPLES}
+        work = {DEFECTS: SAMPLES}
         return ErrorEstimate(error + left + STEPS_ERROR, method, work, bound, doubt)
 
     def expected(self, done: Work) -> Work:
         """Return the critical speeds that a root takes."""
-        return {"critical speeds": 12}
+        return {CRITICAL_SPEEDS: 12}
 
 
 def wear_ladder(scene: Scene, quantity: str) -> Ladder:
@@ -221,10 +207,7 @@ def wear_ladder(scene: Scene, quantity: str) -> Ladder:
         nodes = tuple(NodesRung(run=run, nodes=nodes, closed=named) for nodes in NODES)
         ends = (LocalEndRung(run=run),) if run.local and len(run.stages) == 1 and not named else ()
         return Ladder(rungs=(*ends, *nodes), unit="m", remarks=bush_remarks(run))
-    end = (EndRung(name="end of the wear" + CLOSED, run=run),) if len(run.stages) == 1 else ()
-    closed = MomentRung(name="one moment" + CLOSED, run=run, closed=True, moments=1)
-    exact = (
-        MomentRung(name="one moment", run=run, closed=False, moments=1),
-        MomentRung(name="two moments", run=run, closed=False, moments=2),
-    )
+    end = (EndRung(run=run),) if len(run.stages) == 1 else ()
+    closed = MomentRung(run=run, closed=True, moments=1)
+    exact = tuple(MomentRung(run=run, closed=False, moments=moments) for moments in (1, 2))
     return Ladder(rungs=(*end, closed, *(() if named else exact)), unit="m", remarks=bush_remarks(run))

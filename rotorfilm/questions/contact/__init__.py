@@ -1,1 +1,1 @@
-"""Contact."""
+"""Questions about rolling contacts."""

@@ -4,24 +4,24 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...answers import ErrorEstimate, Found, Work
+from ...answers import ErrorEstimate, Found, Work, WorkUnit
 from ...bearings.contact import HERTZ_LOAD, ContactLaw, SineLoad, reduce_contact, ride
 from ...errors import ConvergenceError, InputError
+from ...ladders import BaseRung
 from ...scenes.contact.contact_motions import ShakenBall, natural_frequency
 from ...scenes.contact.contact_rest import RestingFilms
 
 CELLS, FINE = 32, 64
 """Cells along each side of the film that the law is made of, and of a finer one that tells its error."""
 
-RIDE = "motions on a reduced law"
-LAW = "reduced laws"
+RIDE, LAW = WorkUnit("motions on a reduced law"), WorkUnit("reduced laws")
 
 ELSEWHERE = 0.7
 """Where between rest and the extreme load a second law is made, of which the difference tells the error."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class LawRung:
+class LawRung(BaseRung):
     """The motion on the law of the contact under its static load.
 
     Attributes
@@ -35,15 +35,7 @@ class LawRung:
     films: RestingFilms
     shaken: ShakenBall
 
-    @property
-    def name(self) -> str:
-        """What it is."""
-        return "reduced law over time"
-
-    @property
-    def prior(self) -> float:
-        """Nothing is known beforehand."""
-        return 0.0
+    name = "reduced law over time"
 
     @property
     def order(self) -> int:
@@ -75,12 +67,10 @@ class LawRung:
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the errors of grid and rectangle at rest, of the fit, and of the law's one load."""
         law, deepest, carried = found.solution
-        work: dict[str, int] = {}
+        work: dict[WorkUnit, int] = {}
         load = min(max((deepest / law.operating) ** 1.5, 1.0), law.load_range[1])
         try:
-            rest, fine = (self.films.value(n, work, load=load) for n in (CELLS, FINE))
-            cells = abs(fine - rest) / (1.0 - (CELLS / FINE) ** 2)
-            lacking = (cells + abs(self.films.beyond(work, load))) / abs(rest)
+            lacking = self.films.lacking(CELLS, FINE, work, load)
             other = reduce_contact(self.films.contact(CELLS), self.order, load=self._elsewhere())
             elsewhere = abs(self._motion(other)[0] - deepest) / abs(deepest)
         except ConvergenceError as error:

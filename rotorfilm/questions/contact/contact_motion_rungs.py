@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ...answers import ErrorEstimate, Found, Work
+from ...answers import ErrorEstimate, Found, Work, WorkUnit
 from ...bearings.contact import FixedSteps
 from ...errors import ConvergenceError, InputError
+from ...ladders import BaseRung, Rung
 from ...model import Array
 from ...scenes.contact.contact_motions import ShakenBall, contact_motion
 from ...scenes.contact.contact_rest import RestingFilms
-from ..walk import Rung
 from .contact_law_rung import LawRung
 from .contact_slow import SlowRung
 
@@ -108,7 +108,7 @@ class FollowedFilm:
         period = np.clip(self.shaken.shortest_period, SHORTEST * STEPS, LONGEST_STEP * STEPS)
         return float(period / steps)
 
-    def extreme(self, cells: int, steps: int, work: dict[str, int]) -> tuple[float, float]:
+    def extreme(self, cells: int, steps: int, work: dict[WorkUnit, int]) -> tuple[float, float]:
         """Return the smallest value of the quantity and of the approach over the motion [1].
 
         Raises
@@ -134,7 +134,7 @@ class FollowedFilm:
             raise ConvergenceError(f"a motion must be solvable on {cells} x {cells} cells, got none before")
         return self.runs[key]
 
-    def step_error(self, steps: int, work: dict[str, int]) -> float:
+    def step_error(self, steps: int, work: dict[WorkUnit, int]) -> float:
         """Return what the value lacks by the steps, from longer ones on the coarsest grid that can."""
         for cells, (fine, rough) in product(CELLS, ((STEPS, STEPS // 2), (FINER, STEPS))):
             try:
@@ -146,7 +146,7 @@ class FollowedFilm:
             return ratio * (value - other) / max(longer - 1.0, 1.0) / value
         raise ConvergenceError("longer steps must have a motion, got none on any grid")
 
-    def parts(self, cells: int, work: dict[str, int]) -> Followed:
+    def parts(self, cells: int, work: dict[WorkUnit, int]) -> Followed:
         """Return the extreme on so many cells, and what it lacks; the cells and the rectangle cost at rest.
 
         Raises
@@ -171,7 +171,7 @@ class FollowedFilm:
             resolved, jump = True, abs(change) if self.films.quantity == "minimum_film" else 0.0
         return Followed(value, by_steps, by_cells, reach, jump, resolved)
 
-    def _change(self, cells: int, work: dict[str, int]) -> float | None:
+    def _change(self, cells: int, work: dict[WorkUnit, int]) -> float | None:
         """Return the relative change from the coarsest grid, without errors by steps, if it has a motion."""
         if cells == CELLS[0]:
             return None
@@ -184,7 +184,7 @@ class FollowedFilm:
             return None
         return 1.0 - rough / fine
 
-    def equivalent_load(self, cells: int, deepest: float, work: dict[str, int]) -> float:
+    def equivalent_load(self, cells: int, deepest: float, work: dict[WorkUnit, int]) -> float:
         """Return the load whose contact at rest is as deep, as of a dry contact."""
         rest = RestingFilms(table=self.films.table, quantity="approach").value(cells, work)
         return min(max((deepest / rest) ** 1.5, 1.0), LARGEST_LOAD)
@@ -196,7 +196,7 @@ class FollowedFilm:
 
 
 @dataclass(frozen=True, kw_only=True)
-class FilmMotionRung:
+class FilmMotionRung(BaseRung):
     """The full film over time on one grid.
 
     Attributes
@@ -218,11 +218,6 @@ class FilmMotionRung:
         """Cells of the grid."""
         return f"film {self.cells} x {self.cells} over time{', extr.' if self.extrapolated else ''}"
 
-    @property
-    def prior(self) -> float:
-        """Nothing is known beforehand."""
-        return 0.0
-
     def answer(self, before: Found | None) -> Found:
         """Return the smallest value over the motion [m]."""
         if self.followed.too_long:
@@ -230,7 +225,7 @@ class FilmMotionRung:
                 f"excitation must take at most {MOST_STEPS} steps of a film over time, got "
                 f"{self.followed.shaken.duration / self.followed.step(FINER):.4g}"
             )
-        work: dict[str, int] = {}
+        work: dict[WorkUnit, int] = {}
         scale = self.followed.films.ball.film_scale
         if not self.extrapolated:
             value, _ = self.followed.extreme(self.cells, steps_on(self.cells), work)
@@ -244,7 +239,7 @@ class FilmMotionRung:
 
         That of the smallest film, which jumps from cell to cell, is overestimated.
         """
-        work: dict[str, int] = {}
+        work: dict[WorkUnit, int] = {}
         try:
             parts = self.followed.parts(self.cells, work)
         except ConvergenceError as error:
@@ -286,9 +281,9 @@ def lowest(time: Array, values: Array) -> float:
     return float(value - 0.25 * slope**2 / curvature) if curvature > 0.0 else float(value)
 
 
-def newton(cells: int) -> str:
-    """Return the name of a Newton step."""
-    return f"Newton steps on {cells} x {cells} cells"
+def newton(cells: int) -> WorkUnit:
+    """Return the unit of a Newton step."""
+    return WorkUnit(f"Newton steps on {cells} x {cells} cells", ("Newton steps", cells))
 
 
 def motion_rungs(scene: Scene, films: RestingFilms) -> tuple[Rung, ...]:

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, ErrorEstimate, Found, Work
+from ...answers import DISAGREEMENT, ErrorEstimate, Found, Work, WorkUnit
 from ...bearings.contact import HERTZ_LOAD, SineLoad, SmallMotion
 from ...errors import ConvergenceError, InputError
+from ...ladders import BaseRung
 from ...scenes.contact.contact_motions import ShakenBall, natural_frequency
 from ...scenes.contact.contact_rest import RestingFilms, unknowns
 
@@ -27,7 +28,7 @@ SLACKEST = 0.05
 
 
 @dataclass(frozen=True, kw_only=True)
-class SlowRung:
+class SlowRung(BaseRung):
     """The extreme of a quantity over the loads, as if each had acted for long.
 
     Attributes
@@ -39,20 +40,12 @@ class SlowRung:
     films: RestingFilms
     shaken: ShakenBall
 
-    @property
-    def name(self) -> str:
-        """What it leaves out."""
-        return "at rest under the extreme load"
-
-    @property
-    def prior(self) -> float:
-        """Nothing is known beforehand."""
-        return 0.0
+    name = "at rest under the extreme load"
 
     def answer(self, before: Found | None) -> Found:
         """Return the smallest value [m]: of the approach always that of the largest load."""
         least, most = self.shaken.extremes
-        work: dict[str, int] = {}
+        work: dict[WorkUnit, int] = {}
         loads = [most] if self.films.quantity == "approach" else [max(least, SLACKEST), most]
         values = {load: self.films.value(CELLS, work, load=load) for load in loads}
         load = min(values, key=lambda load: values[load])
@@ -63,13 +56,11 @@ class SlowRung:
 
         Overestimated for a small motion: amplitudes are added whatever their phases.
         """
-        work: dict[str, int] = {}
+        work: dict[WorkUnit, int] = {}
         least, load = self.shaken.extremes[0], float(found.solution)
         try:
-            rest, fine = (self.films.value(n, work, load=load) for n in (CELLS, FINE))
-            cells = abs(fine - rest) / (1.0 - (CELLS / FINE) ** 2)
-            lacking = (cells + abs(self.films.beyond(work, load))) / abs(rest)
-            moved = abs(self._motion() / rest)
+            lacking = self.films.lacking(CELLS, FINE, work, load)
+            moved = abs(self._motion() / self.films.value(CELLS, work, load=load))
         except (ConvergenceError, InputError) as error:
             return ErrorEstimate(1.0, "linearized film", work, doubt=f"no companion: {error}")
         work[unknowns(SMALL)] = SMALL**2

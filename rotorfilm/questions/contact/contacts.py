@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ...answers import ISOTHERMAL, ErrorEstimate, Found, Work
+from ...answers import ISOTHERMAL, ErrorEstimate, Found, Work, WorkUnit
 from ...errors import ConvergenceError, InputError
+from ...ladders import BaseRung, Ladder, Rung
 from ...scenes.contact.contact_remarks import contact_remarks
 from ...scenes.contact.contact_rest import INLETS, OUTLET, REACH, SPACINGS, RestingFilms, unknowns
-from ..walk import Ladder, Rung
 from .contact_motion_rungs import motion_rungs
 
 if TYPE_CHECKING:
@@ -45,12 +45,14 @@ HARD = (0.08, 12.0)
 DENSE = (96, 64)
 """Cells along each side of the shortest rectangle from which an unbounded film is extrapolated."""
 
+FORMULAS = WorkUnit("formulas")
+
 LEFT = 0.3
 """Share of an extrapolation that may be wrong."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class FormulaRung:
+class FormulaRung(BaseRung):
     """The film of Nijenbanning, Venner and Moes (1994); the dry contact's approach with it between.
 
     Attributes
@@ -60,21 +62,18 @@ class FormulaRung:
 
     films: RestingFilms
 
-    @property
-    def name(self) -> str:
-        """By whom."""
-        return "formula of Nijenbanning et al."
+    name = "formula of Nijenbanning et al."
 
     @property
-    def prior(self) -> float:
-        """Nothing is known beforehand."""
-        return 0.0
+    def unit(self) -> WorkUnit:
+        """One formula."""
+        return FORMULAS
 
     def answer(self, before: Found | None) -> Found:
         """Return the quantity [m]; the dry contact has the approach -2, in Hertzian units."""
         film = self.films.ball.published_films.nijenbanning_venner_moes
         dry = 2.0 * self.films.ball.film_scale
-        return Found(film if self.films.quantity == "central_film" else film - dry, {"formulas": 1})
+        return Found(film if self.films.quantity == "central_film" else film - dry, {self.unit: 1})
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the measured bound, where it was measured."""
@@ -86,13 +85,9 @@ class FormulaRung:
         bound = FORMULA_BOUNDS[self.films.quantity]
         return ErrorEstimate(bound, "measured bound of the formula", bound=True, doubt=doubt)
 
-    def expected(self, done: Work) -> Work:
-        """Return one formula."""
-        return {"formulas": 1}
-
 
 @dataclass(frozen=True, kw_only=True)
-class GridRung:
+class GridRung(BaseRung):
     """A stationary contact on one grid of the shortest rectangle.
 
     Attributes
@@ -110,14 +105,9 @@ class GridRung:
         """Cells of the grid."""
         return f"grid {self.cells} x {self.cells}"
 
-    @property
-    def prior(self) -> float:
-        """Nothing is known beforehand."""
-        return 0.0
-
     def answer(self, before: Found | None) -> Found:
         """Return the quantity [m]."""
-        work: dict[str, int] = {}
+        work: dict[WorkUnit, int] = {}
         value = self.films.value(self.cells, work)
         return Found(value * self.films.ball.film_scale, work)
 
@@ -126,7 +116,7 @@ class GridRung:
 
         The smallest film jumps from cell to cell, so that its increment is overestimated: the whole is taken.
         """
-        work: dict[str, int] = {}
+        work: dict[WorkUnit, int] = {}
         bound = self.films.quantity == "minimum_film"
         try:
             about = grid_error(self.films, self.cells, work) + rectangle_error(self.films, work)
@@ -143,7 +133,7 @@ class GridRung:
 
 
 @dataclass(frozen=True, kw_only=True)
-class UnboundedRung:
+class UnboundedRung(BaseRung):
     """A grid of the finest of `SPACINGS` on a longer rectangle, extrapolated to an infinite one.
 
     Attributes
@@ -164,14 +154,9 @@ class UnboundedRung:
         """Cells of the grid."""
         return f"grid {self.cells} x {self.cells}, unbounded"
 
-    @property
-    def prior(self) -> float:
-        """Nothing is known beforehand."""
-        return 0.0
-
     def answer(self, before: Found | None) -> Found:
         """Return the quantity [m], extrapolated in the length of the rectangle and in the cells."""
-        work: dict[str, int] = {}
+        work: dict[WorkUnit, int] = {}
         short, longer = INLETS[self.place - 1 : self.place + 1]
         wide = self.films.value(self.cells, work, longer)
         before_it = self.films.value(round(SPACINGS[-1] * (short + OUTLET)), work, short)
@@ -192,7 +177,7 @@ class UnboundedRung:
         return {unknowns(self.cells): self.cells**2, unknowns(DENSE[0]): DENSE[0] ** 2}
 
 
-def grid_error(films: RestingFilms, cells: int, work: dict[str, int]) -> float:
+def grid_error(films: RestingFilms, cells: int, work: dict[WorkUnit, int]) -> float:
     """Return the relative error of a quantity by the cells, from less of them; more of the smallest film.
 
     Raises
@@ -215,7 +200,7 @@ def noise_of(films: RestingFilms, cells: int) -> float:
     return NOISE * (CELLS[0] / cells) ** 2 * (0.1 if films.quantity == "approach" else 1.0)
 
 
-def rectangle_error(films: RestingFilms, work: dict[str, int]) -> float:
+def rectangle_error(films: RestingFilms, work: dict[WorkUnit, int]) -> float:
     """Return the relative error of a quantity by the end of the rectangle."""
     change = films.beyond(work)
     near = next(value for (inlet, _, at), value in films.known.items() if inlet == INLETS[0] and at == 1.0)
@@ -233,7 +218,10 @@ def contact_ladder(scene: Scene, quantity: str) -> Ladder:
     if scene.contact is None:
         raise InputError(f"contact is required for {quantity}, got no such table")
     films = RestingFilms(table=scene.contact, quantity=quantity)
-    remarks = contact_remarks(scene)
+    table = scene.contact
+    remarks = contact_remarks(
+        films.ball, scene.lubricant, roelands=table.roelands, compressible=table.compressible
+    )
     if scene.excitation is not None:
         return Ladder(rungs=motion_rungs(scene, films), unit="m", remarks=remarks, within=ISOTHERMAL)
     formula = () if quantity == "minimum_film" else (FormulaRung(films=films),)

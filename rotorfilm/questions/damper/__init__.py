@@ -1,1 +1,1 @@
-"""Damper."""
+"""Questions about dampers."""

@@ -10,24 +10,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Work
+from ...answers import ISOTHERMAL, ErrorEstimate, Found, Work, WorkUnit
 from ...errors import FilmContactError, InputError
-from ...model import Array, Reaction, Tangent, prepared_tangent
-from ...motion.transient.equal_steps import ORDER, MarchMotion, linear_march, march, peak
+from ...ladders import Ladder
+from ...model import Reaction, Tangent, largest_eccentricity_ratio, prepared_tangent
+from ...motion.transient.equal_steps import MarchMotion, linear_march, peak
+from ...motion.transient.shaken_rotor import RestTangent, ShakenRotor, StatesAlong, states_along
 from ...rotors import RigidRotor
-from ...scenes.damper.damper_films import NO_RICHER, DamperFilm, damper_films, quiet, sprung
+from ...scenes.damper.damper_films import NO_RICHER, DamperFilm, damper_films, mapped_short, quiet, sprung
 from ...scenes.damper.damper_models import damper_models
-from ...scenes.damper.damper_remarks import scene_remarks
+from ...scenes.damper.damper_remarks import rotor_remarks
 from ...scenes.damper.damper_table import DamperTable
 from ...scenes.excitation_table import BladeLossTable, RunUpTable
-from ...scenes.journal.film_rungs import NOMINAL
-from ..walk import Ladder
+from ..peak_rung import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
-
-STEPS = (48, 96, 192, 384, 768)
-"""Steps over a turn of the nonlinear rungs."""
 
 CHEAP_STEPS = (48, 192)
 """Those of films that leave out the layer or the flow around the circumference."""
@@ -35,50 +33,30 @@ CHEAP_STEPS = (48, 192)
 FED_STEPS = (24, 48, 96)
 """Those of films with feed, which have no map: a force takes some tenths to thousandths of a second."""
 
-LINEAR_STEPS = 192
-"""Those of the linear motion."""
-
-SAMPLED = 48
-"""States over a turn at which the defect is taken."""
+LINEAR_STEP, DEFECT = WorkUnit("linear steps"), WorkUnit("defects of a richer film")
 
 
 @dataclass(frozen=True, kw_only=True)
-class DamperPeakRung:
-    """The peak by one film, linear about the center or nonlinear in so many steps over a turn.
+class DamperPeakRung(PeakRung[DamperFilm]):
+    """The peak in a squeeze-film damper.
 
     Attributes
     ----------
-    film : DamperFilm
     rotor : RigidRotor
         At rest in the center.
     stiffness : float [N/m]
         Of the retainer springs.
     duration : float [s]
-    steps : int
-        Over a turn at the highest speed; 0 for the linear motion.
     """
 
-    film: DamperFilm
     rotor: RigidRotor
     stiffness: float
     duration: float
-    steps: int
 
     @property
-    def name(self) -> str:
-        """Linear, or the number of steps and the film."""
-        how = f"nonlinear, {self.steps} steps" if self.steps else "linear"
-        return f"{how}, {self.film.name}"
-
-    @property
-    def prior(self) -> float:
-        """Order of magnitude of the error of the steps, and of the film."""
-        return max(0.3 * self.film.prior, 3.0 / self.steps**2 if self.steps else 0.0)
-
-    @property
-    def tangents(self) -> str:
-        """Name of one force of this film with derivatives."""
-        return f"tangents of {self.film.name}"
+    def tangents(self) -> WorkUnit:
+        """One force of this film with derivatives."""
+        return WorkUnit(f"tangents of {self.film.name}", ("tangents", self.film))
 
     @cached_property
     def support(self) -> Reaction:
@@ -96,81 +74,46 @@ class DamperPeakRung:
         found = self.film.rich_moving
         return None if found is None else sprung(found, self.stiffness)
 
-    def answer(self, before: Found | None) -> Found:
-        """Return the largest distance from the center [m]; raises FilmContactError at the wall."""
-        if not self.steps:
-            motion = self._linear(LINEAR_STEPS)
-            if np.hypot(*motion.position).max() >= self.support.clearance:
-                raise FilmContactError("the linear motion leaves the clearance")
-            half = self._linear(LINEAR_STEPS // 2)
-            return Found(
-                peak(motion.position), {"linear steps": motion.time.size}, (motion, peak(half.position))
-            )
-        made = self.film.work
-        motion, calls = self._march(self.steps)
-        coarse = self._known(before)
-        if math.isnan(coarse):
-            other, more = self._march(self.steps // 2)
-            coarse, calls = peak(other.position), calls + more
-        return Found(peak(motion.position), {self.tangents: calls, **made}, (motion, coarse))
+    @property
+    def shaken(self) -> ShakenRotor:
+        """The rotor on film and springs, and what shakes it."""
+        return ShakenRotor(self.support, self.rotor.mass, 0.0, np.zeros(2), self._pull)
 
-    def _known(self, before: Found | None) -> float:
-        """Return the peak in steps twice as long, if the rung below has it."""
-        if before is None or self.tangents not in before.work:
-            return math.nan
-        twice = before.solution[0].time.size - 1 == self._count(self.steps // 2)
-        return float(before.value) if twice else math.nan
+    @cached_property
+    def at_rest(self) -> RestTangent:
+        """Film and springs in the center: there also a cavitated film is linear in the velocity."""
+        c, center = self.support.clearance, np.zeros(2)
+        rate = c * abs(self.rotor.profile.speeds[-1] or 1.0)
+        damping = -float(self.support.force(center, np.array([rate, 0.0]), 0.0)[0]) / rate
+        fed = self.film.is_fed
+        own = -float(self.film.reaction.jacobian(center, center, 0.0)[0, 0]) if fed else 0.0
+        return RestTangent(center, (self.stiffness + own) * np.eye(2), damping * np.eye(2))
 
-    def _count(self, steps: int) -> int:
-        """Return an even number of steps, so that one ends where a run-up turns back."""
+    def grid(self, steps: int) -> tuple[float, int]:
+        """Return the length [s] and an even number of steps, so that one ends where a run-up turns back."""
         fastest = max(abs(speed) for speed in self.rotor.profile.speeds)
-        return 2 * math.ceil(self.duration * fastest * steps / (4.0 * math.pi))
-
-    def _march(self, steps: int) -> tuple[MarchMotion, int]:
-        count = self._count(steps)
-        return march(
-            self.support, self.rotor.mass, 0.0, self._pull, np.zeros(2), self.duration / count, count
-        )
+        count = 2 * math.ceil(self.duration * fastest * steps / (4.0 * math.pi))
+        return self.duration / count, count
 
     def _pull(self, t: float) -> tuple[float, float]:
         x, y = self.rotor.unbalance_force(t).tolist()
         return x, y
 
-    def _linear(self, steps: int) -> MarchMotion:
-        """Return the motion by the film's stiffness and damping in the center, by average acceleration."""
-        count, (K, C) = self._count(steps), self._small
-        step, m = self.duration / count, self.rotor.mass
-        time = np.asarray(step * np.arange(count + 1))
-        pulls = [complex(*self._pull(t)) for t in time]
-        path, rates = np.zeros(count + 1, complex), np.zeros(count + 1, complex)
-        q, v, a = 0j, 0j, pulls[0] / m
-        k2, k1 = 4.0 / step**2, 2.0 / step
-        whole = m * k2 + k1 * C + K
-        for n in range(1, count + 1):
-            new = (pulls[n] + m * (k2 * (q + step * v) + a) + C * (k1 * q + v)) / whole
-            a, v, q = k2 * (new - q - step * v) - a, k1 * (new - q) - v, new
-            path[n], rates[n] = q, v
-        return MarchMotion(
-            time=time,
-            position=np.array([path.real, path.imag]),
-            velocity=np.array([rates.real, rates.imag]),
-        )
-
-    @cached_property
-    def _small(self) -> tuple[float, float]:
-        """Stiffness and damping in the center: there also a cavitated film is linear in the velocity."""
-        c, center = self.support.clearance, np.zeros(2)
-        rate = c * abs(self.rotor.profile.speeds[-1] or 1.0)
-        damping = -float(self.support.force(center, np.array([rate, 0.0]), 0.0)[0]) / rate
-        fed = self.film.is_fed
-        own = -float(self.film.damper.jacobian(center, center, 0.0)[0, 0]) if fed else 0.0
-        return self.stiffness + own, damping
+    def answer(self, before: Found | None) -> Found:
+        """Return the largest distance from the center [m]; raises FilmContactError at the wall."""
+        if self.steps:
+            return self.nonlinear(before)
+        motion = self.linear(LINEAR_STEPS)
+        if np.hypot(*motion.position).max() >= self.support.clearance:
+            raise FilmContactError("the linear motion leaves the clearance")
+        half = self.linear(LINEAR_STEPS // 2)
+        solved = PeakMotion(motion, peak(half.position), 0)
+        return Found(peak(motion.position), {LINEAR_STEP: motion.time.size}, solved)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the error of the steps (order increment), and of the film by its defect along the motion."""
-        motion, coarse = found.solution
-        steps = (found.value - coarse) / (2.0**ORDER - 1.0) / found.value
-        if self.film.rich_law is None and not math.isfinite(self.film.bound):
+        motion, steps = found.solution.motion, self.increment(found)
+        if self.film.rich_law is None and not math.isfinite(self.film.bound()):
             return ErrorEstimate(math.inf, "order increment", doubt=NO_RICHER)
         reach = float(np.hypot(*motion.position).max()) / self.support.clearance
         limit = _reach(self.rich or self.support)
@@ -183,60 +126,46 @@ class DamperPeakRung:
         largest = max(abs(change), abs(steps))
         error = max(abs(change + steps), largest * max(0.1, min(1.0, largest)))
         name = "its own film" if self.rich is None else "the film of finite length"
-        work = {"defects of a richer film": calls, **self.film.rich_work}
+        work = {DEFECT: calls, **self.film.rich_work}
         return ErrorEstimate(error, f"order increment; defect of {name}", work, doubt=doubt)
 
     def _by_bound(self, motion: MarchMotion, value: float, steps: float) -> ErrorEstimate:
         """Return the error of the steps, and what the verified error of the film could do all along."""
-        q, v, step = self._sampled(motion)
-        slopes = self.support.jacobian(q, v, 0.0)
-        film = self.film.bound * (self.support.force(q, v, 0.0) + self.stiffness * q)
-        moved = linear_march(self.rotor.mass, -slopes[:, :2], -slopes[:, 2:4], film, step)
+        states = self._sampled(motion)
+        film = self.shaken.tangents(self.support, states)
+        off = self.film.bound() * (film.force + self.stiffness * states.position)
+        moved = linear_march(self.rotor.mass, film.stiffness, film.damping, off, states.step).position
         bound = float(np.hypot(*moved).max()) / value
         method = "order increment; verified bound of the film, propagated"
-        return ErrorEstimate(abs(steps) + bound, method, {self.tangents: q.shape[1]}, abs(steps) < bound)
+        work = {self.tangents: states.position.shape[1]}
+        return ErrorEstimate(abs(steps) + bound, method, work, abs(steps) < bound)
 
-    def _sampled(self, motion: MarchMotion) -> tuple[Array, Array, float]:
-        """Return position, velocity and step of the samples of a motion; the first is off the rest."""
+    def _sampled(self, motion: MarchMotion) -> StatesAlong:
+        """Return samples of a motion; the first is off the rest."""
         # With feed the richer film takes milliseconds for a force.
-        samples = SAMPLED // 2 if self.film.is_fed else SAMPLED
-        stride = max(1, (self.steps or LINEAR_STEPS) // samples)
-        q, v = motion.position[:, ::stride].copy(), motion.velocity[:, ::stride].copy()
+        states = states_along(motion, self.stride(SAMPLED // 2 if self.film.is_fed else SAMPLED))
         # A cavitated film has no derivative at rest: the direction in which the rotor starts.
-        v[:, 0] = 1e-3 * v[:, 1]
-        return q, v, float(motion.time[stride] - motion.time[0])
+        states.velocity[:, 0] = 1e-3 * states.velocity[:, 1]
+        return states
 
     def _by_defect(self, motion: MarchMotion, value: float, rich: Reaction) -> tuple[float, str, int]:
         """Return the relative change of the peak that the richer film would make, and why not to trust it."""
-        q, v, step = self._sampled(motion)
-        slopes = rich.jacobian(q, v, 0.0)
-        if self.steps:
-            own = self.support.jacobian(q, v, 0.0)
-            cheap, K, C = self.support.force(q, v, 0.0), -own[:, :2], -own[:, 2:4]
-        else:
-            stiffness, damping = self._small
-            cheap = -stiffness * q - damping * v
-            K, C = (np.repeat(part * np.eye(2)[:, :, None], q.shape[1], axis=2) for part in self._small)
-        defect = rich.force(q, v, 0.0) - cheap
-        moved = linear_march(self.rotor.mass, -slopes[:, :2], -slopes[:, 2:4], defect, step)
-        other = linear_march(self.rotor.mass, K, C, defect, step)
-        size = float(np.linalg.norm(moved))
-        apart = float(np.linalg.norm(moved - other)) / size if size else 0.0
+        states = self._sampled(motion)
+        q, calls = states.position, states.position.shape[1]
+        moved, doubt = self.by_defect(states, rich)
         reach, limit = float(np.hypot(*(q + moved)).max()) / self.support.clearance, _reach(rich)
         if reach >= 1.0:
             doubt = "with its error the rotor would leave the clearance: a jump, or contact, and not linear"
-            return math.inf, doubt, q.shape[1]
-        doubt = f"the slopes of both films disagree on the error by {apart:.0%}: not linear"
-        doubt = _beyond(reach, limit) if reach >= limit else doubt if apart > DISAGREEMENT else ""
-        return (peak(q + moved) - peak(q)) / value, doubt, q.shape[1]
+            return math.inf, doubt, calls
+        return (peak(q + moved) - peak(q)) / value, _beyond(reach, limit) if reach >= limit else doubt, calls
 
     def expected(self, done: Work) -> Work:
         """Return three tangents for each step."""
-        return {self.tangents: 3 * self._count(self.steps)} if self.steps else {}
+        return {self.tangents: 3 * self.grid(self.steps)[1]} if self.steps else {}
 
 
 def _reach(reaction: Reaction) -> float:
-    return min(0.999, getattr(reaction, "largest_eccentricity_ratio", 1.0))
+    return min(0.999, largest_eccentricity_ratio(reaction))
 
 
 def _beyond(reach: float, limit: float) -> str:
@@ -271,14 +200,12 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
         for film, steps in _choices(scene.damper)
     )
     units = {rung.tangents: _one(rung, scene.speed) for rung in rungs if rung.steps}
-    remarks = scene_remarks(scene, models.rotor, steady=False)
-    refined = {rung.name: rung.film.name for rung in rungs if rung.steps}
+    small, spring = mapped_short(scene.damper), scene.damper.stiffness
+    remarks = rotor_remarks(small, spring, models.rotor, scene.lubricant, steady=False)
     return Ladder(
         rungs=rungs,
         unit="m",
         units=units,
-        nominal=NOMINAL,
-        refined=refined,
         remarks=remarks,
         within=ISOTHERMAL,
     )

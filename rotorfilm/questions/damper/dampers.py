@@ -9,21 +9,29 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.optimize import brentq
 
-from ...answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Work
+from ...answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Work, WorkUnit
 from ...bearings.damper import FiniteSqueeze
 from ...errors import AbsentError, FilmContactError, InputError, RotorfilmError
-from ...model import Array, Reaction
+from ...ladders import CandidateRung, Ladder
+from ...model import Reaction
 from ...motion.circular.branches import synchronous_orbits
-from ...motion.circular.orbit_points import OrbitRotor, orbit_points, orbit_rotor, orbit_slope
+from ...motion.circular.orbit_near import (
+    damped_orbit,
+    force_at,
+    orbit_near,
+    slope_at,
+    transmitted,
+    unbalance_at,
+    unbalances,
+)
+from ...motion.circular.orbit_points import OrbitRotor, orbit_rotor
 from ...rotors import RigidRotor
 from ...scenes.counted import Counted
-from ...scenes.damper.damper_films import NO_RICHER, DamperFilm, damper_films, quiet, sprung
+from ...scenes.damper.damper_films import NO_RICHER, DamperFilm, damper_films, mapped_short, quiet, sprung
 from ...scenes.damper.damper_models import damper_models
-from ...scenes.damper.damper_remarks import scene_remarks
-from ...scenes.journal.film_rungs import MAP_MADE, NOMINAL
-from ..walk import Ladder
+from ...scenes.damper.damper_remarks import rotor_remarks
+from ...scenes.journal.film_rungs import MAP_MADE
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
@@ -34,12 +42,11 @@ UNITS = {UP: "kg m", DOWN: "kg m", "transmissibility": "1", "unbalance_amplitude
 
 
 @dataclass(frozen=True, kw_only=True)
-class DamperCurveRung:
+class DamperCurveRung(CandidateRung[DamperFilm]):
     """One film and one model of its cage.
 
     Attributes
     ----------
-    film : DamperFilm
     rotor : RigidRotor
         Centered by its springs.
     stiffness : float [N/m]
@@ -47,25 +54,19 @@ class DamperCurveRung:
     quantity : str
     """
 
-    film: DamperFilm
     rotor: RigidRotor
     stiffness: float
     quantity: str
 
     @property
-    def name(self) -> str:
-        """That of the film."""
-        return self.film.name
-
-    @property
-    def prior(self) -> float:
-        """Order of magnitude of the error of the film."""
-        return self.film.prior
+    def is_fold(self) -> bool:
+        """Whether a jump is asked for: an end of a branch of orbits."""
+        return self.quantity in (UP, DOWN)
 
     @cached_property
     def support(self) -> Reaction:
         """Film and springs."""
-        return sprung(self.film.damper, self.stiffness)
+        return sprung(self.film.reaction, self.stiffness)
 
     @cached_property
     def search(self) -> Reaction:
@@ -74,13 +75,13 @@ class DamperCurveRung:
         return sprung(self.film.moving, self.stiffness) if slow else self.support
 
     @property
-    def unit(self) -> str:
-        """Name of one force of this film."""
-        return f"forces of {self.name}"
+    def unit(self) -> WorkUnit:
+        """One force of this film."""
+        return WorkUnit(f"forces of {self.name}", ("forces", self.film))
 
     def answer(self, before: Found | None) -> Found:
         """Return the quantity; raises RotorfilmError where there is no such jump, or contact."""
-        made = self.film.work
+        made = self.film.prepare()
         counted = Counted(self.support)
         near = None if before is None else self._from(counted, float(before.solution))
         if near is None:
@@ -93,7 +94,7 @@ class DamperCurveRung:
     def _searched(self, reaction: Counted) -> tuple[float, float]:
         """Return quantity and radius among all orbits: the smallest stable one, or the first jump."""
         orbits = synchronous_orbits(self.rotor, reaction)
-        if self.quantity in (UP, DOWN):
+        if self.is_fold:
             folds = [fold for fold in orbits.folds if fold.upward == (self.quantity == UP)]
             if not folds:
                 reach = reaction.largest_eccentricity_ratio
@@ -112,25 +113,15 @@ class DamperCurveRung:
 
     def _from(self, counted: Counted, radius: float) -> tuple[float, float] | None:
         """Return quantity and radius of the orbit next to that of a lower rung, if there is one."""
-        system = _system(self.rotor, counted)
-        near = (0.8 * radius, min(1.2 * radius, 0.5 * (1.0 + radius)))
-        target = 0.0 if self.quantity in (UP, DOWN) else self.rotor.unbalance
-
-        def excess(at: float) -> float:
-            if self.quantity in (UP, DOWN):
-                return float(orbit_slope(system, np.array([at]))[0][0])
-            return float(_unbalance(system, np.array([at]))[0]) - target
-
-        ends = [excess(end) for end in near]
-        if ends[0] * ends[1] > 0.0:
+        system = damped_orbit(self.rotor, counted)
+        found = orbit_near(system, radius, None if self.is_fold else self.rotor.unbalance)
+        if found is None:
             return None
-        found = np.array([brentq(excess, *near, xtol=1e-12)])
-        points = orbit_points(system, found)
         if self.quantity == "transmissibility":
-            return float(np.abs(points.force[0]) / np.abs(points.pull[0])), float(found[0])
-        if self.quantity in (UP, DOWN):
-            return float(_unbalance(system, found)[0]), float(found[0])
-        return float(found[0]) * system.clearance, float(found[0])
+            return transmitted(system, found), found
+        if self.is_fold:
+            return unbalance_at(system, found), found
+        return found * system.clearance, found
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the change that one orbit of the richest film, of the same radius, would make.
@@ -140,7 +131,7 @@ class DamperCurveRung:
         over u'.
         """
         rich = self.film.rich
-        if rich is None and not math.isfinite(self.film.bound):
+        if rich is None and not math.isfinite(self.film.bound()):
             return ErrorEstimate(math.inf, "none", doubt=NO_RICHER)
         radius = float(found.solution)
         if rich is None:
@@ -149,13 +140,15 @@ class DamperCurveRung:
         if radius >= reach:
             doubt = f"the orbit goes to {radius:.4g} of the clearance, the richest film to {reach:.4g}"
             return ErrorEstimate(math.inf, "none", doubt=doubt)
-        fold = self.quantity in (UP, DOWN)
-        change = self._fold if fold else self._orbit
-        richer = _system(self.rotor, sprung(rich, self.stiffness))
+        change = self._fold if self.is_fold else self._orbit
+        richer = damped_orbit(self.rotor, sprung(rich, self.stiffness))
         value, doubt = change(orbit_rotor(self.rotor, self.support), richer, radius)
         error = abs(value - found.value) / abs(value)
         return ErrorEstimate(
-            error, "orbits of the richest film", {RICH: 4 if fold else 3, **self.film.rich_work}, doubt=doubt
+            error,
+            "orbits of the richest film",
+            {RICH: 4 if self.is_fold else 3, **self.film.rich_work},
+            doubt=doubt,
         )
 
     def _by_bound(self, value: float, radius: float) -> ErrorEstimate:
@@ -165,36 +158,32 @@ class DamperCurveRung:
         it shifts the radius by that over the smallest u' on the way: near a fold that is much, and past it
         there may be no such orbit.
         """
-        system, work = _system(self.rotor, self.support), {self.unit: 7}
-        force = self._force(system, radius)
+        system, work = damped_orbit(self.rotor, self.support), {self.unit: 7}
+        force = force_at(system, radius)
         film = abs(force + self.stiffness * system.clearance * radius)
-        change = self.film.bound * film / system.speed**2
+        change = self.film.bound() * film / system.speed**2
         method = "verified bound of the film, propagated"
-        if self.quantity in (UP, DOWN):
+        if self.is_fold:
             return ErrorEstimate(change / value, method, work, bound=True)
-        slope = _slope(system, np.array([radius]))
+        slope = slope_at(system, radius)
         ends = radius + np.array([-1.0, 1.0]) * abs(change / slope)
         inside = ends[0] > 0.0 and ends[1] < 1.0
-        least = min(_slope(system, np.array([end])) / slope for end in ends) if inside else 0.0
+        least = min(slope_at(system, end) / slope for end in ends) if inside else 0.0
         if least < 1.0 - DISAGREEMENT:
             doubt = "so near to a jump, or to the wall, that the error of the film may take the orbit there"
             return ErrorEstimate(abs(change / slope) / radius, method, work, doubt=doubt)
         if self.quantity == "unbalance_amplitude":
             return ErrorEstimate(abs(change / slope) / least / radius, method, work, bound=True)
         # At a given unbalance the ratio changes as the force does: along the shift, and by the film itself.
-        shifted = max(abs(abs(self._force(system, end)) - abs(force)) for end in ends) / least
-        return ErrorEstimate((shifted + self.film.bound * film) / abs(force), method, work, bound=True)
-
-    @staticmethod
-    def _force(system: OrbitRotor, radius: float) -> complex:
-        return complex(orbit_points(system, np.array([radius])).force[0])
+        shifted = max(abs(abs(force_at(system, end)) - abs(force)) for end in ends) / least
+        return ErrorEstimate((shifted + self.film.bound() * film) / abs(force), method, work, bound=True)
 
     def _fold(self, own: OrbitRotor, rich: OrbitRotor, radius: float) -> tuple[float, str]:
         """Return the unbalance of the rich film's fold by a parabola through three orbits about the other."""
         near = radius + np.array([-1.0, 0.0, 1.0]) * 0.02 * min(radius, 1.0 - radius)
-        low, middle, high = _unbalance(rich, near)
+        low, middle, high = unbalances(rich, near)
         bend, slope = low - 2.0 * middle + high, 0.5 * (high - low)
-        cheap = _unbalance(own, near)
+        cheap = unbalances(own, near)
         own_bend = float(cheap[0] - 2.0 * cheap[1] + cheap[2])
         moved = float(np.clip(-slope / own_bend, -10.0, 10.0)) if own_bend else 0.0
         value = float(middle + slope * moved + 0.5 * bend * moved**2)
@@ -204,18 +193,15 @@ class DamperCurveRung:
 
     def _orbit(self, own: OrbitRotor, rich: OrbitRotor, radius: float) -> tuple[float, str]:
         """Return the quantity at the rotor's unbalance by two secant steps with the richest film."""
-        at = np.array([radius])
         target = self.rotor.unbalance
-        slopes = [_slope(system, at) for system in (rich, own)]
-        steps = [(target - float(_unbalance(rich, at)[0])) / slope for slope in slopes]
+        slopes = [slope_at(system, radius) for system in (rich, own)]
+        steps = [(target - unbalance_at(rich, radius)) / slope for slope in slopes]
         apart = abs(steps[0] - steps[1]) / max(abs(step) for step in steps)
         new = float(np.clip(radius + steps[0], 1e-9, 1.0 - 1e-9))
-        points = orbit_points(rich, np.array([new]))
-        again = (target - float(_unbalance(rich, np.array([new]))[0])) / slopes[0]
+        again = (target - unbalance_at(rich, new)) / slopes[0]
         doubt = f"the slopes of both films disagree on the error by {apart:.0%}: not linear"
         final = new + again
-        ratio = float(np.abs(points.force[0]) / np.abs(points.pull[0]))
-        value = ratio if self.quantity == "transmissibility" else final * own.clearance
+        value = transmitted(rich, new) if self.quantity == "transmissibility" else final * own.clearance
         return value, doubt if apart > DISAGREEMENT else ""
 
     def expected(self, done: Work) -> Work:
@@ -223,23 +209,7 @@ class DamperCurveRung:
         return {self.unit: sum(number for unit, number in done.items() if unit != MAP_MADE)}
 
 
-RICH = "forces of the richest film"
-
-
-def _system(rotor: RigidRotor, reaction: Reaction) -> OrbitRotor:
-    """Return the constants of a rotor on the richest film, which is isotropic as the cheap one is."""
-    reach = getattr(reaction, "largest_eccentricity_ratio", 1.0)
-    return OrbitRotor(rotor.mass, abs(rotor.profile.speeds[0]), reaction.clearance, reaction, reach)
-
-
-def _unbalance(system: OrbitRotor, radius: Array) -> Array:
-    return np.asarray(np.abs(orbit_points(system, radius).pull) / system.speed**2)
-
-
-def _slope(system: OrbitRotor, radius: Array) -> float:
-    """Return du/de [kg m] at a radius, from d(u w^2)^2/de."""
-    squared = float(orbit_slope(system, radius)[0][0]) * system.clearance
-    return squared / (2.0 * float(_unbalance(system, radius)[0]) * system.speed**4)
+RICH = WorkUnit("forces of the richest film")
 
 
 @quiet()
@@ -272,8 +242,9 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
         rungs=rungs,
         unit=UNITS[quantity],
         units=units,
-        nominal=NOMINAL,
-        remarks=scene_remarks(scene, asked, steady=quantity not in (UP, DOWN)),
+        remarks=rotor_remarks(
+            mapped_short(scene.damper), stiffness, asked, scene.lubricant, steady=quantity not in (UP, DOWN)
+        ),
         within=ISOTHERMAL,
     )
 

@@ -1,1 +1,1 @@
-"""Journal."""
+"""Questions about journal bearings."""

@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work
+from ...answers import ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work, WorkUnit
 from ...bearings.journal import JournalBearing
+from ...ladders import CandidateRung, Ladder
 from ...linear import coefficients, equilibrium
-from ...linear.equilibrium import MAXIMUM_ECCENTRICITY
 from ...model import Array, prepared_tangent
 from ...results import Equilibrium
 from ...scenes.counted import Counted
-from ...scenes.journal.film_rungs import NOMINAL, FilmRung, point_films, tangent
-from ..walk import Ladder
+from ...scenes.journal.film_defects import corrected, one_defect
+from ...scenes.journal.film_rungs import FilmRung, point_films
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
@@ -34,37 +34,30 @@ UNITS = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class StaticRung:
+class StaticRung(CandidateRung[FilmRung]):
     """The equilibrium by one film.
 
     Attributes
     ----------
-    film : FilmRung
     quantity : str
         A key of `UNITS`.
     load : (float, float) [N]
     speed : float [rad/s]
     """
 
-    film: FilmRung
     quantity: str
     load: tuple[float, float]
     speed: float
 
     @property
-    def name(self) -> str:
-        """Name of the film."""
-        return self.film.name
-
-    @property
     def prior(self) -> float:
         """Order of magnitude of the film's error."""
-        return self.film.slope_prior if self.quantity in MATRIX else self.film.position_prior
+        return self.film.prior if self.quantity in MATRIX else self.film.position_prior
 
     def answer(self, before: Found | None) -> Found:
         """Return the quantity at the equilibrium of this film."""
         made = self.film.prepare()
-        counted = Counted(self.film.bearing)
+        counted = Counted(self.film.reaction)
         at = equilibrium(counted, self.load, self.speed)
         if self.quantity in MATRIX:
             found = coefficients(counted, at.position, self.speed)
@@ -77,9 +70,9 @@ class StaticRung:
         """Return a quantity that follows from the position (2,) [m] alone."""
         distance = float(np.hypot(*position))
         if self.quantity == "eccentricity_ratio":
-            return distance / self.film.bearing.clearance
+            return distance / self.film.reaction.clearance
         if self.quantity == "minimum_film":
-            return self.film.bearing.clearance - distance
+            return self.film.reaction.clearance - distance
         (x, y), (load_x, load_y) = position, self.load
         turned = math.atan2(load_x * y - load_y * x, load_x * x + load_y * y)
         return math.copysign(1.0, self.speed) * turned
@@ -97,7 +90,7 @@ class StaticRung:
         bound = self.film.bound(at.eccentricity_ratio, slopes=slopes)
         if slopes or not math.isfinite(bound):
             return bound
-        stiffness = coefficients(self.film.bearing, at.position, self.speed).stiffness
+        stiffness = coefficients(self.film.reaction, at.position, self.speed).stiffness
         moved = bound * math.hypot(*self.load) * float(np.linalg.norm(np.linalg.inv(stiffness), 2))
         return moved / self._length(at)
 
@@ -129,57 +122,13 @@ class StaticRung:
         return self.film.expected(sum(done.values()))
 
 
-@dataclass(frozen=True, kw_only=True)
-class Corrected:
-    """Where the richer film would have its equilibrium, by one linear step from another's.
-
-    Attributes
-    ----------
-    position : ndarray, shape (2,) [m]
-    slopes : ndarray, shape (2, 4)
-        d force/d(x, y, vx, vy) of the richer film there.
-    doubt : str
-        Why it must not be trusted.
-    """
-
-    position: Array
-    slopes: Array
-    doubt: str
-
-
-def corrected(film: FilmRung, at: Equilibrium, load: Array, *, smooth: bool) -> Corrected:
-    """Return the equilibrium of the richer film as far as its defect tells.
-
-    With the defect d = F_rich + W at the equilibrium of the cheap film the position moves by K^-1 d; two more
-    defects there, with the same K, take out what is of second and third order. The first step is tried with
-    both films' K: where the results disagree by more than 30 % it is too long to be linear. The slopes are
-    those of the richer film where that ends.
-    """
-    force, rich = tangent(film.rich, at.position, at.speed, smooth=False)
-    cheap = film.bearing.jacobian(at.position, np.zeros(2), at.speed)[:, :4]
-    step, other = (np.linalg.solve(-slopes[:, :2], force + load) for slopes in (rich, cheap))
-    doubt = ""
-    gap, longest = float(np.hypot(*(step - other))), float(max(np.hypot(*step), np.hypot(*other)))
-    if gap > DISAGREEMENT * longest:
-        doubt = f"the stiffnesses of both films disagree on the error by {gap / longest:.0%}: not linear"
-    position = at.position
-    for further in range(3):
-        if further:
-            step = np.linalg.solve(-rich[:, :2], film.rich.force(position, np.zeros(2), at.speed) + load)
-        position = position + step
-        if float(np.hypot(*position)) >= MAXIMUM_ECCENTRICITY * film.bearing.clearance:
-            return Corrected(position=at.position, slopes=rich, doubt="the error is larger than the gap")
-    slopes = tangent(film.rich, position, at.speed, smooth=smooth)[1] if smooth else rich
-    return Corrected(position=position, slopes=slopes, doubt=doubt)
-
-
-def film_units(films: tuple[FilmRung, ...], speed: float) -> dict[str, Callable[[], object]]:
+def film_units(films: tuple[FilmRung, ...], speed: float) -> dict[WorkUnit, Callable[[], object]]:
     """Return one unit of work of each film, at half the clearance."""
-    units: dict[str, Callable[[], object]] = {}
+    units: dict[WorkUnit, Callable[[], object]] = {}
     for film in films:
-        units[film.tangents] = _one_tangent(film.bearing, speed)
+        units[film.tangents] = _one_tangent(film.reaction, speed)
         for smooth in (False, True):
-            units[film.defects(smooth=smooth)] = _one_defect(film.rich, speed, smooth=smooth)
+            units[film.defects(smooth=smooth)] = one_defect(film.rich, speed, smooth=smooth)
     return units
 
 
@@ -187,19 +136,6 @@ def _one_tangent(bearing: JournalBearing, speed: float) -> Callable[[], object]:
     return lambda: prepared_tangent(bearing)(
         0.3 * bearing.clearance, 0.4 * bearing.clearance, 0.0, 0.0, speed
     )
-
-
-def _one_defect(bearing: JournalBearing, speed: float, *, smooth: bool) -> Callable[[], object]:
-    position = np.array([0.3, 0.4]) * bearing.clearance
-
-    def one() -> None:
-        tangent(bearing, position, speed, smooth=False)
-        for _ in range(2):
-            bearing.force(position, np.zeros(2), speed)
-        if smooth:
-            tangent(bearing, position, speed, smooth=True)
-
-    return one
 
 
 def static_ladder(scene: Scene, quantity: str) -> Ladder:
@@ -212,7 +148,6 @@ def static_ladder(scene: Scene, quantity: str) -> Ladder:
         rungs=rungs,
         unit=UNITS[quantity],
         units=film_units(films, scene.speed),
-        nominal=NOMINAL,
         remarks=scene.film_remarks,
         within=ISOTHERMAL,
     )

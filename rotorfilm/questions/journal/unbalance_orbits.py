@@ -9,47 +9,41 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work, beside_bound
-from ...errors import InputError, RotorfilmError
-from ...linear import coefficients, equilibrium
-from ...model import Array, Reaction
-from ...motion.periodic.sampled_orbit import (
-    SampledOrbit,
-    circles,
-    defect,
-    first_wave,
-    linear_orbit,
-    nonlinear_orbit,
-    pull,
-    resampled,
-    shift,
+from ...answers import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work, WorkUnit, beside_bound
+from ...errors import InputError
+from ...ladders import CandidateRung, Ladder
+from ...model import Reaction
+from ...motion.periodic.driven_rotor import (
+    RotorAnswers,
+    propagated,
+    reach_of,
+    rest_on_film,
+    rest_position,
+    rotor_answers,
 )
+from ...motion.periodic.harmonics import resized, rms
+from ...motion.periodic.orbit_newton import driven
 from ...rotors import RigidRotor
 from ...scenes.excitation_table import UnbalanceTable
-from ...scenes.journal.film_rungs import FINE, MAP_BOUNDS, NOMINAL, FilmRung, extrapolated, film_rungs
-from ..walk import Ladder
+from ...scenes.journal.film_rungs import MAP_BOUNDS, FilmRung, turn_films
+from ..orbit_place import UNITS, WALL, OrbitPlace, SolvedTurn
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
 
-AMPLITUDE, PHASE, FORCE = "unbalance_amplitude", "unbalance_phase", "unbalance_force"
-UNITS = {AMPLITUDE: "m", PHASE: "rad", FORCE: "N"}
-"""Quantities of an orbit and their units."""
-
 SAMPLES = (15, 31, 63)
-"""Samples over a turn of the nonlinear rungs; odd, see `rate_matrix`."""
+"""Samples over a turn of the nonlinear rungs; odd, as they stand for whole harmonics."""
 
 LINEAR = 31
 """Samples over a turn at which a linear orbit's defect is taken."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class OrbitRung:
+class OrbitRung(CandidateRung[FilmRung]):
     """The orbit on one film, linear about the equilibrium or nonlinear at so many samples.
 
     Attributes
     ----------
-    film : FilmRung
     quantity : str
         A key of `UNITS`.
     rotor : RigidRotor
@@ -57,7 +51,6 @@ class OrbitRung:
         Over a turn; 0 for the linear orbit.
     """
 
-    film: FilmRung
     quantity: str
     rotor: RigidRotor
     samples: int
@@ -71,117 +64,71 @@ class OrbitRung:
     @property
     def prior(self) -> float:
         """Order of magnitude of the film's error."""
-        return 0.3 * self.film.slope_prior
+        return 0.3 * self.film.prior
 
     @property
-    def speed(self) -> float:
-        """Of the rotor [rad/s]."""
-        return self.rotor.profile.speeds[0]
+    def refines(self) -> tuple[object, ...]:
+        """The film, where there are samples."""
+        return (self.film,) if self.samples else ()
+
+    @property
+    def place(self) -> OrbitPlace:
+        """What is asked."""
+        return OrbitPlace(quantity=self.quantity, places=("",), reference=self.rotor.unbalance_angle)
 
     def answer(self, before: Found | None) -> Found:
         """Return the quantity of the orbit; a nonlinear one starts from that of a lower rung."""
         made = self.film.prepare()
-        if not self.samples:
-            orbit, work = self._linear(LINEAR), 6
-        else:
-            start = before.solution if before is not None else self._linear(self.samples)
-            orbit, work = self._nonlinear(start)
-        return Found(self.value(orbit), {self.film.tangents: work, **made}, orbit)
-
-    def _linear(self, samples: int) -> SampledOrbit:
-        at = equilibrium(self.film.bearing, self.rotor.static_load, self.speed)
-        found = coefficients(self.film.bearing, at.position, self.speed)
-        return linear_orbit(self.rotor, at.position, found.stiffness, found.damping, samples)
-
-    def _nonlinear(self, start: SampledOrbit) -> tuple[SampledOrbit, int]:
-        """Return the orbit; where its start is too far out, from the rest up in steps of the unbalance."""
-        clearance = self.film.bearing.clearance
-        if np.hypot(*start.position).max() < 0.98 * clearance:
-            try:
-                return nonlinear_orbit(self.rotor, self.film.bearing, resampled(start, self.samples))
-            except RotorfilmError:
-                pass
-        calls, orbit = 0, _resting(self.film.bearing, self.rotor, self.samples)
-        for part in np.linspace(0.125, 1.0, 8):
-            rotor = replace(self.rotor, unbalance=part * self.rotor.unbalance)
-            orbit, more = nonlinear_orbit(rotor, self.film.bearing, orbit)
-            calls += more
-        return orbit, calls
-
-    def value(self, orbit: SampledOrbit) -> float:
-        """Return the quantity of an orbit, from its first harmonic."""
-        wave = first_wave(orbit.position)
-        if self.quantity == FORCE:
-            turning = first_wave(_unbalance(self.rotor, orbit.position.shape[1]))
-            wave = -self.rotor.mass * self.speed**2 * wave - turning
-        with_it, against = circles(wave)
-        if self.speed < 0.0:
-            with_it, against = np.conj(against), np.conj(with_it)
-        if self.quantity == PHASE:
-            turn = float(np.angle(with_it)) * math.copysign(1.0, self.speed)
-            return math.remainder(turn - self.rotor.unbalance_angle, 2.0 * math.pi)
-        return abs(with_it) + abs(against)
+        # K0 and C0 of a lower rung's rest do as well, since the film's forces have them added.
+        lower: SolvedTurn | None = before.solution if before is not None and self.samples else None
+        at = rest_on_film(self.rotor, self.film.reaction) if lower is None else lower.at
+        answers = rotor_answers(self.rotor.structure, at, (), self.samples or LINEAR)
+        orbit, work = answers.linear_orbit(rest := rest_position(at, answers.stations)), 6
+        if self.samples:
+            start = orbit if lower is None else resized(lower.orbit, answers.harmonics)
+            found = driven(answers.on({"": self.film.reaction}), start, rest)
+            orbit, work = found.series, (found.iterations + 1) * self.samples
+        solved = SolvedTurn(at=at, answers=answers, orbit=orbit)
+        return Found(self.place.value(answers, orbit), {self.film.tangents: work, **made}, solved)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the change that the richer film, at twice the samples, would make to first order.
 
         For the map the richer film is the map itself, as long as its own verified error is small enough.
         """
-        orbit: SampledOrbit = found.solution
-        reach = float(np.hypot(*orbit.position).max()) / self.film.bearing.clearance
-        if reach >= 0.999:
+        turn: SolvedTurn = found.solution
+        reach = reach_of(turn.orbit, turn.answers.stations, {"": self.film.reaction})
+        if reach >= WALL:
             return ErrorEstimate(math.inf, "defect", doubt="the orbit leaves the clearance: not linear")
-        doubled = resampled(orbit, 2 * orbit.position.shape[1] + 1)
-        calls = doubled.position.shape[1]
+        calls = 2 * turn.answers.samples + 1
+        doubled = rotor_answers(self.rotor.structure, turn.at, (), calls)
         bound = MAP_BOUNDS[0][2] if self.film.bounded and reach <= MAP_BOUNDS[0][0] else math.inf
         if SAFETY * bound < tolerance:
-            error, doubt = self._by_defect(doubled, found, self.film.bearing)
+            error, doubt = self._by_defect(doubled, turn, found.value, self.film.reaction)
             method, work = f"its defect at {calls} samples", {self.film.tangents: calls}
             return beside_bound(error, bound, method, work, doubt)
-        error, doubt = self._by_defect(doubled, found, self.film.rich)
+        error, doubt = self._by_defect(doubled, turn, found.value, self.film.rich)
         work = {self.film.defects(smooth=False): calls}
         method = f"defect of {self.film.rich_name}, {calls} samples"
         return ErrorEstimate(error, method, work, bound=self.film.bounded and bool(self.samples), doubt=doubt)
 
-    def _by_defect(self, orbit: SampledOrbit, found: Found, rich: Reaction) -> tuple[float, str]:
-        missing, *slopes = defect(self.rotor, orbit, rich, self.film.bearing if self.film.bounded else rich)
-        step = shift(self.rotor, missing, *slopes)
-        other = shift(self.rotor, missing, *self._own_slopes(orbit))
-        moved = SampledOrbit(position=orbit.position + step, velocity=orbit.velocity)
-        value = self.value(moved)
-        change = value - found.value
-        if self.quantity == PHASE:
-            change = math.remainder(change, 2.0 * math.pi)
-        scale = 1.0 if self.quantity == PHASE else abs(value)
-        apart = float(np.linalg.norm(step - other)) / max(float(np.linalg.norm(step)), 1e-300)
+    def _by_defect(
+        self, answers: RotorAnswers, turn: SolvedTurn, value: float, rich: Reaction
+    ) -> tuple[float, str]:
+        own = {"": self.film.reaction}
+        balance = answers.on({"": rich}, sloped=own if self.film.bounded else None)
+        orbit = resized(turn.orbit, answers.harmonics)
+        step, other = propagated(balance, orbit, own if self.samples else None)
+        error = self.place.change(value, self.place.value(answers, orbit + step))
+        apart = rms(step - other) / max(rms(step), 1e-300)
         doubt = ""
         if apart > DISAGREEMENT:
             doubt = f"the slopes of both films disagree on the error by {apart:.0%}: not linear"
-        return abs(change) / scale, doubt
-
-    def _own_slopes(self, orbit: SampledOrbit) -> tuple[Array, Array]:
-        """Return K and C of this rung along an orbit (2, 2, n): constant for the linear one."""
-        n = orbit.position.shape[1]
-        if self.samples:
-            _, stiffness, damping = defect(self.rotor, orbit, self.film.bearing, self.film.bearing)
-            return stiffness, damping
-        at = equilibrium(self.film.bearing, self.rotor.static_load, self.speed)
-        found = coefficients(self.film.bearing, at.position, self.speed)
-        stiffness, damping = (part[:, :, None].repeat(n, axis=2) for part in (found.stiffness, found.damping))
-        return stiffness, damping
+        return error, doubt
 
     def expected(self, done: Work) -> Work:
         """Return five Newton steps at these samples."""
         return self.film.expected(5 * self.samples if self.samples else 6)
-
-
-def _resting(reaction: Reaction, rotor: RigidRotor, n: int) -> SampledOrbit:
-    at = equilibrium(reaction, rotor.static_load, rotor.profile.speeds[0])
-    return SampledOrbit(position=np.repeat(at.position[:, None], n, axis=1), velocity=np.zeros((2, n)))
-
-
-def _unbalance(rotor: RigidRotor, n: int) -> Array:
-    return pull(rotor, n) - rotor.static_load[:, None]
 
 
 def rotor_of(scene: Scene) -> RigidRotor:
@@ -229,8 +176,6 @@ def orbit_ladder(scene: Scene, quantity: str) -> Ladder:
         rungs=tuple(rungs),
         unit=UNITS[quantity],
         units=film_batch_units(films, scene.speed),
-        nominal=NOMINAL,
-        refined={rung.name: rung.film.name for rung in rungs if rung.samples},
         remarks=scene.film_remarks,
         within=ISOTHERMAL,
     )
@@ -238,31 +183,20 @@ def orbit_ladder(scene: Scene, quantity: str) -> Ladder:
 
 def orbit_films(scene: Scene) -> tuple[FilmRung, ...]:
     """Return the films worth taking round a turn: the map where there is one, else short film, grids, map."""
-    films = film_rungs(scene.bearing, fixed=scene.film_is_given)
-    if len(films) == 1 or (films[0].bounded and not films[0].makes_map):
-        return (_with_coarser_check(films[0]),)
-    kept = ("short film", "2-D 48 x 8 extr.", "2-D 96 x 8 extr.", "map", "map with grooves")
-    return tuple(_with_coarser_check(film) for film in films if film.name in kept)
-
-
-def _with_coarser_check(film: FilmRung) -> FilmRung:
-    """Return a rung whose map is compared with a grid that may be sampled all round a turn."""
-    if not film.bounded:
-        return film
-    return replace(film, rich=extrapolated(film.bearing, FINE), rich_name="2-D 384 x 16 extr.")
+    return turn_films(scene.bearing, fixed=scene.film_is_given, grids=((48, 8), (96, 8)), maps=True)
 
 
 def _effort(rung: OrbitRung, films: tuple[FilmRung, ...]) -> float:
     """Return a measure of cost by which the rungs are ordered: films by place, each twice the one before."""
-    one = 1e3 if rung.film.makes_map else 2.0 ** [film.name for film in films].index(rung.film.name)
+    one = 1e3 if rung.film.makes_map else 2.0 ** films.index(rung.film)
     return one * (6 if rung.samples == 0 else 5 * rung.samples)
 
 
-def film_batch_units(films: tuple[FilmRung, ...], speed: float) -> dict[str, Callable[[], object]]:
+def film_batch_units(films: tuple[FilmRung, ...], speed: float) -> dict[WorkUnit, Callable[[], object]]:
     """Return one force with derivatives of each film and of its richer one."""
-    units: dict[str, Callable[[], object]] = {}
+    units: dict[WorkUnit, Callable[[], object]] = {}
     for film in films:
-        units[film.tangents] = _sampled(film.bearing, speed)
+        units[film.tangents] = _sampled(film.reaction, speed)
         units[film.defects(smooth=False)] = _sampled(film.rich, speed)
     return units
 

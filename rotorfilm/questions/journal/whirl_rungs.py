@@ -10,13 +10,15 @@ import numpy as np
 
 from ...answers import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work
 from ...errors import InputError, RotorfilmError
+from ...ladders import CandidateRung, Ladder
 from ...linear import coefficients, equilibrium, whirl_threshold
 from ...model import Array
 from ...results import Equilibrium
 from ...scenes.counted import Counted
-from ...scenes.journal.film_rungs import NOMINAL, FilmRung, is_grid, point_films
-from ..walk import Ladder, NoAnswerError
-from .statics import corrected, film_units
+from ...scenes.journal.film_defects import corrected
+from ...scenes.journal.film_rungs import FilmRung, is_grid, point_films
+from ..walk import NoAnswerError
+from .statics import film_units
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
@@ -29,40 +31,33 @@ STEP = 1e-4
 
 
 @dataclass(frozen=True, kw_only=True)
-class WhirlRung:
+class WhirlRung(CandidateRung[FilmRung]):
     """The whirl threshold by one film.
 
     Attributes
     ----------
-    film : FilmRung
     load : (float, float) [N]
     mass : float [kg]
     """
 
-    film: FilmRung
     load: tuple[float, float]
     mass: float
 
     @property
-    def name(self) -> str:
-        """Name of the film."""
-        return self.film.name
-
-    @property
     def prior(self) -> float:
         """Order of magnitude of the film's error."""
-        return 0.3 * self.film.slope_prior
+        return 0.3 * self.film.prior
 
     def answer(self, before: Found | None) -> Found:
         """Return the speed at which the equilibrium loses stability [rad/s]."""
         made = self.film.prepare()
-        counted = Counted(self.film.bearing)
+        counted = Counted(self.film.reaction)
         around = None if before is None else (before.value / AROUND, before.value * AROUND)
         threshold = whirl_threshold(counted, self.load, self.mass, around)
         if threshold.speed is None and around is not None:
             threshold = whirl_threshold(counted, self.load, self.mass)
         if threshold.speed is None:
-            kind = NoAnswerError if self.film.bounded or is_grid(self.film.bearing) else RotorfilmError
+            kind = NoAnswerError if self.film.bounded or is_grid(self.film.reaction) else RotorfilmError
             raise kind(f"no threshold: {threshold.reason}, by {self.name}")
         return Found(threshold.speed, {self.film.tangents: counted.tangents, **made}, threshold.equilibrium)
 
@@ -77,7 +72,7 @@ class WhirlRung:
         if SAFETY * bound < tolerance:
             return ErrorEstimate(bound, "verified bound of the map", {self.film.tangents: 15}, bound=True)
         moved = corrected(self.film, at, np.array(self.load), smooth=True)
-        cheap = coefficients(self.film.bearing, at.position, at.speed)
+        cheap = coefficients(self.film.reaction, at.position, at.speed)
         own = self._matrix(cheap.stiffness, cheap.damping)
         other = self._matrix(-moved.slopes[:, :2], -moved.slopes[:, 2:])
         first_order, exact = growths(own, other)
@@ -95,7 +90,7 @@ class WhirlRung:
         bound = self.film.bound(at.eccentricity_ratio, slopes=True)
         if not math.isfinite(bound):
             return math.inf
-        found = coefficients(self.film.bearing, at.position, at.speed)
+        found = coefficients(self.film.reaction, at.position, at.speed)
         own = self._matrix(found.stiffness, found.damping)
         worst = np.zeros((4, 4))
         worst[2:, :2] = bound * np.abs(found.stiffness).max() / self.mass
@@ -111,8 +106,8 @@ class WhirlRung:
         """Return d Re s/d speed of the whirl of this film, by central differences."""
         growth = []
         for near in (speed * (1.0 - STEP), speed * (1.0 + STEP)):
-            at = equilibrium(self.film.bearing, self.load, near)
-            found = coefficients(self.film.bearing, at.position, near)
+            at = equilibrium(self.film.reaction, self.load, near)
+            found = coefficients(self.film.reaction, at.position, near)
             values = np.linalg.eigvals(self._matrix(found.stiffness, found.damping))
             growth.append(float(np.max(values.real)))
         return (growth[1] - growth[0]) / (2.0 * STEP * speed)
@@ -156,7 +151,6 @@ def whirl_ladder(scene: Scene, quantity: str) -> Ladder:
         rungs=tuple(WhirlRung(film=film, load=scene.static_load, mass=mass) for film in films),
         unit="rad/s",
         units=film_units(films, math.sqrt(math.hypot(*scene.static_load) / (mass * scene.bearing.clearance))),
-        nominal=NOMINAL,
         remarks=scene.film_remarks,
         within=ISOTHERMAL,
     )

@@ -1,1 +1,1 @@
-"""Shaft."""
+"""Questions about flexible rotors."""

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...bearings.journal import JournalBearing
-from ...linear import RotorEquilibrium, coefficients, equilibrium
-from ...model import Array, Reaction
+from ...answers import WorkUnit
+from ...linear import RotorEquilibrium, equilibrium
+from ...model import Reaction
 from ...results import Coefficients
-from ...scenes.journal.film_rungs import FINE, FilmRung, extrapolated, film_rungs, has_map
-from ..journal.statics import corrected
+from ...scenes.journal.film_defects import corrected
+from ...scenes.journal.film_rungs import FilmRung, has_map, turn_films
 
 if TYPE_CHECKING:
     from ...scenes.shaft.shaft_table import ShaftTable
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 REST_BOUNDS = ((0.5, 2e-5), (0.95, 5e-5))
 """Eccentricity ratio up to which, and largest error of K, C of the packaged map at rest."""
 
-LEVELS = ("short film", "2-D 96 x 8 extr.")
-"""Films of journals that no map of the package holds and whose file names none."""
+GRIDS = ((96, 8),)
+"""Cells of films beside the short one, of journals that no map of the package holds."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,18 +57,23 @@ class ShaftFilms:
         return all(film.bounded for film in self.journals.values())
 
     @property
-    def reactions(self) -> dict[str, Reaction]:
+    def reaction(self) -> dict[str, Reaction]:
         """All bearings by station, with these films."""
-        return {**self.springs, **{name: film.bearing for name, film in self.journals.items()}}
+        return {**self.springs, **self.turning}
+
+    @property
+    def turning(self) -> dict[str, Reaction]:
+        """The films by station, whose K and C change with the speed."""
+        return {name: film.reaction for name, film in self.journals.items()}
 
     @property
     def rich(self) -> dict[str, Reaction]:
         """All bearings by station, with the richer films."""
         return {**self.springs, **{name: film.rich for name, film in self.journals.items()}}
 
-    def prepare(self) -> dict[str, int]:
+    def prepare(self) -> dict[WorkUnit, int]:
         """Make the maps that are not there yet, and return the work of that."""
-        made: dict[str, int] = {}
+        made: dict[WorkUnit, int] = {}
         for film in self.journals.values():
             for unit, count in film.prepare().items():
                 made[unit] = made.get(unit, 0) + count
@@ -79,7 +84,7 @@ def film_levels(shaft: ShaftTable) -> tuple[ShaftFilms, ...]:
     """Return what may stand in the journals of a shaft, the cheapest first; one level if all is settled."""
     springs = {one.name: one.build() for one in shaft.bearings if one.journal is None}
     choices = {
-        one.name: _choices(one.journal.build(), fixed=one.journal.film is not None)
+        one.name: turn_films(one.journal.build(), fixed=one.journal.film is not None, grids=GRIDS, maps=False)
         for one in shaft.bearings
         if one.journal is not None
     }
@@ -93,26 +98,12 @@ def film_levels(shaft: ShaftTable) -> tuple[ShaftFilms, ...]:
     )
 
 
-def _choices(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
-    films = tuple(_with_quick_check(film) for film in film_rungs(bearing, fixed=fixed))
-    if len(films) == 1 or (films[0].bounded and not films[0].makes_map):
-        return films[:1]
-    return tuple(film for film in films if film.name in LEVELS)
-
-
-def _with_quick_check(film: FilmRung) -> FilmRung:
-    """Return a rung whose map is compared with a grid that may be solved for several bearings."""
-    if not film.bounded:
-        return film
-    return replace(film, rich=extrapolated(film.bearing, FINE), rich_name="2-D 384 x 16 extr.")
-
-
 def rich_coefficients(films: ShaftFilms, at: RotorEquilibrium) -> tuple[dict[str, Coefficients], str]:
     """Return K and C of all bearings by the richer films at their own equilibria, and why to doubt them."""
     found, doubt = dict(at.coefficients), ""
     for name, film in films.journals.items():
         load = at.loads[name]
-        moved = corrected(film, equilibrium(film.bearing, load, at.speed), load, smooth=True)
+        moved = corrected(film, equilibrium(film.reaction, load, at.speed), load, smooth=True)
         found[name] = Coefficients(
             stiffness=-moved.slopes[:, :2],
             damping=-moved.slopes[:, 2:],
@@ -126,25 +117,12 @@ def rich_coefficients(films: ShaftFilms, at: RotorEquilibrium) -> tuple[dict[str
 def coefficient_bounds(films: ShaftFilms, at: RotorEquilibrium) -> dict[str, float]:
     """Return the verified relative error of K and C of each film at rest; infinite where there is none."""
     return {
-        name: _rest_bound(film, float(np.hypot(*at.coefficients[name].position)) / film.bearing.clearance)
+        name: _rest_bound(film, float(np.hypot(*at.coefficients[name].position)) / film.reaction.clearance)
         for name, film in films.journals.items()
     }
 
 
 def _rest_bound(film: FilmRung, eccentricity_ratio: float) -> float:
-    if not (film.bounded and has_map(film.bearing)):
+    if not (film.bounded and has_map(film.reaction)):
         return film.bound(eccentricity_ratio, slopes=True)
     return min((bound for reach, bound in REST_BOUNDS if eccentricity_ratio <= reach), default=math.inf)
-
-
-def coefficient_rates(films: ShaftFilms, at: RotorEquilibrium, step: float) -> dict[str, tuple[Array, Array]]:
-    """Return d K/d speed and d C/d speed of each film under its load, from speeds a relative step apart."""
-    rates = {}
-    for name, film in films.journals.items():
-        low, high = (
-            coefficients(film.bearing, equilibrium(film.bearing, at.loads[name], speed).position, speed)
-            for speed in (at.speed * (1.0 - step), at.speed * (1.0 + step))
-        )
-        width = 2.0 * step * at.speed
-        rates[name] = ((high.stiffness - low.stiffness) / width, (high.damping - low.damping) / width)
-    return rates

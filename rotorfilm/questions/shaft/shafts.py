@@ -8,29 +8,27 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Work, beside_bound
+from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Work, WorkUnit, beside_bound
 from ...errors import AbsentError, InputError
+from ...ladders import BaseRung, Ladder
 from ...linear import rotor_equilibrium, rotor_modes
-from ...linear.rotor_system import SecondOrder, second_order
-from ...model import Array
-from ...rotors.shaft.shaft_models import ShaftModel, shaft_models
-from ...scenes.journal.film_rungs import NOMINAL
-from ...scenes.shaft.shaft_remarks import shaft_physics, shaft_remarks
-from ..walk import Ladder
-from .shaft_events import Critical, SpeedEvent, Threshold
-from .shaft_films import ShaftFilms, coefficient_bounds, film_levels, rich_coefficients
-from .shaft_whirl import (
+from ...linear.rotor_system import SecondOrder, journal_rows, second_order
+from ...linear.rotor_whirl import (
     Start,
     Whirl,
     dynamics,
     inverse_steps,
-    journal,
     mode_near,
     on_films,
     small_motion,
     value_rate,
     whirl_of,
 )
+from ...linear.speed_events import Critical, SpeedEvent, Threshold
+from ...model import Array
+from ...rotors.shaft.shaft_models import ShaftModel, shaft_models
+from ...scenes.shaft.shaft_remarks import shaft_physics, shaft_remarks
+from .shaft_films import ShaftFilms, coefficient_bounds, film_levels, rich_coefficients
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
@@ -75,7 +73,7 @@ class CorrectedSpeed(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class ShaftRung:
+class ShaftRung(BaseRung):
     """The first critical speed, or the threshold, by one model of the shaft and one film for each journal.
 
     Attributes
@@ -99,14 +97,9 @@ class ShaftRung:
         return f"{self.model.name}, {self.films.name}" if self.films.name else self.model.name
 
     @property
-    def prior(self) -> float:
-        """Nothing is known beforehand."""
-        return 0.0
-
-    @property
-    def unit(self) -> str:
-        """Name of one linear problem."""
-        return f"problems of {self.name}"
+    def unit(self) -> WorkUnit:
+        """One linear problem."""
+        return WorkUnit(f"problems of {self.name}", ("problems", id(self.model), id(self.films)))
 
     def answer(self, before: Found | None) -> Found:
         """Return the speed [rad/s]: looked for, or followed from that of a lower rung."""
@@ -126,7 +119,7 @@ class ShaftRung:
     def _looked_for(self) -> list[Start]:
         """Return the first such speed by a reduced model, and those near it."""
         model = self.model.quick
-        rotor, reactions = model.rotor, self.films.reactions
+        rotor, reactions = model.rotor, self.films.reaction
         starts = []
         for speed, value in self.event.sightings(rotor, reactions, self.speeds):
             at = rotor_equilibrium(rotor, reactions, speed)
@@ -143,7 +136,7 @@ class ShaftRung:
         Instead of asking richer films the verified bound of the map is added where that is enough, or closer.
         """
         solution: ShaftSpeed = found.solution
-        structure, steps = self.model.rotor.structure, {f"steps for {self.name}": 3}
+        structure, steps = self.model.rotor.structure, {WorkUnit(f"steps for {self.name}"): 3}
         rates = [self.event.rate(value_rate(structure, one, self.films)) for one in solution.whirls]
         bound = self._bound(solution.whirls[0], rates[0])
         method = f"inverse iteration, {len(self.model.finer.elements)} elements"
@@ -187,7 +180,7 @@ class ShaftRung:
         widest = self.model.widest
         if self.model.modes is None or widest.modes in (None, self.model.modes):
             return ""
-        films = self.films.reactions
+        films = self.films.reaction
         own, other = (rotor_modes(model.rotor, films, speed) for model in (self.model, widest))
         return self.event.missed(own, other)
 
@@ -213,7 +206,7 @@ class ShaftRung:
         scale = whirl.left.conj() @ slope @ whirl.right
         total = 0.0
         for name, bound in coefficient_bounds(self.films, whirl.at).items():
-            rows, film = journal(structure, name), whirl.at.coefficients[name]
+            rows, film = journal_rows(structure, name), whirl.at.coefficients[name]
             # what an entry of K, and of C, of this size does to the eigenvalue
             by_stiffness = np.outer((rows @ whirl.left).conj(), rows @ whirl.right) / scale
             for change, entries in ((1.0, film.stiffness), (whirl.value, film.damping)):
@@ -243,7 +236,8 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
     """
     if scene.shaft is None:
         raise InputError(f"shaft is required for {quantity}, got no such table")
-    speeds, models = scene.shaft.speeds.build(), shaft_models(scene.shaft.build())
+    rotor, bearings = scene.shaft.build(), scene.shaft.build_bearings()
+    speeds, models = scene.shaft.speeds.build(), shaft_models(rotor)
     levels, event = film_levels(scene.shaft), EVENTS[quantity]
     rungs = [
         ShaftRung(event=event, model=model, films=films, speeds=speeds)
@@ -253,7 +247,6 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
     return Ladder(
         rungs=tuple(rungs),
         unit="rad/s",
-        nominal=NOMINAL,
-        remarks=shaft_remarks(scene, float(speeds[-1])),
-        within=shaft_physics(scene),
+        remarks=shaft_remarks(rotor, bearings, scene.lubricant, float(speeds[-1])),
+        within=shaft_physics(bearings),
     )

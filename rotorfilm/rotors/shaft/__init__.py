@@ -1,1 +1,1 @@
-"""Shaft."""
+"""Flexible rotors: elements, assembly, reduction."""

@@ -9,6 +9,7 @@ import numpy as np
 from ...errors import InputError
 from ...model import Array
 from ...signals import Signal
+from ..stations import checked_stations, station_name
 from ..structure import (
     NOMINAL_LENGTH,
     Coordinate,
@@ -16,16 +17,12 @@ from ..structure import (
     Structure,
     across_planes,
     both_planes,
-    checked_stations,
     displacements,
-    station_name,
     unbalance_columns,
 )
 from .beam import Beam
-from .parts import Coupling, Disk, LayeredElement, Probe, ShaftElement, Station, TiltSpring, Unbalance
-
-ShaftPiece = ShaftElement | LayeredElement | Coupling
-"""What joins one node to the next."""
+from .elements import Coupling, ShaftPiece
+from .parts import Disk, Probe, Station, TiltSpring, Unbalance
 
 
 def assemble(

@@ -13,9 +13,8 @@ import numpy as np
 from ...errors import InputError
 from ...model import Array
 from ..structure import FlexibleRotor, both_planes
-from .assembly import ShaftPiece
 from .beam import Beam, ClassicalBeam, FourthOrderBeam
-from .parts import Coupling, LayeredElement, ShaftElement
+from .elements import Coupling, LayeredElement, ShaftElement, ShaftPiece
 from .reduced_rotor import ReducedRotor
 from .shaft_rotor import ShaftRotor
 

@@ -11,9 +11,10 @@ from ...model import Array
 from ...units import STANDARD_GRAVITY
 from ..profile import SpeedProfile
 from ..structure import FlexibleRotor, Structure, check_motion
-from .assembly import ShaftPiece, assemble, check_nodes
+from .assembly import assemble, check_nodes
 from .beam import Beam, FourthOrderBeam
-from .parts import Coupling, Disk, Probe, Station, TiltSpring, Unbalance
+from .elements import Coupling, ShaftPiece
+from .parts import Disk, Probe, Station, TiltSpring, Unbalance
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,1 +1,1 @@
-"""Bush."""
+"""Scenes of bushes: table, runs, remarks."""

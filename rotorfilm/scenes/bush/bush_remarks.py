@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from ...bearings.bush import end_of_local_wear, end_of_wear, peak_weight, wear_by_one_moment
 from ...errors import ConvergenceError
+from ..remarks import Remark, said
 from .bush_run import BushRun
 
 SPREAD_SPEED = 5.0
@@ -26,35 +26,62 @@ COLD = 5.0
 """Kelvin by which a worn contact may be off the melting point without a word."""
 
 
-class BushNumbers(NamedTuple):
-    """Dimensionless numbers of a bush at work, unworn.
+REMARKS = (
+    Remark(
+        "off",
+        NEAR,
+        "brink: the speed is {margin:+.1%} off that at which the liner melts, which is not known so well; "
+        "friction carries {lean:.1%} of the load, which no model counts",
+        below=True,
+    ),
+    Remark("lean", LEAN, "friction: it carries {lean:.1%} of the load, so that the pressure is less"),
+    Remark("slenderness", 1.0, "thick liner: {slenderness:.2g} of half the width of the contact"),
+    Remark("strain", STRAIN, "strain: the liner is compressed by {strain:.1%} of its thickness"),
+    Remark(
+        "melted",
+        STRAIN,
+        "thickness: up to {melted:.0%} of the liner melts, but it is taken to conduct and to yield as before",
+    ),
+    Remark(
+        "speed",
+        SPREAD_SPEED,
+        f"slow: heat is spread evenly around a shaft above {SPREAD_SPEED:g} rad/s, this one turns at "
+        "{speed:.3g} rad/s",
+        below=True,
+    ),
+    Remark(
+        "cooled",
+        COLD,
+        "cold: in the end the worn contact cools by some {cooled:.0f} K, which widens its clearance by "
+        "{widened:.2g} m; wear is told at the melting point",
+    ),
+    Remark(
+        "states",
+        1.0,
+        "two states: friction rises so steeply with temperature that a contact may also stay cold",
+    ),
+)
+"""What every model of a polymer bush leaves out, by the numbers of `bush_numbers`."""
 
-    Attributes
-    ----------
-    margin : float
-        Speed over the critical speed, less one.
-    slenderness : float
-        Thickness of the liner over half the width of the contact: a thin liner yields where it is pressed.
-    strain : float
-        Compression of the liner on the load line over its thickness.
-    lean : float
-        Share of the load that friction carries, 1 - 1/sqrt(1 + f^2): left out of the balance of forces.
-    melted : float
-        Largest wear there can be over the thickness of the liner: rate at the begin times duration.
-    cooled : float [K]
-        By how much friction keeps the worn contact below the melting point at the end, by one moment.
+
+def bush_numbers(run: BushRun) -> dict[str, float]:
+    """Return the dimensionless numbers of a run, unworn; where its load changes those of the largest one.
+
+    Returns
+    -------
+    dict of str to float
+        margin : speed over the critical speed, less one; off : its size.
+        slenderness : thickness of the liner over half the width of the contact: a thin liner yields where it
+        is pressed.
+        strain : compression of the liner on the load line over its thickness.
+        lean : share of the load that friction carries, 1 - 1/sqrt(1 + f^2), left out of the balance of
+        forces.
+        melted : largest wear there can be over the thickness of the liner: rate at the begin times duration.
+        speed [rad/s] : of the shaft, without its sign.
+        cooled [K] : by how much friction keeps the worn contact below the melting point at the end, by one
+        moment; widened [m] : by how much that widens the clearance.
+        states : how many there may be of one contact.
     """
-
-    margin: float
-    slenderness: float
-    strain: float
-    lean: float
-    melted: float
-    cooled: float
-
-
-def bush_numbers(run: BushRun) -> BushNumbers:
-    """Return the numbers of a run; where its load changes those of the largest one."""
     geometry, liner, bush = run.bush.geometry, run.bush.liner, run.exact
     load = max(stage.load_ratio for stage in run.stages)
     duration = sum(stage.duration for stage in run.stages)
@@ -67,14 +94,19 @@ def bush_numbers(run: BushRun) -> BushNumbers:
     shared = bush.settlement(end, load) if math.isfinite(end) else math.inf
     settled = end_of_local_wear(bush, load).settlement if run.local else shared
     friction = float(run.bush.friction.at(liner.melting_point))
-    return BushNumbers(
-        margin=run.margin(bush),
-        slenderness=thickness / (geometry.radius * float(alpha)),
-        strain=run.bush.compliance * peak * geometry.radius / thickness,
-        lean=1.0 - 1.0 / math.hypot(1.0, friction),
-        melted=geometry.radius / thickness * max(min(fastest * duration, settled), 0.0),
-        cooled=0.0 if run.grows else _cooled(run),
-    )
+    margin, cooled = run.margin(bush), 0.0 if run.grows else _cooled(run)
+    return {
+        "margin": margin,
+        "off": abs(margin),
+        "slenderness": thickness / (geometry.radius * float(alpha)),
+        "strain": run.bush.compliance * peak * geometry.radius / thickness,
+        "lean": 1.0 - 1.0 / math.hypot(1.0, friction),
+        "melted": geometry.radius / thickness * max(min(fastest * duration, settled), 0.0),
+        "speed": abs(run.speed),
+        "cooled": cooled,
+        "widened": cooled * run.bush.closing * run.radius,
+        "states": 2.0 if run.stays_cold else 1.0,
+    }
 
 
 def _cooled(run: BushRun) -> float:
@@ -89,23 +121,4 @@ def _cooled(run: BushRun) -> float:
 
 def bush_remarks(run: BushRun) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each, for the run of a bush."""
-    n = bush_numbers(run)
-    lines = {
-        f"brink: the speed is {n.margin:+.1%} off that at which the liner melts, which is not known so "
-        f"well; friction carries {n.lean:.1%} of the load, which no model counts": abs(n.margin) < NEAR,
-        f"friction: it carries {n.lean:.1%} of the load, so that the pressure is less": n.lean > LEAN,
-        f"thick liner: {n.slenderness:.2g} of half the width of the contact": n.slenderness > 1.0,
-        f"strain: the liner is compressed by {n.strain:.1%} of its thickness": n.strain > STRAIN,
-        f"thickness: up to {n.melted:.0%} of the liner melts, but it is taken to conduct and to yield as "
-        "before": n.melted > STRAIN,
-        f"slow: heat is spread evenly around a shaft above {SPREAD_SPEED:g} rad/s, this one turns at "
-        f"{abs(run.speed):.3g} rad/s": abs(run.speed) < SPREAD_SPEED,
-        f"cold: in the end the worn contact cools by some {n.cooled:.0f} K, which widens its clearance by "
-        f"{n.cooled * run.bush.closing * run.radius:.2g} m; wear is told at the melting point": (
-            n.cooled > COLD
-        ),
-        "two states: friction rises so steeply with temperature that a contact may also stay cold": (
-            run.stays_cold
-        ),
-    }
-    return tuple(line for line, applies in lines.items() if applies)
+    return said(REMARKS, bush_numbers(run))

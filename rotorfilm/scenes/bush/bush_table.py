@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Annotated, Any
 
 from ...bearings.bush import (
@@ -22,8 +22,9 @@ from ...bearings.bush import (
 from ...errors import SceneError
 from ...limits import WORN_NODES
 from ...printable import brief
-from ..readers import Count
-from ..tables import Quantity, choose
+from ..reading.readers import Count, Named
+from ..reading.shared_fields import made_from
+from ..reading.tables import Quantity, choose
 
 MATERIALS = {"f4k20": f4k20_bush}
 """Bushes whose data a scene may take, by name: filled PTFE F4K20 on a steel shaft, Evtushenko & Kovalenko
@@ -35,20 +36,8 @@ MELTINGS = {"shared": SharedMelting, "local": LocalMelting}
 
 
 def _read_material(where: str, value: Any) -> str:
-    choose(where, value, MATERIALS)  # type: ignore[arg-type]
+    choose(where, value, MATERIALS)
     return str(value)
-
-
-def _read_shaft_heat(where: str, value: Any) -> ExactShaft | ApproximateShaft:
-    return choose(where, value, SHAFT_HEATS)()
-
-
-def _read_balance(where: str, value: Any) -> ContactBalance | GlobalBalance:
-    return choose(where, value, BALANCES)()
-
-
-def _read_melting(where: str, value: Any) -> SharedMelting | LocalMelting:
-    return choose(where, value, MELTINGS)()
 
 
 def _read_friction(where: str, value: Any) -> Friction:
@@ -116,9 +105,13 @@ class BushTable:
     friction: Annotated[Friction | None, _read_friction] = None
     outer_mean: Annotated[float | None, Quantity("K")] = None
     outer_swing: Annotated[float | None, Quantity("K")] = None
-    shaft_heat: Annotated[ExactShaft | ApproximateShaft, _read_shaft_heat] = field(default_factory=ExactShaft)
-    balance: Annotated[ContactBalance | GlobalBalance, _read_balance] = field(default_factory=ContactBalance)
-    melting: Annotated[SharedMelting | LocalMelting, _read_melting] = field(default_factory=SharedMelting)
+    shaft_heat: Annotated[ExactShaft | ApproximateShaft, Named(SHAFT_HEATS)] = field(
+        default_factory=ExactShaft
+    )
+    balance: Annotated[ContactBalance | GlobalBalance, Named(BALANCES)] = field(
+        default_factory=ContactBalance
+    )
+    melting: Annotated[SharedMelting | LocalMelting, Named(MELTINGS)] = field(default_factory=SharedMelting)
     nodes: Annotated[int, Count(WORN_NODES)] = 64
     center: Annotated[float, Quantity("rad")] = -0.5 * math.pi
     extent: Annotated[float, Quantity("rad")] = 2.0
@@ -132,31 +125,15 @@ class BushTable:
         of = MATERIALS[self.material]()
 
         def given(part: Any, **values: Any) -> Any:
-            return replace(part, **{name: value for name, value in values.items() if value is not None})
+            """Return a part of the bush with what the table has of it."""
+            own = {f.name: getattr(self, f.name) for f in fields(part) if hasattr(self, f.name)} | values
+            return replace(part, **{name: value for name, value in own.items() if value is not None})
 
         bush: MeltingBush = given(
             of,
-            geometry=given(
-                of.geometry,
-                radius=self.radius,
-                outer_radius=self.outer_radius,
-                shaft_radius=self.shaft_radius,
-                length=self.length,
-            ),
-            liner=given(
-                of.liner,
-                shear_modulus=self.shear_modulus,
-                poisson_ratio=self.poisson_ratio,
-                expansion=self.expansion,
-                conductivity=self.liner_conductivity,
-                melting_point=self.melting_point,
-            ),
-            shaft=given(of.shaft, conductivity=self.shaft_conductivity, air_transfer=self.air_transfer),
-            friction=self.friction,
-            outer_mean=self.outer_mean,
-            outer_swing=self.outer_swing,
-            shaft_heat=self.shaft_heat,
-            balance=self.balance,
+            geometry=given(of.geometry),
+            liner=given(of.liner, conductivity=self.liner_conductivity),
+            shaft=given(of.shaft, conductivity=self.shaft_conductivity),
         )
         return bush
 
@@ -166,12 +143,4 @@ class BushTable:
 
     def reaction(self) -> BushReaction:
         """Return the model with a worn profile, a bearing for a rotor."""
-        return BushReaction(
-            bush=self.build(),
-            melting_heat=self.melting_heat,
-            nodes=self.nodes,
-            center=self.center,
-            extent=self.extent,
-            melting=self.melting,
-            retardation=self.retardation,
-        )
+        return made_from(BushReaction, self, bush=self.build())

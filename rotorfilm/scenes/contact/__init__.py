@@ -1,1 +1,1 @@
-"""Contact."""
+"""Scenes of rolling contacts: table, motions, remarks."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -11,10 +10,7 @@ from ...bearings.contact import HIGGINSON_PRESSURE, DowsonHigginsonDensity, Roll
 from ...errors import InputError
 from ..journal.journal_remarks import NOTABLE
 from ..lubricant_table import LubricantTable
-from .contact_table import ContactTable
-
-if TYPE_CHECKING:
-    from ..scene import Scene
+from ..remarks import Remark, said
 
 FORMED = 2.0
 """Pressure times pressure coefficient at which a film is formed: flow by pressure is down to exp(-2)."""
@@ -26,48 +22,75 @@ FLAT = 0.1
 """Contact radius / ball radius from which the ball is no paraboloid; the gap errs by its square / 4."""
 
 
-class ContactNumbers(NamedTuple):
-    """Dimensionless numbers of a lubricated ball.
+REMARKS = (
+    Remark(
+        "inlet_thinning",
+        NOTABLE,
+        "heat: the oil that flows back before the contact warms by about {inlet_warming:.2g} K, which takes "
+        "{inlet_thinning:.0%} of its viscosity",
+    ),
+    Remark(
+        "piezoviscosity",
+        NOTABLE,
+        "viscosity: where the film is formed the exponential law gives {exaggeration:.2g} times that of "
+        "Roelands; `roelands = true` takes that",
+    ),
+    Remark(
+        "densification",
+        DENSER,
+        "compressibility: {densification:.0%} under the contact, which thins its film about as much; "
+        "`compressible = true` takes it into account",
+    ),
+    Remark(
+        "flatness",
+        FLAT,
+        "shape: the contact is {flatness:.2g} of the ball's radius, too wide for a paraboloid",
+    ),
+)
+"""What the physics of a rolling contact leaves out, by the numbers of `contact_numbers`."""
 
-    Attributes
+
+def contact_numbers(
+    ball: RollingBall, oil: LubricantTable, *, roelands: bool, compressible: bool
+) -> dict[str, float]:
+    """Return the dimensionless numbers of a lubricated ball.
+
+    Parameters
     ----------
-    inlet_warming : float [K]
-        Of the oil that flows back before the contact.
-    inlet_thinning : float
-        Relative loss of viscosity by that, and about two thirds of it of the film.
-    piezoviscosity : float
-        By how much the exponential law exceeds Roelands' in ln(viscosity), where the film is formed; 0 where
-        that law is used or does not exist.
-    densification : float
-        Relative growth of the density at the largest pressure; 0 where the film takes it into account.
-    flatness : float
-        Contact radius / ball radius.
-    """
+    ball : RollingBall
+        With its load and speed.
+    oil : LubricantTable
+    roelands, compressible : bool
+        What the film takes into account.
 
-    inlet_warming: float
-    inlet_thinning: float
-    piezoviscosity: float
-    densification: float
-    flatness: float
+    Returns
+    -------
+    dict of str to float
+        inlet_warming [K] : of the oil that flows back before the contact.
+        inlet_thinning : relative loss of viscosity by that, and about two thirds of it of the film.
+        piezoviscosity : by how much the exponential law exceeds Roelands' in ln(viscosity), where the film is
+        formed; 0 where that law is used or does not exist; exaggeration : its exponential.
+        densification : relative growth of the density at the largest pressure; 0 where the film takes it into
+        account.
+        flatness : contact radius / ball radius.
 
-
-def contact_numbers(table: ContactTable, oil: LubricantTable) -> ContactNumbers:
-    """Return the numbers of a ball and its oil.
-
+    Notes
+    -----
     Far before the contact nothing flows through: what the surfaces carry in at the speed u returns as a
     parabolic flow of the mean velocity u. Its dissipation between cold walls warms the middle by
     (3/4) viscosity u^2/conductivity, whatever the gap.
     """
-    ball = table.build()
     warming = 0.75 * ball.viscosity * ball.speed**2 / oil.conductivity
     density = DowsonHigginsonDensity(pressure_ratio=ball.contact_pressure / HIGGINSON_PRESSURE)
-    return ContactNumbers(
-        inlet_warming=warming,
-        inlet_thinning=-math.expm1(-oil.thinning * warming),
-        piezoviscosity=0.0 if table.roelands else _beyond_roelands(ball),
-        densification=0.0 if table.compressible else float(density.density(np.ones(1))[0]) - 1.0,
-        flatness=ball.contact_radius / ball.radius,
-    )
+    beyond = 0.0 if roelands else _beyond_roelands(ball)
+    return {
+        "inlet_warming": warming,
+        "inlet_thinning": -math.expm1(-oil.thinning * warming),
+        "piezoviscosity": beyond,
+        "exaggeration": math.exp(beyond),
+        "densification": 0.0 if compressible else float(density.density(np.ones(1))[0]) - 1.0,
+        "flatness": ball.contact_radius / ball.radius,
+    }
 
 
 def _beyond_roelands(ball: RollingBall) -> float:
@@ -79,19 +102,8 @@ def _beyond_roelands(ball: RollingBall) -> float:
     return float(ball.Q0 * pressure[0] + np.log(law.mobility(pressure, ball.Q0)[0]))
 
 
-def contact_remarks(scene: Scene) -> tuple[str, ...]:
-    """Return what is left out and should not be, one line each, for the ball of a scene."""
-    assert scene.contact is not None  # checked by the ladder
-    n = contact_numbers(scene.contact, scene.lubricant)
-    lines = {
-        f"heat: the oil that flows back before the contact warms by about {n.inlet_warming:.2g} K, which "
-        f"takes {n.inlet_thinning:.0%} of its viscosity": n.inlet_thinning > NOTABLE,
-        f"viscosity: where the film is formed the exponential law gives {math.exp(n.piezoviscosity):.2g} "
-        "times that of Roelands; `roelands = true` takes that": n.piezoviscosity > NOTABLE,
-        f"compressibility: {n.densification:.0%} under the contact, which thins its film about as much; "
-        "`compressible = true` takes it into account": n.densification > DENSER,
-        f"shape: the contact is {n.flatness:.2g} of the ball's radius, too wide for a paraboloid": (
-            n.flatness > FLAT
-        ),
-    }
-    return tuple(line for line, applies in lines.items() if applies)
+def contact_remarks(
+    ball: RollingBall, oil: LubricantTable, *, roelands: bool, compressible: bool
+) -> tuple[str, ...]:
+    """Return what is left out and should not be, one line each, of a ball; see `contact_numbers`."""
+    return said(REMARKS, contact_numbers(ball, oil, roelands=roelands, compressible=compressible))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
+from ...answers import WorkUnit
 from ...bearings.contact import ContactGrid, PointContact, RollingBall
 from ...errors import ConvergenceError
 from .contact_table import ContactTable
@@ -63,7 +64,9 @@ class RestingFilms:
         )
         return self.ball.contact(grid, roelands=self.table.roelands, compressible=self.table.compressible)
 
-    def value(self, cells: int, work: dict[str, int], inlet: float = INLETS[0], load: float = 1.0) -> float:
+    def value(
+        self, cells: int, work: dict[WorkUnit, int], inlet: float = INLETS[0], load: float = 1.0
+    ) -> float:
         """Return the quantity [1]; what had to be solved for it is added to `work`.
 
         Raises
@@ -82,7 +85,19 @@ class RestingFilms:
             raise ConvergenceError(f"a contact must be solvable on {cells} x {cells} cells, got none before")
         return self.known[key]
 
-    def beyond(self, work: dict[str, int], load: float = 1.0) -> float:
+    def lacking(self, cells: int, fine: int, work: dict[WorkUnit, int], load: float) -> float:
+        """Return the relative error by cells, from finer ones, and by the end of the rectangle.
+
+        Raises
+        ------
+        ConvergenceError
+            If there is no solution on one of the grids.
+        """
+        rest, better = (self.value(n, work, load=load) for n in (cells, fine))
+        by_cells = abs(better - rest) / (1.0 - (cells / fine) ** 2)
+        return (by_cells + abs(self.beyond(work, load))) / abs(rest)
+
+    def beyond(self, work: dict[WorkUnit, int], load: float = 1.0) -> float:
         """Return the change of the quantity [1] from the shortest to an infinite rectangle.
 
         Two rectangles with cells of one size, as coarse as there is a solution on.
@@ -105,6 +120,6 @@ class RestingFilms:
         return (longer - short) / (1.0 - (near / wide) ** REACH[self.quantity])
 
 
-def unknowns(cells: int) -> str:
-    """Return the name of one unknown of a film at rest."""
-    return f"unknowns on grid {cells} x {cells}"
+def unknowns(cells: int) -> WorkUnit:
+    """Return the unit of one unknown of a film at rest."""
+    return WorkUnit(f"unknowns on grid {cells} x {cells}", ("unknowns", cells))

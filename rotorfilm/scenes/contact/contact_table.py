@@ -10,8 +10,9 @@ from ...bearings.contact import BallSupport, ContactGrid, PointContact, RollingB
 from ...errors import InputError, SceneError, require_non_negative
 from ...limits import CONTACT_CELLS, LAW_STATES
 from ...printable import brief
-from ..readers import Count
-from ..tables import Quantity, flag
+from ..reading.readers import Count
+from ..reading.shared_fields import made_from
+from ..reading.tables import Quantity, flag
 
 
 def read_angles(where: str, value: Any) -> tuple[float, ...]:
@@ -78,18 +79,7 @@ class ContactTable:
 
     def build(self) -> RollingBall:
         """Return the ball; raise InputError where a value breaks its rule."""
-        return RollingBall(
-            radius=self.radius,
-            mass=self.mass,
-            modulus=self.modulus,
-            poisson_ratio=self.poisson_ratio,
-            viscosity=self.viscosity,
-            pressure_coefficient=self.pressure_coefficient,
-            speed=self.speed,
-            load=self.load,
-            plane_modulus=self.plane_modulus,
-            plane_poisson_ratio=self.plane_poisson_ratio,
-        )
+        return made_from(RollingBall, self)
 
     def contact(self) -> PointContact:
         """Return its dimensionless contact."""

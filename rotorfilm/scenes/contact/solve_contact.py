@@ -25,7 +25,7 @@ from ...bearings.contact import (
     ride,
 )
 from ...errors import ConvergenceError, require_positive
-from ...model import Array
+from ...model import Array, breakpoints
 from ...progress import Report, silent
 from ...results import Trajectory
 
@@ -245,7 +245,7 @@ class _Told:
 
     def __init__(self, load: Callable[[float], float], start: float, duration: float, report: Report) -> None:
         self.load, self.start, self.duration, self.report = load, start, duration, report
-        self.breakpoints = tuple(getattr(load, "breakpoints", ()))
+        self.breakpoints = breakpoints(load)
 
     def __repr__(self) -> str:
         return repr(self.load)

@@ -1,1 +1,1 @@
-"""Damper."""
+"""Scenes of dampers: table, films, runs, remarks."""

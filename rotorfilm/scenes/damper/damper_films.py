@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from ...answers import WorkUnit
 from ...bearings.damper import (
     FiniteMapSqueeze,
     FiniteSqueeze,
@@ -30,8 +31,8 @@ DEFECT_CELLS = (10, 20)
 TOP_BOUNDS = {FiniteSqueeze: 1e-6, FiniteMapSqueeze: 3e-4}
 """Verified errors of the force of the richest films: docs/accuracy.md."""
 
-RICH_MADE = "maps of the film of finite length made for estimates"
-"""Unit of the work of making the map that defects are sampled with."""
+RICH_MADE = WorkUnit("maps of the film of finite length made for estimates")
+"""WorkUnit of the work of making the map that defects are sampled with."""
 
 NO_RICHER = (
     "no film of finite length is there for a cavitated damper with feed, so that nobody knows how far the "
@@ -56,8 +57,6 @@ class DamperFilm:
         The film that the defect is sampled with; None where there is none.
     prior : float [1]
         Order of magnitude of the error of its force; 0 if unknown.
-    bound : float [1]
-        Verified error of its force; infinite where there is none.
     """
 
     name: str
@@ -66,7 +65,6 @@ class DamperFilm:
     rich_shape: PorousDamper
     rich_law: SqueezeLaw | None
     prior: float
-    bound: float
 
     @property
     def is_fed(self) -> bool:
@@ -78,18 +76,21 @@ class DamperFilm:
         """Whether the damper is made with a map, which takes seconds."""
         return isinstance(self.law, FiniteMapSqueeze)
 
-    @property
-    def work(self) -> dict[str, int]:
-        """Work of making the damper."""
+    def bound(self, eccentricity_ratio: float = 0.0, *, slopes: bool = False) -> float:
+        """Return the verified error of its force [1], the same everywhere; infinite where there is none."""
+        return TOP_BOUNDS.get(type(self.law), math.inf)
+
+    def prepare(self) -> dict[WorkUnit, int]:
+        """Return the work of making the damper, which its first use makes."""
         return {MAP_MADE: 1} if self.makes_map else {}
 
     @property
-    def rich_work(self) -> dict[str, int]:
+    def rich_work(self) -> dict[WorkUnit, int]:
         """Work of making the richer one."""
         return {RICH_MADE: 1} if isinstance(self.rich_law, FiniteMapSqueeze) else {}
 
     @cached_property
-    def damper(self) -> PorousDamper:
+    def reaction(self) -> PorousDamper:
         """The damper with its film."""
         return with_changes(self.shape, film=self.law)
 
@@ -118,7 +119,7 @@ def damper_films(table: DamperTable) -> tuple[DamperFilm, ...]:
     feed keeps its cage, through which it is fed.
     """
     shape, top = _short(table), richest_law(_short(table))
-    named = None if table.film is None else table.film.build()
+    named = table.film
     found = _free(shape, top) if named is None else [(type(named).__name__, shape, named, 0.0)]
     rich = FiniteMapSqueeze(cells=DEFECT_CELLS) if isinstance(top, FiniteMapSqueeze) else top
     return tuple(
@@ -129,7 +130,6 @@ def damper_films(table: DamperTable) -> tuple[DamperFilm, ...]:
             rich_shape=shape,
             rich_law=None if law == top else rich,
             prior=prior,
-            bound=TOP_BOUNDS.get(type(law), math.inf),
         )
         for name, own, law, prior in found
     )

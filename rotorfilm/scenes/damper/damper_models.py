@@ -12,6 +12,7 @@ from ...bearings.sprung import Sprung
 from ...errors import InputError
 from ...rotors import RigidRotor
 from ..excitation_table import BladeLossTable, RunUpTable, UnbalanceTable
+from ..families import SceneModels
 from ..schema import require_steps
 
 if TYPE_CHECKING:
@@ -74,3 +75,9 @@ def damper_models(scene: Scene) -> DamperScene:
     duration = duration or scene.duration
     require_steps("excitation", duration * abs(scene.speed), scene.cosimulation)
     return DamperScene(rotor, scene.damper.support(), start, duration, scene.macro_step)
+
+
+def damper_fmus(scene: Scene) -> SceneModels:
+    """Return the damper of a scene, springs included, and its rotor, at rest in the center."""
+    models = damper_models(scene)
+    return SceneModels("damper", models.support, models.rotor, {}, models.step, models.duration)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
@@ -11,47 +10,84 @@ from ...bearings.damper import PorousDamper, layer_modes
 from ...bearings.films.cavitation import FullFilm
 from ..journal.journal_remarks import ATMOSPHERE, NOTABLE
 from ..lubricant_table import LubricantTable
+from ..remarks import Remark, said
 
 NOTABLE_MASS = 0.05
 """Mass of the moving film / mass of the rotor that is worth a word."""
 
 
-class DamperNumbers(NamedTuple):
-    """Dimensionless numbers of a squeeze film on a circular orbit.
+ON_ORBIT = "cavitation: on an orbit of eccentricity ratio {eccentricity_ratio:.2g} the "
 
-    Attributes
-    ----------
-    inertia : float
-        Pressure of the film's inertia over the viscous one, squeeze Reynolds number speed c^2/nu / 10.
-    added_mass : float
-        Mass with which the film follows the rotor / mass of the rotor.
-    peclet : float
-        speed c^2/diffusivity: heat carried along over heat conducted across the film.
-    warming : float [K]
-        Rise of temperature, of the oil squeezed out (Peclet number above 1) or between cold walls.
-    thinning : float
-        Relative loss of viscosity by that.
-    tension : float
-        Ambient pressure over the largest pressure of the film: a full film carries as much tension; and the
-        part of a cavity that ambient pressure fills again within a turn is of this order.
-    compression : float
-        Largest pressure over the bulk modulus.
-    """
+REMARKS = (
+    Remark(
+        "inertia",
+        NOTABLE,
+        "inertia of the film: {inertia:.2g} of the viscous pressure (squeeze Reynolds number {reynolds:.2g})",
+    ),
+    Remark(
+        "added_mass",
+        NOTABLE_MASS,
+        "inertia of the film: it moves along as {added_mass:.1%} of the rotor's mass",
+    ),
+    Remark(
+        "thinning",
+        NOTABLE,
+        "heat: on an orbit of eccentricity ratio {eccentricity_ratio:.2g} the oil warms by about "
+        "{warming:.2g} K (Peclet number {peclet:.2g}), which takes {thinning:.0%} of its viscosity",
+    ),
+    Remark("compression", 0.01, "compressibility: {compression:.2%} by the largest pressure"),
+)
+"""What the physics of a squeeze film leaves out, by the numbers of `damper_numbers`."""
 
-    inertia: float
-    added_mass: float
-    peclet: float
-    warming: float
-    thinning: float
-    tension: float
-    compression: float
+FULL = (
+    Remark(
+        "pressure",
+        1.0,
+        ON_ORBIT
+        + "full film carries a tension of {pressure:.2g} times the ambient pressure, where oil ruptures",
+    ),
+)
+"""The same of one that never ruptures."""
+
+RUPTURED = (
+    Remark(
+        "pressure",
+        NOTABLE,
+        ON_ORBIT + "pressure is {pressure:.2g} of the ambient one only, so that the oil may not rupture "
+        "where this film does",
+        below=True,
+    ),
+    Remark(
+        "pressure",
+        1.0 / NOTABLE,
+        ON_ORBIT + "pressure is {pressure:.2g} times the ambient one, which does not fill the cavity again "
+        "within a turn; no film conserves its mass",
+    ),
+)
+"""The same of one that does."""
 
 
 def damper_numbers(
     damper: PorousDamper, oil: LubricantTable, mass: float, speed: float, eccentricity_ratio: float
-) -> DamperNumbers:
-    """Return the numbers of a film whose rotor [kg] whirls on a circle at a speed [rad/s].
+) -> dict[str, float]:
+    """Return the dimensionless numbers of a film whose rotor [kg] whirls on a circle at a speed [rad/s].
 
+    Returns
+    -------
+    dict of str to float
+        eccentricity_ratio : of the circle.
+        inertia : pressure of the film's inertia over the viscous one, a tenth of `reynolds`, the squeeze
+        Reynolds number speed c^2/nu.
+        added_mass : mass with which the film follows the rotor / mass of the rotor.
+        peclet : speed c^2/diffusivity, heat carried along over heat conducted across the film.
+        warming [K] : rise of temperature, of the oil squeezed out (Peclet number above 1) or between cold
+        walls; thinning : relative loss of viscosity by that.
+        pressure : largest pressure of the film over the ambient one: a full film carries as much tension; and
+        the part of a cavity that ambient pressure fills again within a turn is the inverse of this.
+        compression : largest pressure over the bulk modulus.
+
+    Notes
+    -----
     With a parabolic profile the momentum of the flow is 6/5 of that of its mean, so that the pressure
     gradient is 12 viscosity/h^2 (1 + i Re/10) times the mean velocity, Re = speed h^2/nu. The film's power
     heats what is squeezed out, 2 radius length e speed, or, if it stays, the middle of a slab between cold
@@ -68,15 +104,17 @@ def damper_numbers(
     conducted = power * c / (2.0 * math.pi * R * L * 8.0 * oil.conductivity)
     warming = adiabatic if peclet > 1.0 else min(adiabatic, conducted)
     largest = largest_pressure(damper, omega, eccentricity_ratio)
-    return DamperNumbers(
-        inertia=inertia,
-        added_mass=inertia * -tangential / (omega**2 * e * mass),
-        peclet=peclet,
-        warming=warming,
-        thinning=-math.expm1(-oil.thinning * warming),
-        tension=ATMOSPHERE / largest,
-        compression=largest / oil.bulk_modulus,
-    )
+    return {
+        "eccentricity_ratio": eccentricity_ratio,
+        "inertia": inertia,
+        "reynolds": 10.0 * inertia,
+        "added_mass": inertia * -tangential / (omega**2 * e * mass),
+        "peclet": peclet,
+        "warming": warming,
+        "thinning": -math.expm1(-oil.thinning * warming),
+        "pressure": largest / ATMOSPHERE,
+        "compression": largest / oil.bulk_modulus,
+    }
 
 
 def largest_pressure(damper: PorousDamper, speed: float, eccentricity_ratio: float) -> float:
@@ -97,23 +135,5 @@ def damper_remarks(
     damper: PorousDamper, oil: LubricantTable, mass: float, speed: float, eccentricity_ratio: float
 ) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each, for an orbit of an eccentricity ratio."""
-    n = damper_numbers(damper, oil, mass, speed, eccentricity_ratio)
-    full = isinstance(damper.extent, FullFilm)
-    orbit = f"on an orbit of eccentricity ratio {eccentricity_ratio:.2g}"
-    lines = {
-        f"inertia of the film: {n.inertia:.2g} of the viscous pressure (squeeze Reynolds number "
-        f"{10.0 * n.inertia:.2g})": n.inertia > NOTABLE,
-        f"inertia of the film: it moves along as {n.added_mass:.1%} of the rotor's mass": (
-            n.added_mass > NOTABLE_MASS
-        ),
-        f"cavitation: {orbit} the full film carries a tension of {1.0 / n.tension:.2g} times the ambient "
-        "pressure, where oil ruptures": full and n.tension < 1.0,
-        f"cavitation: {orbit} the pressure is {1.0 / n.tension:.2g} of the ambient one only, so that the oil "
-        "may not rupture where this film does": not full and n.tension > 1.0 / NOTABLE,
-        f"cavitation: {orbit} the pressure is {1.0 / n.tension:.2g} times the ambient one, which does not "
-        "fill the cavity again within a turn; no film conserves its mass": not full and n.tension < NOTABLE,
-        f"heat: {orbit} the oil warms by about {n.warming:.2g} K (Peclet number {n.peclet:.2g}), which takes "
-        f"{n.thinning:.0%} of its viscosity": n.thinning > NOTABLE,
-        f"compressibility: {n.compression:.2%} by the largest pressure": n.compression > 0.01,
-    }
-    return tuple(line for line, applies in lines.items() if applies)
+    numbers = damper_numbers(damper, oil, mass, speed, eccentricity_ratio)
+    return said((*REMARKS, *(FULL if isinstance(damper.extent, FullFilm) else RUPTURED)), numbers)

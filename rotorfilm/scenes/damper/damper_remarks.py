@@ -3,42 +3,42 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from ...bearings.damper import PorousDamper
 from ...bearings.films.cavitation import FullFilm
 from ...motion.circular.branches import synchronous_orbits
 from ...results import CircularOrbit
 from ...rotors import RigidRotor
-from .damper_films import mapped_short, sprung
+from ..lubricant_table import LubricantTable
+from .damper_films import sprung
 from .damper_ranges import damper_remarks
-
-if TYPE_CHECKING:
-    from ..scene import Scene
 
 MIDDLING = 0.5
 """Eccentricity ratio of an orbit for the checks of a question that names no unbalance."""
 
 
-def scene_remarks(scene: Scene, rotor: RigidRotor, *, steady: bool) -> tuple[str, ...]:
-    """Return the remarks on a rotor in the damper of a scene.
+def rotor_remarks(
+    damper: PorousDamper, stiffness: float, rotor: RigidRotor, oil: LubricantTable, *, steady: bool
+) -> tuple[str, ...]:
+    """Return the remarks on a rotor in a damper.
 
     Parameters
     ----------
-    scene : Scene
+    damper : PorousDamper
+        With a film that is quick enough for hundreds of orbits.
+    stiffness : float [N/m]
+        Of its springs.
     rotor : RigidRotor
         With the unbalance in question, 0 if that is what is asked for.
+    oil : LubricantTable
     steady : bool
         Whether its orbit is asked for, so that it matters how many there are.
     """
-    assert scene.damper is not None  # or it is no question of a damper
-    damper = mapped_short(scene.damper)
     fastest = max((abs(speed) for speed in rotor.profile.speeds), default=0.0)
-    rotor = replace(rotor, speed=fastest)
-    found = _orbits(damper, scene.damper.stiffness, rotor)
+    found = _orbits(damper, stiffness, replace(rotor, speed=fastest))
     chosen = _smallest_stable(found)
     reach = MIDDLING if chosen is None else chosen.eccentricity_ratio
-    physics = damper_remarks(damper, scene.lubricant, rotor.mass, fastest, reach)
+    physics = damper_remarks(damper, oil, rotor.mass, fastest, reach)
     return (*(_which(found) if steady else ()), *physics)
 
 

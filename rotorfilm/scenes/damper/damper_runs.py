@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,12 +11,11 @@ import numpy as np
 
 from ...cosim import CoSimulation, cosimulate
 from ...errors import ContactError
-from ...files import written_together
-from ...fmu import export_fmu
-from ...model import Array, Model
+from ...model import Array
 from ...motion import simulate
 from ...results import Trajectory
-from .damper_models import DamperScene, damper_models
+from ..export_scene import write_models
+from .damper_models import DamperScene, damper_fmus, damper_models
 
 if TYPE_CHECKING:
     from ..scene import Scene
@@ -56,12 +56,11 @@ class DamperRun:
 def run_damper(scene: Scene) -> DamperRun:
     """Return the motion by integrating rotor and damper as one system; contact ends it and is no error."""
     models = damper_models(scene)
-    times = np.append(np.arange(0.0, models.duration, models.step), models.duration)
-    try:
-        run = simulate(models.rotor, models.support, duration=models.duration, times=times, rtol=RTOL)
-    except ContactError as contact:
-        return _run(models, contact.partial, touched=True)
-    return _run(models, run, touched=False)
+    end = models.duration
+    times = np.append(np.arange(0.0, end, models.step), end)
+    return _followed(
+        models, lambda: simulate(models.rotor, models.support, duration=end, times=times, rtol=RTOL)
+    )
 
 
 def couple_damper(scene: Scene, folder: Path, version: str = "2.0") -> DamperRun:
@@ -75,45 +74,20 @@ def couple_damper(scene: Scene, folder: Path, version: str = "2.0") -> DamperRun
         FMI version; a damper whose film is no map has 2.0 only.
     """
     models = damper_models(scene)
-    rotor, damper = export_damper(scene, folder, version)
+    damper, rotor = write_models(damper_fmus(scene), folder, version)
+    return _followed(
+        models, lambda: cosimulate(rotor, damper, macro_step=models.step, duration=models.duration)
+    )
+
+
+def _followed(models: DamperScene, follow: Callable[[], Trajectory | CoSimulation]) -> DamperRun:
+    """Return what a motion shows, up to contact if there is one, in the time of the scene."""
+    touched = False
     try:
-        run = cosimulate(rotor, damper, macro_step=models.step, duration=models.duration)
+        found = follow()
     except ContactError as contact:
-        return _run(models, _partial(contact), touched=True)
-    return _run(models, run.trajectory, touched=False)
-
-
-def export_damper(
-    scene: Scene, folder: Path, version: str = "2.0", *, backend: str | None = None, platforms: str = "host"
-) -> tuple[Path, Path]:
-    """Write `rotor.fmu` and `damper.fmu` of a scene at rest in the center, both or none; see `export_fmu`."""
-    models = damper_models(scene)
-
-    def write(model: Model, name: str) -> None:
-        export_fmu(
-            model,
-            part / f"{name}.fmu",
-            version,
-            backend,
-            platforms=platforms,
-            component=name,
-            step_size=models.step,
-            stop_time=models.duration,
-        )
-
-    with written_together(folder) as part:
-        write(models.rotor, "rotor")
-        write(models.support, "damper")
-    return folder / "rotor.fmu", folder / "damper.fmu"
-
-
-def _partial(contact: ContactError) -> Trajectory:
-    partial = contact.partial
-    return partial.trajectory if isinstance(partial, CoSimulation) else partial
-
-
-def _run(models: DamperScene, run: Trajectory, *, touched: bool) -> DamperRun:
-    """Return what a trajectory shows, in the time of the scene."""
+        found, touched = contact.partial, True
+    run = found.trajectory if isinstance(found, CoSimulation) else found
     eps = np.hypot(*run.position) / models.support.clearance
     beyond = np.nonzero(eps >= models.support.largest_eccentricity_ratio)[0]
     first = int(beyond[0]) if beyond.size else len(eps) - 1

@@ -1,1 +1,1 @@
-"""Journal."""
+"""Scenes of journal bearings: films, remarks, candidates."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from ...bearings.films.geometry import Groove, Pad
 from ...bearings.films.law import FilmLaw
 from ...bearings.journal import JournalBearing
+from ..reading.shared_fields import made_from
 
 _GEOMETRY = "geometry"
 """Parameter of the films that are fitted to a bearing: the bearing itself shows it."""
@@ -43,16 +44,7 @@ class BearingData:
 
 def bearing_data(bearing: JournalBearing) -> BearingData:
     """Return what a journal bearing is, without its film."""
-    return BearingData(
-        radius=bearing.radius,
-        length=bearing.length,
-        slenderness=bearing.slenderness,
-        clearance=bearing.clearance,
-        viscosity=bearing.viscosity,
-        pads=bearing.pads,
-        grooves=bearing.grooves,
-        supply_pressure=bearing.supply_pressure,
-    )
+    return made_from(BearingData, bearing, slenderness=bearing.slenderness)
 
 
 def film_name(film: FilmLaw) -> str:

@@ -6,8 +6,7 @@ import math
 import warnings
 from dataclasses import dataclass, replace
 
-import numpy as np
-
+from ...answers import WorkUnit
 from ...bearings.films.law import FilmLaw
 from ...bearings.journal import (
     ComplementarityArc,
@@ -22,7 +21,6 @@ from ...bearings.journal import (
     is_mappable,
 )
 from ...errors import ValidityWarning
-from ...model import Array
 from .echo import film_name
 
 TABLE_RANGE = (0.1, 4.0)
@@ -31,19 +29,8 @@ TABLE_RANGE = (0.1, 4.0)
 MAP_BOUNDS = ((0.95, 2e-5, 1e-3), (0.999, 4e-4, math.inf))
 """Eccentricity ratio up to which, and largest error of a position and of K, C there: docs/accuracy.md."""
 
-STEP = 0.05
-"""Step of differences of a two-dimensional film in its source, relative to the wedge; less in a thin film.
-
-Its own derivative in the source belongs to cells that are full or empty, and jumps when one changes sides;
-a difference over many such jumps does not. The pressure at the wall is as wide as the square root of the gap,
-and so is the squeeze, relative to the wedge, that moves its edge.
-"""
-
-MAP_MADE = "maps made"
-"""Unit of the work of making a map."""
-
-NOMINAL = {MAP_MADE: 20.0}
-"""What a map costs about [s], where none was made in this run."""
+MAP_MADE = WorkUnit("maps made", nominal=20.0)
+"""WorkUnit of the work of making a map."""
 
 MEDIUM, FINE, FINEST = (192, 16), (384, 16), (768, 32)
 
@@ -55,13 +42,13 @@ class FilmRung:
     Attributes
     ----------
     name : str
-    bearing : JournalBearing
+    reaction : JournalBearing
         With this film.
     rich : JournalBearing
         With the richer one.
     rich_name : str
         Name of the richer film.
-    position_prior, slope_prior : float [1]
+    position_prior, prior : float [1]
         Orders of magnitude of the error of a position, and of stiffness and damping; 0 if unknown.
     bounded : bool
         Whether the error has a verified bound, `MAP_BOUNDS`.
@@ -70,33 +57,34 @@ class FilmRung:
     """
 
     name: str
-    bearing: JournalBearing
+    reaction: JournalBearing
     rich: JournalBearing
     rich_name: str
     position_prior: float
-    slope_prior: float
+    prior: float
     bounded: bool = False
     makes_map: bool = False
 
-    def prepare(self) -> dict[str, int]:
+    def prepare(self) -> dict[WorkUnit, int]:
         """Make what the first force would make, and return the work of that."""
         if not self.makes_map:
             return {}
-        self.bearing.force([0.5 * self.bearing.clearance, 0.0], [0.0, 0.0], 1.0)
+        self.reaction.force([0.5 * self.reaction.clearance, 0.0], [0.0, 0.0], 1.0)
         return {MAP_MADE: 1}
 
-    def expected(self, tangents: int) -> dict[str, int]:
+    def expected(self, tangents: int) -> dict[WorkUnit, int]:
         """Return the work of so many forces with derivatives."""
         return {self.tangents: tangents, **({MAP_MADE: 1} if self.makes_map else {})}
 
     @property
-    def tangents(self) -> str:
-        """Name of one force with derivatives."""
-        return f"tangents of {self.name}"
+    def tangents(self) -> WorkUnit:
+        """One force with derivatives."""
+        return WorkUnit(f"tangents of {self.name}", ("tangents", self.reaction))
 
-    def defects(self, *, smooth: bool) -> str:
-        """Return the name of the defects that correct one state, with exact or with smooth slopes."""
-        return f"defects{' and slopes' if smooth else ''} of {self.rich_name}"
+    def defects(self, *, smooth: bool) -> WorkUnit:
+        """Return the unit of the defects that correct one state, with exact or with smooth slopes."""
+        name = f"defects{' and slopes' if smooth else ''} of {self.rich_name}"
+        return WorkUnit(name, ("defects", smooth, self.rich))
 
     def bound(self, eccentricity_ratio: float, *, slopes: bool) -> float:
         """Return the verified bound of its error at an eccentricity ratio, infinite where there is none."""
@@ -138,6 +126,40 @@ def point_films(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]
     return tuple(film for film in films if fixed or not film.makes_map)
 
 
+def turn_films(
+    bearing: JournalBearing, *, fixed: bool, grids: tuple[tuple[int, int], ...], maps: bool
+) -> tuple[FilmRung, ...]:
+    """Return the films for states all round a turn: the map that is there, else the short film and grids.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+    fixed : bool
+        Whether the scene names the film of the bearing.
+    grids : tuple of (int, int)
+        Cells of the grids worth taking.
+    maps : bool
+        Whether a map that must be made first is worth it.
+    """
+    films = tuple(_with_coarser_check(film) for film in film_rungs(bearing, fixed=fixed))
+    if len(films) == 1 or (films[0].bounded and not films[0].makes_map):
+        return films[:1]
+    return tuple(film for film in films if _is_kept(film, grids, maps=maps))
+
+
+def _is_kept(film: FilmRung, grids: tuple[tuple[int, int], ...], *, maps: bool) -> bool:
+    law = film.reaction.film
+    on_grid = isinstance(law, ExtrapolatedFilm) and law.film.cells in grids
+    return on_grid or isinstance(law, ShortFilm) or (maps and film.makes_map)
+
+
+def _with_coarser_check(film: FilmRung) -> FilmRung:
+    """Return a rung whose map is compared with a grid that may be sampled all round a turn."""
+    if not film.bounded:
+        return film
+    return replace(film, rich=extrapolated(film.reaction, FINE), rich_name="2-D 384 x 16 extr.")
+
+
 def with_film(bearing: JournalBearing, film: FilmLaw) -> JournalBearing:
     """Return the bearing with another film, whether or not that is meant for it."""
     with warnings.catch_warnings():
@@ -153,34 +175,6 @@ def extrapolated(bearing: JournalBearing, cells: tuple[int, int]) -> JournalBear
 def is_grid(bearing: JournalBearing) -> bool:
     """Return whether the film of a bearing lives on a grid in two dimensions."""
     return isinstance(bearing.film, ReynoldsFilm | ExtrapolatedFilm)
-
-
-def tangent(bearing: JournalBearing, position: Array, speed: float, *, smooth: bool) -> tuple[Array, Array]:
-    """Return force (2,) [N] at rest, and d force/d(x, y, vx, vy) (2, 4).
-
-    Parameters
-    ----------
-    bearing : JournalBearing
-    position : ndarray, shape (2,) [m]
-    speed : float [rad/s]
-    smooth : bool
-        Whether the derivatives of a film on a grid in its source are taken from differences, `STEP`.
-    """
-    rest = np.zeros(2)
-    slopes = bearing.jacobian(position, rest, speed)[:, :4]
-    if not (smooth and is_grid(bearing)):
-        return bearing.force(position, rest, speed), slopes
-    distance = float(np.hypot(*position))
-    thin = math.sqrt(1.0 - distance / bearing.clearance)
-    rate = STEP * min(1.0, 2.0 * thin) * 0.5 * abs(speed) * distance
-    velocities = rate * np.concatenate([np.zeros((2, 1)), *(k * np.eye(2) for k in (-2, -1, 1, 2))], axis=1)
-    force = bearing.force(np.repeat(position[:, None], 9, axis=1), velocities, np.full(9, speed))
-    low2, low, high, high2 = np.split(force[:, 1:], 4, axis=1)
-    by_velocity = (low2 - 8.0 * low + 8.0 * high - high2) / (12.0 * rate)
-    # The wedge moves with the journal, w = v/c - (speed/2) z^ x e, so its share follows.
-    change = by_velocity - slopes[:, 2:]
-    by_position = slopes[:, :2] - 0.5 * speed * np.stack([change[:, 1], -change[:, 0]], axis=1)
-    return force[:, 0], np.concatenate([by_position, by_velocity], axis=1)
 
 
 def _map(bearing: JournalBearing) -> FilmRung:
@@ -263,10 +257,10 @@ def _rung(
     cells, rich_name = rich
     return FilmRung(
         name=name,
-        bearing=with_film(bearing, film),
+        reaction=with_film(bearing, film),
         rich=with_film(bearing, MapFilm()) if cells is None else extrapolated(bearing, cells),
         rich_name=rich_name,
         position_prior=position_prior,
-        slope_prior=slope_prior,
+        prior=slope_prior,
         bounded=bounded,
     )

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from ...bearings.journal import JournalBearing, ReynoldsFilm
 from ...errors import RotorfilmError, ValidityWarning
 from ...linear import equilibrium
 from ..lubricant_table import LubricantTable
+from ..remarks import Remark, said
 
 TAYLOR = 41.2
 """Reynolds number times sqrt(c/R) from which vortices grow between cylinders, the inner one turning.
@@ -26,8 +26,8 @@ ATMOSPHERE = 1e5
 NOTABLE = 0.25
 """Relative change of the film that is worth a word."""
 
-TILT = 1e-4
-"""Tilt of the journal [rad] that an ordinary machine has; a smaller margin is worth a word."""
+TILT = 0.1
+"""Tilt of the journal [mrad] that an ordinary machine has; a smaller margin is worth a word."""
 
 
 COARSE = (48, 4)
@@ -41,48 +41,60 @@ SLIGHT = 0.1
 """Eccentricity ratio below which the oil that leaves is too little to take all heat along."""
 
 
-class Numbers(NamedTuple):
-    """Dimensionless numbers of a journal bearing at work.
-
-    Attributes
-    ----------
-    taylor : float
-        speed R c/nu sqrt(c/R); laminar Couette flow below `TAYLOR`.
-    inertia : float
-        speed c^2/nu: inertia of the film over its viscous stress.
-    peclet : float
-        speed c^2/diffusivity: heat carried along over heat conducted across the film.
-    power : float [W]
-        Loss in the film, at rest and at the viscosity of the bearing; not-a-number, as side_flow, warming and
-        thinning are, where the coarse film has no answer.
-    side_flow : float [m3/s]
-        Oil that leaves at both ends.
-    warming : float [K]
-        Rise of temperature, of the oil that leaves (Peclet number above 1) or between cold walls.
-    thinning : float
-        Relative loss of viscosity by that.
-    tension : float
-        Ambient pressure over the mean pressure of the load: how much the rupture pressure matters.
-    compression : float
-        Mean pressure of the load over the bulk modulus.
-    """
-
-    taylor: float
-    inertia: float
-    peclet: float
-    power: float
-    side_flow: float
-    warming: float
-    thinning: float
-    tension: float
-    compression: float
+REMARKS = (
+    Remark(
+        "thinning",
+        NOTABLE,
+        "heat: the oil warms by about {warming:.2g} K ({power:.3g} W in the film, {side_flow:.3g} m3/s out "
+        "of its ends, Peclet number {peclet:.2g}), which takes {thinning:.0%} of its viscosity",
+    ),
+    Remark(
+        "unknown",
+        0.0,
+        "heat: not known, as the coarse film that would tell it has no answer under this load",
+    ),
+    Remark("taylor", TAYLOR, f"turbulence: Taylor vortices above {TAYLOR}, the film has {{taylor:.3g}}"),
+    Remark("inertia", 1.0, "inertia of the film: {inertia:.2g} of the viscous stress"),
+    Remark(
+        "pressure",
+        1.0,
+        "cavitation: the load makes {pressure:.2g} times the ambient pressure, so that the oil may hold "
+        "tension and rupture elsewhere; no film conserves its mass",
+        below=True,
+    ),
+    Remark("compression", 0.01, "compressibility: {compression:.2%} by the mean pressure"),
+    Remark(
+        "tilt",
+        TILT,
+        "misalignment: a tilt of {tilt:.2g} mrad closes even a centered film",
+        below=True,
+    ),
+)
+"""What the physics of a journal's film leaves out, by the numbers of `journal_numbers`."""
 
 
 def journal_numbers(
     bearing: JournalBearing, oil: LubricantTable, speed: float, load: tuple[float, float]
-) -> Numbers:
-    """Return the numbers of a bearing at a speed [rad/s] and a load [N].
+) -> dict[str, float]:
+    """Return the dimensionless numbers of a bearing at a speed [rad/s] and a load [N].
 
+    Returns
+    -------
+    dict of str to float
+        taylor : speed R c/nu sqrt(c/R); laminar Couette flow below `TAYLOR`.
+        inertia : speed c^2/nu, inertia of the film over its viscous stress.
+        peclet : speed c^2/diffusivity, heat carried along over heat conducted across the film.
+        power [W] : loss in the film, at rest and at the viscosity of the bearing; not-a-number, as side_flow,
+        warming and thinning are, where the coarse film has no answer; `unknown` is 1 then, else 0.
+        side_flow [m3/s] : oil that leaves at both ends.
+        warming [K] : rise of temperature, of the oil that leaves (Peclet number above 1) or between cold
+        walls; thinning : relative loss of viscosity by that.
+        pressure : mean pressure of the load over the ambient one: how much the rupture pressure matters.
+        compression : mean pressure of the load over the bulk modulus.
+        tilt [mrad] : of the journal, that closes even a centered film.
+
+    Notes
+    -----
     The oil that leaves carries the power that the film takes, both of an isothermal film under the load.
     Between cold walls, and where nothing flows, the middle of the film is warmer by viscosity U^2/(8
     conductivity). Between an eccentricity ratio of `SLIGHT` and the center one passes into the other with the
@@ -100,17 +112,19 @@ def journal_numbers(
     if peclet <= 1.0:
         warming = min(warming, conducted)
     mean = math.hypot(*load) / (2.0 * R * bearing.length)
-    return Numbers(
-        taylor=omega * R * c / kinematic * math.sqrt(c / R),
-        inertia=omega * c**2 / kinematic,
-        peclet=peclet,
-        power=power,
-        side_flow=flow,
-        warming=warming,
-        thinning=-math.expm1(-oil.thinning * warming),
-        tension=ATMOSPHERE / mean if mean else math.inf,
-        compression=mean / oil.bulk_modulus,
-    )
+    return {
+        "taylor": omega * R * c / kinematic * math.sqrt(c / R),
+        "inertia": omega * c**2 / kinematic,
+        "peclet": peclet,
+        "power": power,
+        "side_flow": flow,
+        "warming": warming,
+        "unknown": float(math.isnan(warming)),
+        "thinning": -math.expm1(-oil.thinning * warming),
+        "pressure": mean / ATMOSPHERE,
+        "compression": mean / oil.bulk_modulus,
+        "tilt": 2e3 * c / bearing.length,
+    }
 
 
 def film_loss(bearing: JournalBearing, speed: float, load: tuple[float, float]) -> tuple[float, float, float]:
@@ -147,20 +161,4 @@ def film_remarks(
     bearing: JournalBearing, oil: LubricantTable, speed: float, load: tuple[float, float]
 ) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each, at a speed [rad/s] and a load [N]."""
-    n = journal_numbers(bearing, oil, speed, load)
-    tilt = 2.0 * bearing.clearance / bearing.length
-    lines = {
-        f"heat: the oil warms by about {n.warming:.2g} K ({n.power:.3g} W in the film, {n.side_flow:.3g} "
-        f"m3/s out of its ends, Peclet number {n.peclet:.2g}), "
-        f"which takes {n.thinning:.0%} of its viscosity": n.thinning > NOTABLE,
-        "heat: not known, as the coarse film that would tell it has no answer under this load": math.isnan(
-            n.warming
-        ),
-        f"turbulence: Taylor vortices above {TAYLOR}, the film has {n.taylor:.3g}": n.taylor > TAYLOR,
-        f"inertia of the film: {n.inertia:.2g} of the viscous stress": n.inertia > 1.0,
-        f"cavitation: the load makes {1.0 / n.tension:.2g} times the ambient pressure, so that the oil may "
-        "hold tension and rupture elsewhere; no film conserves its mass": n.tension > 1.0,
-        f"compressibility: {n.compression:.2%} by the mean pressure": n.compression > 0.01,
-        f"misalignment: a tilt of {tilt * 1e3:.2g} mrad closes even a centered film": tilt < TILT,
-    }
-    return tuple(line for line, applies in lines.items() if applies)
+    return said(REMARKS, journal_numbers(bearing, oil, speed, load))

@@ -1,1 +1,1 @@
-"""Shaft."""
+"""Scenes of flexible rotors: table, export, remarks."""

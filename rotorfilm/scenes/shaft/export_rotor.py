@@ -11,9 +11,9 @@ import numpy as np
 
 from ...errors import InputError
 from ...linear import rotor_equilibrium
-from ...model import Reaction
-from ...rotors import FlexibleRotor, Reduction, SteadyRotor, mount, reduce_rotor
-from ...rotors.structure import station_names
+from ...model import Array, Reaction
+from ...rotors import FlexibleRotor, ReducedRotor, Reduction, SteadyRotor, mount, reduce_rotor
+from ...rotors.stations import station_names
 from .solve_shaft import added_unbalance
 
 if TYPE_CHECKING:
@@ -76,15 +76,13 @@ def export_rotor_fmu(
     reduction = reduce_rotor(rotor, frequency=frequency, tolerance=tolerance)
     start = {}
     if bearings is not None:
-        at = rotor_equilibrium(reduction.rotor, bearings, float(reduction.rotor.profile.speed(0.0)))
-        state = np.concatenate([at.displacement, np.zeros(len(at.displacement))])
-        reduction = replace(reduction, rotor=replace(reduction.rotor, initial=tuple(state.tolist())))
-        forces = [
-            (name, -value)
-            for station, load in at.loads.items()
+        rotor, loads = _at_rest(reduction.rotor, bearings, float(reduction.rotor.profile.speed(0.0)))
+        reduction = replace(reduction, rotor=rotor)
+        start = {
+            name: -value
+            for station, load in loads.items()
             for name, value in zip(station_names(station)[1], load.tolist(), strict=True)
-        ]
-        start = dict(forces)
+        }
     model = SteadyRotor(rotor=reduction.rotor)
     export_fmu(model, path, version, platforms=platforms, component=component, start=start)
     return reduction
@@ -134,10 +132,8 @@ def export_system(
     highest = scene.shaft.highest_frequency or 2.0 * speeds.last
     whole = scene.shaft.build(speed=speed, extra=added_unbalance(scene))
     bearings = scene.shaft.build_bearings()
-    rotor = reduce_rotor(whole, frequency=highest, tolerance=tolerance).rotor
-    at = rotor_equilibrium(rotor, bearings, speed).displacement
-    rest = (*at.tolist(), *np.zeros(len(at)).tolist())
-    model = mount(replace(rotor, initial=rest), bearings)
+    rotor, _ = _at_rest(reduce_rotor(whole, frequency=highest, tolerance=tolerance).rotor, bearings, speed)
+    model = mount(rotor, bearings)
     path = folder / "system.fmu"
     turning = abs(speed) or 1.0
     export_fmu(
@@ -151,3 +147,12 @@ def export_system(
         stop_time=2.0 * np.pi / turning,  # a turn: what Python takes for it is some seconds
     )
     return ExportedSystem(system=path)
+
+
+def _at_rest(
+    rotor: ReducedRotor, bearings: Mapping[str, Reaction], speed: float
+) -> tuple[ReducedRotor, Mapping[str, Array]]:
+    """Return the rotor as it rests in its bearings at a speed [rad/s], and its load on each [N]."""
+    at = rotor_equilibrium(rotor, bearings, speed)
+    rest = np.concatenate([at.displacement, np.zeros(len(at.displacement))])
+    return replace(rotor, initial=tuple(rest.tolist())), at.loads

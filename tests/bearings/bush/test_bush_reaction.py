@@ -12,11 +12,11 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
-from rotorfilm.bearings.bush.bearing import f4k20_bush
 from rotorfilm.bearings.bush.bush_reaction import BushReaction
 from rotorfilm.bearings.bush.bush_wear import BushWear
 from rotorfilm.bearings.bush.contact_arc import mean_weight
 from rotorfilm.bearings.bush.heat import GlobalBalance
+from rotorfilm.bearings.bush.published_bush import f4k20_bush
 from rotorfilm.bearings.bush.worn_profile import LocalMelting, Melting, SharedMelting
 from rotorfilm.errors import ConvergenceError, FilmContactError, InputError, ValidityWarning
 from rotorfilm.linear import OperatingPoint, coefficients, equilibrium, linearize

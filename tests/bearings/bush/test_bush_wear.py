@@ -12,12 +12,12 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from rotorfilm.bearings.bush.bearing import f4k20_bush
 from rotorfilm.bearings.bush.bush_reaction import BushReaction
 from rotorfilm.bearings.bush.bush_wear import BushWear
 from rotorfilm.bearings.bush.heat import GlobalBalance
 from rotorfilm.bearings.bush.materials import Friction
 from rotorfilm.bearings.bush.moments import Stage, Wearing, wear_by_one_moment
+from rotorfilm.bearings.bush.published_bush import f4k20_bush
 from rotorfilm.bearings.bush.wear_at_nodes import wear_at_nodes
 from rotorfilm.bearings.bush.worn_profile import SharedMelting
 from rotorfilm.errors import ConvergenceError, FilmContactError, InputError, ValidityWarning

@@ -230,11 +230,11 @@ def test_what_has_no_map_is_refused():
 
 @pytest.mark.convergence
 @pytest.mark.parametrize("turn", [0.0, 1.0, 1.55, 1.6, 2.2, 3.0])
-def test_short_map_goes_on_as_the_film_at_contact(turn):
+def test_short_map_goes_on_as_the_film_at_the_wall(turn):
     exact, mapped = (replace(SHORT, cage=None, film=film) for film in (ShortSqueeze(), MapSqueeze()))
     motion = np.array([0.999e-4, 0.0]), np.array([np.cos(turn), np.sin(turn)])
     expected = exact.force(*motion)
-    with pytest.warns(ValidityWarning, match="as that of a film at contact, within 5 %"):
+    with pytest.warns(ValidityWarning, match="as that of a film at the wall, within 5 %"):
         difference = mapped.force(*motion) - expected
     assert np.linalg.norm(difference) < 0.04 * np.linalg.norm(expected)
 
@@ -257,6 +257,6 @@ def test_force_of_a_finite_map_is_that_of_the_journals_map():
         for turn in (0.0, 1.2, 1.55, 1.6, 2.2):
             q, v = np.array([chi * 1e-4, 0.0]), np.array([np.cos(turn), np.sin(turn)])
             expected = journal.force(q, v, 0.0)
-            with pytest.warns(ValidityWarning, match="as that of a film at contact, within 5 %"):
+            with pytest.warns(ValidityWarning, match="as that of a film at the wall, within 5 %"):
                 difference = damper.force(q, v) - expected
             assert np.linalg.norm(difference) < 0.03 * np.linalg.norm(expected)

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rotorfilm.bearings.films.law import BindableFilm, FilmLaw
+from rotorfilm.bearings.films.law import FilmLaw, FilmOptions, options
 from rotorfilm.bearings.films.map_fit import tabulate_film
-from rotorfilm.bearings.journal import JournalBearing, MapFilm, ReynoldsFilm, ShortFilm
+from rotorfilm.bearings.journal import JournalBearing, MapFilm, ShortFilm, SplittingFilm
 from rotorfilm.errors import FilmContactError, InputError, UndefinedDerivativeError, ValidityWarning
 from rotorfilm.linear import coefficients
 from rotorfilm.native import JournalKernel
@@ -38,8 +38,9 @@ def si_states(count):
 
 def test_is_a_film_law_that_binds():
     assert isinstance(FILM, FilmLaw)
-    assert isinstance(FILM, BindableFilm)
-    assert not isinstance(ReynoldsFilm(), BindableFilm)
+    dimensions = {"slenderness": 0.5, "clearance": 1e-4, "force_scale": 1.0}
+    assert FILM.bind(**dimensions) is not None
+    assert options(SplittingFilm(), FilmOptions).bind(**dimensions) is None
 
 
 @pytest.mark.closed_form

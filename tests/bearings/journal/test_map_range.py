@@ -38,7 +38,7 @@ def test_bearing_shorter_than_the_table_gets_its_own(lowest, highest, worst):
     e, w = states(12, lowest, highest)
     exact = np.stack([converged_force(e[:, k], w[:, k], 0.05) for k in range(12)], axis=1)
     assert error(MapFilm().force(e, w, 0.05), exact).max() < worst
-    # It is not the short film: near contact its ends are as wide as it is long.
+    # It is not the short film: near the wall its ends are as wide as it is long.
     assert error(ShortFilm().force(e, w, 0.05), exact).max() > 5.0 * worst
 
 
@@ -66,10 +66,10 @@ def test_own_table_is_right_where_the_film_turns_near_contact(cosine):
 @pytest.mark.convergence
 @pytest.mark.parametrize("slenderness", [0.1, 1.0])
 @pytest.mark.parametrize("chi", [0.9995, 0.9999])
-def test_beyond_the_last_node_the_film_is_that_at_contact(slenderness, chi):
+def test_beyond_the_last_node_the_film_is_that_at_the_wall(slenderness, chi):
     for cosine in (1.0, 0.3, 0.01, 0.0, -0.02, -0.3):
         w = np.array([cosine, -np.sqrt(1.0 - cosine**2)])
-        with pytest.warns(ValidityWarning, match="as that of a film at contact, within 2 %"):
+        with pytest.warns(ValidityWarning, match="as that of a film at the wall, within 2 %"):
             force = MapFilm().force(np.array([chi, 0.0]), w, slenderness)
         assert error(force, converged_force([chi, 0.0], w, slenderness)) < 1e-2
 

@@ -416,3 +416,13 @@ def test_bad_opening_is_refused():
         Groove(center=0.0, width=7.0)
     with pytest.raises(InputError, match="extent must be in"):
         Pad(start=0.0, extent=7.0)
+
+
+def test_states_without_a_film_are_told():
+    film, e, w = ReynoldsFilm(cells=(16, 4)), np.array([[0.3], [0.1]]), np.array([[1.0], [0.0]])
+    assert film.force_pair(e[:, :0], w[:, :0], 0.5)[0].shape == (2, 0)
+    for broken in (np.nan, np.inf):
+        with pytest.raises(InputError, match="must be finite"):
+            film.force_pair(e, np.array([[broken], [0.0]]), 0.5)
+        with pytest.raises(InputError, match="must be finite"):
+            film.solve(e[:, 0], np.array([broken, 0.0]), 0.5)

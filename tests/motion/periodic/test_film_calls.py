@@ -6,8 +6,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from rotorfilm import JournalBearing, LinearBearing, ShortFilm, Sprung
-from rotorfilm.motion.compiled import rotor_kernels as kernels
 from rotorfilm.motion.compiled.film_calls import film_call
+from rotorfilm.motion.compiled.journal_films import JournalFilms
+from rotorfilm.native import Status
 
 SIZES = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}
 MAP, SHORT = JournalBearing(**SIZES), JournalBearing(**SIZES, film=ShortFilm())
@@ -17,9 +18,9 @@ BEARINGS = [MAP, SHORT, SPRING, Sprung(reaction=MAP, stiffness=1e6)]
 
 def answer(bearing, state):
     call = film_call(bearing)
-    films = np.array([[call.address, call.data]], dtype=np.intp)
-    supports = np.zeros(2), np.zeros(2), np.array([1e-4])
-    status, force, slope = kernels.film_batch(films, supports, state[:2, None], state[2:4, None], state[4])
+    films, of = np.array([[call.address], [call.data]], dtype=np.uintp)
+    journals = JournalFilms(films, of, np.zeros(4), np.zeros(2), np.zeros(2), np.array([1e-4]))
+    status, force, slope = journals.forces(state[:4, None], state[4])
     return status, force[:, 0], slope[:, :, 0]
 
 
@@ -47,4 +48,4 @@ def test_compiled_force_is_that_of_the_bearing(bearing, chi, angle, velocity, sp
 
 @pytest.mark.parametrize("bearing", [MAP, SHORT, BEARINGS[3]], ids=["map", "short", "called back"])
 def test_wall_is_a_status(bearing):
-    assert answer(bearing, np.array([1e-4, 0.0, 0.0, 0.0, 100.0]))[0] == kernels.CONTACT
+    assert answer(bearing, np.array([1e-4, 0.0, 0.0, 0.0, 100.0]))[0] == Status.AT_WALL

@@ -1,5 +1,7 @@
 """Compiled integration against closed forms, against an independent integrator, and at the wall."""
 
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -27,7 +29,10 @@ from rotorfilm import (
     simulate,
     simulate_rotor,
 )
-from rotorfilm.motion.compiled.march import March, radau_scheme
+from rotorfilm.bearings.reaction import StaticReaction
+from rotorfilm.errors import ConvergenceError
+from rotorfilm.motion.compiled.collocation import radau_scheme
+from rotorfilm.motion.compiled.march import March
 from rotorfilm.motion.compiled.modal import modal_rotor, take_apart
 
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
@@ -49,6 +54,23 @@ def shaft(speed=400.0, **changes):
         "speed": speed,
     }
     return ShaftRotor(**(parts | changes))
+
+
+@dataclass(frozen=True, kw_only=True)
+class BrokenBearing(StaticReaction):
+    """Answers with a number that is none, or, without one, raises an error of its own."""
+
+    answer: float | None
+    clearance: float = 1e-4
+    nominal_force = 1.0
+
+    def prepared_force(self, q, v, omega):
+        if self.answer is None:
+            raise ZeroDivisionError("mine")
+        return np.stack([np.full(q.shape[1:], self.answer), np.zeros(q.shape[1:])])
+
+    def prepared_jacobian(self, q, v, omega):
+        return np.zeros((2, 5, *q.shape[1:]))
 
 
 def rigid(**changes):
@@ -120,7 +142,7 @@ def test_order_of_the_scheme(stages):
         length = orbit.period / steps
         state = modal.modal(orbit.state)
         run = March(modal=modal, state=state, rtol=1e9, longest=length, duration=orbit.period, stages=stages)
-        run._clock[1], run._newton = 0.0, 1e-13
+        run._struct.step, run._struct.newton = 0, 1e-13
         return modal.physical(run.to(orbit.period, np.array([orbit.period]))[0])[:2]
 
     exact = end(640)
@@ -137,8 +159,8 @@ def test_scheme_integrates_what_radau_does(stages):
     weights = lagrange @ (1.0 / np.arange(1, stages + 1))
     for power in range(2 * stages - 1):
         assert weights @ nodes**power == pytest.approx(1.0 / (power + 1), rel=1e-12)
-    assert np.polynomial.polynomial.polyval(nodes, remainder[0]) == pytest.approx(np.zeros(stages), abs=1e-11)
-    assert remainder[0, 0] == 1.0
+    assert np.polynomial.polynomial.polyval(nodes, remainder) == pytest.approx(np.zeros(stages), abs=1e-11)
+    assert remainder[0] == 1.0
 
 
 @pytest.mark.parametrize("rtol", [1e-4, 1e-6, 1e-8])
@@ -178,7 +200,7 @@ def test_rest_stays_at_rest():
 @pytest.mark.filterwarnings("ignore:eccentricity ratio .* is beyond the map")
 def test_a_journal_beyond_its_map_is_told_with_the_error_of_its_film():
     thrown = rigid(position=(0.9995e-4, 0.0), gravity=(0.0, 0.0))
-    with pytest.warns(ValidityWarning, match=r"journal went beyond .* film at contact, within 2 %$"):
+    with pytest.warns(ValidityWarning, match=r"journal went beyond .* film at the wall, within 2 %$"):
         simulate_rotor(mount(thrown, {"": BEARING}), duration=1e-4)
 
 
@@ -210,3 +232,15 @@ def test_wall_keeps_the_partial_result(cubic_bearing):
 def test_arguments_are_checked(changes, message):
     with pytest.raises(InputError, match=message):
         simulate_rotor(mount(rigid(), {"": BEARING}), **changes)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+def test_a_force_that_is_no_number_ends_the_run(value):
+    broken = BrokenBearing(answer=value)
+    with pytest.raises(ConvergenceError, match="film force must be finite"):
+        simulate_rotor(mount(rigid(), {"": broken}), duration=0.01)
+
+
+def test_an_error_of_a_bearing_in_python_arrives():
+    with pytest.raises(ZeroDivisionError, match="mine"):
+        simulate_rotor(mount(rigid(), {"": BrokenBearing(answer=None)}), duration=0.01)

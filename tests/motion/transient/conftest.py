@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from rotorfilm.errors import FilmContactError
-from rotorfilm.model import force_outputs, journal_inputs, static_linearization
+from rotorfilm.model import static_linearization
+from rotorfilm.signals import force_outputs, journal_inputs
 
 
 @dataclass(frozen=True)

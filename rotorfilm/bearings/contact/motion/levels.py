@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, Protocol, runtime_checkable
 import numpy as np
 
 from ....errors import InputError, require_non_negative
-from ....model import Array
+from ....model import Array, breakpoints
 from ..film.preconditioner import Closure
 from ..film.stationary import HERTZ_LOAD
 
@@ -90,7 +90,7 @@ class BallMotion:
     @property
     def breakpoints(self) -> tuple[float, ...]:
         """Times at which the load jumps."""
-        return tuple(getattr(self.load, "breakpoints", ()))
+        return breakpoints(self.load)
 
     def drive(self, t: float) -> float:
         """Return the load f."""
@@ -126,7 +126,7 @@ class GivenMotion:
     @property
     def breakpoints(self) -> tuple[float, ...]:
         """Times at which the motion kinks."""
-        return tuple(getattr(self.approach, "breakpoints", ()))
+        return breakpoints(self.approach)
 
     def drive(self, t: float) -> float:
         """Return the approach."""

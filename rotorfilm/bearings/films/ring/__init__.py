@@ -1,1 +1,1 @@
-"""Ring."""
+"""The film in two dimensions on a ring of cells."""

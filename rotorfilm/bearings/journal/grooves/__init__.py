@@ -1,1 +1,1 @@
-"""Grooves."""
+"""Films by the impedance map of bearings with openings."""

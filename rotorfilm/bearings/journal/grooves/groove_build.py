@@ -9,11 +9,13 @@ import numpy as np
 from ....errors import ConvergenceError
 from ....model import Array
 from ....progress import Report, silent
+from ...films.cavitation import Complementarity
 from ...films.geometry import TURN, FilmGeometry, Groove
 from ...films.map_fit import node_eccentricities
 from ...films.map_table import stretch
 from ...films.quintic import periodic_quintic, periodic_quintic_coefficients, quintic_coefficients
 from ...films.ring.ring_grids import LONG, ring_grids, ring_spans
+from ...films.ring.ring_kernel import RingKernel
 from .groove_table import DIRECTIONS, GrooveMapTable
 from .openings import AlignedOpenings
 
@@ -96,24 +98,15 @@ class _Solver:
 
     def __init__(self, grooves: tuple[Groove, ...], slenderness: float, cells: tuple[int, int]) -> None:
         geometry = FilmGeometry(grooves=grooves)
-        self._arguments = (
-            slenderness,
-            ring_spans(geometry),
-            ring_grids(geometry, *cells, max(slenderness, LONG)),
-        )
+        spans, grids = ring_spans(geometry), ring_grids(geometry, *cells, max(slenderness, LONG))
+        self._kernel = RingKernel(slenderness, spans, grids, Complementarity())
 
     def __call__(self, e: Array, phi: Array) -> tuple[Array, Array]:
         """Return J, (D,), and dJ/de, (2, D), at the eccentricity e for unit sources at the angles phi."""
-        # Imported here because a map that lies on disk needs no compiler.
-        from ...films.ring.ring_potential import potential_fan
-
-        levels, slopes, failed = potential_fan(e, np.stack([np.cos(phi), np.sin(phi)]), *self._arguments)
+        levels, slopes = self._kernel.potential(e, np.stack([np.cos(phi), np.sin(phi)]))
         J = extrapolated(levels)
-        if failed >= 0 or not np.all(J < 0.0):
-            raise ConvergenceError(
-                "the search for the ruptured zone must end in a film that carries, and did not at "
-                f"eccentricity {e.tolist()}"
-            )
+        if not np.all(J < 0.0):
+            raise ConvergenceError(f"the film must carry, and does not at eccentricity {e.tolist()}")
         return J, extrapolated(slopes)
 
 

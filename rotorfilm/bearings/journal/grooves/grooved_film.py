@@ -10,7 +10,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ....errors import InputError, require_number, require_positive
+from ....errors import InputError, require_kind, require_number, require_positive
 from ....model import Array
 from ....native import GrooveMapKernel
 from ....progress import Report, silent
@@ -47,7 +47,7 @@ class GroovedMapFilm(KernelFilm):
     and then kept in the folder that the environment variable ROTORFILM_CACHE names, or the platform's cache.
     `build_groove_map` makes it beforehand and says how far it is.
 
-    Beyond the largest eccentricity ratio J goes on as the film at contact (`native/films/contact.h`), as far
+    Beyond the largest eccentricity ratio J goes on as the film at the wall (`native/films/wall.h`), as far
     as the openings leave it, with a ValidityWarning: within 5 % where no opening is near, by factors at an
     edge.
 
@@ -87,10 +87,8 @@ class GroovedMapFilm(KernelFilm):
             raise InputError(
                 f"largest_eccentricity_ratio must be in (0, 1), got {self.largest_eccentricity_ratio!r}"
             )
-        if not isinstance(self.geometry, FilmGeometry):
-            raise InputError(f"geometry must be a FilmGeometry, got {self.geometry!r}")
-        if self.table is not None and not isinstance(self.table, GrooveMapTable):
-            raise InputError(f"table must be a GrooveMapTable, got {self.table!r}")
+        require_kind("geometry", self.geometry, FilmGeometry, "a FilmGeometry")
+        require_kind("table", self.table, GrooveMapTable | None, "a GrooveMapTable")
         if not self.geometry.plain:
             require_mappable(self.geometry)
             if self.table is not None:
@@ -112,7 +110,7 @@ class GroovedMapFilm(KernelFilm):
         return dataclasses.replace(self, geometry=geometry)
 
     def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
-        """Return the kernel and its tables, made now if they are not there yet; see `law.NativeFilm`."""
+        """Return the kernel and its tables, made now if they are not there yet; see `FilmOptions`."""
         kernel = self._kernel(slenderness)
         numbers = [slenderness, kernel.struct.x_end, kernel.struct.squeeze, kernel.struct.axis]
         return "grooved_journal", {
@@ -122,7 +120,7 @@ class GroovedMapFilm(KernelFilm):
         }
 
     def tabulated(self, slenderness: float) -> GroovedMapFilm:
-        """Return this film with its table; see `law.TabulatedFilm`."""
+        """Return this film with its table; see `FilmOptions`."""
         return dataclasses.replace(self, table=self.built_table(slenderness)) if self.table is None else self
 
     def built_table(self, slenderness: float, report: Report = silent) -> GrooveMapTable:

@@ -1,1 +1,1 @@
-"""Map."""
+"""Films by the impedance map of plain bearings."""

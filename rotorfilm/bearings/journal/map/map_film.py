@@ -9,7 +9,7 @@ from importlib.resources import files
 
 import numpy as np
 
-from ....errors import InputError, RotorfilmError
+from ....errors import RotorfilmError, require_kind
 from ....model import Array
 from ....native import MapKernel
 from ...films.kernel_film import KernelFilm
@@ -29,8 +29,8 @@ class MapFilm(KernelFilm):
     (`native/films/map_kernel.h`).
 
     Error of a force with the packaged table, 99 % of random states to eccentricity ratio .999: 2e-4; 2e-3 for
-    static journals at .999. Beyond the last node, .999, J goes on as the film at contact
-    (`native/films/contact.h`), with a ValidityWarning that states the error: 2 % at most, .2 % for
+    static journals at .999. Beyond the last node, .999, J goes on as the film at the wall
+    (`native/films/wall.h`), with a ValidityWarning that states the error: 2 % at most, .2 % for
     static journals to .99999. The table of a film that has another limit goes on as a power of X, with an
     unknown error.
 
@@ -51,8 +51,7 @@ class MapFilm(KernelFilm):
     table: MapTable | None = None
 
     def __post_init__(self) -> None:
-        if self.table is not None and not isinstance(self.table, MapTable):
-            raise InputError(f"table must be a MapTable, got {self.table!r}")
+        require_kind("table", self.table, MapTable | None, "a MapTable")
 
     @property
     def slenderness_range(self) -> tuple[float, float]:
@@ -60,7 +59,7 @@ class MapFilm(KernelFilm):
         return OWN_RANGE if self.table is None else self.table.slenderness_range
 
     def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
-        """Return the kernel and its tables; see `law.NativeFilm`."""
+        """Return the kernel and its tables; see `FilmOptions`."""
         table = self._table(slenderness)
         return "journal", {
             "coefficients": table.coefficients,
@@ -70,7 +69,7 @@ class MapFilm(KernelFilm):
         }
 
     def tabulated(self, slenderness: float) -> MapFilm:
-        """Return this film with the table that it would make; see `law.TabulatedFilm`."""
+        """Return this film with the table that it would make; see `FilmOptions`."""
         table = self._table(slenderness)
         return self if self.table is not None or table is packaged_table() else MapFilm(table)
 

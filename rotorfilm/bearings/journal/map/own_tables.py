@@ -1,6 +1,6 @@
 """Tables of single bearings that the packaged table leaves out: very short ones and long ones.
 
-A short film near contact has ends as wide as it is long, and a long one closes its dry gap and then carries
+A short film near the wall has ends as wide as it is long, and a long one closes its dry gap and then carries
 pressure all round, where `potential` fails. The two-dimensional film meets both: its J = (F . w)/2,
 extrapolated from two grids, has a smaller error than its force.
 """

@@ -55,7 +55,7 @@ class Potential(NamedTuple):
 def default_resolution(chi: float, slenderness: float) -> RitzResolution:
     """Return what converges L to about 1e-7.
 
-    A long film near contact has thin layers at its axial ends, of relative thickness sqrt(1 - chi)/(L/D);
+    A long film near the wall has thin layers at its axial ends, of relative thickness sqrt(1 - chi)/(L/D);
     polynomials need the inverse root of that.
     """
     layer = math.sqrt(1.0 - chi) / slenderness

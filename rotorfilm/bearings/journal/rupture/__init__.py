@@ -1,1 +1,1 @@
-"""Rupture."""
+"""Where the film of a splitting law begins and ends."""

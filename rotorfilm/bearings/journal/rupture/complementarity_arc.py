@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,10 +40,8 @@ class ComplementarityArc:
     (90 %) of the two-dimensional complementarity solution at L/D 0.5 and 1; docs/journal.md has the table.
     """
 
-    @property
-    def turns(self) -> bool:
-        """The ends depend on the direction of the source."""
-        return True
+    turns: ClassVar[bool] = True
+    """The ends depend on the direction of the source."""
 
     def shortcoming(self, basis: Basis) -> str:
         """Return a warning where the constant function is left out: the arc is longer than half a circle."""

@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,10 +66,8 @@ class ReynoldsArc:
         if self.start is not None:
             require_finite("start", self.start)
 
-    @property
-    def turns(self) -> bool:
-        """The end depends on the direction of the source."""
-        return True
+    turns: ClassVar[bool] = True
+    """The end depends on the direction of the source."""
 
     def shortcoming(self, basis: Basis) -> str:
         """Return a warning for n < 4, or without the constant function."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol, runtime_checkable
+from typing import ClassVar, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -108,10 +108,8 @@ class FixedArc:
         if not SHORTEST_ARC <= self.extent <= 2.0 * math.pi:
             raise InputError(f"extent must be from {SHORTEST_ARC} to 2 pi, got {self.extent!r}")
 
-    @property
-    def turns(self) -> bool:
-        """The ends do not turn with the source."""
-        return False
+    turns: ClassVar[bool] = False
+    """The ends do not turn with the source."""
 
     def shortcoming(self, basis: Basis) -> str:
         """Return a warning for long arcs without the constant function."""
@@ -134,10 +132,8 @@ class RotatingArc:
     The ends are t + pi/2 and t + 3 pi/2, with t the direction of the source.
     """
 
-    @property
-    def turns(self) -> bool:
-        """The ends turn with the source."""
-        return True
+    turns: ClassVar[bool] = True
+    """The ends turn with the source."""
 
     def shortcoming(self, basis: Basis) -> str:
         """Return an empty string: half a circle suits every basis."""

@@ -1,1 +1,1 @@
-"""Splitting."""
+"""Films by splitting: products of axial and circumferential functions."""

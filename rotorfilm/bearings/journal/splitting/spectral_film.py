@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ....errors import InputError
+from ....errors import InputError, require_kind
 from ....model import Array
 from ...films.law import PolarFrame, PolarResponse, polar_force, polar_jacobian
 from ...films.legendre import gauss_weights, trial_functions
@@ -56,8 +56,7 @@ class SpectralArcFilm:
     def __post_init__(self) -> None:
         if not isinstance(self.degree, int) or self.degree < 2:
             raise InputError(f"degree must be an integer >= 2, got {self.degree!r}")
-        if isinstance(self.rupture, type) or not isinstance(self.rupture, Rupture):
-            raise InputError(f"rupture must be an arc such as FixedArc(), got {self.rupture!r}")
+        require_kind("rupture", self.rupture, Rupture, "an arc such as FixedArc()")
 
     def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
         """Return the force on the journal, shape (2, ...); see `FilmLaw.force`."""

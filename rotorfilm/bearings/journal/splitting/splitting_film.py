@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ....errors import InputError, warn_user
+from ....errors import InputError, require_kind, warn_user
 from ....model import Array
 from ...films.law import PolarFrame, PolarResponse, polar_force, polar_jacobian
 from ..rupture.rupture import Basis, FixedArc, Rupture
@@ -71,8 +71,7 @@ class SplittingFilm:
         _require_order(self.order)
         if self.constant and self.order[0] < 2:
             raise InputError(f"order must have n >= 2 when constant is set, got {self.order!r}")
-        if isinstance(self.rupture, type) or not isinstance(self.rupture, Rupture):
-            raise InputError(f"rupture must be an arc such as FixedArc(), got {self.rupture!r}")
+        require_kind("rupture", self.rupture, Rupture, "an arc such as FixedArc()")
         shortcoming = self.rupture.shortcoming(self.basis)
         if shortcoming:
             warn_user(shortcoming)

@@ -1,0 +1,58 @@
+"""The kernel of the C library that is a journal bearing over a film."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ...model import Array
+from ...native.spec import NativeParameter, NativeSpec
+
+NATIVE_PARAMETERS = (
+    ("radius", "m", "bearing radius"),
+    ("length", "m", "axial length"),
+    ("clearance", "m", "radial clearance"),
+    ("viscosity", "Pa.s", "dynamic viscosity"),
+)
+"""Names, units and meanings of what a simulator may set in the compiled bearing."""
+
+SCALES = {"clearance", "viscosity"}
+"""Those of them that only scale a film: the others change what the map of a film depends on."""
+
+
+def journal_spec(
+    kernel: str, tables: Mapping[str, Array], dimensions: Mapping[str, float], *, fixed: bool
+) -> NativeSpec:
+    """Return the kernel of a journal bearing.
+
+    Parameters
+    ----------
+    kernel : str
+    tables : mapping of str to ndarray
+        Of the film.
+    dimensions : mapping of str to float
+        Radius, length, clearance [m] and viscosity [Pa s].
+    fixed : bool
+        Whether the film is for one length / diameter only, so that radius and length are fixed.
+    """
+    bounds = _bounds(tables.get("range")) if tables else ""
+    parameters = tuple(
+        NativeParameter(
+            name=name,
+            unit=unit,
+            value=dimensions[name],
+            tunable=not fixed or name in SCALES,
+            minimum=0.0,
+            nominal=dimensions[name],
+            description=description if name in SCALES else description + bounds,
+        )
+        for name, unit, description in NATIVE_PARAMETERS
+    )
+    return NativeSpec(kernel=kernel, parameters=parameters, tables=tables)
+
+
+def _bounds(slenderness_range: Array | None) -> str:
+    """Return what the description of radius and length says of their range."""
+    if slenderness_range is None:
+        return "; fixed, as the map of the film holds for this length / diameter"
+    low, high = slenderness_range
+    return f"; length / diameter must stay from {low:g} to {high:g}"

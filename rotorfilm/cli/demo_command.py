@@ -1,0 +1,73 @@
+"""The command `rotorfilm demo`: the whole way on a real bearing."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..progress import Report
+from . import printing as console
+from .command import Said
+from .solve_command import print_answer
+
+if TYPE_CHECKING:
+    from ..scenes.demo import DemoResult
+
+
+def demo(
+    report: Report,
+    out: Annotated[Path, typer.Option(help="Folder for results, FMUs and charts.")] = Path("rotorfilm-demo"),
+) -> Said:
+    """Run the whole way on a real bearing: equilibrium, stability, FMUs, coupled simulation, charts."""
+    report(0.0, "packages")
+    from ..scenes import bundled_scene
+    from ..scenes.demo import plain_results, run_demo
+    from .demo_pictures import draw_demo
+
+    result = run_demo(out, bundled_scene(), report)
+    report(0.95, "charts")
+    charts = draw_demo(result, out)
+    report(1.0, "done")
+    data = {**plain_results(result), "charts": [chart.name for chart in charts]}
+    return Said(data, partial(_print_all, result, out))
+
+
+def _print_all(result: DemoResult, folder: Path) -> None:
+    print_demo(result)
+    notes = {folder / "demo.png": "overview: orbits, coupling error, whirl, force error"}
+    files = [(path.name, notes.get(path, "")) for path in sorted(folder.iterdir())]
+    console.print_rows("files", files)
+
+
+def print_demo(result: DemoResult) -> None:
+    """Print the summary of the demonstration."""
+    print_answer(result.scene.title, result.answer)
+    runs, limit, order = result.coupling.runs, result.critical_macro_angle, result.coupling.observed_order
+    table = console.plain_table("coupled FMUs beside the monolithic solution")
+    for heading in ("macro step", "spectral radius", "orbit error / clearance", "time"):
+        table.add_column(heading, justify="right")
+    table.add_column("")
+    for run in runs:
+        table.add_row(
+            f"{math.degrees(run.macro_angle):.4g} deg",
+            f"{run.spectral_radius:.5f}",
+            f"{run.orbit_error:.3g}" + (" (refused)" if run.refused else ""),
+            f"{run.wall_time:.2f} s",
+            "too long on purpose" if run is result.refusal_run else "",
+        )
+    console.plain_console().print("", table)
+    rows = [
+        ("stability limit of the macro step", "none" if limit is None else f"{math.degrees(limit):.4g} deg")
+    ]
+    if result.refusal_run is not None and limit is not None:
+        times = result.refusal_run.macro_angle / limit
+        rows.append(("too long on purpose", f"{times:.3g} x the limit: must be refused"))
+    rows += [
+        ("order of convergence", "not observed" if order is None else f"{order:.3f}"),
+        ("refused", "; ".join(run.refused for run in runs if run.refused) or "no run"),
+    ]
+    console.print_rows("", rows)

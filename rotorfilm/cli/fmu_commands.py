@@ -1,0 +1,107 @@
+"""The commands `rotorfilm fmu ...`: build FMUs of a scene, check one, show what is in one."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from functools import partial
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from ..progress import Report
+from . import printing as console
+from .command import Said, SceneFile
+from .solve_command import make_map
+
+FmuFile = Annotated[Path, typer.Argument(metavar="FILE.fmu", help="FMU of FMI 2.0 or 3.0.")]
+
+
+class FmiVersion(StrEnum):
+    """FMI versions of an export."""
+
+    TWO = "2.0"
+    THREE = "3.0"
+
+
+class Backend(StrEnum):
+    """What runs a model inside an FMU: the C library, or Python."""
+
+    NATIVE = "native"
+    PYTHON = "python"
+
+
+class Platforms(StrEnum):
+    """Machines for which a native FMU carries a library."""
+
+    HOST = "host"
+    ALL = "all"
+
+
+def build(
+    scene: SceneFile,
+    report: Report,
+    out: Annotated[Path, typer.Option(help="Folder for the FMUs; made if absent.")] = Path("."),
+    fmi: Annotated[FmiVersion, typer.Option(help="FMI version.")] = FmiVersion.TWO,
+    backend: Annotated[
+        Backend | None, typer.Option(help="What runs in them; by default native where there is a kernel.")
+    ] = None,
+    platforms: Annotated[Platforms, typer.Option(help="This machine's platform, or all of them.")] = (
+        Platforms.HOST
+    ),
+) -> Said:
+    """Export the film and the rotor of a scene as FMUs; a flexible rotor as one, with its bearings in it."""
+    from ..scenes import Scene
+    from ..scenes.export_scene import export_scene
+    from ..scenes.shaft.export_rotor import export_system
+
+    loaded = Scene.load(scene)
+    whole = loaded.shaft is not None and loaded.journal is None
+    if loaded.journal is not None and loaded.damper is None:
+        make_map(loaded.bearing, report)
+    made = (export_system if whole else export_scene)(
+        loaded,
+        out,
+        version=fmi.value,
+        backend=None if backend is None else backend.value,
+        platforms=platforms.value,
+    )
+    files = {name: str(path) for name, path in made._asdict().items()}
+    return Said(files, partial(console.print_rows, "FMUs", files.items()))
+
+
+def check(file: FmuFile) -> Said:
+    """Check description, derivatives, FMU states and reference trajectory; exit with 1 if one fails."""
+    from ..fmu import check_fmu
+
+    items = check_fmu(file)
+    rows = [_check_row(*item) for item in items]
+    failed = any(item.passed is False for item in items)
+    data = [item._asdict() for item in items]
+    return Said(data, partial(console.print_rows, str(file), rows), "" if failed else None)
+
+
+def _check_row(check: str, passed: bool | None, figure: float | None, remark: str) -> tuple[str, str]:
+    verdict = {True: "passed", False: "FAILED", None: "not applicable"}[passed]
+    measured = "" if figure is None else f" {figure:.2g}"
+    return check, f"{verdict}:{measured} {remark}"
+
+
+def info(file: FmuFile) -> Said:
+    """Show what an FMU says of itself: version, interfaces, platforms, variables."""
+    from ..fmu import describe_fmu
+
+    found = describe_fmu(file)
+    return Said(found, partial(_print_info, str(file), found))
+
+
+def _print_info(title: str, found: dict[str, Any]) -> None:
+    variables = found["variables"]
+    shown = {key: value for key, value in found.items() if value is not variables}
+    rows = {key: ", ".join(value) if isinstance(value, list) else str(value) for key, value in shown.items()}
+    console.print_rows(title, rows.items())
+    table = console.plain_table("variables")
+    for key in variables[0] if variables else ():
+        table.add_column(key, overflow="fold")
+    cells = [["" if value is None else str(value) for value in row.values()] for row in variables]
+    console.plain_console().print(console.filled(table, cells))

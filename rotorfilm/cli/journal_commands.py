@@ -1,0 +1,197 @@
+"""The commands `rotorfilm coefficients` and `rotorfilm groove-map`: journal bearings without a scene file."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ..errors import InputError
+from ..printable import brief
+from ..progress import Report
+from ..units import whole_number
+from . import printing as console
+from .command import Said
+from .solve_command import bearing_rows, coefficient_rows, equilibrium_rows, make_map, remark_rows
+
+if TYPE_CHECKING:
+    from ..bearings.films.geometry import Groove
+    from ..bearings.films.law import FilmLaw
+    from ..bearings.journal import GrooveMapTable
+
+Grooves = Annotated[
+    list[str] | None,
+    typer.Option(help="Center and width of an axial groove; once for each.", metavar='"90 deg, 20 deg"'),
+]
+
+
+def coefficients(
+    report: Report,
+    radius: Annotated[str, typer.Option(help="Journal radius.", metavar='"50 mm"')],
+    length: Annotated[str, typer.Option(help="Axial length.", metavar='"30 mm"')],
+    clearance: Annotated[str, typer.Option(help="Radial clearance.", metavar='"0.1 mm"')],
+    viscosity: Annotated[str, typer.Option(help="Dynamic viscosity.", metavar='"0.1 Pa s"')],
+    load: Annotated[str, typer.Option(help='Static load: downward, or "X,Y" components.', metavar='"525 N"')],
+    speed: Annotated[str, typer.Option(help="Angular speed about +z.", metavar='"1500 rpm"')],
+    film: Annotated[
+        str, typer.Option(help="Film law: map, grooved_map, reynolds, short or splitting.", metavar="NAME")
+    ] = "map",
+    order: Annotated[
+        str | None, typer.Option(help='Splitting order, "N,M" or "N,inf".', metavar="2,inf")
+    ] = None,
+    constant: Annotated[bool, typer.Option("--constant", help="Splitting film with the function 1.")] = False,
+    rupture: Annotated[
+        str | None,
+        typer.Option(
+            help="Where the splitting film ends: fixed, rotating, reynolds or complementarity.",
+            metavar="KIND",
+        ),
+    ] = None,
+    cells: Annotated[
+        str | None,
+        typer.Option(help='Cells of the reynolds or grooved_map film, "AROUND,ALONG".', metavar="96,8"),
+    ] = None,
+    groove: Grooves = None,
+) -> Said:
+    """Find equilibrium, stiffness and damping of a journal bearing; numbers without a unit are SI."""
+    from ..linear import coefficients as film_coefficients
+    from ..linear import equilibrium
+    from ..scenes.journal.echo import bearing_data, film_name
+    from ..scenes.journal.journal_remarks import film_remarks
+    from ..scenes.lubricant_table import LubricantTable
+    from ..scenes.reading.tables import read_table
+    from ..scenes.schema import JournalTable
+
+    geometry = {"radius": radius, "length": length, "clearance": clearance, "viscosity": viscosity}
+    grooves = tuple(_groove(text) for text in groove or [])
+    law = _film(film, order, constant, rupture, cells)
+    bearing = replace(read_table(JournalTable, "--", geometry), film=law, grooves=grooves).build()
+    make_map(bearing, report)
+    force, rate = _operation(load, speed)
+    at = equilibrium(bearing, force, rate)
+    derivatives = film_coefficients(bearing, at.position, rate)
+    data, name = bearing_data(bearing), film_name(bearing.fitted_film)
+    remarks = film_remarks(bearing, LubricantTable(), rate, force)
+    answer = {"bearing": data, "model": name, "equilibrium": at, "coefficients": derivatives}
+    rows = [*bearing_rows(data), ("film", name), *equilibrium_rows(at)]
+    rows += [*coefficient_rows(derivatives), *remark_rows(remarks)]
+    return Said({**answer, "remarks": remarks}, partial(console.print_rows, "journal bearing", rows))
+
+
+def groove_map(
+    report: Report,
+    scene: Annotated[
+        Path | None, typer.Argument(metavar="SCENE.toml", help="Scene whose bearing has grooves or pads.")
+    ] = None,
+    slenderness: Annotated[
+        float | None, typer.Option(help="Without a scene: length / diameter.", metavar="0.5")
+    ] = None,
+    groove: Grooves = None,
+    cells: Annotated[
+        str | None,
+        typer.Option(help="Without a scene: cells around the film and along half of it.", metavar="192,12"),
+    ] = None,
+    nodes: Annotated[
+        str | None,
+        typer.Option(
+            help="Without a scene: nodes over eccentricity, its direction, motion.", metavar="12,72,48"
+        ),
+    ] = None,
+    out: Annotated[Path | None, typer.Option(help="File for a copy of the map.")] = None,
+) -> Said:
+    """Make the map of a bearing with grooves or pads; all of its shape and resolution find it on disk."""
+    from ..bearings.films.table_cache import cache_folder
+    from ..bearings.journal import build_groove_map
+    from ..scenes import Scene
+
+    options = {"--slenderness": slenderness, "--groove": groove, "--cells": cells, "--nodes": nodes}
+    if scene is None:
+        table = _map_of_options(slenderness, groove, cells, nodes, report)
+    elif given := [name for name, value in options.items() if value]:
+        raise InputError(f"{given[0]} must not be given with a scene, got {options[given[0]]!r}")
+    else:
+        table = build_groove_map(Scene.load(scene).bearing, report)
+    if out is not None:
+        table.save(out)
+    folder, reach = str(cache_folder()), table.largest_eccentricity_ratio
+    rows = [
+        ("kept in", folder),
+        ("length / diameter", f"{table.slenderness:.9g}"),
+        ("eccentricity ratios", f"up to {reach:.3g}"),
+    ]
+    found = {"folder": folder, "slenderness": table.slenderness, "largest_eccentricity_ratio": reach}
+    return Said(found, partial(console.print_rows, "map of the film", rows))
+
+
+def _map_of_options(
+    slenderness: float | None,
+    groove: list[str] | None,
+    cells: str | None,
+    nodes: str | None,
+    report: Report,
+) -> GrooveMapTable:
+    from ..bearings.films.geometry import FilmGeometry
+    from ..bearings.journal import GroovedMapFilm
+    from ..scenes.journal.film_tables import CELLS, NODES
+
+    if slenderness is None or not groove:
+        raise InputError("groove-map must have SCENE.toml, or --slenderness and --groove, got neither")
+    geometry = FilmGeometry(grooves=tuple(_groove(text) for text in groove))
+    film = GroovedMapFilm(geometry=geometry)
+    if cells is not None:
+        around, along = CELLS("--cells", _numbers(cells))
+        film = replace(film, cells=(around, along))
+    if nodes is not None:
+        over, turning, moving = NODES("--nodes", _numbers(nodes))
+        film = replace(film, nodes=(over, turning, moving))
+    return film.built_table(slenderness, report)
+
+
+def _film(film: str, order: str | None, constant: bool, rupture: str | None, cells: str | None) -> FilmLaw:
+    from ..scenes.journal.film_tables import FILMS
+    from ..scenes.reading.tables import choose, read_table
+
+    given: dict[str, Any] = {
+        "order": order and _numbers(order),
+        "constant": constant,
+        "rupture": rupture and {"kind": rupture},
+        "cells": cells and _numbers(cells),
+    }
+    options = {name: value for name, value in given.items() if value}
+    table = choose("--film", film, FILMS)
+    for name in options:
+        if name not in table.readers:
+            raise InputError(f"--{name} must not be given with --film {film}, got {options[name]!r}")
+    return read_table(table, "--", options)
+
+
+def _numbers(text: str) -> list[int | str]:
+    """Return the integers between commas, and what is none as it is."""
+    return [part if (number := whole_number(part)) is None else number for part in text.split(",")]
+
+
+def _groove(text: str) -> Groove:
+    """Return the groove of "CENTER, WIDTH"."""
+    from ..bearings.films.geometry import Groove
+    from ..scenes.reading.tables import Quantity
+
+    parts = [part.strip() for part in text.split(",")]
+    if len(parts) != 2:
+        raise InputError(f'--groove must be a center and a width, as "90 deg, 20 deg", got {brief(text)}')
+    center, width = (Quantity("rad")("--groove", part) for part in parts)
+    return Groove(center=center, width=width)
+
+
+def _operation(load: str, speed: str) -> tuple[tuple[float, float], float]:
+    """Return the load [N] and the speed [rad/s]."""
+    from ..scenes.reading.tables import read_table
+    from ..scenes.schema import OperationTable
+
+    components = load.split(",")
+    options = {"load": components if len(components) > 1 else load, "speed": speed}
+    table = read_table(OperationTable, "--", options)
+    assert table.load is not None
+    return table.load, table.speed

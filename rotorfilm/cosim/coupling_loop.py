@@ -1,0 +1,217 @@
+"""A linear rotor and linear films as a scheme sees them: the loop, and its map from step to step.
+
+A scheme maps what was exchanged at the latest communication points to the next one. With linear partners the
+map is a matrix, had by running the scheme itself on a bench of unit disturbances: the rotor moves by its
+transition matrices, exactly, and the films answer F = -K q - C v.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.linalg import expm
+from scipy.optimize import brentq
+
+from ..errors import InputError, require_finite
+from ..model import Array, Dynamic, Linearization, Model
+from ..rotors.force_law import ForceLaw
+from ..signals import FORCE_OUTPUTS, JOURNAL_INPUTS, indices, names
+from .bench import Sample, StationMotion, Tangents
+from .schemes.newton import Newton
+from .schemes.scheme import Scheme
+from .wiring import sources, wired
+
+CONVERGED = 1e-11
+"""Tolerance of Newton's iteration, which is exact after one correction here."""
+
+
+class Loop(NamedTuple):
+    """dx/dt = A x + B f, q = position x, v = velocity x, f = -K q - C v of all journals.
+
+    Attributes
+    ----------
+    A, B : ndarray, shape (n, n), (n, m)
+    position, velocity : ndarray, shape (m, n)
+        Motion of the journals by the states.
+    stiffness, damping : ndarray, shape (m, m) [N/m], [N s/m]
+        K and C of the films.
+    """
+
+    A: Array
+    B: Array
+    position: Array
+    velocity: Array
+    stiffness: Array
+    damping: Array
+
+    @property
+    def closed(self) -> Array:
+        """The matrix of the system without coupling error."""
+        feedback = self.stiffness @ self.position + self.damping @ self.velocity
+        closed: Array = self.A - self.B @ feedback
+        return closed
+
+    @property
+    def squeeze_rate(self) -> float:
+        """Largest eigenvalue of the damping over the local mass of the journals [1/s]."""
+        return float(np.max(np.linalg.eigvals(self.velocity @ self.B @ self.damping).real))
+
+
+def coupling_loop(
+    rotor: Dynamic, reaction: Model | Mapping[str, Model], state: ArrayLike, time: float
+) -> Loop:
+    """Return the linear loop of rotor and films at a state, wired by the names of the signals."""
+    x = require_finite("state", state)
+    if x.shape != (len(rotor.states),):
+        raise InputError(f"state must have shape ({len(rotor.states)},), got {x.shape}")
+    films = reaction if isinstance(reaction, Mapping) else {"": reaction}
+    known = _named(rotor)
+    outputs = rotor.output(time, x, np.zeros(len(rotor.inputs)))
+    felt = {
+        station: outputs[indices("rotor must have the outputs", known.outputs, _feeds(known, station, film))]
+        for station, film in films.items()
+    }
+    wiring = wired(known, {station: _named(film) for station, film in films.items()})
+    force, position, velocity = wiring.places(known.inputs, known.outputs)
+    size = len(force)
+    K, C, u = np.zeros((size, size)), np.zeros((size, size)), np.zeros(len(rotor.inputs))
+    for number, (station, film) in enumerate(films.items()):
+        own = slice(2 * number, 2 * number + 2)
+        K[own, own], C[own, own], u[force[own]] = _film_matrices(film, felt[station], time)
+    linear: Linearization = rotor.linearization(time, x, u)
+    if np.any(linear.D[np.ix_([*position, *velocity], force)]):
+        raise InputError("rotor must have outputs that its inputs do not reach directly, got a matrix D != 0")
+    return Loop(linear.A, linear.B[:, force], linear.C[position], linear.C[velocity], K, C)
+
+
+class _Named(NamedTuple):
+    """The signals of a model by name."""
+
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+
+
+def _named(model: Model) -> _Named:
+    return _Named(tuple(names(model.inputs)), tuple(names(model.outputs)))
+
+
+def _feeds(rotor: _Named, station: str, film: Model) -> list[str]:
+    """Return the outputs of the rotor that feed a film."""
+    return list(sources(rotor.outputs, station, names(film.inputs)).values())
+
+
+def _film_matrices(film: Model, journal: Array, time: float) -> tuple[Array, Array, Array]:
+    """Return K, C and the force of a film at the state of its journal."""
+    rows = indices("film must have the outputs", names(film.outputs), FORCE_OUTPUTS)
+    columns = indices("film must have the inputs", names(film.inputs), JOURNAL_INPUTS[:4])
+    D = film.linearization(time, np.zeros(0), journal).D[np.ix_(rows, columns)]
+    return -D[:, :2], -D[:, 2:], film.output(time, np.zeros(0), journal)[rows]
+
+
+def dominant_eigenvalue(loop: Loop, macro_step: float, scheme: Scheme) -> complex:
+    """Return the largest eigenvalue of the sampled system."""
+    eigenvalues = np.linalg.eigvals(sampled_matrix(loop, macro_step, scheme))
+    return complex(eigenvalues[np.abs(eigenvalues).argmax()])
+
+
+def sampled_matrix(loop: Loop, macro_step: float, scheme: Scheme) -> Array:
+    """Return the map of one macro step on (state, two motions before, three latest forces)."""
+    n, m = loop.B.shape
+    unit = np.eye(n + 7 * m)
+    split = np.cumsum([n, 2 * m, 2 * m, m, m])
+    x, before, earlier, *forces = np.split(unit, split)
+    bench = _LinearBench(loop, x)
+    now = bench.motion()
+    motions = [StationMotion(part[:m], part[m:], 0.0, {}) for part in (earlier, before)]
+    history = [
+        Sample(-k * macro_step, motion, force, bench.tangents, {})
+        for k, motion, force in zip((2, 1, 0), (*motions, now), reversed(forces), strict=True)
+    ]
+    exact = replace(scheme, tolerance=CONVERGED) if isinstance(scheme, Newton) else scheme
+    found = exact.step(bench, history, 0.0, macro_step)
+    rows = [bench.x, now.position, now.velocity, before, found.force, *forces[:2]]
+    return np.concatenate(rows)
+
+
+class _LinearBench:
+    """A linear rotor and linear films under a batch of disturbances (n, batch): a `Bench`."""
+
+    def __init__(self, loop: Loop, x: Array) -> None:
+        self._loop, self.x = loop, x
+        self.tangents = Tangents(loop.stiffness, loop.damping, np.zeros(len(loop.damping)))
+
+    def motion(self) -> StationMotion:
+        """Return the motion at present."""
+        return StationMotion(self._loop.position @ self.x, self._loop.velocity @ self.x, 0.0, {})
+
+    def drive(self, t: float, dt: float, law: ForceLaw) -> StationMotion:
+        """Advance the rotor exactly."""
+        loop = self._loop
+        M = loop.A - loop.B @ (law.stiffness @ loop.position + law.damping @ loop.velocity)
+        steady = law.force + law.stiffness @ law.position + law.damping @ law.velocity
+        free, *driven = self._transition(M, dt)
+        powers = (steady, dt * law.slope, 2.0 * dt**2 * law.curvature)
+        self.x = free @ self.x + sum(a @ b for a, b in zip(driven, powers, strict=True))
+        return self.motion()
+
+    def evaluate(self, t: float, dt: float, motion: StationMotion, derive: bool) -> Sample:
+        """Return the forces F = -K q - C v."""
+        force = -self._loop.stiffness @ motion.position - self._loop.damping @ motion.velocity
+        return Sample(t + dt, motion, force, self.tangents, {})
+
+    def sensitivity(self, t: float, dt: float) -> Array:
+        """Return d(motion)/d(held force)."""
+        by_force = self._transition(self._loop.A, dt)[1]
+        return np.concatenate([self._loop.position @ by_force, self._loop.velocity @ by_force])
+
+    def save(self) -> Array:
+        """Return the states."""
+        return self.x
+
+    def restore(self, state: Array) -> None:
+        """Return to states."""
+        self.x = state
+
+    def release(self, state: Array) -> None:
+        """Do nothing."""
+
+    def _transition(self, M: Array, dt: float) -> list[Array]:
+        """Return exp(M dt) and what the force, its slope and half its curvature over the step add."""
+        n, m = self._loop.B.shape
+        chain = np.zeros((n + 3 * m, n + 3 * m))
+        chain[:n, :n], chain[:n, n : n + m] = M * dt, self._loop.B * dt
+        chain[n : n + 2 * m, n + m :] = np.eye(2 * m)
+        return np.split(expm(chain)[:n], [n, n + m, n + 2 * m], axis=1)
+
+
+@lru_cache(maxsize=32)
+def squeeze_limit(scheme: Scheme) -> float:
+    """Return the longest macro step on a mass and a damper, times damping / mass [1]; infinite without one.
+
+    2, 1 and 6/11 of Gauss-Seidel with degree 0, 1 and 2: there the scheme is that of Adams and Bashforth.
+    """
+    one, none = np.eye(1), np.zeros((1, 1))
+    loop = Loop(
+        np.array([[0.0, 1.0], [0.0, 0.0]]),
+        np.array([[0.0], [1.0]]),
+        np.array([[1.0, 0.0]]),
+        np.array([[0.0, 1.0]]),
+        none,
+        one,
+    )
+
+    def excess(step: float) -> float:
+        # The eigenvalue 1 belongs to the free displacement.
+        sizes = np.sort(np.abs(np.linalg.eigvals(sampled_matrix(loop, step, scheme))))
+        return float(sizes[-1] - 1.0 - 1e-6)
+
+    steps = np.geomspace(0.05, 1e3, 100)
+    above = next((step for step in steps if excess(step) >= 0.0), None)
+    if above is None:
+        return np.inf
+    return float(brentq(excess, 0.8 * above, above, xtol=1e-9))

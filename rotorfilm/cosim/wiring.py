@@ -1,0 +1,91 @@
+"""How rotor and films are connected: by the names of their signals."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple, Protocol
+
+from ..errors import InputError
+from ..rotors.stations import station_name, station_names
+from ..signals import FORCE_OUTPUTS, MOTION_NAMES, indices
+
+
+class Signals(Protocol):
+    """What has inputs and outputs by name."""
+
+    @property
+    def inputs(self) -> Sequence[str]:
+        """Names of the inputs."""
+
+    @property
+    def outputs(self) -> Sequence[str]:
+        """Names of the outputs."""
+
+
+class Journals(NamedTuple):
+    """The signals of journals as indices of a rotor's inputs and outputs."""
+
+    force: list[int]
+    position: list[int]
+    velocity: list[int]
+
+
+class Wiring(NamedTuple):
+    """Which signals of a rotor belong to its journals, by name; x and y of each station in turn.
+
+    Attributes
+    ----------
+    stations : tuple of str
+        The empty name is that of a rotor with one journal.
+    force, position, velocity : tuple of str, length 2 n_stations
+    """
+
+    stations: tuple[str, ...]
+    force: tuple[str, ...]
+    position: tuple[str, ...]
+    velocity: tuple[str, ...]
+
+    def places(self, inputs: Sequence[str], outputs: Sequence[str]) -> Journals:
+        """Return where the signals of the journals are among those of the rotor."""
+        return Journals(
+            [inputs.index(name) for name in self.force],
+            [outputs.index(name) for name in self.position],
+            [outputs.index(name) for name in self.velocity],
+        )
+
+
+def wired(rotor: Signals, films: Mapping[str, Signals]) -> Wiring:
+    """Return the signals of the journals, having checked that rotor and films have all that connects them.
+
+    Parameters
+    ----------
+    rotor : Signals
+    films : mapping of str to Signals
+        By station.
+
+    Raises
+    ------
+    InputError
+        If there is no film, or a signal is missing.
+    """
+    if not films:
+        raise InputError("films must be one at least, got none")
+    motions, forces = zip(*(station_names(station) for station in films), strict=True)
+    for (station, film), motion, force in zip(films.items(), motions, forces, strict=True):
+        indices("rotor must have the inputs", rotor.inputs, force)
+        indices("film must have the outputs", film.outputs, FORCE_OUTPUTS)
+        fed = sources(rotor.outputs, station, film.inputs)
+        indices("rotor must have the outputs", rotor.outputs, list(fed.values()))
+        indices("rotor must have the outputs", rotor.outputs, motion)
+    return Wiring(
+        tuple(films),
+        tuple(name for own in forces for name in own),
+        tuple(name for own in motions for name in own[:2]),
+        tuple(name for own in motions for name in own[2:]),
+    )
+
+
+def sources(outputs: Sequence[str], station: str, inputs: Iterable[str]) -> dict[str, str]:
+    """Return, for each input of a film, the output of the rotor that feeds it."""
+    own = {name: station_name(station, name) for name in inputs}
+    return {name: at if name in MOTION_NAMES or at in outputs else name for name, at in own.items()}

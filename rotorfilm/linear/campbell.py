@@ -1,0 +1,211 @@
+"""Whirl modes of a flexible rotor over speed, and its critical speeds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.linalg import eigh
+from scipy.optimize import brentq, linear_sum_assignment
+
+from ..errors import InputError, require_finite
+from ..model import Array, Reaction
+from ..rotors import FlexibleRotor
+from .rotor_modes import RotorModes, Whirls, rotor_modes, speeds_in_turn
+
+
+@dataclass(frozen=True, kw_only=True)
+class Campbell(Whirls):
+    """Whirl modes over speed.
+
+    Attributes
+    ----------
+    speeds : ndarray, shape (n_speeds,) [rad/s]
+    eigenvalues : ndarray, shape (n_modes, n_speeds) [1/s]
+        By mode; nan where a mode does not oscillate.
+    direction : ndarray, shape (n_modes, n_speeds) [1]
+        As in `RotorModes`; nan likewise.
+    """
+
+    speeds: Array
+    eigenvalues: NDArray[np.complex128]
+    direction: Array
+
+
+@dataclass(frozen=True, kw_only=True)
+class CriticalSpeed:
+    """A speed at which a whirl has the frequency of the rotation.
+
+    Attributes
+    ----------
+    speed : float [rad/s]
+        Of the sign of the speeds searched.
+    log_decrement : float [1]
+        Of that whirl.
+    direction : float [1]
+        As in `RotorModes`; an unbalance excites forward whirl.
+    """
+
+    speed: float
+    log_decrement: float
+    direction: float
+
+
+def campbell(
+    rotor: FlexibleRotor,
+    bearings: Mapping[str, Reaction],
+    speeds: ArrayLike,
+    highest_frequency: float = math.inf,
+) -> Campbell:
+    """Return the whirl modes of a rotor on its films over a range of speeds.
+
+    Parameters
+    ----------
+    rotor, bearings
+        As in `rotor_modes`.
+    speeds : array_like, shape (n,) [rad/s]
+        Rising or falling, of either sign; so close that modes do not change beyond recognition from one to
+        the next.
+    highest_frequency : float [rad/s]
+        Modes that stay above it are left out.
+
+    Raises
+    ------
+    InputError
+        If the speeds break their rule.
+    EquilibriumError
+        If there is no equilibrium at one of the speeds.
+    """
+    grid = speeds_in_turn(speeds)
+    points = [rotor_modes(rotor, bearings, float(speed)) for speed in grid]
+    tracks = _tracks(points, rotor.structure.mass)
+    values = np.full((len(tracks), len(grid)), complex(math.nan, math.nan))
+    direction = np.full((len(tracks), len(grid)), math.nan)
+    for row, track in enumerate(tracks):
+        for column, k in track.items():
+            values[row, column] = points[column].eigenvalues[k]
+            direction[row, column] = points[column].direction[k]
+    lowest = np.nanmin(np.abs(values.imag), axis=1) if len(tracks) else np.zeros(0)
+    order = [k for k in np.argsort(lowest) if lowest[k] <= highest_frequency]
+    return Campbell(speeds=grid, eigenvalues=values[order], direction=direction[order])
+
+
+def critical_speeds(
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
+) -> tuple[CriticalSpeed, ...]:
+    """Return the damped critical speeds, rising: where a whirl has the frequency of the rotation.
+
+    Parameters
+    ----------
+    rotor, bearings
+        As in `rotor_modes`.
+    speeds : array_like, shape (n,) [rad/s]
+        Rising or falling, of either sign: the range searched, and the steps in which the modes are followed.
+    """
+    chart = campbell(rotor, bearings, speeds)
+    found = []
+    for values in chart.eigenvalues:
+        lead = values.imag - np.abs(chart.speeds)
+        for k in np.flatnonzero(lead[:-1] * lead[1:] <= 0.0):
+            found.append(_crossing(rotor, bearings, chart.speeds[k : k + 2], values[k : k + 2]))
+    return tuple(sorted(found, key=lambda one: one.speed))
+
+
+def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 4) -> Array:
+    """Return undamped critical speeds over the stiffness of equal isotropic bearings.
+
+    Parameters
+    ----------
+    rotor : FlexibleRotor
+        Every station gets the same bearing; damping of rotor and supports is left out.
+    stiffness : array_like, shape (n,) [N/m]
+        Positive.
+    count : int
+        Number of critical speeds of forward whirl, from the lowest.
+
+    Returns
+    -------
+    ndarray, shape (count, n) [rad/s]
+        nan where the rotor has fewer.
+
+    Notes
+    -----
+    Synchronous motion has K q = w^2 (M - i G) q with Hermitian matrices, whatever the speed; forward whirl
+    of an isotropic rotor is q = (u, -i u), where -i G of both planes is the polar inertia.
+    """
+    grid = require_finite("stiffness", stiffness)
+    if grid.ndim != 1 or np.any(grid <= 0.0):
+        raise InputError(f"stiffness must be a list of positive numbers, got {stiffness!r}")
+    s = rotor.structure
+    n = len(s.coordinates)
+    forward = np.vstack([np.eye(n), -1j * np.eye(n)]) * math.sqrt(0.5)
+    inertia = (forward.conj().T @ (s.mass - 1j * s.gyroscopic) @ forward).real
+    result = np.full((count, len(grid)), math.nan)
+    for column, spring in enumerate(grid):
+        whole = s.stiffness + spring * s.journals.T @ s.journals
+        held = forward.conj().T @ (0.5 * (whole + whole.T)) @ forward
+        # K is positive, M - i G need not be: a thin disk has no forward critical speed of tilt
+        inverse = eigh(inertia, held, eigvals_only=True)[::-1]
+        speeds = 1.0 / np.sqrt(inverse[inverse > 1e-12 * np.abs(inverse).max()][:count])
+        result[: len(speeds), column] = speeds
+    return result
+
+
+def _tracks(points: list[RotorModes], mass: Array) -> list[dict[int, int]]:
+    """Return, for each mode, its index among the modes of each speed at which it was found."""
+    tracks: list[dict[int, int]] = [{0: k} for k in range(len(points[0].eigenvalues))]
+    current = list(range(len(tracks)))
+    for column in range(1, len(points)):
+        before, after = points[column - 1], points[column]
+        partner = _matches(before, after, mass)
+        following = []
+        for k in range(len(after.eigenvalues)):
+            if k in partner:
+                following.append(current[partner[k]])
+            else:
+                tracks.append({})
+                following.append(len(tracks) - 1)
+            tracks[following[-1]][column] = k
+        current = following
+    return tracks
+
+
+def _matches(before: RotorModes, after: RotorModes, mass: Array) -> dict[int, int]:
+    """Return the mode of `before` that each mode of `after` continues, by eigenvalue and shape."""
+    if not (before.eigenvalues.size and after.eigenvalues.size):
+        return {}
+    product = np.abs(before.shapes.conj().T @ mass @ after.shapes) ** 2
+    sizes = [np.einsum("ik,ij,jk->k", m.shapes.conj(), mass, m.shapes).real for m in (before, after)]
+    likeness = product / np.outer(*sizes)
+    scale = np.abs(before.eigenvalues)[:, None] + np.abs(after.eigenvalues)
+    apart = np.abs(before.eigenvalues[:, None] - after.eigenvalues) / scale
+    cost = apart + 0.2 * (1.0 - likeness)
+    rows, columns = linear_sum_assignment(cost)
+    return {int(c): int(r) for r, c in zip(rows, columns, strict=True) if apart[r, c] < 0.5}
+
+
+def _crossing(
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], ends: Array, values: NDArray[np.complex128]
+) -> CriticalSpeed:
+    """Return the critical speed between two speeds at which a mode has these eigenvalues."""
+
+    def nearest(speed: float) -> tuple[RotorModes, int]:
+        share = (speed - ends[0]) / (ends[1] - ends[0])
+        modes = rotor_modes(rotor, bearings, speed)
+        expected = (1.0 - share) * values[0] + share * values[1]
+        return modes, int(np.argmin(np.abs(modes.eigenvalues - expected)))
+
+    def lead(speed: float) -> float:
+        modes, k = nearest(speed)
+        return float(modes.frequency[k]) - abs(speed)
+
+    speed = float(brentq(lead, float(ends[0]), float(ends[1]), rtol=1e-12))
+    modes, k = nearest(speed)
+    return CriticalSpeed(
+        speed=speed,
+        log_decrement=float(modes.log_decrement[k]),
+        direction=float(modes.direction[k]),
+    )

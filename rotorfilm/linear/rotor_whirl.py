@@ -1,0 +1,178 @@
+"""One whirl of a flexible rotor, and the speed at which something happens to it, by inverse iteration."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple, Protocol
+
+import numpy as np
+from scipy.linalg import lu_factor, lu_solve
+
+from ..errors import ConvergenceError
+from ..model import Array, Reaction
+from ..results import Coefficients
+from ..rotors import FlexibleRotor
+from ..rotors.structure import Structure
+from .coefficients import coefficients
+from .equilibrium import equilibrium
+from .rotor_rest import RotorEquilibrium, rotor_equilibrium
+from .rotor_system import SecondOrder, journal_rows, second_order, with_hysteresis
+from .speed_events import SpeedEvent
+
+STEP = 1e-3
+"""Relative change of speed over which K and C of films are differentiated."""
+
+CONVERGED = 1e-12
+"""Relative change of an eigenvalue, or of a speed, at which an iteration ends."""
+
+ROUNDED, _PATIENCE = 1e-9, 6
+"""The same after so many steps: roundoff of fine meshes is larger."""
+
+_STEPS = 25
+
+
+class RotorFilms(Protocol):
+    """Bearings of a rotor, some of them films."""
+
+    @property
+    def reaction(self) -> dict[str, Reaction]:
+        """All bearings by station."""
+
+    @property
+    def turning(self) -> dict[str, Reaction]:
+        """Those whose K and C change with the speed."""
+
+
+class Start(NamedTuple):
+    """Where a whirl is looked for: speed [rad/s], eigenvalue [1/s], shape of the rotor."""
+
+    speed: float
+    value: complex
+    shape: np.ndarray
+
+
+class Whirl(NamedTuple):
+    """A whirl in L(s) = s^2 M + s C + K, all at one speed.
+
+    Attributes
+    ----------
+    at : RotorEquilibrium
+    value : complex [1/s]
+        s.
+    right, left : ndarray of complex, shape (N,)
+        L right = 0, left* L = 0.
+    """
+
+    at: RotorEquilibrium
+    value: complex
+    right: np.ndarray
+    left: np.ndarray
+
+
+def small_motion(structure: Structure, at: RotorEquilibrium, frequency: float) -> SecondOrder:
+    """Return the equations of small motion about an equilibrium, with hysteresis at a frequency [rad/s]."""
+    return with_hysteresis(structure, second_order(structure, at), frequency, at.speed)
+
+
+def on_films(at: RotorEquilibrium, found: dict[str, Coefficients]) -> RotorEquilibrium:
+    """Return an equilibrium with other K and C of its bearings."""
+    return replace(at, coefficients=found)
+
+
+def dynamics(system: SecondOrder, value: complex) -> tuple[np.ndarray, np.ndarray]:
+    """Return L(s) and dL/ds."""
+    whole = value**2 * system.mass + value * system.damping + system.stiffness
+    return whole, 2.0 * value * system.mass + system.damping
+
+
+def inverse_steps(
+    system: SecondOrder, value: complex, right: np.ndarray, left: np.ndarray, count: int
+) -> list[tuple[complex, np.ndarray, np.ndarray]]:
+    """Return so many steps of two-sided inverse iteration at one shift: eigenvalue, right, left vector.
+
+    The eigenvalue is the shift less left* L right / (left* L' right): its error is of second order in that of
+    the vectors.
+    """
+    whole, slope = dynamics(system, value)
+    factor = lu_factor(whole, check_finite=False)
+    found = []
+    for _ in range(count):
+        right = _unit(lu_solve(factor, slope @ right))
+        left = _unit(lu_solve(factor, slope.conj().T @ left, trans=2))
+        change = (left.conj() @ whole @ right) / (left.conj() @ slope @ right)
+        found.append((complex(value - change), right, left))
+    return found
+
+
+def _unit(vector: np.ndarray) -> np.ndarray:
+    return np.asarray(vector / np.linalg.norm(vector))
+
+
+def mode_near(
+    system: SecondOrder, value: complex, load: np.ndarray
+) -> tuple[complex, np.ndarray, np.ndarray]:
+    """Return the eigenvalue next to another one whose shape is like that under a load, and its vectors.
+
+    Raises
+    ------
+    ConvergenceError
+        If the iteration does not end.
+    """
+    # On an eigenvalue itself L has no inverse.
+    shift = value * (1.0 + 1e-9)
+    found, right, left = inverse_steps(system, shift, load, load, 3)[-1]
+    for step in range(_STEPS):
+        before = found
+        found, right, left = inverse_steps(system, found * (1.0 + 1e-13), right, left, 1)[-1]
+        if abs(found - before) < (CONVERGED if step < _PATIENCE else ROUNDED) * abs(found):
+            return found, right, left
+    raise ConvergenceError(f"whirl near {value:.6g} rad/s must be found by inverse iteration, and was not")
+
+
+def value_rate(structure: Structure, whirl: Whirl, films: RotorFilms) -> complex:
+    """Return ds/d speed of a whirl [1]: gyroscopic effect, rotating damping, and the films."""
+    s, right, left = whirl.value, whirl.right, whirl.left.conj()
+    changed = s * (structure.gyroscopic @ right) + structure.circulation @ right
+    for name, (stiffness, damping) in coefficient_rates(films, whirl.at, STEP).items():
+        rows = journal_rows(structure, name)
+        changed = changed + rows.T @ ((stiffness + s * damping) @ (rows @ right))
+    _, slope = dynamics(second_order(structure, whirl.at), s)
+    return complex(-(left @ changed) / (left @ slope @ right))
+
+
+def coefficient_rates(films: RotorFilms, at: RotorEquilibrium, step: float) -> dict[str, tuple[Array, Array]]:
+    """Return d K/d speed and d C/d speed of each film under its load, from speeds a relative step apart."""
+    rates = {}
+    for name, film in films.turning.items():
+        low, high = (
+            coefficients(film, equilibrium(film, at.loads[name], speed).position, speed)
+            for speed in (at.speed * (1.0 - step), at.speed * (1.0 + step))
+        )
+        width = 2.0 * step * at.speed
+        rates[name] = ((high.stiffness - low.stiffness) / width, (high.damping - low.damping) / width)
+    return rates
+
+
+def whirl_of(event: SpeedEvent, rotor: FlexibleRotor, films: RotorFilms, start: Start) -> tuple[Whirl, int]:
+    """Return the whirl to which something happens, near another one, and how many speeds that took.
+
+    Raises
+    ------
+    ConvergenceError
+        If Newton's method in the speed does not end.
+    """
+    reactions = films.reaction
+    speed, value, load = start
+    for count in range(1, _STEPS + 1):
+        at = rotor_equilibrium(rotor, reactions, speed)
+        system = small_motion(rotor.structure, at, event.frequency(value, speed))
+        whirl = Whirl(at, *mode_near(system, value, load))
+        lead = event.lead(whirl.value, speed)
+        if abs(lead) < CONVERGED * speed:
+            return whirl, count
+        value, load = whirl.value, whirl.right
+        step = -lead / event.rate(value_rate(rotor.structure, whirl, films))
+        if count > _PATIENCE and abs(step) < ROUNDED * speed:
+            return whirl, count
+        speed += float(np.clip(step, -0.1 * speed, 0.1 * speed))
+    raise ConvergenceError(f"speed near {speed:.6g} rad/s must be found by Newton's method, and was not")

@@ -1,0 +1,126 @@
+"""The speeds that are asked for of a flexible rotor: what must vanish there, and how it is looked for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import NamedTuple, Protocol
+
+import numpy as np
+
+from ..errors import AbsentError
+from ..model import Array, Reaction
+from ..rotors import FlexibleRotor
+from .campbell import critical_speeds
+from .rotor_modes import RotorModes, rotor_modes
+from .rotor_threshold import NEUTRAL, rotor_threshold
+
+NEAR = 1.1
+"""Critical speeds up to so many times the first are followed with it."""
+
+
+class Sighting(NamedTuple):
+    """A speed [rad/s] and the eigenvalue [1/s] of its whirl."""
+
+    speed: float
+    value: complex
+
+
+class SpeedEvent(Protocol):
+    """What happens to a whirl s at the speed that is asked for."""
+
+    def lead(self, value: complex, speed: float) -> float:
+        """Return what vanishes there [1/s]."""
+
+    def rate(self, value_rate: complex) -> float:
+        """Return its derivative by the speed [1], from that of the eigenvalue."""
+
+    def frequency(self, value: complex, speed: float) -> float:
+        """Return the frequency at which hysteresis is taken [rad/s]."""
+
+    def sightings(
+        self, rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: Array
+    ) -> list[Sighting]:
+        """Return the lowest such speed in a range, and those near it; AbsentError if there is none."""
+
+    def missed(self, own: RotorModes, other: RotorModes) -> str:
+        """Return why the first such speed may be another one, from whirls just below it by two models."""
+
+
+@dataclass(frozen=True)
+class Critical:
+    """A whirl has the frequency of the rotation."""
+
+    def lead(self, value: complex, speed: float) -> float:
+        """Return Im s - speed."""
+        return value.imag - speed
+
+    def rate(self, value_rate: complex) -> float:
+        """Return d(Im s)/d speed - 1."""
+        return value_rate.imag - 1.0
+
+    def frequency(self, value: complex, speed: float) -> float:
+        """Return the speed: the hysteresis of synchronous whirl is the mean of both sides."""
+        return speed
+
+    def sightings(
+        self, rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: Array
+    ) -> list[Sighting]:
+        """Return the first critical speed, and those near it."""
+        found = critical_speeds(rotor, bearings, speeds)
+        if not found:
+            raise AbsentError(
+                f"no critical speed in shaft.speeds, {speeds[0]:.6g} to {speeds[-1]:.6g} rad/s: "
+                "no whirl has the frequency of the rotation there"
+            )
+        return [
+            Sighting(one.speed, one.speed * complex(-one.log_decrement / (2.0 * math.pi), 1.0))
+            for one in found
+            if one.speed <= NEAR * found[0].speed
+        ]
+
+    def missed(self, own: RotorModes, other: RotorModes) -> str:
+        """Return that more or fewer whirls are slower than the rotation by the other model."""
+        slow, others = (int(np.sum(modes.frequency < modes.speed)) for modes in (own, other))
+        return "" if slow == others else f"{slow} whirls are slower than the speed, with more modes {others}"
+
+
+@dataclass(frozen=True)
+class Threshold:
+    """A whirl begins to grow; a rotor that departs without whirl before that has no such speed."""
+
+    def lead(self, value: complex, speed: float) -> float:
+        """Return Re s."""
+        return value.real
+
+    def rate(self, value_rate: complex) -> float:
+        """Return d(Re s)/d speed."""
+        return value_rate.real
+
+    def frequency(self, value: complex, speed: float) -> float:
+        """Return that of the whirl."""
+        return value.imag
+
+    def sightings(
+        self, rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: Array
+    ) -> list[Sighting]:
+        """Return the threshold of stability."""
+        span = f"{speeds[0]:.6g} to {speeds[-1]:.6g} rad/s"
+        found = rotor_threshold(rotor, bearings, speeds)
+        if found.speed is None or found.whirl_frequency is None:
+            values = rotor_modes(rotor, bearings, float(speeds[0])).eigenvalues
+            neutral = values.size and np.all(np.abs(values.real) < NEUTRAL * np.abs(values))
+            reason = "nothing damps or drives a whirl" if neutral else found.reason
+            raise AbsentError(f"no whirl threshold in shaft.speeds, {span}: {reason}")
+        if not found.whirl_frequency:
+            raise AbsentError(
+                f"no whirl threshold in shaft.speeds, {span}: the rotor departs without whirl (divergence) "
+                f"from {found.speed:.6g} rad/s on"
+            )
+        return [Sighting(found.speed, 1j * found.whirl_frequency)]
+
+    def missed(self, own: RotorModes, other: RotorModes) -> str:
+        """Return that a whirl grows already by the other model."""
+        growing = bool(np.any(other.eigenvalues.real > 0.0))
+        return "with more modes another whirl grows first" if growing else ""

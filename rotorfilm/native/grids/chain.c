@@ -1,0 +1,141 @@
+#include "chain.h"
+
+#include <math.h>
+
+#include "clones.h"
+
+/* y -= a x */
+static inline void subtract(size_t n, double a, const double *restrict x, double *restrict y)
+{
+    for (size_t k = 0; k < n; ++k)
+        y[k] -= a * x[k];
+}
+
+static inline size_t below(const rf_chain *chain, size_t p)
+{
+    const size_t left = chain->size - 1 - p;
+    return left < chain->half ? left : chain->half;
+}
+
+RF_CLONES
+static void factorize_band(rf_chain *chain)
+{
+    const size_t half = chain->half, stride = half + 1;
+    for (size_t p = 0; p < chain->size; ++p) {
+        double *column = chain->band + p * stride;
+        const size_t reach = below(chain, p);
+        const double inverse = 1.0 / sqrt(column[0]);
+        column[0] = inverse;
+        for (size_t k = 1; k <= reach; ++k)
+            column[k] *= inverse;
+        for (size_t k = 1; k <= reach; ++k)
+            if (column[k] != 0.0)
+                subtract(reach + 1 - k, column[k], column + k, column + k * stride);
+    }
+}
+
+/* Solve with the band for all columns of the border, and take what they leave from the corner. */
+RF_CLONES
+static void factorize_border(rf_chain *chain)
+{
+    const size_t half = chain->half, stride = half + 1;
+    for (size_t p = 0; p < chain->size; ++p) {
+        const double *column = chain->band + p * stride;
+        double *row = chain->border + p * half;
+        for (size_t j = 0; j < half; ++j)
+            row[j] *= column[0];
+        for (size_t k = 1; k <= below(chain, p); ++k)
+            if (column[k] != 0.0)
+                subtract(half, column[k], row, row + k * half);
+        for (size_t j = 0; j < half; ++j)
+            if (row[j] != 0.0)
+                subtract(j + 1, row[j], row, chain->corner + j * half);
+    }
+}
+
+static void factorize_corner(rf_chain *chain)
+{
+    const size_t half = chain->half;
+    for (size_t j = 0; j < half; ++j) {
+        double *row = chain->corner + j * half;
+        for (size_t k = 0; k <= j; ++k) {
+            const double *other = chain->corner + k * half;
+            double total = row[k];
+            for (size_t m = 0; m < k; ++m)
+                total -= row[m] * other[m];
+            row[k] = k < j ? total * other[k] : 1.0 / sqrt(total);
+        }
+    }
+}
+
+void rf_factorize_chain(rf_chain *chain)
+{
+    factorize_band(chain);
+    if (chain->bordered) {
+        factorize_border(chain);
+        factorize_corner(chain);
+    }
+}
+
+RF_CLONES
+static void forward(const rf_chain *chain, double *x)
+{
+    const size_t stride = chain->half + 1;
+    for (size_t p = 0; p < chain->size; ++p) {
+        const double *column = chain->band + p * stride;
+        x[p] *= column[0];
+        if (x[p] != 0.0)
+            subtract(below(chain, p), x[p], column + 1, x + p + 1);
+    }
+}
+
+/* Four sums side by side, whatever the machine adds at once. */
+static inline double product(size_t n, const double *restrict x, const double *restrict y)
+{
+    double sums[4] = {0.0, 0.0, 0.0, 0.0};
+    size_t k = 0;
+    for (; k + 4 <= n; k += 4)
+        for (size_t m = 0; m < 4; ++m)
+            sums[m] += x[k + m] * y[k + m];
+    for (size_t m = 0; k + m < n; ++m)
+        sums[m] += x[k + m] * y[k + m];
+    return (sums[0] + sums[2]) + (sums[1] + sums[3]);
+}
+
+RF_CLONES
+static void backward(const rf_chain *chain, double *x)
+{
+    const size_t stride = chain->half + 1;
+    for (size_t p = chain->size; p-- > 0;) {
+        const double *column = chain->band + p * stride;
+        x[p] = (x[p] - product(below(chain, p), column + 1, x + p + 1)) * column[0];
+    }
+}
+
+RF_CLONES
+static void solve_border(const rf_chain *chain, double *x, double *last)
+{
+    const size_t half = chain->half;
+    for (size_t p = 0; p < chain->size; ++p)
+        if (x[p] != 0.0)
+            subtract(half, x[p], chain->border + p * half, last);
+    for (size_t j = 0; j < half; ++j) {
+        const double *row = chain->corner + j * half;
+        last[j] = (last[j] - product(j, row, last)) * row[j];
+    }
+    for (size_t j = half; j-- > 0;) {
+        const double *row = chain->corner + j * half;
+        last[j] *= row[j];
+        subtract(j, last[j], row, last);
+    }
+    for (size_t p = 0; p < chain->size; ++p)
+        x[p] -= product(half, chain->border + p * half, last);
+}
+
+void rf_solve_chain(const rf_chain *chain, double *x, double *last)
+{
+    forward(chain, x);
+    if (chain->bordered)
+        solve_border(chain, x, last);
+    backward(chain, x);
+}

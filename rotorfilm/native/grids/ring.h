@@ -1,0 +1,58 @@
+/* Reynolds' equation in two dimensions on a ring of cells, by finite volumes of second order.
+
+   The film is (H^3 P_theta)_theta + (L/D)^-2 H^3 P_zz = -w.n with H = 1 - e.n, n = (cos theta, sin theta),
+   z from the middle, 0, to the end, 1, of the bearing, and p = 12 viscosity (R/c)^2 P. Its lines lie at
+   exp(i theta) = (t + a)/(1 + conj(a) t), t = exp(i s), uniform in s on every span between two edges: a
+   Moebius map of the circle that crowds them at the minimum film, a = e/(1 + (1 - |e|^2)^.35). Edges stay on
+   lines, and the lines follow e; the derivatives hold them. */
+#ifndef ROTORFILM_RING_H
+#define ROTORFILM_RING_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "../export.h"
+#include "../status.h"
+
+/* N lines around the ring with M unknown nodes on each. */
+typedef struct rf_grid {
+    size_t lines, nodes;
+    const int32_t *span;       /* N: that a line and the face after it belong to */
+    const double *line, *face; /* N: their places as fractions of the span */
+    const double *value;       /* N: pressure of lines that are held [1/s] */
+    const uint8_t *held;       /* N: whether they are */
+    const double *width;       /* M: of the cells along half the length; without the half cell at its end */
+    const double *conductance; /* M: 1/distance to the next node towards the end */
+} rf_grid;
+
+#define RF_LEVELS 3
+
+typedef struct rf_ring {
+    rf_grid grids[RF_LEVELS];     /* the finest first, each with half the cells of the one before */
+    const double *start, *extent; /* of the spans [rad] */
+    double slenderness;           /* length / diameter */
+    int32_t spans;
+    int32_t pinned;  /* whether there are edges: they keep their angles while the lines move */
+    int32_t ruptured; /* whether the film is where P > 0, and P >= 0 elsewhere */
+    int32_t clipped;  /* whether a full film's negative pressures are dropped */
+} rf_ring;
+
+/* The force on the finest grid, as any film's (films/film.h); RF_STUCK where the search for the film does not
+   end, RF_MEMORY. `data` is an rf_ring. */
+RF_EXPORT_LOOP int rf_ring_film(const void *data, const double *e, const double *w, double *f, double *jacobian);
+
+/* Forces on the finest grid and the next, rows of n one stride apart, as rf_film_batch. */
+RF_EXPORT_LOOP int rf_ring_pair(const rf_ring *ring, size_t n, const double *e, const double *w, double *fine,
+                           double *coarse, size_t *first);
+
+/* One state on the finest grid: angles of lines and of faces (N), pressure (N x M) and the flow out of the
+   ends of the film. */
+RF_EXPORT_LOOP int rf_ring_field(const rf_ring *ring, const double *e, const double *w, double *theta, double *face,
+                            double *pressure, double *side_flow);
+
+/* The potential J = F.w/2 of a ruptured film whose openings are at pressure 0, and dJ/de, at one place for n
+   sources w, rows of n: J (RF_LEVELS x n) and slope (RF_LEVELS x 2 x n), the finest grid first. */
+RF_EXPORT_LOOP int rf_ring_potential(const rf_ring *ring, const double *e, size_t n, const double *w, double *J,
+                                double *slope, size_t *first);
+
+#endif

@@ -1,0 +1,214 @@
+#include "search.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST_SETS 200     /* each step of a monotone search moves the edge of the film, so few are needed */
+#define THRESHOLD 1e-13   /* of the largest source, above which a node that is empty fills */
+
+int rf_open_search(rf_search *search, const rf_ring *ring)
+{
+    const size_t m = ring->grids[0].nodes, all = ring->grids[0].lines * m;
+    size_t lines = 0;
+    for (int level = 0; level < RF_LEVELS; ++level)
+        lines += ring->grids[level].lines;
+    const size_t numbers = RF_CELL_ROWS * lines + 4 * all + all * (m + 1) + all * m + m * m;
+    double *next = malloc(numbers * sizeof(double) + 2 * all);
+    search->ring = ring;
+    search->memory = next;
+    if (!next)
+        return RF_MEMORY;
+    for (int level = 0; level < RF_LEVELS; ++level) {
+        rf_place_cells(&search->cells[level], next, ring->grids[level].lines);
+        next += RF_CELL_ROWS * ring->grids[level].lines;
+    }
+    search->source = next;
+    search->pressure = search->source + all;
+    search->flow = search->pressure + all;
+    search->chained = search->flow + all;
+    search->chain.band = search->chained + all;
+    search->chain.border = search->chain.band + all * (m + 1);
+    search->chain.corner = search->chain.border + all * m;
+    search->free = (uint8_t *)(search->chain.corner + m * m);
+    search->known = search->free + all;
+    return RF_OK;
+}
+
+void rf_close_search(rf_search *search)
+{
+    free(search->memory);
+}
+
+void rf_place_journal(rf_search *search, const double *e)
+{
+    for (int level = 0; level < RF_LEVELS; ++level)
+        rf_set_cells(search->ring, &search->ring->grids[level], e, &search->cells[level]);
+}
+
+/* Begin with the nodes where the source drives pressure, or the whole film. */
+static void guess_free(rf_search *search, const rf_grid *grid)
+{
+    const size_t nodes = grid->nodes;
+    for (size_t i = 0; i < grid->lines; ++i)
+        memset(search->free + i * nodes,
+               !grid->held[i] && (!search->ring->ruptured || search->source[i * nodes] > 0.0), nodes);
+}
+
+/* Begin with all nodes that see a free one of the next coarser grid. */
+static void refine_free(rf_search *search, const rf_grid *grid)
+{
+    const rf_grid *coarser = grid + 1;
+    const size_t nodes = grid->nodes, few = coarser->nodes;
+    for (size_t i = 0; i < grid->lines; ++i) {
+        const uint8_t *left = search->known + (i / 2) * few;
+        const uint8_t *right = search->known + ((i + 1) / 2 % coarser->lines) * few;
+        for (size_t j = 0; j < nodes; ++j) {
+            const size_t near = j / 2, far = (j + 1) / 2 < few ? (j + 1) / 2 : few - 1;
+            search->free[i * nodes + j] =
+                !grid->held[i] && (left[near] || right[near] || left[far] || right[far]);
+        }
+    }
+}
+
+static size_t emptiest_line(const uint8_t *free, const rf_grid *grid, size_t *fewest)
+{
+    size_t best = 0;
+    *fewest = grid->nodes + 1;
+    for (size_t i = 0; i < grid->lines; ++i) {
+        size_t count = 0;
+        for (size_t j = 0; j < grid->nodes; ++j)
+            count += free[i * grid->nodes + j];
+        if (count < *fewest) {
+            best = i;
+            *fewest = count;
+        }
+    }
+    return best;
+}
+
+/* The coefficients of one line: its diagonal, the couplings along it and those to the next line. */
+static void set_line(const rf_search *search, int level, size_t i, size_t stride, double *diagonal,
+                     double *along, double *after)
+{
+    const rf_grid *grid = &search->ring->grids[level];
+    const rf_cells *cells = &search->cells[level];
+    const size_t lines = grid->lines, nodes = grid->nodes, next = i + 1 < lines ? i + 1 : 0;
+    const double both = cells->around[i] + cells->around[i > 0 ? i - 1 : lines - 1];
+    const uint8_t *free = search->free + i * nodes, *beyond = search->free + next * nodes;
+    for (size_t j = 0; j < nodes; ++j) {
+        const double inward = j > 0 ? grid->conductance[j - 1] : 0.0;
+        diagonal[j * stride] =
+            free[j] ? both * grid->width[j] + cells->along[i] * (grid->conductance[j] + inward) : 1.0;
+        if (j + 1 < nodes && free[j] && free[j + 1])
+            along[j * stride] = -cells->along[i] * grid->conductance[j];
+        if (after && free[j] && beyond[j])
+            after[j * stride] = -cells->around[i] * grid->width[j];
+    }
+}
+
+static void assemble(rf_search *search, int level)
+{
+    const rf_grid *grid = &search->ring->grids[level];
+    const size_t lines = grid->lines, nodes = grid->nodes;
+    const size_t half = nodes, stride = half + 1;
+    rf_chain *chain = &search->chain;
+    size_t fewest;
+    search->cut = emptiest_line(search->free, grid, &fewest);
+    chain->half = half;
+    chain->size = (lines - 1) * half;
+    chain->bordered = fewest > 0;
+    memset(chain->band, 0, chain->size * stride * sizeof(double));
+    for (size_t k = 0; k < lines - 1; ++k) {
+        double *rows = chain->band + k * half * stride;
+        const size_t i = (search->cut + 1 + k) % lines;
+        set_line(search, level, i, stride, rows, rows + 1, k + 2 < lines ? rows + half : NULL);
+    }
+    if (!chain->bordered)
+        return;
+    memset(chain->border, 0, chain->size * half * sizeof(double));
+    memset(chain->corner, 0, half * half * sizeof(double));
+    /* Row p of the border couples to its column j: the line after the cut is the first of the band. */
+    set_line(search, level, search->cut, stride, chain->corner, chain->corner + half, chain->border);
+    const size_t before = search->cut > 0 ? search->cut - 1 : lines - 1;
+    double *last = chain->border + (lines - 2) * half * half;
+    for (size_t j = 0; j < nodes; ++j)
+        if (search->free[before * nodes + j] && search->free[search->cut * nodes + j])
+            last[j * stride] = -search->cells[level].around[before] * grid->width[j];
+}
+
+void rf_solve_free(const rf_search *search, int level, const double *flow, double *answer)
+{
+    const rf_grid *grid = &search->ring->grids[level];
+    const size_t nodes = grid->nodes, lines = grid->lines, all = lines * nodes;
+    const size_t first = (search->cut + 1) * nodes;
+    double *x = search->chained;
+    for (size_t q = 0; q < all; ++q) {
+        const size_t from = q + first < all ? q + first : q + first - all;
+        x[q] = search->free[from] ? flow[from] : 0.0;
+    }
+    rf_solve_chain(&search->chain, x, x + all - nodes);
+    memcpy(answer + first, x, (all - first) * sizeof(double));
+    memcpy(answer, x + all - first, first * sizeof(double));
+}
+
+/* Free every node that is full and every one that fills; return whether any changed. */
+static int move_edge(rf_search *search, const rf_grid *grid, const double *outflow, double threshold)
+{
+    int changed = 0;
+    for (size_t i = 0; i < grid->lines; ++i) {
+        if (grid->held[i])
+            continue;
+        for (size_t j = 0; j < grid->nodes; ++j) {
+            const size_t at = i * grid->nodes + j;
+            const int keep = search->free[at] ? search->pressure[at] > 0.0
+                                              : search->source[at] - outflow[at] > threshold;
+            changed |= keep != search->free[at];
+            search->free[at] = (uint8_t)keep;
+        }
+    }
+    return changed;
+}
+
+static int search_from_here(rf_search *search, int level)
+{
+    const rf_grid *grid = &search->ring->grids[level];
+    const rf_cells *cells = &search->cells[level];
+    const size_t nodes = grid->nodes, all = grid->lines * nodes;
+    double *pressure = search->pressure, *flow = search->flow, largest = 0.0;
+    for (size_t q = 0; q < all; ++q)
+        largest = fmax(largest, fabs(search->source[q]));
+    for (int set = 0; set < MOST_SETS; ++set) {
+        for (size_t q = 0; q < all; ++q)
+            pressure[q] = grid->value[q / nodes];
+        rf_set_flow(grid, cells->around, cells->along, pressure, flow);
+        for (size_t q = 0; q < all; ++q)
+            flow[q] = search->source[q] - flow[q];
+        assemble(search, level);
+        rf_factorize_chain(&search->chain);
+        rf_solve_free(search, level, flow, flow);
+        for (size_t q = 0; q < all; ++q)
+            pressure[q] += flow[q];
+        if (!search->ring->ruptured)
+            return RF_OK;
+        rf_set_flow(grid, cells->around, cells->along, pressure, flow);
+        if (!move_edge(search, grid, flow, THRESHOLD * largest))
+            return RF_OK;
+    }
+    return RF_STUCK;
+}
+
+int rf_search_film(rf_search *search, int level, const double *w)
+{
+    const rf_grid *grid = &search->ring->grids[level];
+    const size_t all = grid->lines * grid->nodes;
+    rf_set_source(grid, &search->cells[level], w, search->source);
+    if (level + 1 < RF_LEVELS && search->ring->ruptured)
+        refine_free(search, grid);
+    else
+        guess_free(search, grid);
+    const int status = search_from_here(search, level);
+    if (level > 0)
+        memcpy(search->known, search->free, all);
+    return status;
+}

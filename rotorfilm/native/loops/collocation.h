@@ -1,0 +1,57 @@
+/* One step of a rotor in modes under forces that are polynomials of time.
+
+   Over a step h from t the forces are polynomials through s collocation nodes c_i, and the rotor's answer to
+   them is exact (variation of constants): with l_j the Lagrange polynomials of the nodes,
+
+       z(t + c h) = exp(Lambda c h) z(t) + sum_j W_j(c) B u_j,
+       W_j(c) = h int_0^c exp(Lambda h (c - s)) l_j(s) ds. */
+#ifndef ROTORFILM_COLLOCATION_H
+#define ROTORFILM_COLLOCATION_H
+
+#include <stdint.h>
+
+#include "../export.h"
+
+typedef struct rf_complex {
+    double re, im;
+} rf_complex;
+
+/* A rotor x' = A x + B u in modes, u = forces at the journals and the unbalance's pair. */
+typedef struct rf_modes {
+    int32_t modes;
+    int32_t channels;         /* of u: two for each journal, and two */
+    int32_t rows;             /* x, y, vx, vy of each journal */
+    const rf_complex *values; /* modes */
+    const rf_complex *push;   /* modes x channels */
+    const rf_complex *sense;  /* rows x modes */
+} rf_modes;
+
+/* Nodes of a step and polynomials on them, coefficients by rising power. */
+typedef struct rf_scheme {
+    int32_t stages;
+    const double *nodes;     /* s */
+    const double *lagrange;  /* s x s */
+    const double *remainder; /* s + 1: vanishes at the nodes and is 1 at the start */
+} rf_scheme;
+
+/* What one length of a step needs. */
+typedef struct rf_step_table {
+    double *move;      /* s rows x 2 modes: motion at the nodes per real and imaginary modal coordinate */
+    double *gain;      /* s x s x rows x channels: at node i per force at node j */
+    double *defect;    /* s x rows x channels: per gap of the force at the start */
+    rf_complex *keep;  /* modes: modal coordinates at the end per themselves */
+    double *forced;    /* 2 modes x s channels: their real and imaginary parts per force at each node */
+} rf_step_table;
+
+/* Fill the tables of a step of length h; answers an rf_status. */
+RF_EXPORT_LOOP int rf_set_step_table(const rf_modes *rotor, const rf_scheme *scheme, double h,
+                                const rf_step_table *table);
+
+/* W_j(c) of s polynomials of `count` coefficients, shape s x modes. */
+void rf_set_weights(const rf_modes *rotor, double h, double c, const double *polynomials, int32_t s,
+                    int32_t count, rf_complex *out);
+
+/* exp(value t) z */
+rf_complex rf_turned(rf_complex value, double t, rf_complex z);
+
+#endif

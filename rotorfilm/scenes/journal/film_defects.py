@@ -1,0 +1,110 @@
+"""What the richer film of a candidate makes of an equilibrium: its tangent there, and a few linear steps."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...answers import DISAGREEMENT
+from ...bearings.journal import JournalBearing
+from ...linear.equilibrium import MAXIMUM_ECCENTRICITY
+from ...model import Array
+from ...results import Equilibrium
+from .film_rungs import FilmRung, is_grid
+
+STEP = 0.05
+"""Step of differences of a two-dimensional film in its source, relative to the wedge; less in a thin film.
+
+Its own derivative in the source belongs to cells that are full or empty, and jumps when one changes sides;
+a difference over many such jumps does not. The pressure at the wall is as wide as the square root of the gap,
+and so is the squeeze, relative to the wedge, that moves its edge.
+"""
+
+
+def tangent(bearing: JournalBearing, position: Array, speed: float, *, smooth: bool) -> tuple[Array, Array]:
+    """Return force (2,) [N] at rest, and d force/d(x, y, vx, vy) (2, 4).
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+    position : ndarray, shape (2,) [m]
+    speed : float [rad/s]
+    smooth : bool
+        Whether the derivatives of a film on a grid in its source are taken from differences, `STEP`.
+    """
+    rest = np.zeros(2)
+    slopes = bearing.jacobian(position, rest, speed)[:, :4]
+    if not (smooth and is_grid(bearing)):
+        return bearing.force(position, rest, speed), slopes
+    distance = float(np.hypot(*position))
+    thin = math.sqrt(1.0 - distance / bearing.clearance)
+    rate = STEP * min(1.0, 2.0 * thin) * 0.5 * abs(speed) * distance
+    velocities = rate * np.concatenate([np.zeros((2, 1)), *(k * np.eye(2) for k in (-2, -1, 1, 2))], axis=1)
+    force = bearing.force(np.repeat(position[:, None], 9, axis=1), velocities, np.full(9, speed))
+    low2, low, high, high2 = np.split(force[:, 1:], 4, axis=1)
+    by_velocity = (low2 - 8.0 * low + 8.0 * high - high2) / (12.0 * rate)
+    # The wedge moves with the journal, w = v/c - (speed/2) z^ x e, so its share follows.
+    change = by_velocity - slopes[:, 2:]
+    by_position = slopes[:, :2] - 0.5 * speed * np.stack([change[:, 1], -change[:, 0]], axis=1)
+    return force[:, 0], np.concatenate([by_position, by_velocity], axis=1)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Corrected:
+    """Where the richer film would have its equilibrium, by one linear step from another's.
+
+    Attributes
+    ----------
+    position : ndarray, shape (2,) [m]
+    slopes : ndarray, shape (2, 4)
+        d force/d(x, y, vx, vy) of the richer film there.
+    doubt : str
+        Why it must not be trusted.
+    """
+
+    position: Array
+    slopes: Array
+    doubt: str
+
+
+def corrected(film: FilmRung, at: Equilibrium, load: Array, *, smooth: bool) -> Corrected:
+    """Return the equilibrium of the richer film as far as its defect tells.
+
+    With the defect d = F_rich + W at the equilibrium of the cheap film the position moves by K^-1 d; two more
+    defects there, with the same K, take out what is of second and third order. The first step is tried with
+    both films' K: where the results disagree by more than 30 % it is too long to be linear. The slopes are
+    those of the richer film where that ends.
+    """
+    force, rich = tangent(film.rich, at.position, at.speed, smooth=False)
+    cheap = film.reaction.jacobian(at.position, np.zeros(2), at.speed)[:, :4]
+    step, other = (np.linalg.solve(-slopes[:, :2], force + load) for slopes in (rich, cheap))
+    doubt = ""
+    gap, longest = float(np.hypot(*(step - other))), float(max(np.hypot(*step), np.hypot(*other)))
+    if gap > DISAGREEMENT * longest:
+        doubt = f"the stiffnesses of both films disagree on the error by {gap / longest:.0%}: not linear"
+    position = at.position
+    for further in range(3):
+        if further:
+            step = np.linalg.solve(-rich[:, :2], film.rich.force(position, np.zeros(2), at.speed) + load)
+        position = position + step
+        if float(np.hypot(*position)) >= MAXIMUM_ECCENTRICITY * film.reaction.clearance:
+            return Corrected(position=at.position, slopes=rich, doubt="the error is larger than the gap")
+    slopes = tangent(film.rich, position, at.speed, smooth=smooth)[1] if smooth else rich
+    return Corrected(position=position, slopes=slopes, doubt=doubt)
+
+
+def one_defect(bearing: JournalBearing, speed: float, *, smooth: bool) -> Callable[[], object]:
+    """Return a call that does the work of `corrected` for one richer film."""
+    position = np.array([0.3, 0.4]) * bearing.clearance
+
+    def one() -> None:
+        tangent(bearing, position, speed, smooth=False)
+        for _ in range(2):
+            bearing.force(position, np.zeros(2), speed)
+        if smooth:
+            tangent(bearing, position, speed, smooth=True)
+
+    return one

@@ -1,0 +1,1 @@
+"""How tables of scene files are read: fields, units, names, and what a wrong one may have meant."""

@@ -1,0 +1,94 @@
+"""Readers of values that several tables of a scene have."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ...errors import SceneError
+from ...linear.equilibrium import UNLOADED
+from ...printable import brief
+from .tables import Quantity, choose
+
+
+def read_load(where: str, value: Any) -> tuple[float, float]:
+    """Read a load [N]: one positive magnitude, which acts along -y, or the two components [x, y]."""
+    if isinstance(value, list):
+        if len(value) != 2:
+            raise SceneError(f"{where} must be one magnitude or two components [x, y], got {brief(value)}")
+        x, y = (Quantity("N")(f"{where}[{index}]", entry) for index, entry in enumerate(value))
+        return x, y
+    magnitude = Quantity("N")(where, value)
+    if magnitude == 0.0:
+        raise SceneError(f"{where} must not be zero, got {brief(value)}: {UNLOADED}")
+    if not magnitude > 0.0:
+        raise SceneError(f"{where} must be a positive magnitude or two components [x, y], got {brief(value)}")
+    return 0.0, -magnitude
+
+
+@dataclass(frozen=True)
+class Count:
+    """Reader of a whole number.
+
+    Attributes
+    ----------
+    most : int
+        The largest one, of `rotorfilm.limits`.
+    least : int
+        The smallest one.
+    """
+
+    most: int
+    least: int = 1
+
+    def __call__(self, where: str, value: Any) -> int:
+        """Return the number; raise SceneError if it is none or beyond the limits."""
+        if isinstance(value, bool) or not isinstance(value, int) or not self.least <= value <= self.most:
+            raise SceneError(
+                f"{where} must be a whole number from {self.least} to {self.most}, got {brief(value)}"
+            )
+        return value
+
+
+@dataclass(frozen=True)
+class Counts:
+    """Reader of a list of positive whole numbers.
+
+    Attributes
+    ----------
+    names : tuple of str
+        What they are.
+    most : int
+        Their largest product, of `rotorfilm.limits`.
+    """
+
+    names: tuple[str, ...]
+    most: int
+
+    def __call__(self, where: str, value: Any) -> tuple[int, ...]:
+        """Return the numbers; raise SceneError if they are none or beyond the limits."""
+        if not isinstance(value, list) or len(value) != len(self.names):
+            raise SceneError(f"{where} must be [{', '.join(self.names)}], got {brief(value)}")
+        counts = tuple(Count(self.most)(f"{where}[{index}]", entry) for index, entry in enumerate(value))
+        if math.prod(counts) > self.most:
+            raise SceneError(f"{where} must multiply to at most {self.most}, got {brief(value)}")
+        return counts
+
+
+@dataclass(frozen=True)
+class Named:
+    """Reader of the name of one of several things that have no parameters.
+
+    Attributes
+    ----------
+    variants : mapping of str to callable
+        What makes each thing, by its name.
+    """
+
+    variants: Mapping[str, Callable[[], Any]]
+
+    def __call__(self, where: str, value: Any) -> Any:
+        """Return the thing of this name."""
+        return choose(where, value, self.variants)()

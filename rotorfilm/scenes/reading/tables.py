@@ -1,0 +1,299 @@
+"""Read tables of a scene file into dataclasses: each field says by its annotation how it is read."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import Any, Generic, NamedTuple, TypeVar, cast, get_type_hints
+
+from ...errors import InputError, SceneError
+from ...limits import TEXT
+from ...printable import brief, shortened
+from ...units import parse_quantity
+from .spelling import nearest, require_no_near_miss
+
+Reader = Callable[[str, Any], Any]
+"""Turns (where, value) into the value of a field; `where` is `FILE: dotted.key`, for the messages."""
+
+T = TypeVar("T")
+V = TypeVar("V")
+
+_ARGUMENT = re.compile(r"\w+(?=[.,\[]| (?:must|is|are|and)\b)")
+"""The argument that a message begins with; `length / diameter must` is about none."""
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """Reader of a physical quantity: a number in `unit`, or a string with its own unit.
+
+    Attributes
+    ----------
+    unit : str
+        SI unit, a key of `rotorfilm.units.UNITS`.
+    twice : str
+        Another key that may give twice the value instead, as `diameter` for `radius`; empty for none.
+    """
+
+    unit: str
+    twice: str = ""
+
+    def __call__(self, where: str, value: Any) -> float:
+        """Return the value in SI; raise SceneError if it is no such quantity."""
+        if isinstance(value, bool) or not isinstance(value, int | float | str):
+            raise SceneError(
+                f"{where} must be a number or a string such as '1 {self.unit}', got {brief(value)}"
+            )
+        try:
+            return parse_quantity(value, self.unit)
+        except InputError as error:
+            raise SceneError(f"{where}: {error}") from None
+
+
+class Keyed(NamedTuple, Generic[T]):
+    """A class of the physics as a table of its own parameters; what a file leaves out is the default there.
+
+    Attributes
+    ----------
+    makes : type
+        A dataclass, which checks its parameters.
+    readers : mapping of str to Reader
+        Of the parameters that a file may give.
+    required : tuple of str
+        Those that a file must give although they have a default.
+    """
+
+    makes: type[T]
+    readers: Mapping[str, Reader] = {}
+    required: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Table:
+    """Reader of a sub-table with a fixed set of keys.
+
+    Attributes
+    ----------
+    table : type or Keyed
+        As in `read_table`.
+    """
+
+    table: type | Keyed[Any]
+
+    def __call__(self, where: str, value: Any) -> Any:
+        """Return the sub-table as a dataclass."""
+        return read_table(self.table, f"{where}.", value)
+
+
+@dataclass(frozen=True)
+class TableList:
+    """Reader of an array of sub-tables, each with the same fixed set of keys.
+
+    Attributes
+    ----------
+    table : type or Keyed
+        As in `read_table`.
+    """
+
+    table: type | Keyed[Any]
+
+    def __call__(self, where: str, value: Any) -> tuple[Any, ...]:
+        """Return the sub-tables as dataclasses."""
+        if not isinstance(value, list):
+            raise SceneError(f"{where} must be a list of tables, got {brief(value)}")
+        return tuple(read_table(self.table, f"{where}[{k}].", entry) for k, entry in enumerate(value))
+
+
+@dataclass(frozen=True)
+class Variant:
+    """Reader of a sub-table one key of which names one of several dataclasses.
+
+    Attributes
+    ----------
+    tag : str
+        That key.
+    variants : mapping of str to type or Keyed
+        By name, as in `read_table`.
+    """
+
+    tag: str
+    variants: Mapping[str, type | Keyed[Any]]
+
+    def __call__(self, where: str, value: Any) -> Any:
+        """Return the sub-table as the dataclass that its tag names."""
+        data = dict(require_table(where, value))
+        if self.tag not in data:
+            require_no_near_miss(f"{where}.", self.tag, data)
+            raise SceneError(f"{where}.{self.tag} is required: one of {sorted(self.variants)}")
+        variant = choose(f"{where}.{self.tag}", data.pop(self.tag), self.variants)
+        return read_table(variant, f"{where}.", data)
+
+
+class Beside(NamedTuple):
+    """Reader of further sub-tables that stand beside the fields of a table, gathered in one of them.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Their keys; those that are fields are left to these.
+    type_of : callable
+        Takes such a key and returns the dataclass of its sub-table.
+    """
+
+    names: tuple[str, ...]
+    type_of: Callable[[str], type]
+
+    def __call__(self, where: str, value: Any) -> dict[str, Any]:
+        """Return the sub-tables as dataclasses, by their keys."""
+        return {name: read_table(self.type_of(name), f"{where}{name}.", data) for name, data in value.items()}
+
+
+def choose(where: str, name: object, variants: Mapping[str, V]) -> V:
+    """Return what has this name; raise SceneError if there is none."""
+    if not isinstance(name, str) or name not in variants:
+        hint = nearest(name, variants)
+        raise SceneError(f"{where} must be one of {sorted(variants)}, got {brief(name)}{hint}")
+    return variants[name]
+
+
+def text(where: str, value: Any) -> str:
+    """Read a string of a line or two."""
+    if not isinstance(value, str) or len(value) > TEXT:
+        raise SceneError(f"{where} must be a string of at most {TEXT} characters, got {brief(value)}")
+    return value
+
+
+def flag(where: str, value: Any) -> bool:
+    """Read true or false."""
+    if not isinstance(value, bool):
+        raise SceneError(f"{where} must be true or false, got {brief(value)}")
+    return value
+
+
+def require_table(where: str, value: Any) -> Mapping[str, Any]:
+    """Return `value` if it is a TOML table; raise SceneError otherwise."""
+    if not isinstance(value, Mapping):
+        raise SceneError(f"{where} must be a table, got {brief(value)}")
+    return value
+
+
+def read_table(table: type[T] | Keyed[T], where: str, data: Any) -> T:
+    """Return the TOML table `data` as the dataclass `table`.
+
+    Parameters
+    ----------
+    table : type or Keyed
+        A dataclass whose fields are annotated as `Annotated[type, reader]`, or one with readers beside it.
+    where : str
+        `FILE: dotted.key.`, the prefix of each key in messages.
+    data : Mapping
+        What the TOML parser returned.
+
+    Raises
+    ------
+    SceneError
+        If a key is unknown, missing, given twice over, or its value breaks a rule.
+    """
+    values = dict(require_table(where.removesuffix("."), data))
+    makes, readers, required = keyed(table)
+    _require_known(where, values, readers)
+    found = {
+        name: value
+        for name, reader in readers.items()
+        for value in _read_field(where, name, reader, values, readers)
+    }
+    _require_complete(where, makes, required, found)
+    try:
+        return makes(**found)
+    except InputError as error:
+        raise SceneError(_located(where, str(error), readers, values)) from None
+
+
+def _located(where: str, message: str, readers: Mapping[str, Reader], values: Mapping[str, Any]) -> str:
+    """Return a message after the key that it is about, or after the table where it is about no one key."""
+    begins = _ARGUMENT.match(message)
+    name = begins[0] if begins else ""
+    if name not in readers:
+        return f"{where.removesuffix('.').removesuffix(': ')}: {message}"
+    reader = readers[name]
+    if _twice(reader) and _twice(reader) in values:
+        message = f"{_twice(reader)} is twice the {name}, and {message}"
+    return f"{where}{message}{_as_written(name, reader, values)}"
+
+
+def _as_written(name: str, reader: Reader, values: Mapping[str, Any]) -> str:
+    """Return the SI unit of a key, and the text in the file if it has one."""
+    if not isinstance(reader, Quantity) or reader.unit == "1":
+        return ""
+    key = reader.twice if reader.twice in values else name
+    written = f"; {key} = {brief(values[key])}" if isinstance(values.get(key), str) else ""
+    return f" [{reader.unit}{written}]"
+
+
+def unit_of(table: type | Keyed[Any], path: Sequence[str]) -> str | None:
+    """Return the SI unit of a key, given by its parts; None where its reader is none of a `Quantity`."""
+    if not path:
+        return None
+    first, *rest = path
+    readers = keyed(table).readers
+    doubled = {_twice(reader): reader for reader in readers.values()}
+    reader = readers.get(first) or doubled.get(first)
+    if isinstance(reader, Quantity):
+        return None if rest else reader.unit
+    if isinstance(reader, Table):
+        return unit_of(reader.table, rest)
+    return unit_of(reader.table, rest[1:]) if isinstance(reader, TableList) else None
+
+
+def keyed(table: type[T] | Keyed[T]) -> Keyed[T]:
+    """Return a table with its readers beside it; those of a plain dataclass are in its annotations."""
+    return table if isinstance(table, Keyed) else Keyed(table, _annotated(cast("type", table)))
+
+
+@cache
+def _annotated(table: type) -> dict[str, Reader]:
+    hints = get_type_hints(table, include_extras=True)
+    return {field.name: hints[field.name].__metadata__[0] for field in dataclasses.fields(table)}
+
+
+def _require_known(where: str, values: Mapping[str, Any], readers: Mapping[str, Reader]) -> None:
+    known = {key: None for name, reader in readers.items() for key in _keys(name, reader) if key}
+    for key in values:
+        if key not in known:
+            raise SceneError(
+                f"{where}{shortened(key)} is no known key; known here: {', '.join(known)}"
+                f"{nearest(key, known)}"
+            )
+
+
+def _read_field(
+    where: str, name: str, reader: Reader, values: Mapping[str, Any], fields: Iterable[str]
+) -> list[Any]:
+    """Return a list of the value of one field, or an empty list when the file does not give it."""
+    if isinstance(reader, Beside):
+        beside = {key: values[key] for key in reader.names if key in values and key not in fields}
+        return [reader(where, beside)]
+    twice = _twice(reader)
+    if name in values and twice in values:
+        raise SceneError(f"{where}{name} and {where}{twice} must not both be given")
+    if name in values:
+        return [reader(where + name, values[name])]
+    return [0.5 * reader(where + twice, values[twice])] if twice in values else []
+
+
+def _keys(name: str, reader: Reader) -> tuple[str, ...]:
+    """Return the keys that a field is read from."""
+    return reader.names if isinstance(reader, Beside) else (name, _twice(reader))
+
+
+def _twice(reader: Reader) -> str:
+    return reader.twice if isinstance(reader, Quantity) else ""
+
+
+def _require_complete(where: str, makes: type, required: Sequence[str], found: Mapping[str, Any]) -> None:
+    for field in dataclasses.fields(makes):
+        bare = field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
+        if (bare or field.name in required) and field.name not in found:
+            raise SceneError(f"{where}{field.name} is required and missing")

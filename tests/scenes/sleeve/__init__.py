@@ -1,0 +1,1 @@
+"""A viscous sleeve: a full film around a shaft that stays near the center."""

@@ -1,0 +1,85 @@
+"""The damping of a viscous sleeve: by a short film, then by one of finite length."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from ...answers import ErrorEstimate, Found, Work, WorkUnit
+from ...ladders import CandidateRung, Ladder
+from .sleeve_bearing import ViscousSleeve
+from .sleeve_remarks import sleeve_remarks
+
+if TYPE_CHECKING:
+    from ..scene import Scene
+
+ROUNDOFF = 1e-14
+
+
+@dataclass(frozen=True, kw_only=True)
+class SleeveFilm:
+    """A film of a sleeve that may answer.
+
+    Attributes
+    ----------
+    reaction : ViscousSleeve
+    """
+
+    reaction: ViscousSleeve
+
+    @property
+    def name(self) -> str:
+        """Short or finite."""
+        return "short film" if self.reaction.short else "finite film"
+
+    @property
+    def rich(self) -> ViscousSleeve | None:
+        """The film of finite length, for the short one."""
+        return replace(self.reaction, short=False) if self.reaction.short else None
+
+    @property
+    def prior(self) -> float:
+        """Order of magnitude of the error."""
+        return 0.1 * (self.reaction.length / self.reaction.radius) ** 2 if self.reaction.short else 0.0
+
+    def bound(self, eccentricity_ratio: float, *, slopes: bool) -> float:
+        """Return the verified error: the film of finite length is in closed form."""
+        return float("inf") if self.reaction.short else ROUNDOFF
+
+    def prepare(self) -> Work:
+        """Return nothing: there is no map to make."""
+        return {}
+
+
+class SleeveRung(CandidateRung[SleeveFilm]):
+    """The damping by one film."""
+
+    @property
+    def unit(self) -> WorkUnit:
+        """One formula."""
+        return FORMULAS
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the damping [N s/m]."""
+        return Found(self.film.reaction.damping, {self.unit: 1})
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the change that the richer film makes, or the verified bound."""
+        rich = self.film.rich
+        if rich is None:
+            return ErrorEstimate(self.film.bound(0.0, slopes=True), "closed form", bound=True)
+        return ErrorEstimate(abs(found.value / rich.damping - 1.0), "the film of finite length")
+
+
+FORMULAS = WorkUnit("formulas of a sleeve")
+
+
+def sleeve_ladder(scene: Scene, quantity: str) -> Ladder:
+    """Return the ladder of the damping of a sleeve."""
+    sleeve = scene.table("sleeve").build()
+    films = (SleeveFilm(reaction=replace(sleeve, short=True)), SleeveFilm(reaction=sleeve))
+    return Ladder(
+        rungs=tuple(SleeveRung(film=film) for film in films),
+        unit="N s/m",
+        remarks=sleeve_remarks(sleeve, scene.lubricant, scene.speed),
+    )

@@ -1,0 +1,67 @@
+"""Remarks as data: a number, its limit, and what is said beyond it."""
+
+import math
+from pathlib import Path
+
+import pytest
+
+from rotorfilm.scenes import Scene, bundled_scene
+from rotorfilm.scenes.bush import bush_remarks
+from rotorfilm.scenes.bush.bush_run import bush_run
+from rotorfilm.scenes.contact import contact_remarks
+from rotorfilm.scenes.damper import damper_ranges
+from rotorfilm.scenes.journal import journal_remarks
+from rotorfilm.scenes.remarks import Remark, said
+from rotorfilm.scenes.shaft import shaft_remarks
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+def journal():
+    scene = bundled_scene()
+    at = scene.bearing, scene.lubricant, scene.speed, scene.static_load
+    return journal_remarks.REMARKS, journal_remarks.journal_numbers(*at)
+
+
+def contact():
+    scene = Scene.load(EXAMPLES / "ball_step.toml")
+    ball = scene.contact.build()
+    numbers = contact_remarks.contact_numbers(ball, scene.lubricant, roelands=False, compressible=False)
+    return contact_remarks.REMARKS, numbers
+
+
+def damper():
+    scene = Scene.load(EXAMPLES / "damper_question.toml")
+    numbers = damper_ranges.damper_numbers(scene.damper.build(), scene.lubricant, 20.0, 300.0, 0.5)
+    return (*damper_ranges.REMARKS, *damper_ranges.FULL, *damper_ranges.RUPTURED), numbers
+
+
+def bush():
+    scene = Scene.load(EXAMPLES / "bush_wear.toml")
+    return bush_remarks.REMARKS, bush_remarks.bush_numbers(bush_run(scene, "wear"))
+
+
+def shaft():
+    remarks = (*shaft_remarks.BEAM, shaft_remarks.UNSTABLE)
+    return remarks, {"slenderness": 3.0, "step": 2.0, "growth": 0.1, "whirl": 0.5}
+
+
+@pytest.mark.parametrize("family", [journal, contact, damper, bush, shaft])
+def test_every_remark_of_a_family_can_be_said(family):
+    remarks, numbers = family()
+    assert len(remarks) > 2
+    for remark in remarks:
+        line = remark.line(numbers)
+        topic, colon, text = line.partition(": ")
+        assert topic
+        assert colon
+        assert text
+        assert "{" not in line
+
+
+def test_a_remark_is_said_beyond_its_limit():
+    above, below = Remark("x", 2.0, "above: {x:.1f} of {y}"), Remark("x", 1.0, "below: {x:.1f}", below=True)
+    assert said((above, below), {"x": 2.5, "y": 7}) == ("above: 2.5 of 7",)
+    assert said((above, below), {"x": 0.5, "y": 7}) == ("below: 0.5",)
+    for x in (1.0, 1.5, 2.0, math.nan):
+        assert said((above, below), {"x": x, "y": 7}) == ()
