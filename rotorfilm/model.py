@@ -210,6 +210,13 @@ class Reaction(Model, Protocol):
         """Return d(force_x, force_y)/d(x, y, vx, vy, speed), shape (2, 5, ...)."""
 
 
+class Force(Protocol):
+    """A force for plain numbers."""
+
+    def __call__(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
+        """Return force_x, force_y [N]."""
+
+
 class Tangent(Protocol):
     """Force and derivatives for plain numbers."""
 
@@ -225,6 +232,29 @@ class TangentReaction(Protocol):
 
     def prepare_tangent(self) -> Tangent:
         """Return the function of (x, y, vx, vy, speed) [m, m/s, rad/s]; it raises what `jacobian` raises."""
+
+
+@runtime_checkable
+class PreparedReaction(Protocol):
+    """What a Reaction may add: its force as a function of five numbers, for loops that go state by state."""
+
+    def prepare(self) -> Force:
+        """Return the function of (x, y, vx, vy, speed) [m, m/s, rad/s]; it raises what `force` raises."""
+
+
+def prepared_force(reaction: Reaction) -> Force:
+    """Return the force of any reaction as a function of five numbers."""
+    return reaction.prepare() if isinstance(reaction, PreparedReaction) else force_of(reaction)
+
+
+def force_of(reaction: Reaction) -> Force:
+    """Return the force of a reaction as a function of five numbers, by its `force`."""
+
+    def force(x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
+        force_x, force_y = np.asarray(reaction.force((x, y), (vx, vy), speed)).tolist()
+        return force_x, force_y
+
+    return force
 
 
 def prepared_tangent(reaction: Reaction) -> Tangent:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Protocol
+from typing import Protocol, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_inside, require_vector
-from ..model import Array, Linearization, static_linearization
+from ..model import Array, Force, Linearization, Reaction, force_of, static_linearization
 from ..signals import Signal, force_outputs, journal_inputs
 
 NOMINAL_SPEED = 100.0
@@ -153,7 +152,7 @@ class StaticReaction(Feedthrough):
         require_inside(q, self.clearance)
         return self.prepared_jacobian(q, v, omega)
 
-    def prepare(self: _Prepared) -> Callable[[float, float, float, float, float], tuple[float, float]]:
+    def prepare(self: _Prepared) -> Force:
         """Return the force as a function of five numbers, for loops that go state by state.
 
         Returns
@@ -161,9 +160,4 @@ class StaticReaction(Feedthrough):
         callable
             (x, y, vx, vy, speed) [m, m/s, rad/s] -> (force_x, force_y) [N]. Raises what `force` raises.
         """
-
-        def call(x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
-            force_x, force_y = self.force((x, y), (vx, vy), speed).tolist()
-            return force_x, force_y
-
-        return call
+        return force_of(cast(Reaction, self))

@@ -8,7 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import require_kind, require_positive
-from ..model import Array, Reaction, Tangent, largest_eccentricity_ratio, prepared_tangent
+from ..model import (
+    Array,
+    Force,
+    Reaction,
+    Tangent,
+    largest_eccentricity_ratio,
+    prepared_force,
+    prepared_tangent,
+)
 from ..native.spec import HasKernel, NativeSpec
 from .reaction import StaticReaction
 
@@ -61,6 +69,16 @@ class Sprung(StaticReaction):
             return None
         spec = self.reaction.native()
         return None if spec is None else spec.stiffened(self.stiffness)
+
+    def prepare(self) -> Force:
+        """Return the force as a function of five numbers; see `StaticReaction.prepare`."""
+        call, stiffness = prepared_force(self.reaction), self.stiffness
+
+        def force(x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
+            force_x, force_y = call(x, y, vx, vy, speed)
+            return force_x - stiffness * x, force_y - stiffness * y
+
+        return force
 
     def prepare_tangent(self) -> Tangent:
         """Return force and derivatives as a function of five numbers; see `prepared_tangent`."""

@@ -104,6 +104,18 @@ def inspect_coupling(time: ArrayLike, force: ArrayLike) -> CouplingReport:
     )
 
 
+def is_calm(force: Array) -> bool:
+    """Return whether forces (k, n) change too little from step to step for any mark of chatter."""
+    change = np.diff(force, axis=1)
+    swing = np.diff(change, axis=1)
+    level = _rms(force)
+    # Of vectors, which are no longer than the square root of k times their largest component.
+    longest = len(force) ** 0.5
+    alternates = 0.25 * longest * np.abs(swing).max(initial=0.0) > SIGNIFICANT * level
+    jumps = 0.5 * longest * np.abs(change).max(initial=0.0) > JUMP * level
+    return not (alternates or jumps or not np.isfinite(level))
+
+
 def _sustained(swing: Array) -> tuple[NDArray[np.bool_], Array]:
     """Return, for each window of second differences, whether they alternate undamped, and how strongly."""
     if swing.shape[1] < WINDOW + 1:

@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import CouplingWarning, RotorfilmError, warn_user
 from ..model import Array
 from .bench import Sample
-from .chatter import WINDOW, inspect_coupling
+from .chatter import WINDOW, inspect_coupling, is_calm
 from .coupling_loop import Loop, dominant_eigenvalue, squeeze_limit
 from .partners import Partners
 from .schemes.adaptive import Adaptive
@@ -90,6 +90,8 @@ class Watch:
         if self._count % EVERY or self._count <= WINDOW:
             return False
         forces = np.array([sample.force for sample in self._latest]).T
+        if is_calm(forces):
+            return False
         report = inspect_coupling([sample.time for sample in self._latest], forces)
         return report.chatter or report.coarse
 
@@ -164,6 +166,8 @@ class Watch:
 def unforeseen(latest: Sequence[Sample], sample: Sample, order: int) -> Array:
     """Return the force at a sample less the one extrapolated to it from the latest ones."""
     used = latest[-order:]
+    if len(used) == 1:
+        return sample.force - used[-1].force
     parts = extrapolation([s.time for s in used], [s.force for s in used])
     elapsed = sample.time - used[-1].time
     ahead = sum(elapsed**k * part for k, part in enumerate(parts))

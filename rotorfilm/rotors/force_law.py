@@ -65,7 +65,7 @@ class ForceLaw(NamedTuple):
     def held(self) -> bool:
         """Whether the force is constant."""
         rest = (self.slope, self.curvature, self.stiffness, self.damping)
-        return not any(np.any(part) for part in rest)
+        return not any(np.asarray(part).any() for part in rest)
 
     def at(self, t: float, position: ArrayLike, velocity: ArrayLike) -> Array:
         """Return the force at a time [s] and a motion [m], [m/s], shape (m, ...) [N]."""

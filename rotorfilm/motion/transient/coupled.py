@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...errors import ConvergenceError, InputError, UndefinedDerivativeError, require_inside
-from ...model import Array, Dynamic, Linearization, Reaction, static_linearization
+from ...model import Array, Dynamic, Linearization, Reaction, prepared_force, static_linearization
 from ...signals import FORCE_OUTPUTS, JOURNAL_INPUTS, indices, names
 
 NUDGE = 1e-6
@@ -73,6 +73,7 @@ class Coupled:
         self._split = len(rotor.states)
         # Asked once: checks against protocols are slow.
         self._film = reaction if isinstance(reaction, Dynamic) else None
+        self._force = None if reaction.states else prepared_force(reaction)
 
     @property
     def initial_state(self) -> Array:
@@ -157,9 +158,9 @@ class Coupled:
         return u
 
     def _film_force(self, t: float, x: Array, journal: Array) -> Array:
-        if self.reaction.states:
+        if self._force is None:
             return self.reaction.output(t, x[self._split :], journal)[: len(FORCE_OUTPUTS)]
-        return self.reaction.force(journal[:2], journal[2:4], journal[4])
+        return np.array(self._force(*journal.tolist()))
 
     def _film_derivatives(self, t: float, x: Array, journal: Array) -> Linearization:
         if self.reaction.states:
