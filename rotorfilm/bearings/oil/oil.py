@@ -1,0 +1,181 @@
+"""An oil: viscosity, density, heat capacity and conductivity over its temperature."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...errors import InputError, require_each, require_kind, require_positive
+from ...model import Array
+from .viscosity import CELSIUS, Exponential, ViscosityLaw, Walther, relative_density
+
+GRADES = {22: 4.3, 32: 5.36, 46: 6.76, 68: 8.73, 100: 11.4, 150: 15.0, 220: 19.4, 320: 24.9}
+"""Kinematic viscosity at 100 degrees Celsius [mm2/s] of paraffinic oils of viscosity index 95 to 100, by their
+ISO 3448 grade, which is that at 40 degrees Celsius. Good to 5 %; the grade itself says nothing of it."""
+
+DENSITY = 870.0
+"""Density of a mineral oil at 15 degrees Celsius [kg/m3]."""
+
+_WATER = 999.0
+"""Density of water at 15 degrees Celsius [kg/m3]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Oil:
+    """A lubricant whose properties depend on its temperature.
+
+    `Oil.iso_vg(46)`, `Oil.two_points(...)`, `Oil.thinning_at(...)` and `Oil.constant(...)` make one.
+
+    Parameters
+    ----------
+    law : ViscosityLaw
+        Dynamic viscosity over temperature.
+    reference_density : float [kg/m3]
+        Density at 15 degrees Celsius; it falls by .064 % of that per kelvin.
+    fixed_heat_capacity : float [J/(kg K)], optional
+        Heat capacity, the same at all temperatures; by default that of a mineral oil of this density,
+        (1683 + 3.39 T)/sqrt(reference_density/999), T in degrees Celsius.
+    conductivity : float [W/(m K)]
+        Thermal conductivity, the same at all temperatures.
+    assumed : tuple of str
+        What of this oil was not given but assumed, for remarks.
+
+    Raises
+    ------
+    InputError
+        If a property is not finite and positive, or the law has no viscosity.
+
+    Examples
+    --------
+    >>> oil = Oil.iso_vg(46)
+    >>> round(1e3 * float(oil.viscosity(313.15)), 2)
+    39.38
+    """
+
+    law: ViscosityLaw
+    reference_density: float = DENSITY
+    fixed_heat_capacity: float | None = None
+    conductivity: float = 0.13
+    assumed: tuple[str, ...] = field(default=(), compare=False)
+
+    def __post_init__(self) -> None:
+        require_kind("law", self.law, ViscosityLaw, "a viscosity law with viscosity and thinning")
+        require_each(self, require_positive, "reference_density", "conductivity")
+        if self.fixed_heat_capacity is not None:
+            require_positive("fixed_heat_capacity", self.fixed_heat_capacity)
+
+    @classmethod
+    def iso_vg(cls, grade: int, **further: float) -> Oil:
+        """Return a mineral oil of an ISO viscosity grade; its second point, at 100 degrees Celsius, is assumed.
+
+        Parameters
+        ----------
+        grade : int
+            Kinematic viscosity at 40 degrees Celsius [mm2/s], one of `GRADES`.
+        **further
+            Further fields of the oil, such as `conductivity`.
+
+        Raises
+        ------
+        InputError
+            If there is no such grade in the table.
+        """
+        if grade not in GRADES:
+            known = ", ".join(str(name) for name in GRADES)
+            raise InputError(f"grade must be one of {known}, got {grade!r}: give two points of viscosity")
+        oil = cls.two_points((40.0 + CELSIUS, 1e-6 * grade), (100.0 + CELSIUS, 1e-6 * GRADES[grade]), **further)
+        second = f"kinematic viscosity of ISO VG {grade} at 100 degC: {GRADES[grade]:g} mm2/s, +-5 %"
+        return cls(
+            law=oil.law,
+            reference_density=oil.reference_density,
+            fixed_heat_capacity=oil.fixed_heat_capacity,
+            conductivity=oil.conductivity,
+            assumed=(second,),
+        )
+
+    @classmethod
+    def two_points(
+        cls,
+        first: tuple[float, float],
+        second: tuple[float, float],
+        *,
+        reference_density: float = DENSITY,
+        **further: float,
+    ) -> Oil:
+        """Return the oil of Walther's law (ASTM D341) through two points.
+
+        Parameters
+        ----------
+        first, second : (float, float) [K], [m^2/s]
+            Temperature and kinematic viscosity.
+        reference_density : float [kg/m3]
+        **further
+            Further fields of the oil.
+
+        Raises
+        ------
+        InputError
+            If the viscosity does not fall from the colder to the warmer point.
+        """
+        law = Walther.through(first, second, reference_density)
+        return cls(law=law, reference_density=reference_density, **further)  # type: ignore[arg-type]
+
+    @classmethod
+    def thinning_at(cls, viscosity: float, temperature: float, thinning: float, **further: float) -> Oil:
+        """Return an oil of one measured viscosity that thins at the same rate everywhere.
+
+        Parameters
+        ----------
+        viscosity : float [Pa s]
+            Dynamic viscosity at the temperature.
+        temperature : float [K]
+        thinning : float [1/K]
+            -d ln(viscosity)/d temperature.
+        **further
+            Further fields of the oil.
+        """
+        law = Exponential(value=viscosity, temperature=temperature, rate=thinning)
+        return cls(law=law, **further)  # type: ignore[arg-type]
+
+    @classmethod
+    def constant(cls, viscosity: float, **further: float) -> Oil:
+        """Return an oil of one dynamic viscosity [Pa s] at all temperatures."""
+        return cls.thinning_at(viscosity, 40.0 + CELSIUS, 0.0, **further)
+
+    def viscosity(self, temperature: ArrayLike) -> Array:
+        """Return the dynamic viscosity [Pa s] at temperatures [K], of their shape.
+
+        Raises
+        ------
+        InputError
+            If a temperature is not finite and positive.
+        """
+        return self.law.viscosity(_kelvin(temperature))
+
+    def thinning(self, temperature: ArrayLike) -> Array:
+        """Return -d ln(viscosity)/d temperature [1/K] at temperatures [K], of their shape."""
+        return self.law.thinning(_kelvin(temperature))
+
+    def density(self, temperature: ArrayLike) -> Array:
+        """Return the density [kg/m3] at temperatures [K], of their shape."""
+        return self.reference_density * relative_density(_kelvin(temperature))
+
+    def heat_capacity(self, temperature: ArrayLike) -> Array:
+        """Return the heat capacity [J/(kg K)] at temperatures [K], of their shape."""
+        T = _kelvin(temperature)
+        if self.fixed_heat_capacity is not None:
+            return np.full(T.shape, self.fixed_heat_capacity)
+        return (1683.0 + 3.39 * (T - CELSIUS)) / np.sqrt(self.reference_density / _WATER)
+
+    def volumetric_heat(self, temperature: ArrayLike) -> Array:
+        """Return density times heat capacity [J/(m^3 K)] at temperatures [K], of their shape."""
+        return self.density(temperature) * self.heat_capacity(temperature)
+
+
+def _kelvin(temperature: ArrayLike) -> Array:
+    T = np.asarray(temperature, dtype=float)
+    if not (np.isfinite(T).all() and (T > 0.0).all()):
+        raise InputError(f"temperature must be finite and positive, in K, got {temperature!r}")
+    return T
