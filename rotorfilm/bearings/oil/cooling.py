@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ....errors import InputError, require_non_negative, require_number, require_positive
+from ...errors import InputError, require_non_negative, require_number, require_positive
 
 STEEL = 3.6e6
 """Heat capacity of steel per volume [J/(m^3 K)]."""

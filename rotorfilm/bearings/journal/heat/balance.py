@@ -1,0 +1,109 @@
+"""One temperature for a whole film: the heat that friction makes against what oil and housing take away.
+
+With the power P = mu(T) A and the flow Q_e of a film at a state of the journal, the balance is
+
+    A mu(T) = C (T - T_s) Q_e + G (T - T_a),                                                         (1)
+
+C the heat capacity of the oil per volume, T_s the supply, T_a the ambient temperature and G the conductance of
+the housing. The left side falls with T and the right side rises, so there is one root. Newton's method from
+below climbs to it without a step beyond, since the difference is convex.
+
+An opening where Q_1 leaves into the film and Q_2 arrives replaces the share 1 - lambda of what arrives; with a
+temperature that rises linearly from one opening to the next that is as much heat as
+
+    Q_e = Q + sum 2 (1 - lambda) Q_2/(1 + lambda Q_2/Q_1)                                            (2)
+
+takes along at the film's temperature, where Q = sum(Q_1 - Q_2) leaks.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from ....errors import ConvergenceError, InputError
+from ....model import Array
+from ...oil import Cooling, Oil
+
+_STEPS = 60
+_ROUNDOFF = 1e-14
+
+
+class Heat(NamedTuple):
+    """What a film makes and carries of heat at one state of the journal.
+
+    Attributes
+    ----------
+    power_per_viscosity : float [m^3/s^2 m]
+        Power that goes into the oil / dynamic viscosity, [W/(Pa s)].
+    flow : float [m^3/s]
+        Effective flow Q_e of fresh oil.
+    """
+
+    power_per_viscosity: float
+    flow: float
+
+
+def effective_flow(side_flow: float, inflow: Array, arriving: Array, carry_over: float) -> float:
+    """Return Q_e of (2) [m^3/s].
+
+    Parameters
+    ----------
+    side_flow : float [m^3/s]
+        Oil that leaks.
+    inflow, arriving : ndarray, shape (openings,) [m^3/s]
+        Q_1 into the film and Q_2 that arrives from it, at each opening.
+    carry_over : float [1]
+        lambda, the share of Q_2 that goes on into the next film.
+    """
+    feeding = inflow > 0.0
+    entering, coming = inflow[feeding], np.maximum(arriving[feeding], 0.0)
+    replaced = 2.0 * (1.0 - carry_over) * coming / (1.0 + carry_over * coming / entering)
+    return side_flow + float(replaced.sum())
+
+
+def heat_surplus(heat: Heat, oil: Oil, cooling: Cooling, temperature: float) -> tuple[float, float]:
+    """Return heat made less heat taken away at a temperature [W], and its derivative [W/K]; (1)."""
+    power = heat.power_per_viscosity * float(oil.viscosity(temperature))
+    with_oil = float(oil.volumetric_heat(cooling.supply_temperature)) * heat.flow
+    housing = cooling.housing_conductance
+    taken = with_oil * (temperature - cooling.supply_temperature) + housing * (temperature - cooling.ambient)
+    return power - taken, -power * float(oil.thinning(temperature)) - with_oil - housing
+
+
+def balance_temperature(heat: Heat, oil: Oil, cooling: Cooling) -> float:
+    """Return the temperature at which the heat of a film balances [K]: the root of (1).
+
+    Raises
+    ------
+    InputError
+        If nothing takes heat away: no oil leaves and the housing does not conduct.
+    ConvergenceError
+        If Newton's method does not end, which no thinning oil makes it do.
+    """
+    if not heat.power_per_viscosity > 0.0:
+        return _unheated(heat, oil, cooling)
+    if not (heat.flow > 0.0 or cooling.housing_conductance > 0.0):
+        raise InputError(
+            "housing_conductance must be positive where no oil leaves the film, as of a centered journal, got 0"
+        )
+    T = cooling.coldest
+    for _ in range(_STEPS):
+        surplus, slope = heat_surplus(heat, oil, cooling, T)
+        step = -surplus / slope
+        T += step
+        if abs(step) <= _ROUNDOFF * T:
+            return T
+    raise ConvergenceError(f"temperature must balance the heat, and did not within {_STEPS} steps at {T:.6g} K")
+
+
+def _unheated(heat: Heat, oil: Oil, cooling: Cooling) -> float:
+    """Return the temperature of a film that makes no heat, between those of fresh oil and ambient."""
+    with_oil = float(oil.volumetric_heat(cooling.supply_temperature)) * max(heat.flow, 0.0)
+    through_housing = cooling.housing_conductance
+    if not with_oil + through_housing > 0.0:
+        return cooling.supply_temperature
+    share = through_housing / (with_oil + through_housing)
+    return math.fsum((cooling.supply_temperature, share * (cooling.ambient - cooling.supply_temperature)))
