@@ -26,6 +26,7 @@ from ..oil import Cooling, Oil
 from ..oil.lubricant import film_viscosity, require_lubricant
 from ..reaction import NOMINAL_SPEED, Feedthrough, broadcast_state
 from .fitting import fitted_film
+from .heat.warm_film import WarmFilm
 from .journal_kernel import NATIVE_PARAMETERS, journal_spec
 from .map.map_film import MapFilm
 
@@ -34,7 +35,7 @@ CLEARANCE_RATIOS = (1e-5, 2e-2)
 
 
 @dataclass(frozen=True, kw_only=True)
-class JournalBearing(Feedthrough):
+class JournalBearing(Feedthrough, WarmFilm):
     """A cylindrical journal bearing, full unless it has pads or grooves: a Reaction and a static Model.
 
     x and y are Cartesian from the bearing center, rotation is about +z, the force acts on the journal.

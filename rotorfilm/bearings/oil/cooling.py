@@ -70,7 +70,11 @@ class Cooling:
     @property
     def coldest(self) -> float:
         """Temperature below which no film of this cooling gets [K]."""
-        return min(self.supply_temperature, self.ambient) if self.housing_conductance else self.supply_temperature
+        return (
+            min(self.supply_temperature, self.ambient)
+            if self.housing_conductance
+            else self.supply_temperature
+        )
 
     def capacity(self, radius: float, length: float) -> float:
         """Return the heat capacity of bush and housing [J/K] of a bearing of these dimensions [m]."""

@@ -86,7 +86,9 @@ class Oil:
         if grade not in GRADES:
             known = ", ".join(str(name) for name in GRADES)
             raise InputError(f"grade must be one of {known}, got {grade!r}: give two points of viscosity")
-        oil = cls.two_points((40.0 + CELSIUS, 1e-6 * grade), (100.0 + CELSIUS, 1e-6 * GRADES[grade]), **further)
+        oil = cls.two_points(
+            (40.0 + CELSIUS, 1e-6 * grade), (100.0 + CELSIUS, 1e-6 * GRADES[grade]), **further
+        )
         second = f"kinematic viscosity of ISO VG {grade} at 100 degC: {GRADES[grade]:g} mm2/s, +-5 %"
         return replace(oil, assumed=(second,))
 

@@ -153,9 +153,7 @@ class Vogel:
     origin: float
 
     @classmethod
-    def fitted(
-        cls, law: ViscosityLaw, at: tuple[float, float, float] = (313.15, 343.15, 373.15)
-    ) -> Vogel:
+    def fitted(cls, law: ViscosityLaw, at: tuple[float, float, float] = (313.15, 343.15, 373.15)) -> Vogel:
         """Return the law that has another one's viscosities at three temperatures [K].
 
         Within 0.1 % of an ISO grade between them.
