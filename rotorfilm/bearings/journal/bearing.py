@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -27,7 +28,7 @@ from ..oil.lubricant import film_viscosity, require_lubricant
 from ..reaction import NOMINAL_SPEED, Feedthrough, broadcast_state
 from .fitting import fitted_film
 from .heat.warm_film import WarmFilm
-from .journal_kernel import NATIVE_PARAMETERS, journal_spec
+from .journal_kernel import journal_spec
 from .map.map_film import MapFilm
 
 CLEARANCE_RATIOS = (1e-5, 2e-2)
@@ -72,8 +73,9 @@ class JournalBearing(Feedthrough, WarmFilm):
     ------
     InputError
         If a dimension or the viscosity is not finite and positive, not exactly one of viscosity and oil is
-        given, an oil has neither temperature nor cooling, the clearance is not below the radius, openings overlap, there is a supply without a groove, or the film cannot represent length/diameter,
-        pads or grooves.
+        given, an oil has neither temperature nor cooling, the clearance is not below the radius, openings
+        overlap, there is a supply without a groove, or the film cannot represent length/diameter, pads or
+        grooves.
 
     Warns
     -----
@@ -141,7 +143,7 @@ class JournalBearing(Feedthrough, WarmFilm):
 
     @property
     def film_viscosity(self) -> float:
-        """Dynamic viscosity of the film [Pa s]; of fresh oil where the heat balance is to find how warm it is."""
+        """Dynamic viscosity of the film [Pa s]; that of fresh oil where its temperature is not stated."""
         return film_viscosity(self.viscosity, self.oil, self.temperature, self.cooling)
 
     @property
@@ -285,10 +287,11 @@ class JournalBearing(Feedthrough, WarmFilm):
 
     @cached_property
     def bound_film(self) -> BoundFilm:
-        """The film law tied to the dimensions of this bearing; InputError where nothing states how warm it is."""
+        """The film law tied to the dimensions of this bearing; InputError without a stated temperature."""
         if self.is_warming:
             raise InputError(
-                "temperature must be stated for a force of a bearing with oil: at_temperature(T), T of its equilibrium"
+                "temperature must be stated for a force of a bearing with oil, got None: "
+                "bearing.at_temperature(T) has one, and equilibrium(bearing, ...) tells T"
             )
         slenderness, clearance, force_scale = self.slenderness, self.clearance, self.force_scale
         in_c = self._options.bind(slenderness=slenderness, clearance=clearance, force_scale=force_scale)

@@ -29,8 +29,8 @@ class Cooling:
         Heat flow through bush and housing per kelvin between film and ambient; 0 where all heat leaves with
         the oil.
     carry_over : float [1]
-        Share of the oil arriving at an opening that goes on into the next film, 0 to 1; without openings it has
-        no part.
+        Share of the oil arriving at an opening that goes on into the next film, 0 to 1; without openings it
+        has no part.
     heat_capacity : float or None [J/K]
         Of the bush, and of what of housing and shaft warms with it. None for a steel ring to `RING` times the
         radius.

@@ -12,7 +12,7 @@ from .oil import Oil
 def require_lubricant(
     viscosity: float | None, oil: Oil | None, temperature: float | None, cooling: Cooling | None
 ) -> None:
-    """Raise InputError unless there is one viscosity [Pa s], or an oil with its temperature [K] or cooling."""
+    """Raise InputError unless there is a viscosity [Pa s], or an oil with temperature [K] or cooling."""
     if oil is None:
         if viscosity is None:
             raise InputError("viscosity or oil must be given, got neither")

@@ -13,8 +13,9 @@ from ...units import CELSIUS
 from .viscosity import Exponential, ViscosityLaw, Walther, relative_density
 
 GRADES = {22: 4.3, 32: 5.36, 46: 6.76, 68: 8.73, 100: 11.4, 150: 15.0, 220: 19.4, 320: 24.9}
-"""Kinematic viscosity at 100 degrees Celsius [mm2/s] of paraffinic oils of viscosity index 95 to 100, by their
-ISO 3448 grade, which is that at 40 degrees Celsius. Good to 5 %; the grade itself says nothing of it."""
+"""Kinematic viscosity at 100 degrees Celsius [mm2/s] of paraffinic oils of viscosity index 95 to 100, by
+their ISO 3448 grade, which is that at 40 degrees Celsius. Good to 5 %; the grade itself says nothing of
+it."""
 
 DENSITY = 870.0
 """Density of a mineral oil at 15 degrees Celsius [kg/m3]."""
@@ -69,7 +70,7 @@ class Oil:
 
     @classmethod
     def iso_vg(cls, grade: int, **further: float) -> Oil:
-        """Return a mineral oil of an ISO viscosity grade; its second point, at 100 degrees Celsius, is assumed.
+        """Return a mineral oil of an ISO viscosity grade, its viscosity at 100 degrees Celsius assumed.
 
         Parameters
         ----------

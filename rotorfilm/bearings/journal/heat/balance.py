@@ -4,12 +4,12 @@ With the power P = mu(T) A and the flow Q_e of a film at a state of the journal,
 
     A mu(T) = C (T - T_s) Q_e + G (T - T_a),                                                         (1)
 
-C the heat capacity of the oil per volume, T_s the supply, T_a the ambient temperature and G the conductance of
-the housing. The left side falls with T and the right side rises, so there is one root. Newton's method from
-below climbs to it without a step beyond, since the difference is convex.
+C the heat capacity of the oil per volume, T_s the supply, T_a the ambient temperature and G the conductance
+of the housing. The left side falls with T and the right side rises, so there is one root. Newton's method
+from below climbs to it without a step beyond, since the difference is convex.
 
-An opening where Q_1 leaves into the film and Q_2 arrives replaces the share 1 - lambda of what arrives; with a
-temperature that rises linearly from one opening to the next that is as much heat as
+An opening where Q_1 leaves into the film and Q_2 arrives replaces the share 1 - lambda of what arrives; with
+a temperature that rises linearly from one opening to the next that is as much heat as
 
     Q_e = Q + sum 2 (1 - lambda) Q_2/(1 + lambda Q_2/Q_1)                                            (2)
 
@@ -182,7 +182,8 @@ def balance_temperature(heat: FilmHeat, oil: Oil, cooling: Cooling) -> float:
         return _unheated(heat, oil, cooling)
     if not (heat.flow > 0.0 or cooling.housing_conductance > 0.0):
         raise InputError(
-            "housing_conductance must be positive where no oil leaves the film, as of a centered journal, got 0"
+            "housing_conductance must be positive where no oil leaves the film, as of a centered journal, "
+            "got 0"
         )
     T = cooling.coldest
     for _ in range(_STEPS):

@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike
 
 from ....errors import InputError, require_finite, require_positive
 from ....model import Array, Linearization
-from ....native.spec import NativeSpec
 from ....signals import Signal
 from ...oil import Cooling, Oil
 from ...reaction import input_vector
@@ -53,12 +52,14 @@ class Cooled(Protocol):
 class HeatedBearing:
     """A journal bearing whose film and bush warm and cool: a Reaction with one state, the temperature.
 
-    With the power P into the oil, the effective flow Q_e of fresh oil, and the heat capacity of bush and film,
+    With the power P into the oil, the effective flow Q_e of fresh oil, and the heat capacity of bush and
+    film,
 
         capacity dT/dt = P(T) - C (T - T_s) Q_e - G (T - T_a),
 
-    whose rest is the heat balance of the film (`balance`). In vibration the state hardly moves, so that the film
-    keeps its temperature, as it does in a bearing. `force` and `jacobian` are those at `start_temperature`.
+    whose rest is the heat balance of the film (`balance`). In vibration the state hardly moves, so that the
+    film keeps its temperature, as it does in a bearing. `force` and `jacobian` are those at
+    `start_temperature`.
 
     Parameters
     ----------
@@ -133,7 +134,7 @@ class HeatedBearing:
         return np.array([self.bearing.cooled[1].supply_temperature if start is None else start])
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return the force on the journal at the start temperature, shape (2, ...) [N]; see `JournalBearing`."""
+        """Return the force on the journal at the start temperature, shape (2, ...) [N]."""
         return np.asarray(self._at_start.force(position, velocity, speed))
 
     def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:

@@ -89,13 +89,13 @@ class WarmFilm:
     def heat_jacobian(self: _Bearing, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
         """Return d(power, effective flow, side flow)/d(x, y, vx, vy, speed) at one temperature, shape (3, 5).
 
-        Parameters and errors are those of `film_heat`; InputError too if the film law has no slopes of its losses,
-        as those of openings have none.
+        Parameters and errors are those of `film_heat`; InputError too if the film law has no slopes of its
+        losses, as those of openings have none.
         """
         at = _state(self, position, velocity, speed)
         if at.losses.slopes is None or at.losses.inflow.size:
             raise InputError(
-                f"film must have slopes of its losses, as MapFilm in a plain bearing, got {self.fitted_film!r}"
+                f"film must have slopes of its losses, as MapFilm without openings, got {self.fitted_film!r}"
             )
         film = self.fitted_film
         force, slope = film.force(at.e, at.w, self.slenderness), film.jacobian(at.e, at.w, self.slenderness)
