@@ -15,7 +15,6 @@ from ...errors import (
     require_kind,
     require_non_negative,
     require_positive,
-    warn_user,
 )
 from ...model import Array, Tangent
 from ...native.spec import NativeSpec
@@ -26,13 +25,11 @@ from ..films.law import BoundFilm, FilmLaw, FilmOptions, options
 from ..oil import Cooling, Oil
 from ..oil.lubricant import film_viscosity, require_lubricant
 from ..reaction import NOMINAL_SPEED, Feedthrough, broadcast_state
+from .dimensions import warn_of_odd_dimensions
 from .fitting import fitted_film
 from .heat.warm_film import WarmFilm
 from .journal_kernel import journal_spec
 from .map.map_film import MapFilm
-
-CLEARANCE_RATIOS = (1e-5, 2e-2)
-"""Clearance / radius of bearings that are built; outside, a unit probably is wrong."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,7 +78,7 @@ class JournalBearing(Feedthrough, WarmFilm):
     -----
     ValidityWarning
         If length / diameter is beyond the `slenderness_limit` that the film law declares, or clearance /
-        radius is outside `CLEARANCE_RATIOS`.
+        radius is outside `dimensions.CLEARANCE_RATIOS`.
 
     Examples
     --------
@@ -120,21 +117,8 @@ class JournalBearing(Feedthrough, WarmFilm):
                 f"length / diameter must be {low:g} to {high:g} for {type(self.fitted_film).__name__}, "
                 f"got {self.slenderness:.6g}"
             )
-        self._warn_of_odd_dimensions()
-
-    def _warn_of_odd_dimensions(self) -> None:
-        ratio, (least, most) = self.clearance / self.radius, CLEARANCE_RATIOS
-        if not least * (1.0 - 1e-12) <= ratio <= most * (1.0 + 1e-12):
-            warn_user(
-                f"clearance / radius should be {least:g} to {most:g}, got {ratio:.3g} "
-                f"from {self.clearance!r} m and {self.radius!r} m: check units"
-            )
         limit = self._options.slenderness_limit
-        if self.slenderness > limit:
-            warn_user(
-                f"length / diameter must not exceed {limit} for {self.film!r}, got {self.slenderness:.6g}: "
-                "the film force can be wrong by half and more"
-            )
+        warn_of_odd_dimensions(self.radius, self.length, self.clearance, self.film, limit)
 
     @property
     def slenderness(self) -> float:
