@@ -61,7 +61,7 @@ def coefficients(
     from ..linear import equilibrium
     from ..scenes.journal.echo import bearing_data, film_name
     from ..scenes.journal.journal_remarks import film_remarks
-    from ..scenes.lubricant_table import LubricantTable
+    from ..scenes.lubricant_table import Lubricant
     from ..scenes.reading.tables import read_table
     from ..scenes.schema import JournalTable
 
@@ -74,7 +74,7 @@ def coefficients(
     at = equilibrium(bearing, force, rate)
     derivatives = film_coefficients(bearing, at.position, rate)
     data, name = bearing_data(bearing), film_name(bearing.fitted_film)
-    remarks = film_remarks(bearing, LubricantTable(), rate, force)
+    remarks = film_remarks(bearing, Lubricant(), rate, force)
     answer = {"bearing": data, "model": name, "equilibrium": at, "coefficients": derivatives}
     rows = [*bearing_rows(data), ("film", name), *equilibrium_rows(at)]
     rows += [*coefficient_rows(derivatives), *remark_rows(remarks)]

@@ -12,10 +12,10 @@ from rotorfilm.linear import coefficients, equilibrium
 from rotorfilm.scenes import bundled_scene
 from rotorfilm.scenes.journal import journal_remarks
 from rotorfilm.scenes.journal.journal_remarks import TAYLOR, film_loss, film_remarks, journal_numbers
-from rotorfilm.scenes.lubricant_table import LubricantTable
+from rotorfilm.scenes.lubricant_table import Lubricant
 
 BEARING = JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.02)
-OIL = LubricantTable(density=900.0, heat_capacity=2000.0, conductivity=0.15, thinning=0.04)
+OIL = Lubricant(density=900.0, heat_capacity=2000.0, conductivity=0.15, thinning=0.04)
 
 
 def critical_taylor_number(wavenumber, nodes=24):

@@ -11,7 +11,7 @@ import numpy as np
 from ...bearings.journal import JournalBearing, ReynoldsFilm
 from ...errors import RotorfilmError, ValidityWarning
 from ...linear import equilibrium
-from ..lubricant_table import LubricantTable
+from ..lubricant_table import Lubricant
 from ..remarks import Remark, said
 
 TAYLOR = 41.2
@@ -74,7 +74,7 @@ REMARKS = (
 
 
 def journal_numbers(
-    bearing: JournalBearing, oil: LubricantTable, speed: float, load: tuple[float, float]
+    bearing: JournalBearing, oil: Lubricant, speed: float, load: tuple[float, float]
 ) -> dict[str, float]:
     """Return the dimensionless numbers of a bearing at a speed [rad/s] and a load [N].
 
@@ -158,7 +158,7 @@ def film_loss(bearing: JournalBearing, speed: float, load: tuple[float, float]) 
 
 
 def film_remarks(
-    bearing: JournalBearing, oil: LubricantTable, speed: float, load: tuple[float, float]
+    bearing: JournalBearing, oil: Lubricant, speed: float, load: tuple[float, float]
 ) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each, at a speed [rad/s] and a load [N]."""
     return said(REMARKS, journal_numbers(bearing, oil, speed, load))
