@@ -20,6 +20,7 @@ import numpy as np
 
 from ...errors import ConvergenceError, FilmContactError, UndefinedDerivativeError
 from ...model import Array
+from .film_losses import FilmLosses
 from .geometry import FilmGeometry
 
 CENTER = 1e-8
@@ -110,6 +111,13 @@ class FilmOptions:
 
     def tabulated(self, slenderness: float) -> FilmLaw | None:
         """Return this law with the table that it would make on first use; None if it makes none."""
+        return None
+
+    def losses(self, e: Array, w: Array, slenderness: float, rate: Array | None = None) -> FilmLosses | None:
+        """Return shear and flow at eccentricities e and sources w (2, ...); None if the law does not know.
+
+        Between openings the oil runs at `rate` (...) [1/s], speed/2; by default as for a journal at rest.
+        """
         return None
 
 

@@ -19,11 +19,13 @@ from ...errors import (
 )
 from ...model import Array, Tangent
 from ...native.spec import NativeSpec
+from ...results import BearingLosses
 from ...signals import Signal, force_outputs, journal_inputs
 from ..films.bound_law import BoundLaw, kinematics
 from ..films.geometry import FilmGeometry, Groove, Pad
 from ..films.law import BoundFilm, FilmLaw, FilmOptions, options
 from ..reaction import NOMINAL_SPEED, Feedthrough, broadcast_state
+from .bearing_losses import bearing_losses
 from .fitting import fitted_film
 from .journal_kernel import NATIVE_PARAMETERS, journal_spec
 from .map.map_film import MapFilm
@@ -202,6 +204,12 @@ class JournalBearing(Feedthrough):
             Where the film has no derivative: at rest without rotation, and in exact half-speed whirl.
         """
         return self.prepared_jacobian(*broadcast_state(position, velocity, speed))
+
+    def losses(
+        self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool = False
+    ) -> BearingLosses | None:
+        """Return power loss, torques and oil flow; see `bearing_losses`. None if the film law has none."""
+        return bearing_losses(self, *broadcast_state(position, velocity, speed), full_gap=full_gap)
 
     def prepare(self) -> Callable[[float, float, float, float, float], tuple[float, float]]:
         """Return the force as a function of five numbers, for loops that go state by state.
