@@ -249,6 +249,7 @@ def _result(reaction: Reaction, load: Array, target: _Target, point: _Point) -> 
         minimum_film=target.clearance / (1.0 + math.exp(point.s)),
         residual=math.hypot(*(force + load)) / target.size,
         iterations=point.steps,
+        reaction=reaction,
     )
 
 

@@ -72,6 +72,18 @@ class MapTableStruct(ctypes.Structure):
     ]
 
 
+class LossMapStruct(ctypes.Structure):
+    """rf_loss_map of loss_kernel.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("cells_x", c_int32),
+        ("cells_t", c_int32),
+        ("x_end", c_double),
+        ("center", c_double * 3),
+        ("coefficients", c_void_p),
+    ]
+
+
 class GridStruct(ctypes.Structure):
     """rf_grid of ring.h."""
 

@@ -18,6 +18,7 @@ from ...errors import (
 )
 from ...model import Array, Tangent
 from ...native.spec import NativeSpec
+from ...results import BearingLosses
 from ...signals import Signal, force_outputs, journal_inputs
 from ..films.bound_law import BoundLaw, kinematics
 from ..films.geometry import FilmGeometry, Groove, Pad
@@ -25,7 +26,11 @@ from ..films.law import BoundFilm, FilmLaw, FilmOptions, options
 from ..oil import Cooling, Oil
 from ..oil.lubricant import film_viscosity, require_lubricant
 from ..reaction import NOMINAL_SPEED, Feedthrough, broadcast_state
+<<<<<<< HEAD
 from .dimensions import warn_of_odd_dimensions
+=======
+from .bearing_losses import bearing_losses
+>>>>>>> jg
 from .fitting import fitted_film
 from .heat.warm_film import WarmFilm
 from .journal_kernel import journal_spec
@@ -216,6 +221,12 @@ class JournalBearing(Feedthrough, WarmFilm):
             Where the film has no derivative: at rest without rotation, and in exact half-speed whirl.
         """
         return self.prepared_jacobian(*broadcast_state(position, velocity, speed))
+
+    def losses(
+        self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool = False
+    ) -> BearingLosses | None:
+        """Return power loss, torques and oil flow; see `bearing_losses`. None if the film law has none."""
+        return bearing_losses(self, *broadcast_state(position, velocity, speed), full_gap=full_gap)
 
     def prepare(self) -> Callable[[float, float, float, float, float], tuple[float, float]]:
         """Return the force as a function of five numbers, for loops that go state by state.
