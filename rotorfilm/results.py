@@ -70,13 +70,10 @@ class Equilibrium:
         |film force + load| / |load|.
     iterations : int
         Newton steps taken.
-<<<<<<< HEAD
     temperature : float or None [K]
         Of the film, where it follows from the balance of its heat.
-=======
     reaction : object, optional
         What was solved for, kept only to tell its `losses`.
->>>>>>> jg
     """
 
     position: Array
@@ -87,9 +84,7 @@ class Equilibrium:
     minimum_film: float
     residual: float
     iterations: int
-<<<<<<< HEAD
     temperature: float | None = None
-=======
     reaction: InitVar[Any] = None
 
     def __post_init__(self, reaction: Any) -> None:
@@ -103,7 +98,6 @@ class Equilibrium:
         """
         tell = getattr(vars(self)["_reaction"], "losses", None)
         return None if tell is None else tell(self.position, np.zeros(2), self.speed)
->>>>>>> jg
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -137,7 +137,8 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
     if rise > 0.0:
         low = brentq(excess, low, low + rise, xtol=_KELVIN, rtol=8.9e-16)
     at, _ = warmed[low]
-    return replace(at, temperature=low, iterations=sum(one.iterations for one, _ in warmed.values()))
+    steps = sum(one.iterations for one, _ in warmed.values())
+    return replace(at, temperature=low, iterations=steps, reaction=bearing.at_temperature(low))
 
 
 def checked_load(load: ArrayLike) -> Array:

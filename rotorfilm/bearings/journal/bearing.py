@@ -26,11 +26,8 @@ from ..films.law import BoundFilm, FilmLaw, FilmOptions, options
 from ..oil import Cooling, Oil
 from ..oil.lubricant import film_viscosity, require_lubricant
 from ..reaction import NOMINAL_SPEED, Feedthrough, broadcast_state
-<<<<<<< HEAD
-from .dimensions import warn_of_odd_dimensions
-=======
 from .bearing_losses import bearing_losses
->>>>>>> jg
+from .dimensions import warn_of_odd_dimensions
 from .fitting import fitted_film
 from .heat.warm_film import WarmFilm
 from .journal_kernel import journal_spec

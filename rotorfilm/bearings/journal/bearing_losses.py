@@ -56,7 +56,7 @@ def bearing_losses(
         return None
     force = bearing.force(position, velocity, speed)
     shear = found.shear_gap if full_gap else found.shear
-    drag = bearing.viscosity * speed * bearing.radius**3 * bearing.length / bearing.clearance * shear
+    drag = bearing.film_viscosity * speed * bearing.radius**3 * bearing.length / bearing.clearance * shear
     half = 0.5 * (position[0] * force[1] - position[1] * force[0])
     flow = bearing.clearance * bearing.radius * bearing.length
     inflow, arriving = flow * found.inflow, flow * found.arriving

@@ -134,16 +134,9 @@ def _single(name: str, vector: ArrayLike) -> Array:
 
 def _with_field(state: FilmState, bearing: JournalBearing, field: FilmField) -> FilmState:
     pressure = bearing.pressure_scale * field.pressure
-<<<<<<< HEAD
-    pull = e[0] * field.force[1] - e[1] * field.force[0]
-    torque = bearing.film_viscosity * R**3 * b / c * (speed * field.shear + 0.5 * pull)
-    return FilmState(
-        force=force,
-=======
     return replace(
         state,
         force=bearing.force_scale * field.force,
->>>>>>> jg
         force_extrapolated=bearing.force_scale * field.force_extrapolated,
         force_error=bearing.force_scale * field.force_error,
         angle=field.angle % (2.0 * np.pi),

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from ....errors import InputError
 from ....model import Array
+from ....results import BearingLosses
 from ...films.law import FilmLaw, FilmOptions, options
 from ...oil import Cooling, Oil
 from ...reaction import broadcast_state
@@ -47,6 +48,10 @@ class _Bearing(Protocol):
 
     def at_temperature(self, temperature: float) -> Any: ...
 
+    def losses(
+        self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool = False
+    ) -> BearingLosses | None: ...
+
     def kinematics(self, position: Array, velocity: Array, speed: Array) -> tuple[Array, Array]: ...
 
 
@@ -80,11 +85,11 @@ class WarmFilm:
         FilmContactError
             If the journal touches the wall.
         """
-        at = _state(self, position, velocity, speed)
-        dissipation = -float(self.fitted_film.force(at.e, at.w, self.slenderness) @ at.w)
-        return film_heat(
-            at.losses, dissipation, at.speed, dimensions=_dimensions(self), cooling=self.cooled[1]
-        )
+        _, cooling = self.cooled
+        losses = self.losses(position, velocity, speed, full_gap=cooling.full_gap)
+        if losses is None:
+            raise InputError(f"film must be one with losses for heat, as a MapFilm, got {self.fitted_film!r}")
+        return film_heat(losses, self.film_viscosity, cooling)
 
     def heat_jacobian(self: _Bearing, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
         """Return d(power, effective flow, side flow)/d(x, y, vx, vy, speed) at one temperature, shape (3, 5).
@@ -93,7 +98,7 @@ class WarmFilm:
         losses, as those of openings have none.
         """
         at = _state(self, position, velocity, speed)
-        if at.losses.slopes is None or at.losses.inflow.size:
+        if at is None or at.losses.slopes is None or at.losses.inflow.size:
             raise InputError(
                 f"film must have slopes of its losses, as MapFilm without openings, got {self.fitted_film!r}"
             )
@@ -118,13 +123,13 @@ class WarmFilm:
         return fed_temperature(heat, oil, cooling)
 
 
-def _state(bearing: _Bearing, position: ArrayLike, velocity: ArrayLike, speed: float) -> FilmAt:
+def _state(bearing: _Bearing, position: ArrayLike, velocity: ArrayLike, speed: float) -> FilmAt | None:
     q, v, omega = broadcast_state(position, velocity, speed)
     if q.shape != (2,):
         raise InputError(f"position must have shape (2,) for heat, got shape {q.shape}")
     e, w = bearing.kinematics(q, v, omega)
     losses = options(bearing.fitted_film, FilmOptions).losses(e, w, bearing.slenderness)
-    return FilmAt(e, w, float(omega), losses)
+    return None if losses is None else FilmAt(e, w, float(omega), losses)
 
 
 def _dimensions(bearing: _Bearing) -> Dimensions:
