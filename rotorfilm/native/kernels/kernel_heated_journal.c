@@ -30,48 +30,24 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../films/heated_film.h"
 #include "../films/journal_model.h"
-#include "../films/loss_kernel.h"
 #include "../films/map_kernel.h"
-#include "../films/quintic.h"
 #include "../films/short_kernel.h"
 
 #define TWO_PI 6.28318530717958647692
 
-enum {
-    RADIUS,
-    LENGTH,
-    CLEARANCE,
-    SUPPLY,
-    AMBIENT,
-    CONDUCTANCE,
-    BUSH,
-    VOLUMETRIC_HEAT,
-    PARAMETERS
-};
-
-enum { POWER, FLOW };
-
-/* The film at unit viscosity at one input. */
-typedef struct film {
-    double u[5];
-    int status;
-    double force[2], drag, flow; /* N, W and m3/s */
-} film;
+enum { RADIUS, LENGTH, CLEARANCE, SUPPLY, AMBIENT, CONDUCTANCE, BUSH, VOLUMETRIC_HEAT, PARAMETERS };
 
 typedef struct model {
-    rf_journal journal;
+    rf_heated film;
     rf_map map;
     rf_short ocvirk;
-    rf_loss_map map_losses;
-    rf_loss loss;
-    const void *loss_data;
-    int32_t oil_cells;
-    const double *oil;
-    double coldest, hottest;
-    int full_gap;
-    double p[PARAMETERS], capacity;
-    film at; /* the last one: held inputs ask again and again */
+    rf_loss_map losses;
+    double capacity;
+    double u[5]; /* the last input, with its heat and status: held inputs ask again and again */
+    rf_heat heat;
+    int status;
 } model;
 
 /* Kernels are given as constant, but their scratch space is written. */
@@ -80,172 +56,71 @@ static model *writable(const void *kernel)
     return (model *)kernel;
 }
 
-/* Viscosity [Pa s] at a temperature and, unless NULL, its derivative. RF_OUTSIDE beyond the oil's range: the law goes
-   on as an exponential. */
-static int viscosity(const model *m, double t, double *mu, double *slope)
-{
-    double u, b[RF_ORDER];
-    const double held = fmin(fmax(t, m->coldest), m->hottest), per = m->oil_cells / (m->hottest - m->coldest);
-    const double *c = m->oil + rf_cell((held - m->coldest) * per, m->oil_cells, &u);
-    rf_values(u, b);
-    const double ln = rf_dot(c, b);
-    rf_slopes(u, b);
-    const double thins = per * rf_dot(c, b);
-    *mu = exp(ln + thins * (t - held));
-    if (slope)
-        *slope = *mu * thins;
-    return t == held ? RF_OK : RF_OUTSIDE;
-}
-
-/* Power at unit viscosity and flow [W, m3/s] of force f, and losses. */
-static void carry(const model *m, const double *u, const double *f, const double *losses, film *at)
-{
-    const double r = m->p[RADIUS], l = m->p[LENGTH], c = m->p[CLEARANCE], speed = u[4];
-    const double chi2 = (u[0] * u[0] + u[1] * u[1]) / (c * c);
-    const double shear = m->full_gap ? TWO_PI / sqrt(1.0 - chi2) : losses[0] + losses[1];
-    /* -F.W with W = v - (speed/2) z x E */
-    const double along = f[0] * (u[2] + 0.5 * speed * u[1]) + f[1] * (u[3] - 0.5 * speed * u[0]);
-    at->force[0] = f[0];
-    at->force[1] = f[1];
-    at->drag = r * r * r * l / c * speed * speed * shear - along;
-    at->flow = c * r * l * losses[2];
-}
-
-static void source(const model *m, const double *u, double *e, double *w)
-{
-    const double c = m->p[CLEARANCE], half = 0.5 * u[4];
-    e[0] = u[0] / c;
-    e[1] = u[1] / c;
-    w[0] = u[2] / c + half * e[1];
-    w[1] = u[3] / c - half * e[0];
-}
-
 /* The film at an input: asked once for each. */
-static const film *film_at(model *m, const double *u)
+static const rf_heat *heat_at(model *m, const double *u)
 {
-    if (memcmp(m->at.u, u, sizeof m->at.u) == 0)
-        return &m->at;
-    double f[2], e[2], w[2], losses[RF_LOSSES];
-    m->at.status = rf_journal_at(&m->journal, u, f, NULL);
-    if (m->at.status <= RF_OUTSIDE) {
-        source(m, u, e, w);
-        m->loss(m->loss_data, e, w, losses, NULL);
-        carry(m, u, f, losses, &m->at);
+    if (memcmp(m->u, u, sizeof m->u) != 0) {
+        m->status = rf_heat_at(&m->film, u, &m->heat, NULL);
+        memcpy(m->u, u, sizeof m->u);
     }
-    memcpy(m->at.u, u, sizeof m->at.u);
-    return &m->at;
-}
-
-/* Heat that is left for the bush [W] and, unless NULL, its derivative by the temperature. */
-static double surplus(const model *m, const film *at, double t, double *slope)
-{
-    double mu, thins;
-    viscosity(m, t, &mu, &thins);
-    const double oil = m->p[VOLUMETRIC_HEAT] * at->flow;
-    if (slope)
-        *slope = at->drag * thins - oil - m->p[CONDUCTANCE];
-    return at->drag * mu - oil * (t - m->p[SUPPLY]) - m->p[CONDUCTANCE] * (t - m->p[AMBIENT]);
+    return &m->heat;
 }
 
 static int explain(const model *m, int status, const rf_point *at, rf_message *why)
 {
-    double mu;
-    if (status > RF_OUTSIDE || !(at->x[0] > 0.0 && at->x[0] < HUGE_VAL)) {
-        if (status <= RF_OUTSIDE)
-            return rf_say(why, RF_NOT_FINITE, "temperature must be finite and positive, got %.9g K", at->x[0]);
-        return rf_explain_journal(&m->journal, status, at->u, why);
-    }
-    if (viscosity(m, at->x[0], &mu, NULL) != RF_OK)
+    const double t = at->x[0];
+    const rf_oil *oil = &m->film.oil;
+    if (status <= RF_OUTSIDE && !(t > 0.0 && t < HUGE_VAL))
+        return rf_say(why, RF_NOT_FINITE, "temperature must be finite and positive, got %.9g K", t);
+    if (status == RF_OK && !(t >= oil->coldest && t <= oil->hottest))
         return rf_say(why, RF_OUTSIDE, "temperature must be from %.6g to %.6g K, where the oil is known, got %.6g K",
-                      m->coldest, m->hottest, at->x[0]);
-    return rf_explain_journal(&m->journal, status, at->u, why);
+                      oil->coldest, oil->hottest, t);
+    return rf_explain_journal(&m->film.journal, status, at->u, why);
 }
 
 static int output(const void *kernel, const rf_point *at, double *y, rf_message *why)
 {
     model *m = writable(kernel);
-    const film *of = film_at(m, at->u);
+    const rf_heat *heat = heat_at(m, at->u);
     double mu;
-    viscosity(m, at->x[0], &mu, NULL);
-    y[0] = mu * of->force[0];
-    y[1] = mu * of->force[1];
+    rf_oil_viscosity(&m->film.oil, at->x[0], &mu, NULL);
+    y[0] = mu * heat->force[0];
+    y[1] = mu * heat->force[1];
     y[2] = at->x[0];
-    y[3] = mu * of->drag;
-    y[4] = of->flow;
-    return explain(m, of->status, at, why);
+    y[3] = mu * heat->drag;
+    y[4] = heat->flow;
+    return explain(m, m->status, at, why);
 }
 
 static int derivative(const void *kernel, const rf_point *at, double *dx, rf_message *why)
 {
     model *m = writable(kernel);
-    const film *of = film_at(m, at->u);
-    dx[0] = surplus(m, of, at->x[0], NULL) / m->capacity;
-    return explain(m, of->status, at, why);
-}
-
-/* A row d/d(e, w) becomes one d/d(x, y, vx, vy, speed). */
-static void by_state(const double *by, const double *e, double speed, double c, double *row)
-{
-    const double half = 0.5 * speed;
-    row[0] = (by[0] - half * by[3]) / c;
-    row[1] = (by[1] + half * by[2]) / c;
-    row[2] = by[2] / c;
-    row[3] = by[3] / c;
-    row[4] = 0.5 * (by[2] * e[1] - by[3] * e[0]);
-}
-
-/* Derivatives of drag and flow by the input, from those of the force and of the losses. */
-static void heat_slopes(const model *m, const double *u, const double *f, const double *force_slopes,
-                        const double *losses, const double *slopes, double rows[2][5])
-{
-    const double r = m->p[RADIUS], l = m->p[LENGTH], c = m->p[CLEARANCE], speed = u[4];
-    const double ring = r * r * r * l / c, flow = c * r * l;
-    double e[2], w[2], shear[4];
-    source(m, u, e, w);
-    const double gap = 1.0 - e[0] * e[0] - e[1] * e[1], whole = TWO_PI / sqrt(gap);
-    for (int k = 0; k < 4; ++k)
-        shear[k] = m->full_gap ? (k < 2 ? whole / gap * e[k] : 0.0) : slopes[k] + slopes[4 + k];
-    by_state(shear, e, speed, c, rows[POWER]);
-    by_state(slopes + 8, e, speed, c, rows[FLOW]);
-    /* W = v - (speed/2) z x E by the input, and F by the input. */
-    const double half = 0.5 * speed, wx = c * w[0], wy = c * w[1];
-    const double by_w[2][5] = {{0.0, half, 1.0, 0.0, 0.5 * u[1]}, {-half, 0.0, 0.0, 1.0, -0.5 * u[0]}};
-    for (int k = 0; k < 5; ++k) {
-        rows[POWER][k] = ring * speed * speed * rows[POWER][k] - f[0] * by_w[0][k] - f[1] * by_w[1][k]
-                         - force_slopes[k] * wx - force_slopes[5 + k] * wy;
-        rows[FLOW][k] *= flow;
-    }
-    rows[POWER][4] += 2.0 * ring * speed * (m->full_gap ? whole : losses[0] + losses[1]);
+    dx[0] = rf_heat_surplus(&m->film, heat_at(m, at->u), at->x[0], NULL) / m->capacity;
+    return explain(m, m->status, at, why);
 }
 
 static int jacobian(const void *kernel, const rf_point *at, rf_jacobian *answer, rf_message *why)
 {
     const model *m = kernel;
-    double f[2], by_input[10], losses[RF_LOSSES], slopes[4 * RF_LOSSES], e[2], w[2], heat[2][5], mu, thins, cools;
-    int status = rf_journal_at(&m->journal, at->u, f, by_input);
+    rf_heat heat;
+    rf_heat_slopes by;
+    double mu, thins, cools;
+    const int status = rf_heat_at(&m->film, at->u, &heat, &by);
     if (status > RF_OUTSIDE)
         return explain(m, status, at, why);
-    source(m, at->u, e, w);
-    const int flows = m->loss(m->loss_data, e, w, losses, slopes);
-    status = flows > status ? flows : status;
-    if (status > RF_OUTSIDE)
-        return explain(m, status, at, why);
-    film of;
-    carry(m, at->u, f, losses, &of);
-    heat_slopes(m, at->u, f, by_input, losses, slopes, heat);
-    viscosity(m, at->x[0], &mu, &thins);
-    surplus(m, &of, at->x[0], &cools);
-    const double taken = m->p[VOLUMETRIC_HEAT] * (at->x[0] - m->p[SUPPLY]);
-    answer->A[0] = cools / m->capacity;
-    const double by_temperature[5] = {thins * f[0], thins * f[1], 1.0, thins * of.drag, 0.0};
+    rf_oil_viscosity(&m->film.oil, at->x[0], &mu, &thins);
+    rf_heat_surplus(&m->film, &heat, at->x[0], &cools);
+    const double taken = m->film.volumetric_heat * (at->x[0] - m->film.supply);
+    const double by_temperature[5] = {thins * heat.force[0], thins * heat.force[1], 1.0, thins * heat.drag, 0.0};
     memcpy(answer->C, by_temperature, sizeof by_temperature);
+    answer->A[0] = cools / m->capacity;
     for (int k = 0; k < 5; ++k) {
-        answer->B[k] = (mu * heat[POWER][k] - taken * heat[FLOW][k]) / m->capacity;
-        answer->D[k] = mu * by_input[k];
-        answer->D[5 + k] = mu * by_input[5 + k];
+        answer->B[k] = (mu * by.drag[k] - taken * by.flow[k]) / m->capacity;
+        answer->D[k] = mu * by.force[k];
+        answer->D[5 + k] = mu * by.force[5 + k];
         answer->D[10 + k] = 0.0;
-        answer->D[15 + k] = mu * heat[POWER][k];
-        answer->D[20 + k] = heat[FLOW][k];
+        answer->D[15 + k] = mu * by.drag[k];
+        answer->D[20 + k] = by.flow[k];
     }
     return explain(m, status, at, why);
 }
@@ -269,22 +144,22 @@ static int take_oil(model *m, const rf_tables *tables, rf_message *why)
     const double *gap = range ? numbers(tables, "full_gap", 1, why) : NULL;
     if (!gap)
         return RF_INVALID;
-    if (oil->extent[0] < RF_ORDER || oil->extent[0] > 100000 || !(range[0] > 0.0 && range[1] > range[0]))
+    if (oil->extent[0] < 6 || oil->extent[0] > 100000 || !(range[0] > 0.0 && range[1] > range[0]))
         return rf_say(why, RF_INVALID, "the oil must be known over a range of temperatures, got %u numbers over %.9g to "
                       "%.9g K", (unsigned)oil->extent[0], range[0], range[1]);
-    m->oil = oil->numbers;
-    m->oil_cells = (int32_t)oil->extent[0] - (RF_ORDER - 1);
-    m->coldest = range[0];
-    m->hottest = range[1];
-    m->full_gap = gap[0] != 0.0;
+    m->film.oil.ln = oil->numbers;
+    m->film.oil.cells = (int32_t)oil->extent[0] - 5;
+    m->film.oil.coldest = range[0];
+    m->film.oil.hottest = range[1];
+    m->film.full_gap = gap[0] != 0.0;
     return RF_OK;
 }
 
 static int take_short(model *m)
 {
-    m->journal.film = rf_short_film;
-    m->journal.data = &m->ocvirk;
-    m->loss = rf_short_losses;
+    m->film.journal.film = rf_short_film;
+    m->film.journal.data = &m->ocvirk;
+    m->film.loss = rf_short_losses;
     return RF_OK;
 }
 
@@ -301,16 +176,16 @@ static int take_map(model *m, const rf_tables *tables, rf_message *why)
     const rf_table *const both[] = {c, l};
     for (int k = 0; k < 2; ++k)
         for (int axis = 1; axis < 3; ++axis)
-            if (both[k]->extent[axis] < RF_ORDER || both[k]->extent[axis] > 10000
+            if (both[k]->extent[axis] < 6 || both[k]->extent[axis] > 10000
                 || both[k]->extent[0] != (k ? RF_LOSSES : 1))
                 return rf_say(why, RF_INVALID, "the maps of a film must be of one bearing, 6 x 6 at least");
     m->map = (rf_map){(int32_t)c->extent[1] - 5, (int32_t)c->extent[2] - 5, reach[0], center[0], c->numbers, 0.0, 1.0};
-    m->map_losses = (rf_loss_map){(int32_t)l->extent[1] - 5, (int32_t)l->extent[2] - 5, loss_reach[0],
+    m->losses = (rf_loss_map){(int32_t)l->extent[1] - 5, (int32_t)l->extent[2] - 5, loss_reach[0],
                                   {loss_center[0], loss_center[1], loss_center[2]}, l->numbers};
-    m->journal.film = rf_map_film;
-    m->journal.data = &m->map;
-    m->loss = rf_map_losses;
-    m->loss_data = &m->map_losses;
+    m->film.journal.film = rf_map_film;
+    m->film.journal.data = &m->map;
+    m->film.loss = rf_map_losses;
+    m->film.loss_data = &m->losses;
     return RF_OK;
 }
 
@@ -344,7 +219,8 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     static const char *const NAMES[] = {"supply_temperature", "ambient_temperature", "housing_conductance",
                                         "bush_heat_capacity", "volumetric_heat"};
     model *m = kernel;
-    rf_journal scaled = m->journal;
+    rf_heated *film = &m->film;
+    rf_journal scaled = film->journal;
     const double unit[] = {p[RADIUS], p[LENGTH], p[CLEARANCE], 1.0};
     if (rf_scale_journal(&scaled, unit, why) != RF_OK)
         return RF_INVALID;
@@ -358,11 +234,17 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
         scaled.error = rf_map_error(&m->map);
     }
     m->ocvirk.factor = 4.0 * slenderness * slenderness;
-    m->journal = scaled;
-    memcpy(m->p, p, sizeof m->p);
+    film->journal = scaled;
+    film->radius = p[RADIUS];
+    film->length = p[LENGTH];
+    film->clearance = p[CLEARANCE];
+    film->supply = p[SUPPLY];
+    film->ambient = p[AMBIENT];
+    film->conductance = p[CONDUCTANCE];
+    film->volumetric_heat = p[VOLUMETRIC_HEAT];
     m->capacity = p[BUSH] + p[VOLUMETRIC_HEAT] * TWO_PI * p[RADIUS] * p[LENGTH] * p[CLEARANCE];
     for (int k = 0; k < 5; ++k)
-        m->at.u[k] = NAN;
+        m->u[k] = NAN;
     return RF_OK;
 }
 
