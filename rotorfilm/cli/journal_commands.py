@@ -15,7 +15,7 @@ from ..progress import Report
 from ..units import whole_number
 from . import printing as console
 from .command import Said
-from .solve_command import bearing_rows, coefficient_rows, equilibrium_rows, make_map, remark_rows
+from .solve_command import bearing_rows, coefficient_rows, equilibrium_rows, loss_rows, make_map, remark_rows
 
 if TYPE_CHECKING:
     from ..bearings.films.geometry import Groove
@@ -75,9 +75,10 @@ def coefficients(
     derivatives = film_coefficients(bearing, at.position, rate)
     data, name = bearing_data(bearing), film_name(bearing.fitted_film)
     remarks = film_remarks(bearing, Lubricant(), rate, force)
-    answer = {"bearing": data, "model": name, "equilibrium": at, "coefficients": derivatives}
+    answer = {"bearing": data, "model": name, "equilibrium": at, "losses": at.losses}
+    answer = {**answer, "coefficients": derivatives}
     rows = [*bearing_rows(data), ("film", name), *equilibrium_rows(at)]
-    rows += [*coefficient_rows(derivatives), *remark_rows(remarks)]
+    rows += [*loss_rows(at.losses), *coefficient_rows(derivatives), *remark_rows(remarks)]
     return Said({**answer, "remarks": remarks}, partial(console.print_rows, "journal bearing", rows))
 
 

@@ -12,7 +12,7 @@ import typer
 
 from ..errors import InputError
 from ..progress import Report
-from ..results import Coefficients, Equilibrium, WhirlThreshold
+from ..results import BearingLosses, Coefficients, Equilibrium, WhirlThreshold
 from . import printing as console
 from .bush_command import print_bush
 from .command import Said, SceneFile
@@ -96,6 +96,20 @@ def equilibrium_rows(at: Equilibrium) -> list[tuple[str, str]]:
     ]
 
 
+def loss_rows(losses: BearingLosses | None) -> list[tuple[str, str]]:
+    """Return the rows of what a film takes from the shaft, and of the oil that runs through it."""
+    if losses is None:
+        return []
+    rows = [
+        ("power loss", f"{losses.power_loss:.6g} W, torque {losses.friction_torque:.6g} N m"),
+        ("side flow", f"{losses.side_flow:.6g} m3/s"),
+    ]
+    if losses.inflow.size:
+        rows.append(("from openings", f"{', '.join(f'{flow:.6g}' for flow in losses.inflow)} m3/s"))
+        rows.append(("to openings", f"{', '.join(f'{flow:.6g}' for flow in losses.arriving)} m3/s"))
+    return rows
+
+
 def coefficient_rows(film: Coefficients) -> list[tuple[str, str]]:
     """Return the rows of a stiffness and a damping matrix."""
     (kxx, kxy), (kyx, kyy) = film.stiffness
@@ -126,7 +140,7 @@ def remark_rows(remarks: tuple[str, ...]) -> list[tuple[str, str]]:
 def print_answer(title: str, answer: Answer) -> None:
     """Print equilibrium, coefficients and whirl threshold."""
     rows = [*bearing_rows(answer.bearing), ("film", answer.model), *equilibrium_rows(answer.equilibrium)]
-    rows += coefficient_rows(answer.coefficients)
+    rows += [*loss_rows(answer.losses), *coefficient_rows(answer.coefficients)]
     rows += whirl_rows(answer.whirl_threshold)
     console.print_rows(title, rows + remark_rows(answer.remarks))
 

@@ -2,6 +2,7 @@
 
 from .arc_pressure import middle_pressure, tension
 from .bearing import JournalBearing
+from .bearing_losses import bearing_losses, has_losses
 from .build_groove_map import build_groove_map
 from .extrapolated_film import ExtrapolatedFilm
 from .film_state import FilmState, film_state
@@ -34,9 +35,11 @@ __all__ = [
     "ShortFilm",
     "SpectralArcFilm",
     "SplittingFilm",
+    "bearing_losses",
     "bearing_table",
     "build_groove_map",
     "film_state",
+    "has_losses",
     "is_mappable",
     "middle_pressure",
     "tension",

@@ -72,6 +72,11 @@ def bearing_losses(
     )
 
 
+def has_losses(bearing: JournalBearing) -> bool:
+    """Return whether the film law of a bearing has losses."""
+    return type(options(bearing.fitted_film, FilmOptions)).losses is not FilmOptions.losses
+
+
 def _supplied(bearing: JournalBearing, flow: Array) -> Array:
     """Return the flow of those openings that are supplied; one that touches another counts as that."""
     held = [opening.held for opening in bearing.geometry.openings()]

@@ -67,19 +67,25 @@ typedef struct weights {
     double per_x, per_s, beyond;
 } weights;
 
-/* L and its derivatives in chi and, over chi, in t. */
+/* L and, if `full`, its derivatives in chi and, over chi, in t. */
 static polar exponent(const rf_loss_map *map, const double *c, const weights *by, const rf_frame *at, double slope,
-                      double center)
+                      double center, int full)
 {
     const size_t stride = (size_t)map->cells_t + RF_ORDER - 1;
     double row[RF_ORDER], row_x[RF_ORDER];
+    polar at_state = {0.0, 0.0, 0.0};
     rf_rows(c, stride, by->x, row);
-    rf_rows(c, stride, by->x_slope, row_x);
-    for (int j = 0; j < RF_ORDER; ++j)
+    if (full || by->beyond > 0.0)
+        rf_rows(c, stride, by->x_slope, row_x);
+    for (int j = 0; by->beyond > 0.0 && j < RF_ORDER; ++j)
         row[j] += by->beyond * row_x[j];
-    const double m = rf_dot(row, by->s), m_x = by->per_x * rf_dot(row_x, by->s);
-    const polar all = {center + at->chi * m, m + at->chi * slope * m_x, by->per_s * rf_dot(row, by->s_slope) * at->sin};
-    return all;
+    const double m = rf_dot(row, by->s);
+    at_state.value = center + at->chi * m;
+    if (full) {
+        at_state.by_chi = m + at->chi * slope * by->per_x * rf_dot(row_x, by->s);
+        at_state.by_turn = by->per_s * rf_dot(row, by->s_slope) * at->sin;
+    }
+    return at_state;
 }
 
 int rf_map_losses(const void *of, const double *e, const double *w, double *losses, double *slopes)
@@ -105,7 +111,7 @@ int rf_map_losses(const void *of, const double *e, const double *w, double *loss
     by.beyond = x > within ? map->cells_x * log(x / within) : 0.0;
     for (size_t k = 0; k < RF_LOSSES; ++k) {
         const double *c = map->coefficients + k * all + (size_t)i * width + (size_t)j;
-        const polar power = exponent(map, c, &by, &at, slope, map->center[k]);
+        const polar power = exponent(map, c, &by, &at, slope, map->center[k], slopes != NULL);
         const int shears = k + 1 < RF_LOSSES;
         const double value = exp(power.value) / (shears ? sqrt(gap) : 1.0);
         loss[k].value = value;

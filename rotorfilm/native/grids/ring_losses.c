@@ -142,7 +142,7 @@ static int opens(const stream *oil, size_t i, int after)
     return oil->grid->held[next_line(oil, i, after)] && oil->grid->held[i];
 }
 
-/* What a held line adds: the halves of its cell that are no opening, full of oil behind it, before it as the line there. */
+/* What a held line adds: the halves of its cell that are no opening, behind it full of oil. */
 static void cross_line(stream *oil, size_t i, double *film, double *streamers)
 {
     const double h = oil->line[i].thickness;
