@@ -225,6 +225,10 @@ class Warming(Protocol):
     def at_temperature(self, temperature: float) -> Any:
         """Return the reaction at one temperature of the film [K]."""
 
+    @property
+    def balanced(self) -> Any:
+        """The static Reaction that has the temperature of the balance at every state; None without."""
+
     def balanced_temperature(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> float:
         """Return the temperature [K] at which the heat of the film balances at one state.
 

@@ -124,6 +124,10 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
     A warmer film is thinner and leaks more: the temperature of the balance falls while that of the film
     rises, so that there is one root, between the coldest film and what that one warms to.
     """
+    if bearing.balanced is not None:
+        at = equilibrium(bearing.balanced, load, speed)
+        temperature = bearing.balanced_temperature(at.position, np.zeros(2), speed)
+        return replace(at, temperature=temperature, reaction=bearing.at_temperature(temperature))
     warmed: dict[float, tuple[Equilibrium, float]] = {}
 
     def excess(temperature: float) -> float:

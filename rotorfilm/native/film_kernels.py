@@ -199,10 +199,10 @@ class JournalKernel:
     def __init__(self, kernel: FilmKernel, clearance: float, force_scale: float) -> None:
         self._arguments = (kernel, clearance, force_scale)
         self.film = kernel
-        self._struct = JournalStruct(
+        self.struct = JournalStruct(
             kernel.film, addressof(kernel.struct), clearance, force_scale, kernel.error, kernel.openings
         )
-        self._reference = byref(self._struct)
+        self._reference = byref(self.struct)
         self._call = functions()["rf_journal_call"]
         self._tangent = functions()["rf_journal_at"]
 

@@ -45,6 +45,11 @@ class LossKernel:
     _function: ClassVar[str]
     struct: Any = None
 
+    @property
+    def address(self) -> int | None:
+        """The address of its rf_loss."""
+        return cast(functions()[self._function], c_void_p).value
+
     def losses(self, eccentricity: Array, source: Array) -> LossBatch:
         """Return losses and slopes at the eccentricities and sources (2, n)."""
         e, w = (np.ascontiguousarray(rows, dtype=float) for rows in (eccentricity, source))

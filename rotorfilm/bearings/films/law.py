@@ -20,6 +20,7 @@ import numpy as np
 
 from ...errors import ConvergenceError, FilmContactError, UndefinedDerivativeError
 from ...model import Array
+from ...native.loss_kernels import LossKernel
 from .film_losses import FilmLosses
 from .geometry import FilmGeometry
 
@@ -118,6 +119,10 @@ class FilmOptions:
 
         Between openings the oil runs at `rate` (...) [1/s], speed/2; by default as for a journal at rest.
         """
+        return None
+
+    def loss_kernel(self, slenderness: float) -> LossKernel | None:
+        """Return shear and flow with slopes in compiled code; None if there are none."""
         return None
 
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,38 +14,12 @@ from numpy.typing import ArrayLike
 from ....errors import InputError, require_finite, require_positive
 from ....model import Array, Linearization
 from ....signals import Signal
-from ...oil import Cooling, Oil
 from ...reaction import input_vector
-from .balance import FilmHeat, heat_surplus
+from .balance import heat_surplus
+from .cooled import Cooled
 
 NOMINAL_TEMPERATURE = 300.0
 """Typical temperature [K]."""
-
-
-class Cooled(Protocol):
-    """What a bearing with an oil and cooling offers; `JournalBearing` is one."""
-
-    radius: Any
-    length: Any
-    clearance: Any
-
-    @property
-    def cooled(self) -> tuple[Oil, Cooling]:
-        """Its oil and what cools it."""
-
-    @property
-    def inputs(self) -> tuple[Signal, ...]:
-        """Signals x, y, vx, vy, speed."""
-
-    @property
-    def outputs(self) -> tuple[Signal, ...]:
-        """Signals force_x, force_y."""
-
-    def at_temperature(self, temperature: float) -> Any:
-        """Return the bearing with a film of one temperature [K]."""
-
-    def film_heat(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> FilmHeat:
-        """Return the heat that the film makes and takes along at one state."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
@@ -9,7 +10,10 @@ from numpy.typing import ArrayLike
 
 from ....errors import InputError
 from ....model import Array
+from ....native.loss_kernels import LossKernel
 from ....results import BearingLosses
+from ....signals import Signal
+from ...films.kernel_film import BoundKernel
 from ...films.law import FilmLaw, FilmOptions, options
 from ...oil import Cooling, Oil
 from ...reaction import broadcast_state
@@ -22,6 +26,7 @@ from .balance import (
     film_heat,
     heat_by_state,
 )
+from .balanced_bearing import BalancedBearing
 
 
 class _Bearing(Protocol):
@@ -42,6 +47,21 @@ class _Bearing(Protocol):
 
     @property
     def fitted_film(self) -> FilmLaw: ...
+
+    @property
+    def inputs(self) -> tuple[Signal, ...]: ...
+
+    @property
+    def outputs(self) -> tuple[Signal, ...]: ...
+
+    def film_heat(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> FilmHeat: ...
+
+    def heat_jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array: ...
+
+    def film_at_unit_viscosity(self) -> tuple[BoundKernel, LossKernel] | None: ...
+
+    @property
+    def balanced(self) -> BalancedBearing | None: ...
 
     @property
     def cooled(self) -> tuple[Oil, Cooling]: ...
@@ -107,12 +127,29 @@ class WarmFilm:
         dissipation = -np.concatenate([at.w @ slope[:, :2], at.w @ slope[:, 2:] + force])
         return heat_by_state(at, dissipation, _dimensions(self), self.cooled[1])
 
+    def film_at_unit_viscosity(self: _Bearing) -> tuple[BoundKernel, LossKernel] | None:
+        """Return the compiled film at 1 Pa s and its losses; None if the film law has not both, or is fed."""
+        law = options(self.fitted_film, FilmOptions)
+        losses = law.loss_kernel(self.slenderness)
+        scale = self.length * self.radius**3 / self.clearance**2
+        film = law.bind(slenderness=self.slenderness, clearance=self.clearance, force_scale=scale)
+        found = losses is not None and isinstance(film, BoundKernel) and self.supply_pressure == 0.0
+        return (film, losses) if found else None  # type: ignore[return-value]
+
+    @cached_property
+    def balanced(self: _Bearing) -> BalancedBearing | None:
+        """This bearing with the temperature of its heat balance at every state; None if nothing compiles it."""
+        _ = self.cooled
+        return None if self.film_at_unit_viscosity() is None else BalancedBearing(bearing=self)
+
     def balanced_temperature(self: _Bearing, position: ArrayLike, velocity: ArrayLike, speed: float) -> float:
         """Return the temperature at which the heat of the film balances at one state [K].
 
         Parameters and errors are those of `film_heat`.
         """
         oil, cooling = self.cooled
+        if self.balanced is not None:
+            return float(self.balanced.temperature(position, velocity, speed))
 
         def heat(temperature: float) -> FilmHeat:
             found: FilmHeat = self.at_temperature(temperature).film_heat(position, velocity, speed)
