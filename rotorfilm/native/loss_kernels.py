@@ -46,6 +46,11 @@ class LossKernel:
     struct: Any = None
 
     @property
+    def tables(self) -> dict[str, Array]:
+        """What the kernel `heated_journal` reads of these losses."""
+        return {}
+
+    @property
     def address(self) -> int | None:
         """The address of its rf_loss."""
         return cast(functions()[self._function], c_void_p).value
@@ -88,3 +93,13 @@ class MapLossKernel(LossKernel):
         cells_x, cells_t = (count - 5 for count in self.coefficients.shape[1:])
         center = (c_double * 3)(*self.log_center)
         self.struct = LossMapStruct(cells_x, cells_t, reach, center, self.coefficients.ctypes.data)
+
+    @property
+    def tables(self) -> dict[str, Array]:
+        """The three maps; see `LossKernel.tables`."""
+        reach = np.array([self.struct.x_end])
+        return {
+            "loss_coefficients": self.coefficients,
+            "loss_center": self.log_center,
+            "loss_reach": reach,
+        }

@@ -116,12 +116,12 @@ class BalancedBearing(StaticReaction):
         if status == Status.STUCK:
             raise InputError(
                 "housing_conductance must be positive where no oil leaves the film, as of a centered journal, "
-                f"got none at position ({state[0]:g}, {state[1]:g}) m"
+                f"got 0 at position ({state[0]:g}, {state[1]:g}) m"
             )
         if status == Status.OUTSIDE and not table.coldest <= temperature <= table.hottest:
             warn_user(
-                f"temperature should be from {table.coldest:g} to {table.hottest:g} K, where the oil is known, "
-                f"got {temperature:.6g} K"
+                f"temperature should be from {table.coldest:g} to {table.hottest:g} K, where the viscosity of "
+                f"the oil is tabulated, got {temperature:.6g} K"
             )
             return
         self._film.report(status, *state)

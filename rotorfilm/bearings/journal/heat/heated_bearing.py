@@ -13,10 +13,13 @@ from numpy.typing import ArrayLike
 
 from ....errors import InputError, require_finite, require_positive
 from ....model import Array, Linearization
+from ....native.spec import NativeSpec
 from ....signals import Signal
+from ...oil.viscosity_table import viscosity_table
 from ...reaction import input_vector
 from .balance import heat_surplus
 from .cooled import Cooled
+from .heated_kernel import heated_spec
 
 NOMINAL_TEMPERATURE = 300.0
 """Typical temperature [K]."""
@@ -106,6 +109,23 @@ class HeatedBearing:
         """Temperature at t = 0, shape (1,) [K]."""
         start = self.start_temperature
         return np.array([self.bearing.cooled[1].supply_temperature if start is None else start])
+
+    def native(self) -> NativeSpec | None:
+        """Return the kernel of the C library that is this bearing; None if its film has none, or openings."""
+        found = self.bearing.film_at_unit_viscosity() if type(self) is HeatedBearing else None
+        if found is None or found[0].kernel.film.tables is None:
+            return None
+        oil, cooling = self.bearing.cooled
+        values = {name: float(getattr(self.bearing, name)) for name in ("radius", "length", "clearance")}
+        values |= {
+            "supply_temperature": cooling.supply_temperature,
+            "ambient_temperature": cooling.ambient,
+            "housing_conductance": cooling.housing_conductance,
+            "bush_heat_capacity": cooling.capacity(values["radius"], values["length"]),
+            "volumetric_heat": float(oil.volumetric_heat(cooling.supply_temperature)),
+        }
+        film = {**found[0].kernel.film.tables, **found[1].tables}
+        return heated_spec(values, film, viscosity_table(oil), full_gap=cooling.full_gap)
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the force on the journal at the start temperature, shape (2, ...) [N]."""

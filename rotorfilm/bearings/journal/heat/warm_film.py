@@ -138,7 +138,7 @@ class WarmFilm:
 
     @cached_property
     def balanced(self: _Bearing) -> BalancedBearing | None:
-        """This bearing with the temperature of its heat balance at every state; None if nothing compiles it."""
+        """The bearing in balance at every state (`BalancedBearing`); None if nothing compiles its film."""
         _ = self.cooled
         return None if self.film_at_unit_viscosity() is None else BalancedBearing(bearing=self)
 
