@@ -75,7 +75,7 @@ def bearing_rows(bearing: BearingData) -> list[tuple[str, str]]:
     size = f"R {bearing.radius * 1e3:.6g} mm, L {bearing.length * 1e3:.6g} mm, L/D {bearing.slenderness:.6g}"
     rows = [
         ("bearing", f"{size}, c {bearing.clearance * 1e6:.6g} um"),
-        ("viscosity", f"{bearing.film_viscosity:.6g} Pa s"),
+        ("viscosity", f"{bearing.viscosity:.6g} Pa s"),
     ]
     rows += [("groove", f"{_degrees(one.center)}, {_degrees(one.width)} wide") for one in bearing.grooves]
     rows += [("pad", f"from {_degrees(one.start)} over {_degrees(one.extent)}") for one in bearing.pads]
@@ -93,6 +93,7 @@ def equilibrium_rows(at: Equilibrium) -> list[tuple[str, str]]:
         ("eccentricity ratio", f"{at.eccentricity_ratio:.6g}"),
         ("attitude angle", _degrees(at.attitude_angle)),
         ("minimum film", f"{at.minimum_film * 1e6:.6g} um"),
+        *([] if at.temperature is None else [("temperature", console.temperature_text(at.temperature))]),
     ]
 
 

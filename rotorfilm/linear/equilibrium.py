@@ -124,8 +124,8 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
     A warmer film is thinner and leaks more: the temperature of the balance falls while that of the film
     rises, so that there is one root, between the coldest film and what that one warms to.
     """
-    if bearing.balanced is not None:
-        at = equilibrium(bearing.balanced, load, speed)
+    if bearing.balanced() is not None:
+        at = equilibrium(bearing.balanced(), load, speed)
         temperature = bearing.balanced_temperature(at.position, np.zeros(2), speed)
         return replace(at, temperature=temperature, reaction=bearing.at_temperature(temperature))
     warmed: dict[float, tuple[Equilibrium, float]] = {}
@@ -136,7 +136,7 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
         warmed[temperature] = at, balanced
         return balanced - temperature
 
-    low = bearing.coldest
+    low = bearing.coldest()
     rise = excess(low)
     if rise > 0.0:
         low = brentq(excess, low, low + rise, xtol=_KELVIN, rtol=8.9e-16)

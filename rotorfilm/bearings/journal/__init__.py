@@ -9,6 +9,8 @@ from .film_state import FilmState, film_state
 from .grooves.groove_table import GrooveMapTable
 from .grooves.grooved_film import GroovedMapFilm
 from .grooves.openings import is_mappable
+from .heat.balanced_bearing import BalancedBearing
+from .heat.heated_bearing import HeatedBearing
 from .map.map_film import MapFilm
 from .map.own_tables import bearing_table
 from .reynolds_film import ReynoldsFilm
@@ -20,12 +22,14 @@ from .splitting.spectral_film import SpectralArcFilm
 from .splitting.splitting_film import SplittingFilm
 
 __all__ = [
+    "BalancedBearing",
     "ComplementarityArc",
     "ExtrapolatedFilm",
     "FilmState",
     "FixedArc",
     "GrooveMapTable",
     "GroovedMapFilm",
+    "HeatedBearing",
     "JournalBearing",
     "MapFilm",
     "ReynoldsArc",

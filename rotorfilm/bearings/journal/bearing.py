@@ -220,9 +220,14 @@ class JournalBearing(Feedthrough, WarmFilm):
         return self.prepared_jacobian(*broadcast_state(position, velocity, speed))
 
     def losses(
-        self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool = False
+        self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool | None = None
     ) -> BearingLosses | None:
-        """Return power loss, torques and oil flow; see `bearing_losses`. None if the film law has none."""
+        """Return power loss, torques and oil flow; see `bearing_losses`. None if the film law has none.
+
+        Where `full_gap` is None, it is that of the cooling, or false.
+        """
+        if full_gap is None:
+            full_gap = self.cooling is not None and self.cooling.full_gap
         return bearing_losses(self, *broadcast_state(position, velocity, speed), full_gap=full_gap)
 
     def prepare(self) -> Callable[[float, float, float, float, float], tuple[float, float]]:

@@ -54,7 +54,7 @@ class BalancedBearing(StaticReaction):
     def temperature(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the temperature of the film [K], shape (...), at states as in `force`."""
         q, v, omega = broadcast_state(position, velocity, speed)
-        return self._batch(q, v, omega).temperature.reshape(omega.shape)
+        return self._batch(q, v, omega, slopes=False).temperature.reshape(omega.shape)
 
     def prepare_tangent(self) -> Tangent:
         """Return force and derivatives as a function of five numbers; see `prepared_tangent`."""
@@ -115,13 +115,13 @@ class BalancedBearing(StaticReaction):
         table = viscosity_table(_oil(self.bearing))
         if status == Status.STUCK:
             raise InputError(
-                "housing_conductance must be positive where no oil leaves the film, as of a centered journal, "
+                "housing_conductance must be positive where no oil leaves the film, as of a centered one, "
                 f"got 0 at position ({state[0]:g}, {state[1]:g}) m"
             )
         if status == Status.OUTSIDE and not table.coldest <= temperature <= table.hottest:
             warn_user(
-                f"temperature should be from {table.coldest:g} to {table.hottest:g} K, where the viscosity of "
-                f"the oil is tabulated, got {temperature:.6g} K"
+                f"temperature should be from {table.coldest:g} to {table.hottest:g} K, where the viscosity is "
+                f"tabulated, got {temperature:.6g} K"
             )
             return
         self._film.report(status, *state)

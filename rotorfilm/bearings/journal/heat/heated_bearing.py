@@ -137,7 +137,7 @@ class HeatedBearing:
 
     def prepare(self) -> Callable[[float, float, float, float, float], tuple[float, float]]:
         """Return the force at the start temperature as a function of five numbers."""
-        return self._at_start.prepare()  # type: ignore[no-any-return]
+        return self._at_start.prepare()
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the outputs, shape (5,), at the temperature x [K] and u = (x, y, vx, vy, speed)."""

@@ -27,6 +27,7 @@ from .balance import (
     heat_by_state,
 )
 from .balanced_bearing import BalancedBearing
+from .heated_bearing import HeatedBearing
 
 
 class _Bearing(Protocol):
@@ -61,7 +62,7 @@ class _Bearing(Protocol):
     def film_at_unit_viscosity(self) -> tuple[BoundKernel, LossKernel] | None: ...
 
     @property
-    def balanced(self) -> BalancedBearing | None: ...
+    def in_balance(self) -> BalancedBearing | None: ...
 
     @property
     def cooled(self) -> tuple[Oil, Cooling]: ...
@@ -69,7 +70,7 @@ class _Bearing(Protocol):
     def at_temperature(self, temperature: float) -> Any: ...
 
     def losses(
-        self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool = False
+        self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool | None = None
     ) -> BearingLosses | None: ...
 
     def kinematics(self, position: Array, velocity: Array, speed: Array) -> tuple[Array, Array]: ...
@@ -85,9 +86,8 @@ class WarmFilm:
             raise InputError(f"oil and cooling must be given for heat, got {self.oil!r} and {self.cooling!r}")
         return self.oil, self.cooling
 
-    @property
     def coldest(self: _Bearing) -> float:
-        """Temperature below which the film never gets [K]; raises InputError without cooling."""
+        """Return the temperature below which the film never gets [K]; raises InputError without cooling."""
         return self.cooled[1].coldest
 
     def film_heat(self: _Bearing, position: ArrayLike, velocity: ArrayLike, speed: float) -> FilmHeat:
@@ -106,7 +106,7 @@ class WarmFilm:
             If the journal touches the wall.
         """
         _, cooling = self.cooled
-        losses = self.losses(position, velocity, speed, full_gap=cooling.full_gap)
+        losses = self.losses(position, velocity, speed)
         if losses is None:
             raise InputError(f"film must be one with losses for heat, as a MapFilm, got {self.fitted_film!r}")
         return film_heat(losses, self.film_viscosity, cooling)
@@ -136,9 +136,17 @@ class WarmFilm:
         found = losses is not None and isinstance(film, BoundKernel) and self.supply_pressure == 0.0
         return (film, losses) if found else None  # type: ignore[return-value]
 
-    @cached_property
+    def in_time(self: _Bearing) -> HeatedBearing:
+        """Return the bearing whose film warms and cools over time, from the temperature of the fresh oil."""
+        return HeatedBearing(bearing=self)
+
     def balanced(self: _Bearing) -> BalancedBearing | None:
-        """The bearing in balance at every state (`BalancedBearing`); None if nothing compiles its film."""
+        """Return the bearing in balance at every state; None if nothing compiles its film."""
+        return self.in_balance
+
+    @cached_property
+    def in_balance(self: _Bearing) -> BalancedBearing | None:
+        """What `balanced` returns, made once."""
         _ = self.cooled
         return None if self.film_at_unit_viscosity() is None else BalancedBearing(bearing=self)
 
@@ -148,8 +156,8 @@ class WarmFilm:
         Parameters and errors are those of `film_heat`.
         """
         oil, cooling = self.cooled
-        if self.balanced is not None:
-            return float(self.balanced.temperature(position, velocity, speed))
+        if self.in_balance is not None:
+            return float(self.in_balance.temperature(position, velocity, speed))
 
         def heat(temperature: float) -> FilmHeat:
             found: FilmHeat = self.at_temperature(temperature).film_heat(position, velocity, speed)
