@@ -1,6 +1,6 @@
 """Make the table of shear and flow beside that of the impedance map, in some minutes.
 
-    python tools/build_losses.py [--workers 2] [--out rotorfilm/bearings/journal/map/data/journal_losses.bin]
+python tools/build_losses.py [--workers 2] [--out rotorfilm/bearings/journal/map/data/journal_losses.bin]
 """
 
 from __future__ import annotations
@@ -15,7 +15,12 @@ import numpy as np
 from rich.progress import track
 
 from rotorfilm.bearings.journal.map.loss_nodes import node_losses
-from rotorfilm.bearings.journal.map.loss_table import TABLE, fit_loss_table, loss_node_eccentricities, loss_node_turns
+from rotorfilm.bearings.journal.map.loss_table import (
+    TABLE,
+    fit_loss_table,
+    loss_node_eccentricities,
+    loss_node_turns,
+)
 
 OUT = Path(__file__).parents[1] / "rotorfilm" / "bearings" / "journal" / "map" / "data" / TABLE
 CELLS, REACH, RANGE = (14, 24, 12), 0.99, (0.1, 4.0)
@@ -49,7 +54,9 @@ def main() -> None:
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--out", type=Path, default=OUT)
     arguments = parser.parse_args()
-    table = fit_loss_table(nodes(arguments.workers), slenderness_range=RANGE, largest_eccentricity_ratio=REACH)
+    table = fit_loss_table(
+        nodes(arguments.workers), slenderness_range=RANGE, largest_eccentricity_ratio=REACH
+    )
     table.save(arguments.out)
     print(f"{arguments.out}: {arguments.out.stat().st_size} bytes")
 

@@ -48,7 +48,10 @@ MELTING: Quantities = {
 ASKED: Quantities = {"value": ("value", ""), "error_estimate": ("error_estimate", "1")}
 
 UNITS = {
-    name: unit for each in (AT_REST, LOSSES, THRESHOLD, MELTING, ASKED) for name, (_, unit) in each.items() if unit
+    name: unit
+    for each in (AT_REST, LOSSES, THRESHOLD, MELTING, ASKED)
+    for name, (_, unit) in each.items()
+    if unit
 }
 """Units of what a scene without a question answers, and of the estimate of one with it."""
 

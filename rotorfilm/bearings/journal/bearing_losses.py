@@ -1,4 +1,4 @@
-"""Power loss, torques on journal and bush, and oil flow of a journal bearing, from the losses of its film law."""
+"""Power loss, torques on journal and bush, and oil flow of a bearing, from the losses of its film law."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ def bearing_losses(
     speed : ndarray, shape (...) [rad/s]
         Angular speed about +z, of either sign.
     full_gap : bool, optional
-        Whether oil fills the gap in the ruptured zone too, as Raimondi & Boyd (1958) have it, an upper bound. By
-        default streamers run there, with the thickness at which the film ended: 5 to 22 % less shear.
+        Whether oil fills the gap in the ruptured zone too, as Raimondi & Boyd (1958) have it, an upper bound.
+        By default streamers run there, with the thickness at which the film ended: 5 to 22 % less shear.
 
     Returns
     -------
@@ -43,10 +43,10 @@ def bearing_losses(
 
     Notes
     -----
-    With E = position, F the force on the journal and M = viscosity speed (R^3 L/c) Sigma the torque on the journal
-    is M + (E x F)_z/2 and that on the bush M - (E x F)_z/2: the difference balances the moment of the force. The
-    pressure flow dissipates -F . W, W = velocity - (speed/2) z^ x E, and what a supply pressure pushes through the
-    film, so that the power is speed M - F . W + supply_pressure (inflow - arriving).
+    With E = position, F the force on the journal and M = viscosity speed (R^3 L/c) Sigma the torque on the
+    journal is M + (E x F)_z/2 and that on the bush M - (E x F)_z/2: the difference balances the moment of the
+    force. The pressure flow dissipates -F . W, W = velocity - (speed/2) z^ x E, and what a supply pressure
+    pushes through the film, so that the power is speed M - F . W + supply_pressure (inflow - arriving).
     """
     require_inside(position, bearing.clearance)
     e, w = bearing.kinematics(position, velocity, speed)

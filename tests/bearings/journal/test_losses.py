@@ -1,4 +1,4 @@
-"""Power loss, torques and oil flow: identities, closed forms, published friction, and two independent films."""
+"""Power loss, torques and oil flow: identities, closed forms, published friction, two independent films."""
 
 import dataclasses
 import math
@@ -61,7 +61,7 @@ def test_torques_differ_by_the_moment_of_the_force(film):
 @pytest.mark.closed_form
 @pytest.mark.parametrize("cavitation", [ReynoldsFilm().cavitation, FullFilm()])
 def test_pressure_flow_dissipates_what_the_source_does_on_the_force(cavitation):
-    # Sum of conductance (difference of pressure)^2 over all faces, with cells of our own: -F . w, to roundoff.
+    # Sum of conductance (difference of pressure)^2 over all faces, with cells of our own: -F . w.
     film, slenderness = ReynoldsFilm(cells=(64, 8), cavitation=cavitation), 0.7
     e, w = np.array([0.5, -0.3]), np.array([-0.4, 0.9])
     solved, grid = film._kernel(slenderness).field(e, w), film.grids(slenderness)[1][0]
@@ -127,7 +127,9 @@ def test_losses_turn_and_mirror_with_the_state_and_flow_grows_with_the_source(fi
     np.testing.assert_allclose(of(mirrored), of(one), rtol=1e-9)
     # Lines of a grid do not turn with the state.
     np.testing.assert_allclose(
-        of(film.losses(turn @ e, turn @ w, 0.5)), of(one), rtol=3e-3 if isinstance(film, ReynoldsFilm) else 1e-9
+        of(film.losses(turn @ e, turn @ w, 0.5)),
+        of(one),
+        rtol=3e-3 if isinstance(film, ReynoldsFilm) else 1e-9,
     )
     np.testing.assert_allclose(of(film.losses(e, 3.0 * w, 0.5)), of(one) * [[1], [1], [3]], rtol=1e-9)
 
@@ -168,7 +170,8 @@ def test_tables_are_within_their_error_of_the_two_dimensional_film(slenderness):
     pairs = ("shear_film", 5e-4, 2e-3), ("shear", 2e-4, 2e-3), ("side_flow", 6e-4, 1e-3)
     for name, median, most in pairs:
         error = np.abs(getattr(table, name) / getattr(grid, name) - 1.0)
-        assert np.median(error) < median and np.quantile(error, 0.9) < most, name
+        assert np.median(error) < median, name
+        assert np.quantile(error, 0.9) < most, name
 
 
 def test_tables_go_on_to_the_wall():
@@ -249,12 +252,13 @@ def two_groove_film():
 
 @pytest.mark.closed_form
 def test_oil_is_neither_made_nor_lost_between_openings():
-    # The film begins where openings or streamers feed it: what openings give and do not get back leaves at the ends.
+    # The film begins where openings or streamers feed it: what openings do not get back leaves at the ends.
     b = dataclasses.replace(PLAIN, grooves=TWO, film=ReynoldsFilm(cells=(192, 16)))
     found = b.losses([0.5 * c, 0.3 * c], REST, omega)
     assert (found.inflow - found.arriving).sum() == pytest.approx(found.side_flow, rel=1e-3)
     # A groove after the film receives the thickness at which it was torn, at half the speed of the journal.
-    assert np.all(found.arriving > 0.0) and np.all(found.inflow > found.arriving * 0.9)
+    assert np.all(found.arriving > 0.0)
+    assert np.all(found.inflow > found.arriving * 0.9)
 
 
 def test_openings_see_rotation_backwards_in_a_mirror():
@@ -276,7 +280,8 @@ def test_supply_gives_the_pressure_flow_its_power():
     grooves, supply = (Groove(center=0.4, width=0.3),), 1e5
     b = dataclasses.replace(PLAIN, grooves=grooves, supply_pressure=supply, film=ReynoldsFilm())
     found = b.losses(REST, REST, 0.0)
-    assert found.power_loss == pytest.approx(supply * found.inflow.sum(), rel=1e-12) and found.power_loss > 0.0
+    assert found.power_loss == pytest.approx(supply * found.inflow.sum(), rel=1e-12)
+    assert found.power_loss > 0.0
     assert found.inflow.sum() == pytest.approx(found.side_flow, rel=1e-9)
 
 
@@ -288,7 +293,10 @@ def test_full_film_shears_all_of_the_gap_but_the_openings():
     found = film.losses(e, w, 0.6)
     np.testing.assert_allclose(found.shear_film, found.shear_gap, rtol=1e-12)
     one = e[:, 0]
-    parts = [quad(lambda a: 1.0 / (1.0 - one @ [math.cos(a), math.sin(a)]), *ends)[0] for ends in ((0.3, 2.3), (3.0, 5.5))]
+    parts = [
+        quad(lambda a: 1.0 / (1.0 - one @ [math.cos(a), math.sin(a)]), *ends)[0]
+        for ends in ((0.3, 2.3), (3.0, 5.5))
+    ]
     assert gap_shear(one, geometry) == pytest.approx(sum(parts), rel=1e-9)
 
 
@@ -321,7 +329,8 @@ def test_a_loss_table_is_its_bytes():
     nodes[:, :, :2] = 1.0
     table = fit_loss_table(nodes, slenderness_range=(0.5, 0.5), largest_eccentricity_ratio=0.9)
     again = LossTable.from_bytes(table.to_bytes())
-    assert again == LossTable.from_bytes(again.to_bytes()) and again.flow.reach == table.flow.reach
+    assert again == LossTable.from_bytes(again.to_bytes())
+    assert again.flow.reach == table.flow.reach
     with pytest.raises(RotorfilmError, match="map table"):
         LossTable.from_bytes(table.to_bytes()[:-3])
     with pytest.raises(InputError, match="equal ranges and sizes"):

@@ -5,9 +5,10 @@ With X and S = ln(L/D) as in `films/map_table.py`, the tables hold
     ln(sqrt(1 - chi^2) Sigma_f),   ln(sqrt(1 - chi^2) (Sigma_f + Sigma_r)),   ln(flow/|w|),
     each as L0(S) + chi M(X, s, S),   tan s = CROWDING tan beta,
 
-`Sigma_f` being the shear integral of the film, `Sigma_r` that of the streamers (`films/film_losses.py`), and beta in
-[0, pi] the angle between eccentricity and source. The streamers follow the end at which the film is torn, so that
-their table has kinks at the center and where beta is 0 or pi: it is fitted from one side. The others are even in beta.
+`Sigma_f` being the shear integral of the film, `Sigma_r` that of the streamers (`films/film_losses.py`), and
+beta in [0, pi] the angle between eccentricity and source. The streamers follow the end at which the film is
+torn, so that their table has kinks at the center and where beta is 0 or pi: it is fitted from one side. The
+others are even in beta.
 """
 
 from __future__ import annotations
@@ -74,7 +75,7 @@ class LossTable(StoredTable):
         return self.flow.holds(slenderness)
 
     def at(self, slenderness: float) -> MapLossKernel:
-        """Return the compiled losses of one bearing; InputError if its length/diameter is outside the table."""
+        """Return the compiled losses of one bearing; InputError if the table does not hold it."""
         maps = [table.at(slenderness) for table in self.tables]
         coefficients, center = (np.array([m[k] for m in maps]) for k in (0, 2))
         return MapLossKernel(coefficients, maps[0].reach, center, CROWDING)
@@ -137,7 +138,7 @@ def loss_node_turns(cells: int) -> Array:
 
 
 def loss_node_eccentricities(largest_eccentricity_ratio: float, cells: int) -> Array:
-    """Return the eccentricity ratios of the nodes, (cells + 2,): the center, one beside it, and the others."""
+    """Return the eccentricity ratios of the nodes, (cells + 2,): the center, one beside it, all others."""
     chi = node_eccentricities(largest_eccentricity_ratio, cells)
     return np.concatenate([[0.0, NEAR], chi[1:]])
 

@@ -79,8 +79,8 @@ class MapFilm(KernelFilm):
     def losses(self, e: Array, w: Array, slenderness: float, rate: Array | None = None) -> FilmLosses:
         """Return shear and flow from the tables of the package, with slopes; see `FilmOptions`.
 
-        A bearing of another length/diameter has those of the two-dimensional film that its own map is made of,
-        without slopes.
+        A bearing of another length/diameter has those of the two-dimensional film that its own map is made
+        of, without slopes.
         """
         require_film(e.reshape(2, -1))
         kernel = packaged_kernel(float(slenderness))
