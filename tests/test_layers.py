@@ -19,6 +19,7 @@ LEAVES = [
     "units",
     "signals",
     "model",
+    "warming",
     "results",
     "progress",
     "sources",
@@ -51,9 +52,9 @@ FURTHER = [home.split(".")[1] for home in REGISTERED.values() if home.startswith
 """Families that have only the one folder."""
 
 PARTS = {
-    "bearings": [["films"], ["journal"], ["damper", "contact", "bush"]],
+    "bearings": [["films"], ["oil"], ["journal"], ["damper", "contact", "bush"]],
     "bearings/films": [["ring"]],
-    "bearings/journal": [["rupture"], ["map", "splitting"], ["grooves"]],
+    "bearings/journal": [["rupture"], ["map", "splitting"], ["grooves"], ["heat"]],
     "bearings/contact": [["film"], ["motion"]],
     "rotors": [["shaft"]],
     "motion": [["transient", "circular"], ["compiled"], ["periodic"]],

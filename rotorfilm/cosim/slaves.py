@@ -9,9 +9,10 @@ import numpy as np
 
 from ..errors import InputError
 from ..fmu.advance import advance
-from ..model import Array, Dynamic, Linearization, Model, breakpoints, in_time
+from ..model import Array, Dynamic, Linearization, Model, breakpoints
 from ..rotors.force_law import ForceLaw
 from ..signals import names
+from ..warming import in_time
 from .schemes.exponential import LawIntegrator
 from .wiring import Wiring
 

@@ -12,8 +12,9 @@ import numpy as np
 
 from ..errors import FmuError, InputError, require_finite, require_positive
 from ..files import write_whole
-from ..model import Array, Dynamic, Model, Stepped, in_time
+from ..model import Array, Dynamic, Model, Stepped
 from ..native.spec import HasKernel, NativeSpec
+from ..warming import in_time
 from .archive import to_zip
 from .description.dependencies import delayed_dependencies, dependencies
 from .description.model_description import Description, to_xml

@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_number
-from ..model import Reaction, settled
+from ..model import Reaction
 from ..results import Coefficients
+from ..warming import settled
 
 
 def coefficients(reaction: Reaction, position: ArrayLike, speed: float) -> Coefficients:

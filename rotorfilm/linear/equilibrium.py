@@ -19,8 +19,9 @@ from ..errors import (
     require_finite,
     require_number,
 )
-from ..model import Array, Reaction, Tangent, Warming, prepared_tangent
+from ..model import Array, Reaction, Tangent, prepared_tangent
 from ..results import Equilibrium
+from ..warming import Warming
 
 MAXIMUM_ECCENTRICITY = 0.9999
 """Eccentricity ratio beyond which a load counts as more than the film can carry."""

@@ -10,10 +10,11 @@ from typing import cast
 import numpy as np
 
 from ..errors import EquilibriumError, InputError, require_number
-from ..model import Array, Reaction, Warming
+from ..model import Array, Reaction
 from ..results import Coefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, across_planes
+from ..warming import Warming
 from .coefficients import coefficients
 from .equilibrium import equilibrium
 

@@ -77,22 +77,24 @@ class MapLossKernel(LossKernel):
 
     Parameters
     ----------
-    coefficients : ndarray, shape (3, cells_x + 5, cells_t + 5)
-        Quintic B-spline coefficients of M(X, T) of the three maps.
+    coefficients : ndarray, shape (3, cells_x + 5, cells_s + 5)
+        Quintic B-spline coefficients of M(X, s) of the three maps.
     reach : float
         X of the last node.
     log_center : ndarray, shape (3,)
         L0 of the three.
+    crowding : float
+        Ratio of tan s and the tangent of the angle between eccentricity and source.
     """
 
     _function: ClassVar[str] = "rf_map_losses"
 
-    def __init__(self, coefficients: Array, reach: float, log_center: Array) -> None:
+    def __init__(self, coefficients: Array, reach: float, log_center: Array, crowding: float) -> None:
         self.coefficients = np.ascontiguousarray(coefficients, dtype=float)
         self.log_center = np.ascontiguousarray(log_center, dtype=float)
-        cells_x, cells_t = (count - 5 for count in self.coefficients.shape[1:])
+        cells_x, cells_s = (count - 5 for count in self.coefficients.shape[1:])
         center = (c_double * 3)(*self.log_center)
-        self.struct = LossMapStruct(cells_x, cells_t, reach, center, self.coefficients.ctypes.data)
+        self.struct = LossMapStruct(cells_x, cells_s, reach, crowding, center, self.coefficients.ctypes.data)
 
     @property
     def tables(self) -> dict[str, Array]:
@@ -102,4 +104,5 @@ class MapLossKernel(LossKernel):
             "loss_coefficients": self.coefficients,
             "loss_center": self.log_center,
             "loss_reach": reach,
+            "loss_squeeze": np.array([self.struct.squeeze]),
         }

@@ -77,8 +77,9 @@ class LossMapStruct(ctypes.Structure):
 
     _fields_: ClassVar[Sequence[Any]] = [
         ("cells_x", c_int32),
-        ("cells_t", c_int32),
+        ("cells_s", c_int32),
         ("x_end", c_double),
+        ("squeeze", c_double),
         ("center", c_double * 3),
         ("coefficients", c_void_p),
     ]

@@ -12,9 +12,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
-from ..model import Array, Dynamic, Linearization, Reaction, in_time
+from ..model import Array, Dynamic, Linearization, Reaction
 from ..native.spec import NativeSpec
 from ..signals import JOURNAL_INPUTS, Signal, indices, names
+from ..warming import in_time
 from .stations import AroundRotor, prefixed
 from .system_kernel import system_kernel
 

@@ -14,7 +14,8 @@ import numpy as np
 
 from ..errors import InputError, SceneError
 from ..limits import SWEEP_POINTS, require_at_most
-from ..scenes.reading.tables import Quantity, quantity_of
+from ..scenes.reading.key_paths import quantity_of
+from ..scenes.reading.tables import Quantity
 from ..scenes.scene import Scene, read_scene
 from ..units import UNITS, whole_number
 

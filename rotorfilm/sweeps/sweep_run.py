@@ -58,9 +58,9 @@ def sweep(
     -------
     xarray.Dataset
         For a scene with a question `value`, `error_estimate`, `met`, `model`; for one without
-        `eccentricity_ratio`, `attitude_angle`, `minimum_film`, `stiffness`, `damping`, `threshold_speed`,
-        `whirl_ratio`, `model`. A point without an answer has its reason in `failure` and numbers that are
-        not-a-number; what a scene warned of is in `remarks`.
+        `eccentricity_ratio`, `attitude_angle`, `minimum_film`, `stiffness`, `damping`, `power_loss`,
+        `friction_torque`, `side_flow`, `threshold_speed`, `whirl_ratio`, `model`. A point without an answer
+        has its reason in `failure` and numbers that are not-a-number; what a scene warned of is in `remarks`.
 
     Raises
     ------

@@ -326,6 +326,7 @@ def test_bearings_with_openings_of_every_kind_are_answered(family):
         ("grooves = [{ center = '10 deg', width = '30 deg' }]", "eccentricity_ratio"),
         ("grooves = [{ center = '10 deg', width = '30 deg' }]\nsupply_pressure = '1 bar'", "attitude_angle"),
         ("pads = [{ start = '200 deg', extent = '140 deg' }]", "minimum_film"),
+        ("grooves = [{ center = '10 deg', width = '30 deg' }]", "power_loss"),
     ],
 )
 def test_openings_never_make_a_map_for_an_equilibrium_and_tighter_is_never_worse(openings, quantity):

@@ -49,6 +49,8 @@ def test_a_point_is_the_scene_solved_there():
             at = equilibrium(bearing, [0.0, -525.0], rpm * np.pi / 30.0)
             point = found.isel(journal_clearance=i, operation_speed=k)
             assert float(point["eccentricity_ratio"]) == pytest.approx(at.eccentricity_ratio, rel=1e-13)
+            assert float(point["power_loss"]) == pytest.approx(at.losses.power_loss, rel=1e-12)
+            assert float(point["side_flow"]) == pytest.approx(at.losses.side_flow, rel=1e-12)
             assert float(point["attitude_angle"]) == pytest.approx(at.attitude_angle, rel=1e-13)
     np.testing.assert_allclose(found["journal_clearance"], [90e-6, 100e-6, 110e-6], rtol=1e-14)
     assert found["journal_clearance"].attrs == {"key": "journal.clearance", "units": "m"}

@@ -1,10 +1,10 @@
 """Shear and flow of a film: what decides its power loss, its torques and the oil that leaves it.
 
-The torque on the journal is viscosity omega R^3 L/c times a shear integral Sigma = int int alpha/H dtheta dzeta,
-0 < zeta < 1 along the length, plus (E x F)_z/2. A full film has alpha = 1. Behind its end the oil runs in
-streamers between both walls, with the thickness H_r at which the film ended: alpha = min(1, H_r/H). The side flow
-is c R L times the source over the film, w . int int n dtheta dzeta with H = 1 - e . n, for nothing crosses the free
-ends. Sigma depends on the direction of the source alone; the flow grows with it.
+The torque on the journal is viscosity omega R^3 L/c times a shear integral Sigma = int int alpha/H dtheta
+dzeta, 0 < zeta < 1 along the length, plus (E x F)_z/2. A full film has alpha = 1. Behind its end the oil runs
+in streamers between both walls, with the thickness H_r at which the film ended: alpha = min(1, H_r/H). The
+side flow is c R L times the source over the film, w . int int n dtheta dzeta with H = 1 - e . n, for nothing
+crosses the free ends. Sigma depends on the direction of the source alone; the flow grows with it.
 """
 
 from __future__ import annotations
@@ -37,8 +37,8 @@ class FilmLosses(NamedTuple):
     arriving : ndarray, shape (openings, ...) [1/s]
         Oil that comes to each opening from the films and streamers beside it.
     slopes : ndarray, shape (3, 4, ...), or None
-        Derivatives of shear_film, shear_streamers and side_flow by (eccentricity, source); None where the film
-        law has none. Not-a-number where the source vanishes.
+        Derivatives of shear_film, shear_streamers and side_flow by (eccentricity, source); None where the
+        film law has none. Not-a-number where the source vanishes.
     """
 
     shear_film: Array

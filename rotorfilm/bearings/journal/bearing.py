@@ -18,7 +18,6 @@ from ...errors import (
 )
 from ...model import Array, Tangent
 from ...native.spec import NativeSpec
-from ...results import BearingLosses
 from ...signals import Signal, force_outputs, journal_inputs
 from ..films.bound_law import BoundLaw, kinematics
 from ..films.geometry import FilmGeometry, Groove, Pad
@@ -26,7 +25,6 @@ from ..films.law import BoundFilm, FilmLaw, FilmOptions, options
 from ..oil import Cooling, Oil
 from ..oil.lubricant import film_viscosity, require_lubricant
 from ..reaction import NOMINAL_SPEED, Feedthrough, broadcast_state
-from .bearing_losses import bearing_losses
 from .dimensions import warn_of_odd_dimensions
 from .fitting import fitted_film
 from .heat.warm_film import WarmFilm
@@ -218,17 +216,6 @@ class JournalBearing(Feedthrough, WarmFilm):
             Where the film has no derivative: at rest without rotation, and in exact half-speed whirl.
         """
         return self.prepared_jacobian(*broadcast_state(position, velocity, speed))
-
-    def losses(
-        self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool | None = None
-    ) -> BearingLosses | None:
-        """Return power loss, torques and oil flow; see `bearing_losses`. None if the film law has none.
-
-        Where `full_gap` is None, it is that of the cooling, or false.
-        """
-        if full_gap is None:
-            full_gap = self.cooling is not None and self.cooling.full_gap
-        return bearing_losses(self, *broadcast_state(position, velocity, speed), full_gap=full_gap)
 
     def prepare(self) -> Callable[[float, float, float, float, float], tuple[float, float]]:
         """Return the force as a function of five numbers, for loops that go state by state.

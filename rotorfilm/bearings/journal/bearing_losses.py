@@ -1,22 +1,46 @@
-"""Power loss, torques on journal and bush, and oil flow of a journal bearing, from the losses of its film law."""
+"""Power loss, torques on journal and bush, and oil flow of a bearing, from the losses of its film law."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Any, Protocol
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...errors import require_inside
 from ...model import Array
 from ...results import BearingLosses
-from ..films.law import FilmOptions, options
+from ..films.geometry import FilmGeometry
+from ..films.law import FilmLaw, FilmOptions, options
 
-if TYPE_CHECKING:
-    from .bearing import JournalBearing
+
+class LossyBearing(Protocol):
+    """What of a `JournalBearing` its losses follow from."""
+
+    radius: Any
+    length: Any
+    clearance: Any
+    supply_pressure: Any
+
+    @property
+    def slenderness(self) -> float: ...
+
+    @property
+    def film_viscosity(self) -> float: ...
+
+    @property
+    def fitted_film(self) -> FilmLaw: ...
+
+    @property
+    def geometry(self) -> FilmGeometry: ...
+
+    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
+
+    def kinematics(self, position: Array, velocity: Array, speed: Array) -> tuple[Array, Array]: ...
 
 
 def bearing_losses(
-    bearing: JournalBearing, position: Array, velocity: Array, speed: Array, *, full_gap: bool = False
+    bearing: LossyBearing, position: Array, velocity: Array, speed: Array, *, full_gap: bool = False
 ) -> BearingLosses | None:
     """Return what the film takes from the shaft, and the oil that runs through it.
 
@@ -28,8 +52,8 @@ def bearing_losses(
     speed : ndarray, shape (...) [rad/s]
         Angular speed about +z, of either sign.
     full_gap : bool, optional
-        Whether oil fills the gap in the ruptured zone too, as Raimondi & Boyd (1958) have it, an upper bound. By
-        default streamers run there, with the thickness at which the film ended: 5 to 22 % less shear.
+        Whether oil fills the gap in the ruptured zone too, as Raimondi & Boyd (1958) have it, an upper bound.
+        By default streamers run there, with the thickness at which the film ended: 5 to 22 % less shear.
 
     Returns
     -------
@@ -43,10 +67,10 @@ def bearing_losses(
 
     Notes
     -----
-    With E = position, F the force on the journal and M = viscosity speed (R^3 L/c) Sigma the torque on the journal
-    is M + (E x F)_z/2 and that on the bush M - (E x F)_z/2: the difference balances the moment of the force. The
-    pressure flow dissipates -F . W, W = velocity - (speed/2) z^ x E, and what a supply pressure pushes through the
-    film, so that the power is speed M - F . W + supply_pressure (inflow - arriving).
+    With E = position, F the force on the journal and M = viscosity speed (R^3 L/c) Sigma the torque on the
+    journal is M + (E x F)_z/2 and that on the bush M - (E x F)_z/2: the difference balances the moment of the
+    force. The pressure flow dissipates -F . W, W = velocity - (speed/2) z^ x E, and what a supply pressure
+    pushes through the film, so that the power is speed M - F . W + supply_pressure (inflow - arriving).
     """
     require_inside(position, bearing.clearance)
     e, w = bearing.kinematics(position, velocity, speed)
@@ -72,12 +96,12 @@ def bearing_losses(
     )
 
 
-def has_losses(bearing: JournalBearing) -> bool:
+def has_losses(bearing: LossyBearing) -> bool:
     """Return whether the film law of a bearing has losses."""
     return type(options(bearing.fitted_film, FilmOptions)).losses is not FilmOptions.losses
 
 
-def _supplied(bearing: JournalBearing, flow: Array) -> Array:
+def _supplied(bearing: LossyBearing, flow: Array) -> Array:
     """Return the flow of those openings that are supplied; one that touches another counts as that."""
     held = [opening.held for opening in bearing.geometry.openings()]
     return flow[np.array(held) > 0.0] if len(held) == len(flow) else flow

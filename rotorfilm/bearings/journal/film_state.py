@@ -59,8 +59,8 @@ class FilmState:
     def side_flow(self) -> float:
         """Oil that leaves the film at both ends [m^3/s], without that straight out of grooves.
 
-        With a supply pressure it has no limit as the cells shrink: a groove open at the bearing's end feeds the
-        corner beside it.
+        With a supply pressure it has no limit as the cells shrink: a groove open at the bearing's end feeds
+        the corner beside it.
         """
         return float(self.losses.side_flow)
 
@@ -98,8 +98,8 @@ def film_state(
     speed : float [rad/s]
         Angular speed about +z, of either sign.
     full_gap : bool, optional
-        Whether oil fills the ruptured zone, as Raimondi & Boyd (1958) have it; by default streamers run there.
-        See `bearing_losses`.
+        Whether oil fills the ruptured zone, as Raimondi & Boyd (1958) have it; by default streamers run
+        there. See `bearing_losses`.
 
     Raises
     ------

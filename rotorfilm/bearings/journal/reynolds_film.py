@@ -122,9 +122,9 @@ class ReynoldsFilm(KernelFilm):
     def losses(self, e: Array, w: Array, slenderness: float, rate: Array | None = None) -> FilmLosses:
         """Return shear and flow, without slopes; see `FilmOptions`.
 
-        Second order in the size of the cells, edges of the film included. Between openings the film begins only
-        where streamers or an opening bring the oil, so that it is smaller than the one that carries. Openings
-        that touch are one.
+        Second order in the size of the cells, edges of the film included. Between openings the film begins
+        only where streamers or an opening bring the oil, so that it is smaller than the one that carries.
+        Openings that touch are one.
 
         Raises
         ------

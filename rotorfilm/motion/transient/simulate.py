@@ -9,9 +9,10 @@ from numpy.typing import ArrayLike
 from scipy.integrate import OdeSolver, Radau
 
 from ...errors import ContactError, ConvergenceError, InputError, require_finite, require_positive
-from ...model import Array, Dynamic, Reaction, in_time, stops
+from ...model import Array, Dynamic, Reaction, stops
 from ...results import Trajectory
 from ...signals import FORCE_OUTPUTS, names
+from ...warming import in_time
 from .coupled import Coupled
 from .integration import CONTACT_GAP, Integration, integrate
 from .times import require_longest_step, sample_times

@@ -61,17 +61,17 @@ static int answer(const rf_frame *at, const polar *of, double *losses, double *s
     return RF_OK;
 }
 
-/* Weights and slopes of the splines under one point, over X and over the cosine. */
+/* Weights and slopes of the splines under one point, over X and over s. */
 typedef struct weights {
     double x[RF_ORDER], x_slope[RF_ORDER], s[RF_ORDER], s_slope[RF_ORDER];
-    double per_x, per_s, beyond;
+    double per_x, per_t, beyond; /* cells per X and per t */
 } weights;
 
 /* L and, if `full`, its derivatives in chi and, over chi, in t. */
 static polar exponent(const rf_loss_map *map, const double *c, const weights *by, const rf_frame *at, double slope,
                       double center, int full)
 {
-    const size_t stride = (size_t)map->cells_t + RF_ORDER - 1;
+    const size_t stride = (size_t)map->cells_s + RF_ORDER - 1;
     double row[RF_ORDER], row_x[RF_ORDER];
     polar at_state = {0.0, 0.0, 0.0};
     rf_rows(c, stride, by->x, row);
@@ -83,7 +83,7 @@ static polar exponent(const rf_loss_map *map, const double *c, const weights *by
     at_state.value = center + at->chi * m;
     if (full) {
         at_state.by_chi = m + at->chi * slope * by->per_x * rf_dot(row_x, by->s);
-        at_state.by_turn = by->per_s * rf_dot(row, by->s_slope) * at->sin;
+        at_state.by_turn = by->per_t * rf_dot(row, by->s_slope);
     }
     return at_state;
 }
@@ -99,15 +99,16 @@ int rf_map_losses(const void *of, const double *e, const double *w, double *loss
     double u, v, slope;
     weights by;
     const double x = rf_stretch(at.chi, &slope), within = fmin(x, map->x_end), gap = (1.0 - at.chi) * (1.0 + at.chi);
-    const size_t width = (size_t)map->cells_t + RF_ORDER - 1, all = ((size_t)map->cells_x + RF_ORDER - 1) * width;
+    const size_t width = (size_t)map->cells_s + RF_ORDER - 1, all = ((size_t)map->cells_x + RF_ORDER - 1) * width;
     const int32_t i = rf_cell(within / map->x_end * map->cells_x, map->cells_x, &u);
-    const int32_t j = rf_cell(0.5 * (1.0 + at.cos) * map->cells_t, map->cells_t, &v);
+    const double q = map->squeeze, across = fabs(at.sin), s = atan2(q * across, at.cos);
+    const int32_t j = rf_cell(s / PI * map->cells_s, map->cells_s, &v);
     rf_values(u, by.x);
     rf_slopes(u, by.x_slope);
     rf_values(v, by.s);
     rf_slopes(v, by.s_slope);
     by.per_x = map->cells_x / fmax(x, map->x_end);
-    by.per_s = 0.5 * map->cells_t;
+    by.per_t = (at.sin > 0.0 ? -1.0 : 1.0) * map->cells_s / PI * q / (at.cos * at.cos + q * q * across * across);
     by.beyond = x > within ? map->cells_x * log(x / within) : 0.0;
     for (size_t k = 0; k < RF_LOSSES; ++k) {
         const double *c = map->coefficients + k * all + (size_t)i * width + (size_t)j;

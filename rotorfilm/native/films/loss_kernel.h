@@ -20,16 +20,18 @@
    its status. */
 typedef int (*rf_loss)(const void *data, const double *e, const double *w, double *losses, double *slopes);
 
-/* The losses of one plain bearing as three maps over X and T of map_kernel.h:
+/* The losses of one plain bearing as three maps over X of map_kernel.h and s, tan s = squeeze tan beta, beta in [0, pi]
+   being the angle between e and w, which crowds the nodes where the source is across the eccentricity:
 
-       ln(s Sigma_f),  ln(s (Sigma_f + Sigma_r)),  ln(flow/|w|),  each L0 + chi M(X, T),  s = sqrt(1 - chi^2).
+       ln(g Sigma_f),  ln(g (Sigma_f + Sigma_r)),  ln(flow/|w|),  each L0 + chi M(X, s),  g = sqrt(1 - chi^2).
 
    Beyond the last node M goes on linearly in ln X: all are powers of X there. */
 typedef struct rf_loss_map {
-    int32_t cells_x, cells_t;   /* cells of [0, X_end] and of [0, 1] */
+    int32_t cells_x, cells_s;   /* cells of [0, X_end] and of [0, pi] */
     double x_end;               /* X of the last node */
+    double squeeze;             /* in (0, 1] */
     double center[RF_LOSSES];   /* L0 */
-    const double *coefficients; /* RF_LOSSES x (cells_x + 5) x (cells_t + 5) of M, quintic, T fastest */
+    const double *coefficients; /* RF_LOSSES x (cells_x + 5) x (cells_s + 5) of M, quintic, s fastest */
 } rf_loss_map;
 
 RF_EXPORT int rf_map_losses(const void *map, const double *e, const double *w, double *losses, double *slopes);

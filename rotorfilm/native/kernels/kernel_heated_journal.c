@@ -5,7 +5,7 @@
    temperature [K]; outputs force_x, force_y [N], film_temperature [K], power_loss [W], side_flow [m3/s].
    Tables: oil (n: quintic spline coefficients of ln viscosity), oil_range (2: lowest and highest temperature), full_gap
    (1). The film is the map of coefficients (1, x, t), center (1), reach (1), with its losses loss_coefficients
-   (3, x, t), loss_center (3), loss_reach (1); without `coefficients` it is the short film. */
+   (3, x, s), loss_center (3), loss_reach (1), loss_squeeze (1); without `coefficients` it is the short film. */
 
 /* Documentation of the FMU
 
@@ -171,7 +171,8 @@ static int take_map(model *m, const rf_tables *tables, rf_message *why)
     const double *reach = center ? numbers(tables, "reach", 1, why) : NULL;
     const double *loss_center = reach ? numbers(tables, "loss_center", RF_LOSSES, why) : NULL;
     const double *loss_reach = loss_center ? numbers(tables, "loss_reach", 1, why) : NULL;
-    if (!loss_reach)
+    const double *squeeze = loss_reach ? numbers(tables, "loss_squeeze", 1, why) : NULL;
+    if (!squeeze)
         return RF_INVALID;
     const rf_table *const both[] = {c, l};
     for (int k = 0; k < 2; ++k)
@@ -180,7 +181,7 @@ static int take_map(model *m, const rf_tables *tables, rf_message *why)
                 || both[k]->extent[0] != (k ? RF_LOSSES : 1))
                 return rf_say(why, RF_INVALID, "the maps of a film must be of one bearing, 6 x 6 at least");
     m->map = (rf_map){(int32_t)c->extent[1] - 5, (int32_t)c->extent[2] - 5, reach[0], center[0], c->numbers, 0.0, 1.0};
-    m->losses = (rf_loss_map){(int32_t)l->extent[1] - 5, (int32_t)l->extent[2] - 5, loss_reach[0],
+    m->losses = (rf_loss_map){(int32_t)l->extent[1] - 5, (int32_t)l->extent[2] - 5, loss_reach[0], squeeze[0],
                                   {loss_center[0], loss_center[1], loss_center[2]}, l->numbers};
     m->film.journal.film = rf_map_film;
     m->film.journal.data = &m->map;

@@ -72,7 +72,7 @@ class StaticRung(CandidateRung[FilmRung]):
         return Found(value, {self.film.tangents: counted.tangents, **made}, at)
 
     def scalar(self, position: Array, bearing: JournalBearing) -> float:
-        """Return a quantity that follows from the position (2,) [m] in a bearing with this film or the richer."""
+        """Return a quantity that follows from the position (2,) [m] in this or the richer bearing."""
         if self.quantity in LOSSES:
             return float(getattr(bearing.losses(position, np.zeros(2), self.speed), self.quantity))
         distance = float(np.hypot(*position))

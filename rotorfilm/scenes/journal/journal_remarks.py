@@ -129,8 +129,8 @@ def journal_numbers(
 def film_loss(bearing: JournalBearing, speed: float, load: tuple[float, float]) -> tuple[float, float, float]:
     """Return power [W], side flow [m3/s] and eccentricity ratio of an isothermal film.
 
-    It is the film of the bearing where that is quick: a map of the package, or the short film; else a coarse grid.
-    Not-a-number, all three, where that film has no answer under the load.
+    It is the film of the bearing where that is quick: a map of the package, or the short film; else a coarse
+    grid. Not-a-number, all three, where that film has no answer under the load.
     """
     R, L, c = bearing.radius, bearing.length, bearing.clearance
     concentric = 2.0 * math.pi * bearing.film_viscosity * speed**2 * R**3 * L / c, 0.0, 0.0

@@ -225,8 +225,8 @@ def _located(where: str, message: str, readers: Mapping[str, Reader], values: Ma
     if name not in readers:
         return f"{where.removesuffix('.').removesuffix(': ')}: {message}"
     reader = readers[name]
-    if _twice(reader) and _twice(reader) in values:
-        message = f"{_twice(reader)} is twice the {name}, and {message}"
+    if twice_of(reader) and twice_of(reader) in values:
+        message = f"{twice_of(reader)} is twice the {name}, and {message}"
     return f"{where}{message}{_as_written(name, reader, values)}"
 
 
@@ -237,21 +237,6 @@ def _as_written(name: str, reader: Reader, values: Mapping[str, Any]) -> str:
     key = reader.twice if reader.twice in values else name
     written = f"; {key} = {brief(values[key])}" if isinstance(values.get(key), str) else ""
     return f" [{reader.unit}{written}]"
-
-
-def quantity_of(table: type | Keyed[Any], path: Sequence[str]) -> Quantity | None:
-    """Return the reader of a key, given by its parts; None where it is none of a `Quantity`."""
-    if not path:
-        return None
-    first, *rest = path
-    readers = keyed(table).readers
-    doubled = {_twice(reader): reader for reader in readers.values()}
-    reader = readers.get(first) or doubled.get(first)
-    if isinstance(reader, Quantity):
-        return None if rest else reader
-    if isinstance(reader, Table):
-        return quantity_of(reader.table, rest)
-    return quantity_of(reader.table, rest[1:]) if isinstance(reader, TableList) else None
 
 
 def keyed(table: type[T] | Keyed[T]) -> Keyed[T]:
@@ -283,7 +268,7 @@ def _read_field(
     if isinstance(reader, Beside):
         beside = {key: values[key] for key in reader.names if key in values and key not in fields}
         return [reader(where, beside)]
-    twice = _twice(reader)
+    twice = twice_of(reader)
     if name in values and twice in values:
         raise SceneError(f"{where}{name} and {where}{twice} must not both be given")
     if name in values:
@@ -293,10 +278,11 @@ def _read_field(
 
 def _keys(name: str, reader: Reader) -> tuple[str, ...]:
     """Return the keys that a field is read from."""
-    return reader.names if isinstance(reader, Beside) else (name, _twice(reader))
+    return reader.names if isinstance(reader, Beside) else (name, twice_of(reader))
 
 
-def _twice(reader: Reader) -> str:
+def twice_of(reader: Reader) -> str:
+    """Return the key that gives twice the value of this reader; empty for none."""
     return reader.twice if isinstance(reader, Quantity) else ""
 
 

@@ -182,7 +182,8 @@ def test_state_of_a_film_without_a_field_has_force_and_losses_only():
     state = film_state(b, [0.3 * c, 0.1 * c], [0, 0], omega)
     np.testing.assert_array_equal(state.force, b.force([0.3 * c, 0.1 * c], [0, 0], omega))
     assert state.side_flow == pytest.approx(np.sqrt(0.1) * omega * c * R * b.length)
-    assert state.pressure is None and state.maximum_pressure is None
+    assert state.pressure is None
+    assert state.maximum_pressure is None
 
 
 def test_state_needs_a_film_with_losses():

@@ -19,7 +19,7 @@ from rotorfilm import (
     coefficients,
     equilibrium,
 )
-from rotorfilm.bearings.journal.heat.balance import effective_flow
+from rotorfilm.bearings.journal.heat.heat_balance import effective_flow
 
 OIL = Oil.iso_vg(100)
 COOLING = Cooling(supply_temperature=310.25)

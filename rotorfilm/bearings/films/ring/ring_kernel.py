@@ -110,8 +110,8 @@ class RingKernel(FilmKernel):
     def losses(self, eccentricity: Array, source: Array, rate: Array) -> Array:
         """Return the losses of states (2, n), (3 + 2 openings, n), the oil running along at `rate` (n) [1/s].
 
-        They are the shear integrals of film and streamers, the side flow, the flow that leaves each opening and
-        what arrives at each; openings that touch are one.
+        They are the shear integrals of film and streamers, the side flow, the flow that leaves each opening
+        and what arrives at each; openings that touch are one.
         """
         e, w, along = _float(eccentricity), _float(source), _float(rate)
         held, first = self.grids[0].held, c_size_t()

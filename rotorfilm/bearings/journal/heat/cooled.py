@@ -10,7 +10,7 @@ from ....native.loss_kernels import LossKernel
 from ....signals import Signal
 from ...films.kernel_film import BoundKernel
 from ...oil import Cooling, Oil
-from .balance import FilmHeat
+from .heat_balance import FilmHeat
 
 
 class Cooled(Protocol):

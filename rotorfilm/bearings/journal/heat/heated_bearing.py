@@ -17,9 +17,9 @@ from ....native.spec import NativeSpec
 from ....signals import Signal
 from ...oil.viscosity_table import viscosity_table
 from ...reaction import input_vector
-from .balance import heat_surplus
 from .cooled import Cooled
-from .heated_kernel import heated_spec
+from .heat_balance import heat_surplus
+from .heated_spec import heated_spec
 
 NOMINAL_TEMPERATURE = 300.0
 """Typical temperature [K]."""

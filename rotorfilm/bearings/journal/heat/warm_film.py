@@ -14,10 +14,12 @@ from ....native.loss_kernels import LossKernel
 from ....results import BearingLosses
 from ....signals import Signal
 from ...films.kernel_film import BoundKernel
-from ...films.law import FilmLaw, FilmOptions, options
+from ...films.law import FilmOptions, options
 from ...oil import Cooling, Oil
 from ...reaction import broadcast_state
-from .balance import (
+from ..bearing_losses import LossyBearing, bearing_losses
+from .balanced_bearing import BalancedBearing
+from .heat_balance import (
     Dimensions,
     FilmAt,
     FilmHeat,
@@ -26,28 +28,14 @@ from .balance import (
     film_heat,
     heat_by_state,
 )
-from .balanced_bearing import BalancedBearing
 from .heated_bearing import HeatedBearing
 
 
-class _Bearing(Protocol):
+class _Bearing(LossyBearing, Protocol):
     """What of a journal bearing its heat follows from."""
 
-    radius: Any
-    length: Any
-    clearance: Any
     oil: Any
     cooling: Any
-    supply_pressure: Any
-
-    @property
-    def slenderness(self) -> float: ...
-
-    @property
-    def film_viscosity(self) -> float: ...
-
-    @property
-    def fitted_film(self) -> FilmLaw: ...
 
     @property
     def inputs(self) -> tuple[Signal, ...]: ...
@@ -73,8 +61,6 @@ class _Bearing(Protocol):
         self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool | None = None
     ) -> BearingLosses | None: ...
 
-    def kinematics(self, position: Array, velocity: Array, speed: Array) -> tuple[Array, Array]: ...
-
 
 class WarmFilm:
     """The heat of a `JournalBearing`."""
@@ -89,6 +75,22 @@ class WarmFilm:
     def coldest(self: _Bearing) -> float:
         """Return the temperature below which the film never gets [K]; raises InputError without cooling."""
         return self.cooled[1].coldest
+
+    def losses(
+        self: _Bearing,
+        position: ArrayLike,
+        velocity: ArrayLike,
+        speed: ArrayLike,
+        *,
+        full_gap: bool | None = None,
+    ) -> BearingLosses | None:
+        """Return power loss, torques and oil flow; see `bearing_losses`. None if the film law has none.
+
+        Where `full_gap` is None, it is that of the cooling, or false.
+        """
+        if full_gap is None:
+            full_gap = self.cooling is not None and self.cooling.full_gap
+        return bearing_losses(self, *broadcast_state(position, velocity, speed), full_gap=full_gap)
 
     def film_heat(self: _Bearing, position: ArrayLike, velocity: ArrayLike, speed: float) -> FilmHeat:
         """Return the heat that the film makes and takes along at one state, at its temperature.

@@ -1,12 +1,14 @@
 """Shear and flow of every plain journal bearing as three tables beside that of the potential.
 
-With s = sqrt(1 - chi^2) and X, T and S as in `films/map_table.py`, the tables hold
+With X and S = ln(L/D) as in `films/map_table.py`, the tables hold
 
-    ln(s Sigma_f),   ln(s (Sigma_f + Sigma_r)),   ln(flow/|w|),   each as L0(S) + chi M(X, T, S),
+    ln(sqrt(1 - chi^2) Sigma_f),   ln(sqrt(1 - chi^2) (Sigma_f + Sigma_r)),   ln(flow/|w|),
+    each as L0(S) + chi M(X, s, S),   tan s = CROWDING tan beta,
 
-`Sigma_f` being the shear integral of the film and `Sigma_r` that of the streamers (`films/film_losses.py`). The
-second has a kink at the center, since the streamers follow the end at which the film is torn: M is fitted from
-one side.
+`Sigma_f` being the shear integral of the film, `Sigma_r` that of the streamers (`films/film_losses.py`), and
+beta in [0, pi] the angle between eccentricity and source. The streamers follow the end at which the film is
+torn, so that their table has kinks at the center and where beta is 0 or pi: it is fitted from one side. The
+others are even in beta.
 """
 
 from __future__ import annotations
@@ -23,7 +25,7 @@ from ....model import Array
 from ....native.loss_kernels import MapLossKernel
 from ...films.map_fit import node_eccentricities
 from ...films.map_table import MapTable, stretch
-from ...films.quintic import quintic_coefficients
+from ...films.quintic import periodic_quintic_coefficients, quintic_coefficients
 from ...films.table_bytes import StoredTable
 
 TABLE = "journal_losses.bin"
@@ -31,6 +33,9 @@ TABLE = "journal_losses.bin"
 
 QUANTUM = 1e-7
 """Unit of the stored coefficients, far below the error of the nodes."""
+
+CROWDING = 0.6
+"""Ratio of tan s and tan beta: crowds the nodes where the source is across, as the film turns there."""
 
 NEAR = 1e-3
 """Eccentricity ratio of the first nodes in M, whose limit at the center is 0/0."""
@@ -70,10 +75,10 @@ class LossTable(StoredTable):
         return self.flow.holds(slenderness)
 
     def at(self, slenderness: float) -> MapLossKernel:
-        """Return the compiled losses of one bearing; InputError if its length/diameter is outside the table."""
+        """Return the compiled losses of one bearing; InputError if the table does not hold it."""
         maps = [table.at(slenderness) for table in self.tables]
         coefficients, center = (np.array([m[k] for m in maps]) for k in (0, 2))
-        return MapLossKernel(coefficients, maps[0].reach, center)
+        return MapLossKernel(coefficients, maps[0].reach, center, CROWDING)
 
     def to_bytes(self) -> bytes:
         """Return the three tables as bytes, one after the other."""
@@ -93,9 +98,9 @@ def fit_loss_table(
 
     Parameters
     ----------
-    losses : ndarray, shape (3, s, cells_x + 2, cells_t + 1)
-        `node_losses` at s values of ln(L/D), uniform from the smallest to the largest (s = 1 or s >= 6); at
-        the eccentricity ratios, the center among them; at T = 0, ..., 1, uniform.
+    losses : ndarray, shape (3, n, cells_x + 2, cells_s + 1)
+        `node_losses` at n values of ln(L/D), uniform from the smallest to the largest (n = 1 or n >= 6); at
+        the eccentricity ratios, the center among them; at the T of `loss_node_turns`.
     slenderness_range : (float, float) [1]
     largest_eccentricity_ratio : float [1]
     """
@@ -104,7 +109,8 @@ def fit_loss_table(
     L = np.log(losses * scale)
     center = L[:, :, 0].mean(axis=-1)
     M = (L[:, :, 1:] - center[:, :, None, None]) / chi[1:, None]
-    M = quintic_coefficients(quintic_coefficients(M, axis=2), axis=3)
+    M = quintic_coefficients(M, axis=2)
+    M = np.stack([_even(M[0]), quintic_coefficients(M[1], axis=2), _even(M[2])])
     if M.shape[1] > 1:
         M, center = quintic_coefficients(M, axis=1), quintic_coefficients(center, axis=1)
     reach = float(stretch(largest_eccentricity_ratio))
@@ -118,8 +124,21 @@ def fit_loss_table(
     )
 
 
+def _even(values: Array) -> Array:
+    """Return the coefficients over the last axis of what is even about both its ends."""
+    mirrored = np.concatenate([values, values[..., -2:0:-1]], axis=-1)
+    wide = periodic_quintic_coefficients(mirrored, axis=-1)
+    return np.take(wide, np.arange(-2, values.shape[-1] + 2), axis=-1, mode="wrap")
+
+
+def loss_node_turns(cells: int) -> Array:
+    """Return T = (1 + cos beta)/2 of the nodes, (cells + 1,), from 1 to 0."""
+    s = np.linspace(0.0, np.pi, cells + 1)
+    return np.asarray(0.5 + 0.5 * np.cos(np.arctan2(np.sin(s), CROWDING * np.cos(s))))
+
+
 def loss_node_eccentricities(largest_eccentricity_ratio: float, cells: int) -> Array:
-    """Return the eccentricity ratios of the nodes, (cells + 2,): the center, one beside it, and the others."""
+    """Return the eccentricity ratios of the nodes, (cells + 2,): the center, one beside it, all others."""
     chi = node_eccentricities(largest_eccentricity_ratio, cells)
     return np.concatenate([[0.0, NEAR], chi[1:]])
 
