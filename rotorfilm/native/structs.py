@@ -103,6 +103,12 @@ class RingStruct(ctypes.Structure):
     ]
 
 
+class GridWorkStruct(ctypes.Structure):
+    """rf_grid_work of ring.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [("solutions", c_int64), ("lines", c_int64)]
+
+
 class RideStruct(ctypes.Structure):
     """rf_ride_law of ride.h."""
 

@@ -202,8 +202,21 @@ int rf_ring_field(const rf_ring *ring, const double *e, const double *w, double 
     return status;
 }
 
+/* J, and dJ/de unless `slope` is NULL, of the grid that was solved last; entries of the slope `stride` apart.
+
+   The discrete film minimizes 12 (P.A P/2 - P.N w) over P >= 0, and J is the minimum. */
+static double potential_of(const rf_search *search, int level, size_t stride, double *slope)
+{
+    const size_t all = nodes_of(&search->ring->grids[level]);
+    for (size_t m = 0; m < 2 && slope; ++m) {
+        set_bent_flow(search, level, m, search->flow);
+        slope[m * stride] = 6.0 * sum_of_products(all, search->pressure, search->flow);
+    }
+    return -6.0 * sum_of_products(all, search->pressure, search->source);
+}
+
 int rf_ring_potential(const rf_ring *ring, const double *e, size_t n, const double *w, double *J, double *slope,
-                      size_t *first)
+                      rf_grid_work *work, size_t *first)
 {
     rf_search search;
     int status = rf_open_search(&search, ring);
@@ -218,16 +231,12 @@ int rf_ring_potential(const rf_ring *ring, const double *e, size_t n, const doub
             break;
         }
         for (int level = RF_LEVELS - 1; level >= 0 && status == RF_OK; --level) {
-            const size_t all = nodes_of(&ring->grids[level]), at = (size_t)level;
+            const size_t at = (size_t)level * n + d;
             status = rf_search_film(&search, level, source);
-            /* The discrete film minimizes 12 (P.A P/2 - P.N w) over P >= 0, and J is the minimum. */
-            J[at * n + d] = -6.0 * sum_of_products(all, search.pressure, search.source);
-            for (size_t m = 0; m < 2; ++m) {
-                set_bent_flow(&search, level, m, search.flow);
-                slope[(2 * at + m) * n + d] = 6.0 * sum_of_products(all, search.pressure, search.flow);
-            }
+            J[at] = potential_of(&search, level, n, slope ? slope + at + (size_t)level * n : NULL);
         }
     }
+    *work = search.work;
     rf_close_search(&search);
     return status;
 }

@@ -14,9 +14,10 @@ int rf_open_search(rf_search *search, const rf_ring *ring)
     for (int level = 0; level < RF_LEVELS; ++level)
         lines += ring->grids[level].lines;
     const size_t numbers = RF_CELL_ROWS * lines + 4 * all + all * (m + 1) + all * m + m * m;
-    double *next = malloc(numbers * sizeof(double) + 2 * all);
+    double *next = malloc(numbers * sizeof(double) + 2 * all + 2 * ring->grids[0].lines);
     search->ring = ring;
     search->memory = next;
+    search->work.solutions = search->work.lines = 0;
     if (!next)
         return RF_MEMORY;
     for (int level = 0; level < RF_LEVELS; ++level) {
@@ -32,6 +33,8 @@ int rf_open_search(rf_search *search, const rf_ring *ring)
     search->chain.corner = search->chain.border + all * m;
     search->free = (uint8_t *)(search->chain.corner + m * m);
     search->known = search->free + all;
+    search->moved = search->known + all;
+    search->chain.state = search->moved + ring->grids[0].lines;
     return RF_OK;
 }
 
@@ -107,26 +110,54 @@ static void set_line(const rf_search *search, int level, size_t i, size_t stride
     }
 }
 
-static void assemble(rf_search *search, int level)
+static int has_film(const rf_search *search, const rf_grid *grid, size_t line)
+{
+    return memchr(search->free + line * grid->nodes, 1, grid->nodes) != NULL;
+}
+
+/* Tell which lines of the chain are to be factorized: all of them, or those that a moved one reaches. A line
+   that is cut stays so as long as it is empty. */
+static void set_states(rf_search *search, const rf_grid *grid, int all)
+{
+    const size_t lines = grid->lines;
+    const uint8_t *moved = search->moved;
+    rf_chain *chain = &search->chain;
+    if (all || chain->bordered || has_film(search, grid, search->cut)) {
+        size_t fewest;
+        search->cut = emptiest_line(search->free, grid, &fewest);
+        chain->bordered = fewest > 0;
+        all = 1;
+    }
+    for (size_t k = 0; k < lines - 1; ++k) {
+        const size_t i = (search->cut + 1 + k) % lines, before = i > 0 ? i - 1 : lines - 1;
+        const int reached = all || moved[i] || moved[before] || moved[i + 1 < lines ? i + 1 : 0]
+                            || (k > 0 && chain->state[k - 1] == RF_LINE_NEW);
+        chain->state[k] = !has_film(search, grid, i) ? RF_LINE_EMPTY : reached ? RF_LINE_NEW : RF_LINE_KEPT;
+    }
+}
+
+/* Set up what is to be factorized. */
+static void assemble(rf_search *search, int level, int all)
 {
     const rf_grid *grid = &search->ring->grids[level];
     const size_t lines = grid->lines, nodes = grid->nodes;
     const size_t half = nodes, stride = half + 1;
     rf_chain *chain = &search->chain;
-    size_t fewest;
-    search->cut = emptiest_line(search->free, grid, &fewest);
     chain->half = half;
-    chain->size = (lines - 1) * half;
-    chain->bordered = fewest > 0;
-    memset(chain->band, 0, chain->size * stride * sizeof(double));
+    chain->lines = lines - 1;
+    set_states(search, grid, all);
     for (size_t k = 0; k < lines - 1; ++k) {
         double *rows = chain->band + k * half * stride;
+        if (chain->state[k] != RF_LINE_NEW)
+            continue;
+        memset(rows, 0, half * stride * sizeof(double));
         const size_t i = (search->cut + 1 + k) % lines;
         set_line(search, level, i, stride, rows, rows + 1, k + 2 < lines ? rows + half : NULL);
+        ++search->work.lines;
     }
     if (!chain->bordered)
         return;
-    memset(chain->border, 0, chain->size * half * sizeof(double));
+    memset(chain->border, 0, (lines - 1) * half * half * sizeof(double));
     memset(chain->corner, 0, half * half * sizeof(double));
     /* Row p of the border couples to its column j: the line after the cut is the first of the band. */
     set_line(search, level, search->cut, stride, chain->corner, chain->corner + half, chain->border);
@@ -157,15 +188,15 @@ static int move_edge(rf_search *search, const rf_grid *grid, const double *outfl
 {
     int changed = 0;
     for (size_t i = 0; i < grid->lines; ++i) {
-        if (grid->held[i])
-            continue;
-        for (size_t j = 0; j < grid->nodes; ++j) {
+        search->moved[i] = 0;
+        for (size_t j = 0; j < grid->nodes && !grid->held[i]; ++j) {
             const size_t at = i * grid->nodes + j;
             const int keep = search->free[at] ? search->pressure[at] > 0.0
                                               : search->source[at] - outflow[at] > threshold;
-            changed |= keep != search->free[at];
+            search->moved[i] |= keep != search->free[at];
             search->free[at] = (uint8_t)keep;
         }
+        changed |= search->moved[i];
     }
     return changed;
 }
@@ -184,7 +215,8 @@ static int search_from_here(rf_search *search, int level)
         rf_set_flow(grid, cells->around, cells->along, pressure, flow);
         for (size_t q = 0; q < all; ++q)
             flow[q] = search->source[q] - flow[q];
-        assemble(search, level);
+        assemble(search, level, set == 0);
+        ++search->work.solutions;
         rf_factorize_chain(&search->chain);
         rf_solve_free(search, level, flow, flow);
         for (size_t q = 0; q < all; ++q)

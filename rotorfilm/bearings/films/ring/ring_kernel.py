@@ -10,7 +10,7 @@ import numpy as np
 from ....model import Array
 from ....native.film_kernels import Batch, FilmKernel
 from ....native.library import loops
-from ....native.structs import GridStruct, RingStruct
+from ....native.structs import GridStruct, GridWorkStruct, RingStruct
 from ..cavitation import Cavitation
 from ..kernel_film import report_law
 from .ring_grids import Grid, Spans
@@ -32,6 +32,25 @@ class RingField(NamedTuple):
     face: Array
     pressure: Array
     side_flow: float
+
+
+class RingPotential(NamedTuple):
+    """The potential at one eccentricity for n sources on all grids, the finest first.
+
+    Attributes
+    ----------
+    value : ndarray, shape (3, n)
+        J.
+    slope : ndarray, shape (3, 2, n)
+        dJ/de; without entries where it was not asked for.
+    solutions, lines : int
+        Linear systems that were solved for all of it, and lines of the grids that were factorized.
+    """
+
+    value: Array
+    slope: Array
+    solutions: int
+    lines: int
 
 
 class RingKernel(FilmKernel):
@@ -107,21 +126,23 @@ class RingKernel(FilmKernel):
         self._report(status, e, w)
         return RingField(theta, face, pressure, side_flow.value)
 
-    def potential(self, eccentricity: Array, source: Array) -> tuple[Array, Array]:
-        """Return J, (3, n), and dJ/de, (3, 2, n), on all grids at one eccentricity (2,) for sources (2, n).
+    def potential(self, eccentricity: Array, source: Array, *, slopes: bool = True) -> RingPotential:
+        """Return J and, if asked for, dJ/de at one eccentricity (2,) for sources (2, n).
 
         That is the potential J = F.w/2 of a ruptured film: the discrete film minimizes
         12 (P.A P/2 - P.N w) over P >= 0 and J(e, w) is the minimum, so F = dJ/dw to the last digit of the
         discrete equations. With the lines of the grid held dJ/de = 6 P.(dA P). Openings are at pressure 0.
         """
         e, w = _float(eccentricity), _float(source)
-        levels, n, first = len(self.grids), w.shape[1], c_size_t()
-        J, slope = np.empty((levels, n)), np.empty((levels, 2, n))
-        places = [w.ctypes.data, J.ctypes.data, slope.ctypes.data]
-        status = loops()["rf_ring_potential"](byref(self.struct), e.ctypes.data, n, *places, byref(first))
+        levels, n, first, work = len(self.grids), w.shape[1], c_size_t(), GridWorkStruct()
+        J, slope = np.empty((levels, n)), np.empty((levels, 2, n) if slopes else 0)
+        places = [w.ctypes.data, J.ctypes.data, slope.ctypes.data if slopes else None]
+        status = loops()["rf_ring_potential"](
+            byref(self.struct), e.ctypes.data, n, *places, byref(work), byref(first)
+        )
         if status:
             self._report(status, e, w[:, first.value])
-        return J, slope
+        return RingPotential(J, slope, work.solutions, work.lines)
 
     def _report(self, status: int, e: Array, w: Array) -> None:
         """Raise what the status of a state (2,) says."""

@@ -103,7 +103,7 @@ class _Solver:
 
     def __call__(self, e: Array, phi: Array) -> tuple[Array, Array]:
         """Return J, (D,), and dJ/de, (2, D), at the eccentricity e for unit sources at the angles phi."""
-        levels, slopes = self._kernel.potential(e, np.stack([np.cos(phi), np.sin(phi)]))
+        levels, slopes, *_ = self._kernel.potential(e, np.stack([np.cos(phi), np.sin(phi)]))
         J = extrapolated(levels)
         if not np.all(J < 0.0):
             raise ConvergenceError(f"the film must carry, and does not at eccentricity {e.tolist()}")
