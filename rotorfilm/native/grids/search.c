@@ -210,8 +210,9 @@ static int search_from_here(rf_search *search, int level)
     for (size_t q = 0; q < all; ++q)
         largest = fmax(largest, fabs(search->source[q]));
     for (int set = 0; set < MOST_SETS; ++set) {
-        for (size_t q = 0; q < all; ++q)
-            pressure[q] = grid->value[q / nodes];
+        for (size_t i = 0; i < grid->lines; ++i)
+            for (size_t j = 0; j < nodes; ++j)
+                pressure[i * nodes + j] = grid->value[i];
         rf_set_flow(grid, cells->around, cells->along, pressure, flow);
         for (size_t q = 0; q < all; ++q)
             flow[q] = search->source[q] - flow[q];

@@ -24,6 +24,9 @@ from .unbalance_orbits import film_batch_units, orbit_films, require_one_unbalan
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
 
+COMMON_STEPS = 192
+"""Steps over a turn that are enough for most motions; by their cost the films are ordered."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class BladeLossRung(PeakRung[FilmRung]):
@@ -117,7 +120,8 @@ def blade_loss_ladder(scene: Scene, quantity: str) -> Ladder:
         raise InputError(f'excitation of kind "blade_loss" is required for {quantity}, got {got}')
     if scene.speed == 0.0:
         raise InputError("operation.speed must not be zero for a lost blade, got 0.0")
-    films, rotor = orbit_films(scene), scene.rotor
+    rotor, calls = scene.rotor, math.ceil(3 * COMMON_STEPS * scene.excitation.revolutions)
+    films = tuple(sorted(orbit_films(scene), key=lambda film: film.time(calls)))
     require_one_unbalance(rotor)
     rungs = [
         BladeLossRung(
