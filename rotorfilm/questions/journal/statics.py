@@ -17,7 +17,8 @@ from ...model import Array, prepared_tangent
 from ...results import Equilibrium
 from ...scenes.counted import Counted
 from ...scenes.journal.film_defects import corrected, one_defect
-from ...scenes.journal.film_rungs import FilmRung, point_films
+from ...scenes.journal.film_rung import FilmRung
+from ...scenes.journal.film_rungs import point_films
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene

@@ -25,7 +25,8 @@ from ...motion.periodic.harmonics import resized, rms
 from ...motion.periodic.orbit_newton import driven
 from ...rotors import RigidRotor
 from ...scenes.excitation_table import UnbalanceTable
-from ...scenes.journal.film_rungs import MAP_BOUNDS, FilmRung, turn_films
+from ...scenes.journal.film_rung import MAP_BOUNDS, FilmRung
+from ...scenes.journal.film_rungs import turn_films
 from ..orbit_place import UNITS, WALL, OrbitPlace, SolvedTurn
 
 if TYPE_CHECKING:

@@ -93,9 +93,7 @@ def build_groove_table(
     finer = finer_film(openings.grooves, resolution.cells)
     solved = np.unique(symmetric_nodes(openings, resolution.nodes[1])[0])
     columns = [
-        partial(potential.level, *place)
-        for j in solved.tolist()
-        for place in _column_places(resolution, j)
+        partial(potential.level, *place) for j in solved.tolist() for place in _column_places(resolution, j)
     ]
     references = [partial(reference, finer, slenderness, e, w) for e, w in checks.batches()]
     center = _center(potential)
@@ -184,7 +182,7 @@ def _smooth(values: Array) -> Array:
 
 
 def _column_places(resolution: Resolution, j: int) -> list[tuple[Array, Array]]:
-    """Return e, (2,), and the directions of the source, (count_s,), of the nodes off the center in one of e."""
+    """Return e, (2,), and directions of the source, (count_s,), of the nodes in one direction of e."""
     cells_x, count_e, count_s = resolution.nodes
     theta, beta = node_angles(count_e, count_s)
     along = np.array([np.cos(theta[j]), np.sin(theta[j])])
@@ -192,10 +190,8 @@ def _column_places(resolution: Resolution, j: int) -> list[tuple[Array, Array]]:
     return [(eccentricity * along, theta[j] + beta) for eccentricity in chi[1:]]
 
 
-def _exponents(
-    center: _Center, levels: Array, openings: AlignedOpenings, resolution: Resolution
-) -> Array:
-    """Return M at the nodes, (cells_x + 1, count_e, count_s), from ln(-J) in the directions of e that were solved.
+def _exponents(center: _Center, levels: Array, openings: AlignedOpenings, resolution: Resolution) -> Array:
+    """Return M at the nodes, (cells_x + 1, count_e, count_s), from ln(-J) at those that were solved.
 
     Parameters
     ----------

@@ -81,7 +81,8 @@ class GrooveMapTable(StoredTable):
             raise InputError("coefficients and log_center must be finite")
         if np.shape(self.bounds)[1:] != (3,) or len(self.bounds) > BANDS or not np.all(self.bounds >= 0.0):
             raise InputError(
-                f"bounds must have shape (bands, 3), {BANDS} bands at most, and not be negative, got {self.bounds!r}"
+                f"bounds must have shape (bands, 3), {BANDS} bands at most, and not be negative, "
+                f"got {self.bounds!r}"
             )
         if not (0.0 < self.reach < np.inf and 0.0 < self.crowding <= 1.0 and 0.0 < self.slenderness < np.inf):
             raise InputError(
@@ -95,7 +96,7 @@ class GrooveMapTable(StoredTable):
         return float(unstretch(self.reach))
 
     def bound(self, eccentricity_ratio: float, *, slopes: bool) -> float:
-        """Return the largest error [1] of the force, or of K and C, of a journal at rest; infinite if unknown."""
+        """Return the largest error [1] of the force at rest, or of K and C; infinite where it is unknown."""
         reaches, force, matrices = self.bounds.T
         errors = (matrices if slopes else force)[reaches >= eccentricity_ratio]
         return float(errors[0]) if len(errors) else math.inf
@@ -119,9 +120,7 @@ class GrooveMapTable(StoredTable):
         RotorfilmError
             If the content is not such a table, of another version, truncated or damaged.
         """
-        sizes, numbers, bands, center, coefficients = unseal(
-            "groove table", MAGIC, VERSION, _layout, content
-        )
+        sizes, numbers, bands, center, coefficients = unseal("groove table", MAGIC, VERSION, _layout, content)
         scalars, openings = np.split(numbers, [4])
         slenderness, reach, crowding, known = scalars.tolist()
         return cls(
