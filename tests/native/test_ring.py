@@ -8,6 +8,7 @@ from scipy.optimize import nnls
 from rotorfilm import Groove, JournalBearing, ReynoldsFilm, export_fmu
 from rotorfilm.bearings.films.cavitation import Complementarity, FullFilm, HalfSommerfeld
 from rotorfilm.bearings.films.geometry import FilmGeometry
+from rotorfilm.bearings.films.ring.ring_kernel import RingKernel
 
 GROOVES = (Groove(center=0.3, width=0.35), Groove(center=3.4, width=0.0))
 GEOMETRIES = {
@@ -99,3 +100,18 @@ def test_the_fmu_has_the_forces_of_the_bearing(tmp_path, version, supply):
     force = thick.force((3e-5, -4e-5), (1e-3, 0.0), 200.0)
     told = [result[f"b.force_{axis}"][-1] for axis in "xy"]
     assert told == pytest.approx(force.tolist(), rel=1e-13)
+
+
+def test_work_of_a_potential():
+    # 7.25 systems on 100, 50 and 25 lines, 154 lines factorized: half of them are empty, and the second and
+    # third system of a grid keep of the factor what the moved edge does not reach.
+    nodes = 48
+    geometry = FilmGeometry(grooves=GROOVES)
+    film = ReynoldsFilm(cells=(96, 8), geometry=geometry)
+    spans, grids = film.grids(SLENDERNESS)
+    turn = 2.0 * np.pi * np.arange(nodes) / nodes
+    kernel = RingKernel(SLENDERNESS, spans, grids, Complementarity())
+    found = kernel.potential(np.array([0.3, 0.4]), np.stack([np.cos(turn), np.sin(turn)]), slopes=False)
+    assert 6 * nodes <= found.solutions <= 7.3 * nodes
+    assert found.lines <= 155 * nodes
+    assert found.slope.size == 0

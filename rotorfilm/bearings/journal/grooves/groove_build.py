@@ -89,7 +89,7 @@ def build_groove_table(
         If the search for a ruptured zone does not end.
     """
     potential = _Solver(openings.grooves, slenderness, resolution.cells)
-    checks = BoundStates(resolution.largest_eccentricity_ratio)
+    checks = BoundStates(openings.grooves, resolution.largest_eccentricity_ratio)
     finer = finer_film(openings.grooves, resolution.cells)
     solved = np.unique(symmetric_nodes(openings, resolution.nodes[1])[0])
     columns = [
@@ -109,7 +109,7 @@ def expected_time(openings: AlignedOpenings, resolution: Resolution) -> float:
     """Return about how long a map takes on all cores of this machine [s], to weigh it against other films."""
     cells_x, count_e, count_s = resolution.nodes
     solved = np.unique(symmetric_nodes(openings, count_e)[0]).size
-    states = BoundStates(resolution.largest_eccentricity_ratio).e.shape[1]
+    states = BoundStates(openings.grooves, resolution.largest_eccentricity_ratio).e.shape[1]
     work = DIRECTIONS + solved * cells_x * count_s + CHECK_NODES * states
     return NODE_TIME * math.prod(resolution.cells) * work / cores()
 
