@@ -1,8 +1,8 @@
 """How far a map with openings is off: bounds from a film on twice the cells, for a journal at rest.
 
-A journal at rest in a bearing that turns has its source across the eccentricity. The states lie where the film
-is hardest to follow: towards the upper end of each band of eccentricity ratios, half of them all round the turn
-and half with the minimum film beside an opening, where the film begins or ends in the thinnest gap.
+A journal at rest in a bearing that turns has its source across the eccentricity. The states lie where the
+film is hardest to follow: towards the upper end of each band of eccentricity ratios, half of them all round
+the turn and half with the minimum film beside an opening, where the film begins or ends in the thinnest gap.
 """
 
 from __future__ import annotations
