@@ -49,7 +49,7 @@ _SCALAR: dict[str, list[Any]] = {
 }
 _LOOPS: dict[str, list[Any]] = {
     "rf_ring_film": [c_void_p] * 5,
-    "rf_ring_pair": [c_void_p, c_size_t, *[c_void_p] * 5],
+    "rf_ring_pair": [c_void_p, c_size_t, *[c_void_p] * 6],
     "rf_ring_field": [c_void_p] * 7,
     "rf_ring_potential": [c_void_p, c_void_p, c_size_t, *[c_void_p] * 5],
     "rf_ride": [c_void_p, c_void_p, c_double, c_int64, c_void_p, c_void_p],

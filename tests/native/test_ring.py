@@ -115,3 +115,12 @@ def test_work_of_a_potential():
     assert 6 * nodes <= found.solutions <= 7.3 * nodes
     assert found.lines <= 155 * nodes
     assert found.slope.size == 0
+
+
+def test_tangents_are_the_forces_and_derivatives_of_the_film():
+    film = ReynoldsFilm(cells=(48, 4), geometry=FilmGeometry(grooves=GROOVES))
+    rng = np.random.default_rng(3)
+    e, w = rng.uniform(-0.6, 0.6, (2, 5)), rng.normal(size=(2, 5))
+    force, slopes = RingKernel(SLENDERNESS, *film.grids(SLENDERNESS), film.cavitation).tangents(e, w)
+    np.testing.assert_array_equal(force, film.extrapolated(e, w, SLENDERNESS)[0])
+    np.testing.assert_array_equal(slopes, film.jacobian(e, w, SLENDERNESS))

@@ -9,7 +9,8 @@ from ...errors import InputError, require_kind
 from ...model import Array
 from ..films.geometry import FilmGeometry
 from ..films.law import FilmOptions
-from .reynolds_film import ReynoldsFilm, richardson
+from ..films.ring.ring_kernel import richardson
+from .reynolds_film import ReynoldsFilm
 
 
 @dataclass(frozen=True, kw_only=True)

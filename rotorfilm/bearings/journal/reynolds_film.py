@@ -19,7 +19,7 @@ from ..films.kernel_film import KernelFilm
 from ..films.law import require_film
 from ..films.ring.ring_field import film_field
 from ..films.ring.ring_grids import LONG, Grid, Spans, require_cells, ring_grids, ring_spans
-from ..films.ring.ring_kernel import RingKernel
+from ..films.ring.ring_kernel import ORDER, RingKernel, richardson
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,7 +58,7 @@ class ReynoldsFilm(KernelFilm):
         If the cells break their rule or another argument is of the wrong kind.
     """
 
-    order: ClassVar[int] = 2
+    order: ClassVar[int] = ORDER
     """Order of convergence of the force in the size of the cells."""
 
     order_with_supply: ClassVar[float] = 1.7
@@ -144,8 +144,3 @@ class ReynoldsFilm(KernelFilm):
 @lru_cache(maxsize=64)
 def _ring_kernel(film: ReynoldsFilm, slenderness: float) -> RingKernel:
     return RingKernel(slenderness, *film.grids(slenderness), film.cavitation)
-
-
-def richardson(fine: Array, coarse: Array, order: int = ReynoldsFilm.order) -> Array:
-    """Return the extrapolation of what errs by the given order, from a grid and one with half its cells."""
-    return fine + (fine - coarse) / (2.0**order - 1.0)

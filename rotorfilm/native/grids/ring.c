@@ -135,14 +135,14 @@ int rf_ring_film(const void *data, const double *e, const double *w, double *f, 
 }
 
 int rf_ring_pair(const rf_ring *ring, size_t n, const double *e, const double *w, double *fine, double *coarse,
-                 size_t *first)
+                 double *jacobian, size_t *first)
 {
     rf_search search;
     int status = rf_open_search(&search, ring);
     *first = 0;
     for (size_t i = 0; i < n && status == RF_OK; ++i) {
         const double here[2] = {e[i], e[n + i]}, source[2] = {w[i], w[n + i]};
-        double f[2][2] = {{0.0, 0.0}, {0.0, 0.0}};
+        double f[2][2] = {{0.0, 0.0}, {0.0, 0.0}}, slopes[8];
         *first = i;
         status = judge_state(here, source);
         if (status != RF_OK)
@@ -150,12 +150,16 @@ int rf_ring_pair(const rf_ring *ring, size_t n, const double *e, const double *w
         rf_place_journal(&search, here);
         for (int level = 1; level >= 0 && status == RF_OK; --level) {
             status = level == 1 ? solve_down_to(&search, 1, source) : rf_search_film(&search, 0, source);
+            if (jacobian && level == 0 && status == RF_OK)
+                set_derivatives(&search, slopes);
             take_force(&search, level, f[level]);
         }
         for (size_t k = 0; k < 2; ++k) {
             fine[k * n + i] = f[0][k];
             coarse[k * n + i] = f[1][k];
         }
+        for (size_t k = 0; k < 8 && jacobian && status == RF_OK; ++k)
+            jacobian[k * n + i] = slopes[k];
     }
     rf_close_search(&search);
     return status;

@@ -47,9 +47,10 @@ typedef struct rf_grid_work {
    end, RF_MEMORY. `data` is an rf_ring. */
 RF_EXPORT_LOOP int rf_ring_film(const void *data, const double *e, const double *w, double *f, double *jacobian);
 
-/* Forces on the finest grid and the next, rows of n one stride apart, as rf_film_batch. */
+/* Forces on the finest grid and the next, and d f/d(e, w) on the finest (8 rows) unless NULL, rows of n one stride
+   apart, as rf_film_batch. */
 RF_EXPORT_LOOP int rf_ring_pair(const rf_ring *ring, size_t n, const double *e, const double *w, double *fine,
-                           double *coarse, size_t *first);
+                           double *coarse, double *jacobian, size_t *first);
 
 /* One state on the finest grid: angles of lines and of faces (N), pressure (N x M) and the flow out of the
    ends of the film. */

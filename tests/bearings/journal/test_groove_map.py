@@ -14,7 +14,7 @@ from rotorfilm.bearings.films.cavitation import Complementarity
 from rotorfilm.bearings.films.geometry import FilmGeometry, Groove, Pad
 from rotorfilm.bearings.films.law import FilmLaw
 from rotorfilm.bearings.films.ring.ring_grids import LONG, ring_grids, ring_spans
-from rotorfilm.bearings.films.ring.ring_kernel import RingKernel
+from rotorfilm.bearings.films.ring.ring_kernel import RingKernel, richardson
 from rotorfilm.bearings.journal import GroovedMapFilm, JournalBearing, MapFilm, ReynoldsFilm, build_groove_map
 from rotorfilm.bearings.journal.grooves.groove_bounds import state_errors
 from rotorfilm.bearings.journal.grooves.groove_build import (
@@ -25,7 +25,6 @@ from rotorfilm.bearings.journal.grooves.groove_build import (
 )
 from rotorfilm.bearings.journal.grooves.openings import aligned_openings
 from rotorfilm.bearings.journal.map.map_film import packaged_table
-from rotorfilm.bearings.journal.reynolds_film import richardson
 from rotorfilm.errors import InputError, UndefinedDerivativeError, ValidityWarning
 from rotorfilm.linear import coefficients, equilibrium
 

@@ -15,6 +15,9 @@ from ..cavitation import Cavitation
 from ..kernel_film import report_law
 from .ring_grids import Grid, Spans
 
+ORDER = 2
+"""Order of convergence of a force, and of a potential, in the size of the cells."""
+
 
 class RingField(NamedTuple):
     """One state on the finest grid of N lines with M unknown nodes each.
@@ -108,9 +111,19 @@ class RingKernel(FilmKernel):
 
     def pair(self, eccentricity: Array, source: Array) -> tuple[Array, Array]:
         """Return the forces (2, n) on the finest grid and on the next; journals must be off the wall."""
+        return self._pair(eccentricity, source, None)
+
+    def tangents(self, eccentricity: Array, source: Array) -> tuple[Array, Array]:
+        """Return extrapolated forces (2, n), and d force / d (eccentricity, source) (2, 4, n) of the finest."""
+        slopes = np.empty((2, 4, eccentricity.shape[1]))
+        return richardson(*self._pair(eccentricity, source, slopes)), slopes
+
+    def _pair(self, eccentricity: Array, source: Array, slopes: Array | None) -> tuple[Array, Array]:
         e, w, (fine, coarse) = _float(eccentricity), _float(source), np.empty((2, *eccentricity.shape))
         first = c_size_t()
-        places = [numbers.ctypes.data for numbers in (e, w, fine, coarse)]
+        places = [
+            None if numbers is None else numbers.ctypes.data for numbers in (e, w, fine, coarse, slopes)
+        ]
         status = loops()["rf_ring_pair"](byref(self.struct), e.shape[1], *places, byref(first))
         if status:
             self._report(status, e[:, first.value], w[:, first.value])
@@ -148,6 +161,11 @@ class RingKernel(FilmKernel):
         """Raise what the status of a state (2,) says."""
         if status:
             report_law(Batch(w, status, 0), e[:, None], w[:, None], self)
+
+
+def richardson(fine: Array, coarse: Array, order: int = ORDER) -> Array:
+    """Return the extrapolation of what errs by the given order, from a grid and one with half its cells."""
+    return fine + (fine - coarse) / (2.0**order - 1.0)
 
 
 def _float(numbers: Array) -> Array:

@@ -13,8 +13,8 @@ import numpy as np
 
 from ....model import Array
 from ....native import GrooveMapKernel
-from ...films.geometry import TURN, FilmGeometry, Groove
-from ..reynolds_film import ReynoldsFilm
+from ...films.geometry import TURN, Groove
+from ...films.ring.ring_kernel import RingKernel
 from .groove_table import GrooveMapTable
 
 BANDS = (0.5, 0.8, 0.9)
@@ -96,16 +96,10 @@ def _beside(grooves: tuple[Groove, ...], shares: Array) -> Array:
     return np.array(angles)
 
 
-def finer_film(grooves: tuple[Groove, ...], cells: tuple[int, int]) -> ReynoldsFilm:
-    """Return the film on twice the cells of a map."""
-    around, along = cells
-    return ReynoldsFilm(cells=(2 * around, 2 * along), geometry=FilmGeometry(grooves=grooves))
-
-
-def reference(film: ReynoldsFilm, slenderness: float, e: Array, w: Array) -> Array:
+def reference(film: RingKernel, e: Array, w: Array) -> Array:
     """Return the extrapolated force and the derivatives, (10, n), of the film at states (2, n)."""
-    force, _ = film.extrapolated(e, w, slenderness)
-    return np.concatenate([force, film.jacobian(e, w, slenderness).reshape(8, -1)])
+    force, slopes = film.tangents(e, w)
+    return np.concatenate([force, slopes.reshape(8, -1)])
 
 
 def state_errors(force: Array, slopes: Array, exact: Array, exact_slopes: Array) -> tuple[Array, Array]:

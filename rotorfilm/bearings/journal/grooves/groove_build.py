@@ -18,10 +18,9 @@ from ...films.map_fit import node_eccentricities
 from ...films.map_table import stretch
 from ...films.quintic import periodic_quintic, periodic_quintic_coefficients, quintic_coefficients
 from ...films.ring.ring_grids import LONG, ring_grids, ring_spans
-from ...films.ring.ring_kernel import RingKernel, RingPotential
+from ...films.ring.ring_kernel import RingKernel, RingPotential, richardson
 from ...films.table_pieces import cores, made_pieces
-from ..reynolds_film import richardson
-from .groove_bounds import BoundStates, finer_film, reference
+from .groove_bounds import BoundStates, reference
 from .groove_table import DIRECTIONS, GrooveMapTable
 from .openings import AlignedOpenings
 
@@ -90,12 +89,13 @@ def build_groove_table(
     """
     potential = _Solver(openings.grooves, slenderness, resolution.cells)
     checks = BoundStates(openings.grooves, resolution.largest_eccentricity_ratio)
-    finer = finer_film(openings.grooves, resolution.cells)
+    around, along = resolution.cells
+    finer = opened_film(openings.grooves, slenderness, (2 * around, 2 * along))
     solved = np.unique(symmetric_nodes(openings, resolution.nodes[1])[0])
     columns = [
         partial(potential.level, *place) for j in solved.tolist() for place in _column_places(resolution, j)
     ]
-    references = [partial(reference, finer, slenderness, e, w) for e, w in checks.batches()]
+    references = [partial(reference, finer, e, w) for e, w in checks.batches()]
     center = _center(potential)
     found = made_pieces([*columns, *references], report, TITLE)
     levels = np.reshape(found[: len(columns)], (len(solved), resolution.nodes[0], -1))
@@ -134,13 +134,18 @@ def _fitted(
     )
 
 
+def opened_film(grooves: tuple[Groove, ...], slenderness: float, cells: tuple[int, int]) -> RingKernel:
+    """Return the two-dimensional film of a bearing with openings."""
+    geometry = FilmGeometry(grooves=grooves)
+    grids = ring_grids(geometry, *cells, max(slenderness, LONG))
+    return RingKernel(slenderness, ring_spans(geometry), grids, Complementarity())
+
+
 class _Solver:
     """The potential of one bearing by Richardson extrapolation."""
 
     def __init__(self, grooves: tuple[Groove, ...], slenderness: float, cells: tuple[int, int]) -> None:
-        geometry = FilmGeometry(grooves=grooves)
-        spans, grids = ring_spans(geometry), ring_grids(geometry, *cells, max(slenderness, LONG))
-        self._kernel = RingKernel(slenderness, spans, grids, Complementarity())
+        self._kernel = opened_film(grooves, slenderness, cells)
 
     def level(self, e: Array, phi: Array) -> Array:
         """Return ln(-J), (D,), at the eccentricity e for unit sources at the angles phi."""
