@@ -22,16 +22,6 @@ static inline size_t below(const rf_chain *chain, size_t p)
     return left < chain->half ? left : chain->half;
 }
 
-/* Take what column p leaves from the columns behind it, from the `first` on. */
-static inline void eliminate(rf_chain *chain, size_t p, size_t first)
-{
-    const size_t stride = chain->half + 1, reach = below(chain, p);
-    double *column = chain->band + p * stride;
-    for (size_t k = first; k <= reach; ++k)
-        if (column[k] != 0.0)
-            subtract(reach + 1 - k, column[k], column + k, column + k * stride);
-}
-
 RF_CLONES
 static void factorize_band(rf_chain *chain)
 {
@@ -40,16 +30,20 @@ static void factorize_band(rf_chain *chain)
         const size_t start = line * half;
         if (chain->state[line] != RF_LINE_NEW)
             continue;
-        if (line > 0 && chain->state[line - 1] == RF_LINE_KEPT)
-            for (size_t j = 0; j < half; ++j)
-                eliminate(chain, start - half + j, half - j);
-        for (size_t p = start; p < start + half; ++p) {
+        /* A kept line before it takes from it once more what it took before. */
+        const size_t from = line > 0 && chain->state[line - 1] == RF_LINE_KEPT ? start - half : start;
+        for (size_t p = from; p < start + half; ++p) {
             double *column = chain->band + p * stride;
-            const double inverse = 1.0 / sqrt(column[0]);
-            column[0] = inverse;
-            for (size_t k = 1; k <= below(chain, p); ++k)
-                column[k] *= inverse;
-            eliminate(chain, p, 1);
+            const size_t reach = below(chain, p);
+            if (p >= start) {
+                const double inverse = 1.0 / sqrt(column[0]);
+                column[0] = inverse;
+                for (size_t k = 1; k <= reach; ++k)
+                    column[k] *= inverse;
+            }
+            for (size_t k = p < start ? start - p : 1; k <= reach; ++k)
+                if (column[k] != 0.0)
+                    subtract(reach + 1 - k, column[k], column + k, column + k * stride);
         }
     }
 }

@@ -74,22 +74,6 @@ static void refine_free(rf_search *search, const rf_grid *grid)
     }
 }
 
-static size_t emptiest_line(const uint8_t *free, const rf_grid *grid, size_t *fewest)
-{
-    size_t best = 0;
-    *fewest = grid->nodes + 1;
-    for (size_t i = 0; i < grid->lines; ++i) {
-        size_t count = 0;
-        for (size_t j = 0; j < grid->nodes; ++j)
-            count += free[i * grid->nodes + j];
-        if (count < *fewest) {
-            best = i;
-            *fewest = count;
-        }
-    }
-    return best;
-}
-
 /* The coefficients of one line: its diagonal, the couplings along it and those to the next line. */
 static void set_line(const rf_search *search, int level, size_t i, size_t stride, double *diagonal,
                      double *along, double *after)
@@ -115,17 +99,19 @@ static int has_film(const rf_search *search, const rf_grid *grid, size_t line)
     return memchr(search->free + line * grid->nodes, 1, grid->nodes) != NULL;
 }
 
-/* Tell which lines of the chain are to be factorized: all of them, or those that a moved one reaches. A line
-   that is cut stays so as long as it is empty. */
+/* Tell which lines of the chain are to be factorized: all of them, or those that a moved one reaches. The ring
+   is cut at an empty line if there is one, and stays so as long as that is empty. */
 static void set_states(rf_search *search, const rf_grid *grid, int all)
 {
     const size_t lines = grid->lines;
     const uint8_t *moved = search->moved;
     rf_chain *chain = &search->chain;
     if (all || chain->bordered || has_film(search, grid, search->cut)) {
-        size_t fewest;
-        search->cut = emptiest_line(search->free, grid, &fewest);
-        chain->bordered = fewest > 0;
+        size_t empty = 0;
+        while (empty < lines && has_film(search, grid, empty))
+            ++empty;
+        chain->bordered = empty == lines;
+        search->cut = empty % lines;
         all = 1;
     }
     for (size_t k = 0; k < lines - 1; ++k) {

@@ -114,7 +114,7 @@ class RingKernel(FilmKernel):
         return self._pair(eccentricity, source, None)
 
     def tangents(self, eccentricity: Array, source: Array) -> tuple[Array, Array]:
-        """Return extrapolated forces (2, n), and d force / d (eccentricity, source) (2, 4, n) of the finest."""
+        """Return extrapolated forces (2, n), and d force / d (eccentricity, source), shape (2, 4, n)."""
         slopes = np.empty((2, 4, eccentricity.shape[1]))
         return richardson(*self._pair(eccentricity, source, slopes)), slopes
 
