@@ -57,8 +57,7 @@ def coefficients(
     groove: Grooves = None,
 ) -> Said:
     """Find equilibrium, stiffness and damping of a journal bearing; numbers without a unit are SI."""
-    from ..linear import coefficients as film_coefficients
-    from ..linear import equilibrium
+    from ..linear import coefficients as film_coefficients, equilibrium
     from ..scenes.journal.echo import bearing_data, film_name
     from ..scenes.journal.journal_remarks import film_remarks
     from ..scenes.lubricant_table import LubricantTable
