@@ -7,11 +7,9 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from ..progress import Report
 from . import printing as console
-from .command import Said
+from .command import Option, Said
 from .solve_command import print_answer
 
 if TYPE_CHECKING:
@@ -20,7 +18,7 @@ if TYPE_CHECKING:
 
 def demo(
     report: Report,
-    out: Annotated[Path, typer.Option(help="Folder for results, FMUs and charts.")] = Path("rotorfilm-demo"),
+    out: Annotated[Path, Option(help="Folder for results, FMUs and charts.")] = Path("rotorfilm-demo"),
 ) -> Said:
     """Run the whole way on a real bearing: equilibrium, stability, FMUs, coupled simulation, charts."""
     report(0.0, "packages")

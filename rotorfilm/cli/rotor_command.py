@@ -8,12 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-import typer
 
 from ..progress import Report
 from ..results import to_plain, write_csv
 from . import printing as console
-from .command import Said
+from .command import Argument, Option, Said
 
 if TYPE_CHECKING:
     from ..scenes.shaft.solve_shaft import RotorAnswer
@@ -23,10 +22,10 @@ RPM = 30.0 / math.pi
 
 
 def rotor(
-    scene: Annotated[Path, typer.Argument(help="Scene file with a table shaft.", metavar="SCENE.toml")],
+    scene: Annotated[Path, Argument(help="Scene file with a table shaft.", metavar="SCENE.toml")],
     report: Report,
     out: Annotated[
-        Path | None, typer.Option(help="Folder for pictures (PNG), tables (CSV) and the answer (JSON).")
+        Path | None, Option(help="Folder for pictures (PNG), tables (CSV) and the answer (JSON).")
     ] = None,
 ) -> Said:
     """Find critical speeds, whirl modes, the threshold of stability and the unbalance response of a rotor."""
