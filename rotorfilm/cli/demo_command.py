@@ -38,7 +38,7 @@ def _print_all(result: DemoResult, folder: Path) -> None:
     print_demo(result)
     notes = {folder / "demo.png": "overview: orbits, coupling error, whirl, force error"}
     files = [(path.name, notes.get(path, "")) for path in sorted(folder.iterdir())]
-    console.print_rows("files", files)
+    console.print_rows(f"files in {folder}", files)
 
 
 def print_demo(result: DemoResult) -> None:

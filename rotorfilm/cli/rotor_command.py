@@ -13,6 +13,7 @@ from ..progress import Report
 from ..results import to_plain, write_csv
 from . import printing as console
 from .command import Argument, Option, Said
+from .solve_command import remark_rows
 
 if TYPE_CHECKING:
     from ..scenes.shaft.solve_shaft import RotorAnswer
@@ -64,7 +65,7 @@ def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
         beyond = found.speed is not None and turned > found.speed
         remark = ", beyond the threshold" if beyond else ""
         rows.append((f"largest {name}", f"{size} at {turned * RPM:.6g} rpm{remark}"))
-    return rows
+    return rows + remark_rows(answer.remarks)
 
 
 def plain_rotor(answer: RotorAnswer) -> dict[str, Any]:
@@ -86,6 +87,7 @@ def plain_rotor(answer: RotorAnswer) -> dict[str, Any]:
         },
         "response_speeds": [] if answer.response is None else np.asarray(answer.response.frequency).tolist(),
         "amplitudes": to_plain(dict(answer.amplitudes)),
+        "remarks": list(answer.remarks),
     }
 
 
