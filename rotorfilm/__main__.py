@@ -6,9 +6,9 @@ import sys
 def main() -> None:
     """Run the program with the arguments that it was started with."""
     if sys.argv[1:] == ["--version"]:
-        from . import __version__
+        from .sources import installed_version
 
-        sys.stdout.write(f"rotorfilm {__version__}\n")
+        sys.stdout.write(f"rotorfilm {installed_version()}\n")
     else:
         from .cli.main import main as run
 

@@ -126,7 +126,7 @@ class LatePackage(ModuleType):
 
     def __getattr__(self, name: str) -> Any:
         if name == "__version__":
-            return _version()
+            return installed_version()
         if name not in homes(self.__name__):
             raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}")
         found = getattr(import_module(homes(self.__name__)[name].module), name)
@@ -157,7 +157,8 @@ def homes(package: str) -> dict[str, Home]:
     return found
 
 
-def _version() -> str:
+def installed_version() -> str:
+    """Return the version of the installed distribution."""
     from importlib.metadata import version
 
     return version(PACKAGE)

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from ..errors import FileWarning, InputError, RotorfilmError, SceneError, ValidityWarning
+from ..sources import installed_version
 from . import printing as console
 from .command import BAD_INPUT, FAILED, Group, Parser, function_of, run_command
 
@@ -122,9 +123,7 @@ def _show(program: str, group: Group, words: Sequence[str]) -> None:
     for name, below in GROUPS.items() if group is ALL else ():
         listed.add_parser(name, help=below.text, add_help=False)
     if "version" in parser.parse_args(words) and words:
-        from .. import __version__
-
-        sys.stdout.write(f"rotorfilm {__version__}\n")
+        sys.stdout.write(f"rotorfilm {installed_version()}\n")
     else:
         parser.print_help(sys.stderr)
         sys.exit(BAD_INPUT)

@@ -71,7 +71,7 @@ class Keyed(NamedTuple, Generic[T]):
 
 
 TableType = type[T] | Keyed[T] | Callable[[], Keyed[T]]
-"""What a table of a file is read into: a class, one with readers beside it, or a function that imports it."""
+"""What a table is read into: a dataclass with fields `Annotated[type, reader]`, or one with readers beside it."""
 
 
 @dataclass(frozen=True)
@@ -117,7 +117,6 @@ class Variant:
     tag : str
         That key.
     variants : mapping of str to TableType
-        By name.
     """
 
     tag: str
@@ -187,7 +186,6 @@ def read_table(table: TableType[T], where: str, data: Any) -> T:
     Parameters
     ----------
     table : TableType
-        A dataclass whose fields are annotated as `Annotated[type, reader]`, or one with readers beside it.
     where : str
         `FILE: dotted.key.`, the prefix of each key in messages.
     data : Mapping
@@ -251,9 +249,8 @@ def unit_of(table: TableType[Any], path: Sequence[str]) -> str | None:
 
 def keyed(table: TableType[T]) -> Keyed[T]:
     """Return a table with its readers beside it; those of a plain dataclass are in its annotations."""
-    if isinstance(table, Keyed):
-        return table
-    return Keyed(table, _annotated(table)) if isinstance(table, type) else table()
+    made = Keyed(table, _annotated(table)) if isinstance(table, type) else table
+    return made if isinstance(made, Keyed) else made()
 
 
 @cache
