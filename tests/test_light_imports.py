@@ -12,7 +12,7 @@ FAR = {"scipy", "control", "matplotlib", "fmpy", "pythonfmu", "xarray", "platfor
 
 OTHER_PARTS = {"motion", "cosim", "comparisons", "charts", "sweeps", "questions", "rotors", "fmu", "cli"}
 OTHER_FAMILIES = {"bearings.damper", "bearings.contact", "bearings.bush"}
-TABLES = {"bearings.films.map_fit", "bearings.films.quintic", "bearings.films.ring"}
+TABLES = {"bearings.films.map_fit", "bearings.films.quintic", "bearings.journal.grooves.grooved_film"}
 """What makes a map where there is none."""
 
 CALL = "import sys; sys.argv[1:] = {!r}; from rotorfilm.__main__ import main; main()"
@@ -33,7 +33,9 @@ PATHS = {
     "coefficients": (
         CALL.format(COEFFICIENTS.split()),
         {"rich.progress"},
-        OTHER_PARTS - {"cli"} | OTHER_FAMILIES | {"cli.chart_commands", "linear.whirl", "scenes.scene"},
+        OTHER_PARTS - {"cli"}
+        | OTHER_FAMILIES
+        | {"cli.chart_commands", "linear.whirl", "scenes.scene", *TABLES},
     ),
 }
 

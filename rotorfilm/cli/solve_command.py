@@ -63,6 +63,8 @@ def _question(path: Path, scene: Scene, explain: bool) -> Said:
 
 def make_map(bearing: JournalBearing, report: Report) -> None:
     """Make the map of a bearing that needs one of its own, unless it lies on disk."""
+    if not (bearing.grooves or bearing.pads):
+        return
     from ..bearings.journal import GroovedMapFilm, build_groove_map
 
     if isinstance(bearing.fitted_film, GroovedMapFilm):

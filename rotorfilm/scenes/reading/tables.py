@@ -71,7 +71,7 @@ class Keyed(NamedTuple, Generic[T]):
 
 
 TableType = type[T] | Keyed[T] | Callable[[], Keyed[T]]
-"""What a table is read into: a dataclass with fields `Annotated[type, reader]`, or one with readers beside it."""
+"""What a table is read into: a dataclass of fields `Annotated[type, reader]`, or one beside its readers."""
 
 
 @dataclass(frozen=True)
