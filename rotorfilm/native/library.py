@@ -7,7 +7,6 @@ import sys
 from ctypes import c_double, c_int, c_int64, c_size_t, c_void_p
 from functools import cache
 from hashlib import sha256
-from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 from typing import Any
 
@@ -132,6 +131,8 @@ def source_digests(folder: Path) -> str:
 
 def _installed_folder() -> Path | None:
     """Return the folder of the installed distribution that holds the libraries and their record."""
+    from importlib.metadata import PackageNotFoundError, distribution
+
     package = __name__.partition(".")[0]
     try:
         folder = Path(str(distribution(package).locate_file(f"{package}/native")))

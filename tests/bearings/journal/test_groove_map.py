@@ -7,8 +7,7 @@ import re
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from rotorfilm.bearings.films.cavitation import Complementarity
 from rotorfilm.bearings.films.geometry import FilmGeometry, Groove, Pad

@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
-from hypothesis import strategies as st
+from hypothesis import assume, given, settings, strategies as st
 
 from rotorfilm import JournalBearing, LinearBearing, ShortFilm, Sprung
 from rotorfilm.motion.compiled.film_calls import film_call
