@@ -210,5 +210,6 @@ class MarchStruct(ctypes.Structure):
         ("jacobians", c_int64),
         ("steps", c_int64),
         ("rejected", c_int64),
+        ("walls", c_int64),
         ("z", c_void_p),
     ]

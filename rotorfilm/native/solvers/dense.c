@@ -11,6 +11,16 @@ static void swap_rows(size_t columns, double *a, size_t i, size_t j)
     }
 }
 
+/* Subtract a multiple of the row from[n], by[m] that clears the first of of[n], to[m]. */
+static void subtract(size_t n, size_t m, double *of, const double *from, double *to, const double *by)
+{
+    const double factor = of[0] / from[0];
+    for (size_t j = 0; factor != 0.0 && j < n; ++j)
+        of[j] -= factor * from[j];
+    for (size_t j = 0; factor != 0.0 && j < m; ++j)
+        to[j] -= factor * by[j];
+}
+
 void rf_eliminate(size_t n, double *q, size_t m, double *p)
 {
     for (size_t k = 0; k < n; ++k) {
@@ -19,17 +29,16 @@ void rf_eliminate(size_t n, double *q, size_t m, double *p)
             pivot = fabs(q[i * n + k]) > fabs(q[pivot * n + k]) ? i : pivot;
         swap_rows(n, q, k, pivot);
         swap_rows(m, p, k, pivot);
-        for (size_t i = 0; i < n; ++i) {
-            const double factor = i == k ? 0.0 : q[i * n + k] / q[k * n + k];
-            for (size_t j = k; factor != 0.0 && j < n; ++j)
-                q[i * n + j] -= factor * q[k * n + j];
-            for (size_t j = 0; factor != 0.0 && j < m; ++j)
-                p[i * m + j] -= factor * p[k * m + j];
-        }
+        for (size_t i = k + 1; i < n; ++i)
+            subtract(n - k, m, q + i * n + k, q + k * n + k, p + i * m, p + k * m);
     }
-    for (size_t i = 0; i < n; ++i)
+    for (size_t k = n; k-- > 0;) {
         for (size_t j = 0; j < m; ++j)
-            p[i * m + j] /= q[i * n + i];
+            p[k * m + j] /= q[k * n + k];
+        for (size_t i = 0; i < k; ++i)
+            for (size_t j = 0; j < m; ++j)
+                p[i * m + j] -= q[i * n + k] * p[k * m + j];
+    }
 }
 
 /* Four sums at once: one alone would wait for each of its additions. */
