@@ -182,6 +182,33 @@ class SpeedsStruct(ctypes.Structure):
     ]
 
 
+class SprungStruct(ctypes.Structure):
+    """rf_sprung of springs.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("film", c_void_p),
+        ("of", c_void_p),
+        ("stiffness", c_double),
+        ("still", c_int),
+    ]
+
+
+class ShakenStruct(ctypes.Structure):
+    """rf_shaken of shake.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("film", c_void_p),
+        ("of", c_void_p),
+        ("mass", c_double),
+        ("speed", c_double),
+        ("clearance", c_double),
+        ("step", c_double),
+        ("calls", c_int64),
+        ("done", c_int64),
+        ("left_map", c_int),
+    ]
+
+
 SLOTS, STEPS = 24, 400
 """Of march.h: lengths of steps whose tables are kept, and lengths that there are."""
 
