@@ -167,6 +167,7 @@ class JournalsStruct(ctypes.Structure):
         ("spring", c_void_p),
         ("damper", c_void_p),
         ("lengths", c_void_p),
+        ("walls", c_void_p),
     ]
 
 

@@ -13,8 +13,9 @@ from ...model import Array, Dynamic, Reaction, stops
 from ...results import Trajectory
 from ...signals import FORCE_OUTPUTS, names
 from .coupled import Coupled
-from .integration import CONTACT_GAP, Integration, integrate
+from .integration import Integration, integrate
 from ..compiled.compiled_form import compiled_form
+from ..compiled.journal_films import CONTACT_GAP
 from ..compiled.simulate_rotor import simulate_rotor
 from ..compiled.times import require_longest_step, sample_times
 

@@ -15,6 +15,8 @@ int rf_set_forces(const rf_journals *journals, const double *motion, double spee
         for (int k = 0; k < 4; ++k)
             state[k] = journals->rest[4 * b + k] + motion[4 * b + k];
         state[4] = speed;
+        if (hypot(state[0], state[1]) >= journals->walls[b])
+            return RF_AT_WALL;
         int status = journals->films[b](journals->of[b], state, answer, jacobian);
         if (status == RF_UNDEFINED) {
             /* The limit along a trace of velocity: no film has a derivative without a source. */

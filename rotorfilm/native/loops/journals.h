@@ -15,7 +15,8 @@ typedef struct rf_journals {
     const void *const *of;
     const double *rest;            /* 4 n: motion about which that of the rotor is counted */
     const double *spring, *damper; /* 2 n [N/m], [N s/m] */
-    const double *lengths;         /* n: clearances [m] */
+    const double *lengths;         /* n: typical displacements [m] */
+    const double *walls;           /* n: eccentricities at which a journal counts as touching [m] */
 } rf_journals;
 
 /* Films' forces and springs (2 n) at one motion (4 n), and slopes by it (2 n x 4); the most severe status. */
