@@ -14,6 +14,7 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Iterable, Sequence
 from ctypes import CFUNCTYPE, POINTER, c_double, c_int, c_void_p
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -100,13 +101,13 @@ def kernel_call(reaction: Reaction) -> FilmCall | None:
 def _bound(film: object) -> FilmCall | None:
     if not isinstance(film, BoundKernel):
         return None
-    address = ctypes.cast(functions()["rf_journal_at"], c_void_p).value or 0
     data = ctypes.addressof(film.kernel._struct)
-    return FilmCall(address=address, data=data, owner=film, beyond=film.beyond)
+    return FilmCall(address=_address("rf_journal_at"), data=data, owner=film, beyond=film.beyond)
 
 
+@cache
 def _address(name: str) -> int:
-    return ctypes.cast(loops()[name], c_void_p).value or 0
+    return ctypes.cast({**functions(), **loops()}[name], c_void_p).value or 0
 
 
 def _called_back(reaction: Reaction) -> FilmCall:

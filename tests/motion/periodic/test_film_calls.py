@@ -33,7 +33,9 @@ BEARINGS = {
 def answer(bearing, state):
     call = film_call(bearing)
     films, of = np.array([[call.address], [call.data]], dtype=np.uintp)
-    journals = JournalFilms(films, of, np.zeros(4), np.zeros(2), np.zeros(2), np.array([1e-4]), np.array([np.inf]))
+    journals = JournalFilms(
+        films, of, np.zeros(4), np.zeros(2), np.zeros(2), np.array([1e-4]), np.array([np.inf])
+    )
     status, force, slope = journals.forces(state[:4, None], state[4])
     return status, force[:, 0], slope[:, :, 0]
 
@@ -50,7 +52,9 @@ def test_compiled_force_is_that_of_the_bearing(name, chi, angle, velocity, speed
     bearing = BEARINGS[name]
     position = 1e-4 * chi * np.array([np.cos(angle), np.sin(angle)])
     state = np.array([*position, *velocity, speed])
-    source = state[2:4] / 1e-4 + 0.5 * (name != "damper") * speed * np.array([position[1], -position[0]]) / 1e-4
+    source = (
+        state[2:4] / 1e-4 + 0.5 * (name != "damper") * speed * np.array([position[1], -position[0]]) / 1e-4
+    )
     assume(np.hypot(*source) >= 1e-3)  # no derivative there
     _, force, slope = answer(bearing, state)
     exact = bearing.force(position, state[2:4], speed)
