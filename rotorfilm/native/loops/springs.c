@@ -17,8 +17,9 @@ int rf_springs_at(const void *of, const double *state, double *f, double *jacobi
     return RF_OK;
 }
 
-int rf_sprung_at(const rf_sprung *of, const double *state, double *f, double *jacobian)
+int rf_sprung_at(const void *sprung, const double *state, double *f, double *jacobian)
 {
+    const rf_sprung *of = sprung;
     const double at[5] = {state[0], state[1], state[2], state[3], of->still ? 0.0 : state[4]};
     const int status = of->film(of->of, at, f, jacobian);
     for (int i = 0; i < 2; ++i) {

@@ -7,7 +7,7 @@
 /* A spring and a damper: of is K and C row by row. */
 RF_EXPORT_LOOP int rf_springs_at(const void *of, const double *state, double *f, double *jacobian);
 
-/* A film beside equal springs along x and y; one whose journal does not spin is asked at speed 0. */
+/* An rf_sprung: a film beside equal springs along x and y; one whose journal does not spin is asked at speed 0. */
 typedef struct rf_sprung {
     rf_response film;
     const void *of;
@@ -15,6 +15,6 @@ typedef struct rf_sprung {
     int still;
 } rf_sprung;
 
-RF_EXPORT_LOOP int rf_sprung_at(const rf_sprung *of, const double *state, double *f, double *jacobian);
+RF_EXPORT_LOOP int rf_sprung_at(const void *of, const double *state, double *f, double *jacobian);
 
 #endif
