@@ -100,6 +100,7 @@ class RingStruct(ctypes.Structure):
         ("pinned", c_int32),
         ("ruptured", c_int32),
         ("clipped", c_int32),
+        ("extrapolated", c_int32),
     ]
 
 

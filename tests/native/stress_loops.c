@@ -75,6 +75,7 @@ static void read_ring(const char *path, rf_ring *ring)
     ring->ruptured = next_number(file) != 0.0;
     ring->clipped = next_number(file) != 0.0;
     ring->pinned = next_number(file) != 0.0;
+    ring->extrapolated = next_number(file) != 0.0;
     ring->spans = (int32_t)next_number(file);
     ring->start = numbers_of(file, (size_t)ring->spans);
     ring->extent = numbers_of(file, (size_t)ring->spans);

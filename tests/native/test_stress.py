@@ -187,21 +187,22 @@ def test_no_misuse_and_no_damaged_file_breaks_a_film_on_a_grid(unzipped, stress,
     run(stress, "a token", "40", "--", "--", *maybe[30:])
 
 
-def ring_numbers(film, slenderness):
+def ring_numbers(film, slenderness, extrapolated):
     """Yield the numbers of a ring in the order of stress_loops.c."""
     spans, grids = film.grids(slenderness)
-    flags = film.cavitation.searched, film.cavitation.clipped, spans.pinned
+    flags = film.cavitation.searched, film.cavitation.clipped, spans.pinned, extrapolated
     yield from (slenderness, *flags, len(spans.start), *spans.start, *spans.extent)
     for grid in grids:
         yield from (len(grid.span), len(grid.width), *grid.span, *grid.line, *grid.face)
         yield from (*grid.held, *grid.value, *grid.width, *grid.conductance)
 
 
-@pytest.mark.parametrize("grooves", [(), (Groove(center=1.5, width=0.4),)])
-def test_no_numbers_break_a_loop_over_films(stress, tmp_path, grooves):
+@pytest.mark.parametrize(("grooves", "extrapolated"), [((), True), ((Groove(center=1.5, width=0.4),), False)])
+def test_no_numbers_break_a_loop_over_films(stress, tmp_path, grooves, extrapolated):
     film = replace(grid_bearing(), grooves=grooves, supply_pressure=0.0).fitted_film
     path = tmp_path / "ring.txt"
-    path.write_text(" ".join(repr(float(number)) for number in ring_numbers(film, 0.3)), encoding="utf-8")
+    numbers = ring_numbers(film, 0.3, extrapolated)
+    path.write_text(" ".join(repr(float(number)) for number in numbers), encoding="utf-8")
     run(stress, "--loops", str(path), "80")
 
 
