@@ -14,7 +14,7 @@ import pytest
 from fmpy.fmi3 import FMU3Model, FMU3Slave
 
 from rotorfilm.fmu.native.native_backend import Export, native_model_variables
-from rotorfilm.native.kernel_table import kernel_row
+from rotorfilm.native.kernel_table import carried_library
 from rotorfilm.native.library import library_path
 from rotorfilm.native.resource import FILE_NAME, pack
 
@@ -110,7 +110,7 @@ def unzipped(tmp_path):
         for name in FOLDERS:
             (root / name).mkdir(parents=True, exist_ok=True)
         for name in FOLDERS[:2]:
-            shutil.copy(library_path(kernel_row(spec.kernel).library), root / name / "m.so")
+            shutil.copy(library_path(carried_library(spec)), root / name / "m.so")
         (root / "resources" / FILE_NAME).write_bytes(pack(spec, token, variables))
         references = {variable.name: reference for reference, variable in enumerate(variables)}
         return Folder(root, references, clients)
