@@ -17,10 +17,11 @@ def compiled_form(rotor: Dynamic, reaction: Reaction) -> MountedRotor | None:
 
     It takes it where
 
-    - each bearing has no states, and a force in the C library: a journal bearing or a damper whose film has a
-      kernel (map, short film, grooved map, two-dimensional film), a linear one, or such a one beside springs;
-    - the rotor is a `RigidRotor` or a `FlexibleRotor`, mounted or not, whose equations no subclass has changed,
-      without a loss factor;
+    - each bearing has no states, and a force in the C library: a journal bearing or a damper whose film has
+      a kernel (map, short film, grooved map, two-dimensional film), a linear one, or one of these beside
+      springs;
+    - the rotor is a `RigidRotor` or a `FlexibleRotor`, mounted or not, whose equations no subclass has
+      changed, without a loss factor;
     - its speed is constant, or it has neither gyroscopic effect nor rotating damping.
 
     Parameters

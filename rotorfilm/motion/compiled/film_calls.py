@@ -5,8 +5,8 @@ Every such function is that of the C library (native/films/journal_kernel.h),
     int f(const void *bearing, const double state[5], double force[2], double jacobian[2][5]),
 
 with state = (x, y, vx, vy, speed). Journal bearings and dampers on a film of that library bring it along,
-`LinearBearing` and the springs of `Sprung` have one in native/loops/springs.h, and any other reaction is called
-back in Python: slower, with the same result.
+`LinearBearing` and the springs of `Sprung` have one in native/loops/springs.h, and any other reaction is
+called back in Python: slower, with the same result.
 """
 
 from __future__ import annotations

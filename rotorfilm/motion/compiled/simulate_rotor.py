@@ -12,9 +12,9 @@ from ...model import Array
 from ...results import Trajectory
 from ...rotors import MountedRotor
 from ...signals import names
-from .times import require_longest_step, sample_times
 from .march import March, rate_of
 from .modal import matrix_speed, modal_rotor, take_apart
+from .times import require_longest_step, sample_times
 
 LONGEST_TURN = 1.0
 """Longest step in turns of the shaft."""

@@ -12,12 +12,12 @@ from ...errors import ContactError, ConvergenceError, InputError, require_finite
 from ...model import Array, Dynamic, Reaction, stops
 from ...results import Trajectory
 from ...signals import FORCE_OUTPUTS, names
-from .coupled import Coupled
-from .integration import Integration, integrate
 from ..compiled.compiled_form import compiled_form
 from ..compiled.journal_films import CONTACT_GAP
 from ..compiled.simulate_rotor import simulate_rotor
 from ..compiled.times import require_longest_step, sample_times
+from .coupled import Coupled
+from .integration import Integration, integrate
 
 
 def simulate(
@@ -64,8 +64,8 @@ def simulate(
     Trajectory
         Signals: every output of the rotor, the film force on the journal [N], and of a film with states
         its further outputs and its states. Work:
-        film_evaluations, jacobians, steps, restarts (steps cut short at the wall), of the compiled integration
-        also rejected (those and all others cut short).
+        film_evaluations, jacobians, steps, restarts (steps cut short at the wall), of the compiled
+        integration also rejected (those and all others cut short).
 
     Raises
     ------

@@ -36,8 +36,14 @@
 
 #define MOST 500
 
-/* Not all are in each library. */
-static const char *const KINDS[] = {"journal", "grooved_journal", "short_journal", "reynolds_journal"};
+static const rf_kernel_type *const KINDS[] = {
+    &rf_journal_type,
+    &rf_grooved_journal_type,
+    &rf_short_journal_type,
+#if !defined(RF_SUBSET) || (RF_SUBSET & RF_ROTORFILM_GRID_SYSTEMS)
+    &rf_reynolds_journal_type,
+#endif
+};
 enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS };
 
 typedef struct bearing {
@@ -157,9 +163,7 @@ static int take_bearing(bearing *self, const double *entry, const rf_tables *tab
     if (!self->tables)
         return rf_say(why, RF_MEMORY, "no memory for the tables of a bearing");
     const rf_tables set = tables_of_set(tables, (unsigned)entry[1], self->tables);
-    self->type = rf_find_kernel(KINDS[(size_t)entry[0]]);
-    if (!self->type)
-        return rf_say(why, RF_INVALID, "this library has no %s", KINDS[(size_t)entry[0]]);
+    self->type = KINDS[(size_t)entry[0]];
     self->kernel = self->type->create(&set, &sizes, why);
     self->parameters = sizes.parameters;
     return self->kernel ? RF_OK : RF_INVALID;

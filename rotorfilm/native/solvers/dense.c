@@ -11,14 +11,10 @@ static void swap_rows(size_t columns, double *a, size_t i, size_t j)
     }
 }
 
-/* Subtract a multiple of the row from[n], by[m] that clears the first of of[n], to[m]. */
-static void subtract(size_t n, size_t m, double *of, const double *from, double *to, const double *by)
+static void subtract(size_t n, double factor, const double *restrict from, double *restrict of)
 {
-    const double factor = of[0] / from[0];
     for (size_t j = 0; factor != 0.0 && j < n; ++j)
         of[j] -= factor * from[j];
-    for (size_t j = 0; factor != 0.0 && j < m; ++j)
-        to[j] -= factor * by[j];
 }
 
 void rf_eliminate(size_t n, double *q, size_t m, double *p)
@@ -29,15 +25,17 @@ void rf_eliminate(size_t n, double *q, size_t m, double *p)
             pivot = fabs(q[i * n + k]) > fabs(q[pivot * n + k]) ? i : pivot;
         swap_rows(n, q, k, pivot);
         swap_rows(m, p, k, pivot);
-        for (size_t i = k + 1; i < n; ++i)
-            subtract(n - k, m, q + i * n + k, q + k * n + k, p + i * m, p + k * m);
+        for (size_t i = k + 1; i < n; ++i) {
+            const double factor = q[i * n + k] / q[k * n + k];
+            subtract(n - k, factor, q + k * n + k, q + i * n + k);
+            subtract(m, factor, p + k * m, p + i * m);
+        }
     }
     for (size_t k = n; k-- > 0;) {
         for (size_t j = 0; j < m; ++j)
             p[k * m + j] /= q[k * n + k];
         for (size_t i = 0; i < k; ++i)
-            for (size_t j = 0; j < m; ++j)
-                p[i * m + j] -= q[i * n + k] * p[k * m + j];
+            subtract(m, q[i * n + k], p + k * m, p + i * m);
     }
 }
 

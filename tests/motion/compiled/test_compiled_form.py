@@ -1,4 +1,4 @@
-"""The compiled integration and scipy's give one motion; which of them is taken follows from rotor and films."""
+"""The compiled integration and scipy's give one motion; which is taken follows from rotor and films."""
 
 import math
 from dataclasses import dataclass, replace
