@@ -77,7 +77,17 @@ R = TypeVar("R", bound=HarmonicRotor)
 
 @dataclass(frozen=True, eq=False)
 class Residual:
-    """The equations at a series: values, derivatives by the series, and by the frequency of free whirl."""
+    """The equations at a series.
+
+    Attributes
+    ----------
+    values : ndarray, shape (2 n_bearings (2 H + 1),) [1]
+        In clearances.
+    by_frequency : ndarray [s/rad]
+        Derivatives by the frequency of free whirl; empty where the unbalance drives.
+    derive : callable
+        Makes the derivatives by the series.
+    """
 
     values: Array
     by_frequency: Array
