@@ -56,7 +56,7 @@ PARTS = {
     "bearings/journal": [["rupture"], ["map", "splitting"], ["grooves"]],
     "bearings/contact": [["film"], ["motion"]],
     "rotors": [["shaft"]],
-    "motion": [["transient", "circular"], ["compiled"], ["periodic"]],
+    "motion": [["compiled"], ["transient", "circular"], ["periodic"]],
     "cosim": [["schemes"]],
     "fmu": [["description"], ["python", "check"], ["native"]],
     "scenes": [["reading"], ["journal"], ["damper", "contact", "bush", "shaft", *FURTHER]],

@@ -53,6 +53,8 @@ _LOOPS: dict[str, list[Any]] = {
     "rf_ring_potential": [c_void_p, c_void_p, c_size_t, *[c_void_p] * 5],
     "rf_ride": [c_void_p, c_void_p, c_double, c_int64, c_void_p, c_void_p],
     "rf_springs_at": [c_void_p] * 4,
+    "rf_sprung_at": [c_void_p] * 4,
+    "rf_follow_shaken": [c_void_p, c_int64, c_void_p, c_void_p],
     "rf_set_step_table": [c_void_p, c_void_p, c_double, c_void_p],
     "rf_march_to": [c_void_p, c_double, c_int64, c_void_p, c_int64, c_void_p, c_void_p],
     "rf_journal_forces": [c_void_p, c_int64, c_void_p, c_double, c_void_p, c_void_p],

@@ -100,6 +100,7 @@ class RingStruct(ctypes.Structure):
         ("pinned", c_int32),
         ("ruptured", c_int32),
         ("clipped", c_int32),
+        ("extrapolated", c_int32),
     ]
 
 
@@ -173,6 +174,7 @@ class JournalsStruct(ctypes.Structure):
         ("spring", c_void_p),
         ("damper", c_void_p),
         ("lengths", c_void_p),
+        ("walls", c_void_p),
     ]
 
 
@@ -185,6 +187,33 @@ class SpeedsStruct(ctypes.Structure):
         ("speeds", c_void_p),
         ("slopes", c_void_p),
         ("angles", c_void_p),
+    ]
+
+
+class SprungStruct(ctypes.Structure):
+    """rf_sprung of springs.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("film", c_void_p),
+        ("of", c_void_p),
+        ("stiffness", c_double),
+        ("still", c_int),
+    ]
+
+
+class ShakenStruct(ctypes.Structure):
+    """rf_shaken of shake.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("film", c_void_p),
+        ("of", c_void_p),
+        ("mass", c_double),
+        ("speed", c_double),
+        ("clearance", c_double),
+        ("step", c_double),
+        ("calls", c_int64),
+        ("done", c_int64),
+        ("left_map", c_int),
     ]
 
 
@@ -216,5 +245,6 @@ class MarchStruct(ctypes.Structure):
         ("jacobians", c_int64),
         ("steps", c_int64),
         ("rejected", c_int64),
+        ("walls", c_int64),
         ("z", c_void_p),
     ]

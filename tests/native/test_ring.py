@@ -5,7 +5,7 @@ import pytest
 from fmpy import simulate_fmu
 from scipy.optimize import nnls
 
-from rotorfilm import Groove, JournalBearing, ReynoldsFilm, export_fmu
+from rotorfilm import ExtrapolatedFilm, Groove, JournalBearing, ReynoldsFilm, export_fmu
 from rotorfilm.bearings.films.cavitation import Complementarity, FullFilm, HalfSommerfeld
 from rotorfilm.bearings.films.geometry import FilmGeometry
 from rotorfilm.bearings.films.ring.ring_kernel import RingKernel
@@ -86,10 +86,14 @@ def test_pressure_is_that_of_a_dense_solution(cavitation, name):
 
 @pytest.mark.parametrize("version", ["2.0", "3.0"])
 @pytest.mark.parametrize("supply", [0.0, 2e5])
-def test_the_fmu_has_the_forces_of_the_bearing(tmp_path, version, supply):
+@pytest.mark.parametrize(
+    "film",
+    [ReynoldsFilm(cells=(48, 4)), ExtrapolatedFilm(film=ReynoldsFilm(cells=(32, 8)))],
+    ids=["grid", "two grids"],
+)
+def test_the_fmu_has_the_forces_of_the_bearing(tmp_path, version, supply, film):
     sizes = {"radius": 0.05, "length": 0.05, "clearance": 1e-4, "viscosity": 0.02}
     openings = {"grooves": GROOVES, "supply_pressure": supply} if supply else {}
-    film = ReynoldsFilm(cells=(48, 4))
     path = tmp_path / "film.fmu"
     export_fmu(JournalBearing(**sizes, **openings, film=film), path, version, component="b")
     changed = {"viscosity": 0.05, "clearance": 1.2e-4}

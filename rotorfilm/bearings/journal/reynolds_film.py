@@ -130,7 +130,7 @@ class ReynoldsFilm(KernelFilm):
             lines = [grid.span, grid.line, grid.face, grid.held, grid.value]
             tables[f"lines{level}"] = np.stack([np.asarray(row, dtype=float) for row in lines])
             tables[f"nodes{level}"] = np.stack([grid.width, grid.conductance])
-        flags = [self.cavitation.searched, self.cavitation.clipped, spans.pinned]
+        flags = [self.cavitation.searched, self.cavitation.clipped, spans.pinned, False]
         tables["ring"] = np.array([slenderness, *flags], dtype=float)
         if self.geometry.plain:
             # The nodes along a film that is not long are those of any other.
@@ -138,9 +138,11 @@ class ReynoldsFilm(KernelFilm):
         return "reynolds_journal", tables
 
     def _kernel(self, slenderness: float) -> RingKernel:
-        return _ring_kernel(self, slenderness)
+        return ring_kernel(self, slenderness, False)
 
 
 @lru_cache(maxsize=64)
-def _ring_kernel(film: ReynoldsFilm, slenderness: float) -> RingKernel:
-    return RingKernel(slenderness, *film.grids(slenderness), film.cavitation)
+def ring_kernel(film: ReynoldsFilm, slenderness: float, extrapolated: bool) -> RingKernel:
+    """Return the compiled film of a bearing, on the grid of the film or extrapolated from it."""
+    return RingKernel(slenderness, *film.grids(slenderness), film.cavitation, extrapolated)
+

@@ -45,27 +45,27 @@ static void set_bent_flow(const rf_search *search, int level, size_t m, double *
     rf_set_flow(&search->ring->grids[level], cells->around_slope[m], cells->along_slope[m], search->pressure, flow);
 }
 
-/* d f/d(e, w) at the solution on the finest grid, free nodes and lines held.
+/* d f/d(e, w) at the solution on a grid, free nodes and lines held.
 
    With the free nodes I and N = integral of n over the cells, A_II P_I = (N w - A P_held)_I and F = -12 N^T P.
    A is symmetric, so two solutions V = A_II^-1 N_I make dF/dw = -12 V^T N and dF/de = 12 V^T dA P. The
    pressure and its slope vanish at the edge of a ruptured zone, so moving the edge adds nothing. */
-static void set_derivatives(rf_search *search, double *jacobian)
+static void set_derivatives(rf_search *search, int level, double *jacobian)
 {
-    const rf_grid *grid = &search->ring->grids[0];
+    const rf_grid *grid = &search->ring->grids[level];
     const size_t all = nodes_of(grid);
     double *of_force = search->source, *other = search->flow;
     for (size_t k = 0; k < 2; ++k) {
         const double unit[2] = {k == 0, k == 1};
-        rf_set_source(grid, &search->cells[0], unit, of_force);
+        rf_set_source(grid, &search->cells[level], unit, of_force);
         for (size_t q = 0; search->ring->clipped && q < all; ++q)
             of_force[q] = search->pressure[q] > 0.0 ? of_force[q] : 0.0;
-        rf_solve_free(search, 0, of_force, of_force);
+        rf_solve_free(search, level, of_force, of_force);
         for (size_t m = 0; m < 2; ++m) {
             const double along[2] = {m == 0, m == 1};
-            set_bent_flow(search, 0, m, other);
+            set_bent_flow(search, level, m, other);
             jacobian[4 * k + m] = 12.0 * sum_of_products(all, of_force, other);
-            rf_set_source(grid, &search->cells[0], along, other);
+            rf_set_source(grid, &search->cells[level], along, other);
             jacobian[4 * k + 2 + m] = -12.0 * sum_of_products(all, of_force, other);
         }
     }
@@ -85,15 +85,37 @@ static int is_at_rest(const rf_ring *ring, const double *w)
     return w[0] == 0.0 && w[1] == 0.0 && (ring->ruptured || ring->clipped) && !is_supplied(ring);
 }
 
+/* Force and, unless NULL, derivatives of the grid that was solved last. */
+static void take_answer(rf_search *search, int level, double *f, double *jacobian)
+{
+    if (jacobian)
+        set_derivatives(search, level, jacobian);
+    take_force(search, level, f);
+}
+
+static void extrapolate(size_t n, double *fine, const double *coarse)
+{
+    for (size_t k = 0; k < n; ++k)
+        fine[k] += (fine[k] - coarse[k]) / 3.0;
+}
+
 static int film_of(rf_search *search, const double *e, const double *w, double *f, double *jacobian)
 {
+    const int extrapolated = search->ring->extrapolated != 0;
+    double coarse[2] = {0.0, 0.0}, by[8];
     rf_place_journal(search, e);
-    const int status = solve_down_to(search, 0, w);
+    int status = solve_down_to(search, extrapolated, w);
+    if (status == RF_OK && extrapolated) {
+        take_answer(search, 1, coarse, jacobian ? by : NULL);
+        status = rf_search_film(search, 0, w);
+    }
     if (status != RF_OK)
         return rf_fail(status, f, jacobian, 8);
-    if (jacobian)
-        set_derivatives(search, jacobian);
-    take_force(search, 0, f);
+    take_answer(search, 0, f, jacobian);
+    if (extrapolated)
+        extrapolate(2, f, coarse);
+    if (extrapolated && jacobian)
+        extrapolate(8, jacobian, by);
     return RF_OK;
 }
 

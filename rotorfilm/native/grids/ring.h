@@ -35,6 +35,7 @@ typedef struct rf_ring {
     int32_t pinned;  /* whether there are edges: they keep their angles while the lines move */
     int32_t ruptured; /* whether the film is where P > 0, and P >= 0 elsewhere */
     int32_t clipped;  /* whether a full film's negative pressures are dropped */
+    int32_t extrapolated; /* whether the force is f + (f - f2)/3 of the finest grid and the next (Richardson) */
 } rf_ring;
 
 /* What solving the film on its grids took. */
@@ -43,8 +44,8 @@ typedef struct rf_grid_work {
     int64_t lines;     /* that were factorized for them */
 } rf_grid_work;
 
-/* The force on the finest grid, as any film's (films/film.h); RF_STUCK where the search for the film does not
-   end, RF_MEMORY. `data` is an rf_ring. */
+/* The force, on the finest grid unless it is extrapolated, as any film's (films/film.h); RF_STUCK where the search
+   for the film does not end, RF_MEMORY. `data` is an rf_ring. */
 RF_EXPORT_LOOP int rf_ring_film(const void *data, const double *e, const double *w, double *f, double *jacobian);
 
 /* Forces on the finest grid and the next, and d f/d(e, w) on the finest (8 rows) unless NULL, rows of n one stride

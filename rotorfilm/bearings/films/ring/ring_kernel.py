@@ -67,14 +67,21 @@ class RingKernel(FilmKernel):
     grids : tuple of Grid
         Three, the finest first.
     cavitation : Cavitation
+    extrapolated : bool
+        Whether the force is that extrapolated from the finest grid and the next.
     """
 
     _function: ClassVar[str] = "rf_ring_film"
 
     def __init__(
-        self, slenderness: float, spans: Spans, grids: tuple[Grid, ...], cavitation: Cavitation
+        self,
+        slenderness: float,
+        spans: Spans,
+        grids: tuple[Grid, ...],
+        cavitation: Cavitation,
+        extrapolated: bool = False,
     ) -> None:
-        self._arguments = (slenderness, spans, grids, cavitation)
+        self._arguments = (slenderness, spans, grids, cavitation, extrapolated)
         self.grids = grids
         self._kept: list[Array] = []
         self.struct = RingStruct(
@@ -86,6 +93,7 @@ class RingKernel(FilmKernel):
             spans.pinned,
             cavitation.searched,
             cavitation.clipped,
+            extrapolated,
         )
 
     def _grid(self, grid: Grid) -> GridStruct:
