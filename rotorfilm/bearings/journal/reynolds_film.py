@@ -145,4 +145,3 @@ class ReynoldsFilm(KernelFilm):
 def ring_kernel(film: ReynoldsFilm, slenderness: float, extrapolated: bool) -> RingKernel:
     """Return the compiled film of a bearing, on the grid of the film or extrapolated from it."""
     return RingKernel(slenderness, *film.grids(slenderness), film.cavitation, extrapolated)
-

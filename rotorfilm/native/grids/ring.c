@@ -173,7 +173,7 @@ int rf_ring_pair(const rf_ring *ring, size_t n, const double *e, const double *w
         for (int level = 1; level >= 0 && status == RF_OK; --level) {
             status = level == 1 ? solve_down_to(&search, 1, source) : rf_search_film(&search, 0, source);
             if (jacobian && level == 0 && status == RF_OK)
-                set_derivatives(&search, slopes);
+                set_derivatives(&search, 0, slopes);
             take_force(&search, level, f[level]);
         }
         for (size_t k = 0; k < 2; ++k) {
