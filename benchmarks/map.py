@@ -5,22 +5,26 @@ splitting orders, and the two-dimensional film at 1 % and at the map's own error
 that gets there, or comes closest. Then tables made from the short film, whose force is known exactly, so that
 the error is that of the table alone. Baseline of the batch: the short film itself (closed form, NumPy).
 Baseline of the scalar calls: the fastest that Python can do, the short film's closed form for the steady
-journal written out with `math`.
+journal written out with `math`. Maps of bearings with openings are made on first use: what that takes.
 
     python benchmarks/map.py
 """
 
 from __future__ import annotations
 
-from math import pi, sqrt
+from math import pi, prod, sqrt
+from time import perf_counter, process_time
 
 import numpy as np
 
+from rotorfilm.bearings.films.geometry import FilmGeometry, Groove
 from rotorfilm.bearings.films.law import FilmLaw
 from rotorfilm.bearings.films.map_fit import tabulate_film
+from rotorfilm.bearings.films.table_pieces import cores
 from rotorfilm.bearings.journal import (
     ComplementarityArc,
     ExtrapolatedFilm,
+    GroovedMapFilm,
     JournalBearing,
     MapFilm,
     ReynoldsFilm,
@@ -28,6 +32,8 @@ from rotorfilm.bearings.journal import (
     ShortFilm,
     SplittingFilm,
 )
+from rotorfilm.bearings.journal.grooves.groove_build import Resolution, build_groove_table
+from rotorfilm.bearings.journal.grooves.openings import aligned_openings
 from rotorfilm.comparisons import LARGE, comparison_bearing, random_states
 from rotorfilm.comparisons.journal.journal_rungs import fitted_bearing
 from rotorfilm.comparisons.journal.journal_states import States, reference_force, relative_error
@@ -37,6 +43,7 @@ COUNT = 20000
 RANGES = ((0.0, 0.95), (0.95, 0.99), (0.99, 0.999))
 RADIUS, LENGTH, CLEARANCE, VISCOSITY = 0.05, 0.04, 1e-4, 0.1
 STATES = 64
+OPENED = 200
 REFERENCE_CELLS = (1536, 32)
 GRIDS = ((32, 8), (48, 8), (64, 8), (96, 8), (128, 8), (192, 8), (384, 8), (384, 16), (768, 16), (768, 32))
 STATE = (1e-5, -2e-5, 1e-3, 2e-3, 100.0)
@@ -176,9 +183,41 @@ def described(film: FilmLaw) -> str:
     return "{} x {}".format(*film.cells)
 
 
+def print_openings() -> None:
+    """Print what maps of a bearing with two grooves take, beside forces at their nodes one by one."""
+    grooves = tuple(Groove(center=pi * k, width=pi / 9.0) for k in range(2))
+    openings = aligned_openings(FilmGeometry(grooves=grooves))
+    geometry = FilmGeometry(grooves=openings.grooves)
+    e, w = random_sources(0.0, 0.9)
+    e, w = e[:, :OPENED], w[:, :OPENED]
+    exact, _ = ReynoldsFilm(cells=(384, 24), geometry=geometry).extrapolated(e, w, 0.5)
+    print(f"maps of two grooves of 20 deg, L/D 0.5, on {cores()} cores; error (median, 99 %) to eps 0.9")
+    print("beside them the same number of extrapolated forces of the film on that grid, one by one")
+    print(f"{'cells':>10s}{'nodes':>14s}{'CPU':>9s}{'wall':>9s}{'told':>9s}{'forces':>9s}   error")
+    for resolution in (Resolution((192, 12), (12, 72, 48), 0.97), Resolution((96, 8), (8, 48, 32), 0.97)):
+        told: list[str] = []
+        begin, cpu = perf_counter(), process_time()
+        table = build_groove_table(openings, 0.5, resolution, lambda _, text, told=told: told.append(text))
+        wall, cpu = perf_counter() - begin, process_time() - cpu
+        found = GroovedMapFilm(table=table).fitted(geometry).force(e, w, 0.5)
+        error = np.linalg.norm(found - exact, axis=0) / np.linalg.norm(exact, axis=0)
+        grid, begin = ReynoldsFilm(cells=resolution.cells, geometry=geometry), process_time()
+        grid.extrapolated(e, w, 0.5)
+        nodes = prod(resolution.nodes) // 4 + table.log_center.size
+        forces = (process_time() - begin) / OPENED * nodes
+        cells = "{} x {}".format(*resolution.cells)
+        shape = "{} x {} x {}".format(*resolution.nodes)
+        print(
+            f"{cells:>10s}{shape:>14s}{cpu:7.2f} s{wall:7.2f} s{told[0].rpartition('about ')[2]:>9s}"
+            f"{forces:7.2f} s   {np.median(error):.1e}, {np.quantile(error, 0.99):.1e}"
+        )
+
+
 def main() -> None:
     """Print the tables."""
     print_rivals()
+    print()
+    print_openings()
     print()
     print_accuracy()
     table = tabulate_film(

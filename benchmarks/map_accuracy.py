@@ -16,8 +16,8 @@ import sys
 
 import numpy as np
 
+from rotorfilm.bearings.films.ring.ring_kernel import richardson
 from rotorfilm.bearings.journal import MapFilm, ReynoldsFilm
-from rotorfilm.bearings.journal.reynolds_film import richardson
 from rotorfilm.comparisons.journal.averaged_film import cell_turns
 
 RATIOS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0)

@@ -4,9 +4,11 @@ import re
 import shutil
 import sys
 from importlib import metadata
+from itertools import groupby
 from pathlib import Path
 
 import rotorfilm
+from rotorfilm.sources import homes
 
 sys.path.insert(0, str(Path(__file__).parent))
 import glossary
@@ -66,12 +68,17 @@ def write_examples(folder: Path) -> Path:
     return folder
 
 
+def part(name: str) -> str:
+    """Return the part of the package that a public name lives in."""
+    return homes("rotorfilm")[name].module.split(".")[1]
+
+
 def write_interface(path: Path) -> None:
     """Write the page of all public names, by the package that they live in."""
     lines = ["Interface", "=========", ""]
-    for home, names in rotorfilm._HOMES.items():
+    for home, names in groupby(sorted(rotorfilm.__all__, key=part), part):
         lines += [home, "-" * len(home), "", ".. autosummary::", "   :toctree: _interface", ""]
-        lines += [f"   rotorfilm.{name}" for name in sorted(names)] + [""]
+        lines += [f"   rotorfilm.{name}" for name in names] + [""]
     path.write_text("\n".join(lines))
 
 

@@ -1,245 +1,57 @@
 """Bearing reactions for rotor dynamics, handed to any simulator.
 
-The public names below load on first use, so that `import rotorfilm` costs nothing that is not needed.
+The public names load on first use, so that `import rotorfilm` costs nothing that is not needed.
 """
 
-from __future__ import annotations
+from typing import TYPE_CHECKING
 
-from importlib import import_module
-from typing import Any
+from .sources import show
 
-_HOMES = {
-    "bearings": (
-        "AdaptiveSteps",
-        "ApproximateShaft",
-        "AxialFeed",
-        "BallSupport",
-        "BarusViscosity",
-        "BushGeometry",
-        "BushReaction",
-        "BushWear",
-        "ComplementarityArc",
-        "ContactBalance",
-        "ContactGrid",
-        "ContactLaw",
-        "ContactRun",
-        "ContactState",
-        "Cooling",
-        "DamperGroups",
-        "DowsonHigginsonDensity",
-        "ExactShaft",
-        "ExtrapolatedFilm",
-        "FilmLaw",
-        "FiniteMapSqueeze",
-        "FiniteSqueeze",
-        "FixedArc",
-        "FixedSteps",
-        "Friction",
-        "FullFilm",
-        "GlobalBalance",
-        "Groove",
-        "GrooveMapTable",
-        "GroovedMapFilm",
-        "HalfSommerfeld",
-        "HeatedBearing",
-        "JournalBearing",
-        "LinearBearing",
-        "LinerMaterial",
-        "LocalMelting",
-        "MapFilm",
-        "MapSqueeze",
-        "MapTable",
-        "MeltingBush",
-        "MovingContact",
-        "Oil",
-        "Pad",
-        "PointContact",
-        "PorousCage",
-        "PorousDamper",
-        "PublishedSqueeze",
-        "RadialFeed",
-        "ReynoldsArc",
-        "ReynoldsFilm",
-        "RoelandsViscosity",
-        "RollingBall",
-        "RotatingArc",
-        "ShaftMaterial",
-        "SharedMelting",
-        "ShortFilm",
-        "ShortSqueeze",
-        "SineLoad",
-        "SpectralArcFilm",
-        "SplittingFilm",
-        "Sprung",
-        "StaggeredScheme",
-        "StepLoad",
-        "TabulatedBearing",
-        "UpwindScheme",
-        "build_groove_map",
-        "damper_groups",
-        "f4k20_bush",
-        "film_state",
-        "interpolate_contact",
-        "moving_contact",
-        "perturbed",
-        "published_stage",
-        "reduce_ball",
-        "reduce_contact",
-        "ride",
-    ),
-    "cosim": (
-        "Adaptive",
-        "Auto",
-        "CoSimulation",
-        "CouplingReport",
-        "CouplingWatch",
-        "GaussSeidel",
-        "Jacobi",
-        "Newton",
-        "SIExp",
-        "SIExp3",
-        "Scheme",
-        "cosimulate",
-        "coupling_stability",
-        "critical_macro_step",
-    ),
-    "errors": (
-        "AbsentError",
-        "ContactError",
-        "ConvergenceError",
-        "CouplingError",
-        "CouplingWarning",
-        "EquilibriumError",
-        "FileWarning",
-        "FilmContactError",
-        "FmuError",
-        "FmuFileError",
-        "FmuRunError",
-        "InputError",
-        "PartialResultError",
-        "RotorfilmError",
-        "SceneError",
-        "UndefinedDerivativeError",
-        "ValidityWarning",
-    ),
-    "fmu": ("export_fmu",),
-    "linear": (
-        "Campbell",
-        "CriticalMass",
-        "CriticalSpeed",
-        "OperatingPoint",
-        "RotorEquilibrium",
-        "RotorModes",
-        "RotorThreshold",
-        "campbell",
-        "closed_loop",
-        "coefficient_table",
-        "coefficients",
-        "critical_mass",
-        "critical_speed_map",
-        "critical_speeds",
-        "equilibrium",
-        "linearize",
-        "orbit_coefficients",
-        "orbit_system",
-        "rotor_equilibrium",
-        "rotor_modes",
-        "rotor_system",
-        "rotor_threshold",
-        "rotor_transmissibility",
-        "small_motion_transmissibility",
-        "to_nlsys",
-        "transmissibility",
-        "unbalance_response",
-        "whirl_threshold",
-    ),
-    "model": (
-        "Dynamic",
-        "Linearization",
-        "Model",
-        "Reaction",
-        "Stepped",
-        "Switched",
-    ),
-    "motion": (
-        "BasinScan",
-        "Bifurcation",
-        "HopfPoint",
-        "OrbitCurve",
-        "OrbitEvent",
-        "PeriodicOrbit",
-        "basin_scan",
-        "bistability_limit",
-        "bistable_map",
-        "continue_orbits",
-        "hopf_point",
-        "orbits_over_speed",
-        "periodic_orbit",
-        "simulate",
-        "simulate_rotor",
-        "synchronous_orbits",
-        "transmitted_ratio",
-    ),
-    "results": (
-        "CircularOrbit",
-        "Coefficients",
-        "Equilibrium",
-        "Trajectory",
-        "WhirlThreshold",
-    ),
-    "rotors": (
-        "ClassicalBeam",
-        "Coupling",
-        "Disk",
-        "ElasticMaterial",
-        "FlexibleRotor",
-        "FourthOrderBeam",
-        "JeffcottRotor",
-        "LayeredElement",
-        "MountedRotor",
-        "Probe",
-        "ReducedRotor",
-        "Reduction",
-        "RigidRotor",
-        "RigidShaft",
-        "ShaftElement",
-        "ShaftRotor",
-        "SpeedProfile",
-        "Station",
-        "SteadyRotor",
-        "Support",
-        "TiltSpring",
-        "Unbalance",
-        "mount",
-        "reduce_rotor",
-    ),
-    "scenes": (
-        "Answer",
-        "RossRotor",
-        "Scene",
-        "bundled_scene",
-        "export_rotor_fmu",
-        "read_ross",
-        "to_ross",
-    ),
-    "signals": ("Signal",),
-    "sweeps": ("sweep",),
-}
-_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+if TYPE_CHECKING:
+    from .bearings import *
+    from .cosim import *
+    from .errors import (
+        AbsentError as AbsentError,
+        ContactError as ContactError,
+        ConvergenceError as ConvergenceError,
+        CouplingError as CouplingError,
+        CouplingWarning as CouplingWarning,
+        EquilibriumError as EquilibriumError,
+        FileWarning as FileWarning,
+        FilmContactError as FilmContactError,
+        FmuError as FmuError,
+        FmuFileError as FmuFileError,
+        FmuRunError as FmuRunError,
+        InputError as InputError,
+        PartialResultError as PartialResultError,
+        RotorfilmError as RotorfilmError,
+        SceneError as SceneError,
+        UndefinedDerivativeError as UndefinedDerivativeError,
+        ValidityWarning as ValidityWarning,
+    )
+    from .fmu import *
+    from .linear import *
+    from .model import (
+        Dynamic as Dynamic,
+        Linearization as Linearization,
+        Model as Model,
+        Reaction as Reaction,
+        Stepped as Stepped,
+        Switched as Switched,
+    )
+    from .motion import *
+    from .results import (
+        CircularOrbit as CircularOrbit,
+        Coefficients as Coefficients,
+        Equilibrium as Equilibrium,
+        Trajectory as Trajectory,
+        WhirlThreshold as WhirlThreshold,
+    )
+    from .rotors import *
+    from .scenes import *
+    from .signals import Signal as Signal
+    from .sweeps import *
 
-__all__ = sorted(_HOME_OF)
-
-
-def __getattr__(name: str) -> Any:
-    """Import a public name from its home on first use (PEP 562)."""
-    if name == "__version__":
-        from importlib.metadata import version
-
-        return version(__name__)
-    if name not in _HOME_OF:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(f".{_HOME_OF[name]}", __name__), name)
-
-
-def __dir__() -> list[str]:
-    return [*globals(), *__all__]
+    __version__: str
+else:
+    show(__name__)

@@ -11,11 +11,9 @@ import contextlib
 import errno
 import hashlib
 import os
-import shutil
 import struct
 from collections.abc import Iterator
 from pathlib import Path
-from uuid import uuid4
 
 from .errors import InputError
 
@@ -59,14 +57,14 @@ def failures_named(path: Path) -> Iterator[None]:
 
 def _replace(target: Path, content: bytes) -> None:
     # Not by tempfile, whose files are for one user alone: the mode of this one follows the umask.
-    part = target.with_name(f"{target.stem}-{uuid4().hex}.part")
+    part = target.with_name(f"{target.stem}-{os.urandom(16).hex()}.part")
     there = target.exists()
     if there and not os.access(target, os.W_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(target))
     try:
         with part.open("wb") as file:
             if there:
-                shutil.copymode(target, part)
+                part.chmod(target.stat().st_mode)
             file.write(content)
             file.flush()
             os.fsync(file.fileno())
@@ -87,9 +85,11 @@ def written_together(folder: Path) -> Iterator[Path]:
     OSError
         If a file cannot be written; it names the file, in `folder`.
     """
+    import shutil
+
     new = not folder.exists()
     folder.mkdir(parents=True, exist_ok=True)
-    part = folder / f"{uuid4().hex}.part"
+    part = folder / f"{os.urandom(16).hex()}.part"
     try:
         part.mkdir()
         yield part

@@ -1,3 +1,10 @@
 """Circular orbits; they live in `motion`."""
 
-from .motion import *  # noqa: F403  (another roof over the same names)
+from typing import TYPE_CHECKING
+
+from .sources import show
+
+if TYPE_CHECKING:
+    from .motion import *
+else:
+    show(__name__)

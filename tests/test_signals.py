@@ -3,8 +3,7 @@
 import dataclasses
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from rotorfilm.errors import InputError
 from rotorfilm.signals import Signal, from_fmi_name, names, to_fmi_name

@@ -15,7 +15,8 @@ from rotorfilm.questions.journal.statics import StaticRung
 from rotorfilm.questions.journal.unbalance_orbits import OrbitRung, rotor_of
 from rotorfilm.scenes import Scene
 from rotorfilm.scenes.journal.film_defects import tangent
-from rotorfilm.scenes.journal.film_rungs import FilmRung, extrapolated
+from rotorfilm.scenes.journal.film_rung import FilmRung
+from rotorfilm.scenes.journal.film_rungs import extrapolated
 
 from .drawn import Drawn, Truth, log_uniform
 

@@ -7,26 +7,22 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from . import printing as console
-from .command import Said
+from .command import Option, Said
 
 if TYPE_CHECKING:
     from ..scenes.bush.solve_bush import BushAnswer
 
 
 def bush(
-    load: Annotated[str, typer.Option(help="Radial load.", metavar='"3750 N"')],
-    speed: Annotated[str | None, typer.Option(help="Angular speed to evaluate.", metavar='"9 rad/s"')] = None,
-    settlement: Annotated[str, typer.Option(help="Up to which the liner may wear.")] = "0 mm",
+    load: Annotated[str, Option(help="Radial load.", metavar='"3750 N"')],
+    speed: Annotated[str | None, Option(help="Angular speed to evaluate.", metavar='"9 rad/s"')] = None,
+    settlement: Annotated[str, Option(help="Up to which the liner may wear.")] = "0 mm",
     change: Annotated[
-        list[str] | None, typer.Option("--set", help="Other value than the example's.", metavar="NAME=VALUE")
+        list[str] | None, Option("--set", help="Other value than the example's.", metavar="NAME=VALUE")
     ] = None,
-    published: Annotated[
-        bool, typer.Option("--published", help="Shaft heat by the published formula.")
-    ] = False,
-    whole_shaft: Annotated[bool, typer.Option("--global", help="Balance heat over the whole shaft.")] = False,
+    published: Annotated[bool, Option("--published", help="Shaft heat by the published formula.")] = False,
+    whole_shaft: Annotated[bool, Option("--global", help="Balance heat over the whole shaft.")] = False,
 ) -> Said:
     """Find contact and critical speeds of a polymer bush that melts: the published example unless set."""
     from ..bearings.bush import ApproximateShaft, GlobalBalance

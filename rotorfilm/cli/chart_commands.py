@@ -10,14 +10,12 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from ..limits import CHART_STATES, CONTACT_CELLS, TRANSITS
 from ..printable import visible
 from ..progress import Report, part_of
 from ..results import write_csv
 from . import printing as console
-from .command import Commands, Said
+from .command import Argument, Option, Said
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -26,9 +24,9 @@ if TYPE_CHECKING:
 
 DPI = 110
 
-Slenderness = Annotated[float, typer.Option("--ld", help="Bearing length / diameter, 0.1 to 4.")]
-Folder = Annotated[Path, typer.Option("--out", help="Folder for PNG and CSV; made if absent.")]
-States = Annotated[int, typer.Option(help="Random states.", min=1, max=CHART_STATES)]
+Slenderness = Annotated[float, Option("--ld", help="Bearing length / diameter, 0.1 to 4.")]
+Folder = Annotated[Path, Option("--out", help="Folder for PNG and CSV; made if absent.")]
+States = Annotated[int, Option(help="Random states.", min=1, max=CHART_STATES)]
 OUT = Path("rotorfilm-charts")
 
 Rows = Iterable[Sequence[str]]
@@ -46,10 +44,8 @@ def journal(
     report: Report,
     ld: Slenderness = 0.5,
     states: States = 300,
-    seed: Annotated[int, typer.Option(help="Seed of the random states.", min=0)] = 1978,
-    motion: Annotated[
-        MotionOption, typer.Option(help="Range of the states' velocities.")
-    ] = MotionOption.LARGE,
+    seed: Annotated[int, Option(help="Seed of the random states.", min=0)] = 1978,
+    motion: Annotated[MotionOption, Option(help="Range of the states' velocities.")] = MotionOption.LARGE,
     out: Folder = OUT,
 ) -> Said:
     """Error of the force against its cost, for every journal film: chart_journal.png and .csv."""
@@ -82,7 +78,7 @@ def stability(report: Report, ld: Slenderness = 0.5, out: Folder = OUT) -> Said:
 def contact(
     report: Report,
     cells: Annotated[
-        int, typer.Option(help="Cells along each side of the reference.", min=24, max=CONTACT_CELLS)
+        int, Option(help="Cells along each side of the reference.", min=24, max=CONTACT_CELLS)
     ] = 64,
     out: Folder = OUT,
 ) -> Said:
@@ -101,11 +97,11 @@ def contact(
 def contact_cases(
     report: Report,
     cells: Annotated[
-        int, typer.Option(help="Cells along each side, converged runs.", min=8, max=CONTACT_CELLS)
+        int, Option(help="Cells along each side, converged runs.", min=8, max=CONTACT_CELLS)
     ] = 40,
-    tolerance: Annotated[float, typer.Option(help="Of the steps of converged runs.")] = 1e-4,
+    tolerance: Annotated[float, Option(help="Of the steps of converged runs.")] = 1e-4,
     settle: Annotated[
-        float, typer.Option(help="Length of the runs of case 4.3 with W = 1.", min=30.0, max=TRANSITS)
+        float, Option(help="Length of the runs of case 4.3 with W = 1.", min=30.0, max=TRANSITS)
     ] = 60.0,
     out: Folder = OUT,
 ) -> Said:
@@ -135,7 +131,7 @@ def contact_limits(report: Report, out: Folder = OUT) -> Said:
 
 
 def scene(
-    file: Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file with a question.")],
+    file: Annotated[Path, Argument(metavar="SCENE.toml", help="Scene file with a question.")],
     report: Report,
     out: Folder = OUT,
 ) -> Said:
@@ -165,7 +161,7 @@ def scene(
 def limits(
     report: Report,
     physics: Annotated[
-        list[str] | None, typer.Option(help="journal, rotor, damper, contact or bush; all unless given.")
+        list[str] | None, Option(help="journal, rotor, damper, contact or bush; all unless given.")
     ] = None,
     out: Folder = OUT,
 ) -> Said:
@@ -207,7 +203,7 @@ def bush(report: Report, out: Folder = OUT) -> Said:
 def damper(
     report: Report,
     ld: Slenderness = 0.25,
-    permeability: Annotated[float, typer.Option(help="Phi = A H/C^3 of the cage.")] = 1e-3,
+    permeability: Annotated[float, Option(help="Phi = A H/C^3 of the cage.")] = 1e-3,
     states: States = 200,
     out: Folder = OUT,
 ) -> Said:
@@ -245,22 +241,6 @@ def cosim(report: Report, out: Folder = OUT) -> Said:
     ]
     show = partial(_print, ("scheme", "macro step", "orbit error / clearance"), rows, files)
     return Said({"limits": limits, "cost": cost}, show)
-
-
-CHARTS: Commands = {
-    journal: "chart journal --ld 0.5 --json",
-    stability: "chart stability --ld 0.5 --json",
-    contact: "chart contact --cells 48 --json",
-    contact_cases: "chart contact-cases --cells 40",
-    contact_limits: "chart contact-limits --json",
-    scene: "chart scene examples/question.toml",
-    limits: "chart limits --physics journal --physics damper",
-    page: "chart page --out rotorfilm-charts",
-    bush: "chart bush --json",
-    damper: "chart damper --ld 0.25 --permeability 0.001",
-    cosim: "chart cosim --json",
-}
-"""Commands with their examples, in the order of the help."""
 
 
 def _write(

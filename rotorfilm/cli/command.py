@@ -1,23 +1,66 @@
-"""How functions become commands: their examples, `--json`, progress and exit codes."""
+"""How functions become commands: their options and examples, `--json`, progress and exit codes.
+
+The parameters of a function are its options: each is `Annotated` with an `Option` or an `Argument`; one
+called `report` is no option but moves a progress bar.
+"""
 
 from __future__ import annotations
 
+import argparse
 import inspect
-from collections.abc import Callable
-from functools import wraps
+import math
+import sys
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from enum import Enum
+from functools import partial
+from importlib import import_module
 from pathlib import Path
-from typing import Annotated, Any, NamedTuple
-
-import typer
+from types import NoneType
+from typing import Annotated, Any, NamedTuple, NoReturn, get_args
 
 from . import printing as console
 
 BAD_INPUT = 2
 FAILED = 1
 
-SceneFile = Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file of schema 1.")]
-SignalFile = Annotated[Path | None, typer.Option(help="CSV file for the signals.", metavar="FILE.csv")]
-Json = Annotated[bool, typer.Option("--json", help="Print JSON on stdout instead of tables.")]
+NUMBERS: dict[type[Any], str] = {float: "a number", int: "a whole number"}
+
+
+class Argument(NamedTuple):
+    """A parameter that stands in a command line without its name.
+
+    Attributes
+    ----------
+    help : str
+        What it is.
+    metavar : str
+        What stands for it in the help.
+    """
+
+    help: str
+    metavar: str
+
+
+class Option(NamedTuple):
+    """A parameter that stands in a command line behind its name.
+
+    Attributes
+    ----------
+    flag : str
+        Its name there, if it is not that of the parameter.
+    help : str
+        What it is.
+    metavar : str or None
+        An example in the help.
+    min, max : float
+        Smallest and largest number.
+    """
+
+    flag: str = ""
+    help: str = ""
+    metavar: str | None = None
+    min: float = -math.inf
+    max: float = math.inf
 
 
 class Said(NamedTuple):
@@ -38,54 +81,89 @@ class Said(NamedTuple):
     failure: str | None = None
 
 
-Commands = dict[Callable[..., Said], str]
-"""Functions with their examples, without the name of the program."""
+class Group(NamedTuple):
+    """Commands with what their help says in common.
 
-
-def group(text: str, commands: Commands, *, slow: bool = False, **options: Any) -> typer.Typer:
-    """Return a group of commands.
-
-    Parameters
+    Attributes
     ----------
     text : str
         Its help.
-    commands : dict of callable to str
-        The parameters of a function are its options; one called `report` is no option but moves a progress
-        bar.
+    commands : mapping of str to str
+        Examples, without the name of the program, by `module.function` of this folder.
+    example : str
+        Of the group.
     slow : bool
         Whether the commands take long from the beginning, so that the bar shows at once.
-    **options
-        Of the group, as typer has them.
     """
-    made = typer.Typer(
-        help=text, no_args_is_help=True, context_settings={"help_option_names": ["-h", "--help"]}, **options
-    )
-    for function, example in commands.items():
-        made.command(epilog=f"Example: rotorfilm {example}")(_command(function, slow))
-    return made
+
+    text: str
+    commands: Mapping[str, str]
+    example: str
+    slow: bool = False
+
+    @property
+    def homes(self) -> dict[str, str]:
+        """Where each command lives, by its name in a command line."""
+        return {home.rpartition(".")[2].replace("_", "-"): home for home in self.commands}
 
 
-def _command(function: Callable[..., Said], slow: bool) -> Callable[..., None]:
-    """Return a function as a command: with `--json`, and with the report of its progress."""
-    parameters = inspect.signature(function, eval_str=True).parameters
-    wanted = inspect.Parameter("json", inspect.Parameter.KEYWORD_ONLY, default=False, annotation=Json)
-    options = [*(each for name, each in parameters.items() if name != "report"), wanted]
+SceneFile = Annotated[Path, Argument(metavar="SCENE.toml", help="Scene file of schema 1.")]
+SignalFile = Annotated[Path | None, Option(help="CSV file for the signals.", metavar="FILE.csv")]
+JSON = inspect.Parameter(
+    "json",
+    inspect.Parameter.KEYWORD_ONLY,
+    default=False,
+    annotation=Annotated[bool, Option(help="Print JSON on stdout instead of tables.")],
+)
 
-    @wraps(function)
-    def run(json: bool, **given: Any) -> None:
-        said = _followed(function, given, slow) if "report" in parameters else function(**given)
-        if json:
-            console.print_json(said.data)
-        else:
-            said.show()
-        if said.failure:
-            console.complain("error", said.failure)
-        if said.failure is not None:
-            raise typer.Exit(FAILED)
 
-    run.__annotations__ = {each.name: each.annotation for each in options}
-    vars(run)["__signature__"] = inspect.Signature(options)
-    return run
+class Parser(argparse.ArgumentParser):
+    """A parser whose complaints are those of the program."""
+
+    def __init__(self, program: str, usage: str, text: str, example: str) -> None:
+        super().__init__(
+            prog=program,
+            usage=f"{program} {usage}",
+            description=inspect.cleandoc(text).replace("%", "%%"),
+            epilog=f"Example: rotorfilm {example}".replace("%", "%%"),
+            formatter_class=partial(argparse.RawDescriptionHelpFormatter, max_help_position=28),
+            allow_abbrev=False,
+        )
+
+    def error(self, message: str) -> NoReturn:
+        """Print the usage and one line, and exit."""
+        self.print_usage(sys.stderr)
+        console.complain("error", message)
+        sys.exit(BAD_INPUT)
+
+
+def function_of(home: str) -> Callable[..., Said]:
+    """Return the function of a command, and import its module and no other."""
+    module, _, name = home.rpartition(".")
+    found: Callable[..., Said] = getattr(import_module(f".{module}", __package__), name)
+    return found
+
+
+def run_command(program: str, group: Group, home: str, words: Sequence[str]) -> None:
+    """Run a command with its options; exit with 1 if it failed, with 2 if an option is wrong."""
+    function = function_of(home)
+    parameters = {**inspect.signature(function, eval_str=True).parameters}
+    followed = parameters.pop("report", None) is not None
+    arguments = [get_args(each.annotation)[1] for each in parameters.values()]
+    usage = " ".join(["[OPTIONS]", *(each.metavar for each in arguments if isinstance(each, Argument))])
+    parser = Parser(program, usage, function.__doc__ or "", group.commands[home])
+    taking = {flag for each in (*parameters.values(), JSON) for flag in _add(parser, each)}
+    given = vars(parser.parse_args(list(_joined(words, taking))))
+    as_json = given.pop("json")
+    said = _followed(function, given, group.slow) if followed else function(**given)
+    if as_json:
+        console.print_json(said.data)
+    else:
+        said.show()
+    if said.failure:
+        console.complain("error", said.failure)
+    if said.failure is not None:
+        sys.exit(FAILED)
 
 
 def _followed(function: Callable[..., Said], given: dict[str, Any], slow: bool) -> Said:
@@ -97,3 +175,64 @@ def _followed(function: Callable[..., Said], given: dict[str, Any], slow: bool) 
         if slow:
             report(1.0, "done")
     return said
+
+
+def _add(parser: Parser, parameter: inspect.Parameter) -> list[str]:
+    """Add a parameter to a parser; return its name if a value follows it."""
+    annotation, meant = get_args(parameter.annotation)
+    kind, many = _kind_of(annotation)
+    required = parameter.default is parameter.empty
+    default = None if required else parameter.default
+    if isinstance(meant, Argument):
+        number = None if required else "?"
+        parser.add_argument(
+            parameter.name, type=kind, nargs=number, default=default, help=meant.help, metavar=meant.metavar
+        )
+        return []
+    flag = meant.flag or f"--{parameter.name.replace('_', '-')}"
+    notes = [meant.help.replace("%", "%%")]
+    if kind is bool:
+        parser.add_argument(flag, dest=parameter.name, action="store_true", help=notes[0])
+        return []
+    shown = default.value if isinstance(default, Enum) else default
+    notes += ["[required]"] if required else [f"[default: {shown}]".replace("%", "%%")] * (shown is not None)
+    choices = " | ".join(each.value for each in kind) if issubclass(kind, Enum) else None
+    parser.add_argument(
+        flag,
+        dest=parameter.name,
+        type=lambda text: _read(kind, meant, text),
+        action="append" if many else "store",
+        default=default,
+        required=required,
+        help=" ".join(notes),
+        metavar=(meant.metavar or choices or kind.__name__.upper()).replace("%", "%%"),
+    )
+    return [flag]
+
+
+def _kind_of(annotation: Any) -> tuple[type[Any], bool]:
+    """Return the type of a value, and whether there may be many."""
+    one = next((each for each in get_args(annotation) if each is not NoneType), annotation)
+    inner = get_args(one)
+    many = bool(inner) or annotation == list[str]
+    return (inner[0] if inner else one), many
+
+
+def _read(kind: type[Any], option: Option, text: str) -> Any:
+    """Return a value; raise ArgumentTypeError if the text is none, or beyond its bounds."""
+    try:
+        value = kind(text)
+    except ValueError:
+        rule = NUMBERS.get(kind) or f"one of {', '.join(each.value for each in kind)}"
+        raise argparse.ArgumentTypeError(f"must be {rule}, got {text!r}") from None
+    if kind in NUMBERS and (value < option.min or value > option.max):
+        raise argparse.ArgumentTypeError(f"must be {option.min:g} to {option.max:g}, got {text!r}")
+    return value
+
+
+def _joined(words: Iterable[str], taking: set[str]) -> Iterator[str]:
+    """Yield words with each value behind its option, as `--load=-5 N`: a value may begin with a dash."""
+    rest = iter(words)
+    for word in rest:
+        value = next(rest, None) if word in taking else None
+        yield word if value is None else f"{word}={value}"

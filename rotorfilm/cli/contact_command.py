@@ -7,12 +7,10 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from ..limits import CONTACT_CELLS, LAW_STATES
 from ..progress import Report
 from . import printing as console
-from .command import Said
+from .command import Option, Said
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -33,39 +31,37 @@ UNITS = {
 
 def contact(
     report: Report,
-    radius: Annotated[str | None, typer.Option(help="Of the ball.", metavar='"10 mm"')] = None,
-    mass: Annotated[str | None, typer.Option(help="Moving with the ball.", metavar='"33 g"')] = None,
-    modulus: Annotated[str | None, typer.Option(help="Of the ball.", metavar='"206 GPa"')] = None,
-    poisson_ratio: Annotated[str | None, typer.Option(help="Of the ball.", metavar="0.3")] = None,
-    viscosity: Annotated[str | None, typer.Option(help="At ambient pressure.", metavar='"8 mPa s"')] = None,
-    pressure_coefficient: Annotated[
-        str | None, typer.Option(help="Of the viscosity.", metavar='"5 1/GPa"')
-    ] = None,
-    speed: Annotated[str | None, typer.Option(help="Of rolling.", metavar='"0.9 m/s"')] = None,
-    load: Annotated[str | None, typer.Option(help="Static, weight included.", metavar='"10 N"')] = None,
-    plane_modulus: Annotated[str | None, typer.Option(help="Of the plane; rigid without.")] = None,
-    v: Annotated[float | None, typer.Option("--v", help="Speed parameter V, instead of a ball.")] = None,
-    q0: Annotated[float | None, typer.Option("--q0", help="Pressure-viscosity coefficient Q0.")] = None,
-    w: Annotated[float | None, typer.Option("--w", help="Inertia W of the ball.")] = None,
-    roelands: Annotated[bool, typer.Option("--roelands", help="Roelands' viscosity.")] = False,
-    compressible: Annotated[bool, typer.Option("--compressible", help="Density that grows.")] = False,
-    cells: Annotated[int, typer.Option(help="Cells along each side of the rectangle.")] = 40,
-    order: Annotated[int, typer.Option(help="States of the reduced law.")] = 5,
-    step: Annotated[float | None, typer.Option(help="Jump of the load at t = 0, of the static one.")] = None,
-    sine: Annotated[float | None, typer.Option(help="Swing of the load, of the static one.")] = None,
+    radius: Annotated[str | None, Option(help="Of the ball.", metavar='"10 mm"')] = None,
+    mass: Annotated[str | None, Option(help="Moving with the ball.", metavar='"33 g"')] = None,
+    modulus: Annotated[str | None, Option(help="Of the ball.", metavar='"206 GPa"')] = None,
+    poisson_ratio: Annotated[str | None, Option(help="Of the ball.", metavar="0.3")] = None,
+    viscosity: Annotated[str | None, Option(help="At ambient pressure.", metavar='"8 mPa s"')] = None,
+    pressure_coefficient: Annotated[str | None, Option(help="Of the viscosity.", metavar='"5 1/GPa"')] = None,
+    speed: Annotated[str | None, Option(help="Of rolling.", metavar='"0.9 m/s"')] = None,
+    load: Annotated[str | None, Option(help="Static, weight included.", metavar='"10 N"')] = None,
+    plane_modulus: Annotated[str | None, Option(help="Of the plane; rigid without.")] = None,
+    v: Annotated[float | None, Option("--v", help="Speed parameter V, instead of a ball.")] = None,
+    q0: Annotated[float | None, Option("--q0", help="Pressure-viscosity coefficient Q0.")] = None,
+    w: Annotated[float | None, Option("--w", help="Inertia W of the ball.")] = None,
+    roelands: Annotated[bool, Option("--roelands", help="Roelands' viscosity.")] = False,
+    compressible: Annotated[bool, Option("--compressible", help="Density that grows.")] = False,
+    cells: Annotated[int, Option(help="Cells along each side of the rectangle.")] = 40,
+    order: Annotated[int, Option(help="States of the reduced law.")] = 5,
+    step: Annotated[float | None, Option(help="Jump of the load at t = 0, of the static one.")] = None,
+    sine: Annotated[float | None, Option(help="Swing of the load, of the static one.")] = None,
     frequency: Annotated[
-        str | None, typer.Option(help="Angular, of the swing; plain for V, Q0.", metavar='"12000 rad/s"')
+        str | None, Option(help="Angular, of the swing; plain for V, Q0.", metavar='"12000 rad/s"')
     ] = None,
     duration: Annotated[
-        str | None, typer.Option(help="Of the response; 20 transit times without.", metavar='"2 ms"')
+        str | None, Option(help="Of the response; 20 transit times without.", metavar='"2 ms"')
     ] = None,
-    full: Annotated[bool, typer.Option("--full", help="Response by the full film.")] = False,
+    full: Annotated[bool, Option("--full", help="Response by the full film.")] = False,
     save: Annotated[
-        Path | None, typer.Option(help="Keep the full film's run in this NetCDF file, as it goes.")
+        Path | None, Option(help="Keep the full film's run in this NetCDF file, as it goes.")
     ] = None,
     resume: Annotated[
         Path | None,
-        typer.Option(help="Go on from such a file: with a run that was cut off, else from where one ended."),
+        Option(help="Go on from such a file: with a run that was cut off, else from where one ended."),
     ] = None,
 ) -> Said:
     """Film thickness, approach and stiffness of a lubricated rolling ball, and its response to a load."""

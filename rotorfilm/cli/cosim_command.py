@@ -8,34 +8,32 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from ..progress import Report
 from ..results import write_csv
 from . import printing as console
-from .command import Said, SignalFile
+from .command import Argument, Option, Said, SignalFile
 
 if TYPE_CHECKING:
     from ..scenes.cosimulate_scene import CosimAnswer
 
 
 def cosim(
-    scene: Annotated[Path, typer.Argument(metavar="SCENE.toml", help="Scene file with a rotor.")],
+    scene: Annotated[Path, Argument(metavar="SCENE.toml", help="Scene file with a rotor.")],
     report: Report,
     scheme: Annotated[
         str,
-        typer.Option(
+        Option(
             help="auto, gauss-seidel-0 to -2, jacobi-0 to -2, si-exp, si-exp3, newton or adaptive.",
             metavar="NAME",
         ),
     ] = "auto",
     macro_angle: Annotated[
-        str | None, typer.Option(help="Rotation between exchanges; else the scene's.", metavar='"5 deg"')
+        str | None, Option(help="Rotation between exchanges; else the scene's.", metavar='"5 deg"')
     ] = None,
     revolutions: Annotated[
-        float | None, typer.Option(help="Length in turns of the shaft; else the scene's.", min=0.0)
+        float | None, Option(help="Length in turns of the shaft; else the scene's.", min=0.0)
     ] = None,
-    tolerance: Annotated[float, typer.Option(help="Relative, of auto and adaptive.", min=0.0)] = 1e-2,
+    tolerance: Annotated[float, Option(help="Relative, of auto and adaptive.", min=0.0)] = 1e-2,
     out: SignalFile = None,
 ) -> Said:
     """Couple the rotor and the film of a scene as FMUs, and say how well: limit, error, film calls."""

@@ -9,11 +9,9 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from ..results import CircularOrbit, write_csv
 from . import printing as console
-from .command import Said, SignalFile
+from .command import Argument, Option, Said, SignalFile
 
 if TYPE_CHECKING:
     from ..bearings.damper import PorousCage
@@ -33,26 +31,26 @@ class Squeeze(StrEnum):
 
 
 def damper(
-    radius: Annotated[str, typer.Option(help="Radius of the film.", metavar='"50 mm"')],
-    length: Annotated[str, typer.Option(help="Axial length.", metavar='"25 mm"')],
-    clearance: Annotated[str, typer.Option(help="Radial clearance.", metavar='"0.1 mm"')],
-    viscosity: Annotated[str, typer.Option(help="Dynamic viscosity.", metavar='"4.1e-4 Pa s"')],
-    mass: Annotated[str, typer.Option(help="Mass on this damper.", metavar='"10 kg"')],
-    speed: Annotated[str, typer.Option(help="Angular speed.", metavar='"400 rad/s"')],
-    unbalance: Annotated[str, typer.Option(help="Mass times eccentricity.", metavar='"400 g mm"')],
-    stiffness: Annotated[str, typer.Option(help="Of the retainer springs.", metavar='"2.56e5 N/m"')] = "0",
+    radius: Annotated[str, Option(help="Radius of the film.", metavar='"50 mm"')],
+    length: Annotated[str, Option(help="Axial length.", metavar='"25 mm"')],
+    clearance: Annotated[str, Option(help="Radial clearance.", metavar='"0.1 mm"')],
+    viscosity: Annotated[str, Option(help="Dynamic viscosity.", metavar='"4.1e-4 Pa s"')],
+    mass: Annotated[str, Option(help="Mass on this damper.", metavar='"10 kg"')],
+    speed: Annotated[str, Option(help="Angular speed.", metavar='"400 rad/s"')],
+    unbalance: Annotated[str, Option(help="Mass times eccentricity.", metavar='"400 g mm"')],
+    stiffness: Annotated[str, Option(help="Of the retainer springs.", metavar='"2.56e5 N/m"')] = "0",
     thickness: Annotated[
-        str | None, typer.Option(help="Of the porous cage; solid without.", metavar='"2.5 mm"')
+        str | None, Option(help="Of the porous cage; solid without.", metavar='"2.5 mm"')
     ] = None,
     permeability: Annotated[
-        str | None, typer.Option(help="Of the porous cage at the film.", metavar='"0.4 um2"')
+        str | None, Option(help="Of the porous cage at the film.", metavar='"0.4 um2"')
     ] = None,
-    grading: Annotated[float, typer.Option(help="lambda of k = A exp(lambda y/H).")] = 0.0,
-    anisotropy: Annotated[float, typer.Option(help="Permeability along the cage / through it.")] = 1.0,
-    vented: Annotated[bool, typer.Option("--vented", help="Open back of the cage.")] = False,
-    full: Annotated[bool, typer.Option("--full", help="Full film, tension included.")] = False,
-    film: Annotated[Squeeze, typer.Option(help="Film law.")] = Squeeze.SHORT,
-    chart: Annotated[Path | None, typer.Option(help="Draw the transmissibility into this PNG.")] = None,
+    grading: Annotated[float, Option(help="lambda of k = A exp(lambda y/H).")] = 0.0,
+    anisotropy: Annotated[float, Option(help="Permeability along the cage / through it.")] = 1.0,
+    vented: Annotated[bool, Option("--vented", help="Open back of the cage.")] = False,
+    full: Annotated[bool, Option("--full", help="Full film, tension included.")] = False,
+    film: Annotated[Squeeze, Option(help="Film law.")] = Squeeze.SHORT,
+    chart: Annotated[Path | None, Option(help="Draw the transmissibility into this PNG.")] = None,
 ) -> Said:
     """Find the synchronous orbits of an unbalanced rotor on a solid or porous squeeze-film damper."""
     from ..bearings.damper import PorousDamper
@@ -145,13 +143,11 @@ def _cage(
 
 def damper_run(
     scene: Annotated[
-        Path, typer.Argument(metavar="SCENE.toml", help="Scene file with a damper and a rigid rotor.")
+        Path, Argument(metavar="SCENE.toml", help="Scene file with a damper and a rigid rotor.")
     ],
-    fmus: Annotated[bool, typer.Option("--fmus", help="As two FMUs, instead of one system.")] = False,
+    fmus: Annotated[bool, Option("--fmus", help="As two FMUs, instead of one system.")] = False,
     out: SignalFile = None,
-    chart: Annotated[
-        Path | None, typer.Option(help="Draw eccentricity and force over time into this PNG.")
-    ] = None,
+    chart: Annotated[Path | None, Option(help="Draw eccentricity and force over time into this PNG.")] = None,
 ) -> Said:
     """Follow a rotor on a damper after a blade is lost, over a run-up or with its unbalance.
 

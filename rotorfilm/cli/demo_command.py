@@ -7,11 +7,9 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from ..progress import Report
 from . import printing as console
-from .command import Said
+from .command import Option, Said
 from .solve_command import print_answer
 
 if TYPE_CHECKING:
@@ -20,7 +18,7 @@ if TYPE_CHECKING:
 
 def demo(
     report: Report,
-    out: Annotated[Path, typer.Option(help="Folder for results, FMUs and charts.")] = Path("rotorfilm-demo"),
+    out: Annotated[Path, Option(help="Folder for results, FMUs and charts.")] = Path("rotorfilm-demo"),
 ) -> Said:
     """Run the whole way on a real bearing: equilibrium, stability, FMUs, coupled simulation, charts."""
     report(0.0, "packages")
@@ -40,7 +38,7 @@ def _print_all(result: DemoResult, folder: Path) -> None:
     print_demo(result)
     notes = {folder / "demo.png": "overview: orbits, coupling error, whirl, force error"}
     files = [(path.name, notes.get(path, "")) for path in sorted(folder.iterdir())]
-    console.print_rows("files", files)
+    console.print_rows(f"files in {folder}", files)
 
 
 def print_demo(result: DemoResult) -> None:

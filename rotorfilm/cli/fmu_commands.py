@@ -7,14 +7,12 @@ from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
-import typer
-
 from ..progress import Report
 from . import printing as console
-from .command import Said, SceneFile
+from .command import Argument, Option, Said, SceneFile
 from .solve_command import make_map
 
-FmuFile = Annotated[Path, typer.Argument(metavar="FILE.fmu", help="FMU of FMI 2.0 or 3.0.")]
+FmuFile = Annotated[Path, Argument(metavar="FILE.fmu", help="FMU of FMI 2.0 or 3.0.")]
 
 
 class FmiVersion(StrEnum):
@@ -41,12 +39,12 @@ class Platforms(StrEnum):
 def build(
     scene: SceneFile,
     report: Report,
-    out: Annotated[Path, typer.Option(help="Folder for the FMUs; made if absent.")] = Path("."),
-    fmi: Annotated[FmiVersion, typer.Option(help="FMI version.")] = FmiVersion.TWO,
+    out: Annotated[Path, Option(help="Folder for the FMUs; made if absent.")] = Path("."),
+    fmi: Annotated[FmiVersion, Option(help="FMI version.")] = FmiVersion.TWO,
     backend: Annotated[
-        Backend | None, typer.Option(help="What runs in them; by default native where there is a kernel.")
+        Backend | None, Option(help="What runs in them; by default native where there is a kernel.")
     ] = None,
-    platforms: Annotated[Platforms, typer.Option(help="This machine's platform, or all of them.")] = (
+    platforms: Annotated[Platforms, Option(help="This machine's platform, or all of them.")] = (
         Platforms.HOST
     ),
 ) -> Said:

@@ -7,14 +7,12 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from ..errors import InputError
 from ..printable import brief
 from ..progress import Report
 from ..units import whole_number
 from . import printing as console
-from .command import Said
+from .command import Argument, Option, Said
 from .solve_command import bearing_rows, coefficient_rows, equilibrium_rows, loss_rows, make_map, remark_rows
 
 if TYPE_CHECKING:
@@ -24,41 +22,38 @@ if TYPE_CHECKING:
 
 Grooves = Annotated[
     list[str] | None,
-    typer.Option(help="Center and width of an axial groove; once for each.", metavar='"90 deg, 20 deg"'),
+    Option(help="Center and width of an axial groove; once for each.", metavar='"90 deg, 20 deg"'),
 ]
 
 
 def coefficients(
     report: Report,
-    radius: Annotated[str, typer.Option(help="Journal radius.", metavar='"50 mm"')],
-    length: Annotated[str, typer.Option(help="Axial length.", metavar='"30 mm"')],
-    clearance: Annotated[str, typer.Option(help="Radial clearance.", metavar='"0.1 mm"')],
-    viscosity: Annotated[str, typer.Option(help="Dynamic viscosity.", metavar='"0.1 Pa s"')],
-    load: Annotated[str, typer.Option(help='Static load: downward, or "X,Y" components.', metavar='"525 N"')],
-    speed: Annotated[str, typer.Option(help="Angular speed about +z.", metavar='"1500 rpm"')],
+    radius: Annotated[str, Option(help="Journal radius.", metavar='"50 mm"')],
+    length: Annotated[str, Option(help="Axial length.", metavar='"30 mm"')],
+    clearance: Annotated[str, Option(help="Radial clearance.", metavar='"0.1 mm"')],
+    viscosity: Annotated[str, Option(help="Dynamic viscosity.", metavar='"0.1 Pa s"')],
+    load: Annotated[str, Option(help='Static load: downward, or "X,Y" components.', metavar='"525 N"')],
+    speed: Annotated[str, Option(help="Angular speed about +z.", metavar='"1500 rpm"')],
     film: Annotated[
-        str, typer.Option(help="Film law: map, grooved_map, reynolds, short or splitting.", metavar="NAME")
+        str, Option(help="Film law: map, grooved_map, reynolds, short or splitting.", metavar="NAME")
     ] = "map",
-    order: Annotated[
-        str | None, typer.Option(help='Splitting order, "N,M" or "N,inf".', metavar="2,inf")
-    ] = None,
-    constant: Annotated[bool, typer.Option("--constant", help="Splitting film with the function 1.")] = False,
+    order: Annotated[str | None, Option(help='Splitting order, "N,M" or "N,inf".', metavar="2,inf")] = None,
+    constant: Annotated[bool, Option("--constant", help="Splitting film with the function 1.")] = False,
     rupture: Annotated[
         str | None,
-        typer.Option(
+        Option(
             help="Where the splitting film ends: fixed, rotating, reynolds or complementarity.",
             metavar="KIND",
         ),
     ] = None,
     cells: Annotated[
         str | None,
-        typer.Option(help='Cells of the reynolds or grooved_map film, "AROUND,ALONG".', metavar="96,8"),
+        Option(help='Cells of the reynolds or grooved_map film, "AROUND,ALONG".', metavar="96,8"),
     ] = None,
     groove: Grooves = None,
 ) -> Said:
     """Find equilibrium, stiffness and damping of a journal bearing; numbers without a unit are SI."""
-    from ..linear import coefficients as film_coefficients
-    from ..linear import equilibrium
+    from ..linear import coefficients as film_coefficients, equilibrium
     from ..scenes.journal.echo import bearing_data, film_name
     from ..scenes.journal.journal_remarks import film_remarks
     from ..scenes.lubricant_table import Lubricant
@@ -85,23 +80,21 @@ def coefficients(
 def groove_map(
     report: Report,
     scene: Annotated[
-        Path | None, typer.Argument(metavar="SCENE.toml", help="Scene whose bearing has grooves or pads.")
+        Path | None, Argument(metavar="SCENE.toml", help="Scene whose bearing has grooves or pads.")
     ] = None,
     slenderness: Annotated[
-        float | None, typer.Option(help="Without a scene: length / diameter.", metavar="0.5")
+        float | None, Option(help="Without a scene: length / diameter.", metavar="0.5")
     ] = None,
     groove: Grooves = None,
     cells: Annotated[
         str | None,
-        typer.Option(help="Without a scene: cells around the film and along half of it.", metavar="192,12"),
+        Option(help="Without a scene: cells around the film and along half of it.", metavar="192,12"),
     ] = None,
     nodes: Annotated[
         str | None,
-        typer.Option(
-            help="Without a scene: nodes over eccentricity, its direction, motion.", metavar="12,72,48"
-        ),
+        Option(help="Without a scene: nodes over eccentricity, its direction, motion.", metavar="12,72,48"),
     ] = None,
-    out: Annotated[Path | None, typer.Option(help="File for a copy of the map.")] = None,
+    out: Annotated[Path | None, Option(help="File for a copy of the map.")] = None,
 ) -> Said:
     """Make the map of a bearing with grooves or pads; all of its shape and resolution find it on disk."""
     from ..bearings.films.table_cache import cache_folder
@@ -153,7 +146,7 @@ def _map_of_options(
 
 def _film(film: str, order: str | None, constant: bool, rupture: str | None, cells: str | None) -> FilmLaw:
     from ..scenes.journal.film_tables import FILMS
-    from ..scenes.reading.tables import choose, read_table
+    from ..scenes.reading.tables import choose, keyed, read_table
 
     given: dict[str, Any] = {
         "order": order and _numbers(order),
@@ -164,7 +157,7 @@ def _film(film: str, order: str | None, constant: bool, rupture: str | None, cel
     options = {name: value for name, value in given.items() if value}
     table = choose("--film", film, FILMS)
     for name in options:
-        if name not in table.readers:
+        if name not in keyed(table).readers:
             raise InputError(f"--{name} must not be given with --film {film}, got {options[name]!r}")
     return read_table(table, "--", options)
 

@@ -4,48 +4,56 @@ from __future__ import annotations
 
 import json
 import math
+import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-from rich.table import Table
-
-from ..files import write_whole
 from ..printable import visible
-from ..results import to_plain
 from ..units import CELSIUS
 
 if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.progress import Progress
+    from rich.table import Table
+
     from ..progress import Report
 
 
 def plain_console(**options: Any) -> Console:
     """Return a console that takes no text for markup: what is shown may be what a user typed."""
+    from rich.console import Console
+
     return Console(highlight=False, markup=False, emoji=False, **options)
 
 
 def complain(kind: str, message: object) -> None:
     """Print one line `kind: message` on stderr."""
     line = " ".join(str(message).split())
-    plain_console(stderr=True, soft_wrap=True).print(f"{kind}: {visible(line)}")
+    sys.stderr.write(f"{kind}: {visible(line)}\n")
 
 
 def print_json(value: Any) -> None:
     """Print a result as JSON, alone on stdout."""
-    plain_console(soft_wrap=True).out(json.dumps(to_plain(value), indent=2, allow_nan=False))
+    from ..results import to_plain
+
+    sys.stdout.write(json.dumps(to_plain(value), indent=2, allow_nan=False) + "\n")
 
 
 def write_json(path: Path, value: Any) -> Path:
     """Write a result as JSON; return where it is."""
+    from ..files import write_whole
+    from ..results import to_plain
+
     text = json.dumps(to_plain(value), indent=2, allow_nan=False)
     return write_whole(path, f"{text}\n".encode())
 
 
 def plain_table(title: str = "", **options: Any) -> Table:
     """Return an empty table without lines."""
+    from rich.table import Table
+
     return Table(title=visible(title), title_justify="left", box=None, pad_edge=False, **options)
 
 
@@ -72,26 +80,34 @@ def print_columns(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> Non
 @contextmanager
 def progress_display() -> Iterator[Report]:
     """Yield a function (fraction, text) that moves a progress bar on stderr; it shows from the first call."""
-    columns = (BarColumn(bar_width=30), TimeElapsedColumn(), TextColumn("{task.description}", markup=False))
-    bar = Progress(*columns, console=Console(stderr=True))
-    task = bar.add_task("", total=1.0, start=False)
+    bars: list[Progress] = []
 
     def report(fraction: float, text: str) -> None:
-        if not bar.live.is_started:
-            bar.start()
-            bar.start_task(task)
-        bar.update(task, completed=fraction, description=text)
+        if not bars:
+            bars.append(_started_bar())
+        bars[0].update(bars[0].task_ids[0], completed=fraction, description=text)
 
     try:
         yield report
     finally:
-        if bar.live.is_started:
+        for bar in bars:
             bar.stop()
 
 
 def temperature_text(temperature: float) -> str:
     """Return a temperature [K] with its value in degC."""
     return f"{temperature - CELSIUS:.6g} degC ({temperature:.6g} K)"
+
+
+def _started_bar() -> Progress:
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (BarColumn(bar_width=30), TimeElapsedColumn(), TextColumn("{task.description}", markup=False))
+    bar = Progress(*columns, console=Console(stderr=True))
+    bar.add_task("", total=1.0)
+    bar.start()
+    return bar
 
 
 def speed_text(speed: float) -> str:

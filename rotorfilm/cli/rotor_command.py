@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-import typer
 
 from ..progress import Report
 from ..results import to_plain, write_csv
 from . import printing as console
-from .command import Said
+from .command import Argument, Option, Said
+from .solve_command import remark_rows
 
 if TYPE_CHECKING:
     from ..scenes.shaft.solve_shaft import RotorAnswer
@@ -23,10 +23,10 @@ RPM = 30.0 / math.pi
 
 
 def rotor(
-    scene: Annotated[Path, typer.Argument(help="Scene file with a table shaft.", metavar="SCENE.toml")],
+    scene: Annotated[Path, Argument(help="Scene file with a table shaft.", metavar="SCENE.toml")],
     report: Report,
     out: Annotated[
-        Path | None, typer.Option(help="Folder for pictures (PNG), tables (CSV) and the answer (JSON).")
+        Path | None, Option(help="Folder for pictures (PNG), tables (CSV) and the answer (JSON).")
     ] = None,
 ) -> Said:
     """Find critical speeds, whirl modes, the threshold of stability and the unbalance response of a rotor."""
@@ -65,7 +65,7 @@ def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:
         beyond = found.speed is not None and turned > found.speed
         remark = ", beyond the threshold" if beyond else ""
         rows.append((f"largest {name}", f"{size} at {turned * RPM:.6g} rpm{remark}"))
-    return rows
+    return rows + remark_rows(answer.remarks)
 
 
 def plain_rotor(answer: RotorAnswer) -> dict[str, Any]:
@@ -87,6 +87,7 @@ def plain_rotor(answer: RotorAnswer) -> dict[str, Any]:
         },
         "response_speeds": [] if answer.response is None else np.asarray(answer.response.frequency).tolist(),
         "amplitudes": to_plain(dict(answer.amplitudes)),
+        "remarks": list(answer.remarks),
     }
 
 

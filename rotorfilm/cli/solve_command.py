@@ -8,14 +8,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
-import typer
 
 from ..errors import InputError
 from ..progress import Report
 from ..results import BearingLosses, Coefficients, Equilibrium, WhirlThreshold
 from . import printing as console
 from .bush_command import print_bush
-from .command import Said, SceneFile
+from .command import Option, Said, SceneFile
 
 if TYPE_CHECKING:
     from ..bearings.journal import JournalBearing
@@ -28,7 +27,7 @@ def solve(
     scene: SceneFile,
     report: Report,
     explain: Annotated[
-        bool, typer.Option("--explain", help="Show the whole ladder behind the answer to a question.")
+        bool, Option("--explain", help="Show the whole ladder behind the answer to a question.")
     ] = False,
 ) -> Said:
     """Answer a scene: its question, or else equilibrium, stiffness, damping and whirl threshold.
@@ -64,6 +63,8 @@ def _question(path: Path, scene: Scene, explain: bool) -> Said:
 
 def make_map(bearing: JournalBearing, report: Report) -> None:
     """Make the map of a bearing that needs one of its own, unless it lies on disk."""
+    if not (bearing.grooves or bearing.pads):
+        return
     from ..bearings.journal import GroovedMapFilm, build_groove_map
 
     if isinstance(bearing.fitted_film, GroovedMapFilm):

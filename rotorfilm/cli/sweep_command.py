@@ -7,15 +7,13 @@ from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
-import typer
-
 from ..errors import InputError
 from ..limits import SWEEP_POINTS
 from ..printable import brief
 from ..progress import Report
 from ..units import whole_number
 from . import printing as console
-from .command import Said, SceneFile
+from .command import Option, Said, SceneFile
 
 
 def sweep(
@@ -23,14 +21,14 @@ def sweep(
     report: Report,
     vary: Annotated[
         list[str],
-        typer.Option(
+        Option(
             help="Key and its values: a list, or first : last : count. Once for each key.",
             metavar='"KEY = VALUES"',
         ),
     ],
-    out: Annotated[Path, typer.Option(help="NetCDF file; run again, it goes on where it was interrupted.")],
-    workers: Annotated[int | None, typer.Option(help="Processes; by default one for each core.")] = None,
-    dask: Annotated[str | None, typer.Option(help="Scheduler of a Dask cluster.", metavar="ADDRESS")] = None,
+    out: Annotated[Path, Option(help="NetCDF file; run again, it goes on where it was interrupted.")],
+    workers: Annotated[int | None, Option(help="Processes; by default one for each core.")] = None,
+    dask: Annotated[str | None, Option(help="Scheduler of a Dask cluster.", metavar="ADDRESS")] = None,
 ) -> Said:
     """Solve a scene at all combinations of some values of its keys, into a NetCDF file."""
     from ..sweeps import sweep as run

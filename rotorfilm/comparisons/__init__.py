@@ -1,60 +1,68 @@
 """Ladders: every model of one physics from the cheapest law to the reference, measured side by side."""
 
-from .bush_tiers import BushTier, BushTiers, ShaftFluxError, bush_tiers, shaft_flux_errors
-from .contact.contact_cases import contact_cases
-from .contact.contact_limits import contact_limits
-from .contact.contact_precision import contact_precision
-from .coupling.coupling_cost import CostRow, CouplingCost, coupling_cost
-from .coupling.coupling_limits import CouplingLimits, LimitRow, coupling_limits
-from .damper_accuracy import DamperAccuracy, DamperRung, SqueezeFamily, damper_accuracy, damper_rungs
-from .journal.journal_accuracy import JournalAccuracy, RungAccuracy, journal_accuracy, pareto_front
-from .journal.journal_rungs import ComparedFilm, FilmFamily, comparison_bearing, fitted_bearing, journal_rungs
-from .journal.journal_stability import journal_stability
-from .journal.journal_states import LARGE, SMALL, StateRange, random_states
-from .journal.journal_thresholds import JournalStability, RungStability
-from .limits.limit_panels import Failure, Limit, LimitAtlas, Panel, failures
-from .limits.limits_atlas import limits_atlas
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "LARGE",
-    "SMALL",
-    "BushTier",
-    "BushTiers",
-    "ComparedFilm",
-    "CostRow",
-    "CouplingCost",
-    "CouplingLimits",
-    "DamperAccuracy",
-    "DamperRung",
-    "Failure",
-    "FilmFamily",
-    "JournalAccuracy",
-    "JournalStability",
-    "Limit",
-    "LimitAtlas",
-    "LimitRow",
-    "Panel",
-    "RungAccuracy",
-    "RungStability",
-    "ShaftFluxError",
-    "SqueezeFamily",
-    "StateRange",
-    "bush_tiers",
-    "comparison_bearing",
-    "contact_cases",
-    "contact_limits",
-    "contact_precision",
-    "coupling_cost",
-    "coupling_limits",
-    "damper_accuracy",
-    "damper_rungs",
-    "failures",
-    "fitted_bearing",
-    "journal_accuracy",
-    "journal_rungs",
-    "journal_stability",
-    "limits_atlas",
-    "pareto_front",
-    "random_states",
-    "shaft_flux_errors",
-]
+from ..sources import show
+
+if TYPE_CHECKING:
+    from .bush_tiers import (
+        BushTier as BushTier,
+        BushTiers as BushTiers,
+        ShaftFluxError as ShaftFluxError,
+        bush_tiers as bush_tiers,
+        shaft_flux_errors as shaft_flux_errors,
+    )
+    from .contact.contact_cases import contact_cases as contact_cases
+    from .contact.contact_limits import contact_limits as contact_limits
+    from .contact.contact_precision import contact_precision as contact_precision
+    from .coupling.coupling_cost import (
+        CostRow as CostRow,
+        CouplingCost as CouplingCost,
+        coupling_cost as coupling_cost,
+    )
+    from .coupling.coupling_limits import (
+        CouplingLimits as CouplingLimits,
+        LimitRow as LimitRow,
+        coupling_limits as coupling_limits,
+    )
+    from .damper_accuracy import (
+        DamperAccuracy as DamperAccuracy,
+        DamperRung as DamperRung,
+        SqueezeFamily as SqueezeFamily,
+        damper_accuracy as damper_accuracy,
+        damper_rungs as damper_rungs,
+    )
+    from .journal.journal_accuracy import (
+        JournalAccuracy as JournalAccuracy,
+        RungAccuracy as RungAccuracy,
+        journal_accuracy as journal_accuracy,
+        pareto_front as pareto_front,
+    )
+    from .journal.journal_rungs import (
+        ComparedFilm as ComparedFilm,
+        FilmFamily as FilmFamily,
+        comparison_bearing as comparison_bearing,
+        fitted_bearing as fitted_bearing,
+        journal_rungs as journal_rungs,
+    )
+    from .journal.journal_stability import journal_stability as journal_stability
+    from .journal.journal_states import (
+        LARGE as LARGE,
+        SMALL as SMALL,
+        StateRange as StateRange,
+        random_states as random_states,
+    )
+    from .journal.journal_thresholds import (
+        JournalStability as JournalStability,
+        RungStability as RungStability,
+    )
+    from .limits.limit_panels import (
+        Failure as Failure,
+        Limit as Limit,
+        LimitAtlas as LimitAtlas,
+        Panel as Panel,
+        failures as failures,
+    )
+    from .limits.limits_atlas import limits_atlas as limits_atlas
+else:
+    show(__name__)

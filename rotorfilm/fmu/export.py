@@ -35,9 +35,12 @@ from .native.native_backend import (
     source_names,
 )
 from .python.bundle import content_hash
-from .python.python_backend import CATEGORIES as PYTHON_CATEGORIES
-from .python.python_backend import INTERFACES as PYTHON_INTERFACES
-from .python.python_backend import python_files, python_tool
+from .python.python_backend import (
+    CATEGORIES as PYTHON_CATEGORIES,
+    INTERFACES as PYTHON_INTERFACES,
+    python_files,
+    python_tool,
+)
 
 if TYPE_CHECKING:
     import control

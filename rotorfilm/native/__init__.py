@@ -1,27 +1,20 @@
 """Thin view of the C library, whose kernels Python and the native FMUs share."""
 
-from .film_kernels import (
-    FilmKernel,
-    GrooveMapKernel,
-    JournalKernel,
-    MapKernel,
-    ShortKernel,
-    Status,
-)
-from .library import NativeLibraryError
-from .map_slice import slice_table
-from .spec import HasKernel, NativeParameter, NativeSpec
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "FilmKernel",
-    "GrooveMapKernel",
-    "HasKernel",
-    "JournalKernel",
-    "MapKernel",
-    "NativeLibraryError",
-    "NativeParameter",
-    "NativeSpec",
-    "ShortKernel",
-    "Status",
-    "slice_table",
-]
+from ..sources import show
+
+if TYPE_CHECKING:
+    from .film_kernels import (
+        FilmKernel as FilmKernel,
+        GrooveMapKernel as GrooveMapKernel,
+        JournalKernel as JournalKernel,
+        MapKernel as MapKernel,
+        ShortKernel as ShortKernel,
+        Status as Status,
+    )
+    from .library import NativeLibraryError as NativeLibraryError
+    from .map_slice import slice_table as slice_table
+    from .spec import HasKernel as HasKernel, NativeParameter as NativeParameter, NativeSpec as NativeSpec
+else:
+    show(__name__)

@@ -9,9 +9,10 @@ from typing import NamedTuple
 
 from ..errors import InputError
 from .library import FOLDER
+from .spec import NativeSpec
 
 _LIBRARY = re.compile(r"^#define RF_(ROTORFILM\w*) \d+$", re.MULTILINE)
-_ROW = re.compile(r"^RF_KERNEL\((\w+), RF_(\w+)[| \w]*, (\w+)\)$", re.MULTILINE)
+_ROW = re.compile(r"^RF_KERNEL\((\w+), ([| \w]+), (\w+)\)$", re.MULTILINE)
 _PAGE = re.compile(r"/\* Documentation of the FMU\n(.*?)\*/", re.DOTALL)
 _HEADINGS = ["Model", "Equations", "Validity"]
 
@@ -21,13 +22,13 @@ class KernelRow(NamedTuple):
 
     Attributes
     ----------
-    library : str
-        Of `libraries()`, the one that its FMUs carry.
+    libraries : tuple of str
+        Of `libraries()`, those that have it, the smallest first.
     picture : str
         Name of the picture of its FMUs.
     """
 
-    library: str
+    libraries: tuple[str, ...]
     picture: str
 
 
@@ -41,7 +42,16 @@ def libraries() -> tuple[str, ...]:
 def kernel_table() -> dict[str, KernelRow]:
     """Return the rows by the name of the kernel."""
     rows = _ROW.findall(_source("kernel_list.h"))
-    return {name: KernelRow(library.lower(), picture) for name, library, picture in rows}
+    return {
+        name: KernelRow(tuple(bit.strip()[3:].lower() for bit in bits.split("|")), picture)
+        for name, bits, picture in rows
+    }
+
+
+def carried_library(spec: NativeSpec) -> str:
+    """Return the library that an FMU of this kernel carries: the first that has those of its parts too."""
+    parts = [set(kernel_row(part).libraries) for part in spec.parts]
+    return next(name for name in kernel_row(spec.kernel).libraries if all(name in part for part in parts))
 
 
 def kernel_row(kernel: str) -> KernelRow:

@@ -7,7 +7,6 @@ import sys
 from ctypes import c_double, c_int, c_int64, c_size_t, c_void_p
 from functools import cache
 from hashlib import sha256
-from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 from typing import Any
 
@@ -52,14 +51,16 @@ _SCALAR: dict[str, list[Any]] = {
 }
 _LOOPS: dict[str, list[Any]] = {
     "rf_ring_film": [c_void_p] * 5,
-    "rf_ring_pair": [c_void_p, c_size_t, *[c_void_p] * 5],
+    "rf_ring_pair": [c_void_p, c_size_t, *[c_void_p] * 6],
     "rf_ring_field": [c_void_p] * 7,
     "rf_ring_losses": [c_void_p, c_size_t, *[c_void_p] * 5],
-    "rf_ring_potential": [c_void_p, c_void_p, c_size_t, *[c_void_p] * 4],
+    "rf_ring_potential": [c_void_p, c_void_p, c_size_t, *[c_void_p] * 5],
     "rf_balanced_at": [c_void_p] * 5,
     "rf_balanced_batch": [c_void_p, c_size_t, *[c_void_p] * 5],
     "rf_ride": [c_void_p, c_void_p, c_double, c_int64, c_void_p, c_void_p],
     "rf_springs_at": [c_void_p] * 4,
+    "rf_sprung_at": [c_void_p] * 4,
+    "rf_follow_shaken": [c_void_p, c_int64, c_void_p, c_void_p],
     "rf_set_step_table": [c_void_p, c_void_p, c_double, c_void_p],
     "rf_march_to": [c_void_p, c_double, c_int64, c_void_p, c_int64, c_void_p, c_void_p],
     "rf_journal_forces": [c_void_p, c_int64, c_void_p, c_double, c_void_p, c_void_p],
@@ -138,6 +139,8 @@ def source_digests(folder: Path) -> str:
 
 def _installed_folder() -> Path | None:
     """Return the folder of the installed distribution that holds the libraries and their record."""
+    from importlib.metadata import PackageNotFoundError, distribution
+
     package = __name__.partition(".")[0]
     try:
         folder = Path(str(distribution(package).locate_file(f"{package}/native")))

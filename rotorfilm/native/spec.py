@@ -65,6 +65,8 @@ class NativeSpec:
         Inputs of the model that the kernel takes, in its order; the others have no effect. None for all.
     spring : str
         Parameter that is a stiffness [N/m] beside the model, along either axis; empty where there is none.
+    parts : tuple of str
+        Kernels that it calls, as a system those of its bearings.
 
     Raises
     ------
@@ -77,6 +79,7 @@ class NativeSpec:
     tables: Mapping[str, Array] = field(default_factory=dict)
     inputs: tuple[str, ...] | None = None
     spring: str = ""
+    parts: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         names = [parameter.name for parameter in self.parameters]

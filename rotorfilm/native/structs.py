@@ -113,7 +113,14 @@ class RingStruct(ctypes.Structure):
         ("pinned", c_int32),
         ("ruptured", c_int32),
         ("clipped", c_int32),
+        ("extrapolated", c_int32),
     ]
+
+
+class GridWorkStruct(ctypes.Structure):
+    """rf_grid_work of ring.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [("solutions", c_int64), ("lines", c_int64)]
 
 
 class RideStruct(ctypes.Structure):
@@ -180,6 +187,7 @@ class JournalsStruct(ctypes.Structure):
         ("spring", c_void_p),
         ("damper", c_void_p),
         ("lengths", c_void_p),
+        ("walls", c_void_p),
     ]
 
 
@@ -192,6 +200,33 @@ class SpeedsStruct(ctypes.Structure):
         ("speeds", c_void_p),
         ("slopes", c_void_p),
         ("angles", c_void_p),
+    ]
+
+
+class SprungStruct(ctypes.Structure):
+    """rf_sprung of springs.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("film", c_void_p),
+        ("of", c_void_p),
+        ("stiffness", c_double),
+        ("still", c_int),
+    ]
+
+
+class ShakenStruct(ctypes.Structure):
+    """rf_shaken of shake.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("film", c_void_p),
+        ("of", c_void_p),
+        ("mass", c_double),
+        ("speed", c_double),
+        ("clearance", c_double),
+        ("step", c_double),
+        ("calls", c_int64),
+        ("done", c_int64),
+        ("left_map", c_int),
     ]
 
 
@@ -223,6 +258,7 @@ class MarchStruct(ctypes.Structure):
         ("jacobians", c_int64),
         ("steps", c_int64),
         ("rejected", c_int64),
+        ("walls", c_int64),
         ("z", c_void_p),
     ]
 

@@ -1,8 +1,10 @@
 """Questions to a tolerance: the cheapest model that is good enough answers."""
 
-from .registry import ask, ladder_of
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "ask",
-    "ladder_of",
-]
+from ..sources import show
+
+if TYPE_CHECKING:
+    from .registry import ask as ask, ladder_of as ladder_of
+else:
+    show(__name__)

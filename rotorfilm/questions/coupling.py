@@ -187,7 +187,7 @@ def _case(scene: Scene, quantity: str) -> CouplingCase:
         return CouplingCase(rotor=centered, reaction=scene.damper.support(), revolutions=turns)
     film, load, name = scene.bearing, scene.static_load, ""
     if not (scene.film_is_given or has_map(film)):
-        # A map of its own takes a minute, and the coupling hardly depends on the film.
+        # A map of its own takes some seconds, and the coupling hardly depends on the film.
         film, name = with_film(film, ReynoldsFilm(cells=CELLS)), f"2-D {CELLS[0]} x {CELLS[1]}"
     x, y = equilibrium(film, load, scene.speed).position.tolist()
     rotor = replace(scene.rigid_rotor.build(scene.speed, load), position=(x, y))

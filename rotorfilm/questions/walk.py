@@ -56,11 +56,19 @@ class Meter:
         for unit in work:
             if unit not in self._units and unknown:
                 self._costs[unit] = seconds / unknown
-        return self.predict(work)
+        return sum(number * self._unit(unit) for unit, number in work.items())
 
     def predict(self, work: Work) -> float:
-        """Return the cost of work not done yet [s]; nan where a unit was never seen."""
-        return sum(number * self._unit(unit) for unit, number in work.items())
+        """Return the cost of work not done yet [s]; nan where a unit was never seen and cannot be tried.
+
+        One that says what it costs about is not tried: that might first make a map.
+        """
+        return sum(number * self._foreseen(unit) for unit, number in work.items())
+
+    def _foreseen(self, unit: WorkUnit) -> float:
+        if unit in self._costs or math.isnan(unit.nominal):
+            return self._unit(unit)
+        return unit.nominal
 
     def _unit(self, unit: WorkUnit) -> float:
         if unit not in self._costs and unit in self._units:

@@ -1,17 +1,41 @@
 """Rotors: what a bearing carries, as Dynamic models."""
 
-from .force_law import ForceLaw
-from .jeffcott import JeffcottRotor
-from .law_rotor import LawRotor
-from .mounted import MountedRotor, mount
-from .profile import SpeedProfile
-from .rigid import RigidRotor
-from .rigid_shaft import RigidShaft
-from .shaft.beam import Beam, ClassicalBeam, FourthOrderBeam, cowper_coefficient
-from .shaft.elements import Coupling, ElasticMaterial, LayeredElement, ShaftElement
-from .shaft.parts import Disk, Probe, Station, Support, TiltSpring, Unbalance
-from .shaft.reduce_rotor import Reduction, reduce_rotor
-from .shaft.reduced_rotor import ReducedRotor
-from .shaft.shaft_rotor import ShaftRotor
-from .steady import SteadyRotor
-from .structure import FlexibleRotor
+from typing import TYPE_CHECKING
+
+from ..sources import show
+
+if TYPE_CHECKING:
+    from .force_law import ForceLaw
+    from .jeffcott import JeffcottRotor as JeffcottRotor
+    from .law_rotor import LawRotor
+    from .mounted import MountedRotor as MountedRotor, mount as mount
+    from .profile import SpeedProfile as SpeedProfile
+    from .rigid import RigidRotor as RigidRotor
+    from .rigid_shaft import RigidShaft as RigidShaft
+    from .shaft.beam import (
+        Beam,
+        ClassicalBeam as ClassicalBeam,
+        FourthOrderBeam as FourthOrderBeam,
+        cowper_coefficient,
+    )
+    from .shaft.elements import (
+        Coupling as Coupling,
+        ElasticMaterial as ElasticMaterial,
+        LayeredElement as LayeredElement,
+        ShaftElement as ShaftElement,
+    )
+    from .shaft.parts import (
+        Disk as Disk,
+        Probe as Probe,
+        Station as Station,
+        Support as Support,
+        TiltSpring as TiltSpring,
+        Unbalance as Unbalance,
+    )
+    from .shaft.reduce_rotor import Reduction as Reduction, reduce_rotor as reduce_rotor
+    from .shaft.reduced_rotor import ReducedRotor as ReducedRotor
+    from .shaft.shaft_rotor import ShaftRotor as ShaftRotor
+    from .steady import SteadyRotor as SteadyRotor
+    from .structure import FlexibleRotor as FlexibleRotor
+else:
+    show(__name__)

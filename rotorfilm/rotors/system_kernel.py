@@ -13,7 +13,7 @@ from .rigid import RigidRotor, native_parameter
 from .stations import prefixed
 from .structure import FlexibleRotor, Operators
 
-KINDS = ("journal", "grooved_journal", "short_journal")
+KINDS = ("journal", "grooved_journal", "short_journal", "reynolds_journal")
 """Kernels that may be a bearing of a system, in the order of `native/kernels/kernel_rotor_system.c`."""
 
 
@@ -50,6 +50,7 @@ def system_kernel(
     kinds = [KINDS.index(spec.kernel) for spec in specs]
     return NativeSpec(
         kernel="rotor_system",
+        parts=tuple(spec.kernel for spec in specs),
         parameters=(*own, *speed),
         tables={
             **_matrices(operators, list(carried), list(free), list(motion)),

@@ -8,20 +8,23 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
+from ..bearings import journal
 from ..bearings.films.geometry import FilmGeometry, Groove, Pad
 from ..bearings.films.law import FilmLaw
-from ..bearings.journal import GroovedMapFilm, JournalBearing, MapFilm, ReynoldsFilm, is_mappable
+from ..bearings.journal import JournalBearing, MapFilm
 from ..bearings.oil import Cooling, Oil
 from ..errors import InputError, require_finite, require_positive
 from ..limits import STEPS
-from ..rotors.rigid import RigidRotor
 from .journal.film_tables import FILMS, GROOVE, PAD
 from .lubricant_table import LubricantTable
 from .reading.readers import read_load
 from .reading.shared_fields import made_from
 from .reading.tables import Quantity, TableList, Variant
+
+if TYPE_CHECKING:
+    from ..rotors.rigid import RigidRotor
 
 SCHEMA = 1
 """The version that a scene file states as `schema = 1`."""
@@ -102,10 +105,12 @@ class JournalTable:
         if self.film is not None:
             return self.film
         geometry = made_from(FilmGeometry, self)
-        low, high = GroovedMapFilm().slenderness_range
-        mapped = is_mappable(geometry) and not (self.grooves and self.supply_pressure)
-        long_enough = geometry.plain or low <= 0.5 * self.length / self.radius <= high
-        return MapFilm() if mapped and long_enough else ReynoldsFilm()
+        if geometry.plain:
+            return MapFilm()
+        low, high = journal.GroovedMapFilm().slenderness_range
+        mapped = journal.is_mappable(geometry) and not (self.grooves and self.supply_pressure)
+        long_enough = low <= 0.5 * self.length / self.radius <= high
+        return MapFilm() if mapped and long_enough else journal.ReynoldsFilm()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -158,6 +163,8 @@ class RigidRotorTable:
 
     def build(self, speed: float, load: tuple[float, float]) -> RigidRotor:
         """Return the rotor under the whole static load [N], at a constant speed [rad/s]."""
+        from ..rotors.rigid import RigidRotor
+
         return made_from(RigidRotor, self, speed=speed, gravity=(0.0, 0.0), static_force=load)
 
 

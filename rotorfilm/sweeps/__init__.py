@@ -1,7 +1,10 @@
 """Many variants of a scene: a grid or samples of its keys, into one dataset."""
 
-from .sweep_run import sweep
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "sweep",
-]
+from ..sources import show
+
+if TYPE_CHECKING:
+    from .sweep_run import sweep as sweep
+else:
+    show(__name__)

@@ -46,8 +46,7 @@ def solved_by_dask(
         If Dask is not installed, or nobody answers at the address.
     """
     try:
-        from distributed import Client
-        from distributed import as_completed as completed
+        from distributed import Client, as_completed as completed
     except ImportError:
         raise InputError(
             "dask needs the extra `sweep`: python -m pip install '.[sweep]' in its source"

@@ -5,8 +5,7 @@ import json
 import pytest
 
 from rotorfilm import PorousCage, PorousDamper, RigidRotor, Sprung, synchronous_orbits
-from rotorfilm.cli import damper_command as cli_damper
-from rotorfilm.cli import main as cli
+from rotorfilm.cli import damper_command as cli_damper, main as cli
 from rotorfilm.scenes.damper.damper_table import SQUEEZES
 
 OPTIONS = {

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from rotorfilm.scenes import Scene
+from rotorfilm.scenes.shaft.shaft_remarks import shaft_remarks
 from rotorfilm.scenes.shaft.solve_shaft import solve_rotor
 
 SCENE = Path(__file__).parents[2] / "examples" / "flexible_rotor.toml"
@@ -74,3 +75,15 @@ def test_a_rotor_that_no_film_carries_is_a_failed_computation(run, short, tmp_pa
     code, _, err = run("rotor", path)
     assert code == 1
     assert len(err.strip().splitlines()) >= 1
+
+
+def test_what_shaft_and_films_leave_out_is_said(run, short):
+    remarks = json.loads(run("rotor", short, "--json")[1])["remarks"]
+    scene = Scene.load(short)
+    rotor, bearings = scene.shaft.build(), scene.shaft.build_bearings()
+    fastest = scene.shaft.speeds.build()[-1]
+    assert remarks == list(shaft_remarks(rotor, bearings, scene.lubricant, fastest))
+    assert [line.split(": ")[:2] for line in remarks] == [
+        [f"{name}, at {fastest:.4g} rad/s", "heat"] for name in ("left", "right")
+    ]
+    assert run("rotor", short)[1].count("left out") == 2

@@ -4,9 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
 
-from rotorfilm.cli.main import app
 from rotorfilm.cli.sweep_command import read_variation
 from rotorfilm.errors import InputError
 
@@ -15,7 +13,7 @@ pytest.importorskip("h5netcdf")
 SHORT = Path(__file__).parents[2] / "examples" / "short.toml"
 
 
-def test_a_sweep_becomes_netcdf(tmp_path):
+def test_a_sweep_becomes_netcdf(run, tmp_path):
     out = tmp_path / "out.nc"
     vary = [
         "--vary",
@@ -24,17 +22,16 @@ def test_a_sweep_becomes_netcdf(tmp_path):
         "operation.speed = 1000 rpm : 2000 rpm : 3",
     ]
     arguments = ["sweep", str(SHORT), *vary, "--out", str(out), "--workers", "1", "--json"]
-    ran = CliRunner().invoke(app, arguments, catch_exceptions=False)
-    assert ran.exit_code == 0
-    assert json.loads(ran.stdout)["points"] == 6
-    assert json.loads(ran.stdout)["remarks"] == 6  # all of them hot
+    code, out_text, _ = run(*arguments)
+    assert code == 0
+    assert json.loads(out_text)["points"] == 6
+    assert json.loads(out_text)["remarks"] == 6  # all of them hot
     with xarray.open_dataset(out, engine="h5netcdf") as found:
         assert found["eccentricity_ratio"].shape == (2, 3)
 
 
-def test_help_has_an_example():
-    ran = CliRunner().invoke(app, ["sweep", "--help"])
-    assert "Example" in ran.stdout
+def test_help_has_an_example(run):
+    assert "Example" in run("sweep", "--help")[1]
 
 
 @pytest.mark.parametrize(
@@ -58,8 +55,8 @@ def test_other_texts_are_named(text):
         read_variation(text)
 
 
-def test_points_with_remarks_are_counted(tmp_path):
+def test_points_with_remarks_are_counted(run, tmp_path):
     arguments = ["sweep", str(SHORT), "--vary", "journal.clearance = 90 um, 100 um"]
     arguments += ["--out", str(tmp_path / "out.nc"), "--workers", "1"]
-    ran = CliRunner().invoke(app, arguments, catch_exceptions=False)
-    assert "2 points: physics left out" in " ".join(ran.stdout.split())
+    _, printed, _ = run(*arguments)
+    assert "2 points: physics left out" in " ".join(printed.split())

@@ -8,8 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from rotorfilm.bearings.journal import FixedArc, RotatingArc, SplittingFilm
 from rotorfilm.bearings.journal.bearing import JournalBearing

@@ -3,8 +3,7 @@ import math
 import control
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from rotorfilm.bearings.journal import RotatingArc, ShortFilm, SplittingFilm
 from rotorfilm.errors import EquilibriumError, InputError

@@ -2,8 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from rotorfilm.errors import FilmContactError, InputError
 from rotorfilm.linear import coefficients, equilibrium

@@ -1,8 +1,11 @@
 """Native FMUs as folders, without their description, and a compiler for C test programs."""
 
+import fcntl
+import os
 import shutil
 import subprocess
 from ctypes import c_double
+from hashlib import sha256
 from pathlib import Path
 from typing import NamedTuple
 
@@ -11,7 +14,7 @@ import pytest
 from fmpy.fmi3 import FMU3Model, FMU3Slave
 
 from rotorfilm.fmu.native.native_backend import Export, native_model_variables
-from rotorfilm.native.kernel_table import kernel_row
+from rotorfilm.native.kernel_table import carried_library
 from rotorfilm.native.library import library_path
 from rotorfilm.native.resource import FILE_NAME, pack
 
@@ -107,7 +110,7 @@ def unzipped(tmp_path):
         for name in FOLDERS:
             (root / name).mkdir(parents=True, exist_ok=True)
         for name in FOLDERS[:2]:
-            shutil.copy(library_path(kernel_row(spec.kernel).library), root / name / "m.so")
+            shutil.copy(library_path(carried_library(spec)), root / name / "m.so")
         (root / "resources" / FILE_NAME).write_bytes(pack(spec, token, variables))
         references = {variable.name: reference for reference, variable in enumerate(variables)}
         return Folder(root, references, clients)
@@ -119,20 +122,29 @@ def unzipped(tmp_path):
 
 @pytest.fixture(scope="session")
 def compiled(tmp_path_factory):
-    """Return a function that compiles C sources to a program with gcc or clang."""
+    """Return a function that compiles C sources to a program with gcc or clang, once for all workers."""
     compiler = next((name for name in ("gcc", "clang", "cc") if shutil.which(name)), None)
     if compiler is None:
         pytest.skip("no C compiler")
+    own = tmp_path_factory.getbasetemp()
+    shared = own.parent if os.environ.get("PYTEST_XDIST_WORKER") else own
 
     def build(sources, *options):
-        program = tmp_path_factory.mktemp("compiled") / "program"
+        named = " ".join([*map(str, sources), *options])
+        program = shared / f"program_{sha256(named.encode()).hexdigest()[:16]}"
+        with program.with_suffix(".lock").open("w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            if not program.exists():
+                make(program, sources, options)
+        return program
+
+    def make(program, sources, options):
         strict = ["-std=c99", "-D_POSIX_C_SOURCE=200809L", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]
         command = [compiler, *strict, f"-I{NATIVE}", *options, *map(str, sources), "-o", str(program)]
         ran = subprocess.run([*command, "-lm", "-ldl"], capture_output=True, text=True, check=False)
         if "asan" in ran.stderr and "cannot find" in ran.stderr:
             pytest.skip("the C compiler has no sanitizers")
         assert ran.returncode == 0, ran.stderr
-        return program
 
     build.native, build.here = NATIVE, Path(__file__).parent
     return build

@@ -5,9 +5,10 @@ import pytest
 from fmpy import simulate_fmu
 from scipy.optimize import nnls
 
-from rotorfilm import Groove, JournalBearing, ReynoldsFilm, export_fmu
+from rotorfilm import ExtrapolatedFilm, Groove, JournalBearing, ReynoldsFilm, export_fmu
 from rotorfilm.bearings.films.cavitation import Complementarity, FullFilm, HalfSommerfeld
 from rotorfilm.bearings.films.geometry import FilmGeometry
+from rotorfilm.bearings.films.ring.ring_kernel import RingKernel
 
 GROOVES = (Groove(center=0.3, width=0.35), Groove(center=3.4, width=0.0))
 GEOMETRIES = {
@@ -85,10 +86,14 @@ def test_pressure_is_that_of_a_dense_solution(cavitation, name):
 
 @pytest.mark.parametrize("version", ["2.0", "3.0"])
 @pytest.mark.parametrize("supply", [0.0, 2e5])
-def test_the_fmu_has_the_forces_of_the_bearing(tmp_path, version, supply):
+@pytest.mark.parametrize(
+    "film",
+    [ReynoldsFilm(cells=(48, 4)), ExtrapolatedFilm(film=ReynoldsFilm(cells=(32, 8)))],
+    ids=["grid", "two grids"],
+)
+def test_the_fmu_has_the_forces_of_the_bearing(tmp_path, version, supply, film):
     sizes = {"radius": 0.05, "length": 0.05, "clearance": 1e-4, "viscosity": 0.02}
     openings = {"grooves": GROOVES, "supply_pressure": supply} if supply else {}
-    film = ReynoldsFilm(cells=(48, 4))
     path = tmp_path / "film.fmu"
     export_fmu(JournalBearing(**sizes, **openings, film=film), path, version, component="b")
     changed = {"viscosity": 0.05, "clearance": 1.2e-4}
@@ -99,3 +104,27 @@ def test_the_fmu_has_the_forces_of_the_bearing(tmp_path, version, supply):
     force = thick.force((3e-5, -4e-5), (1e-3, 0.0), 200.0)
     told = [result[f"b.force_{axis}"][-1] for axis in "xy"]
     assert told == pytest.approx(force.tolist(), rel=1e-13)
+
+
+def test_work_of_a_potential():
+    # 7.25 systems on 100, 50 and 25 lines, 154 lines factorized: half of them are empty, and the second and
+    # third system of a grid keep of the factor what the moved edge does not reach.
+    nodes = 48
+    geometry = FilmGeometry(grooves=GROOVES)
+    film = ReynoldsFilm(cells=(96, 8), geometry=geometry)
+    spans, grids = film.grids(SLENDERNESS)
+    turn = 2.0 * np.pi * np.arange(nodes) / nodes
+    kernel = RingKernel(SLENDERNESS, spans, grids, Complementarity())
+    found = kernel.potential(np.array([0.3, 0.4]), np.stack([np.cos(turn), np.sin(turn)]), slopes=False)
+    assert 6 * nodes <= found.solutions <= 7.3 * nodes
+    assert found.lines <= 155 * nodes
+    assert found.slope.size == 0
+
+
+def test_tangents_are_the_forces_and_derivatives_of_the_film():
+    film = ReynoldsFilm(cells=(48, 4), geometry=FilmGeometry(grooves=GROOVES))
+    rng = np.random.default_rng(3)
+    e, w = rng.uniform(-0.6, 0.6, (2, 5)), rng.normal(size=(2, 5))
+    force, slopes = RingKernel(SLENDERNESS, *film.grids(SLENDERNESS), film.cavitation).tangents(e, w)
+    np.testing.assert_array_equal(force, film.extrapolated(e, w, SLENDERNESS)[0])
+    np.testing.assert_array_equal(slopes, film.jacobian(e, w, SLENDERNESS))

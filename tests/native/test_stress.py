@@ -13,9 +13,11 @@ import pytest
 from rotorfilm import (
     BushReaction,
     BushWear,
+    Groove,
     JournalBearing,
     MapFilm,
     MapTable,
+    ReynoldsFilm,
     RigidRotor,
     SpeedProfile,
     f4k20_bush,
@@ -40,6 +42,12 @@ def small_bearing():
         coefficients=0.1 * rng.normal(size=(10, 7, 7)),
     )
     return JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=MapFilm(table))
+
+
+def grid_bearing():
+    """Return a bearing with a groove under pressure, on a grid as small as may be."""
+    groove = Groove(center=1.5, width=0.4)
+    return replace(small_bearing(), film=ReynoldsFilm(cells=(16, 4)), grooves=(groove,), supply_pressure=1e5)
 
 
 class RoughGrooves(JournalBearing):
@@ -122,7 +130,8 @@ def mutated(good, count):
 @pytest.fixture(scope="module")
 def stress(compiled):
     sources = sorted(compiled.native.rglob("*.c"))
-    return compiled([compiled.here / "stress.c", *sources], *OPTIONS)
+    programs = [compiled.here / name for name in ("stress.c", "stress_loops.c")]
+    return compiled([*programs, *sources], *OPTIONS)
 
 
 def resources(tmp_path, contents):
@@ -168,6 +177,33 @@ def test_no_misuse_and_no_damaged_file_breaks_an_instance(unzipped, stress, tmp_
     folders = [str(folder.resource.parent) for folder in good]
     assert "messages" in run(stress, token, "60000", *folders, "--", *bad, str(missing))
     run(stress, token, "200", "--", "--", *maybe)
+
+
+def test_no_misuse_and_no_damaged_file_breaks_a_film_on_a_grid(unzipped, stress, tmp_path):
+    good = unzipped(grid_bearing(), folder="grid", token="a token").resource
+    content = good.read_bytes()
+    maybe = [str(folder) for folder in resources(tmp_path, mutated(content, 60))]
+    run(stress, "a token", "400", str(good.parent), "--", "--", *maybe[:30])
+    run(stress, "a token", "40", "--", "--", *maybe[30:])
+
+
+def ring_numbers(film, slenderness, extrapolated):
+    """Yield the numbers of a ring in the order of stress_loops.c."""
+    spans, grids = film.grids(slenderness)
+    flags = film.cavitation.searched, film.cavitation.clipped, spans.pinned, extrapolated
+    yield from (slenderness, *flags, len(spans.start), *spans.start, *spans.extent)
+    for grid in grids:
+        yield from (len(grid.span), len(grid.width), *grid.span, *grid.line, *grid.face)
+        yield from (*grid.held, *grid.value, *grid.width, *grid.conductance)
+
+
+@pytest.mark.parametrize(("grooves", "extrapolated"), [((), True), ((Groove(center=1.5, width=0.4),), False)])
+def test_no_numbers_break_a_loop_over_films(stress, tmp_path, grooves, extrapolated):
+    film = replace(grid_bearing(), grooves=grooves, supply_pressure=0.0).fitted_film
+    path = tmp_path / "ring.txt"
+    numbers = ring_numbers(film, 0.3, extrapolated)
+    path.write_text(" ".join(repr(float(number)) for number in numbers), encoding="utf-8")
+    run(stress, "--loops", str(path), "80")
 
 
 def test_wrong_token_is_refused(unzipped, stress):

@@ -6,7 +6,17 @@ from fmpy.fmi2 import FMU2Model, FMU2Slave
 from fmpy.fmi3 import FMU3Model, FMU3Slave
 from scipy.integrate import solve_ivp
 
-from rotorfilm import JournalBearing, ReynoldsFilm, RigidRotor, ShortFilm, SpeedProfile, equilibrium
+from rotorfilm import (
+    JournalBearing,
+    ReynoldsFilm,
+    RigidRotor,
+    ShortFilm,
+    SpeedProfile,
+    SplittingFilm,
+    equilibrium,
+    simulate,
+)
+from rotorfilm.native.kernel_table import carried_library
 from rotorfilm.rotors import (
     Disk,
     ElasticMaterial,
@@ -223,7 +233,8 @@ def test_parameters_reach_their_bearing(unzipped):
 
 
 def test_a_rotor_on_a_film_without_kernel_has_none():
-    grid = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ReynoldsFilm())
+    film = SplittingFilm(order=(4, 2), constant=True)
+    own = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=film)
     rotor = RigidShaft(
         mass=50.0,
         diametral_inertia=1.0,
@@ -232,4 +243,20 @@ def test_a_rotor_on_a_film_without_kernel_has_none():
         stations=(("left", -0.5), ("right", 0.5)),
     )
     assert mount(rotor, {"left": BEARING, "right": BEARING}).native() is not None
-    assert mount(rotor, {"left": BEARING, "right": grid}).native() is None
+    assert mount(rotor, {"left": BEARING, "right": own}).native() is None
+
+
+@pytest.mark.parametrize("kind", [FMU2Slave, FMU3Slave])
+def test_a_rotor_on_a_grid_is_a_system_in_a_library_of_its_own(unzipped, kind):
+    grid = JournalBearing(
+        radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ReynoldsFilm(cells=(32, 4))
+    )
+    rotor = RigidRotor(mass=50.0, speed=150.0, unbalance=1e-3, position=(1e-5, -3e-5))
+    system = mount(rotor, {"": grid})
+    assert carried_library(system.native()) == "rotorfilm_grid_systems"
+    assert carried_library(mount(rotor, {"": BEARING}).native()) == "rotorfilm_systems"
+    client = unzipped(system).open(kind).start()
+    for k in range(50):
+        client.step(k * 1e-4, 1e-4)
+    run = simulate(rotor, grid, duration=5e-3, samples=2, rtol=1e-6)
+    np.testing.assert_allclose(client.get("x", "y"), run.position[:, -1], atol=1e-3 * grid.clearance)

@@ -329,12 +329,16 @@ def test_bearings_with_openings_of_every_kind_are_answered(family):
         ("grooves = [{ center = '10 deg', width = '30 deg' }]", "power_loss"),
     ],
 )
-def test_openings_never_make_a_map_for_an_equilibrium_and_tighter_is_never_worse(openings, quantity):
+def test_openings_never_make_a_map_for_an_equilibrium_and_tighter_is_never_worse(
+    openings, quantity, tmp_path, monkeypatch
+):
+    monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path))
     errors = []
     for tolerance in (0.1, 1e-3, 1e-9):
         scene = HOT.format(openings=openings, speed=-200.0, quantity=quantity, tolerance=tolerance)
         answer = parse_scene(scene, "openings").ask()
         assert not any("map" in report.name for report in answer.rungs)
+        assert list(tmp_path.iterdir()) == []
         errors.append(answer.error_estimate)
     assert not answer.met
     assert errors == sorted(errors, reverse=True)

@@ -4,9 +4,6 @@ import csv
 import json
 from pathlib import Path
 
-from typer.testing import CliRunner
-
-from rotorfilm.cli.main import app
 from rotorfilm.questions.whole import whole_ladder
 from rotorfilm.scenes import Scene
 
@@ -23,11 +20,11 @@ def test_the_chosen_rung_is_the_one_that_answers():
     assert known  # rungs that the question did not need are on the chart too
 
 
-def test_chart_of_a_scene_has_picture_table_and_json(tmp_path):
+def test_chart_of_a_scene_has_picture_table_and_json(run, tmp_path):
     arguments = ["chart", "scene", str(QUESTION), "--out", str(tmp_path), "--json"]
-    ran = CliRunner().invoke(app, arguments, catch_exceptions=False)
-    assert ran.exit_code == 0
-    found = json.loads(ran.stdout)
+    code, out, _ = run(*arguments)
+    assert code == 0
+    found = json.loads(out)
     assert sum(row["chosen"] for row in found["rungs"]) == 1
     assert (tmp_path / "chart_question.png").read_bytes().startswith(b"\x89PNG")
     with (tmp_path / "chart_question.csv").open() as file:

@@ -1,27 +1,22 @@
 """Squeeze-film dampers with a porous cage."""
 
-from .bearing import PorousDamper
-from .cage import AxialFeed, PorousCage, RadialFeed
-from .damper_groups import DamperGroups, damper_groups
-from .full_squeeze import SqueezeFilm
-from .mapped_squeeze import FiniteMapSqueeze, MapSqueeze
-from .porous_layer import layer_modes
-from .squeeze_laws import FiniteSqueeze, PublishedSqueeze, ShortSqueeze, SqueezeCase, SqueezeLaw
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "AxialFeed",
-    "DamperGroups",
-    "FiniteMapSqueeze",
-    "FiniteSqueeze",
-    "MapSqueeze",
-    "PorousCage",
-    "PorousDamper",
-    "PublishedSqueeze",
-    "RadialFeed",
-    "ShortSqueeze",
-    "SqueezeCase",
-    "SqueezeFilm",
-    "SqueezeLaw",
-    "damper_groups",
-    "layer_modes",
-]
+from ...sources import show
+
+if TYPE_CHECKING:
+    from .bearing import PorousDamper as PorousDamper
+    from .cage import AxialFeed as AxialFeed, PorousCage as PorousCage, RadialFeed as RadialFeed
+    from .damper_groups import DamperGroups as DamperGroups, damper_groups as damper_groups
+    from .full_squeeze import SqueezeFilm
+    from .mapped_squeeze import FiniteMapSqueeze as FiniteMapSqueeze, MapSqueeze as MapSqueeze
+    from .porous_layer import layer_modes
+    from .squeeze_laws import (
+        FiniteSqueeze as FiniteSqueeze,
+        PublishedSqueeze as PublishedSqueeze,
+        ShortSqueeze as ShortSqueeze,
+        SqueezeCase,
+        SqueezeLaw,
+    )
+else:
+    show(__name__)

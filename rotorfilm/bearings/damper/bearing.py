@@ -19,6 +19,7 @@ from ...errors import (
 from ...model import Array, Tangent, tangent_of
 from ...native.spec import NativeSpec
 from ..films.cavitation import FullFilm, HalfSommerfeld
+from ..films.kernel_film import BoundKernel
 from ..films.law import options
 from ..reaction import NOMINAL_SPEED, StaticReaction
 from .cage import AxialFeed, PorousCage, RadialFeed
@@ -127,6 +128,13 @@ class PorousDamper(StaticReaction):
         """The film law in this damper's dimensions."""
         return self.film.bind(self._case)
 
+    @cached_property
+    def film_in_c(self) -> BoundKernel | None:
+        """The film in SI units in C, to be asked at speed 0; None where the law is no map."""
+        if not isinstance(self.bound_film, MappedSqueezeFilm):
+            return None
+        return self.bound_film.bound(clearance=self.clearance, force_scale=self.force_scale)
+
     def native(self) -> NativeSpec | None:
         """Return the kernel of the C library that is this damper; None if its film is no map.
 
@@ -165,9 +173,9 @@ class PorousDamper(StaticReaction):
 
     def prepare(self) -> Callable[[float, float, float, float, float], tuple[float, float]]:
         """Return the force as a function of five numbers; in C for a map. See `StaticReaction.prepare`."""
-        if not isinstance(self.bound_film, MappedSqueezeFilm):
+        if self.film_in_c is None:
             return super().prepare()
-        in_c = self.bound_film.bound(clearance=self.clearance, force_scale=self.force_scale).call
+        in_c = self.film_in_c.call
 
         def call(x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
             return in_c(x, y, vx, vy, 0.0)
@@ -176,9 +184,9 @@ class PorousDamper(StaticReaction):
 
     def prepare_tangent(self) -> Tangent:
         """Return force and derivatives as a function of five numbers; in C for a map."""
-        if not isinstance(self.bound_film, MappedSqueezeFilm):
+        if self.film_in_c is None:
             return tangent_of(self)
-        in_c = self.bound_film.bound(clearance=self.clearance, force_scale=self.force_scale).tangent
+        in_c = self.film_in_c.tangent
 
         def tangent(
             x: float, y: float, vx: float, vy: float, speed: float

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.interpolate import BSpline
 
 from ...model import Array
 
@@ -47,10 +46,22 @@ def periodic_quintic_coefficients(values: Array, axis: int = 0) -> Array:
 
 
 def periodic_quintic(coefficients: Array, turns: Array) -> Array:
-    """Return the periodic spline of `periodic_quintic_coefficients` (axis 0) at fractions of a turn."""
+    """Return the periodic spline of `periodic_quintic_coefficients` (axis 0) at fractions of a turn, (n,)."""
     count = len(coefficients)
-    wrapped = np.take(coefficients, np.arange(-2, count + 3) % count, axis=0)
-    return BSpline(np.arange(-5.0, count + 6.0), wrapped, DEGREE)(turns % 1.0 * count)
+    cell, inside = np.divmod(turns % 1.0 * count, 1.0)
+    near = (cell.astype(int) + np.arange(-2, 4)[:, None]) % count
+    return np.einsum("jn,jn...->n...", _weights(inside), coefficients[near])
+
+
+def _weights(inside: Array) -> Array:
+    """Return the six B-splines of a cell at fractions of it, shape (6, n), by the recursion of de Boor."""
+    weights = np.ones((1, *inside.shape))
+    for degree in range(1, DEGREE + 1):
+        j = np.arange(degree + 1.0)[:, None]
+        rising = np.pad(weights, ((1, 0), (0, 0))) * (inside + degree - j)
+        falling = np.pad(weights, ((0, 1), (0, 0))) * (j + 1.0 - inside)
+        weights = (rising + falling) / degree
+    return weights
 
 
 def _collocation(cells: int) -> Array:

@@ -88,7 +88,9 @@ def unseal(
     _, found, checksum, *entries = _HEADER.unpack_from(content)
     sizes: Sizes = (entries[0], entries[1], entries[2], entries[3])
     if found != version:
-        raise RotorfilmError(f"{kind}: version must be {version}, got {found}")
+        raise RotorfilmError(
+            f"{kind}: version must be {version}, got {found}; make it again with this rotorfilm"
+        )
     arrays = layout(sizes)
     expected = _HEADER.size + sum(np.dtype(dtype).itemsize * count for dtype, count in arrays)
     if not arrays or len(content) != expected:

@@ -1,50 +1,29 @@
 """Journal bearings: geometry, film laws, maps, and how a film ruptures."""
 
-from .arc_pressure import middle_pressure, tension
-from .bearing import JournalBearing
-from .bearing_losses import bearing_losses, has_losses
-from .build_groove_map import build_groove_map
-from .extrapolated_film import ExtrapolatedFilm
-from .film_state import FilmState, film_state
-from .grooves.groove_table import GrooveMapTable
-from .grooves.grooved_film import GroovedMapFilm
-from .grooves.openings import is_mappable
-from .heat.balanced_bearing import BalancedBearing
-from .heat.heated_bearing import HeatedBearing
-from .map.map_film import MapFilm
-from .map.own_tables import bearing_table
-from .reynolds_film import ReynoldsFilm
-from .rupture.complementarity_arc import ComplementarityArc
-from .rupture.reynolds_arc import ReynoldsArc
-from .rupture.rupture import FixedArc, RotatingArc, Rupture
-from .short_film import ShortFilm
-from .splitting.spectral_film import SpectralArcFilm
-from .splitting.splitting_film import SplittingFilm
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "BalancedBearing",
-    "ComplementarityArc",
-    "ExtrapolatedFilm",
-    "FilmState",
-    "FixedArc",
-    "GrooveMapTable",
-    "GroovedMapFilm",
-    "HeatedBearing",
-    "JournalBearing",
-    "MapFilm",
-    "ReynoldsArc",
-    "ReynoldsFilm",
-    "RotatingArc",
-    "Rupture",
-    "ShortFilm",
-    "SpectralArcFilm",
-    "SplittingFilm",
-    "bearing_losses",
-    "bearing_table",
-    "build_groove_map",
-    "film_state",
-    "has_losses",
-    "is_mappable",
-    "middle_pressure",
-    "tension",
-]
+from ...sources import show
+
+if TYPE_CHECKING:
+    from .arc_pressure import middle_pressure, tension
+    from .bearing import JournalBearing as JournalBearing
+    from .bearing_losses import bearing_losses, has_losses
+    from .build_groove_map import build_groove_map as build_groove_map
+    from .extrapolated_film import ExtrapolatedFilm as ExtrapolatedFilm
+    from .film_state import FilmState, film_state as film_state
+    from .grooves.groove_table import GrooveMapTable as GrooveMapTable
+    from .grooves.grooved_film import GroovedMapFilm as GroovedMapFilm
+    from .grooves.openings import is_mappable
+    from .heat.balanced_bearing import BalancedBearing as BalancedBearing
+    from .heat.heated_bearing import HeatedBearing as HeatedBearing
+    from .map.map_film import MapFilm as MapFilm
+    from .map.own_tables import bearing_table
+    from .reynolds_film import ReynoldsFilm as ReynoldsFilm
+    from .rupture.complementarity_arc import ComplementarityArc as ComplementarityArc
+    from .rupture.reynolds_arc import ReynoldsArc as ReynoldsArc
+    from .rupture.rupture import FixedArc as FixedArc, RotatingArc as RotatingArc, Rupture
+    from .short_film import ShortFilm as ShortFilm
+    from .splitting.spectral_film import SpectralArcFilm as SpectralArcFilm
+    from .splitting.splitting_film import SplittingFilm as SplittingFilm
+else:
+    show(__name__)

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+
+import numpy as np
 
 from ...errors import InputError, require_kind
 from ...model import Array
 from ..films.film_losses import FilmLosses
 from ..films.geometry import FilmGeometry
-from ..films.law import FilmOptions
-from .reynolds_film import ReynoldsFilm, richardson
+from ..films.kernel_film import KernelFilm
+from ..films.ring.ring_kernel import RingKernel
+from .reynolds_film import ReynoldsFilm, ring_kernel
 
 
 @dataclass(frozen=True, kw_only=True)
-class ExtrapolatedFilm(FilmOptions):
+class ExtrapolatedFilm(KernelFilm):
     """Richardson extrapolation of a `ReynoldsFilm` and of the same film with half the cells.
 
     The force is F_h + (F_h - F_2h)/3, its derivatives are the same of the derivatives of both.
@@ -48,28 +52,14 @@ class ExtrapolatedFilm(FilmOptions):
         """Return this film in a bearing of the given geometry."""
         return ExtrapolatedFilm(film=self.film.fitted(geometry))
 
-    def force(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
-        """Return the force on the journal, shape (2, ...); see `FilmLaw.force`.
-
-        Raises
-        ------
-        ConvergenceError
-            If the search for the ruptured zone does not end.
-        """
-        return self.film.extrapolated(eccentricity, source, slenderness)[0]
-
-    def jacobian(self, eccentricity: Array, source: Array, slenderness: float) -> Array:
-        """Return d force / d (eccentricity, source), shape (2, 4, ...); see `FilmLaw.jacobian`.
-
-        Raises
-        ------
-        UndefinedDerivativeError, ConvergenceError
-            As `ReynoldsFilm.jacobian`.
-        """
-        fine = self.film.jacobian(eccentricity, source, slenderness)
-        coarse = self.coarse.jacobian(eccentricity, source, slenderness)
-        return richardson(fine, coarse, self.film.order)
+    def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
+        """Return the kernel and its tables; see `law.FilmOptions.native`."""
+        kernel, tables = self.film.native(slenderness)
+        return kernel, {**tables, "ring": np.append(tables["ring"][:-1], 1.0)}
 
     def losses(self, e: Array, w: Array, slenderness: float, rate: Array | None = None) -> FilmLosses:
         """Return shear and flow of the finer film; see `FilmOptions`."""
         return self.film.losses(e, w, slenderness, rate)
+
+    def _kernel(self, slenderness: float) -> RingKernel:
+        return ring_kernel(self.film, slenderness, True)

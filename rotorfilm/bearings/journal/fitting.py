@@ -5,7 +5,6 @@ from __future__ import annotations
 from ...errors import InputError
 from ..films.geometry import FilmGeometry
 from ..films.law import FilmLaw, FilmOptions, options
-from .grooves.grooved_film import GroovedMapFilm
 from .map.map_film import MapFilm
 
 
@@ -19,6 +18,8 @@ def fitted_film(film: FilmLaw, geometry: FilmGeometry) -> FilmLaw:
         supply pressure, an opening wider than 60 deg, or a table of a plain bearing beside openings.
     """
     if isinstance(film, MapFilm) and not geometry.plain:
+        from .grooves.grooved_film import GroovedMapFilm
+
         if film.table is not None:
             raise InputError(
                 "table must be that of the bearing, got a MapTable, which is for no openings; take MapFilm() "

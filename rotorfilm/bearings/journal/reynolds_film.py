@@ -20,7 +20,7 @@ from ..films.kernel_film import KernelFilm
 from ..films.law import require_film
 from ..films.ring.ring_field import film_field
 from ..films.ring.ring_grids import LONG, Grid, Spans, require_cells, ring_grids, ring_spans
-from ..films.ring.ring_kernel import RingKernel
+from ..films.ring.ring_kernel import ORDER, RingKernel, richardson
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,7 +59,7 @@ class ReynoldsFilm(KernelFilm):
         If the cells break their rule or another argument is of the wrong kind.
     """
 
-    order: ClassVar[int] = 2
+    order: ClassVar[int] = ORDER
     """Order of convergence of the force in the size of the cells."""
 
     order_with_supply: ClassVar[float] = 1.7
@@ -152,7 +152,7 @@ class ReynoldsFilm(KernelFilm):
             lines = [grid.span, grid.line, grid.face, grid.held, grid.value]
             tables[f"lines{level}"] = np.stack([np.asarray(row, dtype=float) for row in lines])
             tables[f"nodes{level}"] = np.stack([grid.width, grid.conductance])
-        flags = [self.cavitation.searched, self.cavitation.clipped, spans.pinned]
+        flags = [self.cavitation.searched, self.cavitation.clipped, spans.pinned, False]
         tables["ring"] = np.array([slenderness, *flags], dtype=float)
         if self.geometry.plain:
             # The nodes along a film that is not long are those of any other.
@@ -160,14 +160,10 @@ class ReynoldsFilm(KernelFilm):
         return "reynolds_journal", tables
 
     def _kernel(self, slenderness: float) -> RingKernel:
-        return _ring_kernel(self, slenderness)
+        return ring_kernel(self, slenderness, False)
 
 
 @lru_cache(maxsize=64)
-def _ring_kernel(film: ReynoldsFilm, slenderness: float) -> RingKernel:
-    return RingKernel(slenderness, *film.grids(slenderness), film.cavitation)
-
-
-def richardson(fine: Array, coarse: Array, order: int = ReynoldsFilm.order) -> Array:
-    """Return the extrapolation of what errs by the given order, from a grid and one with half its cells."""
-    return fine + (fine - coarse) / (2.0**order - 1.0)
+def ring_kernel(film: ReynoldsFilm, slenderness: float, extrapolated: bool) -> RingKernel:
+    """Return the compiled film of a bearing, on the grid of the film or extrapolated from it."""
+    return RingKernel(slenderness, *film.grids(slenderness), film.cavitation, extrapolated)

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...errors import FmuError
 from ...model import Array, Dynamic, Model, Switched
-from ...native.kernel_table import kernel_row, kernel_texts
+from ...native.kernel_table import carried_library, kernel_row, kernel_texts
 from ...native.resource import FILE_NAME, pack
 from ...native.spec import NativeSpec
 from ...signals import Variable
@@ -178,7 +178,7 @@ def native_files(export: Export, variables: tuple[Variable, ...]) -> dict[str, b
     fill = all_binaries if export.platforms == "all" else host_binary
     sources = native_sources()
     return {
-        **fill(export.component, export.version, kernel_row(export.spec.kernel).library),
+        **fill(export.component, export.version, carried_library(export.spec)),
         **{f"sources/{name}": content for name, content in sources.items()},
         **licenses((PACKAGE,)),
         **foreign_licenses(),

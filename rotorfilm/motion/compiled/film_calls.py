@@ -4,9 +4,9 @@ Every such function is that of the C library (native/films/journal_kernel.h),
 
     int f(const void *bearing, const double state[5], double force[2], double jacobian[2][5]),
 
-with state = (x, y, vx, vy, speed). Journal bearings on a film of that library bring it along, `LinearBearing`
-has one in native/loops/springs.h, and any other reaction is called back in Python: slower, with the same
-result.
+with state = (x, y, vx, vy, speed). Journal bearings and dampers on a film of that library bring it along,
+`LinearBearing` and the springs of `Sprung` have one in native/loops/springs.h, and any other reaction is
+called back in Python: slower, with the same result.
 """
 
 from __future__ import annotations
@@ -14,17 +14,21 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Iterable, Sequence
 from ctypes import CFUNCTYPE, POINTER, c_double, c_int, c_void_p
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from ...bearings.damper import PorousDamper
 from ...bearings.films.kernel_film import BoundKernel
 from ...bearings.journal import JournalBearing
 from ...bearings.linear import LinearBearing
-from ...errors import FilmContactError, RotorfilmError, UndefinedDerivativeError
+from ...bearings.sprung import Sprung
+from ...errors import FilmContactError, RotorfilmError, UndefinedDerivativeError, warn_user
 from ...model import Reaction
 from ...native import Status
 from ...native.library import functions, loops
+from ...native.structs import SprungStruct
 
 _CALLBACK = CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double))
 
@@ -52,6 +56,13 @@ class FilmCall(NamedTuple):
     beyond: str = ""
     raised: Sequence[BaseException] = ()
 
+    def beside(self, stiffness: float, *, still: bool) -> FilmCall:
+        """Return this force beside equal springs [N/m], of a journal that does not spin where it is still."""
+        both = SprungStruct(self.address, self.data, stiffness, still)
+        return self._replace(
+            address=_address("rf_sprung_at"), data=ctypes.addressof(both), owner=(both, self.owner)
+        )
+
 
 def raise_foreign(calls: Iterable[FilmCall]) -> None:
     """Raise what a force in Python raised that the loop around it could not: an error of its own, Ctrl-C."""
@@ -60,19 +71,43 @@ def raise_foreign(calls: Iterable[FilmCall]) -> None:
             raise call.raised[0]
 
 
+def warn_beyond(calls: Iterable[FilmCall]) -> None:
+    """Warn that a journal went beyond the map of its film."""
+    how = " or ".join(dict.fromkeys(call.beyond for call in calls if call.beyond))
+    warn_user(f"a journal went beyond the map of its film; its force is {how}")
+
+
 def film_call(reaction: Reaction) -> FilmCall:
-    """Return the compiled force of a reaction without states."""
+    """Return the compiled force of a reaction without states, one that calls back where it has none."""
+    return kernel_call(reaction) or _called_back(reaction)
+
+
+def kernel_call(reaction: Reaction) -> FilmCall | None:
+    """Return the force of a reaction in the C library; None if it has none, as one of a user's own class."""
     if type(reaction) is JournalBearing:
-        bound = reaction.bound_film
-        if isinstance(bound, BoundKernel):
-            struct = bound.kernel.struct
-            address = ctypes.cast(functions()["rf_journal_at"], c_void_p).value or 0
-            return FilmCall(address=address, data=ctypes.addressof(struct), owner=bound, beyond=bound.beyond)
+        return _bound(reaction.bound_film)
+    if type(reaction) is PorousDamper:
+        film = _bound(reaction.film_in_c)
+        return None if film is None else film.beside(0.0, still=True)
+    if type(reaction) is Sprung:
+        inner = kernel_call(reaction.reaction)
+        return None if inner is None else inner.beside(reaction.stiffness, still=False)
     if type(reaction) is LinearBearing:
         values = np.concatenate([np.ravel(reaction.stiffness), np.ravel(reaction.damping)])
-        address = ctypes.cast(loops()["rf_springs_at"], c_void_p).value or 0
-        return FilmCall(address=address, data=values.ctypes.data, owner=values)
-    return _called_back(reaction)
+        return FilmCall(address=_address("rf_springs_at"), data=values.ctypes.data, owner=values)
+    return None
+
+
+def _bound(film: object) -> FilmCall | None:
+    if not isinstance(film, BoundKernel):
+        return None
+    data = ctypes.addressof(film.kernel.struct)
+    return FilmCall(address=_address("rf_journal_at"), data=data, owner=film, beyond=film.beyond)
+
+
+@cache
+def _address(name: str) -> int:
+    return ctypes.cast({**functions(), **loops()}[name], c_void_p).value or 0
 
 
 def _called_back(reaction: Reaction) -> FilmCall:

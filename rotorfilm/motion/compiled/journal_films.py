@@ -12,6 +12,9 @@ from ...native.library import loops
 from ...native.structs import JournalsStruct
 from .modal import ModalRotor
 
+CONTACT_GAP = 1e-9
+"""Film thickness, in clearances, at which a journal counts as touching: below any surface roughness."""
+
 
 class JournalFilms(NamedTuple):
     """The bearings of a rotor as the C library reads them.
@@ -25,7 +28,9 @@ class JournalFilms(NamedTuple):
     spring, damper : ndarray, shape (2 n,) [N/m], [N s/m]
         What the rotor rests on and the films give back.
     lengths : ndarray, shape (n,) [m]
-        Clearances.
+        Clearances, or what stands for them.
+    walls : ndarray, shape (n,) [m]
+        Eccentricities at which a journal counts as touching; infinite without a wall.
     """
 
     films: np.ndarray
@@ -34,13 +39,15 @@ class JournalFilms(NamedTuple):
     spring: Array
     damper: Array
     lengths: Array
+    walls: Array
 
     @classmethod
     def of_rotor(cls, modal: ModalRotor, *, absolute: bool = False) -> JournalFilms:
         """Return those of a rotor, which has to live as long; motion is from its rest, or `absolute`."""
         addresses = np.array([(call.address, call.data) for call in modal.calls], dtype=np.uintp).T
         rest = np.zeros(4 * len(modal.calls)) if absolute else modal.journal_rest
-        rows = rest, modal.spring, modal.damper, modal.parts.lengths
+        walls = (1.0 - CONTACT_GAP) * np.array([bearing.clearance for bearing in modal.parts.bearings])
+        rows = rest, modal.spring, modal.damper, modal.parts.lengths, walls
         return cls(*map(np.ascontiguousarray, (*addresses, *rows)))
 
     def struct(self) -> JournalsStruct:

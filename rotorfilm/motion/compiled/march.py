@@ -8,13 +8,13 @@ from enum import IntEnum
 
 import numpy as np
 
-from ...errors import ContactError, ConvergenceError, warn_user
+from ...errors import ContactError, ConvergenceError
 from ...model import Array
 from ...native.library import loops
 from ...native.structs import SLOTS, STEPS, MarchStruct, SpeedsStruct, StepTableStruct
 from ...rotors import SpeedProfile
 from .collocation import STAGES, ModalArrays, StepTable, radau_scheme
-from .film_calls import raise_foreign
+from .film_calls import raise_foreign, warn_beyond
 from .journal_films import JournalFilms
 from .modal import Complex, ModalRotor
 
@@ -27,7 +27,13 @@ SHORTEST = 1e-13
 NEWTON = 0.01
 """Error left by Newton's method, in local errors."""
 
-_COUNTERS = ("film_evaluations", "jacobians", "steps", "rejected")
+_COUNTERS = {
+    "film_evaluations": "films",
+    "jacobians": "jacobians",
+    "steps": "steps",
+    "rejected": "rejected",
+    "restarts": "walls",
+}
 
 
 def profile_rows(profile: SpeedProfile) -> tuple[Array, Array, Array, Array]:
@@ -102,9 +108,8 @@ class March:
 
     @property
     def work(self) -> dict[str, int]:
-        """Film_evaluations, jacobians, steps and rejected steps so far."""
-        counts = (getattr(self._struct, name) for name in ("films", "jacobians", "steps", "rejected"))
-        return dict(zip(_COUNTERS, counts, strict=True))
+        """Film_evaluations, jacobians, steps, rejected steps and, of these, restarts at a wall so far."""
+        return {name: getattr(self._struct, counter) for name, counter in _COUNTERS.items()}
 
     @property
     def time(self) -> float:
@@ -135,8 +140,7 @@ class March:
     def warn(self) -> None:
         """Warn if a film was asked beyond its map."""
         if self._struct.left_map:
-            how = " or ".join(dict.fromkeys(c.beyond for c in self.modal.calls if c.beyond))
-            warn_user(f"a journal went beyond the map of its film; its force is {how}")
+            warn_beyond(self.modal.calls)
 
     def _failure(self, end: End, kept: Complex) -> ContactError | ConvergenceError:
         at = f"at t = {self.time:.9g} s"

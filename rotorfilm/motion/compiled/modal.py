@@ -136,6 +136,19 @@ def take_apart(mounted: MountedRotor) -> Parts:
     return Parts(structure, profile, tuple(bearings), tuple(names), rows)
 
 
+def matrix_speed(parts: Parts) -> float:
+    """Return the speed at which the matrices are taken; raise InputError where they change over time."""
+    s, profile = parts.structure, parts.profile
+    turning = bool(np.any(s.gyroscopic) or np.any(s.circulation))
+    if len(set(profile.speeds)) > 1 and turning:
+        raise InputError(
+            "speed must be constant for a rotor with gyroscopic effect or rotating damping, got a profile: "
+            "reduce the rotor (reduce_rotor) and take simulate(mount(rotor, bearings), last bearing), where "
+            "the station of the last bearing has no name"
+        )
+    return float(max(profile.speeds, key=abs))
+
+
 def _structure(rotor: Dynamic) -> tuple[Structure, SpeedProfile]:
     if not isinstance(rotor, RigidRotor | FlexibleRotor):
         raise InputError(f"rotor must be a RigidRotor or a FlexibleRotor in its bearings, got {rotor!r}")

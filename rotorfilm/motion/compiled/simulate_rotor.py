@@ -12,9 +12,9 @@ from ...model import Array
 from ...results import Trajectory
 from ...rotors import MountedRotor
 from ...signals import names
-from ..transient.times import require_longest_step, sample_times
 from .march import March, rate_of
-from .modal import Parts, modal_rotor, take_apart
+from .modal import matrix_speed, modal_rotor, take_apart
+from .times import require_longest_step, sample_times
 
 LONGEST_TURN = 1.0
 """Longest step in turns of the shaft."""
@@ -57,7 +57,7 @@ def simulate_rotor(
     -------
     Trajectory
         Signals: every output of `mounted`, its bearings' forces included. Work: film_evaluations, jacobians,
-        steps, rejected.
+        steps, rejected, and of these restarts: steps cut short at the wall.
 
     Raises
     ------
@@ -77,7 +77,7 @@ def simulate_rotor(
     require_positive("rtol", rtol)
     require_longest_step(max_step)
     parts = take_apart(mounted)
-    modal = modal_rotor(parts, _speed(parts))
+    modal = modal_rotor(parts, matrix_speed(parts))
     state = np.asarray(mounted.initial_state if initial_state is None else initial_state, dtype=float)
     if require_finite("initial_state", state).shape != (len(modal.shapes),):
         raise InputError(f"initial_state must have shape ({len(modal.shapes)},), got {state.shape}")
@@ -96,19 +96,6 @@ def simulate_rotor(
         raise type(failure)(str(failure), _trajectory(mounted, grid, kept, march)) from failure
     march.warn()
     return _trajectory(mounted, grid, kept, march)
-
-
-def _speed(parts: Parts) -> float:
-    """Return the speed at which the matrices are taken; raise InputError where they change over time."""
-    s, profile = parts.structure, parts.profile
-    turning = bool(np.any(s.gyroscopic) or np.any(s.circulation))
-    if len(set(profile.speeds)) > 1 and turning:
-        raise InputError(
-            "speed must be constant for a rotor with gyroscopic effect or rotating damping, got a profile: "
-            "reduce the rotor (reduce_rotor) and take simulate(mount(rotor, bearings), last bearing), where "
-            "the station of the last bearing has no name"
-        )
-    return float(max(profile.speeds, key=abs))
 
 
 def _trajectory(mounted: MountedRotor, grid: Array, kept: list[Array], march: March) -> Trajectory:

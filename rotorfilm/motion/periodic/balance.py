@@ -13,6 +13,9 @@ samples as the series has terms this is collocation: the equations of motion hol
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Generic, NamedTuple, Protocol, Self, TypeVar
 
 import numpy as np
@@ -72,12 +75,28 @@ class HarmonicRotor(Protocol):
 R = TypeVar("R", bound=HarmonicRotor)
 
 
-class Residual(NamedTuple):
-    """The equations at a series: values, derivatives by the series, and by the frequency of free whirl."""
+@dataclass(frozen=True, eq=False)
+class Residual:
+    """The equations at a series.
+
+    Attributes
+    ----------
+    values : ndarray, shape (2 n_bearings (2 H + 1),) [1]
+        In clearances.
+    by_frequency : ndarray [s/rad]
+        Derivatives by the frequency of free whirl; empty where the unbalance drives.
+    derive : callable
+        Makes the derivatives by the series.
+    """
 
     values: Array
-    by_series: Array
     by_frequency: Array
+    derive: Callable[[], Array]
+
+    @cached_property
+    def by_series(self) -> Array:
+        """The derivatives by the series: made when they are asked for, not of a series that needs no step."""
+        return self.derive()
 
 
 class Balance(NamedTuple, Generic[R]):
@@ -129,7 +148,6 @@ class Balance(NamedTuple, Generic[R]):
         FilmContactError
             If a journal leaves its bearing.
         """
-        rows, terms = series.shape
         units = self.units
         force, stiffness, damping = self.rotor.tangents(*self._motion(series, frequency))
         answer = self.rotor.receptance(self.harmonics, frequency)
@@ -140,16 +158,25 @@ class Balance(NamedTuple, Generic[R]):
             turned = np.einsum("ijn,ijn->in", damping, _pairs(series @ self.basis.slopes.T))
             change = apply(answer.rates, spectrum) + apply(answer.values, turned @ self.basis.back.T)
             by_frequency = (-change / units[:, None]).ravel()
-        relative = units[None, :] / units[:, None]
+
+        def by_series() -> Array:
+            return self._derivatives(answer.values, stiffness, frequency * damping)
+
+        return Residual((value / units[:, None]).ravel(), by_frequency, by_series)
+
+    def _derivatives(self, answer: Complex, stiffness: Array, damping: Array) -> Array:
+        """Return the derivatives by the series, in clearances; the damping by the rate over the phase."""
+        units, terms = self.units, 2 * self.harmonics + 1
+        rows = len(units)
         by_series = np.empty((rows, terms, rows, terms))
         for j in range(rows):
             pair = slice(j - j % 2, j - j % 2 + 2)
-            columns = slope_columns(stiffness[pair, j % 2], frequency * damping[pair, j % 2], self.harmonics)
-            moved = real_rows(answer.values[:, :, pair] @ columns)
-            by_series[:, :, j, :] = -relative[:, j, None, None] * moved
-        flat = by_series.reshape(series.size, series.size)
-        flat[np.arange(series.size), np.arange(series.size)] += 1.0
-        return Residual((value / units[:, None]).ravel(), flat, by_frequency)
+            columns = slope_columns(stiffness[pair, j % 2], damping[pair, j % 2], self.harmonics)
+            moved = real_rows(answer[:, :, pair] @ columns)
+            by_series[:, :, j, :] = (-units[j] / units)[:, None, None] * moved
+        flat = by_series.reshape(rows * terms, rows * terms)
+        flat[np.arange(rows * terms), np.arange(rows * terms)] += 1.0
+        return flat
 
     def values(self, series: Array, frequency: float) -> Array:
         """Return the equations alone, in clearances; FilmContactError as in `residual`."""

@@ -5,7 +5,9 @@ The modes are divided by i k nu - lambda:  R_k = sense (i k nu - Lambda)^-1 push
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -19,7 +21,8 @@ from .balance import Receptance
 from .harmonics import constant, with_wave
 
 
-class ModalFilms(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class ModalFilms:
     """A rotor in modes as the equations of an orbit see it.
 
     Attributes
@@ -29,6 +32,11 @@ class ModalFilms(NamedTuple):
     """
 
     modal: ModalRotor
+
+    @cached_property
+    def journals(self) -> JournalFilms:
+        """The films, at motions from the centers of the bearings."""
+        return JournalFilms.of_rotor(self.modal, absolute=True)
 
     @property
     def clearances(self) -> Array:
@@ -42,7 +50,7 @@ class ModalFilms(NamedTuple):
 
     def receptance(self, harmonics: int, frequency: float) -> Receptance:
         """Return what the journals answer on the springs of the modes, at any frequency."""
-        return self._answers(self.modal.push[:, :-2], np.arange(harmonics + 1), frequency)
+        return self._known(range(harmonics + 1), frequency, False)
 
     def external(self, harmonics: int, periods: int, frequency: float) -> Array:
         """Return the series of the answer to weight, and to the unbalance if `periods` is not 0."""
@@ -51,16 +59,16 @@ class ModalFilms(NamedTuple):
             return constant(rest, harmonics)
         # (cos p, sin p) is the real part of (1, -i) exp(i p); a shaft that turns backward mirrors it.
         pair = self.speed**2 * np.array([1.0, -1.0j * np.sign(self.speed)])
-        answer = self._answers(self.modal.push[:, -2:], np.array([periods]), frequency)
+        answer = self._known(range(periods, periods + 1), frequency, True)
         return with_wave(rest, answer.values[0] @ pair, harmonics, periods)
 
     def forces(self, position: Array, velocity: Array) -> Array:
         """Return the forces of films and springs."""
-        return film_forces(self.modal, position, velocity)[0]
+        return self.tangents(position, velocity)[0]
 
     def tangents(self, position: Array, velocity: Array) -> tuple[Array, Array, Array]:
         """Return the forces of films and springs and their slopes."""
-        return film_forces(self.modal, position, velocity)
+        return film_forces(self.modal, position, velocity, self.journals)
 
     def loaded(self, part: float) -> ModalFilms:
         """Return the same under a part of the unbalance."""
@@ -68,13 +76,21 @@ class ModalFilms(NamedTuple):
         push[:, -2:] *= part
         return ModalFilms(self.modal._replace(push=push))
 
-    def _answers(self, push: Complex, order: np.ndarray, frequency: float) -> Receptance:
+    @cached_property
+    def _known(self) -> Callable[[range, float, bool], Receptance]:
+        """The answers, kept: all steps towards one orbit ask for the same."""
+        return lru_cache(maxsize=4)(self._answers)
+
+    def _answers(self, harmonics: range, frequency: float, driven: bool) -> Receptance:
         """Return the answers to real forces cos, i.e. with both of each pair of modes, and their rates.
+
+        The forces are those at the journals, or `driven` the unbalance's pair.
 
         The state is the real part of the modes kept, twice each: the answer to exp(i w t) has half of it from
         each of the pair.
         """
-        values = self.modal.values
+        values, order = self.modal.values, np.array(harmonics)
+        push = self.modal.push[:, -2:] if driven else self.modal.push[:, :-2]
         rows = self.modal.sense.reshape(-1, 4, len(values))[:, :2].reshape(-1, len(values))
         pole = 1.0 / (1j * frequency * order[:, None] - values)
         mirrored = 1.0 / (1j * frequency * order[:, None] - values.conj())
@@ -86,7 +102,9 @@ class ModalFilms(NamedTuple):
         return Receptance(summed(pole, mirrored), -1j * order[:, None, None] * summed(pole**2, mirrored**2))
 
 
-def film_forces(modal: ModalRotor, position: Array, velocity: Array) -> tuple[Array, Array, Array]:
+def film_forces(
+    modal: ModalRotor, position: Array, velocity: Array, films: JournalFilms | None = None
+) -> tuple[Array, Array, Array]:
     """Return the forces of films and springs (2 n, samples), their slopes by position and velocity.
 
     Raises
@@ -96,7 +114,7 @@ def film_forces(modal: ModalRotor, position: Array, velocity: Array) -> tuple[Ar
     """
     samples = position.shape[1]
     motion = np.concatenate([row.reshape(-1, 2, samples) for row in (position, velocity)], axis=1)
-    journals = JournalFilms.of_rotor(modal, absolute=True)
+    journals = films or JournalFilms.of_rotor(modal, absolute=True)
     speed = float(modal.parts.profile.speeds[0])
     status, force, slope = journals.forces(motion.reshape(-1, samples), speed)
     raise_foreign(modal.calls)

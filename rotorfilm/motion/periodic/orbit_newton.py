@@ -8,7 +8,7 @@ import numpy as np
 
 from ...errors import ConvergenceError, FilmContactError
 from ...model import Array
-from .balance import Balance, R
+from .balance import Balance, R, Residual
 from .harmonics import constant, resized
 
 MOST_HARMONICS = 128
@@ -46,8 +46,10 @@ class Solution(NamedTuple, Generic[R]):
     iterations: int
 
 
-def solve(balance: Balance[R], series: Array, frequency: float) -> Solution[R]:
+def solve(balance: Balance[R], series: Array, frequency: float, converged: float = CONVERGED) -> Solution[R]:
     """Return the orbit near a series by Newton's method, whose steps keep the journals inside.
+
+    It ends at a residual or a step of `converged` clearances.
 
     Raises
     ------
@@ -56,23 +58,25 @@ def solve(balance: Balance[R], series: Array, frequency: float) -> Solution[R]:
     """
     reference = phase_row(series, balance)
     try:
-        at, residual = _system(balance, series, frequency, reference)
+        at, residual = _system(balance, series, frequency)
         for iteration in range(STEPS):
             size = float(np.abs(residual).max())
-            if size < CONVERGED:
+            if size < converged:
                 return Solution(series, frequency, balance, size, iteration)
-            step = np.asarray(np.linalg.solve(at, -residual), dtype=float)
-            if float(np.abs(step).max()) < CONVERGED:
+            step = np.asarray(
+                np.linalg.solve(_matrix(balance, at, frequency, reference), -residual), dtype=float
+            )
+            if float(np.abs(step).max()) < converged:
                 return Solution(*_moved(balance, series, frequency, step), balance, size, iteration)
             series, frequency, at, residual = _damped(
-                balance, series, frequency, step, reference, float(np.linalg.norm(residual))
+                balance, series, frequency, step, float(np.linalg.norm(residual))
             )
     except (FilmContactError, np.linalg.LinAlgError) as failure:
         raise ConvergenceError(f"no periodic orbit found: {failure}") from failure
     raise ConvergenceError(f"no periodic orbit found: {size:.3g} of the clearance left")
 
 
-def driven(balance: Balance[R], start: Array, rest: Array) -> Solution[R]:
+def driven(balance: Balance[R], start: Array, rest: Array, converged: float = CONVERGED) -> Solution[R]:
     """Return the orbit near a series; where that is too far out, from the rest (2 n_bearings,) [m] up.
 
     Raises
@@ -81,7 +85,7 @@ def driven(balance: Balance[R], start: Array, rest: Array) -> Solution[R]:
         If the unbalance cannot be raised to its own either.
     """
     try:
-        return solve(balance, start, balance.frequency)
+        return solve(balance, start, balance.frequency, converged)
     except ConvergenceError:
         return _ramped(balance, rest)
 
@@ -104,15 +108,19 @@ def _ramped(balance: Balance[R], rest: Array) -> Solution[R]:
             return found._replace(balance=balance, iterations=iterations)
 
 
-def _system(balance: Balance[R], series: Array, frequency: float, reference: Array) -> tuple[Array, Array]:
-    """Return matrix and values of the equations; of whirl with the phase condition and the frequency."""
+def _system(balance: Balance[R], series: Array, frequency: float) -> tuple[Residual, Array]:
+    """Return the equations and their values; of whirl with the phase condition."""
     at = balance.residual(series, frequency)
+    return at, at.values if balance.periods else np.append(at.values, 0.0)
+
+
+def _matrix(balance: Balance[R], at: Residual, frequency: float, reference: Array) -> Array:
+    """Return the matrix of the equations; of whirl with the phase condition and the frequency."""
     if balance.periods:
-        return at.by_series, at.values
-    matrix = np.block(
+        return at.by_series
+    return np.block(
         [[at.by_series, frequency * at.by_frequency[:, None]], [reference[None], np.zeros((1, 1))]]
     )
-    return matrix, np.append(at.values, 0.0)
 
 
 def newton_step(balance: Balance[R], series: Array) -> Array:
@@ -128,13 +136,13 @@ def _moved(balance: Balance[R], series: Array, frequency: float, step: Array) ->
 
 
 def _damped(
-    balance: Balance[R], series: Array, frequency: float, step: Array, reference: Array, before: float
-) -> tuple[Array, float, Array, Array]:
+    balance: Balance[R], series: Array, frequency: float, step: Array, before: float
+) -> tuple[Array, float, Residual, Array]:
     part, last = _share(balance, series, step), None
     for _ in range(8):
         moved, rate = _moved(balance, series, frequency, part * step)
         try:
-            at, residual = _system(balance, moved, rate, reference)
+            at, residual = _system(balance, moved, rate)
         except FilmContactError:
             part *= 0.5
             continue
@@ -176,13 +184,13 @@ def truncation_of(solution: Solution[R]) -> float:
     return float(tail.max())
 
 
-def lengthened(solution: Solution[R], tolerance: float) -> Solution[R]:
+def lengthened(solution: Solution[R], tolerance: float, converged: float = CONVERGED) -> Solution[R]:
     """Return the solution with harmonics added until the last ones are small enough."""
     while truncation_of(solution) > tolerance:
         harmonics = min(2 * solution.balance.harmonics, MOST_HARMONICS * max(1, solution.balance.periods))
         if harmonics == solution.balance.harmonics:
             break
         balance = solution.balance._replace(harmonics=harmonics)
-        found = solve(balance, resized(solution.series, harmonics), solution.frequency)
+        found = solve(balance, resized(solution.series, harmonics), solution.frequency, converged)
         solution = found._replace(iterations=found.iterations + solution.iterations)
     return solution

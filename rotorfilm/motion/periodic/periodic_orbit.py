@@ -18,7 +18,7 @@ from .balance import Balance
 from .floquet import multipliers, state_at_start
 from .harmonics import constant, resized, series_rows
 from .modal_films import ModalFilms
-from .orbit_newton import Solution, driven, lengthened, solve, truncation_of
+from .orbit_newton import CONVERGED, Solution, driven, lengthened, solve, truncation_of
 from .rest import first_guess
 from .start_series import end_of, subharmonic
 
@@ -27,6 +27,9 @@ HARMONICS = 8
 
 TRUNCATION = 1e-7
 """Largest of the last harmonics / clearance at which a series is long enough."""
+
+BALANCED = 1e-3
+"""Where the search for an orbit ends, in tolerances."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -135,7 +138,8 @@ def periodic_orbit(
         Turns of the shaft per orbit: 2 after a period doubling. The orbit of one turn solves these equations
         too, so that another one needs a start.
     tolerance : float [1]
-        Harmonics are added until the last quarter of them is smaller, in clearances.
+        Harmonics are added until the last quarter of them is smaller, in clearances; the equations of those
+        that there are hold to a thousandth of it.
     stability : bool
         Whether to compute the Floquet multipliers; without them the orbit does not know whether it is stable.
 
@@ -149,27 +153,32 @@ def periodic_orbit(
     require_count("periods", periods)
     require_positive("tolerance", tolerance)
     modal = modal_rotor(parts := take_apart(mounted), parts.speed)
+    converged = max(CONVERGED, BALANCED * tolerance)
     if bool(np.any(parts.structure.unbalance)) and parts.speed != 0.0:
-        found = _driven(mounted, modal, start, periods)
+        found = _driven(mounted, modal, start, periods, converged)
     elif start is None:
         raise InputError("start must be an orbit or a run that ends in whirl for a rotor without unbalance")
     else:
         series, frequency = _start_series(modal, start, None)
         balance = Balance(rotor=ModalFilms(modal), harmonics=HARMONICS, periods=0)
-        found = solve(balance, resized(series, HARMONICS), frequency)
-    return finished(lengthened(found, tolerance), stability=stability)
+        found = solve(balance, resized(series, HARMONICS), frequency, converged)
+    return finished(lengthened(found, tolerance, converged), stability=stability)
 
 
 def _driven(
-    mounted: MountedRotor, modal: ModalRotor, start: PeriodicOrbit | Trajectory | None, periods: int
+    mounted: MountedRotor,
+    modal: ModalRotor,
+    start: PeriodicOrbit | Trajectory | None,
+    periods: int,
+    converged: float,
 ) -> Solution[ModalFilms]:
     harmonics = HARMONICS * periods
     balance = Balance(rotor=ModalFilms(modal), harmonics=harmonics, periods=periods)
     if start is not None:
         series, _ = _start_series(modal, start, balance.frequency)
-        return solve(balance, resized(series, harmonics), balance.frequency)
+        return solve(balance, resized(series, harmonics), balance.frequency, converged)
     rest = first_guess(mounted, modal)
-    return driven(balance, constant(rest, harmonics), rest)
+    return driven(balance, constant(rest, harmonics), rest, converged)
 
 
 def finished(solution: Solution[ModalFilms], *, stability: bool = True) -> PeriodicOrbit:

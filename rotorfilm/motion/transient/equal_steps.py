@@ -2,25 +2,21 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
+from ctypes import byref
 from dataclasses import dataclass
 
 import numpy as np
 
-from ...errors import ConvergenceError, FilmContactError
-from ...model import Array, Reaction, prepared_tangent
+from ...errors import ConvergenceError, FilmContactError, RotorfilmError, UndefinedDerivativeError
+from ...model import Array, Reaction
+from ...native import Status
+from ...native.library import loops
+from ...native.structs import ShakenStruct
+from ..compiled.film_calls import film_call, raise_foreign, warn_beyond
 
 ORDER = 2
 """Of the average acceleration in the step."""
-
-NEWTON_STEPS = 20
-TOLERANCE = 1e-10
-"""Last Newton step, in clearances."""
-
-CONTACT = "the journal must stay inside the clearance"
-NEAR = 0.9999
-"""Eccentricity ratio from which Newton's method, where it does not end, counts as led to the wall."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,75 +41,43 @@ Pull = Callable[[float], tuple[float, float]]
 def march(
     reaction: Reaction, mass: float, speed: float, pull: Pull, rest: Array, step: float, count: int
 ) -> tuple[MarchMotion, int]:
-    """Return the motion from rest by average acceleration, and the number of tangents.
-
-    With v' = (a + a')/2 and q' = q + dt v + dt^2 (a + a')/4, m a' = F(q', v') + pull(t') is solved for q' by
-    Newton's method (trapezoidal rule; order 2).
+    """Return the motion from rest by average acceleration (native/loops/shake.h), and the number of tangents.
 
     Raises
     ------
     FilmContactError
         If the journal reaches the wall.
+    UndefinedDerivativeError
+        If the film has no derivative on the way.
     ConvergenceError
-        If Newton's method does not end.
+        If Newton's method does not end, or the film force is not finite.
     """
-    tangent, clearance = prepared_tangent(reaction), reaction.clearance
-    path, rates = np.empty((2, count + 1)), np.zeros((2, count + 1))
-    path[:, 0] = rest
-    (x, y), (vx, vy), (ax, ay) = rest.tolist(), (0.0, 0.0), _acceleration(reaction, mass, speed, pull, rest)
-    calls, k2, k1 = 1, 4.0 / step**2, 2.0 / step
-    for n in range(1, count + 1):
-        px, py = pull(n * step)
-        # With its acceleration, since a cavitated film has no derivative at rest.
-        qx, qy = x + step * (vx + 0.5 * step * ax), y + step * (vy + 0.5 * step * ay)
-        if math.hypot(qx, qy) > 0.5 * (clearance + math.hypot(x, y)):
-            qx, qy = x, y
-        for _ in range(NEWTON_STEPS):
-            wx, wy = k1 * (qx - x) - vx, k1 * (qy - y) - vy
-            bx, by = k2 * (qx - x - step * vx) - ax, k2 * (qy - y - step * vy) - ay
-            fx, fy, D = tangent(qx, qy, wx, wy, speed)
-            calls += 1
-            rx, ry = fx + px - mass * bx, fy + py - mass * by
-            a, b = mass * k2 - D[0] - k1 * D[2], -D[1] - k1 * D[3]
-            c, d = -D[5] - k1 * D[7], mass * k2 - D[6] - k1 * D[8]
-            det = a * d - b * c
-            dx, dy = (d * rx - b * ry) / det, (a * ry - c * rx) / det
-            share = _share(qx, qy, dx, dy, clearance, n * step)
-            qx, qy = qx + share * dx, qy + share * dy
-            if abs(dx) + abs(dy) < TOLERANCE * clearance:
-                break
-        else:
-            _require_inside(qx, qy, clearance, n * step)
-            raise ConvergenceError(f"Newton's method must end within {NEWTON_STEPS} steps at step {n}")
-        wx, wy = k1 * (qx - x) - vx, k1 * (qy - y) - vy
-        ax, ay = k2 * (qx - x - step * vx) - ax, k2 * (qy - y - step * vy) - ay
-        x, y, vx, vy = qx, qy, wx, wy
-        path[:, n], rates[:, n] = (x, y), (vx, vy)
-    return MarchMotion(time=np.asarray(step * np.arange(count + 1)), position=path, velocity=rates), calls
+    call = film_call(reaction)
+    pulls = np.array([pull(n * step) for n in range(count + 1)])
+    pulls[0] += np.asarray(reaction.force(rest, np.zeros(2), speed))
+    motion = np.zeros((count + 1, 4))
+    motion[0, :2] = rest
+    rotor = ShakenStruct(call.address, call.data, mass, speed, reaction.clearance, step)
+    status = loops()["rf_follow_shaken"](byref(rotor), count, pulls.ctypes.data, motion.ctypes.data)
+    raise_foreign([call])
+    if rotor.left_map:
+        warn_beyond([call])
+    if status != Status.OK:
+        raise _failure(status, rotor.done + 1, step)
+    time = np.asarray(step * np.arange(count + 1))
+    return MarchMotion(time=time, position=motion[:, :2].T, velocity=motion[:, 2:].T), 1 + rotor.calls
 
 
-def _share(x: float, y: float, dx: float, dy: float, clearance: float, time: float) -> float:
-    """Return the part of a Newton step that leaves a tenth of the gap."""
-    limit, share = clearance - 0.1 * (clearance - math.hypot(x, y)), 1.0
-    while math.hypot(x + share * dx, y + share * dy) > limit:
-        share *= 0.5
-        if share < 1e-6:
-            raise FilmContactError(f"{CONTACT}, got to the wall at {time:.6g} s")
-    return share
-
-
-def _require_inside(x: float, y: float, clearance: float, time: float) -> None:
-    """Raise FilmContactError where Newton's method has been led to the wall."""
-    if math.hypot(x, y) > NEAR * clearance:
-        raise FilmContactError(f"{CONTACT}, got to the wall at {time:.6g} s")
-
-
-def _acceleration(
-    reaction: Reaction, mass: float, speed: float, pull: Pull, rest: Array
-) -> tuple[float, float]:
-    fx, fy = np.asarray(reaction.force(rest, np.zeros(2), speed)).tolist()
-    px, py = pull(0.0)
-    return (fx + px) / mass, (fy + py) / mass
+def _failure(status: int, number: int, step: float) -> RotorfilmError:
+    """Return why a step was not made."""
+    at = f"at {number * step:.6g} s"
+    if status == Status.AT_WALL:
+        return FilmContactError(f"the journal must stay inside the clearance, got to the wall {at}")
+    if status == Status.UNDEFINED:
+        return UndefinedDerivativeError(f"the film must have a derivative along the motion, it has none {at}")
+    if status == Status.NOT_FINITE:
+        return ConvergenceError(f"film force must be finite {at}")
+    return ConvergenceError(f"Newton's method must end at step {number}, {at}")
 
 
 def linear_march(mass: float, stiffness: Array, damping: Array, pull: Array, step: float) -> MarchMotion:

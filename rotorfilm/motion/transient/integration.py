@@ -16,9 +16,6 @@ from .coupled import Coupled
 RETREAT = 0.25
 """Part of a step that is tried next, after a trial state beyond the wall."""
 
-CONTACT_GAP = 1e-9
-"""Film thickness, in clearances, at which the journal counts as touching: below any surface roughness."""
-
 
 class Integration(NamedTuple):
     """How to integrate: the method and its accuracy.

@@ -13,9 +13,12 @@ from ...model import Array, Dynamic, Reaction, stops
 from ...results import Trajectory
 from ...signals import FORCE_OUTPUTS, names
 from ...warming import in_time
+from ..compiled.compiled_form import compiled_form
+from ..compiled.journal_films import CONTACT_GAP
+from ..compiled.simulate_rotor import simulate_rotor
+from ..compiled.times import require_longest_step, sample_times
 from .coupled import Coupled
-from .integration import CONTACT_GAP, Integration, integrate
-from .times import require_longest_step, sample_times
+from .integration import Integration, integrate
 
 
 def simulate(
@@ -28,12 +31,13 @@ def simulate(
     initial_state: ArrayLike | None = None,
     rtol: float = 1e-8,
     max_step: float = np.inf,
-    method: Callable[..., OdeSolver] = Radau,
+    method: Callable[..., OdeSolver] | None = None,
 ) -> Trajectory:
     """Return the motion of a rotor on a film from t = 0.
 
     Rotor and film are connected by the names of their signals and integrated together, with the exact
     Jacobian of both, so no coupling error arises. The integration stops at the kinks of a `Kinked` rotor.
+    A linear rotor on films that have kernels is integrated in C, as by `simulate_rotor`, all others by scipy.
 
     Parameters
     ----------
@@ -53,15 +57,17 @@ def simulate(
         Relative local error of a step; the absolute one is rtol times the nominal value of each state.
     max_step : float [s]
         Longest step of the integrator.
-    method : a class derived from scipy.integrate.OdeSolver
-        Stiff methods are given the exact Jacobian.
+    method : a class derived from scipy.integrate.OdeSolver, optional
+        Stiff methods are given the exact Jacobian. By default the compiled integration where it takes rotor
+        and film (`motion.compiled.compiled_form`) and comes to the end, `scipy.integrate.Radau` otherwise.
 
     Returns
     -------
     Trajectory
         Signals: every output of the rotor, the film force on the journal [N], and of a film with states
         its further outputs and its states. Work:
-        film_evaluations, jacobians, steps, restarts (steps cut short at the wall).
+        film_evaluations, jacobians, steps, restarts (steps cut short at the wall), of the compiled
+        integration also rejected (those and all others cut short).
 
     Raises
     ------
@@ -74,11 +80,25 @@ def simulate(
     """
     require_positive("duration", duration)
     require_positive("rtol", rtol)
-    system = Coupled(rotor, in_time(reaction))
+    reaction = in_time(reaction)
+    system = Coupled(rotor, reaction)
     grid = sample_times(duration, samples, times)
     state = _initial(system, system.initial_state if initial_state is None else initial_state)
     require_longest_step(max_step)
-    settings = Integration(method=method, rtol=rtol, max_step=max_step)
+    if method is None and (mounted := compiled_form(rotor, reaction)) is not None:
+        labels = [*names(rotor.outputs), *FORCE_OUTPUTS]
+        try:
+            run = simulate_rotor(
+                mounted, duration=duration, times=grid, initial_state=state, rtol=rtol, max_step=max_step
+            )
+        except ContactError as contact:
+            raise ContactError(str(contact), _shown(contact.partial, labels)) from contact
+        except ConvergenceError:
+            # With scipy's own message, if it gives up too.
+            pass
+        else:
+            return _shown(run, labels)
+    settings = Integration(method=method or Radau, rtol=rtol, max_step=max_step)
     kept: list[tuple[float, Array]] = [(0.0, state)] if grid.size and grid[0] == 0.0 else []
     try:
         for step in integrate(system, state, stops(rotor, 0.0, duration), settings):
@@ -91,6 +111,11 @@ def simulate(
     except ConvergenceError as failure:
         raise ConvergenceError(str(failure), _trajectory(system, kept)) from failure
     return _trajectory(system, kept)
+
+
+def _shown(run: Trajectory, labels: list[str]) -> Trajectory:
+    """Return a trajectory of these of its signals, in this order."""
+    return Trajectory(time=run.time, signals={name: run.signals[name] for name in labels}, work=run.work)
 
 
 def _initial(system: Coupled, initial_state: ArrayLike) -> Array:

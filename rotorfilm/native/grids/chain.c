@@ -11,9 +11,14 @@ static inline void subtract(size_t n, double a, const double *restrict x, double
         y[k] -= a * x[k];
 }
 
+static inline size_t unknowns(const rf_chain *chain)
+{
+    return chain->lines * chain->half;
+}
+
 static inline size_t below(const rf_chain *chain, size_t p)
 {
-    const size_t left = chain->size - 1 - p;
+    const size_t left = unknowns(chain) - 1 - p;
     return left < chain->half ? left : chain->half;
 }
 
@@ -21,16 +26,25 @@ RF_CLONES
 static void factorize_band(rf_chain *chain)
 {
     const size_t half = chain->half, stride = half + 1;
-    for (size_t p = 0; p < chain->size; ++p) {
-        double *column = chain->band + p * stride;
-        const size_t reach = below(chain, p);
-        const double inverse = 1.0 / sqrt(column[0]);
-        column[0] = inverse;
-        for (size_t k = 1; k <= reach; ++k)
-            column[k] *= inverse;
-        for (size_t k = 1; k <= reach; ++k)
-            if (column[k] != 0.0)
-                subtract(reach + 1 - k, column[k], column + k, column + k * stride);
+    for (size_t line = 0; line < chain->lines; ++line) {
+        const size_t start = line * half;
+        if (chain->state[line] != RF_LINE_NEW)
+            continue;
+        /* A kept line before it takes from it once more what it took before. */
+        const size_t from = line > 0 && chain->state[line - 1] == RF_LINE_KEPT ? start - half : start;
+        for (size_t p = from; p < start + half; ++p) {
+            double *column = chain->band + p * stride;
+            const size_t reach = below(chain, p);
+            if (p >= start) {
+                const double inverse = 1.0 / sqrt(column[0]);
+                column[0] = inverse;
+                for (size_t k = 1; k <= reach; ++k)
+                    column[k] *= inverse;
+            }
+            for (size_t k = p < start ? start - p : 1; k <= reach; ++k)
+                if (column[k] != 0.0)
+                    subtract(reach + 1 - k, column[k], column + k, column + k * stride);
+        }
     }
 }
 
@@ -39,7 +53,7 @@ RF_CLONES
 static void factorize_border(rf_chain *chain)
 {
     const size_t half = chain->half, stride = half + 1;
-    for (size_t p = 0; p < chain->size; ++p) {
+    for (size_t p = 0; p < unknowns(chain); ++p) {
         const double *column = chain->band + p * stride;
         double *row = chain->border + p * half;
         for (size_t j = 0; j < half; ++j)
@@ -80,12 +94,16 @@ void rf_factorize_chain(rf_chain *chain)
 RF_CLONES
 static void forward(const rf_chain *chain, double *x)
 {
-    const size_t stride = chain->half + 1;
-    for (size_t p = 0; p < chain->size; ++p) {
-        const double *column = chain->band + p * stride;
-        x[p] *= column[0];
-        if (x[p] != 0.0)
-            subtract(below(chain, p), x[p], column + 1, x + p + 1);
+    const size_t half = chain->half, stride = half + 1;
+    for (size_t line = 0; line < chain->lines; ++line) {
+        if (chain->state[line] == RF_LINE_EMPTY)
+            continue;
+        for (size_t p = line * half; p < (line + 1) * half; ++p) {
+            const double *column = chain->band + p * stride;
+            x[p] *= column[0];
+            if (x[p] != 0.0)
+                subtract(below(chain, p), x[p], column + 1, x + p + 1);
+        }
     }
 }
 
@@ -105,10 +123,14 @@ static inline double product(size_t n, const double *restrict x, const double *r
 RF_CLONES
 static void backward(const rf_chain *chain, double *x)
 {
-    const size_t stride = chain->half + 1;
-    for (size_t p = chain->size; p-- > 0;) {
-        const double *column = chain->band + p * stride;
-        x[p] = (x[p] - product(below(chain, p), column + 1, x + p + 1)) * column[0];
+    const size_t half = chain->half, stride = half + 1;
+    for (size_t line = chain->lines; line-- > 0;) {
+        if (chain->state[line] == RF_LINE_EMPTY)
+            continue;
+        for (size_t p = (line + 1) * half; p-- > line * half;) {
+            const double *column = chain->band + p * stride;
+            x[p] = (x[p] - product(below(chain, p), column + 1, x + p + 1)) * column[0];
+        }
     }
 }
 
@@ -116,7 +138,7 @@ RF_CLONES
 static void solve_border(const rf_chain *chain, double *x, double *last)
 {
     const size_t half = chain->half;
-    for (size_t p = 0; p < chain->size; ++p)
+    for (size_t p = 0; p < unknowns(chain); ++p)
         if (x[p] != 0.0)
             subtract(half, x[p], chain->border + p * half, last);
     for (size_t j = 0; j < half; ++j) {
@@ -128,7 +150,7 @@ static void solve_border(const rf_chain *chain, double *x, double *last)
         last[j] *= row[j];
         subtract(j, last[j], row, last);
     }
-    for (size_t p = 0; p < chain->size; ++p)
+    for (size_t p = 0; p < unknowns(chain); ++p)
         x[p] -= product(half, chain->border + p * half, last);
 }
 

@@ -36,27 +36,27 @@ static void set_bent_flow(const rf_search *search, int level, size_t m, double *
     rf_set_flow(&search->ring->grids[level], cells->around_slope[m], cells->along_slope[m], search->pressure, flow);
 }
 
-/* d f/d(e, w) at the solution on the finest grid, free nodes and lines held.
+/* d f/d(e, w) at the solution on a grid, free nodes and lines held.
 
    With the free nodes I and N = integral of n over the cells, A_II P_I = (N w - A P_held)_I and F = -12 N^T P.
    A is symmetric, so two solutions V = A_II^-1 N_I make dF/dw = -12 V^T N and dF/de = 12 V^T dA P. The
    pressure and its slope vanish at the edge of a ruptured zone, so moving the edge adds nothing. */
-static void set_derivatives(rf_search *search, double *jacobian)
+static void set_derivatives(rf_search *search, int level, double *jacobian)
 {
-    const rf_grid *grid = &search->ring->grids[0];
+    const rf_grid *grid = &search->ring->grids[level];
     const size_t all = nodes_of(grid);
     double *of_force = search->source, *other = search->flow;
     for (size_t k = 0; k < 2; ++k) {
         const double unit[2] = {k == 0, k == 1};
-        rf_set_source(grid, &search->cells[0], unit, of_force);
+        rf_set_source(grid, &search->cells[level], unit, of_force);
         for (size_t q = 0; search->ring->clipped && q < all; ++q)
             of_force[q] = search->pressure[q] > 0.0 ? of_force[q] : 0.0;
-        rf_solve_free(search, 0, of_force, of_force);
+        rf_solve_free(search, level, of_force, of_force);
         for (size_t m = 0; m < 2; ++m) {
             const double along[2] = {m == 0, m == 1};
-            set_bent_flow(search, 0, m, other);
+            set_bent_flow(search, level, m, other);
             jacobian[4 * k + m] = 12.0 * sum_of_products(all, of_force, other);
-            rf_set_source(grid, &search->cells[0], along, other);
+            rf_set_source(grid, &search->cells[level], along, other);
             jacobian[4 * k + 2 + m] = -12.0 * sum_of_products(all, of_force, other);
         }
     }
@@ -76,15 +76,37 @@ static int is_at_rest(const rf_ring *ring, const double *w)
     return w[0] == 0.0 && w[1] == 0.0 && (ring->ruptured || ring->clipped) && !is_supplied(ring);
 }
 
+/* Force and, unless NULL, derivatives of the grid that was solved last. */
+static void take_answer(rf_search *search, int level, double *f, double *jacobian)
+{
+    if (jacobian)
+        set_derivatives(search, level, jacobian);
+    take_force(search, level, f);
+}
+
+static void extrapolate(size_t n, double *fine, const double *coarse)
+{
+    for (size_t k = 0; k < n; ++k)
+        fine[k] += (fine[k] - coarse[k]) / 3.0;
+}
+
 static int film_of(rf_search *search, const double *e, const double *w, double *f, double *jacobian)
 {
+    const int extrapolated = search->ring->extrapolated != 0;
+    double coarse[2] = {0.0, 0.0}, by[8];
     rf_place_journal(search, e);
-    const int status = rf_search_down_to(search, 0, w);
+    int status = rf_search_down_to(search, extrapolated, w);
+    if (status == RF_OK && extrapolated) {
+        take_answer(search, 1, coarse, jacobian ? by : NULL);
+        status = rf_search_film(search, 0, w);
+    }
     if (status != RF_OK)
         return rf_fail(status, f, jacobian, 8);
-    if (jacobian)
-        set_derivatives(search, jacobian);
-    take_force(search, 0, f);
+    take_answer(search, 0, f, jacobian);
+    if (extrapolated)
+        extrapolate(2, f, coarse);
+    if (extrapolated && jacobian)
+        extrapolate(8, jacobian, by);
     return RF_OK;
 }
 
@@ -125,14 +147,14 @@ int rf_ring_film(const void *data, const double *e, const double *w, double *f, 
 }
 
 int rf_ring_pair(const rf_ring *ring, size_t n, const double *e, const double *w, double *fine, double *coarse,
-                 size_t *first)
+                 double *jacobian, size_t *first)
 {
     rf_search search;
     int status = rf_open_search(&search, ring);
     *first = 0;
     for (size_t i = 0; i < n && status == RF_OK; ++i) {
         const double here[2] = {e[i], e[n + i]}, source[2] = {w[i], w[n + i]};
-        double f[2][2] = {{0.0, 0.0}, {0.0, 0.0}};
+        double f[2][2] = {{0.0, 0.0}, {0.0, 0.0}}, slopes[8];
         *first = i;
         status = rf_judge_state(here, source);
         if (status != RF_OK)
@@ -140,12 +162,16 @@ int rf_ring_pair(const rf_ring *ring, size_t n, const double *e, const double *w
         rf_place_journal(&search, here);
         for (int level = 1; level >= 0 && status == RF_OK; --level) {
             status = level == 1 ? rf_search_down_to(&search, 1, source) : rf_search_film(&search, 0, source);
+            if (jacobian && level == 0 && status == RF_OK)
+                set_derivatives(&search, 0, slopes);
             take_force(&search, level, f[level]);
         }
         for (size_t k = 0; k < 2; ++k) {
             fine[k * n + i] = f[0][k];
             coarse[k * n + i] = f[1][k];
         }
+        for (size_t k = 0; k < 8 && jacobian && status == RF_OK; ++k)
+            jacobian[k * n + i] = slopes[k];
     }
     rf_close_search(&search);
     return status;
@@ -175,8 +201,21 @@ int rf_ring_field(const rf_ring *ring, const double *e, const double *w, double 
     return status;
 }
 
+/* J, and dJ/de unless `slope` is NULL, of the grid that was solved last; entries of the slope `stride` apart.
+
+   The discrete film minimizes 12 (P.A P/2 - P.N w) over P >= 0, and J is the minimum. */
+static double potential_of(const rf_search *search, int level, size_t stride, double *slope)
+{
+    const size_t all = nodes_of(&search->ring->grids[level]);
+    for (size_t m = 0; m < 2 && slope; ++m) {
+        set_bent_flow(search, level, m, search->flow);
+        slope[m * stride] = 6.0 * sum_of_products(all, search->pressure, search->flow);
+    }
+    return -6.0 * sum_of_products(all, search->pressure, search->source);
+}
+
 int rf_ring_potential(const rf_ring *ring, const double *e, size_t n, const double *w, double *J, double *slope,
-                      size_t *first)
+                      rf_grid_work *work, size_t *first)
 {
     rf_search search;
     int status = rf_open_search(&search, ring);
@@ -191,16 +230,12 @@ int rf_ring_potential(const rf_ring *ring, const double *e, size_t n, const doub
             break;
         }
         for (int level = RF_LEVELS - 1; level >= 0 && status == RF_OK; --level) {
-            const size_t all = nodes_of(&ring->grids[level]), at = (size_t)level;
+            const size_t at = (size_t)level * n + d;
             status = rf_search_film(&search, level, source);
-            /* The discrete film minimizes 12 (P.A P/2 - P.N w) over P >= 0, and J is the minimum. */
-            J[at * n + d] = -6.0 * sum_of_products(all, search.pressure, search.source);
-            for (size_t m = 0; m < 2; ++m) {
-                set_bent_flow(&search, level, m, search.flow);
-                slope[(2 * at + m) * n + d] = 6.0 * sum_of_products(all, search.pressure, search.flow);
-            }
+            J[at] = potential_of(&search, level, n, slope ? slope + at + (size_t)level * n : NULL);
         }
     }
+    *work = search.work;
     rf_close_search(&search);
     return status;
 }

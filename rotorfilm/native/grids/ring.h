@@ -35,15 +35,23 @@ typedef struct rf_ring {
     int32_t pinned;  /* whether there are edges: they keep their angles while the lines move */
     int32_t ruptured; /* whether the film is where P > 0, and P >= 0 elsewhere */
     int32_t clipped;  /* whether a full film's negative pressures are dropped */
+    int32_t extrapolated; /* whether the force is f + (f - f2)/3 of the finest grid and the next (Richardson) */
 } rf_ring;
 
-/* The force on the finest grid, as any film's (films/film.h); RF_STUCK where the search for the film does not
-   end, RF_MEMORY. `data` is an rf_ring. */
+/* What solving the film on its grids took. */
+typedef struct rf_grid_work {
+    int64_t solutions; /* linear systems, of all grids */
+    int64_t lines;     /* that were factorized for them */
+} rf_grid_work;
+
+/* The force, on the finest grid unless it is extrapolated, as any film's (films/film.h); RF_STUCK where the search
+   for the film does not end, RF_MEMORY. `data` is an rf_ring. */
 RF_EXPORT_LOOP int rf_ring_film(const void *data, const double *e, const double *w, double *f, double *jacobian);
 
-/* Forces on the finest grid and the next, rows of n one stride apart, as rf_film_batch. */
+/* Forces on the finest grid and the next, and d f/d(e, w) on the finest (8 rows) unless NULL, rows of n one stride
+   apart, as rf_film_batch. */
 RF_EXPORT_LOOP int rf_ring_pair(const rf_ring *ring, size_t n, const double *e, const double *w, double *fine,
-                           double *coarse, size_t *first);
+                           double *coarse, double *jacobian, size_t *first);
 
 /* One state on the finest grid: angles of lines and of faces (N), pressure (N x M) and the flow out of the
    ends of the film. */
@@ -51,8 +59,8 @@ RF_EXPORT_LOOP int rf_ring_field(const rf_ring *ring, const double *e, const dou
                             double *pressure, double *side_flow);
 
 /* The potential J = F.w/2 of a ruptured film whose openings are at pressure 0, and dJ/de, at one place for n
-   sources w, rows of n: J (RF_LEVELS x n) and slope (RF_LEVELS x 2 x n), the finest grid first. */
+   sources w, rows of n: J (RF_LEVELS x n) and slope (RF_LEVELS x 2 x n, or NULL), the finest grid first. */
 RF_EXPORT_LOOP int rf_ring_potential(const rf_ring *ring, const double *e, size_t n, const double *w, double *J,
-                                double *slope, size_t *first);
+                                double *slope, rf_grid_work *work, size_t *first);
 
 #endif

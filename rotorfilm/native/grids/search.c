@@ -14,9 +14,10 @@ int rf_open_search(rf_search *search, const rf_ring *ring)
     for (int level = 0; level < RF_LEVELS; ++level)
         lines += ring->grids[level].lines;
     const size_t numbers = RF_CELL_ROWS * lines + 4 * all + all * (m + 1) + all * m + m * m;
-    double *next = malloc(numbers * sizeof(double) + 3 * all);
+    double *next = malloc(numbers * sizeof(double) + 3 * all + 2 * ring->grids[0].lines);
     search->ring = ring;
     search->memory = next;
+    search->work.solutions = search->work.lines = 0;
     if (!next)
         return RF_MEMORY;
     for (int level = 0; level < RF_LEVELS; ++level) {
@@ -33,6 +34,8 @@ int rf_open_search(rf_search *search, const rf_ring *ring)
     search->free = (uint8_t *)(search->chain.corner + m * m);
     search->known = search->free + all;
     search->shut = search->known + all;
+    search->moved = search->shut + all;
+    search->chain.state = search->moved + ring->grids[0].lines;
     memset(search->shut, 0, all);
     return RF_OK;
 }
@@ -73,22 +76,6 @@ static void refine_free(rf_search *search, const rf_grid *grid)
     }
 }
 
-static size_t emptiest_line(const uint8_t *free, const rf_grid *grid, size_t *fewest)
-{
-    size_t best = 0;
-    *fewest = grid->nodes + 1;
-    for (size_t i = 0; i < grid->lines; ++i) {
-        size_t count = 0;
-        for (size_t j = 0; j < grid->nodes; ++j)
-            count += free[i * grid->nodes + j];
-        if (count < *fewest) {
-            best = i;
-            *fewest = count;
-        }
-    }
-    return best;
-}
-
 /* The coefficients of one line: its diagonal, the couplings along it and those to the next line. */
 static void set_line(const rf_search *search, int level, size_t i, size_t stride, double *diagonal,
                      double *along, double *after)
@@ -109,26 +96,56 @@ static void set_line(const rf_search *search, int level, size_t i, size_t stride
     }
 }
 
-static void assemble(rf_search *search, int level)
+static int has_film(const rf_search *search, const rf_grid *grid, size_t line)
+{
+    return memchr(search->free + line * grid->nodes, 1, grid->nodes) != NULL;
+}
+
+/* Tell which lines of the chain are to be factorized: all of them, or those that a moved one reaches. The ring
+   is cut at an empty line if there is one, and stays so as long as that is empty. */
+static void set_states(rf_search *search, const rf_grid *grid, int all)
+{
+    const size_t lines = grid->lines;
+    const uint8_t *moved = search->moved;
+    rf_chain *chain = &search->chain;
+    if (all || chain->bordered || has_film(search, grid, search->cut)) {
+        size_t empty = 0;
+        while (empty < lines && has_film(search, grid, empty))
+            ++empty;
+        chain->bordered = empty == lines;
+        search->cut = empty % lines;
+        all = 1;
+    }
+    for (size_t k = 0; k < lines - 1; ++k) {
+        const size_t i = (search->cut + 1 + k) % lines, before = i > 0 ? i - 1 : lines - 1;
+        const int reached = all || moved[i] || moved[before] || moved[i + 1 < lines ? i + 1 : 0]
+                            || (k > 0 && chain->state[k - 1] == RF_LINE_NEW);
+        chain->state[k] = !has_film(search, grid, i) ? RF_LINE_EMPTY : reached ? RF_LINE_NEW : RF_LINE_KEPT;
+    }
+}
+
+/* Set up what is to be factorized. */
+static void assemble(rf_search *search, int level, int all)
 {
     const rf_grid *grid = &search->ring->grids[level];
     const size_t lines = grid->lines, nodes = grid->nodes;
     const size_t half = nodes, stride = half + 1;
     rf_chain *chain = &search->chain;
-    size_t fewest;
-    search->cut = emptiest_line(search->free, grid, &fewest);
     chain->half = half;
-    chain->size = (lines - 1) * half;
-    chain->bordered = fewest > 0;
-    memset(chain->band, 0, chain->size * stride * sizeof(double));
+    chain->lines = lines - 1;
+    set_states(search, grid, all);
     for (size_t k = 0; k < lines - 1; ++k) {
         double *rows = chain->band + k * half * stride;
+        if (chain->state[k] != RF_LINE_NEW)
+            continue;
+        memset(rows, 0, half * stride * sizeof(double));
         const size_t i = (search->cut + 1 + k) % lines;
         set_line(search, level, i, stride, rows, rows + 1, k + 2 < lines ? rows + half : NULL);
+        ++search->work.lines;
     }
     if (!chain->bordered)
         return;
-    memset(chain->border, 0, chain->size * half * sizeof(double));
+    memset(chain->border, 0, (lines - 1) * half * half * sizeof(double));
     memset(chain->corner, 0, half * half * sizeof(double));
     /* Row p of the border couples to its column j: the line after the cut is the first of the band. */
     set_line(search, level, search->cut, stride, chain->corner, chain->corner + half, chain->border);
@@ -159,16 +176,16 @@ static int move_edge(rf_search *search, const rf_grid *grid, const double *outfl
 {
     int changed = 0;
     for (size_t i = 0; i < grid->lines; ++i) {
-        if (grid->held[i])
-            continue;
-        for (size_t j = 0; j < grid->nodes; ++j) {
+        search->moved[i] = 0;
+        for (size_t j = 0; j < grid->nodes && !grid->held[i]; ++j) {
             const size_t at = i * grid->nodes + j;
             const int keep = grid == search->ring->grids && search->shut[at] ? 0
                              : search->free[at] ? search->pressure[at] > 0.0
                                                   : search->source[at] - outflow[at] > threshold;
-            changed |= keep != search->free[at];
+            search->moved[i] |= keep != search->free[at];
             search->free[at] = (uint8_t)keep;
         }
+        changed |= search->moved[i];
     }
     return changed;
 }
@@ -182,12 +199,14 @@ static int search_from_here(rf_search *search, int level)
     for (size_t q = 0; q < all; ++q)
         largest = fmax(largest, fabs(search->source[q]));
     for (int set = 0; set < MOST_SETS; ++set) {
-        for (size_t q = 0; q < all; ++q)
-            pressure[q] = grid->value[q / nodes];
+        for (size_t i = 0; i < grid->lines; ++i)
+            for (size_t j = 0; j < nodes; ++j)
+                pressure[i * nodes + j] = grid->value[i];
         rf_set_flow(grid, cells->around, cells->along, pressure, flow);
         for (size_t q = 0; q < all; ++q)
             flow[q] = search->source[q] - flow[q];
-        assemble(search, level);
+        assemble(search, level, set == 0);
+        ++search->work.solutions;
         rf_factorize_chain(&search->chain);
         rf_solve_free(search, level, flow, flow);
         for (size_t q = 0; q < all; ++q)

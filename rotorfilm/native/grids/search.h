@@ -13,7 +13,9 @@ typedef struct rf_search {
     double *source, *pressure, *flow, *chained; /* N x M of the grid that was solved last */
     uint8_t *free, *known; /* N x M: nodes that are solved for, and those of the next coarser grid */
     uint8_t *shut;         /* N x M of the finest grid: nodes that stay empty */
+    uint8_t *moved;        /* N: lines of which some node filled or emptied since they were factorized */
     size_t cut;            /* the line at which the ring is cut */
+    rf_grid_work work;     /* so far */
     void *memory;
 } rf_search;
 

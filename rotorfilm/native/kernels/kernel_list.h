@@ -9,23 +9,24 @@
 #define RF_ROTORFILM_BUSHES 8
 #define RF_ROTORFILM_GRIDS 16
 #define RF_ROTORFILM_HEAT 32
-#define RF_ROTORFILM_LOOPS 64
+#define RF_ROTORFILM_GRID_SYSTEMS 64
+#define RF_ROTORFILM_LOOPS 128
 
 /* RF_KERNEL(name, libraries, picture): rf_<name>_type of kernel_<name>.c, which also has the text for the
-   documentation of its FMUs; libraries that have it, the first the one that its FMUs carry; their picture,
-   drawn by tools/draw_icons.py. */
+   documentation of its FMUs; libraries that have it, of which its FMUs carry the first that has the kernels of
+   its parts too; their picture, drawn by tools/draw_icons.py. */
 #ifdef RF_KERNEL
 RF_KERNEL(bush_reaction, RF_ROTORFILM_BUSHES, worn_bush)
 RF_KERNEL(bush_wear, RF_ROTORFILM_BUSHES, bush)
 RF_KERNEL(contact, RF_ROTORFILM_STATES, contact)
 RF_KERNEL(damper, RF_ROTORFILM, damper)
-RF_KERNEL(grooved_journal, RF_ROTORFILM | RF_ROTORFILM_SYSTEMS, grooved_journal)
+RF_KERNEL(grooved_journal, RF_ROTORFILM | RF_ROTORFILM_SYSTEMS | RF_ROTORFILM_GRID_SYSTEMS, grooved_journal)
 RF_KERNEL(heated_journal, RF_ROTORFILM_HEAT, journal)
-RF_KERNEL(journal, RF_ROTORFILM | RF_ROTORFILM_SYSTEMS, journal)
+RF_KERNEL(journal, RF_ROTORFILM | RF_ROTORFILM_SYSTEMS | RF_ROTORFILM_GRID_SYSTEMS, journal)
 RF_KERNEL(linear, RF_ROTORFILM_STATES, linear)
-RF_KERNEL(reynolds_journal, RF_ROTORFILM_GRIDS, grooved_journal)
+RF_KERNEL(reynolds_journal, RF_ROTORFILM_GRIDS | RF_ROTORFILM_GRID_SYSTEMS, grooved_journal)
 RF_KERNEL(rigid_rotor, RF_ROTORFILM_STATES, rotor)
-RF_KERNEL(rotor_system, RF_ROTORFILM_SYSTEMS, rotor_system)
-RF_KERNEL(short_journal, RF_ROTORFILM | RF_ROTORFILM_SYSTEMS, short_journal)
+RF_KERNEL(rotor_system, RF_ROTORFILM_SYSTEMS | RF_ROTORFILM_GRID_SYSTEMS, rotor_system)
+RF_KERNEL(short_journal, RF_ROTORFILM | RF_ROTORFILM_SYSTEMS | RF_ROTORFILM_GRID_SYSTEMS, short_journal)
 #undef RF_KERNEL
 #endif

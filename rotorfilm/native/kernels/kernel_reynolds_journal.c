@@ -1,7 +1,7 @@
 /* Kernel "reynolds_journal": a journal bearing under the two-dimensional film on a grid.
 
-   Parameters, inputs and outputs as in journal_model.h. Tables: ring (4: length/diameter, ruptured, clipped,
-   pinned), spans (2 x K: start, extent [rad]) and for k = 0, 1, 2, the finest first,
+   Parameters, inputs and outputs as in journal_model.h. Tables: ring (5: length/diameter, ruptured, clipped,
+   pinned, extrapolated), spans (2 x K: start, extent [rad]) and for k = 0, 1, 2, the finest first,
    lines<k> (5 x N: span, line, face, held, value) and nodes<k> (2 x M: width, conductance); ring.h says what
    they are. With a supply pressure also pressure_unit (1: 12 viscosity (radius/clearance)^2 of the values). */
 
@@ -17,7 +17,8 @@
    P = 0 at the ends, P >= 0 where the film ruptures, 0 < z < 1 over half the length
    F = -12 viscosity length radius^3 / clearance^2  integral of P n over theta and z
 
-   Validity: The lines of the grid crowd at the minimum film; the derivatives are those of the linearized
+   Validity: The lines of the grid crowd at the minimum film; where table ring says so, the force is extrapolated
+   from two grids; the derivatives are those of the linearized
    equation on the same cells. Length / diameter must stay at most 4 or that of the grid; with openings radius
    and length are fixed. Laminar, isothermal, aligned. Where w vanishes and there is no supply the force is zero
    and has no derivative. */
@@ -109,13 +110,15 @@ static int take_tables(model *self, const rf_tables *tables, rf_message *why)
         return RF_INVALID;
     const double *n = ring->numbers;
     const uint32_t count = spans->extent[1];
-    if (ring->extent[0] != 4 || spans->extent[0] != 2 || count < 1 || count > 1000
-        || !(n[0] > 0.0 && is_count(n[1], 2.0) && is_count(n[2], 2.0) && is_count(n[3], 2.0)))
+    if (ring->extent[0] != 5 || spans->extent[0] != 2 || count < 1 || count > 1000
+        || !(n[0] > 0.0 && is_count(n[1], 2.0) && is_count(n[2], 2.0) && is_count(n[3], 2.0)
+             && is_count(n[4], 2.0)))
         return rf_say(why, RF_INVALID, "table ring must be of a film, got length/diameter %.9g", n[0]);
     self->slenderness = self->ring.slenderness = n[0];
     self->ring.ruptured = n[1] != 0.0;
     self->ring.clipped = n[2] != 0.0;
     self->ring.pinned = n[3] != 0.0;
+    self->ring.extrapolated = n[4] != 0.0;
     self->ring.spans = (int32_t)count;
     self->ring.start = spans->numbers;
     self->ring.extent = spans->numbers + count;

@@ -36,8 +36,14 @@
 
 #define MOST 500
 
-static const rf_kernel_type *const KINDS[] = {&rf_journal_type, &rf_grooved_journal_type,
-                                              &rf_short_journal_type};
+static const rf_kernel_type *const KINDS[] = {
+    &rf_journal_type,
+    &rf_grooved_journal_type,
+    &rf_short_journal_type,
+#if !defined(RF_SUBSET) || (RF_SUBSET & RF_ROTORFILM_GRID_SYSTEMS)
+    &rf_reynolds_journal_type,
+#endif
+};
 enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS };
 
 typedef struct bearing {

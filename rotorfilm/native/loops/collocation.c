@@ -2,10 +2,11 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "../status.h"
 
-#define SMALL 4.0 /* |z| below which the moments are summed as a series, from the highest down */
+#define SMALL 0.5 /* |z| per moment below which they are summed as a series, from the highest down */
 #define MOST_TERMS 60
 #define MOST_COEFFICIENTS 16
 
@@ -29,23 +30,18 @@ static rf_complex exponential(rf_complex z)
     return of;
 }
 
-rf_complex rf_turned(rf_complex value, double t, rf_complex z)
+/* int_0^1 exp(z (1 - s)) s^k ds for k = 0 ... count - 1, and exp(z). */
+static rf_complex set_moments(rf_complex z, int32_t count, rf_complex *out)
 {
-    const rf_complex argument = {value.re * t, value.im * t};
-    return product(exponential(argument), z);
-}
-
-/* int_0^1 exp(z (1 - s)) s^k ds for k = 0 ... count - 1. */
-static void set_moments(rf_complex z, int32_t count, rf_complex *out)
-{
-    if (z.re * z.re + z.im * z.im >= SMALL * SMALL) {
+    const double small = SMALL * count;
+    if (z.re * z.re + z.im * z.im >= small * small) {
         const rf_complex grown = exponential(z), gained = {grown.re - 1.0, grown.im};
         out[0] = quotient(gained, z);
         for (int32_t k = 1; k < count; ++k) {
             const rf_complex above = {k * out[k - 1].re - 1.0, k * out[k - 1].im};
             out[k] = quotient(above, z);
         }
-        return;
+        return grown;
     }
     rf_complex term = {1.0 / count, 0.0}, total = term;
     for (int32_t j = 1; j < MOST_TERMS; ++j) {
@@ -63,29 +59,35 @@ static void set_moments(rf_complex z, int32_t count, rf_complex *out)
         out[k - 1].re = (below.re + 1.0) / k;
         out[k - 1].im = below.im / k;
     }
+    const rf_complex rest = product(z, out[0]), grown = {1.0 + rest.re, rest.im};
+    return grown;
 }
 
-void rf_set_weights(const rf_modes *rotor, double h, double c, const double *polynomials, int32_t s,
-                    int32_t count, rf_complex *out)
+void rf_set_integrals(const rf_modes *rotor, double h, double c, int32_t count, rf_complex *turn, rf_complex *out)
 {
-    for (int32_t m = 0; m < rotor->modes; ++m) {
+    for (int32_t m = 0; m < rotor->modes; ++m, out += count) {
         const rf_complex z = {rotor->values[m].re * h * c, rotor->values[m].im * h * c};
-        rf_complex integral[MOST_COEFFICIENTS];
         double power = h;
-        set_moments(z, count, integral);
+        turn[m] = set_moments(z, count, out);
         for (int32_t k = 0; k < count; ++k) {
             power *= c;
-            integral[k].re *= power;
-            integral[k].im *= power;
+            out[k].re *= power;
+            out[k].im *= power;
         }
-        for (int32_t j = 0; j < s; ++j) {
-            rf_complex total = {0.0, 0.0};
-            for (int32_t k = 0; k < count; ++k) {
-                total.re += polynomials[j * count + k] * integral[k].re;
-                total.im += polynomials[j * count + k] * integral[k].im;
-            }
-            out[j * rotor->modes + m] = total;
+    }
+}
+
+/* W(c) of one polynomial from the integrals of powers. */
+static void set_weights(int32_t modes, int32_t count, const double *polynomial, const rf_complex *integrals,
+                        rf_complex *out)
+{
+    for (int32_t m = 0; m < modes; ++m, integrals += count) {
+        rf_complex total = {0.0, 0.0};
+        for (int32_t k = 0; k < count; ++k) {
+            total.re += polynomial[k] * integrals[k].re;
+            total.im += polynomial[k] * integrals[k].im;
         }
+        out[m] = total;
     }
 }
 
@@ -105,51 +107,53 @@ static void set_seen(const rf_modes *rotor, const rf_complex *w, double *out)
     }
 }
 
-static void set_move(const rf_modes *rotor, double t, double *move)
+static void set_move(const rf_modes *rotor, const rf_complex *turn, double *move)
 {
     const int32_t modes = rotor->modes;
-    for (int32_t m = 0; m < modes; ++m)
-        for (int32_t q = 0; q < rotor->rows; ++q) {
-            const rf_complex seen = rf_turned(rotor->values[m], t, rotor->sense[q * modes + m]);
+    for (int32_t q = 0; q < rotor->rows; ++q)
+        for (int32_t m = 0; m < modes; ++m) {
+            const rf_complex seen = product(turn[m], rotor->sense[q * modes + m]);
             move[q * 2 * modes + m] = seen.re;
             move[q * 2 * modes + modes + m] = -seen.im;
         }
 }
 
-static void set_advance(const rf_modes *rotor, int32_t s, double h, const rf_complex *w,
-                        const rf_step_table *table)
+static void set_advance(const rf_modes *rotor, int32_t s, const rf_complex *w, const rf_step_table *table)
 {
     const int32_t modes = rotor->modes, channels = rotor->channels, wide = s * channels;
-    const rf_complex one = {1.0, 0.0};
-    for (int32_t m = 0; m < modes; ++m) {
-        table->keep[m] = rf_turned(rotor->values[m], h, one);
+    for (int32_t m = 0; m < modes; ++m)
         for (int32_t j = 0; j < s; ++j)
             for (int32_t c = 0; c < channels; ++c) {
                 const rf_complex now = product(w[j * modes + m], rotor->push[m * channels + c]);
                 table->forced[m * wide + j * channels + c] = now.re;
                 table->forced[(modes + m) * wide + j * channels + c] = now.im;
             }
-    }
 }
 
 int rf_set_step_table(const rf_modes *rotor, const rf_scheme *scheme, double h, const rf_step_table *table)
 {
-    const int32_t s = scheme->stages, modes = rotor->modes, block = rotor->rows * rotor->channels;
-    if (s + 1 > MOST_COEFFICIENTS)
+    const int32_t s = scheme->stages, count = s + 1, modes = rotor->modes;
+    const size_t block = (size_t)rotor->rows * (size_t)rotor->channels;
+    double polynomial[MOST_COEFFICIENTS] = {0.0};
+    if (count > MOST_COEFFICIENTS)
         return RF_INVALID;
-    rf_complex *w = malloc((size_t)(s + 1) * (size_t)modes * sizeof *w);
+    rf_complex *w = malloc((size_t)(2 * count) * (size_t)modes * sizeof *w);
     if (!w)
         return RF_MEMORY;
+    rf_complex *integrals = w + count * modes;
     for (int32_t i = 0; i < s; ++i) {
-        rf_set_weights(rotor, h, scheme->nodes[i], scheme->lagrange, s, s, w);
-        rf_set_weights(rotor, h, scheme->nodes[i], scheme->remainder, 1, s + 1, w + s * modes);
-        set_move(rotor, h * scheme->nodes[i], table->move + i * rotor->rows * 2 * modes);
-        for (int32_t j = 0; j < s; ++j)
-            set_seen(rotor, w + j * modes, table->gain + (i * s + j) * block);
-        set_seen(rotor, w + s * modes, table->defect + i * block);
+        /* At the last node, the end of the step, this is what the modes keep. */
+        rf_set_integrals(rotor, h, scheme->nodes[i], count, table->keep, integrals);
+        for (int32_t j = 0; j < s; ++j) {
+            memcpy(polynomial, scheme->lagrange + j * s, (size_t)s * sizeof *polynomial);
+            set_weights(modes, count, polynomial, integrals, w + j * modes);
+            set_seen(rotor, w + j * modes, table->gain + (size_t)(i * s + j) * block);
+        }
+        set_weights(modes, count, scheme->remainder, integrals, w + s * modes);
+        set_seen(rotor, w + s * modes, table->defect + (size_t)i * block);
+        set_move(rotor, table->keep, table->move + i * rotor->rows * 2 * modes);
     }
-    /* The last node is the end of the step. */
-    set_advance(rotor, s, h, w, table);
+    set_advance(rotor, s, w, table);
     free(w);
     return RF_OK;
 }

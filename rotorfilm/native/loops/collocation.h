@@ -45,13 +45,9 @@ typedef struct rf_step_table {
 
 /* Fill the tables of a step of length h; answers an rf_status. */
 RF_EXPORT_LOOP int rf_set_step_table(const rf_modes *rotor, const rf_scheme *scheme, double h,
-                                const rf_step_table *table);
+                                     const rf_step_table *table);
 
-/* W_j(c) of s polynomials of `count` coefficients, shape s x modes. */
-void rf_set_weights(const rf_modes *rotor, double h, double c, const double *polynomials, int32_t s,
-                    int32_t count, rf_complex *out);
-
-/* exp(value t) z */
-rf_complex rf_turned(rf_complex value, double t, rf_complex z);
+/* h int_0^c exp(Lambda h (c - s)) s^k ds for k = 0 ... count - 1, modes x count, and turn = exp(Lambda h c). */
+void rf_set_integrals(const rf_modes *rotor, double h, double c, int32_t count, rf_complex *turn, rf_complex *out);
 
 #endif

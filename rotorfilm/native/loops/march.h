@@ -7,19 +7,8 @@
 #ifndef ROTORFILM_MARCH_H
 #define ROTORFILM_MARCH_H
 
-#include "../films/film.h"
 #include "collocation.h"
-
-/* The journals: forces at states (x, y, vx, vy, speed) as of rf_journal_at, beside springs and dampers that
-   the rotor rests on and that are given back here. */
-typedef struct rf_journals {
-    int32_t count;
-    const rf_response *films;
-    const void *const *of;
-    const double *rest;            /* 4 n: motion about which that of the rotor is counted */
-    const double *spring, *damper; /* 2 n [N/m], [N s/m] */
-    const double *lengths;         /* n: clearances [m] */
-} rf_journals;
+#include "journals.h"
 
 /* Speed over time, linear between the times. */
 typedef struct rf_speeds {
@@ -51,7 +40,7 @@ typedef struct rf_march {
     int32_t slot_of[RF_STEPS], step_of[RF_SLOTS], next_slot; /* -1: none */
     int32_t step, left_map;   /* the length of the next step; whether a film was asked beyond its map */
     double time;
-    int64_t films, jacobians, steps, rejected; /* work done */
+    int64_t films, jacobians, steps, rejected, walls; /* work done; walls: of the rejected at a wall */
     rf_complex *z;            /* modal coordinates */
 } rf_march;
 
@@ -59,10 +48,5 @@ typedef struct rf_march {
    count, from *place on. Answers an rf_march_end. */
 RF_EXPORT_LOOP int rf_march_to(rf_march *march, double stop, int64_t budget, const double *grid, int64_t count,
                           int64_t *place, rf_complex *out);
-
-/* Forces of films and springs (2 n rows) and slopes by x, y, vx, vy (2 n x 4 rows) of motions (4 n rows), rows
-   of `samples`, at one speed; the most severe status. */
-RF_EXPORT_LOOP int rf_journal_forces(const rf_journals *journals, int64_t samples, const double *motion,
-                                double speed, double *force, double *slope);
 
 #endif

@@ -16,3 +16,18 @@ int rf_springs_at(const void *of, const double *state, double *f, double *jacobi
     }
     return RF_OK;
 }
+
+int rf_sprung_at(const void *sprung, const double *state, double *f, double *jacobian)
+{
+    const rf_sprung *of = sprung;
+    const double at[5] = {state[0], state[1], state[2], state[3], of->still ? 0.0 : state[4]};
+    const int status = of->film(of->of, at, f, jacobian);
+    for (int i = 0; i < 2; ++i) {
+        f[i] -= of->stiffness * at[i];
+        if (jacobian)
+            jacobian[6 * i] -= of->stiffness;
+        if (jacobian && of->still)
+            jacobian[5 * i + 4] = 0.0;
+    }
+    return status;
+}

@@ -11,6 +11,12 @@ static void swap_rows(size_t columns, double *a, size_t i, size_t j)
     }
 }
 
+static void subtract(size_t n, double factor, const double *restrict from, double *restrict of)
+{
+    for (size_t j = 0; factor != 0.0 && j < n; ++j)
+        of[j] -= factor * from[j];
+}
+
 void rf_eliminate(size_t n, double *q, size_t m, double *p)
 {
     for (size_t k = 0; k < n; ++k) {
@@ -19,17 +25,18 @@ void rf_eliminate(size_t n, double *q, size_t m, double *p)
             pivot = fabs(q[i * n + k]) > fabs(q[pivot * n + k]) ? i : pivot;
         swap_rows(n, q, k, pivot);
         swap_rows(m, p, k, pivot);
-        for (size_t i = 0; i < n; ++i) {
-            const double factor = i == k ? 0.0 : q[i * n + k] / q[k * n + k];
-            for (size_t j = k; factor != 0.0 && j < n; ++j)
-                q[i * n + j] -= factor * q[k * n + j];
-            for (size_t j = 0; factor != 0.0 && j < m; ++j)
-                p[i * m + j] -= factor * p[k * m + j];
+        for (size_t i = k + 1; i < n; ++i) {
+            const double factor = q[i * n + k] / q[k * n + k];
+            subtract(n - k, factor, q + k * n + k, q + i * n + k);
+            subtract(m, factor, p + k * m, p + i * m);
         }
     }
-    for (size_t i = 0; i < n; ++i)
+    for (size_t k = n; k-- > 0;) {
         for (size_t j = 0; j < m; ++j)
-            p[i * m + j] /= q[i * n + i];
+            p[k * m + j] /= q[k * n + k];
+        for (size_t i = 0; i < k; ++i)
+            subtract(m, q[i * n + k], p + k * m, p + i * m);
+    }
 }
 
 /* Four sums at once: one alone would wait for each of its additions. */

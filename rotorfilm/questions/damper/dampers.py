@@ -31,7 +31,7 @@ from ...scenes.counted import Counted
 from ...scenes.damper.damper_films import NO_RICHER, DamperFilm, damper_films, mapped_short, quiet, sprung
 from ...scenes.damper.damper_models import damper_models
 from ...scenes.damper.damper_remarks import rotor_remarks
-from ...scenes.journal.film_rungs import MAP_MADE
+from ...scenes.journal.film_rung import MAP_MADE
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene

@@ -17,12 +17,18 @@ from ...motion.transient.equal_steps import MarchMotion, peak
 from ...motion.transient.shaken_rotor import RestTangent, ShakenRotor, states_along
 from ...results import Coefficients
 from ...scenes.excitation_table import BladeLossTable
-from ...scenes.journal.film_rungs import MAP_BOUNDS, FilmRung
+from ...scenes.journal.film_rung import MAP_BOUNDS, FilmRung
 from ..peak_rung import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
 from .unbalance_orbits import film_batch_units, orbit_films, require_one_unbalance
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
+
+COMMON_STEPS = 192
+"""Steps over a turn that are enough for most motions; by their cost the films are ordered."""
+
+LINEAR_CALLS = 6
+"""Forces with derivatives that a linear motion takes."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,7 +80,7 @@ class BladeLossRung(PeakRung[FilmRung]):
         made, motion = self.film.prepare(), self.linear(LINEAR_STEPS)
         rates = np.gradient(motion.position, self.grid(LINEAR_STEPS)[0], axis=1, edge_order=2)
         solved = PeakMotion(replace(motion, velocity=rates), math.nan, 0)
-        return Found(peak(motion.position), {self.tangents: 6, **made}, solved)
+        return Found(peak(motion.position), {self.tangents: LINEAR_CALLS, **made}, solved)
 
     def _pull(self, t: float) -> tuple[float, float]:
         angle = self.speed * t + self.excitation.unbalance_angle
@@ -101,7 +107,7 @@ class BladeLossRung(PeakRung[FilmRung]):
 
     def expected(self, done: Work) -> Work:
         """Return three tangents for each step."""
-        return self.film.expected(3 * self.grid(self.steps)[1] if self.steps else 6)
+        return self.film.expected(3 * self.grid(self.steps)[1] if self.steps else LINEAR_CALLS)
 
 
 def blade_loss_ladder(scene: Scene, quantity: str) -> Ladder:
@@ -117,7 +123,8 @@ def blade_loss_ladder(scene: Scene, quantity: str) -> Ladder:
         raise InputError(f'excitation of kind "blade_loss" is required for {quantity}, got {got}')
     if scene.speed == 0.0:
         raise InputError("operation.speed must not be zero for a lost blade, got 0.0")
-    films, rotor = orbit_films(scene), scene.rotor
+    calls = math.ceil(3 * COMMON_STEPS * scene.excitation.revolutions)
+    films, rotor = tuple(sorted(orbit_films(scene), key=lambda film: film.time(calls))), scene.rotor
     require_one_unbalance(rotor)
     rungs = [
         BladeLossRung(
@@ -131,6 +138,9 @@ def blade_loss_ladder(scene: Scene, quantity: str) -> Ladder:
         for film in films
         for steps in (0, *STEPS)
     ]
+    if any(film.makes_map for film in films[:-1]):
+        # A linear motion takes so few forces that no map is worth it.
+        rungs.sort(key=lambda rung: rung.film.time(calls if rung.steps else LINEAR_CALLS))
     return Ladder(
         rungs=tuple(rungs),
         unit="m",

@@ -8,8 +8,7 @@ from ...scenes.schema import JournalTable
 from ..coupling import coupling_ladder
 from ..orbit_place import UNITS as ORBITS
 from .blade_loss import blade_loss_ladder
-from .statics import UNITS as STATICS
-from .statics import static_ladder
+from .statics import UNITS as STATICS, static_ladder
 from .unbalance_orbits import orbit_ladder
 from .whirl_rungs import whirl_ladder
 

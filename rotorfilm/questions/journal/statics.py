@@ -19,7 +19,8 @@ from ...results import Equilibrium
 from ...scenes.counted import Counted
 from ...scenes.journal.echo import film_name
 from ...scenes.journal.film_defects import corrected, one_defect
-from ...scenes.journal.film_rungs import FilmRung, point_films
+from ...scenes.journal.film_rung import FilmRung
+from ...scenes.journal.film_rungs import point_films
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene

@@ -25,7 +25,8 @@ from ...motion.periodic.harmonics import resized, rms
 from ...motion.periodic.orbit_newton import driven
 from ...rotors import RigidRotor
 from ...scenes.excitation_table import UnbalanceTable
-from ...scenes.journal.film_rungs import MAP_BOUNDS, FilmRung, turn_films
+from ...scenes.journal.film_rung import MAP_BOUNDS, FilmRung
+from ...scenes.journal.film_rungs import turn_films
 from ..orbit_place import UNITS, WALL, OrbitPlace, SolvedTurn
 
 if TYPE_CHECKING:
@@ -33,6 +34,9 @@ if TYPE_CHECKING:
 
 SAMPLES = (15, 31, 63)
 """Samples over a turn of the nonlinear rungs; odd, as they stand for whole harmonics."""
+
+MAKING = 1e4
+"""Forces of a cheap film in a second."""
 
 LINEAR = 31
 """Samples over a turn at which a linear orbit's defect is taken."""
@@ -187,9 +191,12 @@ def orbit_films(scene: Scene) -> tuple[FilmRung, ...]:
 
 
 def _effort(rung: OrbitRung, films: tuple[FilmRung, ...]) -> float:
-    """Return a measure of cost by which the rungs are ordered: films by place, each twice the one before."""
-    one = 1e3 if rung.film.makes_map else 2.0 ** films.index(rung.film)
-    return one * (6 if rung.samples == 0 else 5 * rung.samples)
+    """Return a measure of cost by which the rungs are ordered: films by place, each twice the one before.
+
+    A map that is to be made comes after all that need none, by the time that it takes.
+    """
+    one = 1.0 if rung.film.makes_map else 2.0 ** films.index(rung.film)
+    return MAKING * rung.film.making + one * (6 if rung.samples == 0 else 5 * rung.samples)
 
 
 def film_batch_units(films: tuple[FilmRung, ...], speed: float) -> dict[WorkUnit, Callable[[], object]]:

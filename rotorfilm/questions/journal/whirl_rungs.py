@@ -16,7 +16,8 @@ from ...model import Array
 from ...results import Equilibrium
 from ...scenes.counted import Counted
 from ...scenes.journal.film_defects import corrected
-from ...scenes.journal.film_rungs import FilmRung, is_grid, point_films
+from ...scenes.journal.film_rung import FilmRung
+from ...scenes.journal.film_rungs import is_grid, point_films
 from ..walk import NoAnswerError
 from .statics import film_units
 

@@ -14,7 +14,8 @@ from ...linear import RotorEquilibrium, equilibrium
 from ...model import Reaction
 from ...results import Coefficients
 from ...scenes.journal.film_defects import corrected
-from ...scenes.journal.film_rungs import FilmRung, has_map, turn_films
+from ...scenes.journal.film_rung import FilmRung
+from ...scenes.journal.film_rungs import has_map, turn_films
 
 if TYPE_CHECKING:
     from ...scenes.shaft.shaft_table import ShaftTable

@@ -22,7 +22,7 @@ from ...bearings.films.cavitation import FullFilm
 from ...bearings.sprung import Sprung
 from ...errors import RotorfilmError, ValidityWarning
 from ...model import Reaction
-from ..journal.film_rungs import MAP_MADE
+from ..journal.film_rung import MAP_MADE
 from .damper_table import DamperTable
 
 DEFECT_CELLS = (10, 20)

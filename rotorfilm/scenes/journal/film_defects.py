@@ -13,7 +13,8 @@ from ...bearings.journal import JournalBearing
 from ...linear.equilibrium import MAXIMUM_ECCENTRICITY
 from ...model import Array
 from ...results import Equilibrium
-from .film_rungs import FilmRung, is_grid
+from .film_rung import FilmRung
+from .film_rungs import is_grid
 
 STEP = 0.05
 """Step of differences of a two-dimensional film in its source, relative to the wedge; less in a thin film.

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import math
 import warnings
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
-from ...answers import WorkUnit
 from ...bearings.films.law import FilmLaw
 from ...bearings.journal import (
     ComplementarityArc,
@@ -22,85 +20,15 @@ from ...bearings.journal import (
 )
 from ...errors import ValidityWarning
 from .echo import film_name
+from .film_rung import MAP_MADE, FilmRung
 
 TABLE_RANGE = (0.1, 4.0)
 """Length / diameter of the map that is there from the start; other bearings have to make theirs."""
 
-MAP_BOUNDS = ((0.95, 2e-5, 1e-3), (0.999, 4e-4, math.inf))
-"""Eccentricity ratio up to which, and largest error of a position and of K, C there: docs/accuracy.md."""
-
-LOSS_BOUNDS = ((0.95, 1e-3), (0.99, 3e-3))
-"""Eccentricity ratio up to which, and largest error of power loss and side flow there: docs/accuracy.md."""
-
-MAP_MADE = WorkUnit("maps made", nominal=20.0)
-"""WorkUnit of the work of making a map."""
+COARSE_MAP = GroovedMapFilm(cells=(96, 8), nodes=(8, 48, 32))
+"""Made in a fifth of the time of the map with openings, with errors some four times as large."""
 
 MEDIUM, FINE, FINEST = (192, 16), (384, 16), (768, 32)
-
-
-@dataclass(frozen=True, kw_only=True)
-class FilmRung:
-    """A film that may answer, and the richer one that its defect is sampled with.
-
-    Attributes
-    ----------
-    name : str
-    reaction : JournalBearing
-        With this film.
-    rich : JournalBearing
-        With the richer one.
-    rich_name : str
-        Name of the richer film.
-    position_prior, prior : float [1]
-        Orders of magnitude of the error of a position, and of stiffness and damping; 0 if unknown.
-    bounded : bool
-        Whether the error has a verified bound, `MAP_BOUNDS`.
-    makes_map : bool
-        Whether its first force makes a map, which takes seconds to minutes.
-    """
-
-    name: str
-    reaction: JournalBearing
-    rich: JournalBearing
-    rich_name: str
-    position_prior: float
-    prior: float
-    bounded: bool = False
-    makes_map: bool = False
-
-    def prepare(self) -> dict[WorkUnit, int]:
-        """Make what the first force would make, and return the work of that."""
-        if not self.makes_map:
-            return {}
-        self.reaction.force([0.5 * self.reaction.clearance, 0.0], [0.0, 0.0], 1.0)
-        return {MAP_MADE: 1}
-
-    def expected(self, tangents: int) -> dict[WorkUnit, int]:
-        """Return the work of so many forces with derivatives."""
-        return {self.tangents: tangents, **({MAP_MADE: 1} if self.makes_map else {})}
-
-    @property
-    def tangents(self) -> WorkUnit:
-        """One force with derivatives."""
-        return WorkUnit(f"tangents of {self.name}", ("tangents", self.reaction))
-
-    def defects(self, *, smooth: bool) -> WorkUnit:
-        """Return the unit of the defects that correct one state, with exact or with smooth slopes."""
-        name = f"defects{' and slopes' if smooth else ''} of {self.rich_name}"
-        return WorkUnit(name, ("defects", smooth, self.rich))
-
-    def bound(self, eccentricity_ratio: float, *, slopes: bool) -> float:
-        """Return the verified bound of its error at an eccentricity ratio, infinite where there is none."""
-        if self.bounded:
-            for reach, position, slope in MAP_BOUNDS:
-                if eccentricity_ratio <= reach:
-                    return slope if slopes else position
-        return math.inf
-
-    def loss_bound(self, eccentricity_ratio: float) -> float:
-        """Return the same of power loss and side flow."""
-        within = (bound for reach, bound in LOSS_BOUNDS if eccentricity_ratio <= reach)
-        return next(within, math.inf) if self.bounded else math.inf
 
 
 def film_rungs(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
@@ -114,7 +42,7 @@ def film_rungs(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
     """
     plain, tabulated = not (bearing.grooves or bearing.pads), has_map(bearing)
     if fixed:
-        rungs = [_named(bearing, tabulated)]
+        rungs = _named(bearing, tabulated)
     elif tabulated:
         rungs = [_map(bearing), *_plain_films(bearing, tabulated), *_grids(bearing, tabulated)]
     elif plain:
@@ -122,9 +50,9 @@ def film_rungs(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
         own = [_map(bearing)] if low <= bearing.slenderness <= high else []
         rungs = [*_plain_films(bearing, tabulated), *_grids(bearing, tabulated), *own]
     else:
-        low, high = GroovedMapFilm().slenderness_range
-        mapped = is_mappable(bearing.geometry) and low <= bearing.slenderness <= high
-        rungs = [*_grids(bearing, tabulated), *([_grooved_map(bearing)] if mapped else [])]
+        maps = _grooved_maps(bearing)
+        ready = [film for film in maps if not film.makes_map]
+        rungs = [*ready, *_grids(bearing, tabulated), *(film for film in maps if film.makes_map)]
     return tuple(rungs)
 
 
@@ -150,7 +78,9 @@ def turn_films(
         Whether a map that must be made first is worth it.
     """
     films = tuple(_with_coarser_check(film) for film in film_rungs(bearing, fixed=fixed))
-    if len(films) == 1 or (films[0].bounded and not films[0].makes_map):
+    if fixed:
+        return films
+    if films[0].bounded and not films[0].makes_map:
         return films[:1]
     return tuple(film for film in films if _is_kept(film, grids, maps=maps))
 
@@ -158,7 +88,7 @@ def turn_films(
 def _is_kept(film: FilmRung, grids: tuple[tuple[int, int], ...], *, maps: bool) -> bool:
     law = film.reaction.film
     on_grid = isinstance(law, ExtrapolatedFilm) and law.film.cells in grids
-    return on_grid or isinstance(law, ShortFilm) or (maps and film.makes_map)
+    return on_grid or isinstance(law, ShortFilm) or (maps and isinstance(law, MapFilm | GroovedMapFilm))
 
 
 def _with_coarser_check(film: FilmRung) -> FilmRung:
@@ -187,12 +117,31 @@ def is_grid(bearing: JournalBearing) -> bool:
 
 def _map(bearing: JournalBearing) -> FilmRung:
     rung = _rung("map", bearing, MapFilm(), (FINEST, "2-D 768 x 32 extr."), 1e-6, 1e-4, bounded=True)
-    return replace(rung, makes_map=not has_map(bearing))
+    return rung if has_map(bearing) else replace(rung, making=MAP_MADE.nominal)
 
 
-def _grooved_map(bearing: JournalBearing) -> FilmRung:
-    rung = _rung("map with grooves", bearing, GroovedMapFilm(), (FINE, "2-D 384 x 16 extr."), 1e-5, 1e-3)
-    return replace(rung, makes_map=True)
+def _grooved_maps(bearing: JournalBearing) -> list[FilmRung]:
+    """Return the maps of a bearing with openings: a coarse one too, where the fine one is to be made."""
+    low, high = GroovedMapFilm().slenderness_range
+    if not (is_mappable(bearing.geometry) and low <= bearing.slenderness <= high):
+        return []
+    fine = _opened("map with grooves", bearing, GroovedMapFilm(), 1e-5, 1e-3)
+    coarse = _opened("coarse map with grooves", bearing, COARSE_MAP, 3e-4, 5e-3)
+    return [coarse, fine] if fine.makes_map else [fine]
+
+
+def _opened(
+    name: str, bearing: JournalBearing, film: GroovedMapFilm, position_prior: float, slope_prior: float
+) -> FilmRung:
+    rich = FINE, "2-D 384 x 16 extr."
+    rung = _rung(name, bearing, film, rich, position_prior, slope_prior)
+    return replace(rung, making=_making_time(rung.reaction))
+
+
+def _making_time(bearing: JournalBearing) -> float:
+    """Return about how long the map with openings of a bearing takes [s]; 0 where it is there."""
+    film = bearing.fitted_film
+    return film.making_time(bearing.slenderness) if isinstance(film, GroovedMapFilm) else 0.0
 
 
 def has_map(bearing: JournalBearing) -> bool:
@@ -239,12 +188,16 @@ def _grids(bearing: JournalBearing, tabulated: bool) -> list[FilmRung]:
     return [coarse, *finer[:2], arc, *finer[2:]]
 
 
-def _named(bearing: JournalBearing, tabulated: bool) -> FilmRung:
-    """Return the one rung of a scene that names its film."""
+def _named(bearing: JournalBearing, tabulated: bool) -> list[FilmRung]:
+    """Return the rung of a scene that names its film, after a coarser map of it where that is made sooner."""
     film = bearing.fitted_film
     fine = isinstance(film, MapFilm) or (isinstance(film, ReynoldsFilm) and film.cells[0] > 96)
     rich = _rich(tabulated and not isinstance(film, MapFilm), FINEST if fine else FINE)
-    return _rung(film_name(film), bearing, film, rich, 0.0, 0.0, bounded=isinstance(film, MapFilm))
+    rung = _rung(film_name(film), bearing, film, rich, 0.0, 0.0, bounded=isinstance(film, MapFilm))
+    rung = replace(rung, making=_making_time(rung.reaction))
+    if not (rung.makes_map and film == GroovedMapFilm(geometry=bearing.geometry)):
+        return [rung]
+    return [_opened(film_name(COARSE_MAP), bearing, COARSE_MAP, 0.0, 0.0), rung]
 
 
 def _rich(tabulated: bool, cells: tuple[int, int]) -> tuple[tuple[int, int] | None, str]:

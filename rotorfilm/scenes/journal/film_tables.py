@@ -2,22 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
+from ...bearings import journal
 from ...bearings.films.cavitation import Complementarity, FullFilm, HalfSommerfeld
 from ...bearings.films.geometry import Groove, Pad
 from ...bearings.films.law import FilmLaw
-from ...bearings.journal import (
-    ComplementarityArc,
-    FixedArc,
-    GroovedMapFilm,
-    MapFilm,
-    ReynoldsArc,
-    ReynoldsFilm,
-    RotatingArc,
-    ShortFilm,
-    SplittingFilm,
-)
 from ...errors import SceneError
 from ...limits import FILM_CELLS, FUNCTIONS, MAP_NODES
 from ...printable import brief
@@ -40,11 +31,11 @@ CELLS = Counts(("around", "along"), FILM_CELLS)
 NODES = Counts(("over", "turning", "moving"), MAP_NODES)
 """Reader of the nodes of a map with openings."""
 
-RUPTURES: dict[str, Keyed] = {
-    "fixed": Keyed(FixedArc, {"start": Quantity("rad"), "extent": Quantity("rad")}),
-    "rotating": Keyed(RotatingArc),
-    "reynolds": Keyed(ReynoldsArc, {"start": Quantity("rad")}),
-    "complementarity": Keyed(ComplementarityArc),
+RUPTURES: dict[str, Callable[[], Keyed]] = {
+    "fixed": lambda: Keyed(journal.FixedArc, {"start": Quantity("rad"), "extent": Quantity("rad")}),
+    "rotating": lambda: Keyed(journal.RotatingArc),
+    "reynolds": lambda: Keyed(journal.ReynoldsArc, {"start": Quantity("rad")}),
+    "complementarity": lambda: Keyed(journal.ComplementarityArc),
 }
 """`rupture = {kind = "fixed", ...}`: rupture rules of the splitting film by their names."""
 
@@ -55,17 +46,19 @@ CAVITATIONS: dict[str, Keyed] = {
 }
 """What the two-dimensional film does in tension, by name."""
 
-FILMS: dict[str, Keyed[FilmLaw]] = {
+FILMS: dict[str, Callable[[], Keyed[FilmLaw]]] = {
     # With grooves or several pads at ambient pressure that is `grooved_map` with its defaults.
-    "map": Keyed(MapFilm),
-    "grooved_map": Keyed(
-        GroovedMapFilm,
+    "map": lambda: Keyed(journal.MapFilm),
+    "grooved_map": lambda: Keyed(
+        journal.GroovedMapFilm,
         {"cells": CELLS, "nodes": NODES, "largest_eccentricity_ratio": Quantity("1")},
     ),
-    "reynolds": Keyed(ReynoldsFilm, {"cells": CELLS, "cavitation": Variant("kind", CAVITATIONS)}),
-    "short": Keyed(ShortFilm),
-    "splitting": Keyed(
-        SplittingFilm,
+    "reynolds": lambda: Keyed(
+        journal.ReynoldsFilm, {"cells": CELLS, "cavitation": Variant("kind", CAVITATIONS)}
+    ),
+    "short": lambda: Keyed(journal.ShortFilm),
+    "splitting": lambda: Keyed(
+        journal.SplittingFilm,
         {"order": read_order, "constant": flag, "rupture": Variant("kind", RUPTURES)},
         required=("order",),
     ),

@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, Generic, NamedTuple, TypeVar, cast, get_type_hints
+from typing import Any, Generic, NamedTuple, TypeVar, get_type_hints
 
 from ...errors import InputError, SceneError
 from ...limits import TEXT
@@ -77,17 +77,20 @@ class Keyed(NamedTuple, Generic[T]):
     required: tuple[str, ...] = ()
 
 
+TableType = type[T] | Keyed[T] | Callable[[], Keyed[T]]
+"""What a table is read into: a dataclass of fields `Annotated[type, reader]`, or one beside its readers."""
+
+
 @dataclass(frozen=True)
 class Table:
     """Reader of a sub-table with a fixed set of keys.
 
     Attributes
     ----------
-    table : type or Keyed
-        As in `read_table`.
+    table : TableType
     """
 
-    table: type | Keyed[Any]
+    table: TableType[Any]
 
     def __call__(self, where: str, value: Any) -> Any:
         """Return the sub-table as a dataclass."""
@@ -100,11 +103,10 @@ class TableList:
 
     Attributes
     ----------
-    table : type or Keyed
-        As in `read_table`.
+    table : TableType
     """
 
-    table: type | Keyed[Any]
+    table: TableType[Any]
 
     def __call__(self, where: str, value: Any) -> tuple[Any, ...]:
         """Return the sub-tables as dataclasses."""
@@ -121,12 +123,11 @@ class Variant:
     ----------
     tag : str
         That key.
-    variants : mapping of str to type or Keyed
-        By name, as in `read_table`.
+    variants : mapping of str to TableType
     """
 
     tag: str
-    variants: Mapping[str, type | Keyed[Any]]
+    variants: Mapping[str, TableType[Any]]
 
     def __call__(self, where: str, value: Any) -> Any:
         """Return the sub-table as the dataclass that its tag names."""
@@ -186,13 +187,12 @@ def require_table(where: str, value: Any) -> Mapping[str, Any]:
     return value
 
 
-def read_table(table: type[T] | Keyed[T], where: str, data: Any) -> T:
+def read_table(table: TableType[T], where: str, data: Any) -> T:
     """Return the TOML table `data` as the dataclass `table`.
 
     Parameters
     ----------
-    table : type or Keyed
-        A dataclass whose fields are annotated as `Annotated[type, reader]`, or one with readers beside it.
+    table : TableType
     where : str
         `FILE: dotted.key.`, the prefix of each key in messages.
     data : Mapping
@@ -239,9 +239,10 @@ def _as_written(name: str, reader: Reader, values: Mapping[str, Any]) -> str:
     return f" [{reader.unit}{written}]"
 
 
-def keyed(table: type[T] | Keyed[T]) -> Keyed[T]:
+def keyed(table: TableType[T]) -> Keyed[T]:
     """Return a table with its readers beside it; those of a plain dataclass are in its annotations."""
-    return table if isinstance(table, Keyed) else Keyed(table, _annotated(cast("type", table)))
+    made = Keyed(table, _annotated(table)) if isinstance(table, type) else table
+    return made if isinstance(made, Keyed) else made()
 
 
 @cache

@@ -23,6 +23,7 @@ from ...linear import (
 from ...model import Array
 from ...progress import Report, silent
 from ..excitation_table import UnbalanceTable
+from .shaft_remarks import shaft_remarks
 
 if TYPE_CHECKING:
     import control
@@ -62,6 +63,8 @@ class RotorAnswer:
         Of each displacement [m] and force on a housing [N] under the unbalance; empty without one.
     response : control.FrequencyResponseData or None
         The same with phases.
+    remarks : tuple of str
+        What the physics of shaft and films leaves out and should not, at the last speed.
     """
 
     title: str
@@ -74,6 +77,7 @@ class RotorAnswer:
     campbell: Campbell
     amplitudes: Mapping[str, Array]
     response: control.FrequencyResponseData | None = field(repr=False)
+    remarks: tuple[str, ...] = ()
 
 
 def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
@@ -121,6 +125,7 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
         campbell=chart,
         amplitudes={} if response is None else _amplitudes(response),
         response=response,
+        remarks=shaft_remarks(rotor, bearings, scene.lubricant, float(speeds[-1])),
     )
 
 

@@ -6,11 +6,9 @@ import mpmath
 import numpy as np
 import pytest
 from families.bush_truth import finite_volume_flux
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from rotorfilm.bearings.bush import contact_arc as contact
-from rotorfilm.bearings.bush import shaft_flux as bush_shaft
+from rotorfilm.bearings.bush import contact_arc as contact, shaft_flux as bush_shaft
 from rotorfilm.bearings.bush.heat import ApproximateShaft, ContactBalance, ExactShaft, GlobalBalance
 from rotorfilm.errors import ValidityWarning
 

@@ -23,8 +23,7 @@ from rotorfilm import (
 )
 from rotorfilm.bearings.contact.film.film_equations import TimeDerivative
 from rotorfilm.bearings.contact.film.small_motion import SmallMotion
-from rotorfilm.bearings.contact.motion import contact_run
-from rotorfilm.bearings.contact.motion import run_files as contact_files
+from rotorfilm.bearings.contact.motion import contact_run, run_files as contact_files
 from rotorfilm.bearings.contact.motion.levels import derivative_weights, extrapolation_weights
 
 

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from rotorfilm.bearings.films.cavitation import FullFilm
-from rotorfilm.bearings.films.geometry import Groove
+from rotorfilm.bearings.films.cavitation import Complementarity, FullFilm, HalfSommerfeld
+from rotorfilm.bearings.films.geometry import FilmGeometry, Groove
+from rotorfilm.bearings.films.ring.ring_kernel import richardson
 from rotorfilm.bearings.journal import ExtrapolatedFilm, JournalBearing, MapFilm, ReynoldsFilm
 from rotorfilm.errors import InputError
 
@@ -27,6 +28,27 @@ def test_derivatives_are_those_of_the_force():
     for k, unit in enumerate(np.eye(4)):
         ahead, behind = (film.force(*np.split(state + s * step * unit, 2), 0.5) for s in (1.0, -1.0))
         np.testing.assert_allclose(jacobian[:, k], (ahead - behind) / (2.0 * step), rtol=1e-4, atol=1e-7)
+
+
+@pytest.mark.parametrize("cavitation", [Complementarity(), HalfSommerfeld(), FullFilm()], ids=str)
+@pytest.mark.parametrize("grooves", [(), (Groove(center=0.4, width=0.3),)])
+def test_compiled_film_is_that_of_two_grids(cavitation, grooves):
+    geometry = FilmGeometry(grooves=grooves)
+    fine = ReynoldsFilm(cells=(48, 8), cavitation=cavitation, geometry=geometry)
+    film = ExtrapolatedFilm(film=fine)
+    rng = np.random.default_rng(1)
+    e, w = 0.6 * rng.uniform(-1.0, 1.0, (2, 20)), rng.normal(size=(2, 20))
+    assert np.array_equal(film.force(e, w, 0.5), fine.extrapolated(e, w, 0.5)[0])
+    exact = richardson(fine.jacobian(e, w, 0.5), film.coarse.jacobian(e, w, 0.5))
+    np.testing.assert_allclose(film.jacobian(e, w, 0.5), exact, atol=1e-11 * np.abs(exact).max())
+
+
+def test_a_bearing_on_it_is_a_kernel():
+    film = ExtrapolatedFilm(film=ReynoldsFilm(cells=(32, 8)))
+    bearing = JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.1, film=film)
+    spec = bearing.native()
+    assert spec.kernel == "reynolds_journal"
+    assert spec.tables["ring"].tolist() == [0.5, 1.0, 0.0, 0.0, 1.0]
 
 
 def test_grooves_reach_both_grids():

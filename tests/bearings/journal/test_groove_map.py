@@ -3,23 +3,23 @@
 import copy
 import dataclasses
 import pickle
+import re
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from rotorfilm.bearings.films.cavitation import Complementarity
 from rotorfilm.bearings.films.geometry import FilmGeometry, Groove, Pad
 from rotorfilm.bearings.films.law import FilmLaw
 from rotorfilm.bearings.films.ring.ring_grids import LONG, ring_grids, ring_spans
-from rotorfilm.bearings.films.ring.ring_kernel import RingKernel
+from rotorfilm.bearings.films.ring.ring_kernel import RingKernel, richardson
 from rotorfilm.bearings.journal import GroovedMapFilm, JournalBearing, MapFilm, ReynoldsFilm, build_groove_map
+from rotorfilm.bearings.journal.grooves.groove_bounds import state_errors
 from rotorfilm.bearings.journal.grooves.groove_build import (
     ORDER,
     Resolution,
     build_groove_table,
-    extrapolated,
     symmetric_nodes,
 )
 from rotorfilm.bearings.journal.grooves.openings import aligned_openings
@@ -65,9 +65,8 @@ def test_order_of_the_extrapolated_potential():
 
     def potential(e, cells):
         grids = ring_grids(geometry, *cells, LONG)
-        return extrapolated(
-            RingKernel(0.7, ring_spans(geometry), grids, Complementarity()).potential(e, w)[0]
-        )
+        levels, *_ = RingKernel(0.7, ring_spans(geometry), grids, Complementarity()).potential(e, w)
+        return richardson(*levels[:2])
 
     errors = np.zeros((2, 3, 8))
     for k, direction in enumerate((0.0, 1.0, 2.5)):
@@ -102,6 +101,32 @@ def test_derivatives_are_those_of_a_finer_film(film, name):
         error = np.abs(found[:, columns] - exact[:, columns]).max(axis=(0, 1)) / scale
         assert np.median(error) < limit[0]
         assert np.quantile(error, 0.95) < limit[1]
+
+
+@either
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_errors_at_rest_are_within_the_bounds_of_the_table(film, name, sense):
+    # Other states than those of the bounds, on another grid.
+    grooved, slenderness = film
+    fine = ReynoldsFilm(cells=(240, 16), geometry=grooved.geometry)
+    lows = [0.0, *grooved.table.bounds[:-1, 0]]
+    assert grooved.table.bounds[-1, 0] == pytest.approx(grooved.table.largest_eccentricity_ratio)
+    for low, (high, force, slopes) in zip(lows, grooved.table.bounds, strict=True):
+        e, _ = random_states(40, lowest=low, highest=high, seed=int(100 * high))
+        w = sense * np.stack([e[1], -e[0]])
+        exact, _ = fine.extrapolated(e, w, slenderness)
+        errors = state_errors(
+            grooved.force(e, w, slenderness),
+            grooved.jacobian(e, w, slenderness),
+            exact,
+            fine.jacobian(e, w, slenderness),
+        )
+        assert errors[0].max() < force
+        assert errors[1].max() < slopes
+        assert errors[0].max() > 0.1 * force
+        assert grooved.table.bound(high, slopes=False) == force
+    assert max(grooved.table.bounds[0, 1:]) < 0.05
+    assert grooved.table.bound(0.99, slopes=True) == np.inf
 
 
 @either
@@ -449,9 +474,8 @@ def test_first_use_is_logged_unless_it_reports(tmp_path, monkeypatch, caplog):
     film.built_table(0.6, lambda fraction, text: None)
     assert caplog.records == []
     film.built_table(0.7)
-    assert [record.getMessage() for record in caplog.records] == [
-        "making the map of a bearing with openings, length/diameter 0.7, in up to a minute; "
-        f"it will be kept in {tmp_path}"
-    ]
+    (record,) = caplog.records
+    said = r"making the map of the grooved bearing, about \d\S* s, length/diameter 0\.7; it will be kept in "
+    assert re.fullmatch(said + re.escape(str(tmp_path)), record.getMessage())
     film.built_table(0.7)
     assert len(caplog.records) == 1

@@ -29,6 +29,7 @@ def some_table(seed=0):
         crowding=0.6,
         log_center=rng.normal(size=DIRECTIONS),
         coefficients=rng.normal(size=(11, 8, 12)),
+        bounds=rng.uniform(size=(2, 3)),
     )
 
 
@@ -51,7 +52,7 @@ def test_bytes_and_back(tmp_path):
     [
         (lambda b: b[:-8], "groove table: size must be"),
         (lambda b: b"x" + b[1:], "does not begin with the mark of a groove table"),
-        (lambda b: b[:8] + b"\x09" + b[9:], "version must be 1, got 9"),
+        (lambda b: b[:8] + b"\x09" + b[9:], "version must be 2, got 9"),
         (lambda b: b[:-3] + b"abc", "the checksum does not fit"),
         (lambda b: b[:16] + b"\xff" * 4 + b[20:], "size must be"),
         (lambda b: b"", "does not begin"),
@@ -68,6 +69,8 @@ def test_damaged_bytes_are_refused(damage, message):
         ({"coefficients": np.zeros((11, 8))}, "coefficients must have shape"),
         ({"log_center": np.zeros(5)}, "coefficients must have shape"),
         ({"coefficients": np.full((11, 8, 12), np.nan)}, "must be finite"),
+        ({"bounds": np.zeros(3)}, r"bounds must have shape \(bands, 3\)"),
+        ({"bounds": np.full((2, 3), np.nan)}, "bounds must .* not be negative"),
         ({"crowding": 0.0}, r"crowding in \(0, 1\], got 0\.5, 2\.0 and 0\.0"),
     ],
 )

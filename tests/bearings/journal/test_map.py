@@ -5,8 +5,7 @@ import pickle
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from rotorfilm.bearings.films.law import FilmLaw, FilmOptions, options
 from rotorfilm.bearings.films.map_fit import tabulate_film

@@ -2,10 +2,9 @@
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
-from hypothesis import strategies as st
+from hypothesis import assume, given, settings, strategies as st
 
-from rotorfilm import JournalBearing, LinearBearing, ShortFilm, Sprung
+from rotorfilm import JournalBearing, LinearBearing, MapSqueeze, PorousDamper, ShortFilm, Sprung
 from rotorfilm.motion.compiled.film_calls import film_call
 from rotorfilm.motion.compiled.journal_films import JournalFilms
 from rotorfilm.native import Status
@@ -13,18 +12,34 @@ from rotorfilm.native import Status
 SIZES = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}
 MAP, SHORT = JournalBearing(**SIZES), JournalBearing(**SIZES, film=ShortFilm())
 SPRING = LinearBearing(stiffness=((1e6, 2e5), (-3e5, 2e6)), damping=((900.0, 5.0), (7.0, 400.0)))
-BEARINGS = [MAP, SHORT, SPRING, Sprung(reaction=MAP, stiffness=1e6)]
+DAMPER = PorousDamper(radius=0.05, length=0.02, clearance=1e-4, viscosity=0.02, film=MapSqueeze())
+
+
+class OwnBearing(JournalBearing):
+    """A bearing of a user."""
+
+
+BEARINGS = {
+    "map": MAP,
+    "short": SHORT,
+    "linear": SPRING,
+    "sprung": Sprung(reaction=MAP, stiffness=1e6),
+    "damper": Sprung(reaction=DAMPER, stiffness=1e6),
+    "called back": OwnBearing(**SIZES),
+}
 
 
 def answer(bearing, state):
     call = film_call(bearing)
     films, of = np.array([[call.address], [call.data]], dtype=np.uintp)
-    journals = JournalFilms(films, of, np.zeros(4), np.zeros(2), np.zeros(2), np.array([1e-4]))
+    journals = JournalFilms(
+        films, of, np.zeros(4), np.zeros(2), np.zeros(2), np.array([1e-4]), np.array([np.inf])
+    )
     status, force, slope = journals.forces(state[:4, None], state[4])
     return status, force[:, 0], slope[:, :, 0]
 
 
-@pytest.mark.parametrize("bearing", BEARINGS, ids=["map", "short", "linear", "called back"])
+@pytest.mark.parametrize("name", BEARINGS)
 @settings(deadline=None, max_examples=60)
 @given(
     chi=st.floats(0.0, 0.97),
@@ -32,10 +47,13 @@ def answer(bearing, state):
     velocity=st.tuples(st.floats(-0.02, 0.02), st.floats(-0.02, 0.02)),
     speed=st.sampled_from([-300.0, 20.0, 157.08]),
 )
-def test_compiled_force_is_that_of_the_bearing(bearing, chi, angle, velocity, speed):
+def test_compiled_force_is_that_of_the_bearing(name, chi, angle, velocity, speed):
+    bearing = BEARINGS[name]
     position = 1e-4 * chi * np.array([np.cos(angle), np.sin(angle)])
     state = np.array([*position, *velocity, speed])
-    source = state[2:4] / 1e-4 + 0.5 * speed * np.array([position[1], -position[0]]) / 1e-4
+    source = (
+        state[2:4] / 1e-4 + 0.5 * (name != "damper") * speed * np.array([position[1], -position[0]]) / 1e-4
+    )
     assume(np.hypot(*source) >= 1e-3)  # no derivative there
     _, force, slope = answer(bearing, state)
     exact = bearing.force(position, state[2:4], speed)
@@ -46,6 +64,6 @@ def test_compiled_force_is_that_of_the_bearing(bearing, chi, angle, velocity, sp
     assert slope[:, 2:] == pytest.approx(slopes[:, 2:], abs=2e-7 * size[1])
 
 
-@pytest.mark.parametrize("bearing", [MAP, SHORT, BEARINGS[3]], ids=["map", "short", "called back"])
-def test_wall_is_a_status(bearing):
-    assert answer(bearing, np.array([1e-4, 0.0, 0.0, 0.0, 100.0]))[0] == Status.AT_WALL
+@pytest.mark.parametrize("name", ["map", "short", "sprung", "damper", "called back"])
+def test_wall_is_a_status(name):
+    assert answer(BEARINGS[name], np.array([1e-4, 0.0, 0.0, 0.0, 100.0]))[0] == Status.AT_WALL

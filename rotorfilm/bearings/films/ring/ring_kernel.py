@@ -10,10 +10,13 @@ import numpy as np
 from ....model import Array
 from ....native.film_kernels import Batch, FilmKernel
 from ....native.library import loops
-from ....native.structs import GridStruct, RingStruct
+from ....native.structs import GridStruct, GridWorkStruct, RingStruct
 from ..cavitation import Cavitation
 from ..kernel_film import report_law
 from .ring_grids import Grid, Spans
+
+ORDER = 2
+"""Order of convergence of a force, and of a potential, in the size of the cells."""
 
 
 class RingField(NamedTuple):
@@ -34,6 +37,25 @@ class RingField(NamedTuple):
     side_flow: float
 
 
+class RingPotential(NamedTuple):
+    """The potential at one eccentricity for n sources on all grids, the finest first.
+
+    Attributes
+    ----------
+    value : ndarray, shape (3, n)
+        J.
+    slope : ndarray, shape (3, 2, n)
+        dJ/de; without entries where it was not asked for.
+    solutions, lines : int
+        Linear systems that were solved for all of it, and lines of the grids that were factorized.
+    """
+
+    value: Array
+    slope: Array
+    solutions: int
+    lines: int
+
+
 class RingKernel(FilmKernel):
     """A film on the grids of a ring.
 
@@ -45,14 +67,21 @@ class RingKernel(FilmKernel):
     grids : tuple of Grid
         Three, the finest first.
     cavitation : Cavitation
+    extrapolated : bool
+        Whether the force is that extrapolated from the finest grid and the next.
     """
 
     _function: ClassVar[str] = "rf_ring_film"
 
     def __init__(
-        self, slenderness: float, spans: Spans, grids: tuple[Grid, ...], cavitation: Cavitation
+        self,
+        slenderness: float,
+        spans: Spans,
+        grids: tuple[Grid, ...],
+        cavitation: Cavitation,
+        extrapolated: bool = False,
     ) -> None:
-        self._arguments = (slenderness, spans, grids, cavitation)
+        self._arguments = (slenderness, spans, grids, cavitation, extrapolated)
         self.grids = grids
         self._kept: list[Array] = []
         self.struct = RingStruct(
@@ -64,6 +93,7 @@ class RingKernel(FilmKernel):
             spans.pinned,
             cavitation.searched,
             cavitation.clipped,
+            extrapolated,
         )
 
     def _grid(self, grid: Grid) -> GridStruct:
@@ -89,9 +119,19 @@ class RingKernel(FilmKernel):
 
     def pair(self, eccentricity: Array, source: Array) -> tuple[Array, Array]:
         """Return the forces (2, n) on the finest grid and on the next; journals must be off the wall."""
+        return self._pair(eccentricity, source, None)
+
+    def tangents(self, eccentricity: Array, source: Array) -> tuple[Array, Array]:
+        """Return extrapolated forces (2, n), and d force / d (eccentricity, source), shape (2, 4, n)."""
+        slopes = np.empty((2, 4, eccentricity.shape[1]))
+        return richardson(*self._pair(eccentricity, source, slopes)), slopes
+
+    def _pair(self, eccentricity: Array, source: Array, slopes: Array | None) -> tuple[Array, Array]:
         e, w, (fine, coarse) = _float(eccentricity), _float(source), np.empty((2, *eccentricity.shape))
         first = c_size_t()
-        places = [numbers.ctypes.data for numbers in (e, w, fine, coarse)]
+        places = [
+            None if numbers is None else numbers.ctypes.data for numbers in (e, w, fine, coarse, slopes)
+        ]
         status = loops()["rf_ring_pair"](byref(self.struct), e.shape[1], *places, byref(first))
         if status:
             self._report(status, e[:, first.value], w[:, first.value])
@@ -123,26 +163,33 @@ class RingKernel(FilmKernel):
             self._report(status, e[:, first.value], w[:, first.value])
         return losses
 
-    def potential(self, eccentricity: Array, source: Array) -> tuple[Array, Array]:
-        """Return J, (3, n), and dJ/de, (3, 2, n), on all grids at one eccentricity (2,) for sources (2, n).
+    def potential(self, eccentricity: Array, source: Array, *, slopes: bool = True) -> RingPotential:
+        """Return J and, if asked for, dJ/de at one eccentricity (2,) for sources (2, n).
 
         That is the potential J = F.w/2 of a ruptured film: the discrete film minimizes
         12 (P.A P/2 - P.N w) over P >= 0 and J(e, w) is the minimum, so F = dJ/dw to the last digit of the
         discrete equations. With the lines of the grid held dJ/de = 6 P.(dA P). Openings are at pressure 0.
         """
         e, w = _float(eccentricity), _float(source)
-        levels, n, first = len(self.grids), w.shape[1], c_size_t()
-        J, slope = np.empty((levels, n)), np.empty((levels, 2, n))
-        places = [w.ctypes.data, J.ctypes.data, slope.ctypes.data]
-        status = loops()["rf_ring_potential"](byref(self.struct), e.ctypes.data, n, *places, byref(first))
+        levels, n, first, work = len(self.grids), w.shape[1], c_size_t(), GridWorkStruct()
+        J, slope = np.empty((levels, n)), np.empty((levels, 2, n) if slopes else 0)
+        places = [w.ctypes.data, J.ctypes.data, slope.ctypes.data if slopes else None]
+        status = loops()["rf_ring_potential"](
+            byref(self.struct), e.ctypes.data, n, *places, byref(work), byref(first)
+        )
         if status:
             self._report(status, e, w[:, first.value])
-        return J, slope
+        return RingPotential(J, slope, work.solutions, work.lines)
 
     def _report(self, status: int, e: Array, w: Array) -> None:
         """Raise what the status of a state (2,) says."""
         if status:
             report_law(Batch(w, status, 0), e[:, None], w[:, None], self)
+
+
+def richardson(fine: Array, coarse: Array, order: int = ORDER) -> Array:
+    """Return the extrapolation of what errs by the given order, from a grid and one with half its cells."""
+    return fine + (fine - coarse) / (2.0**order - 1.0)
 
 
 def _float(numbers: Array) -> Array:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +18,9 @@ from ...films.map_fit import node_eccentricities
 from ...films.map_table import stretch
 from ...films.quintic import periodic_quintic, periodic_quintic_coefficients, quintic_coefficients
 from ...films.ring.ring_grids import LONG, ring_grids, ring_spans
-from ...films.ring.ring_kernel import RingKernel
+from ...films.ring.ring_kernel import RingKernel, RingPotential, richardson
+from ...films.table_pieces import cores, made_pieces
+from .groove_bounds import BoundStates, reference
 from .groove_table import DIRECTIONS, GrooveMapTable
 from .openings import AlignedOpenings
 
@@ -24,6 +29,14 @@ CROWDING = 0.6
 
 ORDER = 4
 """Order of convergence, in the size of the cells, of the potential extrapolated from two grids."""
+
+NODE_TIME = 1.4e-7
+"""Time of a node for each cell of the finest grid [s], on a core of 2023."""
+
+CHECK_NODES = 18
+"""Nodes that take as long as one state of the bounds, four times the cells and derivatives."""
+
+TITLE = "map of the grooved bearing"
 
 HARMONICS = 20
 """Of L0 and of dL/de at the center, over the direction of the source: beyond is the noise of the grid."""
@@ -58,7 +71,7 @@ class _Center(NamedTuple):
 def build_groove_table(
     openings: AlignedOpenings, slenderness: float, resolution: Resolution, report: Report = silent
 ) -> GrooveMapTable:
-    """Return the map of one bearing.
+    """Return the map of one bearing, made on all cores, with the bounds of its error.
 
     Parameters
     ----------
@@ -67,7 +80,7 @@ def build_groove_table(
         Length / diameter.
     resolution : Resolution
     report : callable, optional
-        Called with the fraction done and a text, some tens of times.
+        Called with the fraction done and a text that says how long all of it takes, some hundred times.
 
     Raises
     ------
@@ -75,8 +88,36 @@ def build_groove_table(
         If the search for a ruptured zone does not end.
     """
     potential = _Solver(openings.grooves, slenderness, resolution.cells)
+    checks = BoundStates(openings.grooves, resolution.largest_eccentricity_ratio)
+    around, along = resolution.cells
+    finer = opened_film(openings.grooves, slenderness, (2 * around, 2 * along))
+    solved = np.unique(symmetric_nodes(openings, resolution.nodes[1])[0])
+    columns = [
+        partial(potential.level, *place) for j in solved.tolist() for place in _column_places(resolution, j)
+    ]
+    references = [partial(reference, finer, e, w) for e, w in checks.batches()]
     center = _center(potential)
-    M = _exponents(potential, center, openings, resolution, report)
+    found = made_pieces([*columns, *references], report, TITLE)
+    levels = np.reshape(found[: len(columns)], (len(solved), resolution.nodes[0], -1))
+    M = _exponents(center, levels, openings, resolution)
+    table = _fitted(center, M, openings, slenderness, resolution)
+    exact = np.concatenate(found[len(columns) :], axis=1)
+    return replace(table, bounds=checks.bounds(table, exact))
+
+
+def expected_time(openings: AlignedOpenings, resolution: Resolution) -> float:
+    """Return about how long a map takes on all cores of this machine [s], to weigh it against other films."""
+    cells_x, count_e, count_s = resolution.nodes
+    solved = np.unique(symmetric_nodes(openings, count_e)[0]).size
+    states = BoundStates(openings.grooves, resolution.largest_eccentricity_ratio).e.shape[1]
+    work = DIRECTIONS + solved * cells_x * count_s + CHECK_NODES * states
+    return NODE_TIME * math.prod(resolution.cells) * work / cores()
+
+
+def _fitted(
+    center: _Center, M: Array, openings: AlignedOpenings, slenderness: float, resolution: Resolution
+) -> GrooveMapTable:
+    """Return the table that has M, (cells_x + 1, count_e, count_s), at its nodes."""
     cells_x, count_e, count_s = resolution.nodes
     # A step across the center turns e around, and with it the angle from e to w.
     ghosts = -np.roll(M[:0:-1], (count_e // 2, count_s // 2), axis=(1, 2))
@@ -93,26 +134,34 @@ def build_groove_table(
     )
 
 
+def opened_film(grooves: tuple[Groove, ...], slenderness: float, cells: tuple[int, int]) -> RingKernel:
+    """Return the two-dimensional film of a bearing with openings."""
+    geometry = FilmGeometry(grooves=grooves)
+    grids = ring_grids(geometry, *cells, max(slenderness, LONG))
+    return RingKernel(slenderness, ring_spans(geometry), grids, Complementarity())
+
+
 class _Solver:
-    """J and dJ/de of one bearing by Richardson extrapolation."""
+    """The potential of one bearing by Richardson extrapolation."""
 
     def __init__(self, grooves: tuple[Groove, ...], slenderness: float, cells: tuple[int, int]) -> None:
-        geometry = FilmGeometry(grooves=grooves)
-        spans, grids = ring_spans(geometry), ring_grids(geometry, *cells, max(slenderness, LONG))
-        self._kernel = RingKernel(slenderness, spans, grids, Complementarity())
+        self._kernel = opened_film(grooves, slenderness, cells)
 
-    def __call__(self, e: Array, phi: Array) -> tuple[Array, Array]:
-        """Return J, (D,), and dJ/de, (2, D), at the eccentricity e for unit sources at the angles phi."""
-        levels, slopes = self._kernel.potential(e, np.stack([np.cos(phi), np.sin(phi)]))
-        J = extrapolated(levels)
+    def level(self, e: Array, phi: Array) -> Array:
+        """Return ln(-J), (D,), at the eccentricity e for unit sources at the angles phi."""
+        return self._solved(e, phi, slopes=False)[0]
+
+    def center(self, phi: Array) -> tuple[Array, Array]:
+        """Return ln(-J), (D,), and d ln(-J)/de, (D, 2), of the centered journal."""
+        level, found = self._solved(np.zeros(2), phi, slopes=True)
+        return level, -(richardson(*found.slope[:2]) / np.exp(level)).T
+
+    def _solved(self, e: Array, phi: Array, *, slopes: bool) -> tuple[Array, RingPotential]:
+        found = self._kernel.potential(e, np.stack([np.cos(phi), np.sin(phi)]), slopes=slopes)
+        J = richardson(*found.value[:2])
         if not np.all(J < 0.0):
             raise ConvergenceError(f"the film must carry, and does not at eccentricity {e.tolist()}")
-        return J, extrapolated(slopes)
-
-
-def extrapolated(levels: Array) -> Array:
-    """Return the extrapolation of values on grids, the finest first, from the first two."""
-    return levels[0] + (levels[0] - levels[1]) / 3.0
+        return np.log(-J), found
 
 
 def node_angles(count_e: int, count_s: int) -> tuple[Array, Array]:
@@ -122,8 +171,7 @@ def node_angles(count_e: int, count_s: int) -> tuple[Array, Array]:
 
 
 def _center(potential: _Solver) -> _Center:
-    J, slope = potential(np.zeros(2), TURN * np.arange(DIRECTIONS) / DIRECTIONS)
-    level, slope = _smooth(np.log(-J)), _smooth((slope / J).T)
+    level, slope = (_smooth(each) for each in potential.center(TURN * np.arange(DIRECTIONS) / DIRECTIONS))
     return _Center(periodic_quintic_coefficients(level), periodic_quintic_coefficients(slope))
 
 
@@ -138,38 +186,34 @@ def _smooth(values: Array) -> Array:
     return np.fft.irfft(spectrum, len(values), axis=0)
 
 
-def _exponents(
-    potential: _Solver,
-    center: _Center,
-    openings: AlignedOpenings,
-    resolution: Resolution,
-    report: Report,
-) -> Array:
-    """Return M at the nodes, (cells_x + 1, count_e, count_s); symmetric ones are solved once."""
+def _column_places(resolution: Resolution, j: int) -> list[tuple[Array, Array]]:
+    """Return e, (2,), and directions of the source, (count_s,), of the nodes in one direction of e."""
+    cells_x, count_e, count_s = resolution.nodes
+    theta, beta = node_angles(count_e, count_s)
+    along = np.array([np.cos(theta[j]), np.sin(theta[j])])
+    chi = node_eccentricities(resolution.largest_eccentricity_ratio, cells_x)
+    return [(eccentricity * along, theta[j] + beta) for eccentricity in chi[1:]]
+
+
+def _exponents(center: _Center, levels: Array, openings: AlignedOpenings, resolution: Resolution) -> Array:
+    """Return M at the nodes, (cells_x + 1, count_e, count_s), from ln(-J) at those that were solved.
+
+    Parameters
+    ----------
+    levels : ndarray, shape (solved, cells_x, count_s)
+    """
     cells_x, count_e, count_s = resolution.nodes
     theta, beta = node_angles(count_e, count_s)
     chi = node_eccentricities(resolution.largest_eccentricity_ratio, cells_x)
     source, mirrored = symmetric_nodes(openings, count_e)
     M = np.empty((cells_x + 1, count_e, count_s))
-    solved = np.flatnonzero(source == np.arange(count_e))
-    for done, j in enumerate(solved.tolist()):
-        report(done / len(solved), "map of the grooved bearing")
-        M[:, j] = _column(potential, center, chi, theta[j], theta[j] + beta)
+    for j, level in zip(np.unique(source).tolist(), levels, strict=True):
+        turns = (theta[j] + beta) / TURN
+        M[0, j] = periodic_quintic(center.slope, turns) @ [np.cos(theta[j]), np.sin(theta[j])]
+        M[1:, j] = (level - periodic_quintic(center.level, turns)) / chi[1:, None]
     opposite = -np.arange(count_s) % count_s
     for j in range(count_e):
         M[:, j] = M[:, source[j]][:, opposite] if mirrored[j] else M[:, source[j]]
-    report(1.0, "map of the grooved bearing")
-    return M
-
-
-def _column(potential: _Solver, center: _Center, chi: Array, theta: float, phi: Array) -> Array:
-    """Return M for one direction of e, (cells_x + 1, count_s)."""
-    level = periodic_quintic(center.level, phi / TURN)
-    along = np.array([np.cos(theta), np.sin(theta)])
-    M = np.empty((len(chi), len(phi)))
-    M[0] = periodic_quintic(center.slope, phi / TURN) @ along
-    for i in range(1, len(chi)):
-        M[i] = (np.log(-potential(chi[i] * along, phi)[0]) - level) / chi[i]
     return M
 
 

@@ -10,6 +10,7 @@ e at the angle theta and w at phi from the axis of the openings, on uniform grid
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Self
 
@@ -22,7 +23,11 @@ from ...films.map_table import unstretch
 from ...films.table_bytes import Layout, Sizes, StoredTable, seal, unseal
 
 MAGIC = b"RFGROOVE"
-VERSION = 1
+VERSION = 2
+"""Since 2 a table has bounds of its error."""
+
+BANDS = 8
+"""Most bands of eccentricity ratios with a bound each."""
 
 DIRECTIONS = 192
 """Nodes of L0 over the direction of the source."""
@@ -46,6 +51,10 @@ class GrooveMapTable(StoredTable):
         Spline coefficients of L0, each centered on its node.
     coefficients : ndarray, shape (cells_x + 5, cells_e, cells_s)
         Spline coefficients of M over X, theta and s.
+    bounds : ndarray, shape (bands, 3)
+        Largest errors with the journal at rest, found when the map was made (`groove_bounds`): up to which
+        eccentricity ratio, of the force relative to it, of K and C relative to their largest entry. None of
+        them where nothing is known.
 
     Raises
     ------
@@ -59,6 +68,7 @@ class GrooveMapTable(StoredTable):
     crowding: float
     log_center: Array = field(repr=False)
     coefficients: Array = field(repr=False)
+    bounds: Array = field(default_factory=lambda: np.empty((0, 3)), repr=False)
 
     def __post_init__(self) -> None:
         shape = np.shape(self.coefficients)
@@ -69,6 +79,11 @@ class GrooveMapTable(StoredTable):
             )
         if not (np.isfinite(self.coefficients).all() and np.isfinite(self.log_center).all()):
             raise InputError("coefficients and log_center must be finite")
+        if np.shape(self.bounds)[1:] != (3,) or len(self.bounds) > BANDS or not np.all(self.bounds >= 0.0):
+            raise InputError(
+                f"bounds must have shape (bands, 3), {BANDS} bands at most, and not be negative, "
+                f"got {self.bounds!r}"
+            )
         if not (0.0 < self.reach < np.inf and 0.0 < self.crowding <= 1.0 and 0.0 < self.slenderness < np.inf):
             raise InputError(
                 "slenderness and reach must be positive and crowding in (0, 1], "
@@ -80,13 +95,21 @@ class GrooveMapTable(StoredTable):
         """Eccentricity ratio of the last node."""
         return float(unstretch(self.reach))
 
+    def bound(self, eccentricity_ratio: float, *, slopes: bool) -> float:
+        """Return the largest error [1] of the force at rest, or of K and C; infinite where it is unknown."""
+        reaches, force, matrices = self.bounds.T
+        errors = (matrices if slopes else force)[reaches >= eccentricity_ratio]
+        return float(errors[0]) if len(errors) else math.inf
+
     def to_bytes(self) -> bytes:
         """Return the table as little-endian bytes: header with sizes and checksum, then the numbers."""
         openings = [angle for groove in self.grooves for angle in (groove.center, groove.width)]
-        numbers = [self.slenderness, self.reach, self.crowding, *openings]
+        numbers = [self.slenderness, self.reach, self.crowding, len(self.bounds), *openings]
         cells_x, cells_e, cells_s = self.coefficients.shape
         sizes = (cells_x, cells_e, cells_s, len(self.grooves))
-        return seal(MAGIC, VERSION, sizes, np.array(numbers), self.log_center, self.coefficients)
+        bands = np.zeros((BANDS, 3))
+        bands[: len(self.bounds)] = self.bounds
+        return seal(MAGIC, VERSION, sizes, np.array(numbers), bands, self.log_center, self.coefficients)
 
     @classmethod
     def from_bytes(cls, content: bytes) -> Self:
@@ -97,9 +120,9 @@ class GrooveMapTable(StoredTable):
         RotorfilmError
             If the content is not such a table, of another version, truncated or damaged.
         """
-        sizes, numbers, center, coefficients = unseal("groove table", MAGIC, VERSION, _layout, content)
-        scalars, openings = np.split(numbers, [3])
-        slenderness, reach, crowding = scalars.tolist()
+        sizes, numbers, bands, center, coefficients = unseal("groove table", MAGIC, VERSION, _layout, content)
+        scalars, openings = np.split(numbers, [4])
+        slenderness, reach, crowding, known = scalars.tolist()
         return cls(
             slenderness=slenderness,
             grooves=tuple(Groove(center=c, width=w) for c, w in openings.reshape(-1, 2).tolist()),
@@ -107,12 +130,14 @@ class GrooveMapTable(StoredTable):
             crowding=crowding,
             log_center=center,
             coefficients=coefficients.reshape(sizes[:3]),
+            bounds=bands.reshape(BANDS, 3)[: int(known)],
         )
 
 
 def _layout(sizes: Sizes) -> Layout:
-    """Return what a table of these sizes holds: numbers and openings, L0, the coefficients of M."""
+    """Return what a table of these sizes holds: numbers and openings, bounds, L0, coefficients of M."""
     cells_x, cells_e, cells_s, grooves = sizes
     if min(sizes) < 1:
         return ()
-    return (("<f8", 3 + 2 * grooves), ("<f8", DIRECTIONS), ("<f8", cells_x * cells_e * cells_s))
+    counts = 4 + 2 * grooves, 3 * BANDS, DIRECTIONS, cells_x * cells_e * cells_s
+    return tuple(("<f8", count) for count in counts)

@@ -7,6 +7,8 @@ import logging
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
+from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,7 +23,7 @@ from ...films.ring.ring_grids import are_counts, require_cells
 from ...films.table_cache import cached_table
 from ..map.map_film import MapFilm
 from ..reynolds_film import ReynoldsFilm
-from .groove_build import Resolution, build_groove_table
+from .groove_build import Resolution, build_groove_table, expected_time
 from .groove_cache import cache_path
 from .groove_table import GrooveMapTable
 from .openings import AlignedOpenings, aligned_openings, require_mappable
@@ -35,6 +37,14 @@ GROOVED_RANGE = (0.05, 20.0)
 _logger = logging.getLogger(__name__)
 
 
+class _Key(NamedTuple):
+    """What decides the content of a map."""
+
+    openings: AlignedOpenings
+    slenderness: float
+    resolution: Resolution
+
+
 @dataclass(frozen=True, kw_only=True)
 class GroovedMapFilm(KernelFilm):
     """Finite-length film with Reynolds rupture in a bearing with axial grooves or several pads.
@@ -45,7 +55,7 @@ class GroovedMapFilm(KernelFilm):
     in a plain bearing: by name it is needed for its parameters only.
 
     A map belongs to one L/D, .05 to 20, and one set of openings, wherever they are turned to. It is made
-    from some 10^4 solutions of the two-dimensional film on first use, which takes from seconds to a minute,
+    from some 10^4 solutions of the two-dimensional film on first use, which takes some seconds on all cores,
     and then kept in the folder that the environment variable ROTORFILM_CACHE names, or the platform's cache.
     `build_groove_map` makes it beforehand and says how far it is.
 
@@ -151,25 +161,25 @@ class GroovedMapFilm(KernelFilm):
             raise InputError(
                 f"length/diameter must be {low:.9g} to {high:.9g} for this map, got {slenderness!r}"
             )
-        openings = aligned_openings(self.geometry)
         if self.table is not None:
             return self.table
+        key = self._key(slenderness)
+        path = cache_path(*key)
+        telling = _logged(key.slenderness, path.parent) if report is silent else report
+        return cached_table(GrooveMapTable, path, lambda: build_groove_table(*key, telling))
+
+    def making_time(self, slenderness: float) -> float:
+        """Return about how long making the map takes on this machine [s]; 0 where it is there, or on disk."""
+        if self.table is not None:
+            return 0.0
+        key = self._key(slenderness)
+        return 0.0 if cache_path(*key).is_file() else expected_time(key.openings, key.resolution)
+
+    def _key(self, slenderness: float) -> _Key:
         # So that L/D = 1/3 and its nine digits share a map.
         rounded = float(f"{slenderness:.9g}")
         resolution = Resolution(self.cells, self.nodes, self.largest_eccentricity_ratio)
-        path = cache_path(openings, rounded, resolution)
-
-        def build() -> GrooveMapTable:
-            if report is silent:
-                _logger.warning(
-                    "making the map of a bearing with openings, length/diameter %.6g, in up to a minute; "
-                    "it will be kept in %s",
-                    rounded,
-                    path.parent,
-                )
-            return build_groove_table(openings, rounded, resolution, report)
-
-        return cached_table(GrooveMapTable, path, build)
+        return _Key(aligned_openings(self.geometry), rounded, resolution)
 
     def _kernel(self, slenderness: float) -> GrooveMapKernel:
         return _kernel(self, float(slenderness))
@@ -181,6 +191,20 @@ def _kernel(film: GroovedMapFilm, slenderness: float) -> GrooveMapKernel:
     axis = aligned_openings(film.geometry).axis
     numbers = table.crowding, axis, table.slenderness
     return GrooveMapKernel(table.coefficients, table.reach, table.log_center, *numbers)
+
+
+def _logged(slenderness: float, folder: Path) -> Report:
+    """Return a report that says once in the log that a map is being made."""
+    said: list[str] = []
+
+    def report(fraction: float, text: str) -> None:
+        if not said:
+            said.append(text)
+            _logger.warning(
+                "making the %s, length/diameter %.6g; it will be kept in %s", text, slenderness, folder
+            )
+
+    return report
 
 
 def require_same_openings(table: GrooveMapTable, openings: AlignedOpenings) -> None:

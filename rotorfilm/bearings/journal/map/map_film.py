@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib.resources import files
+from pathlib import Path
 
 import numpy as np
 
@@ -109,9 +109,8 @@ def packaged_table() -> MapTable:
     RotorfilmError
         If it is missing or damaged.
     """
-    package = __package__ or ""
     try:
-        content = files(package).joinpath("data", TABLE).read_bytes()
+        content = Path(__file__).with_name("data").joinpath(TABLE).read_bytes()
     except OSError as error:
         raise RotorfilmError(f"the map table {TABLE} of the package is missing: {error}") from error
     return MapTable.from_bytes(content)

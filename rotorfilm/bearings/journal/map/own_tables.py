@@ -7,18 +7,18 @@ extrapolated from two grids, has a smaller error than its force.
 
 from __future__ import annotations
 
-import logging
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ....errors import InputError
 from ....model import Array
-from ...films.map_fit import tabulate_film
 from ...films.map_table import MapTable
-from ..extrapolated_film import ExtrapolatedFilm
-from ..reynolds_film import ReynoldsFilm
+
+if TYPE_CHECKING:
+    from ..extrapolated_film import ExtrapolatedFilm
 
 OWN_RANGE = (0.001, 20.0)
 """Length/diameter for which a table can be made; beyond, the layers at the ends get too thin for the grid."""
@@ -26,7 +26,6 @@ OWN_RANGE = (0.001, 20.0)
 TABLE_CELLS = (24, 96, 0)
 REACH = 0.999
 _SHORT, _LONG = (384, 16), (192, 24)
-_logger = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True)
@@ -45,6 +44,9 @@ class _TwoFilms:
 
 
 def _film(around: int, along: int) -> _TwoFilms:
+    from ..extrapolated_film import ExtrapolatedFilm
+    from ..reynolds_film import ReynoldsFilm
+
     films = (ExtrapolatedFilm(film=ReynoldsFilm(cells=(k * around, along))) for k in (1, 2))
     return _TwoFilms(*films)
 
@@ -74,10 +76,14 @@ def bearing_table(slenderness: float) -> MapTable:
     InputError
         If the slenderness is outside its range.
     """
+    import logging
+
+    from ...films.map_fit import tabulate_film
+
     low, high = OWN_RANGE
     if not low <= slenderness <= high:
         raise InputError(f"length/diameter must be {low:g} to {high:g} for a map, got {slenderness!r}")
-    _logger.warning(
+    logging.getLogger(__name__).warning(
         "length/diameter %.6g is outside the table of the package: making one for it, in about half a minute",
         slenderness,
     )

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from rotorfilm.errors import InputError
-from rotorfilm.motion.transient.times import require_longest_step, sample_times
+from rotorfilm.motion.compiled.times import require_longest_step, sample_times
 
 
 @pytest.mark.parametrize("step", [0.0, -1.0, math.nan, -math.inf])

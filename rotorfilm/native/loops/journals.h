@@ -1,0 +1,30 @@
+/* The journals of a rotor: films at motions of all of them. */
+#ifndef ROTORFILM_JOURNALS_H
+#define ROTORFILM_JOURNALS_H
+
+#include <stdint.h>
+
+#include "../export.h"
+#include "../films/film.h"
+
+/* The journals: forces at states (x, y, vx, vy, speed) as of rf_journal_at, beside springs and dampers that
+   the rotor rests on and that are given back here. */
+typedef struct rf_journals {
+    int32_t count;
+    const rf_response *films;
+    const void *const *of;
+    const double *rest;            /* 4 n: motion about which that of the rotor is counted */
+    const double *spring, *damper; /* 2 n [N/m], [N s/m] */
+    const double *lengths;         /* n: typical displacements [m] */
+    const double *walls;           /* n: eccentricities at which a journal counts as touching [m] */
+} rf_journals;
+
+/* Films' forces and springs (2 n) at one motion (4 n), and slopes by it (2 n x 4); the most severe status. */
+int rf_set_forces(const rf_journals *journals, const double *motion, double speed, double *force, double *slope);
+
+/* Forces of films and springs (2 n rows) and slopes by x, y, vx, vy (2 n x 4 rows) of motions (4 n rows), rows
+   of `samples`, at one speed; the most severe status. */
+RF_EXPORT_LOOP int rf_journal_forces(const rf_journals *journals, int64_t samples, const double *motion,
+                                     double speed, double *force, double *slope);
+
+#endif

@@ -1,0 +1,196 @@
+#include "march_step.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../films/map_frame.h"
+#include "../solvers/dense.h"
+
+#define NEWTON_STEPS 8
+#define HUGE_CHANGE 1e300
+
+int rf_open_scratch(rf_scratch *at, const rf_march *march)
+{
+    const size_t s = (size_t)march->scheme.stages, channels = (size_t)march->rotor.channels;
+    const size_t rows = (size_t)march->rotor.rows, modes = (size_t)march->rotor.modes;
+    const size_t all = 2 * s * (size_t)march->journals.count;
+    const size_t sizes[] = {s * channels, s * channels, channels, 2 * modes, s * rows, s * rows,  s * rows,
+                            s,            all,          4 * all,  all * all, all,      2 * modes * s, 2 * modes * s};
+    double **const places[] = {&at->u,      &at->guess, &at->start, &at->both,   &at->free, &at->motion,
+                               &at->before, &at->speed, &at->force, &at->slope, &at->matrix, &at->right};
+    const size_t count = sizeof sizes / sizeof *sizes, named = sizeof places / sizeof *places;
+    size_t total = 0;
+    for (size_t k = 0; k < count; ++k)
+        total += sizes[k];
+    double *next = at->memory = malloc(total * sizeof *next);
+    if (!next)
+        return RF_MEMORY;
+    for (size_t k = 0; k < named; next += sizes[k++])
+        *places[k] = next;
+    at->forced = (rf_complex *)next;
+    at->weights = at->forced + modes * s;
+    return RF_OK;
+}
+
+/* Set pair to (w^2 cos p + a sin p, w^2 sin p - a cos p) and return the speed w at a time. */
+static double unbalance(const rf_speeds *profile, double t, double pair[2])
+{
+    int32_t k = 0;
+    while (k + 1 < profile->count && profile->times[k + 1] <= t)
+        ++k;
+    const double passed = t - profile->times[k], a = passed >= 0.0 ? profile->slopes[k] : 0.0;
+    const double w = profile->speeds[k] + a * passed;
+    const double p = profile->angles[k] + passed * (profile->speeds[k] + 0.5 * a * passed);
+    const double c = cos(p), s = sin(p);
+    pair[0] = w * w * c + a * s;
+    pair[1] = w * w * s - a * c;
+    return w;
+}
+
+/* Motion of the journals at the nodes under the forces in at->guess. */
+static void set_motion(const rf_march *march, const rf_step_table *table, const rf_scratch *at, double *motion)
+{
+    const size_t s = (size_t)march->scheme.stages, channels = (size_t)march->rotor.channels;
+    const size_t rows = (size_t)march->rotor.rows;
+    memcpy(motion, at->free, s * rows * sizeof *motion);
+    for (size_t i = 0; i < s; ++i)
+        for (size_t j = 0; j < s; ++j)
+            rf_add_product(rows, channels, 1.0, table->gain + (i * s + j) * rows * channels,
+                           at->guess + j * channels, motion + i * rows);
+}
+
+/* Films at the motion of all nodes. */
+static int set_node_forces(rf_march *march, rf_scratch *at)
+{
+    const int32_t rows = march->rotor.rows, forces = 2 * march->journals.count;
+    int worst = RF_OK;
+    for (int32_t i = 0; i < march->scheme.stages; ++i) {
+        const int status = rf_set_forces(&march->journals, at->motion + i * rows, at->speed[i],
+                                         at->force + i * forces, at->slope + 4 * i * forces);
+        march->films += 1;
+        if (status >= RF_AT_WALL)
+            return status;
+        worst = status > worst ? status : worst;
+    }
+    return worst;
+}
+
+/* The linear equations of Newton's method for the forces at the nodes. */
+static void set_equations(const rf_march *march, const rf_step_table *table, rf_scratch *at)
+{
+    const int32_t s = march->scheme.stages, channels = march->rotor.channels, rows = march->rotor.rows;
+    const int32_t forces = channels - 2, size = s * forces;
+    memset(at->matrix, 0, (size_t)size * (size_t)size * sizeof *at->matrix);
+    for (int32_t row = 0; row < size; ++row) {
+        const int32_t i = row / forces, r = row % forces;
+        double *to = at->matrix + row * size;
+        for (int32_t j = 0; j < s; ++j)
+            for (int32_t k = 0; k < 4; ++k) {
+                const double slope = at->slope[4 * row + k];
+                const double *gain = table->gain + ((i * s + j) * rows + 4 * (r / 2) + k) * channels;
+                for (int32_t c = 0; c < forces; ++c)
+                    to[j * forces + c] -= slope * gain[c];
+            }
+        to[row] += 1.0;
+        at->right[row] = at->force[row] - at->guess[i * channels + r];
+    }
+}
+
+/* Take the forces in at->right; the largest change of motion, scaled. */
+static double take_forces(const rf_march *march, const rf_step_table *table, rf_scratch *at)
+{
+    const int32_t s = march->scheme.stages, channels = march->rotor.channels, rows = march->rotor.rows;
+    const int32_t forces = channels - 2;
+    double *const before = at->motion, change = 0.0;
+    for (int32_t j = 0; j < s; ++j)
+        for (int32_t c = 0; c < forces; ++c)
+            at->guess[j * channels + c] += at->right[j * forces + c];
+    at->motion = at->before;
+    at->before = before;
+    set_motion(march, table, at, at->motion);
+    for (int32_t q = 0; q < s * rows; ++q)
+        change = fmax(change, fabs(at->motion[q] - before[q]) * march->scales[q % rows]);
+    return change;
+}
+
+/* Solve for the films' forces at the nodes, in at->guess. */
+static int newton(rf_march *march, const rf_step_table *table, rf_scratch *at)
+{
+    const size_t size = (size_t)(march->scheme.stages * (march->rotor.channels - 2));
+    double before = HUGE_VAL;
+    int worst = RF_OK;
+    set_motion(march, table, at, at->motion);
+    for (int step = 0; step < NEWTON_STEPS; ++step) {
+        const int status = set_node_forces(march, at);
+        if (status >= RF_AT_WALL)
+            return status;
+        worst = status > worst ? status : worst;
+        set_equations(march, table, at);
+        march->jacobians += 1;
+        rf_eliminate(size, at->matrix, 1, at->right);
+        if (rf_is_broken(at->right, (int)size))
+            return RF_NOT_FINITE;
+        const double change = take_forces(march, table, at);
+        if (!(change < HUGE_CHANGE) || (step > 1 && change > before))
+            return RF_NOT_FINITE;
+        /* Where Newton's method contracts, what is left is less than the last change times the contraction. */
+        if (change * (step > 0 ? fmin(change / before, 1.0) : 1.0) < march->newton)
+            return worst;
+        before = change;
+    }
+    return RF_NOT_FINITE;
+}
+
+/* The largest motion that the gap between the force at the start and its polynomial makes, scaled. */
+static double local_error(const rf_march *march, const rf_step_table *table, rf_scratch *at)
+{
+    const int32_t s = march->scheme.stages, channels = march->rotor.channels, rows = march->rotor.rows;
+    double *gap = at->right, worst = 0.0;
+    for (int32_t c = 0; c < channels; ++c) {
+        gap[c] = at->start[c];
+        for (int32_t j = 0; j < s; ++j)
+            gap[c] -= march->scheme.lagrange[j * s] * at->guess[j * channels + c];
+    }
+    for (int32_t i = 0; i < s; ++i)
+        for (int32_t q = 0; q < rows; ++q) {
+            const double *defect = table->defect + (i * rows + q) * channels;
+            double total = 0.0;
+            for (int32_t c = 0; c < channels; ++c)
+                total += defect[c] * gap[c];
+            worst = fmax(worst, fabs(total) * march->scales[q]);
+        }
+    return worst;
+}
+
+int rf_try_step(rf_march *march, const rf_step_table *table, double h, double last, rf_scratch *at, double *error)
+{
+    const int32_t s = march->scheme.stages, channels = march->rotor.channels, rows = march->rotor.rows;
+    const int32_t modes = march->rotor.modes;
+    for (int32_t i = 0; i < s; ++i)
+        at->speed[i] = unbalance(&march->profile, fmin(march->time + h * march->scheme.nodes[i], last),
+                                 at->guess + i * channels + channels - 2);
+    for (int32_t m = 0; m < modes; ++m) {
+        at->both[m] = march->z[m].re;
+        at->both[modes + m] = march->z[m].im;
+    }
+    memset(at->free, 0, (size_t)(s * rows) * sizeof *at->free);
+    rf_add_product((size_t)(s * rows), 2 * (size_t)modes, 1.0, table->move, at->both, at->free);
+    const int status = newton(march, table, at);
+    *error = status >= RF_AT_WALL ? 0.0 : local_error(march, table, at) / march->rtol;
+    return status;
+}
+
+int rf_set_start(const rf_march *march, rf_scratch *at)
+{
+    const int32_t rows = march->rotor.rows, modes = march->rotor.modes, forces = march->rotor.channels - 2;
+    for (int32_t q = 0; q < rows; ++q) {
+        const rf_complex *sense = march->rotor.sense + q * modes;
+        double total = 0.0;
+        for (int32_t m = 0; m < modes; ++m)
+            total += sense[m].re * march->z[m].re - sense[m].im * march->z[m].im;
+        at->motion[q] = total;
+    }
+    const double w = unbalance(&march->profile, march->time, at->start + forces);
+    return rf_set_forces(&march->journals, at->motion, w, at->start, at->slope);
+}

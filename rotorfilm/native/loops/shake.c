@@ -1,0 +1,94 @@
+#include "shake.h"
+
+#include <math.h>
+
+#define NEWTON_STEPS 20
+#define TOLERANCE 1e-10     /* last Newton step, in clearances */
+#define NEAR 0.9999         /* eccentricity ratio from which Newton's method that does not end was led to the wall */
+#define SMALLEST_SHARE 1e-6 /* of a Newton step */
+
+/* Position, velocity and acceleration. */
+typedef struct point {
+    double q[2], v[2], a[2];
+} point;
+
+/* Let velocity and acceleration at the end of a step follow from the position there. */
+static void set_rates(const rf_shaken *rotor, const point *from, point *to)
+{
+    const double dt = rotor->step;
+    for (int i = 0; i < 2; ++i) {
+        const double moved = to->q[i] - from->q[i];
+        to->v[i] = 2.0 / dt * moved - from->v[i];
+        to->a[i] = 4.0 / (dt * dt) * (moved - dt * from->v[i]) - from->a[i];
+    }
+}
+
+/* Newton's step at the end of a time step, less the part of it that would leave less than a tenth of the gap;
+   its length before that in *change. */
+static int correct(rf_shaken *rotor, const point *from, const double *pull, point *to, double *change)
+{
+    const double dt = rotor->step, k1 = 2.0 / dt, k2 = 4.0 / (dt * dt), m = rotor->mass;
+    double f[2], D[10];
+    set_rates(rotor, from, to);
+    const double state[5] = {to->q[0], to->q[1], to->v[0], to->v[1], rotor->speed};
+    const int status = rotor->film(rotor->of, state, f, D);
+    rotor->calls += 1;
+    if (status > RF_OUTSIDE)
+        return status;
+    rotor->left_map |= status == RF_OUTSIDE;
+    const double rx = f[0] + pull[0] - m * to->a[0], ry = f[1] + pull[1] - m * to->a[1];
+    const double a = m * k2 - D[0] - k1 * D[2], b = -D[1] - k1 * D[3];
+    const double c = -D[5] - k1 * D[7], d = m * k2 - D[6] - k1 * D[8], det = a * d - b * c;
+    const double dx = (d * rx - b * ry) / det, dy = (a * ry - c * rx) / det;
+    const double gap = rotor->clearance - hypot(to->q[0], to->q[1]), limit = rotor->clearance - 0.1 * gap;
+    double share = 1.0;
+    while (hypot(to->q[0] + share * dx, to->q[1] + share * dy) > limit) {
+        share *= 0.5;
+        if (share < SMALLEST_SHARE)
+            return RF_AT_WALL;
+    }
+    to->q[0] += share * dx;
+    to->q[1] += share * dy;
+    *change = fabs(dx) + fabs(dy);
+    return isfinite(*change) ? RF_OK : RF_NOT_FINITE;
+}
+
+static int step(rf_shaken *rotor, const point *from, const double *pull, point *to)
+{
+    const double dt = rotor->step;
+    /* With its acceleration, since a cavitated film has no derivative at rest. */
+    for (int i = 0; i < 2; ++i)
+        to->q[i] = from->q[i] + dt * (from->v[i] + 0.5 * dt * from->a[i]);
+    if (hypot(to->q[0], to->q[1]) > 0.5 * (rotor->clearance + hypot(from->q[0], from->q[1])))
+        for (int i = 0; i < 2; ++i)
+            to->q[i] = from->q[i];
+    for (int n = 0; n < NEWTON_STEPS; ++n) {
+        double change;
+        const int status = correct(rotor, from, pull, to, &change);
+        if (status != RF_OK)
+            return status;
+        if (change < TOLERANCE * rotor->clearance) {
+            set_rates(rotor, from, to);
+            return RF_OK;
+        }
+    }
+    return hypot(to->q[0], to->q[1]) > NEAR * rotor->clearance ? RF_AT_WALL : RF_STUCK;
+}
+
+int rf_follow_shaken(rf_shaken *rotor, int64_t count, const double *pulls, double *motion)
+{
+    point now = {{motion[0], motion[1]}, {motion[2], motion[3]}, {pulls[0] / rotor->mass, pulls[1] / rotor->mass}};
+    for (int64_t n = 1; n <= count; ++n) {
+        point next;
+        const int status = step(rotor, &now, pulls + 2 * n, &next);
+        if (status != RF_OK)
+            return status;
+        rotor->done = n;
+        now = next;
+        for (int i = 0; i < 2; ++i) {
+            motion[4 * n + i] = now.q[i];
+            motion[4 * n + 2 + i] = now.v[i];
+        }
+    }
+    return RF_OK;
+}

@@ -1,0 +1,298 @@
+/* Whatever numbers a loop over films is given, it answers a status: no bad access, no leak, no not-a-number
+   with RF_OK. stress --loops GRID COUNT, GRID a file of numbers: length/diameter, flags, spans and grids. */
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "films/journal_kernel.h"
+#include "films/short_kernel.h"
+#include "grids/ring.h"
+#include "loops/march.h"
+#include "loops/ride.h"
+#include "loops/shake.h"
+#include "loops/springs.h"
+
+enum { STAGES = 2, JOURNALS = 2, MODES = 4, ROWS = 4 * JOURNALS, CHANNELS = 2 * JOURNALS + 2, SAMPLES = 9 };
+
+static uint64_t seed = 88172645463325252u;
+
+static double uniform(void)
+{
+    seed ^= seed << 13;
+    seed ^= seed >> 7;
+    seed ^= seed << 17;
+    return (double)(seed >> 11) / 9007199254740992.0;
+}
+
+/* A number of about this size, now and then one that is out of all bounds. */
+static double about(double size, double odd)
+{
+    static const double strange[] = {0.0, 1e300, -1e300, HUGE_VAL, -HUGE_VAL, NAN, 1e-300};
+    if (uniform() < odd)
+        return strange[(int)(uniform() * 7.0)];
+    return size * (2.0 * uniform() - 1.0);
+}
+
+static void fail(const char *what, double detail)
+{
+    fprintf(stderr, "%s (%.17g)\n", what, detail);
+    exit(1);
+}
+
+static void require_finite(const double *numbers, size_t count, const char *what)
+{
+    for (size_t k = 0; k < count; ++k)
+        if (!isfinite(numbers[k]))
+            fail(what, numbers[k]);
+}
+
+static double next_number(FILE *file)
+{
+    double number;
+    if (fscanf(file, "%lf", &number) != 1)
+        fail("the grid is too short", 0.0);
+    return number;
+}
+
+static double *numbers_of(FILE *file, size_t count)
+{
+    double *numbers = malloc(count * sizeof *numbers);
+    for (size_t k = 0; numbers && k < count; ++k)
+        numbers[k] = next_number(file);
+    if (!numbers)
+        fail("no memory", 0.0);
+    return numbers;
+}
+
+static void read_ring(const char *path, rf_ring *ring)
+{
+    FILE *file = fopen(path, "r");
+    if (!file)
+        fail(path, 0.0);
+    ring->slenderness = next_number(file);
+    ring->ruptured = next_number(file) != 0.0;
+    ring->clipped = next_number(file) != 0.0;
+    ring->pinned = next_number(file) != 0.0;
+    ring->extrapolated = next_number(file) != 0.0;
+    ring->spans = (int32_t)next_number(file);
+    ring->start = numbers_of(file, (size_t)ring->spans);
+    ring->extent = numbers_of(file, (size_t)ring->spans);
+    for (int level = 0; level < RF_LEVELS; ++level) {
+        rf_grid *grid = &ring->grids[level];
+        grid->lines = (size_t)next_number(file);
+        grid->nodes = (size_t)next_number(file);
+        double *span = numbers_of(file, grid->lines);
+        grid->line = numbers_of(file, grid->lines);
+        grid->face = numbers_of(file, grid->lines);
+        double *held = numbers_of(file, grid->lines);
+        grid->value = numbers_of(file, grid->lines);
+        grid->width = numbers_of(file, grid->nodes);
+        grid->conductance = numbers_of(file, grid->nodes);
+        int32_t *spans = malloc(grid->lines * sizeof *spans);
+        uint8_t *is_held = malloc(grid->lines);
+        for (size_t k = 0; spans && is_held && k < grid->lines; ++k) {
+            spans[k] = (int32_t)span[k];
+            is_held[k] = held[k] != 0.0;
+        }
+        grid->span = spans;
+        grid->held = is_held;
+        free(span);
+        free(held);
+    }
+    fclose(file);
+}
+
+static void free_ring(rf_ring *ring)
+{
+    free((void *)ring->start);
+    free((void *)ring->extent);
+    for (int level = 0; level < RF_LEVELS; ++level) {
+        const rf_grid *grid = &ring->grids[level];
+        const void *const all[] = {grid->span, grid->line, grid->face, grid->held,
+                                   grid->value, grid->width, grid->conductance};
+        for (size_t k = 0; k < sizeof all / sizeof *all; ++k)
+            free((void *)all[k]);
+    }
+}
+
+/* Films whose states may be anything, and what only ever sees journals off the wall. */
+static void try_ring(const rf_ring *ring)
+{
+    double e[2], w[2], f[2], jacobian[8];
+    for (int k = 0; k < 2; ++k) {
+        e[k] = about(1.0, 0.05);
+        w[k] = about(100.0, 0.05);
+    }
+    if (rf_ring_film(ring, e, w, f, uniform() < 0.5 ? jacobian : NULL) <= RF_OUTSIDE)
+        require_finite(f, 2, "force of a ring");
+    const double size = 0.95 * uniform() / fmax(1e-6, sqrt(2.0) * fmax(fabs(e[0]), fabs(e[1])));
+    const double inside[2] = {isfinite(size * e[0]) ? size * e[0] : 0.3, isfinite(size * e[1]) ? size * e[1] : 0.0};
+    const double source[2] = {about(100.0, 0.0), about(100.0, 0.0)};
+    double fine[2], coarse[2], J[RF_LEVELS], slope[2 * RF_LEVELS], side_flow;
+    size_t first;
+    if (rf_ring_pair(ring, 1, inside, source, fine, coarse, &first) == RF_OK)
+        require_finite(fine, 2, "pair of a ring");
+    if (rf_ring_potential(ring, inside, 1, source, J, slope, &first) == RF_OK)
+        require_finite(J, RF_LEVELS, "potential of a ring");
+    const rf_grid *grid = &ring->grids[0];
+    double *field = malloc((2 + grid->nodes) * grid->lines * sizeof *field);
+    if (field && rf_ring_field(ring, inside, source, field, field + grid->lines, field + 2 * grid->lines, &side_flow) == RF_OK)
+        require_finite(&side_flow, 1, "side flow of a ring");
+    free(field);
+}
+
+/* Two masses m on a spring and a damper in either direction: z' = lambda z - i f/(m Im lambda), x = Re z. */
+typedef struct masses {
+    rf_complex values[MODES], push[MODES * CHANNELS], sense[ROWS * MODES];
+} masses;
+
+static void set_masses(masses *of, double mass, double decay, double turn)
+{
+    memset(of, 0, sizeof *of);
+    for (int m = 0; m < MODES; ++m) {
+        const rf_complex value = {-decay, turn}, one = {1.0, 0.0}, push = {0.0, -1.0 / (mass * turn)};
+        of->values[m] = value;
+        of->push[m * CHANNELS + m] = push;
+        if (m < 2)
+            of->push[m * CHANNELS + 2 * JOURNALS + m].im = 1e-3 * push.im;
+        of->sense[(4 * (m / 2) + m % 2) * MODES + m] = one;
+        of->sense[(4 * (m / 2) + 2 + m % 2) * MODES + m] = value;
+    }
+}
+
+static const double NODES[] = {1.0 / 3.0, 1.0}, LAGRANGE[] = {1.5, -1.5, -0.5, 1.5}, REMAINDER[] = {1.0, -4.0, 3.0};
+
+static rf_step_table new_table(void)
+{
+    const size_t s = STAGES;
+    const rf_step_table table = {
+        calloc(s * ROWS * 2 * MODES, sizeof(double)),  calloc(s * s * ROWS * CHANNELS, sizeof(double)),
+        calloc(s * ROWS * CHANNELS, sizeof(double)),   calloc(MODES, sizeof(rf_complex)),
+        calloc(2 * MODES * s * CHANNELS, sizeof(double)),
+    };
+    return table;
+}
+
+static void free_table(const rf_step_table *table)
+{
+    free(table->move);
+    free(table->gain);
+    free(table->defect);
+    free(table->keep);
+    free(table->forced);
+}
+
+/* A march over `duration`; films that are springs without stiffness leave the closed form of free motion. */
+static void try_march(const rf_response *films, const void *const *of, int is_free, double odd)
+{
+    rf_step_table tables[RF_SLOTS + 1];
+    masses rotor;
+    double rest[ROWS] = {0.0}, spring[4] = {0.0}, damper[4] = {0.0}, lengths[] = {1e-4, 1e-4}, scales[ROWS];
+    const double walls[] = {1e-4, is_free ? HUGE_VAL : 1e-4}, duration = 0.02;
+    const double speeds[] = {about(300.0, odd), about(300.0, odd)}, times[] = {0.0, 0.5 * duration};
+    const double slopes[] = {(speeds[1] - speeds[0]) / times[1], 0.0};
+    const double angles[] = {0.0, 0.5 * times[1] * (speeds[0] + speeds[1])};
+    rf_complex z[MODES], begun[MODES], out[SAMPLES * MODES];
+    double grid[SAMPLES];
+    for (int k = 0; k <= RF_SLOTS; ++k)
+        tables[k] = new_table();
+    const double decay = 400.0 * uniform(), turn = 100.0 + 900.0 * uniform();
+    set_masses(&rotor, is_free ? 1.0 : 50.0 * uniform() + 0.1, decay, turn);
+    if (is_free)
+        memset(rotor.push, 0, sizeof rotor.push);
+    for (int q = 0; q < ROWS; ++q)
+        scales[q] = q % 4 < 2 ? 1e4 : 1e2;
+    for (int m = 0; m < MODES; ++m) {
+        z[m].re = begun[m].re = about(5e-5, odd);
+        z[m].im = begun[m].im = about(5e-5, odd);
+    }
+    for (int n = 0; n < SAMPLES; ++n)
+        grid[n] = duration * (n + 1) / SAMPLES;
+    rf_march march = {
+        {MODES, CHANNELS, ROWS, rotor.values, rotor.push, rotor.sense},
+        {STAGES, NODES, LAGRANGE, REMAINDER},
+        {JOURNALS, films, of, rest, spring, damper, lengths, walls},
+        {2, times, speeds, slopes, angles},
+        .scales = scales, .longest = duration / 3.0, .shortest = 1e-13 * duration,
+        .rtol = pow(10.0, -6.0 * uniform()), .newton = 1e-9, .tables = tables, .step = (int32_t)(20.0 * uniform()), .z = z,
+    };
+    memset(march.slot_of, -1, sizeof march.slot_of);
+    memset(march.step_of, -1, sizeof march.step_of);
+    int64_t place = 0;
+    int end = rf_march_to(&march, times[1], 400, grid, SAMPLES, &place, out);
+    if (end == RF_MARCH_DONE)
+        end = rf_march_to(&march, duration, 400, grid, SAMPLES, &place, out);
+    if (end < RF_MARCH_DONE || end > RF_MARCH_MEMORY || place > SAMPLES)
+        fail("end of a march", end);
+    if (end == RF_MARCH_DONE)
+        require_finite((const double *)out, 2 * MODES * (size_t)place, "samples of a march");
+    for (int n = 0; is_free && end == RF_MARCH_DONE && n < SAMPLES; ++n) {
+        const double size = exp(-decay * grid[n]), c = size * cos(turn * grid[n]), s = size * sin(turn * grid[n]);
+        if (!(fabs(out[n * MODES].re - (c * begun[0].re - s * begun[0].im)) < 1e-14))
+            fail("free motion", out[n * MODES].re);
+    }
+    if (is_free && odd == 0.0 && end != RF_MARCH_DONE)
+        fail("free motion must end", end);
+    for (int k = 0; k <= RF_SLOTS; ++k)
+        free_table(&tables[k]);
+}
+
+static void try_shaken(rf_response film, const void *of, double odd)
+{
+    enum { STEPS = 20 };
+    double pulls[2 * (STEPS + 1)], motion[4 * (STEPS + 1)] = {0.0};
+    for (int k = 0; k < 2 * (STEPS + 1); ++k)
+        pulls[k] = about(2000.0, odd);
+    motion[0] = about(9e-5, odd);
+    rf_shaken rotor = {film, of, fabs(about(50.0, odd)), about(300.0, odd), 1e-4, fabs(about(1e-3, odd)), 0, 0, 0};
+    const int status = rf_follow_shaken(&rotor, STEPS, pulls, motion);
+    if (rotor.done > STEPS || (status == RF_OK) != (rotor.done == STEPS))
+        fail("steps of a shaken rotor", (double)rotor.done);
+    require_finite(motion + 4, 4 * (size_t)rotor.done, "motion of a shaken rotor");
+}
+
+static void try_ride(double odd)
+{
+    enum { STEPS = 30 };
+    const double A[] = {-1.0, about(1.0, odd), about(1.0, odd), -2.0}, B[] = {1.0, 0.5}, C[] = {0.1, about(1.0, odd)};
+    const rf_ride_law law = {2, A, B, C, about(1.0, odd), 1.0, 1.0, 1.5, 0.2, 1.0};
+    double start[4], pushes[2 * STEPS + 1], out[4 * (STEPS + 1)];
+    for (int k = 0; k < 4; ++k)
+        start[k] = about(1.0, odd);
+    for (int k = 0; k <= 2 * STEPS; ++k)
+        pushes[k] = about(1.0, odd);
+    if (rf_ride(&law, start, 0.01, STEPS, pushes, out) != RF_OK)
+        fail("ride", 0.0);
+    if (odd == 0.0)
+        require_finite(out, 4 * (STEPS + 1), "ride");
+}
+
+static int plain(const void *of, const double *state, double *f, double *jacobian)
+{
+    return rf_journal_at(of, state, f, jacobian);
+}
+
+int stress_loops(const char *path, long count)
+{
+    rf_ring ring;
+    const rf_short thin = {1.44};
+    const double none[8] = {0.0};
+    read_ring(path, &ring);
+    const rf_journal journal = {rf_short_film, &thin, 1e-4, 0.4, 0.0, 0}, round = {rf_ring_film, &ring, 1e-4, 0.4, 0.0, 0};
+    const rf_sprung sprung = {plain, &journal, 1e6, 1};
+    for (long n = 0; n < count; ++n) {
+        const double odd = n % 2 ? 0.05 : 0.0;
+        const rf_response films[] = {plain, rf_sprung_at}, none_of[] = {rf_springs_at, rf_springs_at};
+        const void *const of[] = {n % 8 ? &journal : &round, &sprung}, *const nothing[] = {none, none};
+        try_ring(&ring);
+        try_march(none_of, nothing, 1, odd);
+        try_march(films, of, 0, odd);
+        try_shaken(rf_sprung_at, &sprung, odd);
+        try_shaken(plain, n % 8 ? &journal : &round, odd);
+        try_ride(odd);
+    }
+    free_ring(&ring);
+    return 0;
+}

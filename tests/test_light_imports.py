@@ -1,0 +1,78 @@
+"""What a first answer must not import: each path loads its own family and the packages that it needs."""
+
+import subprocess
+import sys
+
+import pytest
+
+import rotorfilm
+
+FAR = {"scipy", "control", "matplotlib", "fmpy", "pythonfmu", "xarray", "platformdirs"}
+"""Packages that none of these paths needs."""
+
+OTHER_PARTS = {"motion", "cosim", "comparisons", "charts", "sweeps", "questions", "rotors", "fmu", "cli"}
+OTHER_FAMILIES = {"bearings.damper", "bearings.contact", "bearings.bush"}
+TABLES = {"bearings.films.map_fit", "bearings.films.quintic", "bearings.journal.grooves.grooved_film"}
+"""What makes a map where there is none."""
+
+CALL = "import sys; sys.argv[1:] = {!r}; from rotorfilm.__main__ import main; main()"
+FORCE = """
+from rotorfilm import JournalBearing
+bearing = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
+bearing.force([3e-5, 0.0], [0.0, 0.0], 100.0)
+"""
+COEFFICIENTS = (
+    "coefficients --radius 50mm --length 30mm --clearance 0.1mm --viscosity 0.1 --load 300N --speed 100"
+)
+
+PATHS = {
+    "import": ("import rotorfilm", {"numpy", "rich"}, {"errors", "model", "bearings"}),
+    "version": (CALL.format(["--version"]), {"numpy", "rich"}, {"cli", "bearings"}),
+    "help": (CALL.format(["--help"]), {"rich"}, OTHER_PARTS - {"cli"} | {"bearings", "scenes", "linear"}),
+    "force": (FORCE, {"rich"}, OTHER_PARTS | OTHER_FAMILIES | TABLES | {"scenes", "linear"}),
+    "coefficients": (
+        CALL.format(COEFFICIENTS.split()),
+        {"rich.progress"},
+        OTHER_PARTS - {"cli"}
+        | OTHER_FAMILIES
+        | {"cli.chart_commands", "linear.whirl", "scenes.scene", *TABLES},
+    ),
+}
+
+
+def loaded_by(code):
+    """Return the names of all modules that a fresh Python has after it ran some code."""
+    told = "import atexit, sys; atexit.register(lambda: sys.stderr.write('\\n'.join(sys.modules)))\n"
+    done = subprocess.run([sys.executable, "-c", told + code], capture_output=True, text=True, check=True)
+    return set(done.stderr.split())
+
+
+@pytest.mark.parametrize(("code", "packages", "parts"), PATHS.values(), ids=PATHS)
+def test_a_light_path_imports_no_other_family(code, packages, parts):
+    loaded = loaded_by(code)
+    assert "rotorfilm" in loaded
+    assert not loaded & (FAR | packages | {f"rotorfilm.{part}" for part in parts})
+
+
+def test_the_list_of_modules_is_seen():
+    assert {"numpy", "rotorfilm.bearings.damper", "rotorfilm.linear"} <= loaded_by(
+        "from rotorfilm import PorousDamper, equilibrium"
+    )
+
+
+def test_names_load_from_the_module_that_holds_them():
+    loaded = loaded_by("from rotorfilm import HalfSommerfeld")
+    assert "rotorfilm.bearings.films.cavitation" in loaded
+    assert "rotorfilm.bearings.journal" not in loaded
+
+
+def test_a_function_hides_the_module_of_its_name():
+    code = "import rotorfilm.linear.whirl, rotorfilm.linear as a; print(a.equilibrium, a.coefficients)"
+    code += "; assert callable(a.equilibrium) and callable(rotorfilm.equilibrium)"
+    assert "rotorfilm.linear.equilibrium" in loaded_by(code)
+
+
+def test_a_package_lists_its_public_names_only():
+    assert dir(rotorfilm) == sorted(rotorfilm.__all__)
+    assert {"JournalBearing", "equilibrium", "InputError", "export_fmu"} < set(dir(rotorfilm))
+    assert not {"TYPE_CHECKING", "annotations", "show", "tension"} & set(dir(rotorfilm))
