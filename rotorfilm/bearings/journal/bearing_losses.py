@@ -2,21 +2,52 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...errors import require_inside
 from ...model import Array
 from ...results import BearingLosses
-from ..films.law import FilmOptions, options
+from ..films.geometry import FilmGeometry
+from ..films.law import FilmLaw, FilmOptions, options
 
-if TYPE_CHECKING:
-    from .bearing import JournalBearing
+
+class _Bearing(Protocol):
+    """What losses need to know of a bearing: see `JournalBearing`."""
+
+    @property
+    def radius(self) -> float: ...
+
+    @property
+    def length(self) -> float: ...
+
+    @property
+    def clearance(self) -> float: ...
+
+    @property
+    def viscosity(self) -> float: ...
+
+    @property
+    def supply_pressure(self) -> float: ...
+
+    @property
+    def slenderness(self) -> float: ...
+
+    @property
+    def geometry(self) -> FilmGeometry: ...
+
+    @property
+    def fitted_film(self) -> FilmLaw: ...
+
+    def kinematics(self, position: Array, velocity: Array, speed: Array) -> tuple[Array, Array]: ...
+
+    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
 
 
 def bearing_losses(
-    bearing: JournalBearing, position: Array, velocity: Array, speed: Array, *, full_gap: bool = False
+    bearing: _Bearing, position: Array, velocity: Array, speed: Array, *, full_gap: bool = False
 ) -> BearingLosses | None:
     """Return what the film takes from the shaft, and the oil that runs through it.
 
@@ -72,12 +103,12 @@ def bearing_losses(
     )
 
 
-def has_losses(bearing: JournalBearing) -> bool:
+def has_losses(bearing: _Bearing) -> bool:
     """Return whether the film law of a bearing has losses."""
     return type(options(bearing.fitted_film, FilmOptions)).losses is not FilmOptions.losses
 
 
-def _supplied(bearing: JournalBearing, flow: Array) -> Array:
+def _supplied(bearing: _Bearing, flow: Array) -> Array:
     """Return the flow of those openings that are supplied; one that touches another counts as that."""
     held = [opening.held for opening in bearing.geometry.openings()]
     return flow[np.array(held) > 0.0] if len(held) == len(flow) else flow
