@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import InitVar, dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,6 +46,11 @@ class BearingLosses:
     side_flow: float | Array
     inflow: Array
     arriving: Array
+
+
+@runtime_checkable
+class _Lossy(Protocol):
+    def losses(self, position: Array, velocity: Array, speed: float) -> BearingLosses | None: ...
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,8 +101,10 @@ class Equilibrium:
 
         None for a reaction that is no film, or one whose film law does not know them.
         """
-        tell = getattr(vars(self)["_reaction"], "losses", None)
-        return None if tell is None else tell(self.position, np.zeros(2), self.speed)
+        reaction = vars(self)["_reaction"]
+        if not isinstance(reaction, _Lossy):
+            return None
+        return reaction.losses(self.position, np.zeros(2), self.speed)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,4 +1,4 @@
-"""Reactions that leave the temperature of their film to the balance of its heat, and what others make of them."""
+"""Reactions that leave the temperature of their film to the balance of its heat."""
 
 from __future__ import annotations
 

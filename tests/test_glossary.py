@@ -39,6 +39,7 @@ SEVERAL_UNITS = {
     "a stage is published without dimensions": {"times"},
     "of a journal it turns, of a ball it rolls": {"speed"},
     "of an arc it is an angle, of a run a time": {"start"},
+    "into a cage it is a velocity, out of a groove a flow": {"inflow"},
     "of a groove it is an angle, of a disk a length": {"width"},
     "of a rotor it is a damper, of a shaft's material a time": {"internal_damping"},
     "of a tilt spring it is a moment per angle": {"stiffness", "damping"},

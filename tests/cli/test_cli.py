@@ -71,7 +71,7 @@ def test_coefficients_are_those_of_the_book(run):
 
 def test_coefficients_say_what_the_film_leaves_out(run):
     (remark,) = json.loads(run(*coefficients(), "--json")[1])["remarks"]
-    assert remark.startswith("heat: the oil warms by about 52 K")
+    assert remark.startswith("heat: the oil warms by about 48 K")
     assert "left out" in run(*coefficients())[1]
 
 

@@ -127,4 +127,4 @@ def test_answer_is_plain_json():
 
 def test_what_the_physics_leaves_out_is_in_the_answer_without_a_question():
     answer = bundled_scene().describe()
-    assert any(remark.startswith("heat: the oil warms by about 52 K") for remark in answer.remarks)
+    assert any(remark.startswith("heat: the oil warms by about 48 K") for remark in answer.remarks)

@@ -114,7 +114,7 @@ def film_shear(chi: float, ends: Array, weight: Array) -> tuple[float, float]:
     image = -last + 2.0 * np.pi * np.ceil((2.0 * last) / (2.0 * np.pi))
     image = np.clip(image, last, back)
     thickness = 1.0 + chi * np.cos(last)
-    shares = 0.0
+    shares = np.zeros_like(last)
     for start, end in ((last, image), (image, back)):
         full = 1.0 + chi * np.cos(0.5 * (start + end)) <= thickness
         streamer = thickness * (squared_integral(chi, end) - squared_integral(chi, start))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,28 +15,45 @@ from ..films.law import FilmLaw, FilmOptions, options
 
 
 class LossyBearing(Protocol):
-    """What of a `JournalBearing` its losses follow from."""
-
-    radius: Any
-    length: Any
-    clearance: Any
-    supply_pressure: Any
+    """What losses need to know of a bearing: see `JournalBearing`."""
 
     @property
-    def slenderness(self) -> float: ...
+    def radius(self) -> float:
+        """Bearing radius [m]."""
 
     @property
-    def film_viscosity(self) -> float: ...
+    def length(self) -> float:
+        """Axial length [m]."""
 
     @property
-    def fitted_film(self) -> FilmLaw: ...
+    def clearance(self) -> float:
+        """Radial clearance [m]."""
 
     @property
-    def geometry(self) -> FilmGeometry: ...
+    def film_viscosity(self) -> float:
+        """Dynamic viscosity of the film [Pa s]."""
 
-    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
+    @property
+    def supply_pressure(self) -> float:
+        """Gauge pressure in the grooves [Pa]."""
 
-    def kinematics(self, position: Array, velocity: Array, speed: Array) -> tuple[Array, Array]: ...
+    @property
+    def slenderness(self) -> float:
+        """Length / diameter [1]."""
+
+    @property
+    def geometry(self) -> FilmGeometry:
+        """Pads, grooves and supply."""
+
+    @property
+    def fitted_film(self) -> FilmLaw:
+        """The film law in this geometry."""
+
+    def kinematics(self, position: Array, velocity: Array, speed: Array) -> tuple[Array, Array]:
+        """Return eccentricity and source of the film laws."""
+
+    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+        """Return the force on the journal [N]."""
 
 
 def bearing_losses(

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from .tables import Keyed, Quantity, Table, TableList, keyed, twice_of
+from .tables import Quantity, Table, TableList, TableType, keyed, twice_of
 
 
-def quantity_of(table: type | Keyed[Any], path: Sequence[str]) -> Quantity | None:
+def quantity_of(table: TableType[Any], path: Sequence[str]) -> Quantity | None:
     """Return the reader of a key, given by its parts; None where it is none of a `Quantity`."""
     if not path:
         return None

@@ -167,7 +167,7 @@ def test_tables_are_within_their_error_of_the_two_dimensional_film(slenderness):
     e, w = states(40, 0.95, seed=7)
     table, grid = (film.losses(e, w, slenderness) for film in (MapFilm(), ReynoldsFilm(cells=(384, 24))))
     # Film, film with streamers, flow, the last as far as the grid knows it in a long bearing.
-    pairs = ("shear_film", 5e-4, 2e-3), ("shear", 2e-4, 2e-3), ("side_flow", 6e-4, 1e-3)
+    pairs = ("shear_film", 5e-4, 1e-3), ("shear", 5e-5, 2e-4), ("side_flow", 6e-4, 1e-3)
     for name, median, most in pairs:
         error = np.abs(getattr(table, name) / getattr(grid, name) - 1.0)
         assert np.median(error) < median, name
@@ -325,7 +325,7 @@ def test_batches_are_their_states():
 
 
 def test_a_loss_table_is_its_bytes():
-    nodes = np.exp(np.random.default_rng(0).normal(0.0, 0.1, (3, 1, 8, 7)))
+    nodes = np.exp(np.random.default_rng(0).normal(0.0, 0.001, (3, 1, 8, 7)))
     nodes[:, :, :2] = 1.0
     table = fit_loss_table(nodes, slenderness_range=(0.5, 0.5), largest_eccentricity_ratio=0.9)
     again = LossTable.from_bytes(table.to_bytes())

@@ -120,7 +120,7 @@ class BalancedBearing(StaticReaction):
             )
         if status == Status.OUTSIDE and not table.coldest <= temperature <= table.hottest:
             warn_user(
-                f"temperature should be from {table.coldest:g} to {table.hottest:g} K, where the viscosity is "
+                f"temperature should be from {table.coldest:g} to {table.hottest:g} K, where the oil is "
                 f"tabulated, got {temperature:.6g} K"
             )
             return

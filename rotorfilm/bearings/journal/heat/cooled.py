@@ -10,15 +10,12 @@ from ....native.loss_kernels import LossKernel
 from ....signals import Signal
 from ...films.kernel_film import BoundKernel
 from ...oil import Cooling, Oil
+from ..bearing_losses import LossyBearing
 from .heat_balance import FilmHeat
 
 
-class Cooled(Protocol):
+class Cooled(LossyBearing, Protocol):
     """What a bearing with an oil and cooling offers; `JournalBearing` is one."""
-
-    radius: Any
-    length: Any
-    clearance: Any
 
     @property
     def cooled(self) -> tuple[Oil, Cooling]:

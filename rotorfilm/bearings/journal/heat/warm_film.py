@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,13 +12,13 @@ from ....errors import InputError
 from ....model import Array
 from ....native.loss_kernels import LossKernel
 from ....results import BearingLosses
-from ....signals import Signal
 from ...films.kernel_film import BoundKernel
 from ...films.law import FilmOptions, options
 from ...oil import Cooling, Oil
 from ...reaction import broadcast_state
-from ..bearing_losses import LossyBearing, bearing_losses
+from ..bearing_losses import bearing_losses
 from .balanced_bearing import BalancedBearing
+from .cooled import Cooled
 from .heat_balance import (
     Dimensions,
     FilmAt,
@@ -31,31 +31,19 @@ from .heat_balance import (
 from .heated_bearing import HeatedBearing
 
 
-class _Bearing(LossyBearing, Protocol):
-    """What of a journal bearing its heat follows from."""
-
-    oil: Any
-    cooling: Any
+class _Bearing(Cooled, Protocol):
+    """What `WarmFilm` is mixed into."""
 
     @property
-    def inputs(self) -> tuple[Signal, ...]: ...
+    def oil(self) -> Oil | None: ...
 
     @property
-    def outputs(self) -> tuple[Signal, ...]: ...
-
-    def film_heat(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> FilmHeat: ...
-
-    def heat_jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array: ...
-
-    def film_at_unit_viscosity(self) -> tuple[BoundKernel, LossKernel] | None: ...
+    def cooling(self) -> Cooling | None: ...
 
     @property
     def in_balance(self) -> BalancedBearing | None: ...
 
-    @property
-    def cooled(self) -> tuple[Oil, Cooling]: ...
-
-    def at_temperature(self, temperature: float) -> Any: ...
+    def heat_jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array: ...
 
     def losses(
         self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool | None = None

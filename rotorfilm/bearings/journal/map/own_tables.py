@@ -19,6 +19,7 @@ from ...films.map_table import MapTable
 
 if TYPE_CHECKING:
     from ..extrapolated_film import ExtrapolatedFilm
+    from ..reynolds_film import ReynoldsFilm
 
 OWN_RANGE = (0.001, 20.0)
 """Length/diameter for which a table can be made; beyond, the layers at the ends get too thin for the grid."""
