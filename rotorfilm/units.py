@@ -6,9 +6,8 @@ import math
 import re
 from dataclasses import dataclass, field
 
-from .errors import InputError
+from .errors import InputError, brief
 from .limits import MAGNITUDE
-from .printable import brief
 
 STANDARD_GRAVITY = 9.80665
 """Standard acceleration of gravity [m/s2], by definition."""

@@ -27,7 +27,6 @@ LEAVES = [
     "ladders",
     "files",
     "limits",
-    "printable",
 ]
 LAYERS = [
     LEAVES,

@@ -10,8 +10,8 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
+from ..errors import visible
 from ..limits import CHART_STATES, CONTACT_CELLS, TRANSITS
-from ..printable import visible
 from ..progress import Report, part_of
 from ..results import write_csv
 from . import printing as console

@@ -7,8 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from ..errors import InputError
-from ..printable import brief
+from ..errors import InputError, brief
 from ..progress import Report
 from ..units import whole_number
 from . import printing as console

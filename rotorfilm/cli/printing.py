@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..printable import visible
+from ..errors import visible
 from ..units import CELSIUS
 
 if TYPE_CHECKING:

@@ -7,9 +7,8 @@ from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
-from ..errors import InputError
+from ..errors import InputError, brief
 from ..limits import SWEEP_POINTS
-from ..printable import brief
 from ..progress import Report
 from ..units import whole_number
 from . import printing as console

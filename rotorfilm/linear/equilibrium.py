@@ -9,7 +9,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq
 
 from ..errors import (
     EquilibriumError,
@@ -129,6 +128,8 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
         at = equilibrium(bearing.balanced(), load, speed)
         temperature = bearing.balanced_temperature(at.position, np.zeros(2), speed)
         return replace(at, temperature=temperature, reaction=bearing.at_temperature(temperature))
+    from scipy.optimize import brentq
+
     warmed: dict[float, tuple[Equilibrium, float]] = {}
 
     def excess(temperature: float) -> float:

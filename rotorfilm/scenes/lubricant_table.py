@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 from ..bearings.oil import Cooling, Oil
-from ..errors import InputError, SceneError, require_non_negative, require_positive
-from ..printable import brief
+from ..errors import InputError, SceneError, brief, require_non_negative, require_positive
 from ..units import CELSIUS
 from .reading.tables import Quantity
 
@@ -150,7 +149,7 @@ class LubricantTable:
             ambient_temperature=self.ambient_temperature,
             housing_conductance=self.housing_conductance,
             carry_over=self.carry_over,
-            heat_capacity=self.bush_heat_capacity,
+            bush_heat_capacity=self.bush_heat_capacity,
         )
 
     @property

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from ..errors import SceneError, require_positive
-from ..printable import brief
+from ..errors import SceneError, brief, require_positive
 from .reading.spelling import nearest
 from .reading.tables import Quantity, text
 

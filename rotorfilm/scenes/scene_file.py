@@ -7,9 +7,8 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from ..errors import SceneError
+from ..errors import SceneError, brief, shortened
 from ..limits import LINE_DOTS, SCENE_BYTES
-from ..printable import brief, shortened
 from .reading.tables import require_no_near_miss
 from .schema import SCHEMA
 

@@ -249,9 +249,8 @@ class JournalBearing(Feedthrough, WarmFilm):
     def native(self) -> NativeSpec | None:
         """Return the kernel of the C library that is this bearing; None if its film has none.
 
-        Nor has a subclass, which may differ from it. Its parameters are the dimensions and the viscosity;
-        radius and length may change as long as length / diameter stays within the table of the film. With
-        pads or grooves that is one of a single length / diameter: radius and length then are fixed.
+        Nor has a subclass. Its parameters are the dimensions and the viscosity; radius and length may change
+        as long as length / diameter stays within the table of the film, and are fixed with openings.
         """
         found = self._options.native(self.slenderness) if type(self) is JournalBearing else None
         if found is None:

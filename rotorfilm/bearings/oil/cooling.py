@@ -31,7 +31,7 @@ class Cooling:
     carry_over : float [1]
         Share of the oil arriving at an opening that goes on into the next film, 0 to 1; without openings it
         has no part.
-    heat_capacity : float or None [J/K]
+    bush_heat_capacity : float or None [J/K]
         Of the bush, and of what of housing and shaft warms with it. None for a steel ring to `RING` times the
         radius.
     full_gap : bool
@@ -49,12 +49,12 @@ class Cooling:
     ambient_temperature: float | None = None
     housing_conductance: float = 0.0
     carry_over: float = 0.8
-    heat_capacity: float | None = None
+    bush_heat_capacity: float | None = None
     full_gap: bool = False
 
     def __post_init__(self) -> None:
         require_positive("supply_temperature", self.supply_temperature)
-        for name in ("ambient_temperature", "heat_capacity"):
+        for name in ("ambient_temperature", "bush_heat_capacity"):
             if getattr(self, name) is not None:
                 require_positive(name, getattr(self, name))
         require_non_negative("housing_conductance", self.housing_conductance)
@@ -78,6 +78,6 @@ class Cooling:
 
     def capacity(self, radius: float, length: float) -> float:
         """Return the heat capacity of bush and housing [J/K] of a bearing of these dimensions [m]."""
-        if self.heat_capacity is not None:
-            return self.heat_capacity
+        if self.bush_heat_capacity is not None:
+            return self.bush_heat_capacity
         return STEEL * math.pi * (RING**2 - 1.0) * radius**2 * length

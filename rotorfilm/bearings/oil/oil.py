@@ -134,7 +134,7 @@ class Oil:
         **further
             Further fields of the oil.
         """
-        law = Exponential(value=viscosity, temperature=temperature, rate=thinning)
+        law = Exponential(value=viscosity, temperature=temperature, decay=thinning)
         return cls(law=law, **further)  # type: ignore[arg-type]
 
     @classmethod

@@ -41,7 +41,7 @@ class ViscosityLaw(Protocol):
 
 @dataclass(frozen=True, kw_only=True)
 class Walther:
-    """Walther's law as in ASTM D341: lg lg(nu + 0.7) = intercept - slope lg T, nu in mm2/s, T in K.
+    """Walther's law as in ASTM D341: lg lg(nu + 0.7) = intercept - steepness lg T, nu in mm2/s, T in K.
 
     The dynamic viscosity is nu times the density of a mineral oil at the same temperature. The law is meant
     for kinematic viscosities above `LEAST_KINEMATIC`; below, ASTM D341 has further terms.
@@ -49,18 +49,19 @@ class Walther:
     Parameters
     ----------
     intercept : float [1]
-    slope : float [1]
+        lg lg(nu + 0.7) where lg T is 0.
+    steepness : float [1]
         How steeply the viscosity falls, positive.
     density : float [kg/m3]
         At 15 degrees Celsius.
     """
 
     intercept: float
-    slope: float
+    steepness: float
     density: float
 
     def __post_init__(self) -> None:
-        require_each(self, require_positive, "intercept", "slope", "density")
+        require_each(self, require_positive, "intercept", "steepness", "density")
 
     @classmethod
     def through(cls, first: tuple[float, float], second: tuple[float, float], density: float) -> Walther:
@@ -80,8 +81,8 @@ class Walther:
                 f"{thick:g} m2/s at {cold:g} K and {thin:g} m2/s at {warm:g} K"
             )
         high, low = (math.log10(math.log10(1e6 * nu + _OFFSET)) for nu in (thick, thin))
-        slope = (high - low) / math.log10(warm / cold)
-        return cls(intercept=high + slope * math.log10(cold), slope=slope, density=density)
+        steepness = (high - low) / math.log10(warm / cold)
+        return cls(intercept=high + steepness * math.log10(cold), steepness=steepness, density=density)
 
     def kinematic(self, temperature: ArrayLike) -> Array:
         """Return the kinematic viscosity [m^2/s] at temperatures [K], of their shape."""
@@ -96,60 +97,62 @@ class Walther:
         T = np.asarray(temperature, dtype=float)
         lg = self._lg(T)
         shifted = 10.0**lg
-        falling = shifted / (shifted - _OFFSET) * math.log(10.0) * lg * self.slope / T
+        falling = shifted / (shifted - _OFFSET) * math.log(10.0) * lg * self.steepness / T
         return np.asarray(falling + EXPANSION / relative_density(T))
 
     def _lg(self, temperature: ArrayLike) -> Array:
         """Return lg(nu + 0.7)."""
         T = np.asarray(temperature, dtype=float)
-        return np.asarray(10.0 ** (self.intercept - self.slope * np.log10(T)))
+        return np.asarray(10.0 ** (self.intercept - self.steepness * np.log10(T)))
 
 
 @dataclass(frozen=True, kw_only=True)
 class Exponential:
-    """viscosity exp(-rate (T - temperature)): one measured point and how fast the oil thins.
+    """viscosity exp(-decay (T - temperature)): one measured point and how fast the oil thins.
 
     Parameters
     ----------
     value : float [Pa s]
         Dynamic viscosity at the temperature.
     temperature : float [K]
-    rate : float [1/K]
+    decay : float [1/K]
         -d ln(viscosity)/d temperature, the same at all temperatures; 0 for an oil that does not thin.
     """
 
     value: float
     temperature: float
-    rate: float
+    decay: float
 
     def __post_init__(self) -> None:
         require_each(self, require_positive, "value", "temperature")
-        require_non_negative("rate", self.rate)
+        require_non_negative("decay", self.decay)
 
     def viscosity(self, temperature: ArrayLike) -> Array:
         """Return the dynamic viscosity [Pa s]; see `ViscosityLaw`."""
         warmer = np.asarray(temperature, dtype=float) - self.temperature
-        return np.asarray(self.value * np.exp(-self.rate * warmer))
+        return np.asarray(self.value * np.exp(-self.decay * warmer))
 
     def thinning(self, temperature: ArrayLike) -> Array:
         """Return -d ln(viscosity)/d temperature [1/K]; see `ViscosityLaw`."""
-        return np.full(np.shape(temperature), self.rate)
+        return np.full(np.shape(temperature), self.decay)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Vogel:
-    """factor exp(slope/(T - origin)): a fit that costs one exponential.
+    """factor exp(activation/(T - origin)): a fit that costs one exponential.
 
     Parameters
     ----------
     factor : float [Pa s]
-    slope : float [K]
+        Viscosity at endless temperature.
+    activation : float [K]
+        How steeply the viscosity falls.
     origin : float [K]
         Temperature at which the viscosity of the law has no bound, below that of the oil.
     """
 
     factor: float
-    slope: float
+    activation: float
     origin: float
 
     @classmethod
@@ -170,15 +173,17 @@ class Vogel:
             raise InputError(f"viscosity must fall ever more slowly for a Vogel fit, got {law!r}")
         q = falls[0] / falls[1] * (T[2] - T[1]) / (T[1] - T[0])
         origin = float((q * T[0] - T[2]) / (q - 1.0))
-        slope = float(falls[0] / (1.0 / (T[0] - origin) - 1.0 / (T[1] - origin)))
-        return cls(factor=float(np.exp(ln[0] - slope / (T[0] - origin))), slope=slope, origin=origin)
+        activation = float(falls[0] / (1.0 / (T[0] - origin) - 1.0 / (T[1] - origin)))
+        return cls(
+            factor=float(np.exp(ln[0] - activation / (T[0] - origin))), activation=activation, origin=origin
+        )
 
     def viscosity(self, temperature: ArrayLike) -> Array:
         """Return the dynamic viscosity [Pa s]; see `ViscosityLaw`."""
         T = np.asarray(temperature, dtype=float)
-        return np.asarray(self.factor * np.exp(self.slope / (T - self.origin)))
+        return np.asarray(self.factor * np.exp(self.activation / (T - self.origin)))
 
     def thinning(self, temperature: ArrayLike) -> Array:
         """Return -d ln(viscosity)/d temperature [1/K]; see `ViscosityLaw`."""
         T = np.asarray(temperature, dtype=float)
-        return np.asarray(self.slope / (T - self.origin) ** 2)
+        return np.asarray(self.activation / (T - self.origin) ** 2)

@@ -8,7 +8,6 @@ import numpy as np
 
 from ...native.heated_kernel import OilTable
 from ...units import CELSIUS
-from ..films.quintic import quintic_coefficients
 from .oil import Oil
 
 RANGE = (CELSIUS - 20.0, CELSIUS + 200.0)
@@ -21,5 +20,7 @@ CELLS = 110
 @lru_cache(maxsize=64)
 def viscosity_table(oil: Oil) -> OilTable:
     """Return ln viscosity of an oil over `RANGE`."""
+    from ..films.quintic import quintic_coefficients
+
     nodes = np.linspace(*RANGE, CELLS + 1)
     return OilTable(quintic_coefficients(np.log(oil.viscosity(nodes))), *RANGE)

@@ -19,9 +19,8 @@ from ...bearings.bush import (
     SharedMelting,
     f4k20_bush,
 )
-from ...errors import SceneError
+from ...errors import SceneError, brief
 from ...limits import WORN_NODES
-from ...printable import brief
 from ..reading.readers import Count, Named
 from ..reading.shared_fields import made_from
 from ..reading.tables import Quantity, choose

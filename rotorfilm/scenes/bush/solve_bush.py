@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ...bearings.bush import BushContact, BushWear, MeltingBush, f4k20_bush
-from ...errors import InputError
-from ...printable import brief
+from ...errors import InputError, brief
 from ...units import parse_quantity
 
 SETTINGS: dict[str, tuple[str, str]] = {

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 from ...bearings.contact import BallSupport, ContactGrid, PointContact, RollingBall, reduce_ball
-from ...errors import InputError, SceneError, require_non_negative
+from ...errors import InputError, SceneError, brief, require_non_negative
 from ...limits import CONTACT_CELLS, LAW_STATES
-from ...printable import brief
 from ..reading.readers import Count
 from ..reading.shared_fields import made_from
 from ..reading.tables import Quantity, flag

@@ -9,9 +9,8 @@ from ...bearings import journal
 from ...bearings.films.cavitation import Complementarity, FullFilm, HalfSommerfeld
 from ...bearings.films.geometry import Groove, Pad
 from ...bearings.films.law import FilmLaw
-from ...errors import SceneError
+from ...errors import SceneError, brief
 from ...limits import FILM_CELLS, FUNCTIONS, MAP_NODES
-from ...printable import brief
 from ..reading.readers import Count, Counts
 from ..reading.tables import Keyed, Quantity, Variant, flag
 

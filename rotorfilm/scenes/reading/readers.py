@@ -7,9 +7,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ...errors import SceneError
+from ...errors import SceneError, brief
 from ...linear.equilibrium import UNLOADED
-from ...printable import brief
 from .tables import Quantity, choose
 
 

@@ -6,8 +6,7 @@ import difflib
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from ...errors import SceneError
-from ...printable import shortened
+from ...errors import SceneError, shortened
 
 _SIMILAR = 0.4
 """Similarity, of 1, from which a known key is worth a hint."""

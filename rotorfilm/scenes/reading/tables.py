@@ -9,9 +9,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any, Generic, NamedTuple, TypeVar, get_type_hints
 
-from ...errors import InputError, SceneError
+from ...errors import InputError, SceneError, brief, shortened
 from ...limits import TEXT
-from ...printable import brief, shortened
 from ...units import parse_quantity
 from .spelling import nearest, require_no_near_miss
 

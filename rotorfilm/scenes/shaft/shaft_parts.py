@@ -8,9 +8,8 @@ from typing import Annotated, Any
 
 from ...bearings.journal import JournalBearing
 from ...bearings.linear import LinearBearing
-from ...errors import InputError, SceneError
+from ...errors import InputError, SceneError, brief
 from ...limits import SHAFT_ELEMENTS
-from ...printable import brief
 from ...rotors import (
     Coupling,
     Disk,

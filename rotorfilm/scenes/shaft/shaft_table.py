@@ -8,10 +8,9 @@ from typing import Annotated
 
 import numpy as np
 
-from ...errors import InputError, require_positive
+from ...errors import InputError, brief, require_positive
 from ...limits import SHAFT_ELEMENTS, SPEEDS, require_at_most
 from ...model import Array, Reaction
-from ...printable import brief
 from ...rotors import (
     Beam,
     ClassicalBeam,

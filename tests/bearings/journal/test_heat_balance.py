@@ -136,7 +136,7 @@ def test_relaxed_derivatives_are_those_of_rebalanced_forces(film):
 
 
 def test_over_time_the_bearing_comes_to_the_balance():
-    bearing = demo(cooling=replace(COOLING, heat_capacity=5.0))
+    bearing = demo(cooling=replace(COOLING, bush_heat_capacity=5.0))
     running = bearing.in_time()
     u = np.concatenate([AT[0], AT[1], [SPEED]])
     end = solve_ivp(lambda t, x: running.derivative(t, x, u), (0.0, 60.0), running.initial_state, rtol=1e-9)

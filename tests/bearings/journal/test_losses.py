@@ -19,8 +19,9 @@ from rotorfilm.bearings.journal import (
     ShortFilm,
     SplittingFilm,
 )
+from rotorfilm.bearings.journal.map.loss_fit import fit_loss_table
 from rotorfilm.bearings.journal.map.loss_nodes import node_losses
-from rotorfilm.bearings.journal.map.loss_table import LossTable, fit_loss_table, packaged_losses
+from rotorfilm.bearings.journal.map.loss_table import LossTable, packaged_losses
 from rotorfilm.errors import FilmContactError, InputError, RotorfilmError
 from rotorfilm.linear import equilibrium
 

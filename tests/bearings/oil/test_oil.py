@@ -40,7 +40,7 @@ def test_a_grade_is_its_kinematic_viscosity_at_40_degrees(grade):
     [
         Oil.iso_vg(46).law,
         Vogel.fitted(Oil.iso_vg(46).law),
-        Exponential(value=0.04, temperature=313.0, rate=0.03),
+        Exponential(value=0.04, temperature=313.0, decay=0.03),
     ],
 )
 def test_thinning_is_the_derivative(law):
@@ -58,7 +58,7 @@ def test_a_vogel_fit_is_within_a_thousandth():
 
 def test_a_vogel_fit_of_an_oil_that_thins_evenly_is_refused():
     with pytest.raises(InputError, match="ever more slowly"):
-        Vogel.fitted(Exponential(value=0.04, temperature=313.0, rate=0.03))
+        Vogel.fitted(Exponential(value=0.04, temperature=313.0, decay=0.03))
 
 
 def test_the_table_of_a_kernel_is_the_law():

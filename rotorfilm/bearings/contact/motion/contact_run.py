@@ -9,8 +9,7 @@ from time import monotonic
 
 import numpy as np
 
-from ....errors import ConvergenceError, InputError
-from ....printable import shortened
+from ....errors import ConvergenceError, InputError, shortened
 from ..film.film_equations import ContactEquations
 from ..film.stationary import HERTZ_LOAD
 from .contact_state import ContactRun, ContactState, state_of

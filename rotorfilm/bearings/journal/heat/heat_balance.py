@@ -23,7 +23,6 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq
 
 from ....errors import ConvergenceError, InputError
 from ....model import Array
@@ -193,6 +192,7 @@ def fed_temperature(heat: Callable[[float], FilmHeat], oil: Oil, cooling: Coolin
     oil : Oil
     cooling : Cooling
     """
+    from scipy.optimize import brentq
 
     def surplus(temperature: float) -> float:
         return heat_surplus(heat(temperature), oil, cooling, temperature)[0]
