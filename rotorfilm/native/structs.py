@@ -103,6 +103,19 @@ class RingStruct(ctypes.Structure):
     ]
 
 
+class StencilStruct(ctypes.Structure):
+    """rf_stencil of stencil.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("lines", c_size_t),
+        ("nodes", c_size_t),
+        ("around", c_void_p),
+        ("along", c_void_p),
+        ("source", c_void_p),
+        ("held", c_void_p),
+    ]
+
+
 class RideStruct(ctypes.Structure):
     """rf_ride_law of ride.h."""
 
