@@ -210,6 +210,50 @@ class Reaction(Model, Protocol):
         """Return d(force_x, force_y)/d(x, y, vx, vy, speed), shape (2, 5, ...)."""
 
 
+@runtime_checkable
+class Warming(Protocol):
+    """A Reaction that may leave the temperature of its film to the balance of its heat."""
+
+    @property
+    def is_warming(self) -> bool:
+        """Whether it does; then it has no force of its own."""
+
+    @property
+    def coldest(self) -> float:
+        """Temperature [K] below which the balance is never found."""
+
+    def at_temperature(self, temperature: float) -> Any:
+        """Return the reaction at one temperature of the film [K]."""
+
+    def balanced_temperature(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> float:
+        """Return the temperature [K] at which the heat of the film balances at one state.
+
+        Parameters
+        ----------
+        position, velocity : array_like, shape (2,) [m], [m/s]
+        speed : float [rad/s]
+        """
+
+
+def is_warming(reaction: Reaction) -> bool:
+    """Return whether a reaction leaves the temperature of its film to the balance of its heat."""
+    return isinstance(reaction, Warming) and reaction.is_warming
+
+
+def settled(reaction: Reaction, position: ArrayLike, speed: float) -> Any:
+    """Return a reaction at the temperature that its film has with the journal at rest; any other as it is.
+
+    Parameters
+    ----------
+    reaction : Reaction
+    position : array_like, shape (2,) [m]
+    speed : float [rad/s]
+    """
+    if not (isinstance(reaction, Warming) and reaction.is_warming):
+        return reaction
+    return reaction.at_temperature(reaction.balanced_temperature(position, np.zeros(2), speed))
+
+
 class Force(Protocol):
     """A force for plain numbers."""
 

@@ -40,6 +40,8 @@ class Equilibrium:
         |film force + load| / |load|.
     iterations : int
         Newton steps taken.
+    temperature : float or None [K]
+        Of the film, where it follows from the balance of its heat.
     """
 
     position: Array
@@ -50,6 +52,7 @@ class Equilibrium:
     minimum_film: float
     residual: float
     iterations: int
+    temperature: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -13,6 +13,9 @@ from .printable import brief
 STANDARD_GRAVITY = 9.80665
 """Standard acceleration of gravity [m/s2], by definition."""
 
+CELSIUS = 273.15
+"""0 degrees Celsius [K], by definition."""
+
 _INCH = 0.0254
 _POUND_FORCE = 0.45359237 * STANDARD_GRAVITY
 
@@ -27,10 +30,13 @@ class Unit:
         Value of one unit in SI base units.
     exponents : dict of str to int
         Power of each SI base unit; absent means zero.
+    zero : float
+        What the unit's own zero is in SI base units; not 0 of a temperature scale only.
     """
 
     factor: float
     exponents: dict[str, int] = field(default_factory=dict)
+    zero: float = 0.0
 
 
 UNITS: dict[str, Unit] = {
@@ -66,6 +72,11 @@ UNITS: dict[str, Unit] = {
     "J/(kg.K)": Unit(1.0, {"m": 2, "s": -2, "K": -1}),
     "W/(m.K)": Unit(1.0, {"kg": 1, "m": 1, "s": -3, "K": -1}),
     "W/(m2.K)": Unit(1.0, {"kg": 1, "s": -3, "K": -1}),
+    "W/K": Unit(1.0, {"kg": 1, "m": 2, "s": -3, "K": -1}),
+    "W": Unit(1.0, {"kg": 1, "m": 2, "s": -3}),
+    "J/K": Unit(1.0, {"kg": 1, "m": 2, "s": -2, "K": -1}),
+    "m2/s": Unit(1.0, {"m": 2, "s": -1}),
+    "m3/s": Unit(1.0, {"m": 3, "s": -1}),
 }
 """The SI units of signals, by their FMI spelling."""
 
@@ -96,6 +107,12 @@ DISPLAY_UNITS: dict[str, Unit] = {
     "kPa": Unit(1e3, {"kg": 1, "m": -1, "s": -2}),
     "bar": Unit(1e5, {"kg": 1, "m": -1, "s": -2}),
     "cP": Unit(1e-3, {"kg": 1, "m": -1, "s": -1}),
+    "cSt": Unit(1e-6, {"m": 2, "s": -1}),
+    "mm2/s": Unit(1e-6, {"m": 2, "s": -1}),
+    "l/min": Unit(1e-3 / 60.0, {"m": 3, "s": -1}),
+    "kW": Unit(1e3, {"kg": 1, "m": 2, "s": -3}),
+    "kJ/K": Unit(1e3, {"kg": 1, "m": 2, "s": -2, "K": -1}),
+    "degC": Unit(1.0, {"K": 1}, zero=CELSIUS),
     "in": Unit(_INCH, {"m": 1}),
     "lbf": Unit(_POUND_FORCE, {"kg": 1, "m": 1, "s": -2}),
     "psi": Unit(_POUND_FORCE / _INCH**2, {"kg": 1, "m": -1, "s": -2}),
@@ -108,13 +125,13 @@ DISPLAY_UNITS: dict[str, Unit] = {
 
 _QUANTITY = re.compile(r"^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
 
-_MICRO = str.maketrans({"\N{MICRO SIGN}": "u", "\N{GREEK SMALL LETTER MU}": "u"})
-"""Both signs of micro that keyboards have."""
+_MICRO = str.maketrans({"\N{MICRO SIGN}": "u", "\N{GREEK SMALL LETTER MU}": "u", "\N{DEGREE SIGN}": "deg"})
+"""Both signs of micro that keyboards have, and that of degrees."""
 
 _NOT_FINITE = re.compile(r"^\s*[-+]?(?:nan|inf|infinity)\b", re.IGNORECASE)
 
 
-def parse_quantity(text: str | float, unit: str) -> float:
+def parse_quantity(text: str | float, unit: str, *, absolute: bool = False) -> float:
     """Return a quantity in SI.
 
     Parameters
@@ -123,6 +140,8 @@ def parse_quantity(text: str | float, unit: str) -> float:
         A plain number in `unit`, or a number with its unit, as `"0.1 mm"` or `"1500 rpm"`.
     unit : str
         The SI unit that the quantity must have, a key of `UNITS`.
+    absolute : bool
+        Whether a temperature is one, which may be given in degC, and not a difference of two.
 
     Raises
     ------
@@ -144,9 +163,12 @@ def parse_quantity(text: str | float, unit: str) -> float:
         exponents = UNITS[unit].exponents
         fitting = sorted(known for known, other in DISPLAY_UNITS.items() if other.exponents == exponents)
         raise InputError(f"unit must be one of {', '.join(fitting)}, got {brief(name)} in {brief(text)}")
-    if DISPLAY_UNITS[name].exponents != UNITS[unit].exponents:
+    found = DISPLAY_UNITS[name]
+    if found.exponents != UNITS[unit].exponents:
         raise InputError(f"quantity must be measured in {unit} or a multiple of it, got {brief(text)}")
-    return _sensible(float(match[1]) * DISPLAY_UNITS[name].factor, text)
+    if found.zero and not absolute:
+        raise InputError(f"quantity must be a difference in {unit}, which has no zero, got {brief(text)}")
+    return _sensible(float(match[1]) * found.factor + found.zero, text)
 
 
 def whole_number(text: str) -> int | None:

@@ -75,7 +75,7 @@ def bearing_rows(bearing: BearingData) -> list[tuple[str, str]]:
     size = f"R {bearing.radius * 1e3:.6g} mm, L {bearing.length * 1e3:.6g} mm, L/D {bearing.slenderness:.6g}"
     rows = [
         ("bearing", f"{size}, c {bearing.clearance * 1e6:.6g} um"),
-        ("viscosity", f"{bearing.viscosity:.6g} Pa s"),
+        ("viscosity", f"{bearing.film_viscosity:.6g} Pa s"),
     ]
     rows += [("groove", f"{_degrees(one.center)}, {_degrees(one.width)} wide") for one in bearing.grooves]
     rows += [("pad", f"from {_degrees(one.start)} over {_degrees(one.extent)}") for one in bearing.pads]

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_number
-from ..model import Reaction
+from ..model import Reaction, settled
 from ..results import Coefficients
 
 
@@ -16,7 +16,8 @@ def coefficients(reaction: Reaction, position: ArrayLike, speed: float) -> Coeff
     Parameters
     ----------
     reaction : Reaction
-        The film; F is its force on the journal.
+        The film; F is its force on the journal. A film whose temperature is left to its heat balance is
+        frozen at that of the position: in vibration bush, shaft and film keep it.
     position : array_like, shape (2,) [m]
         Journal center from the bearing center, an equilibrium or not.
     speed : float [rad/s]
@@ -35,7 +36,7 @@ def coefficients(reaction: Reaction, position: ArrayLike, speed: float) -> Coeff
     speed = require_number("speed", speed)
     if position.shape != (2,):
         raise InputError(f"position must have shape (2,), got shape {position.shape}")
-    derivative = reaction.jacobian(position, np.zeros(2), speed)
+    derivative = settled(reaction, position, speed).jacobian(position, np.zeros(2), speed)
     return Coefficients(
         stiffness=-derivative[:, :2],
         damping=-derivative[:, 2:4],

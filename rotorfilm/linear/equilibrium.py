@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 import warnings
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.optimize import brentq
 
 from ..errors import (
     EquilibriumError,
@@ -17,7 +19,7 @@ from ..errors import (
     require_finite,
     require_number,
 )
-from ..model import Array, Reaction, Tangent, prepared_tangent
+from ..model import Array, Reaction, Tangent, Warming, prepared_tangent
 from ..results import Equilibrium
 
 MAXIMUM_ECCENTRICITY = 0.9999
@@ -29,6 +31,7 @@ UNLOADED = (
 """Why a load of zero has no equilibrium."""
 
 _TOLERANCE = 1e-12
+_KELVIN = 1e-9
 _ROUNDOFF_STOP = 1e-13
 _NEWTON_STEPS = 60
 _LARGEST_S = math.log(MAXIMUM_ECCENTRICITY / (1.0 - MAXIMUM_ECCENTRICITY))
@@ -72,7 +75,8 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     Parameters
     ----------
     reaction : Reaction
-        The film; it need not be isotropic.
+        The film; it need not be isotropic. If its temperature is left to the balance of its heat, that is
+        found with the position.
     load : array_like, shape (2,) [N]
         External static force on the journal, weight included; film force + load = 0.
     speed : float [rad/s]
@@ -101,6 +105,8 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     """
     load = checked_load(load)
     speed = require_number("speed", speed)
+    if isinstance(reaction, Warming) and reaction.is_warming:
+        return _warm(reaction, load, speed)
     wanted_x, wanted_y = (-load).tolist()
     target = _Target(prepared_tangent(reaction), reaction.clearance, speed, wanted_x, wanted_y)
     with warnings.catch_warnings():
@@ -110,6 +116,28 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     if best.norm > _tolerance(best.s):
         raise EquilibriumError(_why_not(load, speed, best))
     return _result(reaction, load, target, best)
+
+
+def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
+    """Return the equilibrium at the temperature at which the heat balances.
+
+    A warmer film is thinner and leaks more: the temperature of the balance falls while that of the film
+    rises, so that there is one root, between the coldest film and what that one warms to.
+    """
+    warmed: dict[float, tuple[Equilibrium, float]] = {}
+
+    def excess(temperature: float) -> float:
+        at = equilibrium(bearing.at_temperature(temperature), load, speed)
+        balanced = bearing.balanced_temperature(at.position, np.zeros(2), speed)
+        warmed[temperature] = at, balanced
+        return balanced - temperature
+
+    low = bearing.coldest
+    rise = excess(low)
+    if rise > 0.0:
+        low = brentq(excess, low, low + rise, xtol=_KELVIN, rtol=8.9e-16)
+    at, _ = warmed[low]
+    return replace(at, temperature=low, iterations=sum(one.iterations for one, _ in warmed.values()))
 
 
 def checked_load(load: ArrayLike) -> Array:

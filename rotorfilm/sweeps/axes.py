@@ -14,9 +14,9 @@ import numpy as np
 
 from ..errors import InputError, SceneError
 from ..limits import SWEEP_POINTS, require_at_most
-from ..scenes.reading.tables import unit_of
+from ..scenes.reading.tables import Quantity, quantity_of
 from ..scenes.scene import Scene, read_scene
-from ..units import UNITS, parse_quantity, whole_number
+from ..units import UNITS, whole_number
 
 Values = Sequence[Any] | tuple[str, Sequence[Any]]
 """Values of a key, a dimension of their own; or (dimension, values), to share it as samples do."""
@@ -47,12 +47,12 @@ class Axis:
 
     def coordinate(self) -> tuple[list[Any], str]:
         """Return the values as numbers in SI with their unit, or as text where they are no quantities."""
-        known = unit_of(Scene, self.key.split("."))
+        known = quantity_of(Scene, self.key.split("."))
         if known is None and all(_is_number(value) for value in self.values):
             return list(self.values), ""
-        for unit in UNITS if known is None else (known,):
+        for reader in map(Quantity, UNITS) if known is None else (known,):
             with contextlib.suppress(InputError):
-                return [parse_quantity(value, unit) for value in self.values], unit
+                return [reader.parse(value) for value in self.values], reader.unit
         return [str(value) for value in self.values], ""
 
 

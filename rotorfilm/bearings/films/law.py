@@ -18,8 +18,9 @@ from typing import NamedTuple, Protocol, TypeVar, cast, runtime_checkable
 
 import numpy as np
 
-from ...errors import ConvergenceError, FilmContactError, UndefinedDerivativeError
+from ...errors import ConvergenceError, FilmContactError, InputError, UndefinedDerivativeError
 from ...model import Array
+from .film_losses import FilmLosses
 from .geometry import FilmGeometry
 
 CENTER = 1e-8
@@ -111,6 +112,12 @@ class FilmOptions:
     def tabulated(self, slenderness: float) -> FilmLaw | None:
         """Return this law with the table that it would make on first use; None if it makes none."""
         return None
+
+    def losses(self, eccentricity: Array, source: Array, slenderness: float) -> FilmLosses:
+        """Return shear and flow of the film at states as in `FilmLaw.force`; InputError if it knows none."""
+        raise InputError(
+            f"film must be one with losses for heat, such as a MapFilm, got {type(self).__name__}"
+        )
 
 
 Kind = TypeVar("Kind")

@@ -23,9 +23,12 @@ from ...signals import Signal, force_outputs, journal_inputs
 from ..films.bound_law import BoundLaw, kinematics
 from ..films.geometry import FilmGeometry, Groove, Pad
 from ..films.law import BoundFilm, FilmLaw, FilmOptions, options
+from ..oil import Cooling, Oil
+from ..oil.lubricant import film_viscosity, require_lubricant
 from ..reaction import NOMINAL_SPEED, Feedthrough, broadcast_state
 from .fitting import fitted_film
-from .journal_kernel import NATIVE_PARAMETERS, journal_spec
+from .heat.warm_film import WarmFilm
+from .journal_kernel import journal_spec
 from .map.map_film import MapFilm
 
 CLEARANCE_RATIOS = (1e-5, 2e-2)
@@ -33,7 +36,7 @@ CLEARANCE_RATIOS = (1e-5, 2e-2)
 
 
 @dataclass(frozen=True, kw_only=True)
-class JournalBearing(Feedthrough):
+class JournalBearing(Feedthrough, WarmFilm):
     """A cylindrical journal bearing, full unless it has pads or grooves: a Reaction and a static Model.
 
     x and y are Cartesian from the bearing center, rotation is about +z, the force acts on the journal.
@@ -46,8 +49,16 @@ class JournalBearing(Feedthrough):
         Axial length.
     clearance : float [m]
         Radial clearance, much smaller than the radius.
-    viscosity : float [Pa s]
-        Dynamic viscosity of the lubricant.
+    viscosity : float or None [Pa s]
+        Dynamic viscosity of the lubricant, the same at all temperatures; None where `oil` is given.
+    oil : Oil or None
+        The lubricant by its viscosity over temperature, in place of `viscosity`.
+    temperature : float or None [K]
+        Of the film, where the oil is given: force and derivatives are those of its viscosity there. None
+        leaves it to the heat balance, with `cooling`: then `equilibrium` finds it with the position, and a
+        force of its own the bearing has only by `at_temperature`.
+    cooling : Cooling or None
+        What takes the heat away; needed for a heat balance only.
     film : FilmLaw
         The film law, by default `MapFilm()`: Reynolds rupture, with grooves and pads at ambient pressure
         too. Exchangeable by `dataclasses.replace`.
@@ -61,9 +72,10 @@ class JournalBearing(Feedthrough):
     Raises
     ------
     InputError
-        If a dimension or the viscosity is not finite and positive, the clearance is not below the radius,
-        openings overlap, there is a supply without a groove, or the film cannot represent length/diameter,
-        pads or grooves.
+        If a dimension or the viscosity is not finite and positive, not exactly one of viscosity and oil is
+        given, an oil has neither temperature nor cooling, the clearance is not below the radius, openings
+        overlap, there is a supply without a groove, or the film cannot represent length/diameter, pads or
+        grooves.
 
     Warns
     -----
@@ -81,14 +93,18 @@ class JournalBearing(Feedthrough):
     radius: float
     length: float
     clearance: float
-    viscosity: float
+    viscosity: float | None = None
+    oil: Oil | None = None
+    temperature: float | None = None
+    cooling: Cooling | None = None
     film: FilmLaw = field(default_factory=MapFilm)
     pads: tuple[Pad, ...] = ()
     grooves: tuple[Groove, ...] = ()
     supply_pressure: float = 0.0
 
     def __post_init__(self) -> None:
-        require_each(self, require_positive, "radius", "length", "clearance", "viscosity")
+        require_each(self, require_positive, "radius", "length", "clearance")
+        require_lubricant(self.viscosity, self.oil, self.temperature, self.cooling)
         if self.clearance >= self.radius:
             raise InputError(f"clearance must be below the radius {self.radius!r}, got {self.clearance!r}")
         require_kind("film", self.film, FilmLaw, "a film law with force and jacobian")
@@ -126,14 +142,28 @@ class JournalBearing(Feedthrough):
         return self.length / (2.0 * self.radius)
 
     @property
+    def film_viscosity(self) -> float:
+        """Dynamic viscosity of the film [Pa s]; that of fresh oil where its temperature is not stated."""
+        return film_viscosity(self.viscosity, self.oil, self.temperature, self.cooling)
+
+    @property
+    def is_warming(self) -> bool:
+        """Whether the temperature of the film is left to the heat balance."""
+        return self.oil is not None and self.temperature is None
+
+    def at_temperature(self, temperature: float) -> JournalBearing:
+        """Return this bearing with a film of one temperature [K]; raises InputError if it has no oil."""
+        return replace(self, temperature=temperature)
+
+    @property
     def force_scale(self) -> float:
         """Viscosity * length * radius^3 / clearance^2 [N s], the film's unit of force per 1/s."""
-        return self.viscosity * self.length * self.radius**3 / self.clearance**2
+        return self.film_viscosity * self.length * self.radius**3 / self.clearance**2
 
     @property
     def pressure_scale(self) -> float:
         """12 viscosity radius^2 / clearance^2 [Pa s], the film's unit of pressure per 1/s."""
-        return 12.0 * self.viscosity * (self.radius / self.clearance) ** 2
+        return 12.0 * self.film_viscosity * (self.radius / self.clearance) ** 2
 
     @cached_property
     def geometry(self) -> FilmGeometry:
@@ -245,7 +275,8 @@ class JournalBearing(Feedthrough):
         kernel, tables = found
         if self.supply_pressure > 0.0:
             tables = {**tables, "pressure_unit": np.array([self.pressure_scale])}
-        dimensions = {name: float(getattr(self, name)) for name, _, _ in NATIVE_PARAMETERS}
+        lengths = {name: float(getattr(self, name)) for name in ("radius", "length", "clearance")}
+        dimensions = {**lengths, "viscosity": self.film_viscosity}
         return journal_spec(kernel, tables, dimensions, fixed=not self.geometry.plain)
 
     def portable(self) -> JournalBearing:
@@ -256,7 +287,12 @@ class JournalBearing(Feedthrough):
 
     @cached_property
     def bound_film(self) -> BoundFilm:
-        """The film law tied to the dimensions of this bearing."""
+        """The film law tied to the dimensions of this bearing; InputError without a stated temperature."""
+        if self.is_warming:
+            raise InputError(
+                "temperature must be stated for a force of a bearing with oil, got None: "
+                "bearing.at_temperature(T) has one, and equilibrium(bearing, ...) tells T"
+            )
         slenderness, clearance, force_scale = self.slenderness, self.clearance, self.force_scale
         in_c = self._options.bind(slenderness=slenderness, clearance=clearance, force_scale=force_scale)
         return in_c or BoundLaw(

@@ -107,7 +107,7 @@ def _dimensional(bearing: JournalBearing, field: FilmField, e: Array, v: Array, 
     force = bearing.force_scale * field.force
     pressure = bearing.pressure_scale * field.pressure
     pull = e[0] * field.force[1] - e[1] * field.force[0]
-    torque = bearing.viscosity * R**3 * b / c * (speed * field.shear + 0.5 * pull)
+    torque = bearing.film_viscosity * R**3 * b / c * (speed * field.shear + 0.5 * pull)
     return FilmState(
         force=force,
         force_extrapolated=bearing.force_scale * field.force_extrapolated,

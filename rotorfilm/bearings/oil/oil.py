@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_each, require_kind, require_positive
 from ...model import Array
-from .viscosity import CELSIUS, Exponential, ViscosityLaw, Walther, relative_density
+from ...units import CELSIUS
+from .viscosity import Exponential, ViscosityLaw, Walther, relative_density
 
 GRADES = {22: 4.3, 32: 5.36, 46: 6.76, 68: 8.73, 100: 11.4, 150: 15.0, 220: 19.4, 320: 24.9}
-"""Kinematic viscosity at 100 degrees Celsius [mm2/s] of paraffinic oils of viscosity index 95 to 100, by their
-ISO 3448 grade, which is that at 40 degrees Celsius. Good to 5 %; the grade itself says nothing of it."""
+"""Kinematic viscosity at 100 degrees Celsius [mm2/s] of paraffinic oils of viscosity index 95 to 100, by
+their ISO 3448 grade, which is that at 40 degrees Celsius. Good to 5 %; the grade itself says nothing of
+it."""
 
 DENSITY = 870.0
 """Density of a mineral oil at 15 degrees Celsius [kg/m3]."""
@@ -68,7 +70,7 @@ class Oil:
 
     @classmethod
     def iso_vg(cls, grade: int, **further: float) -> Oil:
-        """Return a mineral oil of an ISO viscosity grade; its second point, at 100 degrees Celsius, is assumed.
+        """Return a mineral oil of an ISO viscosity grade, its viscosity at 100 degrees Celsius assumed.
 
         Parameters
         ----------
@@ -85,15 +87,11 @@ class Oil:
         if grade not in GRADES:
             known = ", ".join(str(name) for name in GRADES)
             raise InputError(f"grade must be one of {known}, got {grade!r}: give two points of viscosity")
-        oil = cls.two_points((40.0 + CELSIUS, 1e-6 * grade), (100.0 + CELSIUS, 1e-6 * GRADES[grade]), **further)
-        second = f"kinematic viscosity of ISO VG {grade} at 100 degC: {GRADES[grade]:g} mm2/s, +-5 %"
-        return cls(
-            law=oil.law,
-            reference_density=oil.reference_density,
-            fixed_heat_capacity=oil.fixed_heat_capacity,
-            conductivity=oil.conductivity,
-            assumed=(second,),
+        oil = cls.two_points(
+            (40.0 + CELSIUS, 1e-6 * grade), (100.0 + CELSIUS, 1e-6 * GRADES[grade]), **further
         )
+        second = f"kinematic viscosity of ISO VG {grade} at 100 degC: {GRADES[grade]:g} mm2/s, +-5 %"
+        return replace(oil, assumed=(second,))
 
     @classmethod
     def two_points(

@@ -11,9 +11,7 @@ from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_each, require_non_negative, require_positive
 from ...model import Array
-
-CELSIUS = 273.15
-"""0 degrees Celsius [K]."""
+from ...units import CELSIUS
 
 EXPANSION = 0.00064
 """Fall of an oil's density per kelvin, of its density at 15 degrees Celsius [1/K]."""
@@ -155,9 +153,7 @@ class Vogel:
     origin: float
 
     @classmethod
-    def fitted(
-        cls, law: ViscosityLaw, at: tuple[float, float, float] = (313.15, 343.15, 373.15)
-    ) -> Vogel:
+    def fitted(cls, law: ViscosityLaw, at: tuple[float, float, float] = (313.15, 343.15, 373.15)) -> Vogel:
         """Return the law that has another one's viscosities at three temperatures [K].
 
         Within 0.1 % of an ISO grade between them.

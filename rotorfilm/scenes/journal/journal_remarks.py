@@ -100,7 +100,7 @@ def journal_numbers(
     conductivity). Between an eccentricity ratio of `SLIGHT` and the center one passes into the other with the
     square of the ratio, since power/flow grows as its inverse.
     """
-    R, c, mu, omega = bearing.radius, bearing.clearance, bearing.viscosity, abs(speed)
+    R, c, mu, omega = bearing.radius, bearing.clearance, bearing.film_viscosity, abs(speed)
     kinematic = mu / oil.density
     volumetric = oil.density * oil.heat_capacity
     peclet = omega * c**2 * volumetric / oil.conductivity
@@ -135,7 +135,7 @@ def film_loss(bearing: JournalBearing, speed: float, load: tuple[float, float]) 
     Not-a-number, all three, where that film has no answer under the load.
     """
     R, L, c = bearing.radius, bearing.length, bearing.clearance
-    drag = bearing.viscosity * speed * R**3 * L / c
+    drag = bearing.film_viscosity * speed * R**3 * L / c
     concentric = 2.0 * math.pi * drag * speed, 0.0, 0.0
     if not speed or not any(load):
         return concentric

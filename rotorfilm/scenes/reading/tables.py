@@ -35,10 +35,13 @@ class Quantity:
         SI unit, a key of `rotorfilm.units.UNITS`.
     twice : str
         Another key that may give twice the value instead, as `diameter` for `radius`; empty for none.
+    absolute : bool
+        Whether it is a temperature, in K or degC, and not a difference.
     """
 
     unit: str
     twice: str = ""
+    absolute: bool = False
 
     def __call__(self, where: str, value: Any) -> float:
         """Return the value in SI; raise SceneError if it is no such quantity."""
@@ -47,9 +50,13 @@ class Quantity:
                 f"{where} must be a number or a string such as '1 {self.unit}', got {brief(value)}"
             )
         try:
-            return parse_quantity(value, self.unit)
+            return self.parse(value)
         except InputError as error:
             raise SceneError(f"{where}: {error}") from None
+
+    def parse(self, value: str | float) -> float:
+        """Return the value in SI; raise InputError if it is no such quantity."""
+        return parse_quantity(value, self.unit, absolute=self.absolute)
 
 
 class Keyed(NamedTuple, Generic[T]):
@@ -232,8 +239,8 @@ def _as_written(name: str, reader: Reader, values: Mapping[str, Any]) -> str:
     return f" [{reader.unit}{written}]"
 
 
-def unit_of(table: type | Keyed[Any], path: Sequence[str]) -> str | None:
-    """Return the SI unit of a key, given by its parts; None where its reader is none of a `Quantity`."""
+def quantity_of(table: type | Keyed[Any], path: Sequence[str]) -> Quantity | None:
+    """Return the reader of a key, given by its parts; None where it is none of a `Quantity`."""
     if not path:
         return None
     first, *rest = path
@@ -241,10 +248,10 @@ def unit_of(table: type | Keyed[Any], path: Sequence[str]) -> str | None:
     doubled = {_twice(reader): reader for reader in readers.values()}
     reader = readers.get(first) or doubled.get(first)
     if isinstance(reader, Quantity):
-        return None if rest else reader.unit
+        return None if rest else reader
     if isinstance(reader, Table):
-        return unit_of(reader.table, rest)
-    return unit_of(reader.table, rest[1:]) if isinstance(reader, TableList) else None
+        return quantity_of(reader.table, rest)
+    return quantity_of(reader.table, rest[1:]) if isinstance(reader, TableList) else None
 
 
 def keyed(table: type[T] | Keyed[T]) -> Keyed[T]:

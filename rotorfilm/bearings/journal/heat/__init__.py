@@ -1,1 +1,1 @@
-"""Journal films that warm: from one temperature to the temperature over and across the film."""
+"""Heat of a journal's film: what takes it away, its balance, and the temperature over and across the film."""

@@ -1,0 +1,107 @@
+"""Shear and flow of a film: what decides its power loss, its torques and the oil that leaves it.
+
+The torque on the journal is viscosity omega R^3 L/c times a shear integral Sigma = int int alpha/H dtheta
+dzeta, 0 < zeta < 1 along the length, plus (E x F)_z/2. A full film has alpha = 1. Behind its end the oil runs
+in streamers between both walls, with the thickness H_r at which the film ended: alpha = min(1, H_r/H). The
+side flow is c R L times the source over the film, w . int int n dtheta dzeta with H = 1 - e . n, for nothing
+crosses the free ends. Sigma depends on the direction of the source alone; the flow grows with it.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...model import Array
+
+
+class FilmLosses(NamedTuple):
+    """Shear and flow of films, dimensionless.
+
+    Attributes
+    ----------
+    shear_film : ndarray, shape (...) [1]
+        Sigma of the film that carries pressure.
+    shear_streamers : ndarray, shape (...) [1]
+        Sigma of the streamers in the ruptured zone.
+    shear_gap : ndarray, shape (...) [1]
+        Sigma of a gap that is full all round, but for the openings.
+    side_flow : ndarray, shape (...) [1/s]
+        Flow out of both ends of the film / (clearance radius length), without that straight out of openings.
+    inflow : ndarray, shape (openings, ...) [1/s]
+        Oil that leaves each opening into the films beside it, of the same unit; openings in the order of
+        `FilmGeometry.openings`.
+    arriving : ndarray, shape (openings, ...) [1/s]
+        Oil that comes to each opening from the films and streamers beside it.
+    slopes : ndarray, shape (3, 4, ...), or None
+        Derivatives of shear_film, shear_streamers and side_flow by (eccentricity, source); None where the
+        film law has none. Not-a-number where the source vanishes.
+    """
+
+    shear_film: Array
+    shear_streamers: Array
+    shear_gap: Array
+    side_flow: Array
+    inflow: Array
+    arriving: Array
+    slopes: Array | None = None
+
+    @property
+    def shear(self) -> Array:
+        """Sigma of film and streamers [1], shape (...)."""
+        return self.shear_film + self.shear_streamers
+
+
+def full_gap_shear(eccentricity_ratio: Array) -> Array:
+    """Return Sigma of a gap that is full all round, 2 pi/sqrt(1 - chi^2)."""
+    return np.asarray(2.0 * np.pi / np.sqrt((1.0 - eccentricity_ratio) * (1.0 + eccentricity_ratio)))
+
+
+def gap_integral(chi: float, angle: Array) -> Array:
+    """Return the integral of 1/(1 + chi cos t) from 0 to an angle of any size."""
+    turns = np.round(angle / (2.0 * np.pi))
+    rest = 0.5 * (angle - 2.0 * np.pi * turns)
+    root = np.sqrt((1.0 - chi) * (1.0 + chi))
+    bent = np.arctan2(np.sqrt((1.0 - chi) / (1.0 + chi)) * np.sin(rest), np.cos(rest))
+    return np.asarray(2.0 / root * (bent + np.pi * turns))
+
+
+def squared_integral(chi: float, angle: Array) -> Array:
+    """Return the integral of 1/(1 + chi cos t)^2 from 0 to an angle of any size."""
+    edge = chi * np.sin(angle) / (1.0 + chi * np.cos(angle))
+    return np.asarray((gap_integral(chi, angle) - edge) / ((1.0 - chi) * (1.0 + chi)))
+
+
+def film_shear(chi: float, ends: Array, weight: Array) -> tuple[float, float]:
+    """Return Sigma of a film between two ends, and of the streamers behind the second one.
+
+    Parameters
+    ----------
+    chi : float [1]
+        Eccentricity ratio.
+    ends : ndarray, shape (2, Q) [rad]
+        Where the film begins and ends, from the line of maximum film in the direction in which the oil runs.
+    weight : ndarray, shape (Q,)
+        Axial weights.
+    """
+    first, last = ends
+    film = gap_integral(chi, last) - gap_integral(chi, first)
+    back = first + 2.0 * np.pi
+    # Only where the thickness is again that of the end do streamers fill the gap, or no longer.
+    image = -last + 2.0 * np.pi * np.ceil((2.0 * last) / (2.0 * np.pi))
+    image = np.clip(image, last, back)
+    thickness = 1.0 + chi * np.cos(last)
+    shares = 0.0
+    for start, end in ((last, image), (image, back)):
+        full = 1.0 + chi * np.cos(0.5 * (start + end)) <= thickness
+        streamer = thickness * (squared_integral(chi, end) - squared_integral(chi, start))
+        shares = shares + np.where(full, gap_integral(chi, end) - gap_integral(chi, start), streamer)
+    return float(weight @ film), float(weight @ shares)
+
+
+def film_flow(sine: float, cosine: float, ends: Array, weight: Array) -> float:
+    """Return what a film between two ends gives off: minus the integral of sine sin t + cosine cos t."""
+    first, last = ends
+    gained = sine * (np.cos(last) - np.cos(first)) - cosine * (np.sin(last) - np.sin(first))
+    return float(weight @ gained)

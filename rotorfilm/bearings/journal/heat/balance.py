@@ -1,0 +1,232 @@
+"""One temperature for a whole film: the heat that friction makes against what oil and housing take away.
+
+With the power P = mu(T) A and the flow Q_e of a film at a state of the journal, the balance is
+
+    A mu(T) = C (T - T_s) Q_e + G (T - T_a),                                                         (1)
+
+C the heat capacity of the oil per volume, T_s the supply, T_a the ambient temperature and G the conductance
+of the housing. The left side falls with T and the right side rises, so there is one root. Newton's method
+from below climbs to it without a step beyond, since the difference is convex.
+
+An opening where Q_1 leaves into the film and Q_2 arrives replaces the share 1 - lambda of what arrives; with
+a temperature that rises linearly from one opening to the next that is as much heat as
+
+    Q_e = Q + sum 2 (1 - lambda) Q_2/(1 + lambda Q_2/Q_1)                                            (2)
+
+takes along at the film's temperature, where Q = sum(Q_1 - Q_2) leaks.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+
+from ....errors import ConvergenceError, InputError
+from ....model import Array
+from ...films.film_losses import FilmLosses
+from ...oil import Cooling, Oil
+
+_STEPS = 60
+_ROUNDOFF = 1e-14
+_KELVIN = 1e-9
+
+
+class FilmAt(NamedTuple):
+    """One state of a film.
+
+    Attributes
+    ----------
+    e : ndarray, shape (2,) [1]
+        Eccentricity.
+    w : ndarray, shape (2,) [1/s]
+        Source.
+    speed : float [rad/s]
+    losses : FilmLosses
+        There.
+    """
+
+    e: Array
+    w: Array
+    speed: float
+    losses: FilmLosses
+
+
+class Dimensions(NamedTuple):
+    """Radius, length, clearance [m] and viscosity [Pa s] of a film."""
+
+    radius: float
+    length: float
+    clearance: float
+    viscosity: float
+
+
+class FilmHeat(NamedTuple):
+    """What a film makes and carries of heat at one state of the journal.
+
+    Attributes
+    ----------
+    power : float [W]
+        Power that goes into the oil.
+    viscosity : float [Pa s]
+        At which that is.
+    flow : float [m^3/s]
+        Effective flow Q_e of fresh oil.
+    side_flow : float [m^3/s]
+        Oil that leaks at the ends.
+    """
+
+    power: float
+    viscosity: float
+    flow: float
+    side_flow: float
+
+
+def film_heat(
+    losses: FilmLosses, dissipation: float, speed: float, *, dimensions: Dimensions, cooling: Cooling
+) -> FilmHeat:
+    """Return the heat of a film at one state.
+
+    Parameters
+    ----------
+    losses : FilmLosses
+        Of that state alone.
+    dissipation : float [1/s^2]
+        Of the pressure flow, -F . w of the dimensionless force and source; supply included.
+    speed : float [rad/s]
+    dimensions : Dimensions
+    cooling : Cooling
+    """
+    R, L, c, mu = dimensions
+    shear = losses.shear_gap if cooling.full_gap else losses.shear
+    unit = c * R * L
+    side_flow = unit * float(losses.side_flow)
+    flow = effective_flow(side_flow, unit * losses.inflow, unit * losses.arriving, cooling.carry_over)
+    power = mu * R**3 * L / c * (speed**2 * float(shear) + dissipation)
+    return FilmHeat(power, mu, flow, side_flow)
+
+
+def heat_by_state(at: FilmAt, dissipation: Array, dimensions: Dimensions, cooling: Cooling) -> Array:
+    """Return d(power, effective flow, side flow)/d(x, y, vx, vy, speed), shape (3, 5), without openings.
+
+    Parameters
+    ----------
+    at : FilmAt
+        Eccentricity, source, speed and losses with their slopes.
+    dissipation : ndarray, shape (4,)
+        Derivatives of -F . w by (eccentricity, source).
+    dimensions : Dimensions
+    cooling : Cooling
+    """
+    R, L, c, mu = dimensions
+    film, streamers, flow = np.asarray(at.losses.slopes)
+    chi = float(np.hypot(*at.e))
+    gap = np.concatenate([at.e, np.zeros(2)]) * float(at.losses.shear_gap) / ((1.0 - chi) * (1.0 + chi))
+    shear, by_shear = (at.losses.shear_gap, gap) if cooling.full_gap else (at.losses.shear, film + streamers)
+    unit = mu * R**3 * L / c
+    power = unit * _by_state(at.speed**2 * by_shear + dissipation, at.e, at.speed, c)
+    power[4] += unit * 2.0 * at.speed * float(shear)
+    leaked = c * R * L * _by_state(flow, at.e, at.speed, c)
+    return np.stack([power, leaked, leaked])
+
+
+def _by_state(slope: Array, e: Array, speed: float, clearance: float) -> Array:
+    """Return derivatives by (x, y, vx, vy, speed) from those by (e, w), w = v/c - (speed/2) z^ x e."""
+    ex, ey, wx, wy = slope
+    half = 0.5 * speed
+    by_position = np.array([ex - half * wy, ey + half * wx, wx, wy]) / clearance
+    return np.append(by_position, 0.5 * (wx * e[1] - wy * e[0]))
+
+
+def effective_flow(side_flow: float, inflow: Array, arriving: Array, carry_over: float) -> float:
+    """Return Q_e of (2) [m^3/s].
+
+    Parameters
+    ----------
+    side_flow : float [m^3/s]
+        Oil that leaks.
+    inflow, arriving : ndarray, shape (openings,) [m^3/s]
+        Q_1 into the film and Q_2 that arrives from it, at each opening.
+    carry_over : float [1]
+        lambda, the share of Q_2 that goes on into the next film.
+    """
+    feeding = inflow > 0.0
+    entering, coming = inflow[feeding], arriving[feeding].clip(min=0.0)
+    replaced = 2.0 * (1.0 - carry_over) * coming / (1.0 + carry_over * coming / entering)
+    return side_flow + float(replaced.sum())
+
+
+def heat_surplus(heat: FilmHeat, oil: Oil, cooling: Cooling, temperature: float) -> tuple[float, float]:
+    """Return heat made less heat taken away at a temperature [W], and its derivative [W/K]; (1)."""
+    power = heat.power / heat.viscosity * float(oil.viscosity(temperature))
+    with_oil = float(oil.volumetric_heat(cooling.supply_temperature)) * heat.flow
+    housing = cooling.housing_conductance
+    taken = with_oil * (temperature - cooling.supply_temperature) + housing * (temperature - cooling.ambient)
+    return power - taken, -power * float(oil.thinning(temperature)) - with_oil - housing
+
+
+def balance_temperature(heat: FilmHeat, oil: Oil, cooling: Cooling) -> float:
+    """Return the temperature at which the heat of a film balances [K]: the root of (1).
+
+    Raises
+    ------
+    InputError
+        If nothing takes heat away: no oil leaves and the housing does not conduct.
+    ConvergenceError
+        If Newton's method does not end, which no thinning oil makes it do.
+    """
+    if not heat.power > 0.0:
+        return _unheated(heat, oil, cooling)
+    if not (heat.flow > 0.0 or cooling.housing_conductance > 0.0):
+        raise InputError(
+            "housing_conductance must be positive where no oil leaves the film, as of a centered journal, "
+            "got 0"
+        )
+    T = cooling.coldest
+    for _ in range(_STEPS):
+        surplus, slope = heat_surplus(heat, oil, cooling, T)
+        step = -surplus / slope
+        T += step
+        if abs(step) <= _ROUNDOFF * T:
+            return T
+    raise ConvergenceError(
+        f"temperature must balance the heat, and did not within {_STEPS} steps at {T:.6g} K"
+    )
+
+
+def fed_temperature(heat: Callable[[float], FilmHeat], oil: Oil, cooling: Cooling) -> float:
+    """Return the temperature at which the heat of a film under supply pressure balances [K].
+
+    Its flow and its shape depend on its viscosity, so that it is solved anew at each temperature.
+
+    Parameters
+    ----------
+    heat : callable
+        Takes a temperature [K] and returns the heat of the film at it.
+    oil : Oil
+    cooling : Cooling
+    """
+
+    def surplus(temperature: float) -> float:
+        return heat_surplus(heat(temperature), oil, cooling, temperature)[0]
+
+    low = cooling.coldest
+    if surplus(low) <= 0.0:
+        return low
+    high = balance_temperature(heat(low), oil, cooling)
+    while surplus(high) > 0.0:
+        high += high - low
+    return float(brentq(surplus, low, high, xtol=_KELVIN))
+
+
+def _unheated(heat: FilmHeat, oil: Oil, cooling: Cooling) -> float:
+    """Return the temperature of a film that makes no heat, between those of fresh oil and ambient."""
+    with_oil = float(oil.volumetric_heat(cooling.supply_temperature)) * max(heat.flow, 0.0)
+    through_housing = cooling.housing_conductance
+    if not with_oil + through_housing > 0.0:
+        return cooling.supply_temperature
+    share = through_housing / (with_oil + through_housing)
+    return math.fsum((cooling.supply_temperature, share * (cooling.ambient - cooling.supply_temperature)))

@@ -1,0 +1,131 @@
+"""What a journal bearing says of its heat: power, flow, and the temperature at which they balance."""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ....errors import InputError
+from ....model import Array
+from ...films.law import FilmLaw, FilmOptions, options
+from ...oil import Cooling, Oil
+from ...reaction import broadcast_state
+from .balance import (
+    Dimensions,
+    FilmAt,
+    FilmHeat,
+    balance_temperature,
+    fed_temperature,
+    film_heat,
+    heat_by_state,
+)
+
+
+class _Bearing(Protocol):
+    """What of a journal bearing its heat follows from."""
+
+    radius: Any
+    length: Any
+    clearance: Any
+    oil: Any
+    cooling: Any
+    supply_pressure: Any
+
+    @property
+    def slenderness(self) -> float: ...
+
+    @property
+    def film_viscosity(self) -> float: ...
+
+    @property
+    def fitted_film(self) -> FilmLaw: ...
+
+    @property
+    def cooled(self) -> tuple[Oil, Cooling]: ...
+
+    def at_temperature(self, temperature: float) -> Any: ...
+
+    def kinematics(self, position: Array, velocity: Array, speed: Array) -> tuple[Array, Array]: ...
+
+
+class WarmFilm:
+    """The heat of a `JournalBearing`."""
+
+    @property
+    def cooled(self: _Bearing) -> tuple[Oil, Cooling]:
+        """Oil and cooling; InputError if one of them is not given."""
+        if self.oil is None or self.cooling is None:
+            raise InputError(f"oil and cooling must be given for heat, got {self.oil!r} and {self.cooling!r}")
+        return self.oil, self.cooling
+
+    @property
+    def coldest(self: _Bearing) -> float:
+        """Temperature below which the film never gets [K]; raises InputError without cooling."""
+        return self.cooled[1].coldest
+
+    def film_heat(self: _Bearing, position: ArrayLike, velocity: ArrayLike, speed: float) -> FilmHeat:
+        """Return the heat that the film makes and takes along at one state, at its temperature.
+
+        Parameters
+        ----------
+        position, velocity : array_like, shape (2,) [m], [m/s]
+        speed : float [rad/s]
+
+        Raises
+        ------
+        InputError
+            If the bearing has no cooling, or its film law knows no losses.
+        FilmContactError
+            If the journal touches the wall.
+        """
+        at = _state(self, position, velocity, speed)
+        dissipation = -float(self.fitted_film.force(at.e, at.w, self.slenderness) @ at.w)
+        return film_heat(
+            at.losses, dissipation, at.speed, dimensions=_dimensions(self), cooling=self.cooled[1]
+        )
+
+    def heat_jacobian(self: _Bearing, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
+        """Return d(power, effective flow, side flow)/d(x, y, vx, vy, speed) at one temperature, shape (3, 5).
+
+        Parameters and errors are those of `film_heat`; InputError too if the film law has no slopes of its
+        losses, as those of openings have none.
+        """
+        at = _state(self, position, velocity, speed)
+        if at.losses.slopes is None or at.losses.inflow.size:
+            raise InputError(
+                f"film must have slopes of its losses, as MapFilm without openings, got {self.fitted_film!r}"
+            )
+        film = self.fitted_film
+        force, slope = film.force(at.e, at.w, self.slenderness), film.jacobian(at.e, at.w, self.slenderness)
+        dissipation = -np.concatenate([at.w @ slope[:, :2], at.w @ slope[:, 2:] + force])
+        return heat_by_state(at, dissipation, _dimensions(self), self.cooled[1])
+
+    def balanced_temperature(self: _Bearing, position: ArrayLike, velocity: ArrayLike, speed: float) -> float:
+        """Return the temperature at which the heat of the film balances at one state [K].
+
+        Parameters and errors are those of `film_heat`.
+        """
+        oil, cooling = self.cooled
+
+        def heat(temperature: float) -> FilmHeat:
+            found: FilmHeat = self.at_temperature(temperature).film_heat(position, velocity, speed)
+            return found
+
+        if self.supply_pressure == 0.0:
+            return balance_temperature(heat(cooling.coldest), oil, cooling)
+        return fed_temperature(heat, oil, cooling)
+
+
+def _state(bearing: _Bearing, position: ArrayLike, velocity: ArrayLike, speed: float) -> FilmAt:
+    q, v, omega = broadcast_state(position, velocity, speed)
+    if q.shape != (2,):
+        raise InputError(f"position must have shape (2,) for heat, got shape {q.shape}")
+    e, w = bearing.kinematics(q, v, omega)
+    losses = options(bearing.fitted_film, FilmOptions).losses(e, w, bearing.slenderness)
+    return FilmAt(e, w, float(omega), losses)
+
+
+def _dimensions(bearing: _Bearing) -> Dimensions:
+    return Dimensions(bearing.radius, bearing.length, bearing.clearance, bearing.film_viscosity)
