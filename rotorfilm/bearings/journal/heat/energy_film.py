@@ -9,7 +9,7 @@ import numpy as np
 from ....model import Array
 from .film_cells import FilmCells
 from .frozen_film import Fluidity
-from .heat_equations import Carried, HeatEquations, Heating, Terms, WarmFilm, carried, drained
+from .heat_equations import Carried, HeatEquations, Heating, Terms, HeatSolution, carried, drained
 
 
 @dataclass(frozen=True)
@@ -32,11 +32,7 @@ class MeanTemperature:
         """Return how easily oil of a relative viscosity (N, M + 1) flows."""
         return Fluidity(1.0 / viscosity, np.full(viscosity.shape, 0.5))
 
-    def shear(self, viscosity: Array) -> Array:
-        """Return the relative viscosity by which sheared oil makes heat, shape (N, M + 1)."""
-        return viscosity
-
-    def warm(self, heating: Heating) -> WarmFilm:
+    def warm(self, heating: Heating) -> HeatSolution:
         """Return the temperature of a film, from one sparse solution."""
         cells, flow, (lines, along) = heating.cells, heating.flow, heating.cells.shape
         opening = lines * along
@@ -63,12 +59,12 @@ class MeanTemperature:
         equations.lose((index, index), bush, journal, line)
         x = equations.solve()
         T = x[index]
-        return WarmFilm(
+        return HeatSolution(
             oil=T,
             bush=x[equations.bush],
             journal=float(x[equations.journal]),
             made=float(np.sum((made - less * (T - heating.temperature))[film])),
-            leaked=float(np.sum(((flow.lost + np.maximum(_ends(flow.axial), 0.0)) * T)[film])),
+            leaked=float(np.sum((flow.leaked * T)[film])),
             drained=drained(oil, x, opening),
             to_bush=equations.total(bush, x),
             to_journal=equations.total(journal, x),
@@ -89,8 +85,3 @@ def _into_walls(equations: HeatEquations, into: Array, index: np.ndarray) -> tup
     bush = [(index, 6.0 * into), (at_bush, -4.0 * into), (at_journal, -2.0 * into)]
     journal = [(index, 6.0 * into), (at_bush, -2.0 * into), (at_journal, -4.0 * into)]
     return bush, journal
-
-
-def _ends(axial: Array) -> Array:
-    """Return what leaves the bearing through its ends, at the last cells only."""
-    return np.concatenate([np.zeros_like(axial[:, :-1]), axial[:, -1:]], axis=1)

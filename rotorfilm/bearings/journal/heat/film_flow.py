@@ -5,7 +5,7 @@ All flows are in units of clearance x radius x length/2, that is in 1/s.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -52,6 +52,11 @@ class FilmFlow:
         return self.dragged + self.pressed
 
     @property
+    def side_flow(self) -> float:
+        """What leaves through the ends of the film, less what they draw in [1/s]."""
+        return float(self.axial[:, -1].sum())
+
+    @property
     def fresh(self) -> Array:
         """Oil that a cell of film takes from outside, since its neighbors bring too little [1/s]."""
         return np.maximum(self.leaving - self.entering, 0.0)
@@ -61,32 +66,46 @@ class FilmFlow:
         """Oil that its neighbors do not take from a cell, and that leaves the bearing [1/s]."""
         return np.maximum(self.entering - self.leaving, 0.0)
 
+    @property
+    def leaked(self) -> Array:
+        """All oil that leaves the film from a cell [1/s]."""
+        leaked = self.lost
+        leaked[:, -1] += np.maximum(self.axial[:, -1], 0.0)
+        return leaked
 
-def fed_film(film: FrozenFilm, eccentricity: Array, speed: float) -> tuple[FrozenFilm, FilmSolution, FilmFlow]:
+
+def fed_film(
+    film: FrozenFilm, eccentricity: Array, speed: float, *, full_gap: bool
+) -> tuple[FrozenFilm, FilmSolution, FilmFlow]:
     """Return the film whose openings feed it, its solution for a journal at rest, and its flow.
 
     In a bearing with openings a film starts at an opening or where the streamers fill the gap again, not from
     nothing: a node at its start that would take more than they bring is left empty, as often as that helps.
     """
-    cells, empty = film.cells, np.zeros_like(film.empty)
+    cells = film.cells
     while True:
-        film = FrozenFilm(
-            cells=cells,
-            fluidity=film.fluidity,
-            empty=empty,
-            clearance=film.clearance,
-            force_scale=film.force_scale,
-        )
         found = film.solve(eccentricity, np.zeros(2), speed)
-        flow = film_flow(film, found, eccentricity, speed)
+        flow = film_flow(film, found, eccentricity, speed, full_gap=full_gap)
         starved = _starved(cells, flow, speed)
-        if not cells.held.any() or not starved.any():
+        if not (cells.held.any() and starved.any()):
             return film, found, flow
-        empty = empty | starved
+        film = replace(film, empty=film.empty | starved)
 
 
-def film_flow(film: FrozenFilm, found: FilmSolution, eccentricity: Array, speed: float) -> FilmFlow:
-    """Return the flow of a film for a journal at rest."""
+def film_flow(
+    film: FrozenFilm, found: FilmSolution, eccentricity: Array, speed: float, *, full_gap: bool
+) -> FilmFlow:
+    """Return the flow of a film for a journal at rest.
+
+    Parameters
+    ----------
+    film : FrozenFilm
+    found : FilmSolution
+    eccentricity : ndarray, shape (2,) [1]
+    speed : float [rad/s]
+    full_gap : bool
+        Whether oil fills the gap in the ruptured zone too.
+    """
     cells = film.cells
     full = np.pad(found.solution.full, ((0, 0), (0, 1)), mode="edge")
     pressure = np.pad(found.solution.pressure, ((0, 0), (0, 1)))
@@ -102,7 +121,7 @@ def film_flow(film: FrozenFilm, found: FilmSolution, eccentricity: Array, speed:
     axial[:, -1] = np.where(full[:, -1], axial[:, -2] + np.roll(around, 1, axis=0)[:, -1] - around[:, -1], 0.0)
     entering, leaving = _through(around, axial)
     capacity = abs(speed) * at_lines[:, None] * film.fluidity.dragged * cells.width
-    filled = np.where(full, 1.0, np.minimum(entering / capacity, 1.0)) * ~cells.held[:, None]
+    filled = np.where(full | full_gap, 1.0, np.minimum(entering / capacity, 1.0)) * ~cells.held[:, None]
     return FilmFlow(
         dragged=dragged,
         pressed=pressed,
@@ -112,7 +131,7 @@ def film_flow(film: FrozenFilm, found: FilmSolution, eccentricity: Array, speed:
         filled=filled,
         full=full,
         shear=filled * cells.integral_of_inverse(eccentricity)[:, None] * cells.width,
-        dissipation=_dissipation(found, full),
+        dissipation=_dissipation(cells, found, full),
     )
 
 
@@ -149,26 +168,31 @@ def _with_streamers(cells: FilmCells, full: np.ndarray, drag: Array, axial: Arra
     rounds = lines if here[first].all() else 2 * lines
     for step in range(1, rounds):
         i = (first + sense * step) % lines
-        brought = drag[i - sense if sense > 0 else (i + 1) % lines] + sideways[i]
+        brought = drag[(i - sense) % lines] + sideways[i]
         drag[i] = np.where(here[i] | onward[i], drag[i], brought)
     return sense * (drag if sense > 0 else np.roll(drag, -1, axis=0))
 
 
-def _dissipation(found: FilmSolution, full: np.ndarray) -> Array:
+def _dissipation(cells: FilmCells, found: FilmSolution, full: np.ndarray) -> Array:
     """Return the power of the pressure, that of each face shared by the cells of film beside it."""
     pressure = np.pad(found.solution.pressure, ((0, 0), (0, 1)))
-    total = np.zeros(full.shape)
+    # Beside an opening under pressure there may be film shorter than a cell.
+    weight = np.where(cells.held[:, None], 0.0, np.where(full, 1.0, 1e-30))
     around = np.zeros(full.shape)
     around[:, :-1] = found.stencil.around * (pressure - np.roll(pressure, -1, axis=0))[:, :-1] ** 2
-    beyond = np.roll(full, -1, axis=0)
-    shares = np.maximum(full.astype(float) + beyond, 1.0)
-    total += around / shares * full
-    total += np.roll(around / shares * beyond, 1, axis=0)
+    here, there = _shared(around, weight, np.roll(weight, -1, axis=0))
+    total = here + np.roll(there, 1, axis=0)
     along = found.stencil.along * (pressure[:, :-1] - pressure[:, 1:]) ** 2
-    shares = np.maximum(full[:, :-1].astype(float) + full[:, 1:], 1.0)
-    total[:, :-1] += along / shares * full[:, :-1]
-    total[:, 1:] += along / shares * full[:, 1:]
+    here, there = _shared(along, weight[:, :-1], weight[:, 1:])
+    total[:, :-1] += here
+    total[:, 1:] += there
     return 12.0 * total
+
+
+def _shared(amount: Array, first: Array, second: Array) -> tuple[Array, Array]:
+    """Return an amount shared in proportion to two weights; nothing where both are 0."""
+    per_weight = amount / np.where(first + second > 0.0, first + second, 1.0)
+    return per_weight * first, per_weight * second
 
 
 def _starved(cells: FilmCells, flow: FilmFlow, speed: float) -> np.ndarray:

@@ -7,7 +7,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ....errors import UndefinedDerivativeError
 from ....model import Array, Tangent
 from ...films.bound_law import kinematics
 from ...films.ring.stencil_film import Stencil, StencilSolution, solve_stencil
@@ -49,6 +48,20 @@ class FilmSolution(NamedTuple):
     stencil: Stencil
     solution: StencilSolution
     normal: Array
+
+    def force(self, cells: FilmCells) -> Array:
+        """Return the force on the journal in the film's units [1/s], shape (2,)."""
+        return -12.0 * (self.normal @ (self.solution.pressure @ cells.width[:-1]))
+
+    def pumped(self, cells: FilmCells) -> float:
+        """Return the power of the supply, pressure times flow into the film [1/s^2].
+
+        The flow straight out of the openings at the bearing's end is no part of it.
+        """
+        stencil, pressure = self.stencil, self.solution.pressure
+        flow = stencil.outflow(pressure) - stencil.source
+        flow[:, -1] -= stencil.along[:, -1] * pressure[:, -1]
+        return 12.0 * float((cells.value * cells.held) @ flow.sum(axis=1))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -142,7 +155,7 @@ class FrozenFilm(StaticReaction):
         pressure, V = found.solution.pressure, found.solution.answers
         width = self.cells.width[:-1]
         response = np.empty((2, 6))
-        response[:, 0] = -12.0 * (found.normal @ (pressure @ width))
+        response[:, 0] = found.force(self.cells)
         changes = [
             *(bent.outflow(pressure) - bent.source for bent in self._bent(e, float(speed), found.stencil)),
             *(-normal[:, None] * width for normal in found.normal),
@@ -180,8 +193,3 @@ def _to_the_end(field: Array) -> Array:
     """Return a field of cells (N, M + 1) at the faces between them, shape (N, M)."""
     return 0.5 * (field[:, 1:] + field[:, :-1])
 
-
-def require_turning(speed: float) -> None:
-    """Raise UndefinedDerivativeError for a journal that does not turn: its film makes no heat."""
-    if speed == 0.0:
-        raise UndefinedDerivativeError("speed must not be 0 for a film that is warmed by shear, got 0.0")

@@ -57,7 +57,7 @@ class Heating:
     walls: WallResponse | None
 
 
-class WarmFilm(NamedTuple):
+class HeatSolution(NamedTuple):
     """Temperatures above that of the supply [K], and where the heat goes [K/s].
 
     Attributes

@@ -1,153 +1,259 @@
-"""A journal film with the temperature of its oil over it, or over and across it (T2, T3)."""
+"""A journal film with the temperature of its oil over it, or over and across it (T2 and T3)."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
-from typing import NamedTuple, Protocol, runtime_checkable
+from dataclasses import dataclass, field
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ....errors import (
-    ConvergenceError,
-    InputError,
-    require_finite,
-    require_inside,
-    require_kind,
-    require_number,
-    require_positive,
-)
+from ....errors import ConvergenceError, InputError, require_finite, require_inside, require_kind, require_number
 from ....model import Array
 from ...films.ring.ring_grids import require_cells
-from ...oil import Oil
 from ..bearing import JournalBearing
 from ..reynolds_film import ReynoldsFilm
 from .energy_film import MeanTemperature
 from .film_cells import FilmCells, film_cells
 from .film_flow import FilmFlow, fed_film
-from .frozen_film import Fluidity, FrozenFilm, FilmSolution
-from .heat_equations import Heating, WarmFilm
-from .walls import AdiabaticWalls, Walls, WallResponse
+from .frozen_film import FilmSolution, Fluidity, FrozenFilm
+from .heat_equations import Heating, HeatSolution
+from .heated_state import HeatAccount, HeatedState
+from .walls import AdiabaticWalls, WallResponse, Walls
 
 MOST_ROUNDS = 60
-SETTLED = 1e-6
+SETTLED = 1e-5
+"""Largest relative change of force and power from one round to the next of a temperature that is found."""
 
 
 @runtime_checkable
-class Profile(Protocol):
-    """What a film knows of the temperature across it."""
+class FilmProfile(Protocol):
+    """What a film knows of the temperature across it: `MeanTemperature` or `LayeredTemperature`."""
 
     def shape(self, cells: FilmCells) -> tuple[int, ...]:
-        """Return the shape of a temperature."""
+        """Return the shape of the temperature of some cells."""
 
     def fluidity(self, viscosity: Array) -> Fluidity:
         """Return how easily oil of a relative viscosity flows."""
 
-    def shear(self, viscosity: Array) -> Array:
-        """Return the relative viscosity by which sheared oil makes heat, shape (N, M + 1)."""
-
-    def warm(self, heating: Heating) -> WarmFilm:
+    def warm(self, heating: Heating) -> HeatSolution:
         """Return the temperature of a film."""
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class HeatedState:
-    """A film with its temperature at one place of the journal."""
-
-    position: Array
-    speed: float
-    film: FrozenFilm
-    solution: FilmSolution
-    flow: FilmFlow
-    warm: WarmFilm
-    rise: Array
-    bearing: JournalBearing
-    unit: float
-    supply_temperature: float
-
-    @property
-    def power_loss(self):
-        return self.unit * self.warm.made
-
-    @property
-    def side_flow(self):
-        b = self.bearing
-        return b.clearance * b.radius * b.length * float(self.flow.axial[:, -1].sum())
-
-    @property
-    def maximum_temperature(self):
-        return self.supply_temperature + float(self.warm.oil[~self.film.cells.held].max())
-
-    @property
-    def closing(self):
-        w = self.warm
-        return (w.made - w.leaked - w.drained - w.to_bush - w.to_journal) / w.made
 
 
 @dataclass(frozen=True, kw_only=True)
 class HeatedFilm:
+    """The film of a journal bearing with oil and cooling, its temperature a field.
+
+    The film is that of Reynolds' equation with rupture, on finite volumes, its viscosity that of the oil at
+    the temperature of each cell; the temperature is that of the oil which the same film moves. Both are
+    solved in turn. The fall of heat with temperature is a part of the energy equation, so that few rounds
+    do. Oil starts a film only where there is oil: at an opening, where streamers fill the gap again, and in a
+    bearing without openings where Reynolds' equation says.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        With oil and cooling; of these it takes supply temperature and carry-over. Its own film law and
+        housing have no part.
+    walls : Walls
+        `BushRing(...)`, `HeldWalls(...)`, or by default `AdiabaticWalls()`.
+    cells : tuple of int
+        Cells around the film and along half the length, as of `ReynoldsFilm`.
+    profile : FilmProfile
+        `MeanTemperature()`, or `LayeredTemperature(...)` for the temperature across the film too.
+
+    Raises
+    ------
+    InputError
+        If the bearing lacks oil or cooling, or another argument breaks its rule.
+
+    Examples
+    --------
+    >>> from rotorfilm.bearings.oil import Cooling, Oil
+    >>> cooling = Cooling(supply_temperature=318.15)
+    >>> bearing = JournalBearing(radius=0.05, length=0.05, clearance=75e-6, oil=Oil.iso_vg(46), cooling=cooling)
+    >>> state = HeatedFilm(bearing=bearing).solve(position=[20e-6, -30e-6], speed=314.2)
+    >>> round(state.maximum_temperature - 273.15)
+    69
+    """
+
     bearing: JournalBearing
-    oil: Oil
-    supply_temperature: float
     walls: Walls = field(default_factory=AdiabaticWalls)
-    carry_over: float = 0.8
     cells: tuple[int, int] = (80, 8)
-    profile: Profile = field(default_factory=MeanTemperature)
+    profile: FilmProfile = field(default_factory=MeanTemperature)
 
-    def start(self, position, speed, rise=0.0):
-        cells = self._cells(np.asarray(position) / self.bearing.clearance)
-        return self._round(np.asarray(position, float), speed, np.full(self.profile.shape(cells), rise))
+    def __post_init__(self) -> None:
+        require_kind("bearing", self.bearing, JournalBearing, "a JournalBearing with oil and cooling")
+        _ = self.bearing.cooled
+        require_kind("walls", self.walls, Walls, "walls such as BushRing(...) or AdiabaticWalls()")
+        require_kind("profile", self.profile, FilmProfile, "a profile such as MeanTemperature()")
+        require_cells(self.cells)
 
-    def _cells(self, e):
-        film = ReynoldsFilm(cells=self.cells).fitted(self.bearing.geometry)
-        spans, grids = film.grids(self.bearing.slenderness)
-        return film_cells(spans, grids[0], self.bearing.slenderness, e)
+    @property
+    def supply_temperature(self) -> float:
+        """Temperature of the fresh oil [K]."""
+        return self.bearing.cooled[1].supply_temperature
 
-    def next(self, state, position, feedback=True):
-        return self._round(np.asarray(position, float), state.speed, state.warm.oil, feedback)
+    def cold(self) -> FrozenFilm:
+        """Return the film of fresh oil, whose lines are where they are for a centered journal."""
+        return self._frozen(np.zeros(2), self._fresh())[1]
 
-    def _round(self, position, speed, rise, feedback=True):
+    def solve(self, position: ArrayLike, speed: float) -> HeatedState:
+        """Return the film with its temperature for a journal at rest.
+
+        Parameters
+        ----------
+        position : array_like, shape (2,) [m]
+            Of the journal's center.
+        speed : float [rad/s]
+            Angular speed about +z, of either sign, not 0.
+
+        Raises
+        ------
+        InputError
+            If an argument breaks its rule.
+        FilmContactError
+            If the journal touches the wall.
+        ConvergenceError
+            If the temperature does not settle.
+        """
+        state = self.warmed(position, speed)
+        for _ in range(MOST_ROUNDS):
+            before, state = state, self.warmed(position, speed, state)
+            if is_settled(before, state):
+                return state
+        raise unsettled(state)
+
+    def warmed(self, position: ArrayLike, speed: float, before: HeatedState | None = None) -> HeatedState:
+        """Return one round: the film of the viscosity that a state has, and the temperature that it gets.
+
+        Parameters
+        ----------
+        position, speed
+            As in `solve`.
+        before : HeatedState, optional
+            A state of this film nearby; fresh oil by default.
+        """
+        q, omega = require_finite("position", position), require_number("speed", speed)
+        if q.shape != (2,):
+            raise InputError(f"position must have shape (2,), got shape {q.shape}")
+        if omega == 0.0:
+            raise InputError("speed must not be 0 for a film that shear warms, got 0")
+        require_inside(q, self.bearing.clearance)
+        e, T = q / self.bearing.clearance, self._fresh() if before is None else before.oil_temperature
+        viscosity, film = self._frozen(e, T)
+        film, found, flow = fed_film(film, e, omega, full_gap=self.bearing.cooled[1].full_gap)
+        warm = self.profile.warm(self._heating(film.cells, flow, omega, T, viscosity))
+        return self._state(q, omega, film, found, flow, warm)
+
+    def _fresh(self) -> Array:
+        shape = self.profile.shape(self._cells(np.zeros(2)))
+        return np.full(shape, self.supply_temperature)
+
+    def _cells(self, eccentricity: Array) -> FilmCells:
         bearing = self.bearing
-        e = position / bearing.clearance
-        cells = self._cells(e)
-        T = self.supply_temperature + rise
-        viscosity = self.oil.viscosity(T) / bearing.viscosity
-        film = FrozenFilm(
+        film = ReynoldsFilm(cells=self.cells, geometry=bearing.geometry)
+        spans, grids = film.grids(bearing.slenderness)
+        return film_cells(spans, grids[0], bearing.slenderness, eccentricity)
+
+    def _frozen(self, eccentricity: Array, temperature: Array) -> tuple[Array, FrozenFilm]:
+        """Return the viscosity over that of the bearing, and the film of it."""
+        cells = self._cells(eccentricity)
+        viscosity = self.bearing.cooled[0].viscosity(temperature) / self.bearing.film_viscosity
+        return viscosity, FrozenFilm(
             cells=cells,
             fluidity=self.profile.fluidity(viscosity),
             empty=np.zeros((len(cells.theta), len(cells.conductance)), dtype=bool),
-            clearance=bearing.clearance,
-            force_scale=bearing.force_scale,
+            clearance=self.bearing.clearance,
+            force_scale=self.bearing.force_scale,
         )
-        film, found, flow = fed_film(film, e, speed)
-        heat = float(self.oil.volumetric_heat(self.supply_temperature))
-        unit = heat * bearing.clearance * bearing.radius * bearing.length
-        heating = Heating(
+
+    @property
+    def _volumetric_heat(self) -> float:
+        return float(self.bearing.cooled[0].volumetric_heat(self.supply_temperature))
+
+    @property
+    def _unit(self) -> float:
+        """Heat flow [W/K] of oil that flows at 1/s in the units of the film, both halves of it."""
+        bearing = self.bearing
+        return self._volumetric_heat * bearing.clearance * bearing.radius * bearing.length
+
+    def _heating(
+        self, cells: FilmCells, flow: FilmFlow, speed: float, temperature: Array, viscosity: Array
+    ) -> Heating:
+        bearing, (oil, cooling) = self.bearing, self.bearing.cooled
+        per_gap = self._volumetric_heat * bearing.clearance**2
+        return Heating(
             cells=cells,
             flow=flow,
             speed=speed,
             viscosity=viscosity,
-            thinning=self.oil.thinning(T) if feedback else np.zeros_like(T),
-            temperature=rise,
-            heat_scale=bearing.viscosity * bearing.radius**2 / (heat * bearing.clearance**2),
-            diffusion=self.oil.conductivity / (heat * bearing.clearance**2),
-            carry_over=self.carry_over,
-            walls=self._walls(cells, unit),
-        )
-        return HeatedState(
-            position=position, speed=speed, film=film, solution=found, flow=flow, rise=rise,
-            warm=self.profile.warm(heating), bearing=bearing, unit=unit, supply_temperature=self.supply_temperature,
+            thinning=oil.thinning(temperature),
+            temperature=temperature - self.supply_temperature,
+            heat_scale=bearing.film_viscosity * bearing.radius**2 / per_gap,
+            diffusion=oil.conductivity / per_gap,
+            carry_over=cooling.carry_over,
+            walls=None if self.walls.adiabatic else self._walls(cells),
         )
 
-    def _walls(self, cells, unit):
-        if self.walls.adiabatic:
-            return None
+    def _walls(self, cells: FilmCells) -> WallResponse:
+        """Return the response of the walls in the units of the heat equations."""
         found = self.walls.response(self.bearing.radius, cells.start, cells.extent)
-        per_length = unit / self.bearing.length
+        along = self._unit / self.bearing.length
         return found._replace(
-            spread=found.spread * per_length,
-            take=found.take * per_length,
+            spread=along * found.spread,
+            take=along * found.take,
             ambient=found.ambient - self.supply_temperature,
-            shaft_take=found.shaft_take * unit,
+            shaft_take=self._unit * found.shaft_take,
             shaft_ambient=found.shaft_ambient - self.supply_temperature,
         )
+
+    def _state(
+        self, q: Array, speed: float, film: FrozenFilm, found: FilmSolution, flow: FilmFlow, warm: HeatSolution
+    ) -> HeatedState:
+        bearing, cells, T_s = self.bearing, film.cells, self.supply_temperature
+        pressure = np.pad(found.solution.pressure, ((0, 0), (0, 1)))
+        made = self._unit * warm.made
+        power = made - bearing.force_scale * bearing.clearance * found.pumped(cells)
+        oil_temperature = T_s + warm.oil
+        adiabatic = self.walls.adiabatic
+        return HeatedState(
+            position=q,
+            speed=speed,
+            force=bearing.force_scale * found.force(cells),
+            angle=cells.theta % (2.0 * np.pi),
+            axial=0.5 * bearing.length * np.append(0.0, np.cumsum(1.0 / cells.conductance)),
+            pressure=bearing.pressure_scale * pressure,
+            filled=flow.filled,
+            oil_temperature=oil_temperature,
+            bush_temperature=None if adiabatic else T_s + warm.bush,
+            journal_temperature=None if adiabatic else T_s + warm.journal,
+            maximum_temperature=float(oil_temperature[~cells.held].max()),
+            power_loss=power,
+            friction_torque=power / speed,
+            side_flow=bearing.clearance * bearing.radius * bearing.length * flow.side_flow,
+            heat=HeatAccount(
+                made=made,
+                leaked=self._unit * warm.leaked,
+                drained=self._unit * warm.drained,
+                into_bush=self._unit * warm.to_bush,
+                into_journal=self._unit * warm.to_journal,
+            ),
+            film=film,
+        )
+
+
+def is_settled(before: HeatedState, state: HeatedState) -> bool:
+    """Return whether force and power, and the position, have hardly changed from one state to the next."""
+    power = abs(state.power_loss - before.power_loss) / abs(state.power_loss)
+    force = np.hypot(*(state.force - before.force)) / np.hypot(*state.force)
+    return bool(max(power, force) <= SETTLED)
+
+
+def unsettled(state: HeatedState) -> ConvergenceError:
+    """Return the error of a temperature that changes from round to round."""
+    return ConvergenceError(
+        f"the temperature of the film must settle within {MOST_ROUNDS} rounds, and did not at position "
+        f"{state.position.tolist()} m and speed {state.speed:g} rad/s",
+        state,
+    )
