@@ -34,6 +34,8 @@ class FilmFlow:
         Integral of filled/H over the cell.
     dissipation : ndarray, shape (N, M + 1) [1/s^2]
         Power of the pressure in the cells / (viscosity radius^3 length/2 / clearance).
+    climb : ndarray, shape (N, M + 1) [1/s]
+        Integral of H times the slope of the pressure around the film over the cells of film.
     """
 
     dragged: Array
@@ -45,6 +47,7 @@ class FilmFlow:
     full: np.ndarray
     shear: Array
     dissipation: Array
+    climb: Array
 
     @property
     def around(self) -> Array:
@@ -122,6 +125,7 @@ def film_flow(
     entering, leaving = _through(around, axial)
     capacity = abs(speed) * at_lines[:, None] * film.fluidity.dragged * cells.width
     filled = np.where(full | full_gap, 1.0, np.minimum(entering / capacity, 1.0)) * ~cells.held[:, None]
+    climbing = H[:, None] * (np.roll(pressure, -1, axis=0) - pressure)
     return FilmFlow(
         dragged=dragged,
         pressed=pressed,
@@ -132,6 +136,7 @@ def film_flow(
         full=full,
         shear=filled * cells.integral_of_inverse(eccentricity)[:, None] * cells.width,
         dissipation=_dissipation(cells, found, full),
+        climb=0.5 * full * cells.width * (climbing + np.roll(climbing, 1, axis=0)),
     )
 
 
