@@ -51,9 +51,9 @@ FURTHER = [home.split(".")[1] for home in REGISTERED.values() if home.startswith
 """Families that have only the one folder."""
 
 PARTS = {
-    "bearings": [["films"], ["journal"], ["damper", "contact", "bush"]],
+    "bearings": [["films", "oil"], ["journal"], ["damper", "contact", "bush"]],
     "bearings/films": [["ring"]],
-    "bearings/journal": [["rupture"], ["map", "splitting"], ["grooves"]],
+    "bearings/journal": [["rupture"], ["map", "splitting"], ["grooves"], ["heat"]],
     "bearings/contact": [["film"], ["motion"]],
     "rotors": [["shaft"]],
     "motion": [["transient", "circular"], ["compiled"], ["periodic"]],

@@ -8,6 +8,7 @@ from .coefficient_table import coefficient_table
 from .coefficients import coefficients
 from .critical_mass import CriticalMass, critical_mass, damping_has_rank_one
 from .equilibrium import equilibrium
+from .heated_equilibrium import HeatedEquilibrium, heated_equilibrium
 from .linearize import OperatingPoint, linearize
 from .orbit_coefficients import (
     OrbitCoefficients,
@@ -28,6 +29,7 @@ __all__ = [
     "Campbell",
     "CriticalMass",
     "CriticalSpeed",
+    "HeatedEquilibrium",
     "ModelSystem",
     "OperatingPoint",
     "OrbitCoefficients",
@@ -43,6 +45,7 @@ __all__ = [
     "critical_speeds",
     "damping_has_rank_one",
     "equilibrium",
+    "heated_equilibrium",
     "linearize",
     "orbit_coefficients",
     "orbit_system",

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import ConvergenceError, require_number
@@ -14,20 +13,6 @@ from ..results import Equilibrium
 from .equilibrium import checked_load, equilibrium
 
 MOST_ROUNDS = 60
-SETTLED = 1e-5
-"""Largest change, of the position over the clearance and of the power relative, from the last round."""
-
-
-class WarmState(Protocol):
-    """What one round of a film and its temperature finds."""
-
-    @property
-    def power_loss(self) -> float:
-        """Power of the shaft that becomes heat [W]."""
-
-    @property
-    def film(self) -> Reaction:
-        """The film at frozen temperature."""
 
 
 class FieldFilm(Protocol):
@@ -36,8 +21,16 @@ class FieldFilm(Protocol):
     def cold(self) -> Reaction:
         """Return the film of fresh oil."""
 
-    def warmed(self, position: ArrayLike, speed: float, before: Any = None) -> Any:
-        """Return a `WarmState`: the film of the viscosity of the state before, and what it warms to."""
+    def warmed(
+        self, position: ArrayLike, speed: float, before: Any = None, *, closing: bool = False
+    ) -> Any:
+        """Return a state: `film`, of the viscosity of the state before, and what it warms to.
+
+        The `closing` one accounts for the heat to the last digit.
+        """
+
+    def is_settled(self, before: Any, state: Any) -> bool:
+        """Return whether the last round has changed hardly anything."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,20 +80,13 @@ def heated_equilibrium(film: FieldFilm, load: ArrayLike, speed: float) -> Heated
     state: Any = None
     for rounds in range(1, MOST_ROUNDS + 1):
         before, state = state, film.warmed(rest.position, speed, state)
-        last, rest = rest, equilibrium(state.film, load, speed)
-        if before is not None and _change(last, rest, before, state, state.film.clearance) <= SETTLED:
-            return HeatedEquilibrium(rest=rest, state=state, rounds=rounds)
+        rest = equilibrium(state.film, load, speed)
+        if before is not None and film.is_settled(before, state):
+            state = film.warmed(rest.position, speed, state, closing=True)
+            rest = equilibrium(state.film, load, speed)
+            return HeatedEquilibrium(rest=rest, state=state, rounds=rounds + 1)
     raise ConvergenceError(
         f"film and temperature must come to rest within {MOST_ROUNDS} rounds, and did not under load "
         f"{load.tolist()} N at {speed:g} rad/s",
         state,
     )
-
-
-def _change(
-    last: Equilibrium, rest: Equilibrium, before: WarmState, state: WarmState, clearance: float
-) -> float:
-    moved = float(np.hypot(*(rest.position - last.position))) / clearance
-    return max(moved, abs(state.power_loss / before.power_loss - 1.0))
-
-

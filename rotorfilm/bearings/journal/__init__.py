@@ -8,6 +8,11 @@ from .film_state import FilmState, film_state
 from .grooves.groove_table import GrooveMapTable
 from .grooves.grooved_film import GroovedMapFilm
 from .grooves.openings import is_mappable
+from .heat.energy_film import MeanTemperature
+from .heat.heated_film import HeatedFilm
+from .heat.heated_state import HeatAccount, HeatedState
+from .heat.layers_film import LayeredTemperature
+from .heat.walls import AdiabaticWalls, BushRing, HeldWalls, Walls
 from .map.map_film import MapFilm
 from .map.own_tables import bearing_table
 from .reynolds_film import ReynoldsFilm
@@ -19,14 +24,22 @@ from .splitting.spectral_film import SpectralArcFilm
 from .splitting.splitting_film import SplittingFilm
 
 __all__ = [
+    "AdiabaticWalls",
+    "BushRing",
     "ComplementarityArc",
     "ExtrapolatedFilm",
     "FilmState",
     "FixedArc",
     "GrooveMapTable",
     "GroovedMapFilm",
+    "HeatAccount",
+    "HeatedFilm",
+    "HeatedState",
+    "HeldWalls",
     "JournalBearing",
+    "LayeredTemperature",
     "MapFilm",
+    "MeanTemperature",
     "ReynoldsArc",
     "ReynoldsFilm",
     "RotatingArc",
@@ -34,6 +47,7 @@ __all__ = [
     "ShortFilm",
     "SpectralArcFilm",
     "SplittingFilm",
+    "Walls",
     "bearing_table",
     "build_groove_map",
     "film_state",

@@ -56,8 +56,8 @@ class FilmFlow:
 
     @property
     def side_flow(self) -> float:
-        """What leaves through the ends of the film, less what they draw in [1/s]."""
-        return float(self.axial[:, -1].sum())
+        """What leaves the film sideways, less what its ends draw in [1/s]."""
+        return float(self.leaked.sum() + np.minimum(self.axial[:, -1], 0.0).sum())
 
     @property
     def fresh(self) -> Array:
@@ -72,7 +72,7 @@ class FilmFlow:
     @property
     def leaked(self) -> Array:
         """All oil that leaves the film from a cell [1/s]."""
-        leaked = self.lost
+        leaked = np.where(self.filled > 0.0, self.lost, 0.0)
         leaked[:, -1] += np.maximum(self.axial[:, -1], 0.0)
         return leaked
 

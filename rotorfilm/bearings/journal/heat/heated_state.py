@@ -68,7 +68,11 @@ class HeatedState:
         Oil that leaves through both ends of the film.
     heat : HeatAccount
     film : FrozenFilm
-        The film with its oil at the temperature that it had a round before: a Reaction with exact derivatives.
+        The film at frozen temperature: a Reaction with exact derivatives.
+    film_temperature : ndarray, shape of oil_temperature [K]
+        At which the film has its viscosity; that of the oil when the rounds have come to rest.
+    rounds : int
+        Solutions of film and heat in turn until here.
     """
 
     position: Array
@@ -87,3 +91,5 @@ class HeatedState:
     side_flow: float
     heat: HeatAccount
     film: FrozenFilm
+    film_temperature: Array
+    rounds: int

@@ -10,7 +10,7 @@ import numpy as np
 from ....errors import InputError, require_each, require_non_negative, require_positive
 from ....model import Array
 
-HARMONICS = 512
+HARMONICS = 256
 """Waves around the bush that its temperature is made of."""
 
 
