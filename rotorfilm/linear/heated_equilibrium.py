@@ -21,9 +21,7 @@ class FieldFilm(Protocol):
     def cold(self) -> Reaction:
         """Return the film of fresh oil."""
 
-    def warmed(
-        self, position: ArrayLike, speed: float, before: Any = None, *, closing: bool = False
-    ) -> Any:
+    def warmed(self, position: ArrayLike, speed: float, before: Any = None, *, closing: bool = False) -> Any:
         """Return a state: `film`, of the viscosity of the state before, and what it warms to.
 
         The `closing` one accounts for the heat to the last digit.

@@ -66,7 +66,9 @@ def test_derivatives_of_any_field_are_exact(openings):
         step[column] = 1e-6 * scale
         ahead, behind = (film.force(u[:2], u[2:4], u[4]) for u in (state + step, state - step))
         difference = (ahead - behind) / (2.0 * step[column])
-        np.testing.assert_allclose(jacobian[:, column], difference, rtol=2e-7, atol=1e-9 * abs(jacobian).max())
+        np.testing.assert_allclose(
+            jacobian[:, column], difference, rtol=2e-7, atol=1e-9 * abs(jacobian).max()
+        )
 
 
 def test_thicker_oil_carries_more_in_proportion():

@@ -44,9 +44,7 @@ class MeanTemperature:
         equations = HeatEquations(opening + int(cells.opening.max()) + 1, heating)
         film = ~cells.held
         own = index[film]
-        made = heating.heat_scale * (
-            heating.speed**2 * heating.viscosity * flow.shear + flow.dissipation
-        )
+        made = heating.heat_scale * (heating.speed**2 * heating.viscosity * flow.shear + flow.dissipation)
         less = made * heating.thinning
         through = np.maximum(flow.entering, flow.leaving) + less
         equations.carry(oil)

@@ -121,7 +121,9 @@ def film_flow(
     axial[cells.held] = 0.0
     dragged = _with_streamers(cells, full, drag, axial, speed)
     around = dragged + pressed
-    axial[:, -1] = np.where(full[:, -1], axial[:, -2] + np.roll(around, 1, axis=0)[:, -1] - around[:, -1], 0.0)
+    axial[:, -1] = np.where(
+        full[:, -1], axial[:, -2] + np.roll(around, 1, axis=0)[:, -1] - around[:, -1], 0.0
+    )
     entering, leaving = _through(around, axial)
     capacity = abs(speed) * at_lines[:, None] * film.fluidity.dragged * cells.width
     filled = np.where(full | full_gap, 1.0, np.minimum(entering / capacity, 1.0)) * ~cells.held[:, None]

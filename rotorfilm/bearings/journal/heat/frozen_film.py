@@ -192,4 +192,3 @@ class FrozenFilm(StaticReaction):
 def _to_the_end(field: Array) -> Array:
     """Return a field of cells (N, M + 1) at the faces between them, shape (N, M)."""
     return 0.5 * (field[:, 1:] + field[:, :-1])
-

@@ -149,7 +149,9 @@ class HeatEquations:
             places = np.arange(opening, self.size)
             self.add(places, places, np.where(mixed > 0.0, mixed, 1.0))
 
-    def lose(self, rows: tuple[np.ndarray, np.ndarray], bush: Terms, journal: Terms, line: np.ndarray) -> None:
+    def lose(
+        self, rows: tuple[np.ndarray, np.ndarray], bush: Terms, journal: Terms, line: np.ndarray
+    ) -> None:
         """Let oil lose heat to the walls: the equations of the oil, and the line on which each lies."""
         walls = self._heating.walls
         if walls is None:

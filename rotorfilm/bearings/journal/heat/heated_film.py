@@ -8,7 +8,14 @@ from typing import ClassVar, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ....errors import ConvergenceError, InputError, require_finite, require_inside, require_kind, require_number
+from ....errors import (
+    ConvergenceError,
+    InputError,
+    require_finite,
+    require_inside,
+    require_kind,
+    require_number,
+)
 from ....model import Array
 from ...films.ring.ring_grids import require_cells
 from ..bearing import JournalBearing
