@@ -218,12 +218,17 @@ class Warming(Protocol):
     def is_warming(self) -> bool:
         """Whether it does; then it has no force of its own."""
 
-    @property
     def coldest(self) -> float:
-        """Temperature [K] below which the balance is never found."""
+        """Return the temperature [K] below which the balance is never found."""
 
     def at_temperature(self, temperature: float) -> Any:
         """Return the reaction at one temperature of the film [K]."""
+
+    def in_time(self) -> Any:
+        """Return the Reaction with states that it is over time."""
+
+    def balanced(self) -> Any:
+        """Return the static Reaction that has the temperature of the balance at every state; None without."""
 
     def balanced_temperature(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> float:
         """Return the temperature [K] at which the heat of the film balances at one state.
@@ -235,9 +240,9 @@ class Warming(Protocol):
         """
 
 
-def is_warming(reaction: Reaction) -> bool:
-    """Return whether a reaction leaves the temperature of its film to the balance of its heat."""
-    return isinstance(reaction, Warming) and reaction.is_warming
+def in_time(model: Any) -> Any:
+    """Return a model as it runs: a reaction that warms has its temperature as a state."""
+    return model.in_time() if isinstance(model, Warming) and model.is_warming else model
 
 
 def settled(reaction: Reaction, position: ArrayLike, speed: float) -> Any:

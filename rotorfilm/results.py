@@ -6,7 +6,8 @@ import csv
 import dataclasses
 import io
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import InitVar, dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,35 @@ from numpy.typing import NDArray
 from .files import write_whole
 
 Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class BearingLosses:
+    """What a film takes from the shaft, and the oil that runs through it; arrays for a batch of states.
+
+    Attributes
+    ----------
+    power_loss : float [W]
+        Heat made in the oil: what the journal gives to the film, its torque times the speed minus force times
+        velocity, and what a supply pressure puts in.
+    friction_torque : float [N m]
+        Torque about +z that keeps the journal turning; of the sign of the speed.
+    bush_torque : float [N m]
+        Torque about +z of the film on the bush. It differs from `friction_torque` by position x force.
+    side_flow : float [m^3/s]
+        Oil that leaves the film at both ends, without that straight out of grooves.
+    inflow : ndarray, shape (openings, ...) [m^3/s]
+        Oil that leaves each opening into the films beside it, in the order of `FilmGeometry.openings`.
+    arriving : ndarray, shape (openings, ...) [m^3/s]
+        Oil that comes to each opening from the films and streamers beside it.
+    """
+
+    power_loss: float | Array
+    friction_torque: float | Array
+    bush_torque: float | Array
+    side_flow: float | Array
+    inflow: Array
+    arriving: Array
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,6 +72,8 @@ class Equilibrium:
         Newton steps taken.
     temperature : float or None [K]
         Of the film, where it follows from the balance of its heat.
+    reaction : object, optional
+        What was solved for, kept only to tell its `losses`.
     """
 
     position: Array
@@ -53,6 +85,19 @@ class Equilibrium:
     residual: float
     iterations: int
     temperature: float | None = None
+    reaction: InitVar[Any] = None
+
+    def __post_init__(self, reaction: Any) -> None:
+        object.__setattr__(self, "_reaction", reaction)
+
+    @cached_property
+    def losses(self) -> BearingLosses | None:
+        """Power loss, torques and oil flow of the film, found when first asked for.
+
+        None for a reaction that is no film, or one whose film law does not know them.
+        """
+        tell = getattr(vars(self)["_reaction"], "losses", None)
+        return None if tell is None else tell(self.position, np.zeros(2), self.speed)
 
 
 @dataclass(frozen=True, kw_only=True)

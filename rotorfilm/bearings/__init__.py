@@ -11,12 +11,14 @@ from .films.map_fit import fit_map_table, tabulate_film
 from .films.map_table import MapTable
 from .journal import *
 from .linear import LinearBearing
+from .oil import Cooling, Oil
 from .sprung import Sprung
 from .tabulated import TabulatedBearing
 
 __all__ = [
     "Cavitation",
     "Complementarity",
+    "Cooling",
     "FilmGeometry",
     "FilmLaw",
     "FullFilm",
@@ -24,6 +26,7 @@ __all__ = [
     "HalfSommerfeld",
     "LinearBearing",
     "MapTable",
+    "Oil",
     "Pad",
     "Sprung",
     "TabulatedBearing",

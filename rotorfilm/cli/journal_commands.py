@@ -15,7 +15,7 @@ from ..progress import Report
 from ..units import whole_number
 from . import printing as console
 from .command import Said
-from .solve_command import bearing_rows, coefficient_rows, equilibrium_rows, make_map, remark_rows
+from .solve_command import bearing_rows, coefficient_rows, equilibrium_rows, loss_rows, make_map, remark_rows
 
 if TYPE_CHECKING:
     from ..bearings.films.geometry import Groove
@@ -61,7 +61,7 @@ def coefficients(
     from ..linear import equilibrium
     from ..scenes.journal.echo import bearing_data, film_name
     from ..scenes.journal.journal_remarks import film_remarks
-    from ..scenes.lubricant_table import LubricantTable
+    from ..scenes.lubricant_table import Lubricant
     from ..scenes.reading.tables import read_table
     from ..scenes.schema import JournalTable
 
@@ -74,10 +74,11 @@ def coefficients(
     at = equilibrium(bearing, force, rate)
     derivatives = film_coefficients(bearing, at.position, rate)
     data, name = bearing_data(bearing), film_name(bearing.fitted_film)
-    remarks = film_remarks(bearing, LubricantTable(), rate, force)
-    answer = {"bearing": data, "model": name, "equilibrium": at, "coefficients": derivatives}
+    remarks = film_remarks(bearing, Lubricant(), rate, force)
+    answer = {"bearing": data, "model": name, "equilibrium": at, "losses": at.losses}
+    answer = {**answer, "coefficients": derivatives}
     rows = [*bearing_rows(data), ("film", name), *equilibrium_rows(at)]
-    rows += [*coefficient_rows(derivatives), *remark_rows(remarks)]
+    rows += [*loss_rows(at.losses), *coefficient_rows(derivatives), *remark_rows(remarks)]
     return Said({**answer, "remarks": remarks}, partial(console.print_rows, "journal bearing", rows))
 
 

@@ -16,6 +16,7 @@ from rich.table import Table
 from ..files import write_whole
 from ..printable import visible
 from ..results import to_plain
+from ..units import CELSIUS
 
 if TYPE_CHECKING:
     from ..progress import Report
@@ -86,6 +87,11 @@ def progress_display() -> Iterator[Report]:
     finally:
         if bar.live.is_started:
             bar.stop()
+
+
+def temperature_text(temperature: float) -> str:
+    """Return a temperature [K] with its value in degC."""
+    return f"{temperature - CELSIUS:.6g} degC ({temperature:.6g} K)"
 
 
 def speed_text(speed: float) -> str:

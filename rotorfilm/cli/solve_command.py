@@ -12,7 +12,7 @@ import typer
 
 from ..errors import InputError
 from ..progress import Report
-from ..results import Coefficients, Equilibrium, WhirlThreshold
+from ..results import BearingLosses, Coefficients, Equilibrium, WhirlThreshold
 from . import printing as console
 from .bush_command import print_bush
 from .command import Said, SceneFile
@@ -75,7 +75,7 @@ def bearing_rows(bearing: BearingData) -> list[tuple[str, str]]:
     size = f"R {bearing.radius * 1e3:.6g} mm, L {bearing.length * 1e3:.6g} mm, L/D {bearing.slenderness:.6g}"
     rows = [
         ("bearing", f"{size}, c {bearing.clearance * 1e6:.6g} um"),
-        ("viscosity", f"{bearing.film_viscosity:.6g} Pa s"),
+        ("viscosity", f"{bearing.viscosity:.6g} Pa s"),
     ]
     rows += [("groove", f"{_degrees(one.center)}, {_degrees(one.width)} wide") for one in bearing.grooves]
     rows += [("pad", f"from {_degrees(one.start)} over {_degrees(one.extent)}") for one in bearing.pads]
@@ -93,7 +93,22 @@ def equilibrium_rows(at: Equilibrium) -> list[tuple[str, str]]:
         ("eccentricity ratio", f"{at.eccentricity_ratio:.6g}"),
         ("attitude angle", _degrees(at.attitude_angle)),
         ("minimum film", f"{at.minimum_film * 1e6:.6g} um"),
+        *([] if at.temperature is None else [("temperature", console.temperature_text(at.temperature))]),
     ]
+
+
+def loss_rows(losses: BearingLosses | None) -> list[tuple[str, str]]:
+    """Return the rows of what a film takes from the shaft, and of the oil that runs through it."""
+    if losses is None:
+        return []
+    rows = [
+        ("power loss", f"{losses.power_loss:.6g} W, torque {losses.friction_torque:.6g} N m"),
+        ("side flow", f"{losses.side_flow:.6g} m3/s"),
+    ]
+    if losses.inflow.size:
+        rows.append(("from openings", f"{', '.join(f'{flow:.6g}' for flow in losses.inflow)} m3/s"))
+        rows.append(("to openings", f"{', '.join(f'{flow:.6g}' for flow in losses.arriving)} m3/s"))
+    return rows
 
 
 def coefficient_rows(film: Coefficients) -> list[tuple[str, str]]:
@@ -126,7 +141,7 @@ def remark_rows(remarks: tuple[str, ...]) -> list[tuple[str, str]]:
 def print_answer(title: str, answer: Answer) -> None:
     """Print equilibrium, coefficients and whirl threshold."""
     rows = [*bearing_rows(answer.bearing), ("film", answer.model), *equilibrium_rows(answer.equilibrium)]
-    rows += coefficient_rows(answer.coefficients)
+    rows += [*loss_rows(answer.losses), *coefficient_rows(answer.coefficients)]
     rows += whirl_rows(answer.whirl_threshold)
     console.print_rows(title, rows + remark_rows(answer.remarks))
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..fmu.advance import advance
-from ..model import Array, Dynamic, Linearization, Model, breakpoints
+from ..model import Array, Dynamic, Linearization, Model, breakpoints, in_time
 from ..rotors.force_law import ForceLaw
 from ..signals import names
 from .schemes.exponential import LawIntegrator
@@ -118,6 +118,7 @@ class InProcessSlave:
     restores = True
 
     def __init__(self, model: Model) -> None:
+        model = in_time(model)
         self._model = model
         self.differentiates = hasattr(model, "linearization")
         self._inputs, self._outputs = tuple(names(model.inputs)), tuple(names(model.outputs))

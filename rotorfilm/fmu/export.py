@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import FmuError, InputError, require_finite, require_positive
 from ..files import write_whole
-from ..model import Array, Dynamic, Model, Stepped
+from ..model import Array, Dynamic, Model, Stepped, in_time
 from ..native.spec import HasKernel, NativeSpec
 from .archive import to_zip
 from .description.dependencies import delayed_dependencies, dependencies
@@ -111,7 +111,7 @@ def export_fmu(
     target = Path(path)
     for argument, value in (("stop_time", stop_time), ("step_size", step_size)):
         require_positive(argument, value)
-    subject = _subject(model)
+    subject = in_time(_subject(model))
     spec = subject.native() if isinstance(subject, HasKernel) else None
     native = _is_native(subject, spec, backend)
     _require_supported(target, version, native, platforms)

@@ -124,6 +124,10 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
     A warmer film is thinner and leaks more: the temperature of the balance falls while that of the film
     rises, so that there is one root, between the coldest film and what that one warms to.
     """
+    if bearing.balanced() is not None:
+        at = equilibrium(bearing.balanced(), load, speed)
+        temperature = bearing.balanced_temperature(at.position, np.zeros(2), speed)
+        return replace(at, temperature=temperature, reaction=bearing.at_temperature(temperature))
     warmed: dict[float, tuple[Equilibrium, float]] = {}
 
     def excess(temperature: float) -> float:
@@ -132,12 +136,13 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
         warmed[temperature] = at, balanced
         return balanced - temperature
 
-    low = bearing.coldest
+    low = bearing.coldest()
     rise = excess(low)
     if rise > 0.0:
         low = brentq(excess, low, low + rise, xtol=_KELVIN, rtol=8.9e-16)
     at, _ = warmed[low]
-    return replace(at, temperature=low, iterations=sum(one.iterations for one, _ in warmed.values()))
+    steps = sum(one.iterations for one, _ in warmed.values())
+    return replace(at, temperature=low, iterations=steps, reaction=bearing.at_temperature(low))
 
 
 def checked_load(load: ArrayLike) -> Array:
@@ -249,6 +254,7 @@ def _result(reaction: Reaction, load: Array, target: _Target, point: _Point) -> 
         minimum_film=target.clearance / (1.0 + math.exp(point.s)),
         residual=math.hypot(*(force + load)) / target.size,
         iterations=point.steps,
+        reaction=reaction,
     )
 
 

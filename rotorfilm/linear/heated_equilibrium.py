@@ -54,8 +54,8 @@ class HeatedEquilibrium:
 def heated_equilibrium(film: FieldFilm, load: ArrayLike, speed: float) -> HeatedEquilibrium:
     """Return the position at which a film with a temperature field balances a static load.
 
-    The journal finds its place with the temperature frozen, then the oil its temperature with the journal held,
-    in turn until both rest.
+    The journal finds its place with the temperature frozen, then the oil its temperature with the journal
+    held, in turn until both rest.
 
     Parameters
     ----------

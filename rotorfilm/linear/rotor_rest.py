@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import cast
 
 import numpy as np
 
 from ..errors import EquilibriumError, InputError, require_number
-from ..model import Array, Reaction
+from ..model import Array, Reaction, Warming
 from ..results import Coefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, across_planes
@@ -21,6 +22,12 @@ TOLERANCE = 1e-10
 
 CONTINUATION = 8
 """Steps in which the bearings' displacements are handed to the shaft when one step does not converge."""
+
+KELVIN = 1e-7
+"""Change of temperatures [K] below which they are settled."""
+
+WARMINGS = 60
+"""Most rounds of rest at given temperatures and temperatures at given rest."""
 
 _NEWTON_STEPS = 40
 _SINGULAR = 1e15
@@ -41,6 +48,8 @@ class RotorEquilibrium:
         Coordinates of the rotor.
     residual : float [1]
         Largest imbalance of forces / weight; [N] without weight.
+    temperatures : dict of str to float [K]
+        Of the films whose temperature follows from the balance of their heat, by station.
     """
 
     speed: float
@@ -48,6 +57,7 @@ class RotorEquilibrium:
     loads: dict[str, Array]
     displacement: Array
     residual: float
+    temperatures: dict[str, float] = field(default_factory=dict)
 
 
 def rotor_equilibrium(
@@ -85,13 +95,24 @@ def rotor_equilibrium(
     speed = require_number("speed", speed)
     system = _System(rotor.structure, bearings, speed)
     q, loads = system.on_rigid_bearings()
-    p = np.ravel([system.alone(k, load) for k, load in enumerate(loads.reshape(-1, 2))])
-    try:
-        q, p = system.solve(q, p, 1.0)
-    except EquilibriumError:
-        for s in np.arange(1, CONTINUATION + 1) / CONTINUATION:
-            q, p = system.solve(q, p, float(s))
-    return system.result(q, p)
+    alone = [system.alone(k, load) for k, load in enumerate(loads.reshape(-1, 2))]
+    p = np.ravel([position for position, _ in alone])
+    temperatures = [temperature for _, temperature in alone]
+    for _ in range(WARMINGS):
+        system.warm(temperatures)
+        q, p = system.rest(q, p)
+        last, temperatures = temperatures, system.balanced(p)
+        if _is_settled(last, temperatures):
+            return system.result(q, p, temperatures)
+    raise EquilibriumError(
+        f"rotor must come to rest at the temperatures of its films, and did not in {WARMINGS} rounds: "
+        f"they changed from {last} to {temperatures} K"
+    )
+
+
+def _is_settled(last: list[float | None], now: list[float | None]) -> bool:
+    pairs = zip(last, now, strict=True)
+    return all(a is None or b is None or abs(a - b) <= KELVIN for a, b in pairs)
 
 
 class _System:
@@ -102,7 +123,8 @@ class _System:
         if unknown:
             raise InputError(f"bearings must be in the stations {list(structure.stations)}, got {unknown}")
         self.names = [name for name in structure.stations if name in bearings]
-        self.bearings = [bearings[name] for name in self.names]
+        self.given = [bearings[name] for name in self.names]
+        self.bearings = list(self.given)
         self.speed = speed
         rows = [2 * structure.stations.index(name) + axis for name in self.names for axis in range(2)]
         self.journals = structure.journals[rows]
@@ -138,12 +160,35 @@ class _System:
     def free(self) -> EquilibriumError:
         return EquilibriumError(f"bearings must hold the rotor, got {self.names} that leave it free to move")
 
-    def alone(self, k: int, load: Array) -> Array:
-        """Return the position of one journal under its load."""
-        bearing = self.bearings[k]
+    def alone(self, k: int, load: Array) -> tuple[Array, float | None]:
+        """Return the position of one journal under its load, and the temperature of a film that warms."""
+        bearing = self.given[k]
         if np.linalg.norm(load) <= 1e-9 * self.size or not math.isfinite(bearing.clearance):
-            return np.zeros(2)
-        return equilibrium(bearing, load, self.speed).position
+            return np.zeros(2), self._balanced(bearing, np.zeros(2))
+        at = equilibrium(bearing, load, self.speed)
+        return at.position, at.temperature
+
+    def warm(self, temperatures: list[float | None]) -> None:
+        """Take the films at these temperatures; None for those that have theirs."""
+        pairs = zip(self.given, temperatures, strict=True)
+        self.bearings = [b if T is None else cast(Warming, b).at_temperature(T) for b, T in pairs]
+
+    def balanced(self, p: Array) -> list[float | None]:
+        """Return the temperatures of the films that warm, for these positions of the journals."""
+        return [self._balanced(b, at) for b, at in zip(self.given, p.reshape(-1, 2), strict=True)]
+
+    def _balanced(self, bearing: Reaction, at: Array) -> float | None:
+        warms = isinstance(bearing, Warming) and bearing.is_warming
+        return bearing.balanced_temperature(at, np.zeros(2), self.speed) if warms else None  # type: ignore[attr-defined]
+
+    def rest(self, q: Array, p: Array) -> tuple[Array, Array]:
+        """Return (q, p) at rest, by continuation where one step does not converge."""
+        try:
+            return self.solve(q, p, 1.0)
+        except EquilibriumError:
+            for s in np.arange(1, CONTINUATION + 1) / CONTINUATION:
+                q, p = self.solve(q, p, float(s))
+            return q, p
 
     def forces(self, p: Array) -> Array:
         pairs = zip(self.bearings, p.reshape(-1, 2), strict=True)
@@ -202,7 +247,7 @@ class _System:
             share = min(share, 0.5 * gap / length if length > 0.5 * gap else 1.0)
         return share
 
-    def result(self, q: Array, p: Array) -> RotorEquilibrium:
+    def result(self, q: Array, p: Array, temperatures: list[float | None]) -> RotorEquilibrium:
         forces = self.forces(p)
         places = dict(zip(self.names, p.reshape(-1, 2), strict=True))
         films = dict(zip(self.names, self.bearings, strict=True))
@@ -212,4 +257,5 @@ class _System:
             loads=dict(zip(self.names, -forces.reshape(-1, 2), strict=True)),
             displacement=q,
             residual=float(np.abs(self.residual(q, p, 1.0)[0]).max()) / self.size,
+            temperatures={n: T for n, T in zip(self.names, temperatures, strict=True) if T is not None},
         )

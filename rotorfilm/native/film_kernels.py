@@ -68,6 +68,11 @@ class FilmKernel:
         return type(self), self._arguments
 
     @property
+    def tables(self) -> dict[str, Array] | None:
+        """What the kernel `heated_journal` reads of this film; None if it takes no such film."""
+        return None
+
+    @property
     def film(self) -> int | None:
         """The address of its rf_film."""
         return cast(functions()[self._function], c_void_p).value
@@ -100,6 +105,11 @@ class ShortKernel(FilmKernel):
     def __init__(self, slenderness: float) -> None:
         self._arguments = (slenderness,)
         self.struct = ShortStruct(4.0 * slenderness**2)
+
+    @property
+    def tables(self) -> dict[str, Array]:
+        """None are needed."""
+        return {}
 
 
 class MapKernel(FilmKernel):
@@ -140,6 +150,12 @@ class MapKernel(FilmKernel):
         functions()["rf_map_to_wall"](byref(self.struct), slenderness, share)
         self.error = functions()["rf_map_error"](byref(self.struct))
 
+    @property
+    def tables(self) -> dict[str, Array] | None:
+        """The map; see `FilmKernel.tables`."""
+        center, reach = np.array([self.struct.center]), np.array([self.struct.x_end])
+        return {"coefficients": self.coefficients[None], "center": center, "reach": reach}
+
 
 class GrooveMapKernel(MapKernel):
     """The dimensionless film force of one bearing with axial openings from its impedance map.
@@ -162,6 +178,7 @@ class GrooveMapKernel(MapKernel):
 
     _function: ClassVar[str] = "rf_groove_film"
     openings: ClassVar[bool] = True
+    tables = None
 
     def __init__(
         self,
@@ -199,10 +216,10 @@ class JournalKernel:
     def __init__(self, kernel: FilmKernel, clearance: float, force_scale: float) -> None:
         self._arguments = (kernel, clearance, force_scale)
         self.film = kernel
-        self._struct = JournalStruct(
+        self.struct = JournalStruct(
             kernel.film, addressof(kernel.struct), clearance, force_scale, kernel.error, kernel.openings
         )
-        self._reference = byref(self._struct)
+        self._reference = byref(self.struct)
         self._call = functions()["rf_journal_call"]
         self._tangent = functions()["rf_journal_at"]
 

@@ -35,11 +35,14 @@ _ROWS = [c_void_p, c_size_t]
 _BATCH: dict[str, list[Any]] = {
     "rf_film_batch": [c_void_p, c_void_p, c_size_t, *_ROWS * 4, c_void_p],
     "rf_journal_batch": [c_void_p, c_size_t, *_ROWS * 5, c_void_p],
+    "rf_loss_batch": [c_void_p, c_void_p, c_size_t, *[c_void_p] * 5],
 }
 _SCALAR: dict[str, list[Any]] = {
     "rf_map_film": [c_void_p] * 5,
     "rf_groove_film": [c_void_p] * 5,
     "rf_short_film": [c_void_p] * 5,
+    "rf_map_losses": [c_void_p] * 5,
+    "rf_short_losses": [c_void_p] * 5,
     "rf_journal_call": [c_void_p, *[c_double] * 5, c_void_p],
     "rf_journal_at": [c_void_p] * 4,
     "rf_map_slice": [c_void_p, c_double, c_void_p, c_void_p],
@@ -51,8 +54,11 @@ _LOOPS: dict[str, list[Any]] = {
     "rf_ring_film": [c_void_p] * 5,
     "rf_ring_pair": [c_void_p, c_size_t, *[c_void_p] * 5],
     "rf_ring_field": [c_void_p] * 7,
+    "rf_ring_losses": [c_void_p, c_size_t, *[c_void_p] * 5],
     "rf_ring_potential": [c_void_p, c_void_p, c_size_t, *[c_void_p] * 4],
     "rf_stencil_film": [c_void_p, c_void_p, c_void_p, c_size_t, c_void_p],
+    "rf_balanced_at": [c_void_p] * 5,
+    "rf_balanced_batch": [c_void_p, c_size_t, *[c_void_p] * 5],
     "rf_ride": [c_void_p, c_void_p, c_double, c_int64, c_void_p, c_void_p],
     "rf_springs_at": [c_void_p] * 4,
     "rf_set_step_table": [c_void_p, c_void_p, c_double, c_void_p],

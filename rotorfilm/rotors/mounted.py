@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
-from ..model import Array, Dynamic, Linearization, Reaction
+from ..model import Array, Dynamic, Linearization, Reaction, in_time
 from ..native.spec import NativeSpec
 from ..signals import JOURNAL_INPUTS, Signal, indices, names
 from .stations import AroundRotor, prefixed
@@ -227,11 +227,14 @@ def mount(rotor: Dynamic, bearings: Mapping[str, Reaction]) -> MountedRotor:
     rotor : Dynamic
         Its outputs do not depend on the forces, as is so for every rotor here.
     bearings : mapping of str to Reaction
-        By the name of the station.
+        By the name of the station. One whose temperature is left to the balance of its heat gets it as a
+        state.
 
     Raises
     ------
     InputError
         If the rotor has no such station, or a bearing does not fit.
     """
-    return MountedRotor(rotor=rotor, stations=tuple(bearings), bearings=tuple(bearings.values()))
+    return MountedRotor(
+        rotor=rotor, stations=tuple(bearings), bearings=tuple(map(in_time, bearings.values()))
+    )

@@ -1,21 +1,36 @@
-"""`[lubricant]`: what the films leave out, for the numbers that say whether they may."""
+"""`[lubricant]`: the oil of a scene, what cools it, and properties for the checks of what films leave out."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-from typing import Annotated
+import re
+from dataclasses import dataclass
+from typing import Annotated, Any
 
-from ..errors import require_positive
+from ..bearings.oil import Cooling, Oil
+from ..errors import InputError, SceneError, require_non_negative, require_positive
+from ..printable import brief
+from ..units import CELSIUS
 from .reading.tables import Quantity
+
+_GRADE = re.compile(r"\s*(?:ISO\s*)?(?:VG\s*)?(\d{1,4})\s*", re.IGNORECASE)
+
+WARM, HOT = 40.0 + CELSIUS, 100.0 + CELSIUS
+"""Temperatures of `viscosity_40` and `viscosity_100` [K]."""
+
+
+def read_grade(where: str, value: Any) -> int:
+    """Read an ISO viscosity grade, as "ISO VG 46" or 46."""
+    match = _GRADE.fullmatch(str(value)) if isinstance(value, str | int) else None
+    if match is None or isinstance(value, bool):
+        raise SceneError(f"{where} must be an ISO viscosity grade such as 'ISO VG 46', got {brief(value)}")
+    return int(match[1])
 
 
 @dataclass(frozen=True, kw_only=True)
-class LubricantTable:
-    """`[lubricant]`: properties that no film law has.
+class Lubricant:
+    """Properties of an oil at one temperature.
 
-    The defaults are assumptions, of the order of a mineral oil; warnings that rest on them are no better.
-
-    Parameters
+    Attributes
     ----------
     density : float [kg/m3]
     heat_capacity : float [J/(kg K)]
@@ -27,12 +42,129 @@ class LubricantTable:
         Pressure per relative change of volume.
     """
 
-    density: Annotated[float, Quantity("kg/m3")] = 900.0
-    heat_capacity: Annotated[float, Quantity("J/(kg.K)")] = 2000.0
-    conductivity: Annotated[float, Quantity("W/(m.K)")] = 0.15
-    thinning: Annotated[float, Quantity("1/K")] = 0.04
-    bulk_modulus: Annotated[float, Quantity("Pa")] = 1.5e9
+    density: float = 900.0
+    heat_capacity: float = 2000.0
+    conductivity: float = 0.15
+    thinning: float = 0.04
+    bulk_modulus: float = 1.5e9
+
+
+@dataclass(frozen=True, kw_only=True)
+class LubricantTable:
+    """`[lubricant]`: an oil by its viscosity over temperature, what cools it, and further properties.
+
+    Where it gives a viscosity and a bearing gives none, that bearing runs on this oil, in the balance of its
+    heat. Otherwise the properties serve the checks of what the films leave out; what is not given is assumed,
+    of the order of a mineral oil (`Lubricant`), and warnings that rest on it are no better.
+
+    Parameters
+    ----------
+    grade : int or None
+        ISO viscosity grade, as "ISO VG 46": the kinematic viscosity at 40 degC. That at 100 degC is assumed
+        unless it is given.
+    viscosity_40, viscosity_100 : float or None [m2/s]
+        Kinematic viscosity at 40 and 100 degC.
+    supply_temperature : float or None [K]
+        Of the fresh oil; required with a viscosity.
+    ambient_temperature : float or None [K]
+        Around the housing; None for that of the fresh oil.
+    housing_conductance : float [W/K]
+        Heat flow through bush and housing per kelvin between film and ambient.
+    carry_over : float [1]
+        Share of the oil arriving at a groove that goes on into the next film.
+    bush_heat_capacity : float or None [J/K]
+        Of bush and housing; None for a steel ring.
+    density : float or None [kg/m3]
+        At 15 degC, of an oil with a viscosity here.
+    heat_capacity : float or None [J/(kg K)]
+        Per mass.
+    conductivity : float or None [W/(m K)]
+    thinning : float or None [1/K]
+        -d ln(viscosity)/d temperature; with `viscosity_40` alone the same at all temperatures.
+    bulk_modulus : float [Pa]
+        Pressure per relative change of volume.
+    """
+
+    grade: Annotated[int | None, read_grade] = None
+    viscosity_40: Annotated[float | None, Quantity("m2/s")] = None
+    viscosity_100: Annotated[float | None, Quantity("m2/s")] = None
+    supply_temperature: Annotated[float | None, Quantity("K", absolute=True)] = None
+    ambient_temperature: Annotated[float | None, Quantity("K", absolute=True)] = None
+    housing_conductance: Annotated[float, Quantity("W/K")] = 0.0
+    carry_over: Annotated[float, Quantity("1")] = 0.8
+    bush_heat_capacity: Annotated[float | None, Quantity("J/K")] = None
+    density: Annotated[float | None, Quantity("kg/m3")] = None
+    heat_capacity: Annotated[float | None, Quantity("J/(kg.K)")] = None
+    conductivity: Annotated[float | None, Quantity("W/(m.K)")] = None
+    thinning: Annotated[float | None, Quantity("1/K")] = None
+    bulk_modulus: Annotated[float, Quantity("Pa")] = Lubricant.bulk_modulus
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            require_positive(field.name, getattr(self, field.name))
+        for name in ("density", "heat_capacity", "conductivity", "thinning", "bulk_modulus"):
+            if getattr(self, name) is not None:
+                require_positive(name, getattr(self, name))
+        require_non_negative("housing_conductance", self.housing_conductance)
+        if not self.has_viscosity:
+            return
+        if self.grade is not None and self.viscosity_40 is not None:
+            raise InputError(
+                f"grade must not be given beside viscosity_40, which it is, got VG {self.grade} and "
+                f"{self.viscosity_40!r}"
+            )
+        _ = self.oil, self.cooling
+
+    @property
+    def has_viscosity(self) -> bool:
+        """Whether the table says how viscous the oil is."""
+        return self.grade is not None or self.viscosity_40 is not None or self.viscosity_100 is not None
+
+    @property
+    def oil(self) -> Oil:
+        """The oil; InputError where its viscosity over temperature is not given."""
+        given: dict[str, Any] = {
+            "reference_density": self.density,
+            "fixed_heat_capacity": self.heat_capacity,
+            "conductivity": self.conductivity,
+        }
+        further = {name: value for name, value in given.items() if value is not None}
+        warm = self.viscosity_40 if self.grade is None else 1e-6 * self.grade
+        if warm is not None and self.viscosity_100 is not None:
+            return Oil.two_points((WARM, warm), (HOT, self.viscosity_100), **further)
+        if self.grade is not None:
+            return Oil.iso_vg(self.grade, **further)
+        if warm is None or self.thinning is None:
+            raise InputError(
+                "viscosity_40 and viscosity_100 must be given, or viscosity_40 and thinning, or a grade, "
+                f"got {self.viscosity_40!r}, {self.viscosity_100!r} and {self.thinning!r}"
+            )
+        density = float(Oil.constant(1.0, **further).density(WARM))
+        return Oil.thinning_at(warm * density, WARM, self.thinning, **further)
+
+    @property
+    def cooling(self) -> Cooling:
+        """What cools the oil; InputError where the supply temperature is not given."""
+        if self.supply_temperature is None:
+            raise InputError("supply_temperature must be given where the oil has a viscosity, got None")
+        return Cooling(
+            supply_temperature=self.supply_temperature,
+            ambient_temperature=self.ambient_temperature,
+            housing_conductance=self.housing_conductance,
+            carry_over=self.carry_over,
+            heat_capacity=self.bush_heat_capacity,
+        )
+
+    @property
+    def properties(self) -> Lubricant:
+        """What the checks of left-out physics need: as given, of the fresh oil, or assumed."""
+        known: dict[str, float] = {"bulk_modulus": self.bulk_modulus}
+        if self.has_viscosity:
+            oil, fresh = self.oil, self.cooling.supply_temperature
+            known |= {
+                "density": float(oil.density(fresh)),
+                "heat_capacity": float(oil.heat_capacity(fresh)),
+                "conductivity": oil.conductivity,
+                "thinning": float(oil.thinning(fresh)),
+            }
+        names = ("density", "heat_capacity", "conductivity", "thinning")
+        given = {name: getattr(self, name) for name in names if getattr(self, name) is not None}
+        return Lubricant(**{**known, **given})

@@ -58,7 +58,7 @@ class Scene:
     operation : OperationTable or None
         Speed and load.
     lubricant : LubricantTable
-        Properties for the checks of what the films leave out.
+        The oil and what cools it, and properties for the checks of what the films leave out.
     rigid_rotor : RigidRotorTable or None
         What the bearing carries; without it there is no whirl threshold and no transient.
     excitation : UnbalanceTable, BladeLossTable, RunUpTable, StepLoadTable, SineLoadTable or None
@@ -99,6 +99,7 @@ class Scene:
     question: Annotated[QuestionTable | None, Table(QuestionTable)] = None
 
     def __post_init__(self) -> None:
+        self._take_oil()
         if all(self.table(name) is None for name in FAMILIES):
             raise InputError(f"{' or '.join(FAMILIES)} is required and missing")
         if self.question is not None and self.question.at:
@@ -111,6 +112,13 @@ class Scene:
             raise InputError("operation is required and missing: the journal has no speed and no load")
         if self.operation.load is None and self.rigid_rotor is None:
             raise InputError("operation.load is required where there is no [rigid_rotor], got neither")
+
+    def _take_oil(self) -> None:
+        """Give the oil of `[lubricant]` to the journal bearings that state no viscosity."""
+        if self.journal is not None:
+            object.__setattr__(self, "journal", self.journal.on("journal", self.lubricant))
+        if self.shaft is not None:
+            object.__setattr__(self, "shaft", self.shaft.on(self.lubricant))
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Scene:
@@ -169,7 +177,7 @@ class Scene:
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
         bearing = self.bearing  # once: making it may warn
         answer = solve(bearing, load=self.static_load, speed=self.speed, mass=mass)
-        remarks = film_remarks(bearing, self.lubricant, self.speed, self.static_load)
+        remarks = film_remarks(bearing, self.lubricant.properties, self.speed, self.static_load)
         return replace(answer, remarks=remarks)
 
     def melting(self) -> BushAnswer:
@@ -185,7 +193,7 @@ class Scene:
     @property
     def film_remarks(self) -> tuple[str, ...]:
         """What the physics of the journal's film leaves out and should not, one line each."""
-        return film_remarks(self.bearing, self.lubricant, self.speed, self.static_load)
+        return film_remarks(self.bearing, self.lubricant.properties, self.speed, self.static_load)
 
     @property
     def film_is_given(self) -> bool:

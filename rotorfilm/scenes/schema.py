@@ -7,16 +7,18 @@ is listed by one line in `rotorfilm.scenes.families`, and renames nothing.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated
 
 from ..bearings.films.geometry import FilmGeometry, Groove, Pad
 from ..bearings.films.law import FilmLaw
 from ..bearings.journal import GroovedMapFilm, JournalBearing, MapFilm, ReynoldsFilm, is_mappable
+from ..bearings.oil import Cooling, Oil
 from ..errors import InputError, require_finite, require_positive
 from ..limits import STEPS
 from ..rotors.rigid import RigidRotor
 from .journal.film_tables import FILMS, GROOVE, PAD
+from .lubricant_table import LubricantTable
 from .reading.readers import read_load
 from .reading.shared_fields import made_from
 from .reading.tables import Quantity, TableList, Variant
@@ -37,7 +39,12 @@ class JournalTable:
         Full axial length.
     clearance : float [m]
         Radial clearance.
-    viscosity : float [Pa s]
+    viscosity : float or None [Pa s]
+        None where `[lubricant]` gives the oil.
+    oil : Oil or None
+        Of `[lubricant]`, where there is no viscosity.
+    cooling : Cooling or None
+        Of `[lubricant]`, with the oil.
     film : FilmLaw or None
         The film law; if the file does not say, the map where there is one, or what a question needs.
     pads : tuple of Pad
@@ -51,14 +58,38 @@ class JournalTable:
     radius: Annotated[float, Quantity("m", twice="diameter")]
     length: Annotated[float, Quantity("m")]
     clearance: Annotated[float, Quantity("m")]
-    viscosity: Annotated[float, Quantity("Pa.s")]
+    viscosity: Annotated[float | None, Quantity("Pa.s")] = None
+    oil: Oil | None = None
+    cooling: Cooling | None = None
     film: Annotated[FilmLaw | None, Variant("name", FILMS)] = None
     pads: Annotated[tuple[Pad, ...], TableList(PAD)] = ()
     grooves: Annotated[tuple[Groove, ...], TableList(GROOVE)] = ()
     supply_pressure: Annotated[float, Quantity("Pa")] = 0.0
 
     def __post_init__(self) -> None:
-        self.build()
+        # Without a viscosity there is no bearing before `on` has given the oil.
+        if self.has_lubricant:
+            self.build()
+
+    @property
+    def has_lubricant(self) -> bool:
+        """Whether there is a viscosity, or the oil of the scene."""
+        return self.viscosity is not None or self.oil is not None
+
+    def on(self, where: str, lubricant: LubricantTable) -> JournalTable:
+        """Return this table with the oil of the scene, unless it has its own viscosity.
+
+        Parameters
+        ----------
+        where : str
+            Its name in the file, for messages.
+        lubricant : LubricantTable
+        """
+        if self.has_lubricant:
+            return self
+        if not lubricant.has_viscosity:
+            raise InputError(f"{where}.viscosity is required where [lubricant] gives no grade or viscosity")
+        return replace(self, oil=lubricant.oil, cooling=lubricant.cooling)
 
     def build(self) -> JournalBearing:
         """Return the bearing; raise InputError where a value breaks its rule.

@@ -29,6 +29,11 @@ AT_REST: Quantities = {
     "stiffness": ("coefficients.stiffness", "N/m"),
     "damping": ("coefficients.damping", "N.s/m"),
 }
+LOSSES: Quantities = {
+    "power_loss": ("losses.power_loss", "W"),
+    "friction_torque": ("losses.friction_torque", "N.m"),
+    "side_flow": ("losses.side_flow", "m3/s"),
+}
 THRESHOLD: Quantities = {
     "threshold_speed": ("whirl_threshold.speed", "rad/s"),
     "whirl_ratio": ("whirl_threshold.whirl_ratio", "1"),
@@ -43,7 +48,10 @@ MELTING: Quantities = {
 ASKED: Quantities = {"value": ("value", ""), "error_estimate": ("error_estimate", "1")}
 
 UNITS = {
-    name: unit for each in (AT_REST, THRESHOLD, MELTING, ASKED) for name, (_, unit) in each.items() if unit
+    name: unit
+    for each in (AT_REST, LOSSES, THRESHOLD, MELTING, ASKED)
+    for name, (_, unit) in each.items()
+    if unit
 }
 """Units of what a scene without a question answers, and of the estimate of one with it."""
 
@@ -73,7 +81,8 @@ def _kept(answer: Answer | BushAnswer | QuestionAnswer) -> Row:
         return {**_taken(answer, ASKED), "met": answer.met, "model": answer.model, "unit": answer.unit}
     threshold = answer.whirl_threshold
     whirls = threshold is not None and threshold.speed is not None
-    return {**_taken(answer, AT_REST), **_taken(answer, THRESHOLD if whirls else {}), "model": answer.model}
+    kept = {**AT_REST, **(LOSSES if answer.losses else {}), **(THRESHOLD if whirls else {})}
+    return {**_taken(answer, kept), "model": answer.model}
 
 
 def _taken(answer: object, quantities: Quantities) -> Row:

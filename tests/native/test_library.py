@@ -15,12 +15,12 @@ from rotorfilm.native.kernel_table import libraries
 SOURCES = sorted((Path(__file__).parents[2] / "rotorfilm" / "native").rglob("*.c"))
 COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
 LARGEST = {
-    "rotorfilm": 66_000,
+    "rotorfilm": 72_000,
     "rotorfilm_states": 60_000,
     "rotorfilm_systems": 74_000,
     "rotorfilm_bushes": 60_000,
     "rotorfilm_grids": 72_000,
-    "rotorfilm_loops": 100_000,
+    "rotorfilm_loops": 107_000,
 }
 """Bytes of each library on Linux, x86_64: what it has, and some room for other compilers."""
 

@@ -24,7 +24,7 @@ from rotorfilm.scenes import Scene, parse_scene
 from rotorfilm.scenes.contact.contact_motions import contact_motion, natural_frequency
 from rotorfilm.scenes.contact.contact_remarks import contact_numbers
 from rotorfilm.scenes.contact.contact_rest import INLETS, OUTLET, REACH, SPACINGS, RestingFilms
-from rotorfilm.scenes.lubricant_table import LubricantTable
+from rotorfilm.scenes.lubricant_table import Lubricant
 from rotorfilm.scenes.question_table import QuestionTable
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
@@ -251,7 +251,7 @@ def test_smallest_value_lies_between_the_samples_of_a_parabola():
 
 @pytest.mark.closed_form
 def test_numbers_of_what_is_left_out():
-    table, oil = scene_of().contact, LubricantTable()
+    table, oil = scene_of().contact, Lubricant()
     numbers = contact_numbers(table.build(), oil, roelands=False, compressible=False)
     # Poiseuille flow of the mean velocity u between cold walls: u'' = -3 u/h^2, k T'' = -mu u'^2, integrated
     eta = np.linspace(0.0, 1.0, 20001)

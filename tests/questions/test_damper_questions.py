@@ -34,7 +34,7 @@ from rotorfilm.scenes.damper.damper_films import damper_films
 from rotorfilm.scenes.damper.damper_models import damper_models
 from rotorfilm.scenes.damper.damper_ranges import damper_numbers, damper_remarks, largest_pressure
 from rotorfilm.scenes.damper.damper_runs import run_damper
-from rotorfilm.scenes.lubricant_table import LubricantTable
+from rotorfilm.scenes.lubricant_table import Lubricant
 from rotorfilm.scenes.question_table import QuestionTable
 
 ROOT = Path(__file__).parents[2]
@@ -316,7 +316,7 @@ def test_smallest_stable_orbit_answers_where_there_are_several():
     assert any(remark.startswith("3 orbits at this unbalance") for remark in answer.remarks)
 
 
-OIL = LubricantTable(density=900.0, heat_capacity=2000.0, conductivity=0.15, thinning=0.04)
+OIL = Lubricant(density=900.0, heat_capacity=2000.0, conductivity=0.15, thinning=0.04)
 BARE = PorousDamper(radius=0.05, length=0.02, clearance=1e-4, viscosity=0.005, extent=FullFilm())
 
 

@@ -19,20 +19,22 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 
 def journal():
     scene = bundled_scene()
-    at = scene.bearing, scene.lubricant, scene.speed, scene.static_load
+    at = scene.bearing, scene.lubricant.properties, scene.speed, scene.static_load
     return journal_remarks.REMARKS, journal_remarks.journal_numbers(*at)
 
 
 def contact():
     scene = Scene.load(EXAMPLES / "ball_step.toml")
     ball = scene.contact.build()
-    numbers = contact_remarks.contact_numbers(ball, scene.lubricant, roelands=False, compressible=False)
+    numbers = contact_remarks.contact_numbers(
+        ball, scene.lubricant.properties, roelands=False, compressible=False
+    )
     return contact_remarks.REMARKS, numbers
 
 
 def damper():
     scene = Scene.load(EXAMPLES / "damper_question.toml")
-    numbers = damper_ranges.damper_numbers(scene.damper.build(), scene.lubricant, 20.0, 300.0, 0.5)
+    numbers = damper_ranges.damper_numbers(scene.damper.build(), scene.lubricant.properties, 20.0, 300.0, 0.5)
     return (*damper_ranges.REMARKS, *damper_ranges.FULL, *damper_ranges.RUPTURED), numbers
 
 

@@ -1,10 +1,10 @@
 """Shear and flow of a film: what decides its power loss, its torques and the oil that leaves it.
 
-The torque on the journal is viscosity omega R^3 L/c times a shear integral Sigma = int int alpha/H dtheta
-dzeta, 0 < zeta < 1 along the length, plus (E x F)_z/2. A full film has alpha = 1. Behind its end the oil runs
-in streamers between both walls, with the thickness H_r at which the film ended: alpha = min(1, H_r/H). The
-side flow is c R L times the source over the film, w . int int n dtheta dzeta with H = 1 - e . n, for nothing
-crosses the free ends. Sigma depends on the direction of the source alone; the flow grows with it.
+The torque on the journal is viscosity omega R^3 L/c times a shear integral Sigma = int int alpha/H dtheta dzeta,
+0 < zeta < 1 along the length, plus (E x F)_z/2. A full film has alpha = 1. Behind its end the oil runs in
+streamers between both walls, with the thickness H_r at which the film ended: alpha = min(1, H_r/H). The side flow
+is c R L times the source over the film, w . int int n dtheta dzeta with H = 1 - e . n, for nothing crosses the free
+ends. Sigma depends on the direction of the source alone; the flow grows with it.
 """
 
 from __future__ import annotations
@@ -14,6 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ...model import Array
+from ...native.loss_kernels import LossKernel
+from .geometry import FilmGeometry
 
 
 class FilmLosses(NamedTuple):
@@ -35,8 +37,8 @@ class FilmLosses(NamedTuple):
     arriving : ndarray, shape (openings, ...) [1/s]
         Oil that comes to each opening from the films and streamers beside it.
     slopes : ndarray, shape (3, 4, ...), or None
-        Derivatives of shear_film, shear_streamers and side_flow by (eccentricity, source); None where the
-        film law has none. Not-a-number where the source vanishes.
+        Derivatives of shear_film, shear_streamers and side_flow by (eccentricity, source); None where the film
+        law has none. Not-a-number where the source vanishes.
     """
 
     shear_film: Array
@@ -53,12 +55,32 @@ class FilmLosses(NamedTuple):
         return self.shear_film + self.shear_streamers
 
 
-def full_gap_shear(eccentricity_ratio: Array) -> Array:
-    """Return Sigma of a gap that is full all round, 2 pi/sqrt(1 - chi^2)."""
-    return np.asarray(2.0 * np.pi / np.sqrt((1.0 - eccentricity_ratio) * (1.0 + eccentricity_ratio)))
+def plain_losses(kernel: LossKernel, eccentricity: Array, source: Array) -> FilmLosses:
+    """Return the losses of a plain film by its compiled kernel, at states (2, ...) off the wall."""
+    shape = eccentricity.shape[1:]
+    batch = kernel.losses(eccentricity.reshape(2, -1), source.reshape(2, -1))
+    film, streamers, flow = batch.losses.reshape(3, *shape)
+    none = np.empty((0, *shape))
+    gap = gap_shear(eccentricity, FilmGeometry())
+    return FilmLosses(film, streamers, gap, flow, none, none, batch.slopes.reshape(3, 4, *shape))
 
 
-def gap_integral(chi: float, angle: Array) -> Array:
+def gap_shear(eccentricity: Array, geometry: FilmGeometry) -> Array:
+    """Return Sigma of a gap that is full all round but for the openings, at eccentricities (2, ...)."""
+    chi, away = np.hypot(*eccentricity), np.arctan2(-eccentricity[1], -eccentricity[0])
+    films = [span for span in geometry.spans() if span.held is None]
+    parts = [gap_integral(chi, span.end - away) - gap_integral(chi, span.start - away) for span in films]
+    return np.asarray(np.sum(parts, axis=0))
+
+
+def static_rate(eccentricity: Array, source: Array) -> Array:
+    """Return the rate at which the oil of a journal at rest runs, speed/2 [1/s]; 0 at the center."""
+    squared = (eccentricity * eccentricity).sum(axis=0)
+    turned = eccentricity[1] * source[0] - eccentricity[0] * source[1]
+    return np.asarray(np.where(squared > 0.0, turned, 0.0) / np.where(squared > 0.0, squared, 1.0))
+
+
+def gap_integral(chi: Array | float, angle: Array | float) -> Array:
     """Return the integral of 1/(1 + chi cos t) from 0 to an angle of any size."""
     turns = np.round(angle / (2.0 * np.pi))
     rest = 0.5 * (angle - 2.0 * np.pi * turns)
@@ -67,7 +89,7 @@ def gap_integral(chi: float, angle: Array) -> Array:
     return np.asarray(2.0 / root * (bent + np.pi * turns))
 
 
-def squared_integral(chi: float, angle: Array) -> Array:
+def squared_integral(chi: Array | float, angle: Array | float) -> Array:
     """Return the integral of 1/(1 + chi cos t)^2 from 0 to an angle of any size."""
     edge = chi * np.sin(angle) / (1.0 + chi * np.cos(angle))
     return np.asarray((gap_integral(chi, angle) - edge) / ((1.0 - chi) * (1.0 + chi)))

@@ -82,7 +82,7 @@ class BoundKernel:
         """Return (force_x, force_y) [N] for numbers, as fast as Python can ask."""
         force_x, force_y, status = self.kernel.call(x, y, vx, vy, speed)
         if status:
-            self._report(status, x, y, vx, vy, speed)
+            self.report(status, x, y, vx, vy, speed)
         return force_x, force_y
 
     def tangent(
@@ -91,7 +91,7 @@ class BoundKernel:
         """Return (force_x, force_y) [N] and the ten entries of the Jacobian, row by row, for numbers."""
         force_x, force_y, derivatives, status = self.kernel.tangent(x, y, vx, vy, speed)
         if status:
-            self._report(status, x, y, vx, vy, speed)
+            self.report(status, x, y, vx, vy, speed)
         return force_x, force_y, derivatives
 
     def force(self, position: Array, velocity: Array, speed: Array) -> Array:
@@ -120,9 +120,9 @@ class BoundKernel:
         if batch.status:
             at = np.argmax(np.hypot(*q)) if batch.status == Status.AT_WALL else batch.first
             (x, y), (vx, vy) = q[:, at].tolist(), v[:, at].tolist()
-            self._report(batch.status, x, y, vx, vy, float(np.broadcast_to(omega, q.shape[1:])[at]))
+            self.report(batch.status, x, y, vx, vy, float(np.broadcast_to(omega, q.shape[1:])[at]))
 
-    def _report(self, status: int, x: float, y: float, vx: float, vy: float, speed: float) -> None:
+    def report(self, status: int, x: float, y: float, vx: float, vy: float, speed: float) -> None:
         """Raise, or warn, about a state that has this status."""
         if status == Status.NOT_FINITE:
             raise InputError(

@@ -18,8 +18,9 @@ from typing import NamedTuple, Protocol, TypeVar, cast, runtime_checkable
 
 import numpy as np
 
-from ...errors import ConvergenceError, FilmContactError, InputError, UndefinedDerivativeError
+from ...errors import ConvergenceError, FilmContactError, UndefinedDerivativeError
 from ...model import Array
+from ...native.loss_kernels import LossKernel
 from .film_losses import FilmLosses
 from .geometry import FilmGeometry
 
@@ -113,11 +114,16 @@ class FilmOptions:
         """Return this law with the table that it would make on first use; None if it makes none."""
         return None
 
-    def losses(self, eccentricity: Array, source: Array, slenderness: float) -> FilmLosses:
-        """Return shear and flow of the film at states as in `FilmLaw.force`; InputError if it knows none."""
-        raise InputError(
-            f"film must be one with losses for heat, such as a MapFilm, got {type(self).__name__}"
-        )
+    def losses(self, e: Array, w: Array, slenderness: float, rate: Array | None = None) -> FilmLosses | None:
+        """Return shear and flow at eccentricities e and sources w (2, ...); None if the law does not know.
+
+        Between openings the oil runs at `rate` (...) [1/s], speed/2; by default as for a journal at rest.
+        """
+        return None
+
+    def loss_kernel(self, slenderness: float) -> LossKernel | None:
+        """Return shear and flow with slopes in compiled code; None if there are none."""
+        return None
 
 
 Kind = TypeVar("Kind")

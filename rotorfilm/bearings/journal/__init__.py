@@ -2,17 +2,20 @@
 
 from .arc_pressure import middle_pressure, tension
 from .bearing import JournalBearing
+from .bearing_losses import bearing_losses, has_losses
 from .build_groove_map import build_groove_map
 from .extrapolated_film import ExtrapolatedFilm
 from .film_state import FilmState, film_state
 from .grooves.groove_table import GrooveMapTable
 from .grooves.grooved_film import GroovedMapFilm
 from .grooves.openings import is_mappable
-from .heat.energy_film import MeanTemperature
-from .heat.heated_film import HeatedFilm
-from .heat.heated_state import HeatAccount, HeatedState
-from .heat.layers_film import LayeredTemperature
-from .heat.walls import AdiabaticWalls, BushRing, HeldWalls, Walls
+from .heat.balanced_bearing import BalancedBearing
+from .heat.field.energy_film import MeanTemperature
+from .heat.field.heated_film import HeatedFilm
+from .heat.field.heated_state import HeatAccount, HeatedState
+from .heat.field.layers_film import LayeredTemperature
+from .heat.field.walls import AdiabaticWalls, BushRing, HeldWalls, Walls
+from .heat.heated_bearing import HeatedBearing
 from .map.map_film import MapFilm
 from .map.own_tables import bearing_table
 from .reynolds_film import ReynoldsFilm
@@ -25,6 +28,7 @@ from .splitting.splitting_film import SplittingFilm
 
 __all__ = [
     "AdiabaticWalls",
+    "BalancedBearing",
     "BushRing",
     "ComplementarityArc",
     "ExtrapolatedFilm",
@@ -33,6 +37,7 @@ __all__ = [
     "GrooveMapTable",
     "GroovedMapFilm",
     "HeatAccount",
+    "HeatedBearing",
     "HeatedFilm",
     "HeatedState",
     "HeldWalls",
@@ -48,9 +53,11 @@ __all__ = [
     "SpectralArcFilm",
     "SplittingFilm",
     "Walls",
+    "bearing_losses",
     "bearing_table",
     "build_groove_map",
     "film_state",
+    "has_losses",
     "is_mappable",
     "middle_pressure",
     "tension",

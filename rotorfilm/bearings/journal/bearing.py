@@ -15,10 +15,10 @@ from ...errors import (
     require_kind,
     require_non_negative,
     require_positive,
-    warn_user,
 )
 from ...model import Array, Tangent
 from ...native.spec import NativeSpec
+from ...results import BearingLosses
 from ...signals import Signal, force_outputs, journal_inputs
 from ..films.bound_law import BoundLaw, kinematics
 from ..films.geometry import FilmGeometry, Groove, Pad
@@ -26,13 +26,12 @@ from ..films.law import BoundFilm, FilmLaw, FilmOptions, options
 from ..oil import Cooling, Oil
 from ..oil.lubricant import film_viscosity, require_lubricant
 from ..reaction import NOMINAL_SPEED, Feedthrough, broadcast_state
+from .bearing_losses import bearing_losses
+from .dimensions import warn_of_odd_dimensions
 from .fitting import fitted_film
 from .heat.warm_film import WarmFilm
 from .journal_kernel import journal_spec
 from .map.map_film import MapFilm
-
-CLEARANCE_RATIOS = (1e-5, 2e-2)
-"""Clearance / radius of bearings that are built; outside, a unit probably is wrong."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,7 +80,7 @@ class JournalBearing(Feedthrough, WarmFilm):
     -----
     ValidityWarning
         If length / diameter is beyond the `slenderness_limit` that the film law declares, or clearance /
-        radius is outside `CLEARANCE_RATIOS`.
+        radius is outside `dimensions.CLEARANCE_RATIOS`.
 
     Examples
     --------
@@ -120,21 +119,8 @@ class JournalBearing(Feedthrough, WarmFilm):
                 f"length / diameter must be {low:g} to {high:g} for {type(self.fitted_film).__name__}, "
                 f"got {self.slenderness:.6g}"
             )
-        self._warn_of_odd_dimensions()
-
-    def _warn_of_odd_dimensions(self) -> None:
-        ratio, (least, most) = self.clearance / self.radius, CLEARANCE_RATIOS
-        if not least * (1.0 - 1e-12) <= ratio <= most * (1.0 + 1e-12):
-            warn_user(
-                f"clearance / radius should be {least:g} to {most:g}, got {ratio:.3g} "
-                f"from {self.clearance!r} m and {self.radius!r} m: check units"
-            )
         limit = self._options.slenderness_limit
-        if self.slenderness > limit:
-            warn_user(
-                f"length / diameter must not exceed {limit} for {self.film!r}, got {self.slenderness:.6g}: "
-                "the film force can be wrong by half and more"
-            )
+        warn_of_odd_dimensions(self.radius, self.length, self.clearance, self.film, limit)
 
     @property
     def slenderness(self) -> float:
@@ -232,6 +218,17 @@ class JournalBearing(Feedthrough, WarmFilm):
             Where the film has no derivative: at rest without rotation, and in exact half-speed whirl.
         """
         return self.prepared_jacobian(*broadcast_state(position, velocity, speed))
+
+    def losses(
+        self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool | None = None
+    ) -> BearingLosses | None:
+        """Return power loss, torques and oil flow; see `bearing_losses`. None if the film law has none.
+
+        Where `full_gap` is None, it is that of the cooling, or false.
+        """
+        if full_gap is None:
+            full_gap = self.cooling is not None and self.cooling.full_gap
+        return bearing_losses(self, *broadcast_state(position, velocity, speed), full_gap=full_gap)
 
     def prepare(self) -> Callable[[float, float, float, float, float], tuple[float, float]]:
         """Return the force as a function of five numbers, for loops that go state by state.

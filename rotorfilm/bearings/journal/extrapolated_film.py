@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from ...errors import InputError, require_kind
 from ...model import Array
+from ..films.film_losses import FilmLosses
 from ..films.geometry import FilmGeometry
 from ..films.law import FilmOptions
 from .reynolds_film import ReynoldsFilm, richardson
@@ -68,3 +69,7 @@ class ExtrapolatedFilm(FilmOptions):
         fine = self.film.jacobian(eccentricity, source, slenderness)
         coarse = self.coarse.jacobian(eccentricity, source, slenderness)
         return richardson(fine, coarse, self.film.order)
+
+    def losses(self, e: Array, w: Array, slenderness: float, rate: Array | None = None) -> FilmLosses:
+        """Return shear and flow of the finer film; see `FilmOptions`."""
+        return self.film.losses(e, w, slenderness, rate)

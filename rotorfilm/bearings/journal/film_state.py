@@ -1,14 +1,15 @@
-"""Everything that a two-dimensional film says about one state of a bearing, in SI units."""
+"""Everything that a film says about one state of a bearing, in SI units."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_finite
 from ...model import Array
+from ...results import BearingLosses
 from ..films.film_field import FilmField
 from .bearing import JournalBearing
 from .reynolds_film import ReynoldsFilm
@@ -16,14 +17,19 @@ from .reynolds_film import ReynoldsFilm
 
 @dataclass(frozen=True, kw_only=True)
 class FilmState:
-    """Pressure, force, flow and friction of a film at one state of the journal.
+    """Force, flow and friction of a film at one state of the journal, and its pressure where it has a field.
 
     Attributes
     ----------
     force : ndarray, shape (2,) [N]
         Force on the journal: `JournalBearing.force`.
+    minimum_film : float [m]
+        clearance - eccentricity.
+    losses : BearingLosses
+        Power loss, torques on journal and bush, side flow, and the flow of openings.
     force_extrapolated : ndarray, shape (2,) [N]
-        Richardson extrapolation of the force from two grids.
+        Richardson extrapolation of the force from two grids. This and all below are None but for a
+        `ReynoldsFilm`.
     force_error : float [N]
         Estimate of the error of `force`, from the same two grids.
     angle : ndarray, shape (N,) [rad]
@@ -36,33 +42,53 @@ class FilmState:
         Film thickness.
     maximum_pressure : float [Pa]
         Largest pressure at a node.
-    minimum_film : float [m]
-        clearance - eccentricity.
-    side_flow : float [m^3/s]
-        Flow out of both ends of the film, without that straight out of the grooves. With a supply pressure
-        it has no limit as the cells shrink: a groove open at the bearing's end feeds the corner beside it.
-    friction_torque : float [N m]
-        Torque about +z that keeps the journal turning; of the sign of the speed.
-    power_loss : float [W]
-        Power that the journal gives to the film: torque times speed minus force times velocity.
     """
 
     force: Array
-    force_extrapolated: Array
-    force_error: float
-    angle: Array
-    axial: Array
-    pressure: Array
-    thickness: Array
-    maximum_pressure: float
     minimum_film: float
-    side_flow: float
-    friction_torque: float
-    power_loss: float
+    losses: BearingLosses
+    force_extrapolated: Array | None = None
+    force_error: float | None = None
+    angle: Array | None = None
+    axial: Array | None = None
+    pressure: Array | None = None
+    thickness: Array | None = None
+    maximum_pressure: float | None = None
+
+    @property
+    def side_flow(self) -> float:
+        """Oil that leaves the film at both ends [m^3/s], without that straight out of grooves.
+
+        With a supply pressure it has no limit as the cells shrink: a groove open at the bearing's end feeds the
+        corner beside it.
+        """
+        return float(self.losses.side_flow)
+
+    @property
+    def friction_torque(self) -> float:
+        """Torque about +z that keeps the journal turning [N m]; of the sign of the speed."""
+        return float(self.losses.friction_torque)
+
+    @property
+    def bush_torque(self) -> float:
+        """Torque about +z of the film on the bush [N m]."""
+        return float(self.losses.bush_torque)
+
+    @property
+    def power_loss(self) -> float:
+        """Heat made in the oil by journal and supply [W]."""
+        return float(self.losses.power_loss)
 
 
-def film_state(bearing: JournalBearing, position: ArrayLike, velocity: ArrayLike, speed: float) -> FilmState:
-    """Return pressure, force, flow and friction of a bearing with a `ReynoldsFilm` at one state.
+def film_state(
+    bearing: JournalBearing,
+    position: ArrayLike,
+    velocity: ArrayLike,
+    speed: float,
+    *,
+    full_gap: bool = False,
+) -> FilmState:
+    """Return force, flow and friction of a bearing at one state, and the pressure of a `ReynoldsFilm`.
 
     Parameters
     ----------
@@ -71,28 +97,32 @@ def film_state(bearing: JournalBearing, position: ArrayLike, velocity: ArrayLike
         Of the journal's center.
     speed : float [rad/s]
         Angular speed about +z, of either sign.
+    full_gap : bool, optional
+        Whether oil fills the ruptured zone, as Raimondi & Boyd (1958) have it; by default streamers run there.
+        See `bearing_losses`.
 
     Raises
     ------
     InputError
-        If the film is not a `ReynoldsFilm` or an argument breaks its rule.
+        If the film law has no losses or an argument breaks its rule.
     FilmContactError
         If the journal touches the wall.
-
-    Notes
-    -----
-    The friction is the Couette shear of a film that fills the clearance wherever there is a wall, the
-    ruptured zone included (as Raimondi & Boyd 1958 have it), plus that of the pressure gradient,
-    T = (viscosity R^3 b/c) (speed integral dtheta/H + (e x F)_z/2) with e and F in the film's units.
     """
-    film = bearing.fitted_film
-    if not isinstance(film, ReynoldsFilm):
-        raise InputError(f"film must be a ReynoldsFilm to have a pressure field, got {bearing.film!r}")
     q, v, omega = _single("position", position), _single("velocity", velocity), require_finite("speed", speed)
     if omega.ndim != 0:
         raise InputError(f"speed must be a single number, got shape {omega.shape}")
-    e, w = bearing.kinematics(q, v, omega)
-    return _dimensional(bearing, film.solve(e, w, bearing.slenderness), e, v, float(omega))
+    losses = bearing.losses(q, v, omega, full_gap=full_gap)
+    if losses is None:
+        raise InputError(f"film must be a law with losses, as MapFilm or ReynoldsFilm, got {bearing.film!r}")
+    state = FilmState(
+        force=bearing.force(q, v, omega),
+        minimum_film=bearing.clearance - float(np.hypot(*q)),
+        losses=losses,
+    )
+    film = bearing.fitted_film
+    if not isinstance(film, ReynoldsFilm):
+        return state
+    return _with_field(state, bearing, film.solve(*bearing.kinematics(q, v, omega), bearing.slenderness))
 
 
 def _single(name: str, vector: ArrayLike) -> Array:
@@ -102,23 +132,16 @@ def _single(name: str, vector: ArrayLike) -> Array:
     return array
 
 
-def _dimensional(bearing: JournalBearing, field: FilmField, e: Array, v: Array, speed: float) -> FilmState:
-    R, b, c = bearing.radius, bearing.length, bearing.clearance
-    force = bearing.force_scale * field.force
+def _with_field(state: FilmState, bearing: JournalBearing, field: FilmField) -> FilmState:
     pressure = bearing.pressure_scale * field.pressure
-    pull = e[0] * field.force[1] - e[1] * field.force[0]
-    torque = bearing.film_viscosity * R**3 * b / c * (speed * field.shear + 0.5 * pull)
-    return FilmState(
-        force=force,
+    return replace(
+        state,
+        force=bearing.force_scale * field.force,
         force_extrapolated=bearing.force_scale * field.force_extrapolated,
         force_error=bearing.force_scale * field.force_error,
         angle=field.angle % (2.0 * np.pi),
-        axial=0.5 * b * field.axial,
+        axial=0.5 * bearing.length * field.axial,
         pressure=pressure,
-        thickness=c * field.thickness,
+        thickness=bearing.clearance * field.thickness,
         maximum_pressure=float(np.max(pressure)),
-        minimum_film=c * (1.0 - float(np.hypot(*e))),
-        side_flow=c * R * b * field.side_flow,
-        friction_torque=float(torque),
-        power_loss=float(torque * speed - force @ v),
     )

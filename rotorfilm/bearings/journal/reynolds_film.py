@@ -14,6 +14,7 @@ from ...errors import require_kind
 from ...model import Array
 from ..films.cavitation import Cavitation, Complementarity
 from ..films.film_field import FilmField
+from ..films.film_losses import FilmLosses, gap_shear, static_rate
 from ..films.geometry import FilmGeometry
 from ..films.kernel_film import KernelFilm
 from ..films.law import require_film
@@ -117,6 +118,27 @@ class ReynoldsFilm(KernelFilm):
         fine, coarse = self.force_pair(e, w, slenderness)
         extrapolated = richardson(fine, coarse, self.order)
         return film_field(self._kernel(slenderness), e, w, slenderness, fine, extrapolated)
+
+    def losses(self, e: Array, w: Array, slenderness: float, rate: Array | None = None) -> FilmLosses:
+        """Return shear and flow, without slopes; see `FilmOptions`.
+
+        Second order in the size of the cells, edges of the film included. Between openings the film begins only
+        where streamers or an opening bring the oil, so that it is smaller than the one that carries. Openings
+        that touch are one.
+
+        Raises
+        ------
+        FilmContactError, ConvergenceError
+            As `force_pair`.
+        """
+        flat, shape = (e.reshape(2, -1), w.reshape(2, -1)), e.shape[1:]
+        require_film(flat[0])
+        static = static_rate(*flat)
+        along = static if rate is None or self.geometry.plain else np.broadcast_to(rate, shape).ravel()
+        film, streamers, flow, *openings = self._kernel(slenderness).losses(*flat, along)
+        inflow, arriving = np.array(openings).reshape(2, -1, *shape)
+        film, streamers, flow = (each.reshape(shape) for each in (film, streamers, flow))
+        return FilmLosses(film, streamers, gap_shear(e, self.geometry), flow, inflow, arriving)
 
     def grids(self, slenderness: float) -> tuple[Spans, tuple[Grid, ...]]:
         """Return the edges and the grids, finest first, for a length/diameter."""

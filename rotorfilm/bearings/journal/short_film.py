@@ -8,7 +8,10 @@ from typing import ClassVar
 
 from ...model import Array
 from ...native import ShortKernel
+from ...native.loss_kernels import LossKernel, ShortLossKernel
+from ..films.film_losses import FilmLosses, plain_losses
 from ..films.kernel_film import KernelFilm
+from ..films.law import require_film
 
 
 @dataclass(frozen=True)
@@ -32,6 +35,15 @@ class ShortFilm(KernelFilm):
     def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
         """Return the kernel, which needs no tables; see `FilmOptions`."""
         return "short_journal", {}
+
+    def losses(self, e: Array, w: Array, slenderness: float, rate: Array | None = None) -> FilmLosses:
+        """Return shear and flow in closed form, with slopes; see `FilmOptions`."""
+        require_film(e.reshape(2, -1))
+        return plain_losses(ShortLossKernel(), e, w)
+
+    def loss_kernel(self, slenderness: float) -> LossKernel:
+        """Return shear and flow in compiled code."""
+        return ShortLossKernel()
 
     def _kernel(self, slenderness: float) -> ShortKernel:
         return ShortKernel(float(slenderness))

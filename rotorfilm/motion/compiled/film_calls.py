@@ -65,7 +65,7 @@ def film_call(reaction: Reaction) -> FilmCall:
     if type(reaction) is JournalBearing:
         bound = reaction.bound_film
         if isinstance(bound, BoundKernel):
-            struct = bound.kernel._struct
+            struct = bound.kernel.struct
             address = ctypes.cast(functions()["rf_journal_at"], c_void_p).value or 0
             return FilmCall(address=address, data=ctypes.addressof(struct), owner=bound, beyond=bound.beyond)
     if type(reaction) is LinearBearing:

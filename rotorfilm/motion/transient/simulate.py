@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from scipy.integrate import OdeSolver, Radau
 
 from ...errors import ContactError, ConvergenceError, InputError, require_finite, require_positive
-from ...model import Array, Dynamic, Reaction, stops
+from ...model import Array, Dynamic, Reaction, in_time, stops
 from ...results import Trajectory
 from ...signals import FORCE_OUTPUTS, names
 from .coupled import Coupled
@@ -39,7 +39,8 @@ def simulate(
     rotor : Dynamic
         With outputs x, y, vx, vy, speed and inputs force_x, force_y.
     reaction : Reaction
-        The film; one with states is a Dynamic too, as `BushReaction`.
+        The film; one with states is a Dynamic too, as `BushReaction`. One whose temperature is left to the
+        balance of its heat gets it as a state.
     duration : float [s]
     samples : int
         Number of samples at equal distance, from 0 to `duration` inclusive.
@@ -72,7 +73,7 @@ def simulate(
     """
     require_positive("duration", duration)
     require_positive("rtol", rtol)
-    system = Coupled(rotor, reaction)
+    system = Coupled(rotor, in_time(reaction))
     grid = sample_times(duration, samples, times)
     state = _initial(system, system.initial_state if initial_state is None else initial_state)
     require_longest_step(max_step)

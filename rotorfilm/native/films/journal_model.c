@@ -28,7 +28,7 @@ int rf_scale_journal(rf_journal *journal, const double *p, rf_message *why)
     return RF_OK;
 }
 
-static int explain(const rf_journal *journal, int status, const double *u, rf_message *why)
+int rf_explain_journal(const rf_journal *journal, int status, const double *u, rf_message *why)
 {
     const double c = journal->clearance, e = sqrt(u[0] * u[0] + u[1] * u[1]);
     switch (status) {
@@ -64,11 +64,11 @@ static int explain(const rf_journal *journal, int status, const double *u, rf_me
 
 int rf_journal_output(const void *kernel, const rf_point *at, double *y, rf_message *why)
 {
-    return explain(kernel, rf_journal_at(kernel, at->u, y, NULL), at->u, why);
+    return rf_explain_journal(kernel, rf_journal_at(kernel, at->u, y, NULL), at->u, why);
 }
 
 int rf_journal_derivatives(const void *kernel, const rf_point *at, rf_jacobian *answer, rf_message *why)
 {
     double y[2];
-    return explain(kernel, rf_journal_at(kernel, at->u, y, answer->D), at->u, why);
+    return rf_explain_journal(kernel, rf_journal_at(kernel, at->u, y, answer->D), at->u, why);
 }

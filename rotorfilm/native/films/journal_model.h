@@ -16,6 +16,9 @@ double rf_slenderness(const double *parameters);
 /* Clearance and unit of force from the parameters, or RF_INVALID and nothing changed. */
 int rf_scale_journal(rf_journal *journal, const double *parameters, rf_message *why);
 
+/* The status of a film at an input, with its message. */
+int rf_explain_journal(const rf_journal *journal, int status, const double *input, rf_message *why);
+
 /* The functions `output` and `jacobian` of an rf_kernel_type. */
 int rf_journal_output(const void *kernel, const rf_point *at, double *y, rf_message *why);
 int rf_journal_derivatives(const void *kernel, const rf_point *at, rf_jacobian *answer, rf_message *why);

@@ -3,22 +3,13 @@
 #include <math.h>
 
 #include "../films/map_frame.h"
-#include "search.h"
+#include "ring_losses.h"
 
 #define CENTER 1e-8 /* eccentricity ratio below which a plain film without source has a derivative */
 
 static size_t nodes_of(const rf_grid *grid)
 {
     return grid->lines * grid->nodes;
-}
-
-/* Solve on this grid; where the film is searched for, on the coarser ones before. */
-static int solve_down_to(rf_search *search, int level, const double *w)
-{
-    int status = RF_OK;
-    for (int k = search->ring->ruptured ? RF_LEVELS - 1 : level; k >= level && status == RF_OK; --k)
-        status = rf_search_film(search, k, w);
-    return status;
 }
 
 /* The force of the grid that was solved last; a clipped film then has no pressure below zero. */
@@ -88,7 +79,7 @@ static int is_at_rest(const rf_ring *ring, const double *w)
 static int film_of(rf_search *search, const double *e, const double *w, double *f, double *jacobian)
 {
     rf_place_journal(search, e);
-    const int status = solve_down_to(search, 0, w);
+    const int status = rf_search_down_to(search, 0, w);
     if (status != RF_OK)
         return rf_fail(status, f, jacobian, 8);
     if (jacobian)
@@ -108,8 +99,7 @@ static int film_at_center(rf_search *search, const double *e, double *f, double 
     return RF_OK;
 }
 
-/* Whether there is a film at all. */
-static int judge_state(const double *e, const double *w)
+int rf_judge_state(const double *e, const double *w)
 {
     const double state[4] = {e[0], e[1], w[0], w[1]};
     if (rf_is_broken(state, 4))
@@ -120,7 +110,7 @@ static int judge_state(const double *e, const double *w)
 int rf_ring_film(const void *data, const double *e, const double *w, double *f, double *jacobian)
 {
     const rf_ring *ring = data;
-    const int judged = judge_state(e, w);
+    const int judged = rf_judge_state(e, w);
     if (judged != RF_OK)
         return rf_fail(judged, f, jacobian, 8);
     const int resting = is_at_rest(ring, w), centered = rf_length(e[0], e[1]) <= CENTER && !ring->pinned;
@@ -144,12 +134,12 @@ int rf_ring_pair(const rf_ring *ring, size_t n, const double *e, const double *w
         const double here[2] = {e[i], e[n + i]}, source[2] = {w[i], w[n + i]};
         double f[2][2] = {{0.0, 0.0}, {0.0, 0.0}};
         *first = i;
-        status = judge_state(here, source);
+        status = rf_judge_state(here, source);
         if (status != RF_OK)
             break;
         rf_place_journal(&search, here);
         for (int level = 1; level >= 0 && status == RF_OK; --level) {
-            status = level == 1 ? solve_down_to(&search, 1, source) : rf_search_film(&search, 0, source);
+            status = level == 1 ? rf_search_down_to(&search, 1, source) : rf_search_film(&search, 0, source);
             take_force(&search, level, f[level]);
         }
         for (size_t k = 0; k < 2; ++k) {
@@ -161,23 +151,6 @@ int rf_ring_pair(const rf_ring *ring, size_t n, const double *e, const double *w
     return status;
 }
 
-/* By the balance of the half cells that end the film, without openings and what a film in tension draws in. */
-static double flow_out_of_ends(const rf_search *search, const rf_grid *grid)
-{
-    const size_t last = grid->nodes - 1;
-    double rest = 1.0, flow = 0.0;
-    for (size_t j = 0; j < grid->nodes; ++j)
-        rest -= grid->width[j];
-    for (size_t i = 0; i < grid->lines; ++i) {
-        const size_t at = i * grid->nodes + last;
-        const double inward = search->cells[0].along[i] * grid->conductance[last] * search->pressure[at];
-        const double made = search->source[at] / grid->width[last] * rest;
-        if (search->pressure[at] > 0.0 && !grid->held[i])
-            flow += fmax(inward + made, 0.0);
-    }
-    return flow;
-}
-
 int rf_ring_field(const rf_ring *ring, const double *e, const double *w, double *theta, double *face,
                   double *pressure, double *side_flow)
 {
@@ -185,10 +158,10 @@ int rf_ring_field(const rf_ring *ring, const double *e, const double *w, double 
     double f[2];
     int status = rf_open_search(&search, ring);
     if (status == RF_OK)
-        status = judge_state(e, w);
+        status = rf_judge_state(e, w);
     if (status == RF_OK) {
         rf_place_journal(&search, e);
-        status = solve_down_to(&search, 0, w);
+        status = rf_search_down_to(&search, 0, w);
         take_force(&search, 0, f);
         for (size_t i = 0; i < ring->grids[0].lines; ++i) {
             theta[i] = search.cells[0].theta[i];
@@ -196,7 +169,7 @@ int rf_ring_field(const rf_ring *ring, const double *e, const double *w, double 
         }
         for (size_t q = 0; q < nodes_of(ring->grids); ++q)
             pressure[q] = search.pressure[q];
-        *side_flow = flow_out_of_ends(&search, ring->grids);
+        *side_flow = rf_flow_out_of_ends(&search, ring->grids);
     }
     rf_close_search(&search);
     return status;
@@ -208,7 +181,7 @@ int rf_ring_potential(const rf_ring *ring, const double *e, size_t n, const doub
     rf_search search;
     int status = rf_open_search(&search, ring);
     *first = 0;
-    if (status == RF_OK && (status = judge_state(e, e)) == RF_OK)
+    if (status == RF_OK && (status = rf_judge_state(e, e)) == RF_OK)
         rf_place_journal(&search, e);
     for (size_t d = 0; d < n && status == RF_OK; ++d) {
         const double source[2] = {w[d], w[n + d]};

@@ -14,7 +14,7 @@ int rf_open_search(rf_search *search, const rf_ring *ring)
     for (int level = 0; level < RF_LEVELS; ++level)
         lines += ring->grids[level].lines;
     const size_t numbers = RF_CELL_ROWS * lines + 4 * all + all * (m + 1) + all * m + m * m;
-    double *next = malloc(numbers * sizeof(double) + 2 * all);
+    double *next = malloc(numbers * sizeof(double) + 3 * all);
     search->ring = ring;
     search->memory = next;
     if (!next)
@@ -32,6 +32,8 @@ int rf_open_search(rf_search *search, const rf_ring *ring)
     search->chain.corner = search->chain.border + all * m;
     search->free = (uint8_t *)(search->chain.corner + m * m);
     search->known = search->free + all;
+    search->shut = search->known + all;
+    memset(search->shut, 0, all);
     return RF_OK;
 }
 
@@ -161,8 +163,9 @@ static int move_edge(rf_search *search, const rf_grid *grid, const double *outfl
             continue;
         for (size_t j = 0; j < grid->nodes; ++j) {
             const size_t at = i * grid->nodes + j;
-            const int keep = search->free[at] ? search->pressure[at] > 0.0
-                                              : search->source[at] - outflow[at] > threshold;
+            const int keep = grid == search->ring->grids && search->shut[at] ? 0
+                             : search->free[at] ? search->pressure[at] > 0.0
+                                                  : search->source[at] - outflow[at] > threshold;
             changed |= keep != search->free[at];
             search->free[at] = (uint8_t)keep;
         }
@@ -211,4 +214,19 @@ int rf_search_film(rf_search *search, int level, const double *w)
     if (level > 0)
         memcpy(search->known, search->free, all);
     return status;
+}
+
+int rf_search_down_to(rf_search *search, int level, const double *w)
+{
+    int status = RF_OK;
+    for (int k = search->ring->ruptured ? RF_LEVELS - 1 : level; k >= level && status == RF_OK; --k)
+        status = rf_search_film(search, k, w);
+    return status;
+}
+
+int rf_search_without(rf_search *search)
+{
+    for (size_t q = 0; q < search->ring->grids[0].lines * search->ring->grids[0].nodes; ++q)
+        search->free[q] = search->free[q] && !search->shut[q];
+    return search_from_here(search, 0);
 }

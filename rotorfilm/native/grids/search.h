@@ -12,6 +12,7 @@ typedef struct rf_search {
     rf_chain chain;
     double *source, *pressure, *flow, *chained; /* N x M of the grid that was solved last */
     uint8_t *free, *known; /* N x M: nodes that are solved for, and those of the next coarser grid */
+    uint8_t *shut;         /* N x M of the finest grid: nodes that stay empty */
     size_t cut;            /* the line at which the ring is cut */
     void *memory;
 } rf_search;
@@ -30,6 +31,12 @@ void rf_place_journal(rf_search *search, const double *e);
    min(A P - b, P) = 0 and climbs monotonically to the solution after its first step (Hintermueller, Ito &
    Kunisch 2003, theorem 3.3). */
 int rf_search_film(rf_search *search, int level, const double *w);
+
+/* The same after solving on all coarser grids, where the film is searched for. */
+int rf_search_down_to(rf_search *search, int level, const double *w);
+
+/* Go on on the finest grid, without nodes that were shut since. */
+int rf_search_without(rf_search *search);
 
 /* Solve on that grid again, with its film: right-hand side and answer N x M, 0 at nodes that are not free. */
 void rf_solve_free(const rf_search *search, int level, const double *flow, double *answer);

@@ -8,7 +8,8 @@
 #define RF_ROTORFILM_SYSTEMS 4
 #define RF_ROTORFILM_BUSHES 8
 #define RF_ROTORFILM_GRIDS 16
-#define RF_ROTORFILM_LOOPS 32
+#define RF_ROTORFILM_HEAT 32
+#define RF_ROTORFILM_LOOPS 64
 
 /* RF_KERNEL(name, libraries, picture): rf_<name>_type of kernel_<name>.c, which also has the text for the
    documentation of its FMUs; libraries that have it, the first the one that its FMUs carry; their picture,
@@ -19,6 +20,7 @@ RF_KERNEL(bush_wear, RF_ROTORFILM_BUSHES, bush)
 RF_KERNEL(contact, RF_ROTORFILM_STATES, contact)
 RF_KERNEL(damper, RF_ROTORFILM, damper)
 RF_KERNEL(grooved_journal, RF_ROTORFILM | RF_ROTORFILM_SYSTEMS, grooved_journal)
+RF_KERNEL(heated_journal, RF_ROTORFILM_HEAT, journal)
 RF_KERNEL(journal, RF_ROTORFILM | RF_ROTORFILM_SYSTEMS, journal)
 RF_KERNEL(linear, RF_ROTORFILM_STATES, linear)
 RF_KERNEL(reynolds_journal, RF_ROTORFILM_GRIDS, grooved_journal)

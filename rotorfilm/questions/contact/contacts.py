@@ -220,7 +220,7 @@ def contact_ladder(scene: Scene, quantity: str) -> Ladder:
     films = RestingFilms(table=scene.contact, quantity=quantity)
     table = scene.contact
     remarks = contact_remarks(
-        films.ball, scene.lubricant, roelands=table.roelands, compressible=table.compressible
+        films.ball, scene.lubricant.properties, roelands=table.roelands, compressible=table.compressible
     )
     if scene.excitation is not None:
         return Ladder(rungs=motion_rungs(scene, films), unit="m", remarks=remarks, within=ISOTHERMAL)

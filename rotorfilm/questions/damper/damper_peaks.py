@@ -201,7 +201,7 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
     )
     units = {rung.tangents: _one(rung, scene.speed) for rung in rungs if rung.steps}
     small, spring = mapped_short(scene.damper), scene.damper.stiffness
-    remarks = rotor_remarks(small, spring, models.rotor, scene.lubricant, steady=False)
+    remarks = rotor_remarks(small, spring, models.rotor, scene.lubricant.properties, steady=False)
     return Ladder(
         rungs=rungs,
         unit="m",

@@ -243,7 +243,11 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
         unit=UNITS[quantity],
         units=units,
         remarks=rotor_remarks(
-            mapped_short(scene.damper), stiffness, asked, scene.lubricant, steady=quantity not in (UP, DOWN)
+            mapped_short(scene.damper),
+            stiffness,
+            asked,
+            scene.lubricant.properties,
+            steady=quantity not in (UP, DOWN),
         ),
         within=ISOTHERMAL,
     )

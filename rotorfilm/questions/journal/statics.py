@@ -10,12 +10,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...answers import ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work, WorkUnit
-from ...bearings.journal import JournalBearing
+from ...bearings.journal import JournalBearing, has_losses
+from ...errors import InputError
 from ...ladders import CandidateRung, Ladder
 from ...linear import coefficients, equilibrium
 from ...model import Array, prepared_tangent
 from ...results import Equilibrium
 from ...scenes.counted import Counted
+from ...scenes.journal.echo import film_name
 from ...scenes.journal.film_defects import corrected, one_defect
 from ...scenes.journal.film_rungs import FilmRung, point_films
 
@@ -23,12 +25,14 @@ if TYPE_CHECKING:
     from ...scenes.scene import Scene
 
 ANGLE, MATRIX = "attitude_angle", {"stiffness": 0, "damping": 2}
+LOSSES = {"power_loss": "W", "side_flow": "m^3/s"}
 UNITS = {
     "eccentricity_ratio": "1",
     "minimum_film": "m",
     ANGLE: "rad",
     "stiffness": "N/m",
     "damping": "N s/m",
+    **LOSSES,
 }
 """Static quantities and their units."""
 
@@ -52,7 +56,8 @@ class StaticRung(CandidateRung[FilmRung]):
     @property
     def prior(self) -> float:
         """Order of magnitude of the film's error."""
-        return self.film.prior if self.quantity in MATRIX else self.film.position_prior
+        positions = self.quantity not in MATRIX and self.quantity not in LOSSES
+        return self.film.position_prior if positions else self.film.prior
 
     def answer(self, before: Found | None) -> Found:
         """Return the quantity at the equilibrium of this film."""
@@ -63,11 +68,13 @@ class StaticRung(CandidateRung[FilmRung]):
             found = coefficients(counted, at.position, self.speed)
             value: Array | float = found.stiffness if self.quantity == "stiffness" else found.damping
         else:
-            value = self.scalar(at.position)
+            value = self.scalar(at.position, self.film.reaction)
         return Found(value, {self.film.tangents: counted.tangents, **made}, at)
 
-    def scalar(self, position: Array) -> float:
-        """Return a quantity that follows from the position (2,) [m] alone."""
+    def scalar(self, position: Array, bearing: JournalBearing) -> float:
+        """Return a quantity that follows from the position (2,) [m] in a bearing with this film or the richer."""
+        if self.quantity in LOSSES:
+            return float(getattr(bearing.losses(position, np.zeros(2), self.speed), self.quantity))
         distance = float(np.hypot(*position))
         if self.quantity == "eccentricity_ratio":
             return distance / self.film.reaction.clearance
@@ -87,6 +94,8 @@ class StaticRung(CandidateRung[FilmRung]):
     def _bound(self, found: Found) -> float:
         at: Equilibrium = found.solution
         slopes = self.quantity in MATRIX
+        if self.quantity in LOSSES:
+            return self.film.loss_bound(at.eccentricity_ratio)
         bound = self.film.bound(at.eccentricity_ratio, slopes=slopes)
         if slopes or not math.isfinite(bound):
             return bound
@@ -106,13 +115,13 @@ class StaticRung(CandidateRung[FilmRung]):
             first = MATRIX[self.quantity]
             better: Array | float = -moved.slopes[:, first : first + 2]
         else:
-            better = self.scalar(moved.position)
+            better = self.scalar(moved.position, self.film.rich)
         scale = 1.0 if self.quantity == ANGLE else float(np.max(np.abs(better)))
         error = float(np.max(np.abs(np.asarray(better) - found.value))) / scale
         return ErrorEstimate(
             error,
             f"defect of {self.film.rich_name}",
-            {self.film.defects(smooth=slopes): 1, self.film.tangents: 2},
+            {self.film.defects(smooth=slopes): 2 if self.quantity in LOSSES else 1, self.film.tangents: 2},
             bound=self.film.bounded,
             doubt=moved.doubt,
         )
@@ -141,6 +150,11 @@ def _one_tangent(bearing: JournalBearing, speed: float) -> Callable[[], object]:
 def static_ladder(scene: Scene, quantity: str) -> Ladder:
     """Return the ladder of a static quantity of a journal bearing."""
     films = point_films(scene.bearing, fixed=scene.film_is_given)
+    if quantity in LOSSES:
+        films = tuple(film for film in films if has_losses(film.reaction))
+        if not films:
+            name = film_name(scene.bearing.fitted_film)
+            raise InputError(f"film must be a law with losses for {quantity}, as map or reynolds, got {name}")
     rungs = tuple(
         StaticRung(film=film, quantity=quantity, load=scene.static_load, speed=scene.speed) for film in films
     )

@@ -195,7 +195,7 @@ def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
         rungs=rungs,
         unit=UNITS[quantity],
         remarks=(
-            *shaft_remarks(rotor, bearings, scene.lubricant, scene.speed),
+            *shaft_remarks(rotor, bearings, scene.lubricant.properties, scene.speed),
             *stability_remark(rotor, levels[0].reaction, scene.speed),
         ),
         within=shaft_physics(bearings),

@@ -247,6 +247,6 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
     return Ladder(
         rungs=tuple(rungs),
         unit="rad/s",
-        remarks=shaft_remarks(rotor, bearings, scene.lubricant, float(speeds[-1])),
+        remarks=shaft_remarks(rotor, bearings, scene.lubricant.properties, float(speeds[-1])),
         within=shaft_physics(bearings),
     )

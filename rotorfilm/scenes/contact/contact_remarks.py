@@ -9,7 +9,7 @@ import numpy as np
 from ...bearings.contact import HIGGINSON_PRESSURE, DowsonHigginsonDensity, RollingBall
 from ...errors import InputError
 from ..journal.journal_remarks import NOTABLE
-from ..lubricant_table import LubricantTable
+from ..lubricant_table import Lubricant
 from ..remarks import Remark, said
 
 FORMED = 2.0
@@ -51,7 +51,7 @@ REMARKS = (
 
 
 def contact_numbers(
-    ball: RollingBall, oil: LubricantTable, *, roelands: bool, compressible: bool
+    ball: RollingBall, oil: Lubricant, *, roelands: bool, compressible: bool
 ) -> dict[str, float]:
     """Return the dimensionless numbers of a lubricated ball.
 
@@ -59,7 +59,7 @@ def contact_numbers(
     ----------
     ball : RollingBall
         With its load and speed.
-    oil : LubricantTable
+    oil : Lubricant
     roelands, compressible : bool
         What the film takes into account.
 
@@ -103,7 +103,7 @@ def _beyond_roelands(ball: RollingBall) -> float:
 
 
 def contact_remarks(
-    ball: RollingBall, oil: LubricantTable, *, roelands: bool, compressible: bool
+    ball: RollingBall, oil: Lubricant, *, roelands: bool, compressible: bool
 ) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each, of a ball; see `contact_numbers`."""
     return said(REMARKS, contact_numbers(ball, oil, roelands=roelands, compressible=compressible))

@@ -9,7 +9,7 @@ import numpy as np
 from ...bearings.damper import PorousDamper, layer_modes
 from ...bearings.films.cavitation import FullFilm
 from ..journal.journal_remarks import ATMOSPHERE, NOTABLE
-from ..lubricant_table import LubricantTable
+from ..lubricant_table import Lubricant
 from ..remarks import Remark, said
 
 NOTABLE_MASS = 0.05
@@ -68,7 +68,7 @@ RUPTURED = (
 
 
 def damper_numbers(
-    damper: PorousDamper, oil: LubricantTable, mass: float, speed: float, eccentricity_ratio: float
+    damper: PorousDamper, oil: Lubricant, mass: float, speed: float, eccentricity_ratio: float
 ) -> dict[str, float]:
     """Return the dimensionless numbers of a film whose rotor [kg] whirls on a circle at a speed [rad/s].
 
@@ -132,7 +132,7 @@ def largest_pressure(damper: PorousDamper, speed: float, eccentricity_ratio: flo
 
 
 def damper_remarks(
-    damper: PorousDamper, oil: LubricantTable, mass: float, speed: float, eccentricity_ratio: float
+    damper: PorousDamper, oil: Lubricant, mass: float, speed: float, eccentricity_ratio: float
 ) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each, for an orbit of an eccentricity ratio."""
     numbers = damper_numbers(damper, oil, mass, speed, eccentricity_ratio)

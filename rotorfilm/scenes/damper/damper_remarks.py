@@ -9,7 +9,7 @@ from ...bearings.films.cavitation import FullFilm
 from ...motion.circular.branches import synchronous_orbits
 from ...results import CircularOrbit
 from ...rotors import RigidRotor
-from ..lubricant_table import LubricantTable
+from ..lubricant_table import Lubricant
 from .damper_films import sprung
 from .damper_ranges import damper_remarks
 
@@ -18,7 +18,7 @@ MIDDLING = 0.5
 
 
 def rotor_remarks(
-    damper: PorousDamper, stiffness: float, rotor: RigidRotor, oil: LubricantTable, *, steady: bool
+    damper: PorousDamper, stiffness: float, rotor: RigidRotor, oil: Lubricant, *, steady: bool
 ) -> tuple[str, ...]:
     """Return the remarks on a rotor in a damper.
 
@@ -30,7 +30,7 @@ def rotor_remarks(
         Of its springs.
     rotor : RigidRotor
         With the unbalance in question, 0 if that is what is asked for.
-    oil : LubricantTable
+    oil : Lubricant
     steady : bool
         Whether its orbit is asked for, so that it matters how many there are.
     """

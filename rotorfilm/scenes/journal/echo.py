@@ -24,6 +24,7 @@ class BearingData:
     slenderness : float [1]
         Length / diameter.
     viscosity : float [Pa s]
+        Of the film, or of fresh oil where the temperature follows from the balance of its heat.
     pads : tuple of Pad
         Empty for the full circumference; angles in the bearing frame [rad].
     grooves : tuple of Groove
@@ -44,7 +45,8 @@ class BearingData:
 
 def bearing_data(bearing: JournalBearing) -> BearingData:
     """Return what a journal bearing is, without its film."""
-    return made_from(BearingData, bearing, slenderness=bearing.slenderness)
+    viscosity = bearing.film_viscosity
+    return made_from(BearingData, bearing, slenderness=bearing.slenderness, viscosity=viscosity)
 
 
 def film_name(film: FilmLaw) -> str:

@@ -29,6 +29,9 @@ TABLE_RANGE = (0.1, 4.0)
 MAP_BOUNDS = ((0.95, 2e-5, 1e-3), (0.999, 4e-4, math.inf))
 """Eccentricity ratio up to which, and largest error of a position and of K, C there: docs/accuracy.md."""
 
+LOSS_BOUNDS = ((0.95, 1e-3), (0.99, 3e-3))
+"""Eccentricity ratio up to which, and largest error of power loss and side flow there: docs/accuracy.md."""
+
 MAP_MADE = WorkUnit("maps made", nominal=20.0)
 """WorkUnit of the work of making a map."""
 
@@ -93,6 +96,11 @@ class FilmRung:
                 if eccentricity_ratio <= reach:
                     return slope if slopes else position
         return math.inf
+
+    def loss_bound(self, eccentricity_ratio: float) -> float:
+        """Return the same of power loss and side flow."""
+        within = (bound for reach, bound in LOSS_BOUNDS if eccentricity_ratio <= reach)
+        return next(within, math.inf) if self.bounded else math.inf
 
 
 def film_rungs(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:

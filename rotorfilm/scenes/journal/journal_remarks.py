@@ -6,13 +6,12 @@ import math
 import warnings
 from dataclasses import replace
 
-import numpy as np
-
-from ...bearings.journal import JournalBearing, ReynoldsFilm
+from ...bearings.journal import JournalBearing, MapFilm, ReynoldsFilm, ShortFilm
 from ...errors import RotorfilmError, ValidityWarning
 from ...linear import equilibrium
-from ..lubricant_table import LubricantTable
+from ..lubricant_table import Lubricant
 from ..remarks import Remark, said
+from .film_rungs import has_map
 
 TAYLOR = 41.2
 """Reynolds number times sqrt(c/R) from which vortices grow between cylinders, the inner one turning.
@@ -31,7 +30,7 @@ TILT = 0.1
 
 
 COARSE = (48, 4)
-"""Cells of the film whose loss and flow tell how far the oil warms, within 2 % of a fine one."""
+"""Cells of a film whose loss and flow tell how far the oil warms where its own would take long."""
 
 
 CONCENTRIC = 1e-3
@@ -74,7 +73,7 @@ REMARKS = (
 
 
 def journal_numbers(
-    bearing: JournalBearing, oil: LubricantTable, speed: float, load: tuple[float, float]
+    bearing: JournalBearing, oil: Lubricant, speed: float, load: tuple[float, float]
 ) -> dict[str, float]:
     """Return the dimensionless numbers of a bearing at a speed [rad/s] and a load [N].
 
@@ -128,37 +127,38 @@ def journal_numbers(
 
 
 def film_loss(bearing: JournalBearing, speed: float, load: tuple[float, float]) -> tuple[float, float, float]:
-    """Return power [W], side flow [m3/s] and eccentricity ratio of an isothermal film by a coarse grid.
+    """Return power [W], side flow [m3/s] and eccentricity ratio of an isothermal film.
 
-    speed * torque on the journal, viscosity speed R^3 L/c * shear + (position x force)/2, with the whole gap
-    full (streamers in the ruptured zone take 3 to 22 % less), and what the supply pressure puts in.
+    It is the film of the bearing where that is quick: a map of the package, or the short film; else a coarse grid.
     Not-a-number, all three, where that film has no answer under the load.
     """
     R, L, c = bearing.radius, bearing.length, bearing.clearance
-    drag = bearing.film_viscosity * speed * R**3 * L / c
-    concentric = 2.0 * math.pi * drag * speed, 0.0, 0.0
+    concentric = 2.0 * math.pi * bearing.film_viscosity * speed**2 * R**3 * L / c, 0.0, 0.0
     if not speed or not any(load):
         return concentric
-    film = replace(bearing.film if isinstance(bearing.film, ReynoldsFilm) else ReynoldsFilm(), cells=COARSE)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ValidityWarning)
-        grid = replace(bearing, film=film)
         try:
-            at = equilibrium(grid, load, speed)
-            if at.eccentricity_ratio < CONCENTRIC:
-                return concentric
-            state = grid.kinematics(at.position, np.zeros(2), np.array(speed))
-            field = film.fitted(grid.geometry).solve(*state, grid.slenderness)
+            at = equilibrium(_quick(bearing), load, speed)
+            losses = at.losses
         except RotorfilmError:
             return math.nan, math.nan, math.nan
-    (x, y), (force_x, force_y) = at.position, (-load[0], -load[1])
-    flow = c * R * L * field.side_flow
-    torque = drag * field.shear + 0.5 * float(x * force_y - y * force_x)
-    return speed * torque + bearing.supply_pressure * flow, flow, at.eccentricity_ratio
+    if at.eccentricity_ratio < CONCENTRIC or losses is None:
+        return concentric
+    return float(losses.power_loss), float(losses.side_flow), at.eccentricity_ratio
+
+
+def _quick(bearing: JournalBearing) -> JournalBearing:
+    """Return the bearing with its own film, or with one on a coarse grid."""
+    film = bearing.fitted_film
+    if isinstance(film, ShortFilm) or (isinstance(film, MapFilm) and has_map(bearing)):
+        return bearing
+    coarse = replace(film if isinstance(film, ReynoldsFilm) else ReynoldsFilm(), cells=COARSE)
+    return replace(bearing, film=coarse)
 
 
 def film_remarks(
-    bearing: JournalBearing, oil: LubricantTable, speed: float, load: tuple[float, float]
+    bearing: JournalBearing, oil: Lubricant, speed: float, load: tuple[float, float]
 ) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each, at a speed [rad/s] and a load [N]."""
     return said(REMARKS, journal_numbers(bearing, oil, speed, load))

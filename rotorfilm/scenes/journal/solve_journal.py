@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from ...bearings.journal import JournalBearing
 from ...linear import CriticalMass, coefficients, critical_mass, equilibrium, whirl_threshold
-from ...results import Coefficients, Equilibrium, WhirlThreshold
+from ...results import BearingLosses, Coefficients, Equilibrium, WhirlThreshold
 from .echo import BearingData, bearing_data, film_name
 
 
@@ -23,6 +23,8 @@ class Answer:
     equilibrium : Equilibrium
     coefficients : Coefficients
         Stiffness [N/m] and damping [N s/m] at the equilibrium.
+    losses : BearingLosses or None
+        Power loss, torques and oil flow at the equilibrium; None where the film law does not know them.
     critical_mass : CriticalMass
         Heaviest rigid rotor that is stable at the equilibrium.
     whirl_threshold : WhirlThreshold or None
@@ -35,6 +37,7 @@ class Answer:
     model: str
     equilibrium: Equilibrium
     coefficients: Coefficients
+    losses: BearingLosses | None
     critical_mass: CriticalMass
     whirl_threshold: WhirlThreshold | None
     remarks: tuple[str, ...] = ()
@@ -66,6 +69,7 @@ def solve(
         model=film_name(bearing.fitted_film),
         equilibrium=at,
         coefficients=derivatives,
+        losses=at.losses,
         critical_mass=critical_mass(derivatives),
         whirl_threshold=None if mass is None else whirl_threshold(bearing, load, mass),
     )

@@ -262,7 +262,8 @@ def keyed(table: type[T] | Keyed[T]) -> Keyed[T]:
 @cache
 def _annotated(table: type) -> dict[str, Reader]:
     hints = get_type_hints(table, include_extras=True)
-    return {field.name: hints[field.name].__metadata__[0] for field in dataclasses.fields(table)}
+    given = {field.name: hints[field.name] for field in dataclasses.fields(table)}
+    return {name: hint.__metadata__[0] for name, hint in given.items() if hasattr(hint, "__metadata__")}
 
 
 def _require_known(where: str, values: Mapping[str, Any], readers: Mapping[str, Reader]) -> None:

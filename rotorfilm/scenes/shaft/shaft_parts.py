@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
 from ...bearings.journal import JournalBearing
@@ -21,6 +21,7 @@ from ...rotors import (
     Support,
     TiltSpring,
 )
+from ..lubricant_table import LubricantTable
 from ..reading.readers import Count
 from ..reading.shared_fields import made_from
 from ..reading.tables import Keyed, Quantity, Table, read_table, require_table, text
@@ -191,8 +192,17 @@ class BearingTable:
     def __post_init__(self) -> None:
         if (self.journal is None) is (self.stiffness is None):
             raise InputError("journal, or else stiffness, is required, got both or neither")
-        self.build()
+        if self.journal is None or self.journal.has_lubricant:
+            self.build()
         self.station()
+
+    def on(self, where: str, lubricant: LubricantTable) -> BearingTable:
+        """Return this entry with the oil of the scene in a journal bearing; see `JournalTable.on`."""
+        return (
+            self
+            if self.journal is None
+            else replace(self, journal=self.journal.on(f"{where}.journal", lubricant))
+        )
 
     def build(self) -> JournalBearing | LinearBearing:
         """Return the bearing."""

@@ -15,7 +15,7 @@ from ...linear import rotor_equilibrium, rotor_modes
 from ...model import Reaction
 from ...rotors import ShaftElement, ShaftRotor
 from ..journal.journal_remarks import film_remarks
-from ..lubricant_table import LubricantTable
+from ..lubricant_table import Lubricant
 from ..remarks import Remark, said
 
 STIFF = 1e10
@@ -55,7 +55,7 @@ UNSTABLE = Remark(
 
 
 def shaft_remarks(
-    rotor: ShaftRotor, bearings: Mapping[str, Reaction], oil: LubricantTable, speed: float
+    rotor: ShaftRotor, bearings: Mapping[str, Reaction], oil: Lubricant, speed: float
 ) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each, of a shaft in its bearings at a speed."""
     stiff = {name: LinearBearing(stiffness=STIFF) for name in bearings}

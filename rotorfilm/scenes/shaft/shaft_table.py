@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import chain
 from typing import Annotated
 
@@ -24,6 +24,7 @@ from ...rotors import (
     Unbalance,
 )
 from ..excitation_table import UnbalanceTable
+from ..lubricant_table import LubricantTable
 from ..reading.readers import Count, Named
 from ..reading.shared_fields import made_from
 from ..reading.spelling import nearest
@@ -103,6 +104,11 @@ class ShaftTable:
             for k, part in enumerate(getattr(self, name)):
                 require_node(f"{name}[{k}].node", part.node, self)
         self.build()
+
+    def on(self, lubricant: LubricantTable) -> ShaftTable:
+        """Return this table with the oil of the scene in its journal bearings; see `JournalTable.on`."""
+        oiled = tuple(one.on(f"shaft.bearings[{k}]", lubricant) for k, one in enumerate(self.bearings))
+        return self if oiled == self.bearings else replace(self, bearings=oiled)
 
     @property
     def node_count(self) -> int:

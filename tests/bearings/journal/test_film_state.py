@@ -177,11 +177,17 @@ def test_bad_geometry_is_refused(geometry, message):
         bearing(0.5, **geometry)
 
 
-def test_state_needs_a_two_dimensional_film():
-    with pytest.raises(
-        InputError, match=r"film must be a ReynoldsFilm to have a pressure field, got ShortFilm"
-    ):
-        film_state(dataclasses.replace(bearing(0.5), film=ShortFilm()), [0, 0], [0, 0], omega)
+def test_state_of_a_film_without_a_field_has_force_and_losses_only():
+    b = dataclasses.replace(bearing(0.5), film=ShortFilm())
+    state = film_state(b, [0.3 * c, 0.1 * c], [0, 0], omega)
+    np.testing.assert_array_equal(state.force, b.force([0.3 * c, 0.1 * c], [0, 0], omega))
+    assert state.side_flow == pytest.approx(np.sqrt(0.1) * omega * c * R * b.length)
+    assert state.pressure is None and state.maximum_pressure is None
+
+
+def test_state_needs_a_film_with_losses():
+    with pytest.raises(InputError, match=r"film must be a law with losses.*got SplittingFilm"):
+        film_state(dataclasses.replace(bearing(0.5), film=SplittingFilm()), [0, 0], [0, 0], omega)
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,8 @@ import pytest
 
 from rotorfilm.bearings.films.geometry import Groove, Pad
 from rotorfilm.bearings.journal import JournalBearing, ReynoldsFilm
-from rotorfilm.bearings.journal.heat.film_cells import film_cells
-from rotorfilm.bearings.journal.heat.frozen_film import Fluidity, FrozenFilm
+from rotorfilm.bearings.journal.heat.field.film_cells import film_cells
+from rotorfilm.bearings.journal.heat.field.frozen_film import Fluidity, FrozenFilm
 
 CELLS = (48, 8)
 OPENINGS = {

@@ -146,7 +146,7 @@ def found_by_rung(case, rung):
 @pytest.mark.literature
 @pytest.mark.parametrize(("case", "rung"), TABLE)
 def test_table_of_an_independent_code(case, rung):
-    """A prototype in plain numpy of the same equations, on 120 x 8 cells and 12 layers; the last on 80 x 8 here."""
+    """A prototype in plain numpy, on 120 x 8 cells and 12 layers; layers are on 80 x 8 here."""
     eccentricity, attitude, power, warmest, K = TABLE[case, rung]
     found = found_by_rung(case, rung)
     assert found[0] == pytest.approx(eccentricity, rel=0.01)

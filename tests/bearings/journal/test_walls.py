@@ -49,7 +49,7 @@ def test_response_on_uneven_cells_is_symmetric_and_gives():
 
 
 def test_walls_name_what_breaks_a_rule():
-    with pytest.raises(InputError, match="outer_radius must be above the bearing's radius 0.05, got 0.05"):
+    with pytest.raises(InputError, match=r"outer_radius must be above the bearing's radius 0.05, got 0.05"):
         BushRing(outer_radius=R).response(R, START, EXTENT)
     with pytest.raises(InputError, match="conductivity must be finite and positive, got 0"):
         BushRing(outer_radius=OUTER, conductivity=0.0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ..lubricant_table import LubricantTable
+from ..lubricant_table import Lubricant
 from ..remarks import Remark, said
 from .sleeve_bearing import ViscousSleeve
 
@@ -14,7 +14,7 @@ REMARKS = (
 )
 
 
-def sleeve_remarks(sleeve: ViscousSleeve, oil: LubricantTable, speed: float) -> tuple[str, ...]:
+def sleeve_remarks(sleeve: ViscousSleeve, oil: Lubricant, speed: float) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each, at a speed [rad/s]."""
     thickness = sleeve.clearance / sleeve.radius
     reynolds = abs(speed) * sleeve.radius * sleeve.clearance * oil.density / sleeve.viscosity

@@ -81,5 +81,5 @@ def sleeve_ladder(scene: Scene, quantity: str) -> Ladder:
     return Ladder(
         rungs=tuple(SleeveRung(film=film) for film in films),
         unit="N s/m",
-        remarks=sleeve_remarks(sleeve, scene.lubricant, scene.speed),
+        remarks=sleeve_remarks(sleeve, scene.lubricant.properties, scene.speed),
     )

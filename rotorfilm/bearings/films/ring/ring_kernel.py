@@ -107,6 +107,22 @@ class RingKernel(FilmKernel):
         self._report(status, e, w)
         return RingField(theta, face, pressure, side_flow.value)
 
+    def losses(self, eccentricity: Array, source: Array, rate: Array) -> Array:
+        """Return the losses of states (2, n), (3 + 2 openings, n), the oil running along at `rate` (n) [1/s].
+
+        They are the shear integrals of film and streamers, the side flow, the flow that leaves each opening and
+        what arrives at each; openings that touch are one.
+        """
+        e, w, along = _float(eccentricity), _float(source), _float(rate)
+        held, first = self.grids[0].held, c_size_t()
+        openings = np.count_nonzero(held & ~np.roll(held, 1))
+        losses = np.empty((3 + 2 * openings, e.shape[1]))
+        places = [numbers.ctypes.data for numbers in (e, w, along, losses)]
+        status = loops()["rf_ring_losses"](byref(self.struct), e.shape[1], *places, byref(first))
+        if status:
+            self._report(status, e[:, first.value], w[:, first.value])
+        return losses
+
     def potential(self, eccentricity: Array, source: Array) -> tuple[Array, Array]:
         """Return J, (3, n), and dJ/de, (3, 2, n), on all grids at one eccentricity (2,) for sources (2, n).
 

@@ -14,11 +14,13 @@ from ....errors import InputError, require_kind, require_number, require_positiv
 from ....model import Array
 from ....native import GrooveMapKernel
 from ....progress import Report, silent
+from ...films.film_losses import FilmLosses
 from ...films.geometry import FilmGeometry
 from ...films.kernel_film import KernelFilm
 from ...films.ring.ring_grids import are_counts, require_cells
 from ...films.table_cache import cached_table
 from ..map.map_film import MapFilm
+from ..reynolds_film import ReynoldsFilm
 from .groove_build import Resolution, build_groove_table
 from .groove_cache import cache_path
 from .groove_table import GrooveMapTable
@@ -118,6 +120,10 @@ class GroovedMapFilm(KernelFilm):
             "center": kernel.log_center,
             "map": np.array(numbers),
         }
+
+    def losses(self, e: Array, w: Array, slenderness: float, rate: Array | None = None) -> FilmLosses:
+        """Return shear and flow of the two-dimensional film on the cells of the map; see `FilmOptions`."""
+        return ReynoldsFilm(cells=self.cells, geometry=self.geometry).losses(e, w, slenderness, rate)
 
     def tabulated(self, slenderness: float) -> GroovedMapFilm:
         """Return this film with its table; see `FilmOptions`."""

@@ -27,6 +27,7 @@ from scipy.optimize import brentq
 
 from ....errors import ConvergenceError, InputError
 from ....model import Array
+from ....results import BearingLosses
 from ...films.film_losses import FilmLosses
 from ...oil import Cooling, Oil
 
@@ -85,28 +86,11 @@ class FilmHeat(NamedTuple):
     side_flow: float
 
 
-def film_heat(
-    losses: FilmLosses, dissipation: float, speed: float, *, dimensions: Dimensions, cooling: Cooling
-) -> FilmHeat:
-    """Return the heat of a film at one state.
-
-    Parameters
-    ----------
-    losses : FilmLosses
-        Of that state alone.
-    dissipation : float [1/s^2]
-        Of the pressure flow, -F . w of the dimensionless force and source; supply included.
-    speed : float [rad/s]
-    dimensions : Dimensions
-    cooling : Cooling
-    """
-    R, L, c, mu = dimensions
-    shear = losses.shear_gap if cooling.full_gap else losses.shear
-    unit = c * R * L
-    side_flow = unit * float(losses.side_flow)
-    flow = effective_flow(side_flow, unit * losses.inflow, unit * losses.arriving, cooling.carry_over)
-    power = mu * R**3 * L / c * (speed**2 * float(shear) + dissipation)
-    return FilmHeat(power, mu, flow, side_flow)
+def film_heat(losses: BearingLosses, viscosity: float, cooling: Cooling) -> FilmHeat:
+    """Return the heat of a film by its losses at one state and one viscosity [Pa s]."""
+    side_flow = float(losses.side_flow)
+    flow = effective_flow(side_flow, losses.inflow, losses.arriving, cooling.carry_over)
+    return FilmHeat(float(losses.power_loss), viscosity, flow, side_flow)
 
 
 def heat_by_state(at: FilmAt, dissipation: Array, dimensions: Dimensions, cooling: Cooling) -> Array:

@@ -6,46 +6,23 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ....errors import InputError, require_finite, require_positive
 from ....model import Array, Linearization
+from ....native.spec import NativeSpec
 from ....signals import Signal
-from ...oil import Cooling, Oil
+from ...oil.viscosity_table import viscosity_table
 from ...reaction import input_vector
-from .balance import FilmHeat, heat_surplus
+from .balance import heat_surplus
+from .cooled import Cooled
+from .heated_kernel import heated_spec
 
 NOMINAL_TEMPERATURE = 300.0
 """Typical temperature [K]."""
-
-
-class Cooled(Protocol):
-    """What a bearing with an oil and cooling offers; `JournalBearing` is one."""
-
-    radius: Any
-    length: Any
-    clearance: Any
-
-    @property
-    def cooled(self) -> tuple[Oil, Cooling]:
-        """Its oil and what cools it."""
-
-    @property
-    def inputs(self) -> tuple[Signal, ...]:
-        """Signals x, y, vx, vy, speed."""
-
-    @property
-    def outputs(self) -> tuple[Signal, ...]:
-        """Signals force_x, force_y."""
-
-    def at_temperature(self, temperature: float) -> Any:
-        """Return the bearing with a film of one temperature [K]."""
-
-    def film_heat(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> FilmHeat:
-        """Return the heat that the film makes and takes along at one state."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,6 +110,23 @@ class HeatedBearing:
         start = self.start_temperature
         return np.array([self.bearing.cooled[1].supply_temperature if start is None else start])
 
+    def native(self) -> NativeSpec | None:
+        """Return the kernel of the C library that is this bearing; None if its film has none, or openings."""
+        found = self.bearing.film_at_unit_viscosity() if type(self) is HeatedBearing else None
+        if found is None or found[0].kernel.film.tables is None:
+            return None
+        oil, cooling = self.bearing.cooled
+        values = {name: float(getattr(self.bearing, name)) for name in ("radius", "length", "clearance")}
+        values |= {
+            "supply_temperature": cooling.supply_temperature,
+            "ambient_temperature": cooling.ambient,
+            "housing_conductance": cooling.housing_conductance,
+            "bush_heat_capacity": cooling.capacity(values["radius"], values["length"]),
+            "volumetric_heat": float(oil.volumetric_heat(cooling.supply_temperature)),
+        }
+        film = {**found[0].kernel.film.tables, **found[1].tables}
+        return heated_spec(values, film, viscosity_table(oil), full_gap=cooling.full_gap)
+
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the force on the journal at the start temperature, shape (2, ...) [N]."""
         return np.asarray(self._at_start.force(position, velocity, speed))
@@ -143,7 +137,7 @@ class HeatedBearing:
 
     def prepare(self) -> Callable[[float, float, float, float, float], tuple[float, float]]:
         """Return the force at the start temperature as a function of five numbers."""
-        return self._at_start.prepare()  # type: ignore[no-any-return]
+        return self._at_start.prepare()
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the outputs, shape (5,), at the temperature x [K] and u = (x, y, vx, vy, speed)."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
@@ -9,6 +10,10 @@ from numpy.typing import ArrayLike
 
 from ....errors import InputError
 from ....model import Array
+from ....native.loss_kernels import LossKernel
+from ....results import BearingLosses
+from ....signals import Signal
+from ...films.kernel_film import BoundKernel
 from ...films.law import FilmLaw, FilmOptions, options
 from ...oil import Cooling, Oil
 from ...reaction import broadcast_state
@@ -21,6 +26,8 @@ from .balance import (
     film_heat,
     heat_by_state,
 )
+from .balanced_bearing import BalancedBearing
+from .heated_bearing import HeatedBearing
 
 
 class _Bearing(Protocol):
@@ -43,9 +50,28 @@ class _Bearing(Protocol):
     def fitted_film(self) -> FilmLaw: ...
 
     @property
+    def inputs(self) -> tuple[Signal, ...]: ...
+
+    @property
+    def outputs(self) -> tuple[Signal, ...]: ...
+
+    def film_heat(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> FilmHeat: ...
+
+    def heat_jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array: ...
+
+    def film_at_unit_viscosity(self) -> tuple[BoundKernel, LossKernel] | None: ...
+
+    @property
+    def in_balance(self) -> BalancedBearing | None: ...
+
+    @property
     def cooled(self) -> tuple[Oil, Cooling]: ...
 
     def at_temperature(self, temperature: float) -> Any: ...
+
+    def losses(
+        self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool | None = None
+    ) -> BearingLosses | None: ...
 
     def kinematics(self, position: Array, velocity: Array, speed: Array) -> tuple[Array, Array]: ...
 
@@ -60,9 +86,8 @@ class WarmFilm:
             raise InputError(f"oil and cooling must be given for heat, got {self.oil!r} and {self.cooling!r}")
         return self.oil, self.cooling
 
-    @property
     def coldest(self: _Bearing) -> float:
-        """Temperature below which the film never gets [K]; raises InputError without cooling."""
+        """Return the temperature below which the film never gets [K]; raises InputError without cooling."""
         return self.cooled[1].coldest
 
     def film_heat(self: _Bearing, position: ArrayLike, velocity: ArrayLike, speed: float) -> FilmHeat:
@@ -80,11 +105,11 @@ class WarmFilm:
         FilmContactError
             If the journal touches the wall.
         """
-        at = _state(self, position, velocity, speed)
-        dissipation = -float(self.fitted_film.force(at.e, at.w, self.slenderness) @ at.w)
-        return film_heat(
-            at.losses, dissipation, at.speed, dimensions=_dimensions(self), cooling=self.cooled[1]
-        )
+        _, cooling = self.cooled
+        losses = self.losses(position, velocity, speed)
+        if losses is None:
+            raise InputError(f"film must be one with losses for heat, as a MapFilm, got {self.fitted_film!r}")
+        return film_heat(losses, self.film_viscosity, cooling)
 
     def heat_jacobian(self: _Bearing, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
         """Return d(power, effective flow, side flow)/d(x, y, vx, vy, speed) at one temperature, shape (3, 5).
@@ -93,7 +118,7 @@ class WarmFilm:
         losses, as those of openings have none.
         """
         at = _state(self, position, velocity, speed)
-        if at.losses.slopes is None or at.losses.inflow.size:
+        if at is None or at.losses.slopes is None or at.losses.inflow.size:
             raise InputError(
                 f"film must have slopes of its losses, as MapFilm without openings, got {self.fitted_film!r}"
             )
@@ -102,12 +127,37 @@ class WarmFilm:
         dissipation = -np.concatenate([at.w @ slope[:, :2], at.w @ slope[:, 2:] + force])
         return heat_by_state(at, dissipation, _dimensions(self), self.cooled[1])
 
+    def film_at_unit_viscosity(self: _Bearing) -> tuple[BoundKernel, LossKernel] | None:
+        """Return the compiled film at 1 Pa s and its losses; None if the film law has not both, or is fed."""
+        law = options(self.fitted_film, FilmOptions)
+        losses = law.loss_kernel(self.slenderness)
+        scale = self.length * self.radius**3 / self.clearance**2
+        film = law.bind(slenderness=self.slenderness, clearance=self.clearance, force_scale=scale)
+        found = losses is not None and isinstance(film, BoundKernel) and self.supply_pressure == 0.0
+        return (film, losses) if found else None  # type: ignore[return-value]
+
+    def in_time(self: _Bearing) -> HeatedBearing:
+        """Return the bearing whose film warms and cools over time, from the temperature of the fresh oil."""
+        return HeatedBearing(bearing=self)
+
+    def balanced(self: _Bearing) -> BalancedBearing | None:
+        """Return the bearing in balance at every state; None if nothing compiles its film."""
+        return self.in_balance
+
+    @cached_property
+    def in_balance(self: _Bearing) -> BalancedBearing | None:
+        """What `balanced` returns, made once."""
+        _ = self.cooled
+        return None if self.film_at_unit_viscosity() is None else BalancedBearing(bearing=self)
+
     def balanced_temperature(self: _Bearing, position: ArrayLike, velocity: ArrayLike, speed: float) -> float:
         """Return the temperature at which the heat of the film balances at one state [K].
 
         Parameters and errors are those of `film_heat`.
         """
         oil, cooling = self.cooled
+        if self.in_balance is not None:
+            return float(self.in_balance.temperature(position, velocity, speed))
 
         def heat(temperature: float) -> FilmHeat:
             found: FilmHeat = self.at_temperature(temperature).film_heat(position, velocity, speed)
@@ -118,13 +168,13 @@ class WarmFilm:
         return fed_temperature(heat, oil, cooling)
 
 
-def _state(bearing: _Bearing, position: ArrayLike, velocity: ArrayLike, speed: float) -> FilmAt:
+def _state(bearing: _Bearing, position: ArrayLike, velocity: ArrayLike, speed: float) -> FilmAt | None:
     q, v, omega = broadcast_state(position, velocity, speed)
     if q.shape != (2,):
         raise InputError(f"position must have shape (2,) for heat, got shape {q.shape}")
     e, w = bearing.kinematics(q, v, omega)
     losses = options(bearing.fitted_film, FilmOptions).losses(e, w, bearing.slenderness)
-    return FilmAt(e, w, float(omega), losses)
+    return None if losses is None else FilmAt(e, w, float(omega), losses)
 
 
 def _dimensions(bearing: _Bearing) -> Dimensions:

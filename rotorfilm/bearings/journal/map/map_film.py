@@ -12,9 +12,13 @@ import numpy as np
 from ....errors import RotorfilmError, require_kind
 from ....model import Array
 from ....native import MapKernel
+from ....native.loss_kernels import LossKernel
+from ...films.film_losses import FilmLosses, plain_losses
 from ...films.kernel_film import KernelFilm
+from ...films.law import require_film
 from ...films.map_table import MapTable
-from .own_tables import OWN_RANGE, bearing_table
+from .loss_table import packaged_kernel
+from .own_tables import OWN_RANGE, bearing_table, reference_film
 
 TABLE = "journal_map.bin"
 """The universal table of the package, in `films/data`."""
@@ -72,6 +76,22 @@ class MapFilm(KernelFilm):
         """Return this film with the table that it would make; see `FilmOptions`."""
         table = self._table(slenderness)
         return self if self.table is not None or table is packaged_table() else MapFilm(table)
+
+    def losses(self, e: Array, w: Array, slenderness: float, rate: Array | None = None) -> FilmLosses:
+        """Return shear and flow from the tables of the package, with slopes; see `FilmOptions`.
+
+        A bearing of another length/diameter has those of the two-dimensional film that its own map is made
+        of, without slopes.
+        """
+        require_film(e.reshape(2, -1))
+        kernel = packaged_kernel(float(slenderness))
+        if kernel is None:
+            return reference_film(slenderness).losses(e, w, slenderness)
+        return plain_losses(kernel, e, w)
+
+    def loss_kernel(self, slenderness: float) -> LossKernel | None:
+        """Return the losses of the tables of the package; None for a bearing beyond them."""
+        return packaged_kernel(float(slenderness))
 
     def _table(self, slenderness: float) -> MapTable:
         return _table_for(slenderness) if self.table is None else self.table

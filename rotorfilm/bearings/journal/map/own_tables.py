@@ -49,6 +49,11 @@ def _film(around: int, along: int) -> _TwoFilms:
     return _TwoFilms(*films)
 
 
+def reference_film(slenderness: float) -> ReynoldsFilm:
+    """Return the two-dimensional film of a bearing that the packaged table leaves out."""
+    return ReynoldsFilm(cells=_SHORT if slenderness < 1.0 else _LONG)
+
+
 @lru_cache(maxsize=16)
 def bearing_table(slenderness: float) -> MapTable:
     """Return the table of the full film with Reynolds rupture for one length/diameter, in half a minute.

@@ -16,6 +16,7 @@ import numpy as np
 from ....errors import ConvergenceError, InputError
 from ....model import Array
 from .potential_arc import free_arc
+from .potential_basis import along
 from .potential_domain import Region, RitzResolution, Source, local_film, region
 from .potential_ritz import RitzFilm, solve_region
 from .potential_shape import end_state, remainder, shape_step
@@ -104,11 +105,27 @@ def directed_potential(source: Source, resolution: RitzResolution) -> Potential:
     --------
     potential
     """
+    return _result(_settled(source, resolution, NEGLIGIBLE))
+
+
+def film_ends(source: Source, resolution: RitzResolution) -> tuple[Array, Array]:
+    """Return the angles at which the film begins and ends, (2, Q) [rad], and the axial weights, (Q,).
+
+    The angles are those of gamma, without a jump from the first end to the second, at Gauss nodes of zeta in
+    [0, 1]; the weights add up to 1.
+    """
+    # Near the wall ends far from it decide the flow, though they are worth next to nothing of J.
+    ends = local_film(source, _settled(source, resolution, 0.0).area.end).gamma
+    return ends, along(resolution.along).weight
+
+
+def _settled(source: Source, resolution: RitzResolution, negligible: float) -> _Attempt:
+    """Return the film whose ends have come to rest, but for a relative change of J that is negligible."""
     series = np.zeros((2, resolution.shapes))
     series[:, 0] = free_arc(source)
     best = _attempt(source, series, resolution)
     for _ in range(STEPS):
-        if best.size < NEGLIGIBLE * abs(best.value):
+        if best.size < negligible * abs(best.value):
             break
         reach = REACH * float(np.mean(best.area.half_width))
         series = series + np.clip(best.step, -reach, reach)
@@ -117,7 +134,7 @@ def directed_potential(source: Source, resolution: RitzResolution) -> Potential:
         if trial.size > best.size:
             break
         best = trial
-    return _result(best)
+    return best
 
 
 class _Attempt(NamedTuple):

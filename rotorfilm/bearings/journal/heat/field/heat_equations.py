@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import splu
 
-from ....model import Array
+from .....model import Array
 from .film_cells import FilmCells
 from .film_flow import FilmFlow
 from .walls import WallResponse
@@ -57,6 +57,13 @@ class Heating:
     walls: WallResponse | None
 
 
+class WallTemperatures(NamedTuple):
+    """Temperatures of bush (N,) and journal above that of the supply [K]."""
+
+    bush: Array
+    journal: float
+
+
 class HeatSolution(NamedTuple):
     """Temperatures above that of the supply [K], and where the heat goes [K/s].
 
@@ -64,8 +71,8 @@ class HeatSolution(NamedTuple):
     ----------
     oil : ndarray, shape (N, M + 1, ...) [K]
         In openings that of the mixed oil.
-    bush : ndarray, shape (N,) [K]
-    journal : float [K]
+    walls : WallTemperatures or None
+        None of walls that take no heat.
     made : float [K/s]
         Heat of shear and pressure.
     leaked : float [K/s]
@@ -76,8 +83,7 @@ class HeatSolution(NamedTuple):
     """
 
     oil: Array
-    bush: Array
-    journal: float
+    walls: WallTemperatures | None
     made: float
     leaked: float
     drained: float
@@ -100,7 +106,7 @@ class Carried(NamedTuple):
 
 
 def carried(*faces: tuple[np.ndarray, np.ndarray, Array]) -> Carried:
-    """Return what flows through faces given by the unknowns before and behind them and the flow, of any sign."""
+    """Return what flows through faces, each the unknowns before and behind it and the flow, of any sign."""
     rows = [[np.ravel(part) for part in np.broadcast_arrays(*face)] for face in faces]
     before, behind, flow = (np.concatenate(parts) for parts in zip(*rows, strict=True))
     through = (flow != 0.0) & (before != behind)
@@ -180,6 +186,12 @@ class HeatEquations:
         if self._heating.walls is None:
             return 0.0
         return float(sum(np.sum(value * x[column]) for column, value in terms))
+
+    def wall_temperatures(self, x: Array) -> WallTemperatures | None:
+        """Return the temperatures of the walls."""
+        if self._heating.walls is None:
+            return None
+        return WallTemperatures(x[self.bush], float(x[self.journal]))
 
     def _close_walls(self) -> None:
         walls = self._heating.walls

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ....model import Array
-from ...films.ring.ring_grids import Grid, Spans
+from .....model import Array
+from ....films.ring.ring_grids import Grid, Spans
 
 CROWDING = 0.35
-"""The distance of lines at the minimum film falls as its thickness to this power, as in native/grids/cells.c."""
+"""The distance of lines at the minimum film falls as its thickness to this power, as in grids/cells.c."""
 
 _GAUSS_NODES, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(3)
 
@@ -75,7 +75,7 @@ def thickness(eccentricity: Array, angle: Array) -> Array:
 
 
 def film_cells(spans: Spans, grid: Grid, slenderness: float, eccentricity: Array) -> FilmCells:
-    """Return the cells of a grid whose lines crowd at the minimum film of a journal at this eccentricity (2,)."""
+    """Return the cells of a grid whose lines crowd at the minimum film for an eccentricity (2,)."""
     distance = float(eccentricity @ eccentricity)
     a = complex(eccentricity[0], eccentricity[1]) / (1.0 + (1.0 - distance) ** CROWDING)
     theta, face = _angles(spans, grid.span, grid.line, a), _angles(spans, grid.span, grid.face, a)

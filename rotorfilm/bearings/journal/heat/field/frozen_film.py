@@ -7,10 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ....model import Array, Tangent
-from ...films.bound_law import kinematics
-from ...films.ring.stencil_film import Stencil, StencilSolution, solve_stencil
-from ...reaction import NOMINAL_SPEED, StaticReaction
+from .....model import Array, Tangent
+from ....films.bound_law import kinematics
+from ....films.ring.stencil_film import Stencil, StencilSolution, solve_stencil
+from ....reaction import NOMINAL_SPEED, StaticReaction
 from .film_cells import FilmCells, thickness
 
 

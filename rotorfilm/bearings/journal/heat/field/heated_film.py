@@ -8,7 +8,7 @@ from typing import ClassVar, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ....errors import (
+from .....errors import (
     ConvergenceError,
     InputError,
     require_finite,
@@ -16,16 +16,23 @@ from ....errors import (
     require_kind,
     require_number,
 )
-from ....model import Array
-from ...films.ring.ring_grids import require_cells
-from ..bearing import JournalBearing
-from ..reynolds_film import ReynoldsFilm
+from .....model import Array
+from ....films.ring.ring_grids import require_cells
+from ...bearing import JournalBearing
+from ...reynolds_film import ReynoldsFilm
 from .energy_film import MeanTemperature
 from .film_cells import FilmCells, film_cells
 from .film_flow import FilmFlow, fed_film
-from .frozen_film import FilmSolution, Fluidity, FrozenFilm
+from .frozen_film import Fluidity, FrozenFilm
 from .heat_equations import Heating, HeatSolution
-from .heated_state import HeatAccount, HeatedState
+from .heated_state import (
+    HeatedState,
+    HeatRound,
+    heat_unit,
+    heated_state,
+    oil_and_cooling,
+    volumetric_heat,
+)
 from .walls import AdiabaticWalls, WallResponse, Walls
 
 FREE_ROUNDS, PATIENT_ROUNDS, MOST_ROUNDS = 8, 20, 60
@@ -33,7 +40,7 @@ FREE_ROUNDS, PATIENT_ROUNDS, MOST_ROUNDS = 8, 20, 60
 and that may come to what a node at the edge of the film is worth."""
 
 SETTLED, ONE_NODE = 1e-5, 2e-3
-"""Largest relative change of force and power, and of the position over the clearance, of the last round then."""
+"""Largest relative change of force and power, and of position/clearance, of the last round then."""
 
 
 @runtime_checkable
@@ -81,7 +88,8 @@ class HeatedFilm:
     --------
     >>> from rotorfilm.bearings.oil import Cooling, Oil
     >>> cooling = Cooling(supply_temperature=318.15)
-    >>> bearing = JournalBearing(radius=0.05, length=0.05, clearance=75e-6, oil=Oil.iso_vg(46), cooling=cooling)
+    >>> size = dict(radius=0.05, length=0.05, clearance=75e-6)
+    >>> bearing = JournalBearing(**size, oil=Oil.iso_vg(46), cooling=cooling)
     >>> state = HeatedFilm(bearing=bearing).solve(position=[20e-6, -30e-6], speed=314.2)
     >>> round(state.maximum_temperature - 273.15)
     69
@@ -97,7 +105,7 @@ class HeatedFilm:
 
     def __post_init__(self) -> None:
         require_kind("bearing", self.bearing, JournalBearing, "a JournalBearing with oil and cooling")
-        _ = self.bearing.cooled
+        oil_and_cooling(self.bearing)
         require_kind("walls", self.walls, Walls, "walls such as BushRing(...) or AdiabaticWalls()")
         require_kind("profile", self.profile, FilmProfile, "a profile such as MeanTemperature()")
         require_cells(self.cells)
@@ -105,7 +113,7 @@ class HeatedFilm:
     @property
     def supply_temperature(self) -> float:
         """Temperature of the fresh oil [K]."""
-        return self.bearing.cooled[1].supply_temperature
+        return oil_and_cooling(self.bearing)[1].supply_temperature
 
     def cold(self) -> FrozenFilm:
         """Return the film of fresh oil, whose lines are where they are for a centered journal."""
@@ -162,10 +170,10 @@ class HeatedFilm:
         viscosity, film = self._frozen(e, T)
         if before is not None and before.rounds >= FREE_ROUNDS:
             film = replace(film, empty=before.film.empty)
-        film, found, flow = fed_film(film, e, omega, full_gap=self.bearing.cooled[1].full_gap)
+        film, found, flow = fed_film(film, e, omega, full_gap=oil_and_cooling(self.bearing)[1].full_gap)
         warm = self.profile.warm(self._heating(film.cells, flow, omega, T, viscosity, closing))
         rounds = 1 if before is None else before.rounds + 1
-        return self._state((q, omega, rounds), film, found, flow, warm, T)
+        return heated_state(self.bearing, HeatRound(q, omega, rounds, T, film, found, flow, warm))
 
     def is_settled(self, before: HeatedState, state: HeatedState) -> bool:
         """Return whether the last round has changed hardly anything."""
@@ -188,7 +196,7 @@ class HeatedFilm:
     def _frozen(self, eccentricity: Array, temperature: Array) -> tuple[Array, FrozenFilm]:
         """Return the viscosity over that of the bearing, and the film of it."""
         cells = self._cells(eccentricity)
-        viscosity = self.bearing.cooled[0].viscosity(temperature) / self.bearing.film_viscosity
+        viscosity = oil_and_cooling(self.bearing)[0].viscosity(temperature) / self.bearing.film_viscosity
         return viscosity, FrozenFilm(
             cells=cells,
             fluidity=self.profile.fluidity(viscosity),
@@ -196,16 +204,6 @@ class HeatedFilm:
             clearance=self.bearing.clearance,
             force_scale=self.bearing.force_scale,
         )
-
-    @property
-    def _volumetric_heat(self) -> float:
-        return float(self.bearing.cooled[0].volumetric_heat(self.supply_temperature))
-
-    @property
-    def _unit(self) -> float:
-        """Heat flow [W/K] of oil that flows at 1/s in the units of the film, both halves of it."""
-        bearing = self.bearing
-        return self._volumetric_heat * bearing.clearance * bearing.radius * bearing.length
 
     def _heating(
         self,
@@ -216,8 +214,8 @@ class HeatedFilm:
         viscosity: Array,
         closing: bool,
     ) -> Heating:
-        bearing, (oil, cooling) = self.bearing, self.bearing.cooled
-        per_gap = self._volumetric_heat * bearing.clearance**2
+        bearing, (oil, cooling) = self.bearing, oil_and_cooling(self.bearing)
+        per_gap = volumetric_heat(bearing) * bearing.clearance**2
         return Heating(
             cells=cells,
             flow=flow,
@@ -234,56 +232,14 @@ class HeatedFilm:
     def _walls(self, cells: FilmCells) -> WallResponse:
         """Return the response of the walls in the units of the heat equations."""
         found = self.walls.response(self.bearing.radius, cells.start, cells.extent)
-        along = self._unit / self.bearing.length
+        unit = heat_unit(self.bearing)
+        along = unit / self.bearing.length
         return found._replace(
             spread=along * found.spread,
             take=along * found.take,
             ambient=found.ambient - self.supply_temperature,
-            shaft_take=self._unit * found.shaft_take,
+            shaft_take=unit * found.shaft_take,
             shaft_ambient=found.shaft_ambient - self.supply_temperature,
-        )
-
-    def _state(
-        self,
-        at: tuple[Array, float, int],
-        film: FrozenFilm,
-        found: FilmSolution,
-        flow: FilmFlow,
-        warm: HeatSolution,
-        temperature: Array,
-    ) -> HeatedState:
-        q, speed, rounds = at
-        bearing, cells, T_s = self.bearing, film.cells, self.supply_temperature
-        pressure = np.pad(found.solution.pressure, ((0, 0), (0, 1)))
-        made = self._unit * warm.made
-        power = made - bearing.force_scale * bearing.clearance * found.pumped(cells)
-        oil_temperature = T_s + warm.oil
-        adiabatic = self.walls.adiabatic
-        return HeatedState(
-            position=q,
-            speed=speed,
-            force=bearing.force_scale * found.force(cells),
-            angle=cells.theta % (2.0 * np.pi),
-            axial=0.5 * bearing.length * np.append(0.0, np.cumsum(1.0 / cells.conductance)),
-            pressure=bearing.pressure_scale * pressure,
-            filled=flow.filled,
-            oil_temperature=oil_temperature,
-            bush_temperature=None if adiabatic else T_s + warm.bush,
-            journal_temperature=None if adiabatic else T_s + warm.journal,
-            maximum_temperature=float(oil_temperature[~cells.held].max()),
-            power_loss=power,
-            friction_torque=power / speed,
-            side_flow=bearing.clearance * bearing.radius * bearing.length * flow.side_flow,
-            heat=HeatAccount(
-                made=made,
-                leaked=self._unit * warm.leaked,
-                drained=self._unit * warm.drained,
-                into_bush=self._unit * warm.to_bush,
-                into_journal=self._unit * warm.to_journal,
-            ),
-            film=film,
-            film_temperature=temperature,
-            rounds=rounds,
         )
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ....model import Array
+from .....model import Array
 from .film_cells import FilmCells, thickness
 from .frozen_film import FilmSolution, FrozenFilm
 

@@ -1,4 +1,4 @@
-"""What holds a warm film: walls that take no heat, walls of given temperature, and a bush that conducts it away."""
+"""What holds a warm film: walls without heat, of given temperature, or a bush that conducts it away."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
-from ....errors import InputError, require_each, require_non_negative, require_positive
-from ....model import Array
+from .....errors import InputError, require_each, require_non_negative, require_positive
+from .....model import Array
 
 HARMONICS = 256
 """Waves around the bush that its temperature is made of."""

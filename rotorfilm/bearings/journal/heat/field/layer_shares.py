@@ -1,4 +1,4 @@
-"""How the oil between two walls flows and is sheared layer by layer, its viscosity varying across (Dowson, 1962)."""
+"""How oil between two walls flows and is sheared, its viscosity varying across the gap (Dowson, 1962)."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ....model import Array
+from .....model import Array
 
 
 class LayerShares(NamedTuple):

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ....errors import require_count
-from ....model import Array
+from .....errors import require_count
+from .....model import Array
 from .film_cells import FilmCells
 from .frozen_film import Fluidity
 from .heat_equations import HeatEquations, Heating, HeatSolution, Terms, carried, drained
@@ -83,8 +83,7 @@ class LayeredTemperature:
         leaked[:, -1] += np.maximum(axial[:, -1], 0.0)
         return HeatSolution(
             oil=T,
-            bush=x[equations.bush],
-            journal=float(x[equations.journal]),
+            walls=equations.wall_temperatures(x),
             made=float(np.sum((made - less * (T - heating.temperature))[film])),
             leaked=float(np.sum((leaked * T)[film])),
             drained=drained(oil, x, opening),

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ....model import Array
+from .....model import Array
 from .film_cells import FilmCells
 from .frozen_film import Fluidity
-from .heat_equations import Carried, HeatEquations, Heating, Terms, HeatSolution, carried, drained
+from .heat_equations import HeatEquations, Heating, HeatSolution, Terms, carried, drained
 
 
 @dataclass(frozen=True)
@@ -59,8 +59,7 @@ class MeanTemperature:
         T = x[index]
         return HeatSolution(
             oil=T,
-            bush=x[equations.bush],
-            journal=float(x[equations.journal]),
+            walls=equations.wall_temperatures(x),
             made=float(np.sum((made - less * (T - heating.temperature))[film])),
             leaked=float(np.sum((flow.leaked * T)[film])),
             drained=drained(oil, x, opening),
@@ -70,7 +69,7 @@ class MeanTemperature:
 
 
 def _unknowns(cells: FilmCells) -> np.ndarray:
-    """Return the number of the unknown of each cell; all cells of an opening have one, after those of film."""
+    """Return the number of the unknown of each cell; an opening has one, after those of the film."""
     lines, along = cells.shape
     index = np.arange(lines * along).reshape(lines, along)
     return np.where(cells.held[:, None], lines * along + cells.opening[:, None], index)
@@ -80,6 +79,6 @@ def _into_walls(equations: HeatEquations, into: Array, index: np.ndarray) -> tup
     """Return the heat into bush and journal of each cell, of a parabola across the film."""
     at_bush = np.broadcast_to(equations.bush[:, None], index.shape)
     at_journal = np.full(index.shape, equations.journal)
-    bush = [(index, 6.0 * into), (at_bush, -4.0 * into), (at_journal, -2.0 * into)]
-    journal = [(index, 6.0 * into), (at_bush, -2.0 * into), (at_journal, -4.0 * into)]
+    bush: Terms = [(index, 6.0 * into), (at_bush, -4.0 * into), (at_journal, -2.0 * into)]
+    journal: Terms = [(index, 6.0 * into), (at_bush, -2.0 * into), (at_journal, -4.0 * into)]
     return bush, journal

@@ -1,0 +1,42 @@
+"""What of a journal bearing its heat follows from."""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+from numpy.typing import ArrayLike
+
+from ....native.loss_kernels import LossKernel
+from ....signals import Signal
+from ...films.kernel_film import BoundKernel
+from ...oil import Cooling, Oil
+from .balance import FilmHeat
+
+
+class Cooled(Protocol):
+    """What a bearing with an oil and cooling offers; `JournalBearing` is one."""
+
+    radius: Any
+    length: Any
+    clearance: Any
+
+    @property
+    def cooled(self) -> tuple[Oil, Cooling]:
+        """Its oil and what cools it."""
+
+    @property
+    def inputs(self) -> tuple[Signal, ...]:
+        """Signals x, y, vx, vy, speed."""
+
+    @property
+    def outputs(self) -> tuple[Signal, ...]:
+        """Signals force_x, force_y."""
+
+    def at_temperature(self, temperature: float) -> Any:
+        """Return the bearing with a film of one temperature [K]."""
+
+    def film_heat(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> FilmHeat:
+        """Return the heat that the film makes and takes along at one state."""
+
+    def film_at_unit_viscosity(self) -> tuple[BoundKernel, LossKernel] | None:
+        """Return its compiled film at 1 Pa s with its losses; None if there is none."""

@@ -1,0 +1,60 @@
+"""The kernel of the C library that is a journal bearing whose oil warms."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from ....model import Array
+from ....native.heated_kernel import OilTable
+from ....native.spec import NativeParameter, NativeSpec
+
+_PARAMETERS = (
+    ("radius", "m", "bearing radius; fixed, as the map of the film holds for this length / diameter"),
+    ("length", "m", "axial length; fixed, as the map of the film holds for this length / diameter"),
+    ("clearance", "m", "radial clearance"),
+    ("supply_temperature", "K", "temperature of the fresh oil"),
+    ("ambient_temperature", "K", "temperature around the housing"),
+    ("housing_conductance", "W/K", "heat flow through bush and housing per kelvin between film and ambient"),
+    ("bush_heat_capacity", "J/K", "heat capacity of bush and housing"),
+    ("volumetric_heat", "J/(m3.K)", "density times heat capacity of the oil"),
+)
+
+_FIXED = {"radius", "length"}
+
+
+def heated_spec(
+    values: Mapping[str, float], film: Mapping[str, Array], oil: OilTable, *, full_gap: bool
+) -> NativeSpec:
+    """Return the kernel of a bearing whose oil warms.
+
+    Parameters
+    ----------
+    values : mapping of str to float
+        Of its parameters, in SI.
+    film : mapping of str to ndarray
+        Tables of the film and of its losses; empty for the short film.
+    oil : OilTable
+    full_gap : bool
+        Whether oil fills the gap also where the film is ruptured.
+    """
+    parameters = tuple(
+        NativeParameter(
+            name=name,
+            unit=unit,
+            value=values[name],
+            tunable=name not in _FIXED,
+            minimum=0.0,
+            nominal=values[name] or 1.0,
+            description=description,
+        )
+        for name, unit, description in _PARAMETERS
+    )
+    tables = {
+        **film,
+        "oil": oil.coefficients,
+        "oil_range": np.array([oil.coldest, oil.hottest]),
+        "full_gap": np.array([float(full_gap)]),
+    }
+    return NativeSpec(kernel="heated_journal", parameters=parameters, tables=tables)

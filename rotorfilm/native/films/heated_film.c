@@ -1,0 +1,165 @@
+#include "heated_film.h"
+
+#include <math.h>
+
+#include "map_frame.h"
+#include "quintic.h"
+
+#define TWO_PI 6.28318530717958647692
+#define STEPS 60
+#define ROUNDOFF 1e-14
+
+int rf_oil_viscosity(const rf_oil *oil, double t, double *mu, double *slope)
+{
+    double u, b[RF_ORDER];
+    const double held = fmin(fmax(t, oil->coldest), oil->hottest), per = oil->cells / (oil->hottest - oil->coldest);
+    const double *c = oil->ln + rf_cell((held - oil->coldest) * per, oil->cells, &u);
+    rf_values(u, b);
+    const double ln = rf_dot(c, b);
+    rf_slopes(u, b);
+    const double thins = per * rf_dot(c, b);
+    *mu = exp(ln + thins * (t - held));
+    if (slope)
+        *slope = *mu * thins;
+    return t == held ? RF_OK : RF_OUTSIDE;
+}
+
+/* Eccentricity and source of a state. */
+static void kinematics(double c, const double *state, double *e, double *w)
+{
+    const double half = 0.5 * state[4];
+    e[0] = state[0] / c;
+    e[1] = state[1] / c;
+    w[0] = state[2] / c + half * e[1];
+    w[1] = state[3] / c - half * e[0];
+}
+
+/* A row d/d(e, w) becomes one d/d(x, y, vx, vy, speed). */
+static void by_state(const double *by, const double *e, double speed, double c, double *row)
+{
+    const double half = 0.5 * speed;
+    row[0] = (by[0] - half * by[3]) / c;
+    row[1] = (by[1] + half * by[2]) / c;
+    row[2] = by[2] / c;
+    row[3] = by[3] / c;
+    row[4] = 0.5 * (by[2] * e[1] - by[3] * e[0]);
+}
+
+/* Slopes of drag and flow: A = R^3 L/c speed^2 Sigma - F.W, W = c w, and Q = c R L times the flow of the losses. */
+static void set_slopes(const rf_heated *film, const double *state, const double *f, double shear,
+                       const double *by_loss, rf_heat_slopes *of)
+{
+    const double r = film->radius, l = film->length, c = film->clearance, speed = state[4], half = 0.5 * speed;
+    const double ring = r * r * r * l / c, unit = c * r * l;
+    double e[2], w[2], by_shear[4];
+    kinematics(c, state, e, w);
+    const double gap = 1.0 - e[0] * e[0] - e[1] * e[1];
+    for (int k = 0; k < 4; ++k)
+        by_shear[k] = film->full_gap ? (k < 2 ? shear / gap * e[k] : 0.0) : by_loss[k] + by_loss[4 + k];
+    by_state(by_shear, e, speed, c, of->drag);
+    by_state(by_loss + 8, e, speed, c, of->flow);
+    const double by_w[2][5] = {{0.0, half, 1.0, 0.0, 0.5 * state[1]}, {-half, 0.0, 0.0, 1.0, -0.5 * state[0]}};
+    for (int k = 0; k < 5; ++k) {
+        of->drag[k] = ring * speed * speed * of->drag[k] - f[0] * by_w[0][k] - f[1] * by_w[1][k]
+                      - c * (of->force[k] * w[0] + of->force[5 + k] * w[1]);
+        of->flow[k] *= unit;
+    }
+    of->drag[4] += 2.0 * ring * speed * shear;
+}
+
+int rf_heat_at(const rf_heated *film, const double *state, rf_heat *heat, rf_heat_slopes *slopes)
+{
+    double e[2], w[2], losses[RF_LOSSES], by_loss[4 * RF_LOSSES];
+    int status = rf_journal_at(&film->journal, state, heat->force, slopes ? slopes->force : NULL);
+    if (status > RF_OUTSIDE)
+        return status;
+    const double r = film->radius, l = film->length, c = film->clearance, *f = heat->force;
+    kinematics(c, state, e, w);
+    const int known = film->loss(film->loss_data, e, w, losses, slopes ? by_loss : NULL);
+    if (known > RF_OUTSIDE)
+        return known;
+    status = known > status ? known : status;
+    const double chi2 = e[0] * e[0] + e[1] * e[1];
+    const double shear = film->full_gap ? TWO_PI / sqrt(1.0 - chi2) : losses[0] + losses[1];
+    heat->drag = r * r * r * l / c * state[4] * state[4] * shear - c * (f[0] * w[0] + f[1] * w[1]);
+    heat->flow = c * r * l * losses[2];
+    if (slopes)
+        set_slopes(film, state, f, shear, by_loss, slopes);
+    return status;
+}
+
+double rf_heat_surplus(const rf_heated *film, const rf_heat *heat, double t, double *slope)
+{
+    double mu, thins;
+    rf_oil_viscosity(&film->oil, t, &mu, &thins);
+    const double oil = film->volumetric_heat * heat->flow;
+    if (slope)
+        *slope = heat->drag * thins - oil - film->conductance;
+    return heat->drag * mu - oil * (t - film->supply) - film->conductance * (t - film->ambient);
+}
+
+int rf_balance(const rf_heated *film, const rf_heat *heat, double *temperature)
+{
+    const double takes = film->volumetric_heat * heat->flow + film->conductance;
+    double t = film->conductance > 0.0 ? fmin(film->supply, film->ambient) : film->supply, slope;
+    *temperature = t;
+    if (!(takes > 0.0))
+        return heat->drag > 0.0 ? RF_STUCK : RF_OK;
+    for (int k = 0; k < STEPS; ++k) {
+        const double step = -rf_heat_surplus(film, heat, t, &slope) / slope;
+        t += step;
+        if (fabs(step) <= ROUNDOFF * t) {
+            *temperature = t;
+            return RF_OK;
+        }
+    }
+    return RF_STUCK;
+}
+
+int rf_balanced_at(const rf_heated *film, const double *state, double *f, double *jacobian, double *temperature)
+{
+    rf_heat heat;
+    rf_heat_slopes slopes;
+    double mu, thins, cools;
+    int status = rf_heat_at(film, state, &heat, jacobian ? &slopes : NULL);
+    const int balanced = status <= RF_OUTSIDE ? rf_balance(film, &heat, temperature) : RF_OK;
+    status = balanced > status ? balanced : status;
+    if (status > RF_OUTSIDE) {
+        *temperature = NAN;
+        return rf_fail(status, f, jacobian, 10);
+    }
+    const int known = rf_oil_viscosity(&film->oil, *temperature, &mu, &thins);
+    f[0] = mu * heat.force[0];
+    f[1] = mu * heat.force[1];
+    if (jacobian) {
+        rf_heat_surplus(film, &heat, *temperature, &cools);
+        const double warmer = film->volumetric_heat * (*temperature - film->supply);
+        for (int k = 0; k < 5; ++k) {
+            const double warms = -(mu * slopes.drag[k] - warmer * slopes.flow[k]) / cools;
+            for (int i = 0; i < 2; ++i)
+                jacobian[5 * i + k] = mu * slopes.force[5 * i + k] + thins * heat.force[i] * warms;
+        }
+    }
+    return known > status ? known : status;
+}
+
+int rf_balanced_batch(const rf_heated *film, size_t n, const double *states, double *f, double *temperature,
+                      double *jacobian, size_t *first)
+{
+    double force[2], slopes[10];
+    int worst = RF_OK;
+    *first = 0;
+    for (size_t i = 0; i < n; ++i) {
+        const double state[5] = {states[i], states[n + i], states[2 * n + i], states[3 * n + i], states[4 * n + i]};
+        const int status = rf_balanced_at(film, state, force, jacobian ? slopes : NULL, temperature + i);
+        if (status > worst) {
+            worst = status;
+            *first = i;
+        }
+        for (size_t k = 0; k < 2; ++k)
+            f[k * n + i] = force[k];
+        for (size_t k = 0; jacobian && k < 10; ++k)
+            jacobian[k * n + i] = slopes[k];
+    }
+    return worst;
+}

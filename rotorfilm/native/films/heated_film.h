@@ -1,0 +1,66 @@
+/* A journal's film at one temperature of its oil: the heat that it makes and takes along, and the temperature at which
+   they balance.
+
+   With the power P = mu(T) A into the oil and the flow Q of fresh oil that replaces what leaks,
+
+       A mu(T) = volumetric_heat Q (T - supply) + conductance (T - ambient)                                        (1)
+
+   has one root T, since the left side falls and the right side rises. */
+#ifndef ROTORFILM_HEATED_FILM_H
+#define ROTORFILM_HEATED_FILM_H
+
+#include <stdint.h>
+
+#include "journal_kernel.h"
+#include "loss_kernel.h"
+
+/* ln viscosity over temperature: uniform quintic splines, beyond the range an exponential. */
+typedef struct rf_oil {
+    int32_t cells;      /* of [coldest, hottest] */
+    const double *ln;   /* cells + 5 coefficients */
+    double coldest, hottest; /* K */
+} rf_oil;
+
+typedef struct rf_heated {
+    rf_journal journal; /* at unit viscosity */
+    rf_loss loss;
+    const void *loss_data;
+    rf_oil oil;
+    double radius, length, clearance;    /* m */
+    double supply, ambient, conductance; /* K, K, W/K */
+    double volumetric_heat;              /* J/(m3 K) */
+    int32_t full_gap;                    /* oil fills the gap also where the film is ruptured */
+} rf_heated;
+
+/* The film at unit viscosity: force, power A and flow Q. */
+typedef struct rf_heat {
+    double force[2], drag, flow; /* N, W, m3/s */
+} rf_heat;
+
+/* Derivatives of these by x, y, vx, vy, speed. */
+typedef struct rf_heat_slopes {
+    double force[10], drag[5], flow[5];
+} rf_heat_slopes;
+
+/* Viscosity [Pa s] at a temperature and, unless NULL, its derivative. RF_OUTSIDE beyond the range. */
+int rf_oil_viscosity(const rf_oil *oil, double temperature, double *viscosity, double *slope);
+
+/* The film at a state x, y, vx, vy, speed and, unless NULL, its slopes. */
+int rf_heat_at(const rf_heated *film, const double *state, rf_heat *heat, rf_heat_slopes *slopes);
+
+/* Heat made less heat taken away at a temperature [W] and, unless NULL, its derivative. */
+double rf_heat_surplus(const rf_heated *film, const rf_heat *heat, double temperature, double *slope);
+
+/* The root of (1) by Newton's method from below. RF_STUCK if nothing takes the heat away. */
+int rf_balance(const rf_heated *film, const rf_heat *heat, double *temperature);
+
+/* Force f[2], temperature and, unless NULL, jacobian[2][5] of the film that at every state has the temperature of
+   its balance. */
+RF_EXPORT_LOOP int rf_balanced_at(const rf_heated *film, const double *state, double *f, double *jacobian,
+                                  double *temperature);
+
+/* n states in rows of n, x, y, vx, vy, speed; rows of forces (2), temperatures and, unless NULL, Jacobians (10). */
+RF_EXPORT_LOOP int rf_balanced_batch(const rf_heated *film, size_t n, const double *states, double *f,
+                                     double *temperature, double *jacobian, size_t *first);
+
+#endif

@@ -1,0 +1,27 @@
+/* Shear and flow of the two-dimensional film: what decides its power loss and the oil that leaves it. */
+#ifndef ROTORFILM_RING_LOSSES_H
+#define ROTORFILM_RING_LOSSES_H
+
+#include "search.h"
+
+/* Shear integral of the film and of the streamers, flow out of both ends; then the flow that leaves each opening, and
+   what arrives at each. */
+#define RF_RING_LOSSES 3
+
+/* Losses of n states, rows of n one stride apart: (RF_RING_LOSSES + 2 openings) x n, openings in the order of their
+   lines. The oil runs along the film at `rate` (n) [1/s], half the speed of a journal between walls that rest; its
+   sign says where downstream is.
+
+   Behind a film streamers keep the thickness H_r at which it ended, and what a film beside them adds on the way.
+   Behind an opening they have that of its downstream edge. A film between openings begins only where they bring what it
+   takes: nodes where it would begin from nothing are shut, one line after the other. */
+RF_EXPORT_LOOP int rf_ring_losses(const rf_ring *ring, size_t n, const double *e, const double *w, const double *rate,
+                             double *losses, size_t *first);
+
+/* By the balance of the half cells that end the film, without openings and what a film in tension draws in. */
+double rf_flow_out_of_ends(const rf_search *search, const rf_grid *grid);
+
+/* Whether there is a film at all. */
+int rf_judge_state(const double *e, const double *w);
+
+#endif

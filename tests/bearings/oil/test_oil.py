@@ -1,0 +1,104 @@
+"""Oils: ASTM D341, fits, and what the kernels read."""
+
+import numpy as np
+import pytest
+
+from rotorfilm.bearings.oil import Exponential, Oil, Vogel, Walther
+from rotorfilm.bearings.oil.viscosity_table import RANGE, viscosity_table
+from rotorfilm.errors import InputError
+from rotorfilm.native.structs import OilStruct
+
+CELSIUS = 273.15
+
+
+@pytest.mark.literature
+@pytest.mark.parametrize(
+    ("points", "at", "printed", "digits"),
+    [
+        # ASTM D341 by the calculators of olezol.com: cSt at degC.
+        (((40, 404), (100, 28)), 60, 132.126, 2e-5),
+        (((40, 68), (80, 14.85)), 100, 8.8, 2e-3),
+    ],
+)
+def test_walther_is_astm_d341(points, at, printed, digits):
+    first, second = ((T + CELSIUS, 1e-6 * nu) for T, nu in points)
+    law = Walther.through(first, second, density=870.0)
+    assert 1e6 * law.kinematic(at + CELSIUS) == pytest.approx(printed, rel=digits)
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("grade", [22, 46, 320])
+def test_a_grade_is_its_kinematic_viscosity_at_40_degrees(grade):
+    oil = Oil.iso_vg(grade)
+    warm = 40.0 + CELSIUS
+    assert oil.viscosity(warm) / oil.density(warm) == pytest.approx(1e-6 * grade, rel=1e-12)
+    assert "100 degC" in oil.assumed[0]
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        Oil.iso_vg(46).law,
+        Vogel.fitted(Oil.iso_vg(46).law),
+        Exponential(value=0.04, temperature=313.0, rate=0.03),
+    ],
+)
+def test_thinning_is_the_derivative(law):
+    T = np.linspace(290.0, 390.0, 11)
+    h = 1e-3
+    slope = -(np.log(law.viscosity(T + h)) - np.log(law.viscosity(T - h))) / (2.0 * h)
+    assert law.thinning(T) == pytest.approx(slope, rel=1e-7)
+
+
+def test_a_vogel_fit_is_within_a_thousandth():
+    law = Oil.iso_vg(46).law
+    T = np.linspace(313.15, 373.15, 61)
+    assert np.abs(Vogel.fitted(law).viscosity(T) / law.viscosity(T) - 1.0).max() < 1e-3
+
+
+def test_a_vogel_fit_of_an_oil_that_thins_evenly_is_refused():
+    with pytest.raises(InputError, match="ever more slowly"):
+        Vogel.fitted(Exponential(value=0.04, temperature=313.0, rate=0.03))
+
+
+def test_the_table_of_a_kernel_is_the_law():
+    oil = Oil.iso_vg(46)
+    table = viscosity_table(oil)
+    assert (table.coldest, table.hottest) == RANGE
+    cells = len(table.coefficients) - 5
+    basis = _quintic_basis(np.linspace(0.0, 1.0, 5))
+    for k in (0, 3, cells // 2, cells - 1):
+        T = RANGE[0] + (k + np.linspace(0.0, 1.0, 5)) * (RANGE[1] - RANGE[0]) / cells
+        spline = basis @ table.coefficients[k : k + 6]
+        assert spline == pytest.approx(np.log(oil.viscosity(T)), abs=3e-9 if 0 < k < cells - 1 else 1e-6)
+    assert OilStruct._fields_[0][0] == "cells"
+
+
+def _quintic_basis(u):
+    """Return the six uniform quintic B-splines at u, by the truncated powers (de Boor)."""
+    x = u[:, None] + np.arange(5, -1, -1)
+    powers = [np.maximum(x - k, 0.0) ** 5 for k in range(7)]
+    binomial = (1, -6, 15, -20, 15, -6, 1)
+    return sum(c * p for c, p in zip(binomial, powers, strict=True)) / 120.0
+
+
+@pytest.mark.parametrize(
+    ("make", "match"),
+    [
+        (lambda: Oil.iso_vg(47), "grade must be one of"),
+        (lambda: Oil.two_points((313.0, 1e-5), (373.0, 2e-5)), "must fall with temperature"),
+        (lambda: Oil.constant(-1.0), "value must be finite and positive"),
+        (lambda: Oil.iso_vg(46).viscosity(-3.0), "temperature must be finite and positive"),
+        (lambda: Oil(law="thick"), "law must be"),
+    ],
+)
+def test_what_is_no_oil_is_refused(make, match):
+    with pytest.raises(InputError, match=match):
+        make()
+
+
+@pytest.mark.closed_form
+def test_heat_capacity_of_a_mineral_oil():
+    # (1683 + 3.39 T)/sqrt(s), T in degC and s the density of 15 degC over that of water.
+    assert Oil.iso_vg(46).heat_capacity(40.0 + CELSIUS) == pytest.approx(1818.6 / np.sqrt(870.0 / 999.0))
+    assert Oil.iso_vg(46, fixed_heat_capacity=2000.0).heat_capacity(300.0) == 2000.0
