@@ -51,7 +51,7 @@ FURTHER = [home.split(".")[1] for home in REGISTERED.values() if home.startswith
 """Families that have only the one folder."""
 
 PARTS = {
-    "bearings": [["films", "oil"], ["journal"], ["damper", "contact", "bush"]],
+    "bearings": [["films"], ["oil"], ["journal"], ["damper", "contact", "bush"]],
     "bearings/films": [["ring"]],
     "bearings/journal": [["rupture"], ["map", "splitting"], ["grooves"], ["heat"]],
     "bearings/journal/heat": [["field"]],

@@ -4,8 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 from .campbell import Campbell, CriticalSpeed, campbell, critical_speed_map, critical_speeds
 from .closed_loop import closed_loop, transmissibility
-from .coefficient_table import coefficient_table
-from .coefficients import coefficients
+from .coefficients import coefficient_table, coefficients
 from .critical_mass import CriticalMass, critical_mass, damping_has_rank_one
 from .equilibrium import equilibrium
 from .heated_equilibrium import HeatedEquilibrium, heated_equilibrium

@@ -32,7 +32,7 @@ def frozen(bearing, eccentricity, fluidity=None):
         fluidity=fluidity or Fluidity(np.ones(cells.shape), np.full(cells.shape, 0.5)),
         empty=np.zeros((lines, along - 1), dtype=bool),
         clearance=bearing.clearance,
-        force_scale=bearing.force_scale,
+        force_per_rate=bearing.force_scale,
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,8 +15,7 @@ CROWDING = 0.35
 _GAUSS_NODES, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(3)
 
 
-@dataclass(frozen=True, eq=False)
-class FilmCells:
+class FilmCells(NamedTuple):
     """A ring of N lines with M unknown pressures on each and M + 1 cells of oil, the last at the end.
 
     Attributes

@@ -5,7 +5,8 @@ All flows are in units of clearance x radius x length/2, that is in 1/s.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,8 +15,7 @@ from .film_cells import FilmCells, thickness
 from .frozen_film import FilmSolution, FrozenFilm
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class FilmFlow:
+class FilmFlow(NamedTuple):
     """Flows and heat sources of one film at rest, on N lines of M + 1 cells.
 
     Attributes

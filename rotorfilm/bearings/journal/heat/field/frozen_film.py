@@ -71,12 +71,14 @@ class FrozenFilm(StaticReaction):
     Parameters
     ----------
     cells : FilmCells
+        Where the film is looked at.
     fluidity : Fluidity
+        How easily the oil of each cell flows.
     empty : ndarray of bool, shape (N, M)
         Nodes that no film may start at, since no oil gets there.
     clearance : float [m]
         Radial clearance.
-    force_scale : float [N s]
+    force_per_rate : float [N s]
         viscosity length radius^3 / clearance^2 of the viscosity that the fluidity is relative to.
     """
 
@@ -84,12 +86,12 @@ class FrozenFilm(StaticReaction):
     fluidity: Fluidity
     empty: np.ndarray
     clearance: float
-    force_scale: float
+    force_per_rate: float
 
     @property
     def nominal_force(self) -> float:
         """Typical force [N]."""
-        return self.force_scale * NOMINAL_SPEED * min(1.0, self.cells.slenderness**2)
+        return self.force_per_rate * NOMINAL_SPEED * min(1.0, self.cells.slenderness**2)
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for float arrays of equal batch shape."""
@@ -163,7 +165,7 @@ class FrozenFilm(StaticReaction):
         ]
         response[:, 1:] = 12.0 * np.tensordot(V, np.stack(changes), axes=([1, 2], [1, 2]))
         response[:, 1:5] /= self.clearance
-        return self.force_scale * response
+        return self.force_per_rate * response
 
     def _bent(self, e: Array, speed: float, stencil: Stencil) -> list[Stencil]:
         """Return the derivatives of the stencil by the eccentricity."""

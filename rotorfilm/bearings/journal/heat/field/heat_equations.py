@@ -6,7 +6,6 @@ length/2, that is in 1/s and K/s.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -20,8 +19,7 @@ from .film_flow import FilmFlow
 from .walls import WallResponse
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Heating:
+class Heating(NamedTuple):
     """What warms and cools the oil of one film.
 
     Attributes

@@ -202,7 +202,7 @@ class HeatedFilm:
             fluidity=self.profile.fluidity(viscosity),
             empty=np.zeros((len(cells.theta), len(cells.conductance)), dtype=bool),
             clearance=self.bearing.clearance,
-            force_scale=self.bearing.force_scale,
+            force_per_rate=self.bearing.force_scale,
         )
 
     def _heating(

@@ -29,6 +29,7 @@ class HeatAccount:
     drained : float [W]
         With the oil that leaves through openings, less what they give to the film again.
     into_bush, into_journal : float [W]
+        Conducted from the oil.
     """
 
     made: float
@@ -66,6 +67,7 @@ class HeatedState:
     bush_temperature : ndarray, shape (N,), or None [K]
         At the bore; None for walls that take no heat.
     journal_temperature : float or None [K]
+        Of the whole journal.
     maximum_temperature : float [K]
         Of the oil in the film.
     power_loss : float [W]

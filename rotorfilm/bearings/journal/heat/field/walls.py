@@ -81,6 +81,7 @@ class HeldWalls:
     Parameters
     ----------
     bush_temperature, journal_temperature : float [K]
+        At the bore, all round, and of the journal.
     """
 
     bush_temperature: float
