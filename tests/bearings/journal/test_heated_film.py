@@ -77,6 +77,19 @@ def test_oil_that_conducts_at_once_is_isothermal(profile, openings):
 
 
 @pytest.mark.closed_form
+def test_oil_that_conducts_at_once_is_linear_between_its_walls():
+    walls = HeldWalls(bush_temperature=320.0, journal_temperature=340.0)
+    oil = dataclasses.replace(Oil.iso_vg(46), conductivity=1e9)
+    mean, layers = (heated(walls, profile, oil=oil, **TWO) for profile in PROFILES.values())
+    film = ~mean.cold().cells.held
+    over = mean.solve(POSITION, OMEGA).oil_temperature[film]
+    np.testing.assert_allclose(over, 330.0, atol=1e-5)
+    across = layers.solve(POSITION, OMEGA).oil_temperature[film]
+    eta = (np.arange(6) + 0.5) / 6.0
+    np.testing.assert_allclose(across, np.broadcast_to(320.0 + 20.0 * eta, across.shape), atol=1e-3)
+
+
+@pytest.mark.closed_form
 @pytest.mark.parametrize("profile", PROFILES)
 @pytest.mark.parametrize("walls", WALLS)
 @pytest.mark.parametrize("openings", OPENINGS)

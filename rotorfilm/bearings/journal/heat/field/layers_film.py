@@ -65,7 +65,7 @@ class LayeredTemperature:
             (index[film][..., :-1], index[film][..., 1:], upward[film]),
         )
         equations = HeatEquations(opening + int(cells.opening.max()) + 1, heating)
-        made = heating.heat_scale * _heat(heating, shares)
+        made = heating.heat_scale * layer_heat(heating, shares)
         less = made * heating.thinning
         drawn = np.zeros(made.shape)
         drawn[:, -1] = np.maximum(-axial[:, -1], 0.0)
@@ -127,7 +127,7 @@ def _normalized(layers: Array) -> Array:
     return layers / layers.sum(axis=-1, keepdims=True)
 
 
-def _heat(heating: Heating, shares: LayerShares) -> Array:
+def layer_heat(heating: Heating, shares: LayerShares) -> Array:
     """Return the heat that each layer makes [1/s^2]."""
     flow, speed = heating.flow, heating.speed
     dragged = (speed**2 * flow.shear / shares.F0)[..., None] * shares.sheared
