@@ -92,7 +92,7 @@ class HeatedFilm:
     >>> bearing = JournalBearing(**size, oil=Oil.iso_vg(46), cooling=cooling)
     >>> state = HeatedFilm(bearing=bearing).solve(position=[20e-6, -30e-6], speed=314.2)
     >>> round(state.maximum_temperature - 273.15)
-    69
+    78
     """
 
     order: ClassVar[int] = 1
