@@ -54,6 +54,7 @@ PARTS = {
     "bearings": [["films"], ["oil"], ["journal"], ["damper", "contact", "bush"]],
     "bearings/films": [["ring"]],
     "bearings/journal": [["rupture"], ["map", "splitting"], ["grooves"], ["heat"]],
+    "bearings/journal/heat": [["field"]],
     "bearings/contact": [["film"], ["motion"]],
     "rotors": [["shaft"]],
     "motion": [["compiled"], ["transient", "circular"], ["periodic"]],

@@ -14,13 +14,9 @@ from pathlib import Path
 import numpy as np
 from rich.progress import track
 
+from rotorfilm.bearings.journal.map.loss_fit import fit_loss_table, loss_node_eccentricities, loss_node_turns
 from rotorfilm.bearings.journal.map.loss_nodes import node_losses
-from rotorfilm.bearings.journal.map.loss_table import (
-    TABLE,
-    fit_loss_table,
-    loss_node_eccentricities,
-    loss_node_turns,
-)
+from rotorfilm.bearings.journal.map.loss_table import TABLE
 
 OUT = Path(__file__).parents[1] / "rotorfilm" / "bearings" / "journal" / "map" / "data" / TABLE
 CELLS, REACH, RANGE = (14, 24, 12), 0.99, (0.1, 4.0)

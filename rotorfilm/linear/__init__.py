@@ -13,14 +13,17 @@ if TYPE_CHECKING:
         critical_speeds as critical_speeds,
     )
     from .closed_loop import closed_loop as closed_loop, transmissibility as transmissibility
-    from .coefficient_table import coefficient_table as coefficient_table
-    from .coefficients import coefficients as coefficients
+    from .coefficients import coefficient_table as coefficient_table, coefficients as coefficients
     from .critical_mass import (
         CriticalMass as CriticalMass,
         critical_mass as critical_mass,
         damping_has_rank_one,
     )
     from .equilibrium import equilibrium as equilibrium
+    from .heated_equilibrium import (
+        HeatedEquilibrium as HeatedEquilibrium,
+        heated_equilibrium as heated_equilibrium,
+    )
     from .linearize import OperatingPoint as OperatingPoint, linearize as linearize
     from .nonlinear_system import ModelSystem, to_nlsys as to_nlsys
     from .orbit_coefficients import (

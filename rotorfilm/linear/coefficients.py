@@ -1,14 +1,16 @@
-"""Stiffness and damping matrices of a film at a position of the journal."""
+"""Stiffness and damping of a film at a position of the journal, and over speed as a bearing."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..bearings.tabulated import TabulatedBearing
 from ..errors import InputError, require_finite, require_number
 from ..model import Reaction
 from ..results import Coefficients
 from ..warming import settled
+from .equilibrium import equilibrium
 
 
 def coefficients(reaction: Reaction, position: ArrayLike, speed: float) -> Coefficients:
@@ -43,4 +45,34 @@ def coefficients(reaction: Reaction, position: ArrayLike, speed: float) -> Coeff
         damping=-derivative[:, 2:4],
         position=position,
         speed=speed,
+    )
+
+
+def coefficient_table(reaction: Reaction, load: ArrayLike, speeds: ArrayLike) -> TabulatedBearing:
+    """Return K and C of a film at its equilibria under a load, over speed.
+
+    Parameters
+    ----------
+    reaction : Reaction
+        The film.
+    load : array_like, shape (2,) [N]
+        External static force on the journal.
+    speeds : array_like, shape (n,) [rad/s]
+        Rising.
+
+    Raises
+    ------
+    InputError
+        If the speeds do not rise.
+    EquilibriumError
+        If there is no equilibrium at one of the speeds.
+    """
+    grid = require_finite("speeds", speeds)
+    if grid.ndim != 1 or not grid.size:
+        raise InputError(f"speeds must be a list of rising numbers, got {speeds!r}")
+    points = [coefficients(reaction, equilibrium(reaction, load, w).position, w) for w in grid.tolist()]
+    return TabulatedBearing(
+        speeds=grid,
+        stiffness=np.array([point.stiffness for point in points]),
+        damping=np.array([point.damping for point in points]),
     )

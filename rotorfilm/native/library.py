@@ -55,6 +55,7 @@ _LOOPS: dict[str, list[Any]] = {
     "rf_ring_field": [c_void_p] * 7,
     "rf_ring_losses": [c_void_p, c_size_t, *[c_void_p] * 5],
     "rf_ring_potential": [c_void_p, c_void_p, c_size_t, *[c_void_p] * 5],
+    "rf_stencil_film": [c_void_p, c_void_p, c_void_p, c_size_t, c_void_p],
     "rf_balanced_at": [c_void_p] * 5,
     "rf_balanced_batch": [c_void_p, c_size_t, *[c_void_p] * 5],
     "rf_ride": [c_void_p, c_void_p, c_double, c_int64, c_void_p, c_void_p],

@@ -123,6 +123,19 @@ class GridWorkStruct(ctypes.Structure):
     _fields_: ClassVar[Sequence[Any]] = [("solutions", c_int64), ("lines", c_int64)]
 
 
+class StencilStruct(ctypes.Structure):
+    """rf_stencil of stencil.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("lines", c_size_t),
+        ("nodes", c_size_t),
+        ("around", c_void_p),
+        ("along", c_void_p),
+        ("source", c_void_p),
+        ("held", c_void_p),
+    ]
+
+
 class RideStruct(ctypes.Structure):
     """rf_ride_law of ride.h."""
 

@@ -15,6 +15,16 @@ if TYPE_CHECKING:
     from .grooves.grooved_film import GroovedMapFilm as GroovedMapFilm
     from .grooves.openings import is_mappable
     from .heat.balanced_bearing import BalancedBearing as BalancedBearing
+    from .heat.field.energy_film import MeanTemperature as MeanTemperature
+    from .heat.field.heated_film import HeatedFilm as HeatedFilm
+    from .heat.field.heated_state import HeatAccount, HeatedState as HeatedState
+    from .heat.field.layers_film import LayeredTemperature as LayeredTemperature
+    from .heat.field.walls import (
+        AdiabaticWalls as AdiabaticWalls,
+        BushRing as BushRing,
+        HeldWalls as HeldWalls,
+        Walls,
+    )
     from .heat.heated_bearing import HeatedBearing as HeatedBearing
     from .map.map_film import MapFilm as MapFilm
     from .map.own_tables import bearing_table

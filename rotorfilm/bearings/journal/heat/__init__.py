@@ -1,1 +1,1 @@
-"""Heat of a journal's film: what takes it away, its balance, and the bearing as it runs."""
+"""Heat of a journal's film: what takes it away, its balance, and the temperature over and across the film."""

@@ -1,0 +1,1 @@
+"""The temperature over a journal film, and across it, as a field."""
