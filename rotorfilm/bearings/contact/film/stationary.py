@@ -9,9 +9,10 @@ import numpy as np
 
 from ....errors import ConvergenceError
 from ....model import Array
+from .coarse_correction import prolonged
 from .contact_newton import Contact, NewtonKrylov
 from .film_equations import ContactEquations, TimeDerivative
-from .preconditioner import Closure
+from .linear_contact import Closure
 
 HERTZ_LOAD = 2.0 * math.pi / 3.0
 """Integral of the pressure of the dry contact, sqrt(1 - r^2): the unit of the load f."""
@@ -47,12 +48,12 @@ def stationary(equations: ContactEquations, load: float, tolerance: float = 1e-7
     ConvergenceError
         If Newton's method fails, also along the way from an easier contact.
     """
-    coarse = _halved(equations)
-    if coarse is None:
+    coarse = equations.halved
+    if coarse is None or min(coarse.grid.cells) < COARSEST:
         return _from_dry(equations, load, tolerance)
     try:
         below = stationary(coarse, load, max(tolerance, 1e-4))
-        guess = _refined(below.pressure.reshape(coarse.grid.shape)).ravel()
+        guess = prolonged(below.pressure.reshape(coarse.grid.shape)).ravel()
         return _solved(equations, guess, below.delta, load, tolerance)
     except ConvergenceError:
         return _from_dry(equations, load, tolerance)
@@ -124,21 +125,3 @@ def _at(equations: ContactEquations, easy: tuple[float, float], share: float) ->
     """Return the equations at a share of the way from the easy contact to the one asked for."""
     speed = easy[0] ** (1.0 - share) * equations.V**share
     return replace(equations, V=speed, Q0=(1.0 - share) * easy[1] + share * equations.Q0)
-
-
-def _halved(equations: ContactEquations) -> ContactEquations | None:
-    nx, ny = equations.grid.cells
-    if nx % 2 or ny % 4 or min(nx, ny) < 2 * COARSEST:
-        return None
-    return replace(equations, grid=replace(equations.grid, cells=(nx // 2, ny // 2)))
-
-
-def _refined(values: Array) -> Array:
-    """Return values at the centers of cells half as large, linear between the old ones."""
-    return _doubled(_doubled(values).T).T
-
-
-def _doubled(values: Array) -> Array:
-    wide = np.pad(values, ((1, 1), (0, 0)), mode="edge")
-    pairs = (0.75 * values + 0.25 * wide[:-2], 0.75 * values + 0.25 * wide[2:])
-    return np.stack(pairs, axis=1).reshape(2 * values.shape[0], values.shape[1])
