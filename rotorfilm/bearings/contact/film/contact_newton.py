@@ -15,6 +15,7 @@ from ....errors import ConvergenceError
 from ....model import Array
 from .coarse_correction import COARSEST, Cycle, Rung, cycle, rungs
 from .film_equations import ContactEquations, TimeDerivative
+from .film_edge import settled_edge
 from .krylov import gmres
 from .linear_contact import Closure, LinearContact, Place, linearized
 
@@ -26,6 +27,9 @@ FORCING = (1e-4, 1e-2)
 
 KRYLOV = 80
 """Most iterations of GMRES in a step."""
+
+FEW = 0.02
+"""Cells that may gain or lose film in a step without a search for the film's end, per cells along x."""
 
 STALE = 0.06
 """Cells that may gain or lose film before the preconditioner is renewed, per cells along x, up to `COARSEST`.
@@ -66,6 +70,7 @@ class NewtonKrylov:
 
     def __init__(self, equations: ContactEquations, tolerance: float, place: Place | None = None) -> None:
         self.equations, self.tolerance = equations, tolerance
+        self._few = FEW * equations.grid.shape[0]
         self._rungs: tuple[Rung, ...] = ()
         self._cycle: Cycle | None = None
         if place is not None:
@@ -101,15 +106,13 @@ class NewtonKrylov:
                 break
             residual = self.equations.residual(pressure, film, time)
             settled = np.where(wet, pressure > 0.0, residual > 0.0)
-            changed = bool(np.any(settled != wet))
-            if error <= self.tolerance and not changed:
+            moved = int(np.sum(settled != wet))
+            if error <= self.tolerance and not moved:
                 return Contact(pressure, delta, film, step, iterations)
-            wet = settled
-            if np.any(pressure < 0.0):
-                pressure = np.where(wet, pressure, 0.0)
-                film = self.equations.film(pressure, delta)
-                residual = self.equations.residual(pressure, film, time)
-            linear = linearized(self.equations, Place(pressure, film, wet, closure, time.rate))
+            here = Place(pressure, film, settled, closure, time.rate)
+            here, residual = self._feasible(here, residual, delta, time, far=moved > self._few)
+            wet, pressure, film = here.wet, here.pressure, here.film
+            linear = linearized(self.equations, here)
             miss = closure.value - closure.approach * delta - closure.load * self.equations.load(pressure)
             forcing = float(np.clip(0.3 * self.tolerance / error, *FORCING)) if error < np.inf else FORCING[1]
             dp, dd, count = self._step(linear, np.where(wet, -residual, 0.0), miss, forcing)
@@ -122,6 +125,22 @@ class NewtonKrylov:
             f"Newton's method for the contact must converge within {MAX_STEPS} steps to "
             f"{self.tolerance:.0e}, got an error of {error:.1e} at delta = {delta:.6g}"
         )
+
+    def _feasible(
+        self, place: Place, residual: Array, delta: float, time: TimeDerivative, *, far: bool
+    ) -> tuple[Place, Array]:
+        """Return a place with pressures >= 0 and its residual; `far` if the film ends elsewhere."""
+        if np.any(place.pressure < 0.0):
+            pressure = np.where(place.wet, place.pressure, 0.0)
+            place = place._replace(pressure=pressure, film=self.equations.film(pressure, delta))
+            residual = self.equations.residual(place.pressure, place.film, time)
+        if far:
+            pressure = settled_edge(linearized(self.equations, place), residual)
+            film = self.equations.film(pressure, delta)
+            residual = self.equations.residual(pressure, film, time)
+            wet = (pressure > 0.0) | (residual > 0.0)
+            place = place._replace(pressure=pressure, film=film, wet=wet)
+        return place, residual
 
     def _step(
         self, linear: LinearContact, residual: Array, miss: float, forcing: float
