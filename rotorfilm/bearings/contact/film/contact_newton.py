@@ -31,7 +31,7 @@ KRYLOV = 80
 FEW = 0.02
 """Cells that may gain or lose film in a step without a search for the film's end, per cells along x."""
 
-STALE = 0.06
+STALE = 0.25
 """Cells that may gain or lose film before the preconditioner is renewed, per cells along x, up to `COARSEST`.
 
 Each costs an iteration more, and the factors cost as many iterations on every finer grid. Old coefficients
@@ -137,9 +137,10 @@ class NewtonKrylov:
         if far:
             pressure = settled_edge(linearized(self.equations, place), residual)
             film = self.equations.film(pressure, delta)
-            residual = self.equations.residual(pressure, film, time)
-            wet = (pressure > 0.0) | (residual > 0.0)
-            place = place._replace(pressure=pressure, film=film, wet=wet)
+            moved = self.equations.residual(pressure, film, time)
+            if film.min() > SHRINK * place.film.min():
+                wet = (pressure > 0.0) | (moved > 0.0)
+                return place._replace(pressure=pressure, film=film, wet=wet), moved
         return place, residual
 
     def _step(

@@ -89,6 +89,8 @@ class Factors(NamedTuple):
         Of the equations for w of the cells with film, in single precision; None where there are none.
     laplacian : sparse matrix
         T between those cells.
+    diagonal : ndarray, shape (n,)
+        Derivative of a cell's residual by its pressure alone, for cells that have gained film since.
     linear : LinearContact
         The equations there.
     shift : ndarray, shape (n,)
@@ -99,6 +101,7 @@ class Factors(NamedTuple):
 
     solver: Any
     laplacian: Any
+    diagonal: Array
     linear: LinearContact
     shift: Array
     pivot: float
@@ -119,7 +122,7 @@ class Factors(NamedTuple):
 
     def pressures(self, residual: Array) -> Array:
         """Return the pressures, shape (n,), that answer residuals of the film equations, shape (n,)."""
-        answer = residual.copy()
+        answer = residual / self.diagonal
         if self.solver is None:
             return answer
         wet = self.linear.place.wet
@@ -177,7 +180,8 @@ def factorize(linear: LinearContact, change: Distribution, *, in_strips: bool) -
             raise ConvergenceError(
                 f"the equations of a contact must be regular, got singular ones with V = {equations.V:g}"
             ) from None
-    bare = Factors(solver, pressures.tocsr()[cells][:, cells], linear, np.zeros(linear.place.wet.size), 1.0)
+    between = pressures.tocsr()[cells][:, cells]
+    bare = Factors(solver, between, by_pressure.diagonal(), linear, np.zeros(len(linear.by_delta)), 1.0)
     shift, closure = bare.pressures(linear.by_delta), linear.place.closure
     return bare._replace(shift=shift, pivot=closure.approach - closure.load * equations.load(shift))
 
