@@ -41,9 +41,8 @@ cost nothing.
 SHRINK = 0.2
 """A step may thin the film down to this share at most."""
 
-
-THINNEST = 1e-7
-"""Film thickness below which a search has gone astray."""
+THINNEST, HIGHEST = 1e-7, 30.0
+"""Film thickness below which, and pressure above which, a search has gone astray."""
 
 
 class Contact(NamedTuple):
@@ -102,7 +101,7 @@ class NewtonKrylov:
         pressure = np.where(wet, pressure, 0.0)
         film = self.equations.film(pressure, delta)
         for step in range(MAX_STEPS):
-            if not film.min() > THINNEST:
+            if not (film.min() > THINNEST and pressure.max() < HIGHEST):
                 break
             residual = self.equations.residual(pressure, film, time)
             settled = np.where(wet, pressure > 0.0, residual > 0.0)

@@ -86,6 +86,14 @@ class ContactEquations:
             return None
         return replace(self, grid=replace(self.grid, cells=(nx // 2, ny // 2)))
 
+    def of(self, *, V: float, Q0: float) -> ContactEquations:
+        """Return the equations of another contact on the same grid, with what has been made of the grid."""
+        other = replace(self, V=V, Q0=Q0)
+        for name in ("sampling", "_flow", "_bending", "_unlimited"):
+            if name in self.__dict__:
+                other.__dict__[name] = self.__dict__[name]
+        return other
+
     @cached_property
     def area(self) -> float:
         """Area of a cell and its mirror image: the load is this times the sum of the pressures."""

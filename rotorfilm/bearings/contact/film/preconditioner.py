@@ -122,7 +122,7 @@ class Factors(NamedTuple):
 
     def pressures(self, residual: Array) -> Array:
         """Return the pressures, shape (n,), that answer residuals of the film equations, shape (n,)."""
-        answer = residual / self.diagonal
+        answer = np.divide(residual, self.diagonal, out=residual.copy(), where=self.diagonal != 0.0)
         if self.solver is None:
             return answer
         wet = self.linear.place.wet
