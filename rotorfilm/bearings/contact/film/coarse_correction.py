@@ -12,11 +12,13 @@ finer ones may be cut into strips, which makes them as cheap per cell on every g
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
 from ....model import Array
+from .contact_scheme import UpwindScheme
 from .film_equations import ContactEquations
 from .linear_contact import LinearContact, Place, linearized
 from .preconditioner import Distribution, Factors, distribution, factorize
@@ -25,7 +27,7 @@ COARSEST = 64
 """Fewest cells along a side down to which grids are halved: less is not worth its calls."""
 
 
-class Rung(NamedTuple):
+class FilmRung(NamedTuple):
     """One of the grids: its equations and change of variables."""
 
     equations: ContactEquations
@@ -67,15 +69,18 @@ class Cycle(NamedTuple):
         return np.append(np.where(wet, fine, right[:-1]), below[-1])
 
 
-def rungs(equations: ContactEquations) -> tuple[Rung, ...]:
-    """Return the grids from fine to coarse, with what of a preconditioner depends on nothing else."""
+def rungs(equations: ContactEquations) -> tuple[FilmRung, ...]:
+    """Return the grids from fine to coarse, with what of a preconditioner depends on nothing else.
+
+    Coarse grids take the upwind scheme: those of a scheme that is blind to the checkerboard answer with one.
+    """
     found = [equations]
     while (half := found[-1].halved) is not None and min(half.grid.cells) >= COARSEST:
-        found.append(half)
-    return tuple(Rung(each, distribution(each)) for each in found)
+        found.append(replace(half, scheme=UpwindScheme()) if half.scheme != UpwindScheme() else half)
+    return tuple(FilmRung(each, distribution(each)) for each in found)
 
 
-def cycle(ladder: Sequence[Rung], linear: LinearContact) -> Cycle:
+def cycle(ladder: Sequence[FilmRung], linear: LinearContact) -> Cycle:
     """Return the preconditioner of linearized equations, for `rungs` of the same equations."""
     coarse = None
     if len(ladder) > 1:

@@ -13,9 +13,9 @@ import numpy as np
 
 from ....errors import ConvergenceError
 from ....model import Array
-from .coarse_correction import COARSEST, Cycle, Rung, cycle, rungs
-from .film_equations import ContactEquations, TimeDerivative
+from .coarse_correction import COARSEST, Cycle, FilmRung, cycle, rungs
 from .film_edge import settled_edge
+from .film_equations import ContactEquations, TimeDerivative
 from .krylov import gmres
 from .linear_contact import Closure, LinearContact, Place, linearized
 
@@ -70,7 +70,7 @@ class NewtonKrylov:
     def __init__(self, equations: ContactEquations, tolerance: float, place: Place | None = None) -> None:
         self.equations, self.tolerance = equations, tolerance
         self._few = FEW * equations.grid.shape[0]
-        self._rungs: tuple[Rung, ...] = ()
+        self._rungs: tuple[FilmRung, ...] = ()
         self._cycle: Cycle | None = None
         if place is not None:
             self._cycle = self._renewed(linearized(equations, place))
@@ -165,9 +165,7 @@ class NewtonKrylov:
         self._rungs = self._rungs or rungs(self.equations)
         return cycle(self._rungs, linear)
 
-    def _krylov(
-        self, linear: LinearContact, used: Cycle, right: Array, forcing: float
-    ) -> tuple[Array, int]:
+    def _krylov(self, linear: LinearContact, used: Cycle, right: Array, forcing: float) -> tuple[Array, int]:
         """Return the solution of the linear equations by GMRES, preconditioned from the right."""
         # The two residuals count alike: film equations per V, the closure per its coefficients.
         scales = np.full(len(right), 1.0 / self.equations.V)

@@ -167,7 +167,7 @@ def factorize(linear: LinearContact, change: Distribution, *, in_strips: bool) -
     # As large in the loose cells as T is, for single precision's sake.
     pressures = change.laplacian @ stiff + 4.0 * (sparse.identity(linear.place.wet.size) - stiff)
     matrix = by_pressure[cells] @ pressures + by_film[cells] @ (change.deflection @ stiff)
-    solver = None
+    solver: Any = None
     if len(cells):
         square = matrix[:, cells].tocsc().astype(np.float32)
         columns, lines = divmod(cells, equations.grid.shape[1])
