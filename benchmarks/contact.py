@@ -7,9 +7,9 @@ numpy and scipy offer without its structure: the same Newton steps with a dense 
 tabulated beforehand, y-symmetry used, LAPACK. Both in one run, to the same tolerance. `growth`: work and time
 of a stationary contact and of such a step from 64 to 256 cells a side, and beside them what they were when
 sparse factors alone were the preconditioner and the film's end moved by a ring of cells a step. `grid`:
-stationary solution on ever finer grids and larger rectangles. `decay`: decay time of case 4.1 in three independent ways.
-`law`: the reduced law beside the full model. `hard`: continuation and load step. All
-of it takes some ten minutes on one core.
+stationary solution on ever finer grids and larger rectangles. `decay`: decay time of case 4.1 in three
+independent ways. `law`: the reduced law beside the full model. `hard`: thin
+films and a load step. All of it takes some ten minutes on one core.
 """
 
 from __future__ import annotations

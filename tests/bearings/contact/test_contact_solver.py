@@ -15,7 +15,13 @@ from rotorfilm import (
     UpwindScheme,
 )
 from rotorfilm.bearings.contact.film import coarse_correction
-from rotorfilm.bearings.contact.film.coarse_correction import coarser, cycle, prolonged, restricted, rungs
+from rotorfilm.bearings.contact.film.coarse_correction import (
+    coarser,
+    cycle,
+    halved_grids,
+    prolonged,
+    restricted,
+)
 from rotorfilm.bearings.contact.film.film_edge import settled_edge
 from rotorfilm.bearings.contact.film.film_equations import TimeDerivative
 from rotorfilm.bearings.contact.film.krylov import gmres
@@ -58,7 +64,7 @@ def test_coarser_grids_leave_fewer_iterations_and_the_solution(scheme, monkeypat
     alone = stationary(contact(64, scheme=scheme).equations, 1.0)
     monkeypatch.setattr(coarse_correction, "COARSEST", 16)
     helped = stationary(contact(64, scheme=scheme).equations, 1.0)
-    assert len(rungs(contact(64).equations)) == 3
+    assert len(halved_grids(contact(64).equations)) == 3
     assert helped.delta == pytest.approx(alone.delta, abs=2e-7)
     assert np.abs(helped.pressure - alone.pressure).max() < 1e-6
 
@@ -69,7 +75,7 @@ def test_coarser_grids_answer_what_the_factors_alone_do_not():
     linear = linearized(c.equations, place)
     x, y = (a.ravel() for a in np.meshgrid(c.grid.x, c.grid.y, indexing="ij"))
     right = linear.product(np.append(np.where(place.wet, np.exp(-4.0 * (x**2 + y**2)), 0.0), 1e-2))
-    ladder = rungs(c.equations)
+    ladder = halved_grids(c.equations)
 
     def iterations(depth):
         made = cycle(ladder[:depth], linear)

@@ -27,7 +27,7 @@ COARSEST = 64
 """Fewest cells along a side down to which grids are halved: less is not worth its calls."""
 
 
-class FilmRung(NamedTuple):
+class HalvedGrid(NamedTuple):
     """One of the grids: its equations and change of variables."""
 
     equations: ContactEquations
@@ -69,7 +69,7 @@ class Cycle(NamedTuple):
         return np.append(np.where(wet, fine, right[:-1]), below[-1])
 
 
-def rungs(equations: ContactEquations) -> tuple[FilmRung, ...]:
+def halved_grids(equations: ContactEquations) -> tuple[HalvedGrid, ...]:
     """Return the grids from fine to coarse, with what of a preconditioner depends on nothing else.
 
     Coarse grids take the upwind scheme: those of a scheme that is blind to the checkerboard answer with one.
@@ -77,11 +77,11 @@ def rungs(equations: ContactEquations) -> tuple[FilmRung, ...]:
     found = [equations]
     while (half := found[-1].halved) is not None and min(half.grid.cells) >= COARSEST:
         found.append(replace(half, scheme=UpwindScheme()) if half.scheme != UpwindScheme() else half)
-    return tuple(FilmRung(each, distribution(each)) for each in found)
+    return tuple(HalvedGrid(each, distribution(each)) for each in found)
 
 
-def cycle(ladder: Sequence[FilmRung], linear: LinearContact) -> Cycle:
-    """Return the preconditioner of linearized equations, for `rungs` of the same equations."""
+def cycle(ladder: Sequence[HalvedGrid], linear: LinearContact) -> Cycle:
+    """Return the preconditioner of linearized equations, for `halved_grids` of the same equations."""
     coarse = None
     if len(ladder) > 1:
         place = coarser(linear, ladder[1].equations)

@@ -13,7 +13,7 @@ import numpy as np
 
 from ....errors import ConvergenceError
 from ....model import Array
-from .coarse_correction import COARSEST, Cycle, FilmRung, cycle, rungs
+from .coarse_correction import COARSEST, Cycle, HalvedGrid, cycle, halved_grids
 from .film_edge import settled_edge
 from .film_equations import ContactEquations, TimeDerivative
 from .krylov import gmres
@@ -31,7 +31,7 @@ KRYLOV = 80
 FEW = 0.02
 """Cells that may gain or lose film in a step without a search for the film's end, per cells along x."""
 
-STALE = 0.25
+STALE = 0.06
 """Cells that may gain or lose film before the preconditioner is renewed, per cells along x, up to `COARSEST`.
 
 Each costs an iteration more, and the factors cost as many iterations on every finer grid. Old coefficients
@@ -70,7 +70,7 @@ class NewtonKrylov:
     def __init__(self, equations: ContactEquations, tolerance: float, place: Place | None = None) -> None:
         self.equations, self.tolerance = equations, tolerance
         self._few = FEW * equations.grid.shape[0]
-        self._rungs: tuple[FilmRung, ...] = ()
+        self._grids: tuple[HalvedGrid, ...] = ()
         self._cycle: Cycle | None = None
         if place is not None:
             self._cycle = self._renewed(linearized(equations, place))
@@ -162,8 +162,8 @@ class NewtonKrylov:
         return np.where(wet, answer[:-1], 0.0), float(answer[-1]), count
 
     def _renewed(self, linear: LinearContact) -> Cycle:
-        self._rungs = self._rungs or rungs(self.equations)
-        return cycle(self._rungs, linear)
+        self._grids = self._grids or halved_grids(self.equations)
+        return cycle(self._grids, linear)
 
     def _krylov(self, linear: LinearContact, used: Cycle, right: Array, forcing: float) -> tuple[Array, int]:
         """Return the solution of the linear equations by GMRES, preconditioned from the right."""
