@@ -17,6 +17,7 @@ from fmpy.fmi2 import (
 )
 
 from ...model import Array
+from .ports import Calls, Port, Slopes
 
 FMI_OK = 0
 
@@ -34,16 +35,6 @@ class EventInfo(NamedTuple):
 
     terminate: bool
     next_time: float | None
-
-
-class Calls(NamedTuple):
-    """How an FMI version spells what both have."""
-
-    set: str
-    get: str
-    derivatives: str
-    update: str
-    deserialize: str
 
 
 class Instance:
@@ -91,6 +82,14 @@ class Instance:
     def get(self, references: Sequence[int]) -> list[float]:
         """Return variables."""
         return list(self._call(self.calls.get, list(references))) if len(references) else []
+
+    def port(self, references: Sequence[int]) -> Port:
+        """Return these variables to be set or got again and again; the instance must exist."""
+        return Port(self._fmu, self.calls, references)
+
+    def slopes(self, unknowns: Sequence[int], knowns: Sequence[int]) -> Slopes:
+        """Return the derivatives of the unknowns by each known, to be asked for again and again."""
+        return Slopes(self._fmu, self.calls, unknowns, knowns)
 
     def deserialize(self, content: bytes) -> Any:
         """Return the FMU state that `serialize` turned into bytes."""
@@ -188,7 +187,7 @@ class Instance:
 class Instance2(Instance):
     """An instance of an FMI 2.0 FMU; see `Instance`."""
 
-    calls = Calls("setReal", "getReal", "getDerivatives", "newDiscreteStates", "deSerializeFMUstate")
+    calls = Calls("setReal", "getReal", "getDerivatives", "newDiscreteStates", "deSerializeFMUstate", False)
 
     def __init__(self, fmu: Any, exchange: bool) -> None:
         super().__init__(fmu, exchange)
@@ -219,6 +218,7 @@ class Instance3(Instance):
         "getContinuousStateDerivatives",
         "updateDiscreteStates",
         "deserializeFMUState",
+        True,
     )
 
     def instantiate(self) -> None:
