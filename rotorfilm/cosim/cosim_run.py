@@ -7,8 +7,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 
-import numpy as np
-
 from ..errors import (
     ContactError,
     ConvergenceError,
@@ -22,11 +20,12 @@ from ..errors import (
 from ..results import Trajectory
 from .bench import Sample
 from .chatter import CouplingReport, inspect_coupling
+from .loops.record import Record
 from .partners import Partners
 from .schemes.explicit import GaussSeidel
 from .schemes.scheme import MEMORY, Scheme
 from .slaves import Slave
-from .watch import CouplingWatch, Watch
+from .watch import EVERY, CouplingWatch, Watch
 
 COARSE = 0.3
 """Local error, in root mean square forces, of a run that is no answer; it is below 0.08 in good ones."""
@@ -149,8 +148,9 @@ class _Run:
 
     def __init__(self, partners: Partners, scheme: Scheme, macro_step: float) -> None:
         self._partners, self._scheme, self._macro_step = partners, scheme, macro_step
-        self._samples: list[Sample] = []
-        self._watch = Watch(partners, scheme, macro_step)
+        self._history: list[Sample] = []
+        self._record = Record(*partners.signals, partners.places, scheme.needs.derivatives)
+        self._watch = Watch(partners, scheme, macro_step, self._record)
 
     def start(self) -> None:
         """Start rotor and films."""
@@ -159,37 +159,34 @@ class _Run:
     def reach(self, t: float, end: float) -> None:
         """Advance to the end of a macro step, in one step of the scheme unless that takes shorter ones."""
         while t < end:
-            found = self._scheme.step(self._partners, self._samples[-MEMORY:], t, end - t)
+            found = self._scheme.step(self._partners, self._history, t, end - t)
             self._keep(found)
             self._partners.work["steps"] += 1
             t = end if found.time >= end - 1e-9 * self._macro_step else found.time
 
     def judge(self) -> None:
-        """Raise CouplingError where the run has begun to chatter."""
-        if self._watch.chatters:
+        """Raise CouplingError where the run has begun to chatter; looked for now and then."""
+        if self._record.count % EVERY == 0 and self._watch.alarm() is not None:
             result = self.result()
             if result.coupling.chatter or result.coupling.coarse:
                 raise CouplingError(_coupling_message(result), result)
 
     def result(self) -> CoSimulation:
         """Return what has been exchanged so far."""
-        time = np.array([sample.time for sample in self._samples])
-        rows = [{**sample.motion.outputs, **sample.outputs} for sample in self._samples]
-        signals = {name: np.array([row[name] for row in rows]) for name in self._partners.signals}
-        forces = (
-            np.array([sample.force for sample in self._samples]).reshape(len(rows), self._partners.size).T
-        )
+        record = self._record
+        time = record.time[: record.count].copy()
         return CoSimulation(
-            trajectory=Trajectory(time=time, signals=signals, work=dict(self._partners.work)),
+            trajectory=Trajectory(time=time, signals=record.signals(), work=dict(self._partners.work)),
             macro_step=self._macro_step,
             scheme=self._scheme,
-            coupling=inspect_coupling(time, forces),
+            coupling=inspect_coupling(time, record.force[: record.count].T),
             watch=self._watch.result(),
         )
 
     def _keep(self, sample: Sample) -> None:
-        self._samples.append(sample)
-        self._watch.see(sample)
+        self._history = [*self._history[1 - MEMORY :], sample]
+        self._record.keep(sample)
+        self._watch.check(sample.tangents)
 
 
 def _steps(macro_step: float, duration: float) -> list[tuple[float, float]]:

@@ -16,7 +16,7 @@ from ..rotors.stations import station_name
 from ..signals import FORCE_OUTPUTS, JOURNAL_INPUTS
 from .bench import Needs, Sample, StationMotion, Tangents, no_tangents
 from .slaves import Differentiable, Driven, Restorable, Slave
-from .wiring import sources, wired
+from .wiring import Journals, sources, wired
 
 PROBE = 1e3
 """Force of a trial step [N]; a linear rotor tells the same with any."""
@@ -110,10 +110,15 @@ class Partners:
         return len(self.wiring.force)
 
     @property
-    def signals(self) -> list[str]:
-        """Names of all outputs: those of the rotor, then those of the films."""
+    def signals(self) -> tuple[list[str], list[str]]:
+        """Names of all outputs: those of the rotor, and those of the films with their stations."""
         films = [station_name(station, n) for station, film in self.films.items() for n in film.outputs]
-        return [*self.rotor.outputs, *films]
+        return list(self.rotor.outputs), films
+
+    @property
+    def places(self) -> Journals:
+        """Where the signals of the journals are among those of the rotor."""
+        return self.wiring.places(self.rotor.inputs, self.rotor.outputs)
 
     @property
     def differentiates(self) -> bool:
