@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
@@ -25,10 +26,13 @@ from .partners import Partners
 from .schemes.explicit import GaussSeidel
 from .schemes.scheme import MEMORY, Scheme
 from .slaves import Slave
-from .watch import EVERY, CouplingWatch, Watch
+from .watch import CouplingWatch, Watch
 
 COARSE = 0.3
 """Local error, in root mean square forces, of a run that is no answer; it is below 0.08 in good ones."""
+
+BLOCK = 32
+"""Steps between two looks at a run, which is cut where it began to chatter."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -118,12 +122,15 @@ def couple(
     run = _Run(Partners(rotor, films, chosen.needs), chosen, macro_step)
     try:
         run.start()
-        for t, dt in _steps(macro_step, duration):
+        for number, (t, dt) in enumerate(_steps(macro_step, duration), 1):
             run.reach(t, t + dt)
             if progress is not None:
                 progress(t + dt)
-            run.judge()
+            if number % BLOCK == 0:
+                run.judge()
+        run.judge()
     except (FilmContactError, FmuError, ConvergenceError) as failure:
+        run.judge()
         raise _failed(failure, run.result()) from failure
     result = run.result()
     if _is_coarse(result) or result.coupling.chatter:
@@ -155,6 +162,7 @@ class _Run:
     def start(self) -> None:
         """Start rotor and films."""
         self._keep(self._partners.start())
+        self._record.work[0] = list(self._partners.work.values())
 
     def reach(self, t: float, end: float) -> None:
         """Advance to the end of a macro step, in one step of the scheme unless that takes shorter ones."""
@@ -162,13 +170,18 @@ class _Run:
             found = self._scheme.step(self._partners, self._history, t, end - t)
             self._keep(found)
             self._partners.work["steps"] += 1
+            self._record.work[self._record.count - 1] = list(self._partners.work.values())
             t = end if found.time >= end - 1e-9 * self._macro_step else found.time
 
     def judge(self) -> None:
-        """Raise CouplingError where the run has begun to chatter; looked for now and then."""
-        if self._record.count % EVERY == 0 and self._watch.alarm() is not None:
-            result = self.result()
-            if result.coupling.chatter or result.coupling.coarse:
+        """Raise CouplingError where the run has begun to chatter, without what was computed after that."""
+        record = self._record
+        while (count := self._watch.alarm()) is not None:
+            coupling = inspect_coupling(record.time[:count], record.force[:count].T)
+            if coupling.chatter or coupling.coarse:
+                self._partners.work = Counter(record.work_at(count - 1))
+                record.count = count
+                result = self.result()
                 raise CouplingError(_coupling_message(result), result)
 
     def result(self) -> CoSimulation:

@@ -12,6 +12,9 @@ from ..wiring import Journals
 
 FIRST_ROOM = 64
 
+WORK = ("steps", "film_evaluations", "film_jacobians", "rotor_steps", "rollbacks")
+"""What is counted, until each point."""
+
 
 class Record:
     """The communication points of a run so far; further ones fit within the `room` without new arrays.
@@ -32,6 +35,7 @@ class Record:
         self.speed_at = self.rotor.index("speed") if "speed" in self.rotor else None
         columns = 2 * self.size**2 + self.size if derived else 0
         self.time, self.outputs = np.empty(FIRST_ROOM), np.empty((FIRST_ROOM, len(rotor) + len(films)))
+        self.work = np.zeros((FIRST_ROOM, len(WORK)), dtype=np.int64)
         self.force, self.tangents = np.empty((FIRST_ROOM, self.size)), np.empty((FIRST_ROOM, columns))
 
     def require_room(self, count: int) -> None:
@@ -39,9 +43,9 @@ class Record:
         room = len(self.time)
         if self.count + count > room:
             more = max(room, self.count + count - room)
-            for name in ("time", "outputs", "force", "tangents"):
+            for name in ("time", "outputs", "force", "tangents", "work"):
                 old = getattr(self, name)
-                setattr(self, name, np.concatenate([old, np.empty((more, *old.shape[1:]))]))
+                setattr(self, name, np.concatenate([old, np.zeros((more, *old.shape[1:]), old.dtype)]))
 
     def keep(self, sample: Sample) -> None:
         """Add a point."""
@@ -54,10 +58,6 @@ class Record:
                 [part.ravel() for part in sample.tangents]
             )
         self.count += 1
-
-    def drop(self, count: int) -> None:
-        """Forget all points from this number on."""
-        self.count = count
 
     def latest(self, count: int) -> list[Sample]:
         """Return the latest points."""
@@ -74,6 +74,10 @@ class Record:
         found, m = self.tangents[rows], self.size
         square = (len(found), m, m)
         return found[:, : m * m].reshape(square), found[:, m * m : -m].reshape(square), found[:, -m:]
+
+    def work_at(self, point: int) -> dict[str, int]:
+        """Return what was done until a point."""
+        return dict(zip(WORK, self.work[point].tolist(), strict=True))
 
     def signals(self) -> dict[str, Array]:
         """Return all outputs by name."""

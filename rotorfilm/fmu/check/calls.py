@@ -97,7 +97,7 @@ class Instance:
 
     def step(self, t: float, dt: float) -> None:
         """Advance from t to t + dt [s] (Co-Simulation)."""
-        self._fmu.doStep(currentCommunicationPoint=t, communicationStepSize=dt)
+        self._fmu.doStep(t, dt)
 
     def move(self, t: float, states: Array) -> None:
         """Go to a time [s] and a state (Model Exchange)."""

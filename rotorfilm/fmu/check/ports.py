@@ -7,8 +7,14 @@ from ctypes import c_double, c_uint
 from typing import Any, NamedTuple
 
 import numpy as np
+from fmpy.fmi1 import FMICallException
 
 from ...model import Array
+
+FMI_WARNING = 1
+"""The worst status of a call that did what it was asked for."""
+
+SLOPE = "getDirectionalDerivative"
 
 
 class Calls(NamedTuple):
@@ -22,9 +28,12 @@ class Calls(NamedTuple):
     counts_values: bool
 
     def function(self, fmu: Any, name: str) -> Any:
-        """Return what calls a function of the FMU as it is and raises where it fails."""
-        prefix = "fmi3" if self.counts_values else "fmi2"
-        return getattr(fmu, f"{prefix}{name[0].upper()}{name[1:]}")
+        """Return a function of the FMU's library, which answers a status."""
+        return getattr(fmu.dll, self.spelled(name))
+
+    def spelled(self, name: str) -> str:
+        """Return the name of a function in the library of an FMU."""
+        return f"{'fmi3' if self.counts_values else 'fmi2'}{name[0].upper()}{name[1:]}"
 
 
 class Port:
@@ -36,17 +45,18 @@ class Port:
         tail = (count,) if calls.counts_values else ()
         self._arguments = (fmu.component, (c_uint * count)(*references), count, self._values, *tail)
         self._set, self._get = calls.function(fmu, calls.set), calls.function(fmu, calls.get)
+        self._calls = calls
 
     def set(self, values: Sequence[float]) -> None:
         """Set the variables."""
         self._values[:] = values
-        if values:
-            self._set(*self._arguments)
+        if values and (status := self._set(*self._arguments)) > FMI_WARNING:
+            raise FMICallException(function=self._calls.spelled(self._calls.set), status=status)
 
     def get(self) -> list[float]:
         """Return the variables."""
-        if self._values:
-            self._get(*self._arguments)
+        if self._values and (status := self._get(*self._arguments)) > FMI_WARNING:
+            raise FMICallException(function=self._calls.spelled(self._calls.get), status=status)
         return self._values[:]
 
 
@@ -56,7 +66,7 @@ class Slopes:
     def __init__(self, fmu: Any, calls: Calls, unknowns: Sequence[int], knowns: Sequence[int]) -> None:
         count, seed = len(unknowns), (c_double * 1)(1.0)
         self._columns = np.zeros((len(knowns), count))
-        self._get = calls.function(fmu, "getDirectionalDerivative")
+        self._calls, self._get = calls, calls.function(fmu, SLOPE)
         rows, many = (c_uint * count)(*unknowns), calls.counts_values
         self._arguments = [
             (fmu.component, rows, count, (c_uint * 1)(known), 1, seed)
@@ -68,5 +78,6 @@ class Slopes:
     def get(self) -> Array:
         """Return d(unknowns)/d(knowns) at present, shape (n_unknowns, n_knowns)."""
         for arguments in self._arguments:
-            self._get(*arguments)
+            if (status := self._get(*arguments)) > FMI_WARNING:
+                raise FMICallException(function=self._calls.spelled(SLOPE), status=status)
         return self._columns.T.copy()
