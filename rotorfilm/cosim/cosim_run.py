@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from itertools import pairwise
 
 from ..errors import (
     ContactError,
@@ -21,6 +20,7 @@ from ..errors import (
 from ..results import Trajectory
 from .bench import Sample
 from .chatter import CouplingReport, inspect_coupling
+from .loops.compiled_run import CompiledRun, compiled_run
 from .loops.record import Record
 from .partners import Partners
 from .schemes.explicit import GaussSeidel
@@ -119,15 +119,23 @@ def couple(
     require_times(macro_step, duration)
     chosen = GaussSeidel() if scheme is None else scheme
     films = film if isinstance(film, Mapping) else {"": film}
-    run = _Run(Partners(rotor, films, chosen.needs), chosen, macro_step)
+    return coupled(Partners(rotor, films, chosen.needs), chosen, macro_step, duration, progress)
+
+
+def coupled(
+    partners: Partners,
+    scheme: Scheme,
+    macro_step: float,
+    duration: float,
+    progress: Callable[[float], None] | None = None,
+) -> CoSimulation:
+    """Couple partners; see `couple`."""
+    run = _Run(partners, scheme, macro_step, duration)
     try:
         run.start()
-        for number, (t, dt) in enumerate(_steps(macro_step, duration), 1):
-            run.reach(t, t + dt)
+        for time in run.reached():
             if progress is not None:
-                progress(t + dt)
-            if number % BLOCK == 0:
-                run.judge()
+                progress(time)
         run.judge()
     except (FilmContactError, FmuError, ConvergenceError) as failure:
         run.judge()
@@ -153,19 +161,46 @@ def require_times(macro_step: float, duration: float) -> None:
 class _Run:
     """A co-simulation on its way: the partners, and what they have exchanged so far."""
 
-    def __init__(self, partners: Partners, scheme: Scheme, macro_step: float) -> None:
+    def __init__(self, partners: Partners, scheme: Scheme, macro_step: float, duration: float) -> None:
         self._partners, self._scheme, self._macro_step = partners, scheme, macro_step
         self._history: list[Sample] = []
         self._record = Record(*partners.signals, partners.places, scheme.needs.derivatives)
         self._watch = Watch(partners, scheme, macro_step, self._record)
 
+        self._points = _points(macro_step, duration)
+        self._compiled: CompiledRun | None = None
+
     def start(self) -> None:
         """Start rotor and films."""
         self._keep(self._partners.start())
         self._record.work[0] = list(self._partners.work.values())
+        self._compiled = compiled_run(
+            self._partners, self._scheme, self._record, self._watch, self._macro_step, self._points
+        )
 
-    def reach(self, t: float, end: float) -> None:
+    def reached(self) -> Iterator[float]:
+        """Take all macro steps, in C where that is possible; yield the end of each."""
+        number, t, last = 0, self._points[0], len(self._points) - 1
+        while number < last:
+            before = number
+            if self._compiled is None or self._compiled.rests():
+                self._reach(t, number)
+                number, t = number + 1, self._points[number + 1]
+            else:
+                number, t = self._compiled.advance(number, t, last)
+                self._history = self._record.latest(MEMORY)
+            if self._compiled is not None or number % BLOCK == 0:
+                self.judge()
+            yield from (self._end(k) for k in range(before, number))
+
+    def _end(self, number: int) -> float:
+        """Return the end of a macro step [s], as its films have it."""
+        begin = self._points[number]
+        return begin + (self._points[number + 1] - begin)
+
+    def _reach(self, t: float, number: int) -> None:
         """Advance to the end of a macro step, in one step of the scheme unless that takes shorter ones."""
+        end = self._end(number)
         while t < end:
             found = self._scheme.step(self._partners, self._history, t, end - t)
             self._keep(found)
@@ -202,11 +237,10 @@ class _Run:
         self._watch.check(sample.tangents)
 
 
-def _steps(macro_step: float, duration: float) -> list[tuple[float, float]]:
-    """Return (t, dt) of each step; times are multiples, not sums, so that roundoff does not add up."""
+def _points(macro_step: float, duration: float) -> list[float]:
+    """Return the ends of all steps [s]; they are multiples, not sums, so that roundoff does not add up."""
     count = max(1, math.ceil(duration / macro_step * (1.0 - 1e-12)))
-    points = [*(k * macro_step for k in range(count)), duration]
-    return [(start, end - start) for start, end in pairwise(points)]
+    return [*(k * macro_step for k in range(count)), duration]
 
 
 def _failed(failure: Exception, result: CoSimulation) -> PartialResultError:

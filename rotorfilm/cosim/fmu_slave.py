@@ -18,8 +18,10 @@ from ..fmu.check.calls import EventInfo, Port, Slopes
 from ..fmu.check.described import DERIVATIVES, STATES, nominal_of, provides, variables_of
 from ..fmu.check.instance import instantiated
 from ..model import Array, Linearization
+from ..native.master_structs import Call
 from ..rotors.force_law import BASE_TIME, ForceLaw, law_inputs
 from ..signals import from_fmi_name
+from .loops.compiled_partners import CompiledPartner, FmuPartner
 from .schemes.exponential import LawIntegrator
 from .wiring import Wiring
 
@@ -140,6 +142,24 @@ class FmuSlave:
         found: Array = self._calling("reading derivatives", self._slopes_of[wanted].get)
         return found
 
+    def compiled(self, film: bool) -> CompiledPartner | None:
+        """Return the functions of the library of the FMU; None of a subclass, which may differ."""
+        if type(self) not in (FmuSlave, ExchangeRotor):
+            return None
+        entry = self._instance.entry()
+        inputs, outputs = self._references["input"], self._references["output"]
+        return FmuPartner(*entry, inputs, outputs, self._slopes, self._states)
+
+    def fail(self, call: Call, status: int, t: float) -> None:
+        """Raise the FmuError, or FilmContactError, of a call from C that failed in the step from t [s]."""
+        doing = {
+            Call.PUT: "setting inputs",
+            Call.TAKE: "reading outputs",
+            Call.STRIDE: f"the step from t = {t:.9g} s",
+            Call.SLOPE: "reading derivatives",
+        }
+        self._calling(doing[call], self._instance.fail, call.name.lower(), status)
+
     def close(self) -> None:
         """Terminate, free the instance and unload its library, whatever happened before."""
         # FMI forbids freeing after fmi2Fatal, but PythonFMU calls every exception fatal and its
@@ -177,6 +197,20 @@ class ExchangeRotor(FmuSlave):
         self._base = np.zeros(len(self.inputs))
         self._input = self._instance.port(list(self._references["input"].values()))
         self._integrator: LawIntegrator | None = None
+
+    @property
+    def state(self) -> Array:
+        """The state at present."""
+        return self._x
+
+    @property
+    def base(self) -> Array:
+        """The start values of the inputs."""
+        return self._base
+
+    def resume(self, t: float, x: Array) -> None:
+        """Go to a time [s] and a state."""
+        self.restore((t, x.copy()))
 
     @property
     def nominals(self) -> Array:

@@ -45,7 +45,7 @@ class Partners:
         self.work: Counter[str] = Counter(dict.fromkeys(WORK, 0))
         self._require(needs)
         # Asked once: checks against protocols, names and places are slow.
-        self._feeds = {station: self._fed(station, film) for station, film in self.films.items()}
+        self.feeds = {station: self._fed(station, film) for station, film in self.films.items()}
         self._told = {
             station: [station_name(station, n) for n in film.outputs] for station, film in self.films.items()
         }
@@ -57,6 +57,8 @@ class Partners:
         }
         self._differentiable = [film for film in films.values() if isinstance(film, Differentiable)]
         self._restorable = [p for p in (rotor, *films.values()) if isinstance(p, Restorable)]
+        self.laws: list[ForceLaw] | None = None
+        """The force laws of all steps of the rotor, if a list is put here."""
         self._probed: tuple[float, Array] | None = None
 
     def start(self) -> Sample:
@@ -70,6 +72,8 @@ class Partners:
     def drive(self, t: float, dt: float, law: ForceLaw) -> StationMotion:
         """Advance the rotor; see `Bench`."""
         self.work["rotor_steps"] += 1
+        if self.laws is not None:
+            self.laws.append(law)
         if self._driven is not None:
             self._driven.drive(t, dt, law, self.wiring)
         else:
@@ -161,7 +165,7 @@ class Partners:
         outputs: dict[str, float] = {}
         forces: list[float] = []
         for film, told in zip(self.films.values(), self._told.values(), strict=True):
-            own = _finite("film", t, film.get())
+            own = require_finite_outputs("film", t, film.get())
             outputs |= zip(told, (own[name] for name in film.outputs), strict=True)
             forces += [own[name] for name in FORCE_OUTPUTS]
         tangents = self._tangents_or_none() if derive else None
@@ -175,7 +179,7 @@ class Partners:
             return no_tangents(self.size)
 
     def _motion(self, t: float) -> StationMotion:
-        outputs = _finite("rotor", t, self.rotor.get())
+        outputs = require_finite_outputs("rotor", t, self.rotor.get())
         return StationMotion(
             np.array([outputs[name] for name in self.wiring.position]),
             np.array([outputs[name] for name in self.wiring.velocity]),
@@ -185,7 +189,7 @@ class Partners:
 
     def _values(self, station: str, motion: StationMotion) -> dict[str, float]:
         """Return the inputs of a film: its journal's motion and the speed as given, others as they are."""
-        first, feeds = self._feeds[station]
+        first, feeds = self.feeds[station]
         x, y = motion.position[first : first + 2].tolist()
         vx, vy = motion.velocity[first : first + 2].tolist()
         journal = (x, y, vx, vy, motion.speed)
@@ -221,7 +225,8 @@ class Partners:
             raise InputError("rotor and film must get and set their state for this scheme, got one without")
 
 
-def _finite(who: str, t: float, values: dict[str, float]) -> dict[str, float]:
+def require_finite_outputs(who: str, t: float, values: dict[str, float]) -> dict[str, float]:
+    """Return outputs at a time [s]; raise FmuError unless all are finite."""
     if all(map(math.isfinite, values.values())):
         return values
     bad = {name: value for name, value in values.items() if not math.isfinite(value)}

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import CouplingWarning, RotorfilmError, warn_user
+from ..errors import ConvergenceError, CouplingWarning, RotorfilmError, warn_user
 from ..model import Array, Linearization
 from .bench import Tangents
 from .chatter import WINDOW, calm_windows, inspect_coupling, is_calm
@@ -212,7 +212,10 @@ class Watch:
                 self._judge(loop, ratio, float(self._record.time[check.point]))
 
     def _judge(self, loop: Loop, ratio: float, t: float) -> None:
-        limit = squeeze_limit(self._scheme) if _has_fixed_steps(self._scheme) else np.inf
+        try:
+            limit = squeeze_limit(self._scheme) if _has_fixed_steps(self._scheme) else np.inf
+        except ConvergenceError:  # the run itself will say so
+            return
         if not np.isfinite(limit):
             return
         radius = abs(dominant_eigenvalue(loop, self._macro_step, self._scheme))

@@ -7,6 +7,7 @@ from ctypes import c_double
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
+from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import (
     calloc,
     fmi2CallbackAllocateMemoryTYPE,
@@ -90,6 +91,15 @@ class Instance:
     def slopes(self, unknowns: Sequence[int], knowns: Sequence[int]) -> Slopes:
         """Return the derivatives of the unknowns by each known, to be asked for again and again."""
         return Slopes(self._fmu, self.calls, unknowns, knowns)
+
+    def entry(self) -> tuple[int, int, dict[str, int | None]]:
+        """Return the version, the component and the addresses of what a loop in C calls."""
+        found = {name: self.calls.address(self._fmu, spelled) for name, spelled in self.calls.called.items()}
+        return 3 if self.calls.counts_values else 2, self._fmu.component, found
+
+    def fail(self, call: str, status: int) -> None:
+        """Raise what fmpy raises where a function of `entry` answers this status."""
+        raise FMICallException(function=self.calls.spelled(self.calls.called[call]), status=status)
 
     def deserialize(self, content: bytes) -> Any:
         """Return the FMU state that `serialize` turned into bytes."""

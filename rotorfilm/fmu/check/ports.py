@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from ctypes import c_double, c_uint
+from ctypes import c_double, c_uint, c_void_p, cast
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -30,6 +30,24 @@ class Calls(NamedTuple):
     def function(self, fmu: Any, name: str) -> Any:
         """Return a function of the FMU's library, which answers a status."""
         return getattr(fmu.dll, self.spelled(name))
+
+    @property
+    def called(self) -> dict[str, str]:
+        """What a loop in C calls."""
+        return {
+            "put": self.set,
+            "take": self.get,
+            "stride": "doStep",
+            "slope": SLOPE,
+            "set_time": "setTime",
+            "set_states": "setContinuousStates",
+            "rate": self.derivatives,
+        }
+
+    def address(self, fmu: Any, name: str) -> int | None:
+        """Return where a function of the FMU's library is; None if it has none."""
+        found = getattr(fmu.dll, self.spelled(name), None)
+        return None if found is None else cast(found, c_void_p).value
 
     def spelled(self, name: str) -> str:
         """Return the name of a function in the library of an FMU."""
