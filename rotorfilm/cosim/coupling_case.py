@@ -118,7 +118,8 @@ class CouplingCase:
         """
         speed, films = abs(self.rotor.profile.speeds[0]), {"": InProcessSlave(self.reaction)}
         partners = Partners(InProcessSlave(self.rotor), films, scheme.needs)
-        partners.laws = laws = []
+        laws: list[ForceLaw] = []
+        partners.laws = laws
         with quietly():
             outcome = coupled(partners, scheme, angle / speed, 2.0 * math.pi * self.revolutions / speed)
         return PilotRun(outcome, laws)

@@ -53,7 +53,8 @@ class Partners:
         self._motion_at = [*self._at.position, *self._at.velocity]
         self._driven = rotor if isinstance(rotor, Driven) else None
         self._known = {
-            name: [k for k, n in enumerate(JOURNAL_INPUTS) if n in film.inputs] for name, film in films.items()
+            name: [k for k, n in enumerate(JOURNAL_INPUTS) if n in film.inputs]
+            for name, film in films.items()
         }
         self._differentiable = [film for film in films.values() if isinstance(film, Differentiable)]
         self._restorable = [p for p in (rotor, *films.values()) if isinstance(p, Restorable)]

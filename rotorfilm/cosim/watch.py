@@ -180,11 +180,13 @@ class Watch:
         return report.chatter or report.coarse
 
     def _surprises(self) -> Array:
-        """Return the forces that the scheme did not foresee at the points since the last look, not the first."""
+        """Return the forces that the scheme did not foresee at the points since the last look."""
         record, first = self._record, max(self._seen, 1)
         rows, before = slice(first, record.count), slice(first - 1, record.count - 1)
         if not record.tangents.shape[1] or np.isnan(record.tangents[rows]).any():
-            return unforeseen(record.time[: record.count], record.force[: record.count], first, self._scheme.order)
+            return unforeseen(
+                record.time[: record.count], record.force[: record.count], first, self._scheme.order
+            )
         stiffness, damping, by_speed = record.derivatives(rows)
         position, velocity, speed = (
             old - new for old, new in zip(record.motion(before), record.motion(rows), strict=True)
@@ -205,7 +207,7 @@ class Watch:
         felt = np.stack([check.linear.C[m:] @ check.linear.B for check in checks])
         rates = np.linalg.eigvals(felt @ np.stack([check.damping for check in checks])).real.max(axis=1)
         for check, rate in zip(checks, rates.tolist(), strict=True):
-            ratio = self._macro_step * rate
+            ratio = float(self._macro_step * rate)
             if self._ratio is None or ratio > 1.01 * self._ratio:
                 self._ratio, (A, B, C, _) = ratio, check.linear
                 loop = Loop(A, B, C[:m], C[m:], check.stiffness, check.damping)
@@ -239,7 +241,7 @@ class Watch:
 
 
 def unforeseen(time: Array, force: Array, first: int, order: int) -> Array:
-    """Return forces (n, m) at the points from the first on, less those extrapolated from the latest before."""
+    """Return forces (n, m) at the points from the first on, less those extrapolated from before."""
     if first < order:
         parts = [force[first : first + 1] - _ahead(time, force, first, first + 1, first)]
         rest = unforeseen(time, force, first + 1, order) if first + 1 < len(time) else force[:0]

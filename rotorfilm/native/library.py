@@ -15,7 +15,7 @@ from ..errors import RotorfilmError
 
 FOLDER = Path(__file__).parent
 FILMS, LOOPS, MASTER = "rotorfilm", "rotorfilm_loops", "rotorfilm_master"
-"""Libraries that Python calls: films one by one, loops over them, and the loop of the co-simulation master."""
+"""Libraries that Python calls: films one by one, loops over them, the loop of the co-simulation master."""
 
 RECORD = "sources.sha256"
 """Of the C sources that an installed distribution was built from; CMakeLists.txt writes it."""

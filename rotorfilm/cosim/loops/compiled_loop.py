@@ -223,7 +223,9 @@ class CompiledLoop:
         mode, driven = HELD, list(wiring.force)
         if set(lawful) <= set(rotor.inputs):
             mode, driven = LAWFUL, lawful
-        room = max(master()["rf_rotor_work"](len(rotor.states), m), len(lawful), len(motion) + len(rotor.states))
+        room = max(
+            master()["rf_rotor_work"](len(rotor.states), m), len(lawful), len(motion) + len(rotor.states)
+        )
         struct = RotorStruct(
             partner=addressof(rotor.struct),
             mode=mode,
@@ -295,4 +297,3 @@ def _law(row: Array, m: int) -> ForceLaw:
         position,
         velocity,
     )
-

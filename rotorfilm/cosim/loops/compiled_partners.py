@@ -40,9 +40,9 @@ class CompiledPartner(Protocol):
     """
 
     struct: PartnerStruct
-    inputs: Mapping[str, int]
-    outputs: Mapping[str, int]
-    knowns: Mapping[str, int]
+    inputs: dict[str, int]
+    outputs: dict[str, int]
+    knowns: dict[str, int]
     rates: list[int]
     states: list[int]
 
@@ -70,8 +70,8 @@ class FmuPartner:
         version: int,
         component: int,
         functions: Mapping[str, int | None],
-        inputs: Mapping[str, int],
-        outputs: Mapping[str, int],
+        inputs: dict[str, int],
+        outputs: dict[str, int],
         rates: list[int],
         states: list[int],
     ) -> None:
@@ -100,7 +100,9 @@ class KernelPartner:
     """
 
     def __init__(self, model: Model, spec: NativeSpec) -> None:
-        self._numbers = {name: np.ascontiguousarray(table, dtype=float) for name, table in spec.tables.items()}
+        self._numbers = {
+            name: np.ascontiguousarray(table, dtype=float) for name, table in spec.tables.items()
+        }
         rows = [_table(name, numbers) for name, numbers in self._numbers.items()]
         self._tables = (TableStruct * len(rows))(*rows)
         why = MessageStruct()
@@ -153,6 +155,4 @@ def kernel_partner(model: Model) -> KernelPartner | None:
 
 def _table(name: str, numbers: Array) -> TableStruct:
     extent = (*numbers.shape, 0, 0, 0, 0)[:4]
-    return TableStruct(
-        name=name.encode(), axes=numbers.ndim, extent=extent, numbers=numbers.ctypes.data
-    )
+    return TableStruct(name=name.encode(), axes=numbers.ndim, extent=extent, numbers=numbers.ctypes.data)

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...errors import FmuError
 from ...model import Array
-from ...native.master_structs import Call, Ended
+from ...native.master_structs import Ended
 from ..partners import Partners, require_finite_outputs
 from ..schemes.scheme import Scheme
 from ..slaves import Compiled, Integrated, Slave
@@ -31,7 +31,7 @@ class CompiledRun:
     """
 
     def __init__(self, loop: CompiledLoop, partners: Partners) -> None:
-        self._loop, self._partners = loop, partners
+        self.loop, self._partners = loop, partners
         rotor = partners.rotor
         self._integrated = rotor if isinstance(rotor, Integrated) else None
         self._pause, self._waited = 0, 1
@@ -60,15 +60,15 @@ class CompiledRun:
         """
         if self._integrated is not None:
             self._x[:] = self._integrated.state
-            self._loop.prepare(t, self._x, self._integrated.next_kink(t))
-        count = self._loop.record.count
-        step, t, ended = self._loop.advance(step, t, steps)
+            self.loop.prepare(t, self._x, self._integrated.next_kink(t))
+        count = self.loop.record.count
+        step, t, ended = self.loop.advance(step, t, steps)
         if self._integrated is not None:
-            self._integrated.resume(float(self._loop.record.time[self._loop.record.count - 1]), self._x)
+            self._integrated.resume(float(self.loop.record.time[self.loop.record.count - 1]), self._x)
         self._tell_beyond()
         if ended is Ended.ROTOR_WAITING:
             # Longer each time, where no step was made in between.
-            idle = self._loop.record.count == count
+            idle = self.loop.record.count == count
             self._waited = min(2 * self._waited, MOST_PAUSE) if idle else 1
             self._pause = self._waited
         elif ended not in (Ended.COUPLED, Ended.FULL):
@@ -84,20 +84,20 @@ class CompiledRun:
                 slave.get()
 
     def _kernels(self) -> list[tuple[Slave, KernelPartner]]:
-        films = zip(self._partners.films.values(), self._loop.films, strict=True)
-        return [(slave, partner) for slave, partner in films if isinstance(partner, KernelPartner)]
+        films = zip(self._partners.films.values(), self.loop.films, strict=True)
+        return [(slave, own) for slave, own in films if isinstance(own, KernelPartner)]
 
     def _raise(self, ended: Ended, t: float) -> None:
         """Raise what the partner that failed has to say."""
-        who, call, status = self._loop.failure()
+        who, call, status = self.loop.failure()
         rotor = who < 0
         slave = self._partners.rotor if rotor else list(self._partners.films.values())[who]
-        partner = self._loop.rotor if rotor else self._loop.films[who]
+        partner = self.loop.rotor if rotor else self.loop.films[who]
         if isinstance(partner, KernelPartner) and not rotor:
             slave.set(partner.inputs_now())
         if ended is not Ended.NOT_NUMBERS and isinstance(slave, Compiled):
             slave.fail(call, status, t)
-        require_finite_outputs("rotor" if rotor else "film", self._loop.reached, slave.get())
+        require_finite_outputs("rotor" if rotor else "film", self.loop.reached, slave.get())
         raise FmuError(f"a partner failed in call {call.name} at t = {t:.9g} s with status {status}")
 
 

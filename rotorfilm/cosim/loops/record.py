@@ -54,8 +54,10 @@ class Record:
         self.time[n], self.force[n] = sample.time, sample.force
         self.outputs[n] = [*(motion[name] for name in self.rotor), *(sample.outputs[k] for k in self.films)]
         if self.tangents.shape[1]:
-            self.tangents[n] = np.nan if sample.tangents is None else np.concatenate(
-                [part.ravel() for part in sample.tangents]
+            self.tangents[n] = (
+                np.nan
+                if sample.tangents is None
+                else np.concatenate([part.ravel() for part in sample.tangents])
             )
         self.count += 1
 

@@ -65,9 +65,9 @@ class Port:
         self._set, self._get = calls.function(fmu, calls.set), calls.function(fmu, calls.get)
         self._calls = calls
 
-    def set(self, values: Sequence[float]) -> None:
+    def set(self, values: list[float]) -> None:
         """Set the variables."""
-        self._values[:] = values
+        self._values[:] = [*values]
         if values and (status := self._set(*self._arguments)) > FMI_WARNING:
             raise FMICallException(function=self._calls.spelled(self._calls.set), status=status)
 
@@ -79,7 +79,7 @@ class Port:
 
 
 class Slopes:
-    """Derivatives of some variables by others, whose references are told once; `Instance.slopes` makes one."""
+    """Derivatives of variables by others, whose references are told once; `Instance.slopes` makes one."""
 
     def __init__(self, fmu: Any, calls: Calls, unknowns: Sequence[int], knowns: Sequence[int]) -> None:
         count, seed = len(unknowns), (c_double * 1)(1.0)
@@ -89,7 +89,7 @@ class Slopes:
         self._arguments = [
             (fmu.component, rows, count, (c_uint * 1)(known), 1, seed)
             + ((1,) if many else ())
-            + ((c_double * count).from_buffer(column), *((count,) if many else ()))
+            + ((c_double * count).from_address(column.ctypes.data), *((count,) if many else ()))
             for known, column in zip(knowns, self._columns, strict=True)
         ]
 
