@@ -110,7 +110,7 @@ def is_calm(force: Array) -> bool:
 
 
 def calm_windows(force: Array, length: int) -> NDArray[np.bool_]:
-    """Return the same for each window of so many consecutive forces (k, n), at least 3, shape (n - length + 1,)."""
+    """Return the same for each window of so many forces (k, n), at least 3, shape (n - length + 1,)."""
     change = np.diff(force, axis=1)
     swing = np.abs(np.diff(change, axis=1)).max(axis=0)
     level = np.sqrt(np.mean(sliding_window_view(np.sum(force**2, axis=0), length), axis=1))

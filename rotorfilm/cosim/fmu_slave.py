@@ -15,15 +15,14 @@ from fmpy.fmi1 import FMICallException
 
 from ..errors import FilmContactError, FmuError, InputError
 from ..fmu.check.calls import EventInfo, Port, Slopes
-from ..fmu.check.described import DERIVATIVES, STATES, nominal_of, provides, variables_of
+from ..fmu.check.described import DERIVATIVES, STATES, nominal_of, provides
 from ..fmu.check.instance import instantiated
 from ..model import Array, Linearization
 from ..native.master_structs import Call
 from ..rotors.force_law import BASE_TIME, ForceLaw, law_inputs
-from ..signals import from_fmi_name
 from .loops.compiled_partners import CompiledPartner, FmuPartner
 from .schemes.exponential import LawIntegrator
-from .wiring import Wiring
+from .wiring import Wiring, references_of
 
 CONTACT = (FilmContactError.__name__, "inside the clearance")
 """What the log of a film FMU contains when its journal touched the wall, in Python and in C."""
@@ -45,7 +44,7 @@ class FmuSlave:
         self._name = description.modelName
         self._failed = False
         self._references = {
-            causality: _references(description, causality) for causality in ("input", "output")
+            causality: references_of(description, causality) for causality in ("input", "output")
         }
         self.differentiates, self.restores = provides(folder, DERIVATIVES), provides(folder, STATES)
         slopes = [unknown.variable for unknown in description.derivatives or ()]
@@ -289,22 +288,3 @@ class ExchangeRotor(FmuSlave):
     def _move(self, t: float, x: Array, u: Array) -> None:
         self._instance.move(t, x)
         self._input.set(u.tolist())
-
-
-def _references(description: Any, causality: str) -> dict[str, int]:
-    """Return the value references of the real inputs or outputs, by local name."""
-    references: dict[str, int] = {}
-    for variable in variables_of(description, causality):
-        name = local_name(variable.name)
-        if name in references:
-            raise InputError(f"{causality} names must differ without their component, got {name!r} twice")
-        references[name] = variable.valueReference
-    return references
-
-
-def local_name(name: str) -> str:
-    """Return the signal of `component.signal`; other spellings stay as they are."""
-    try:
-        return from_fmi_name(name)[1]
-    except InputError:
-        return name

@@ -14,10 +14,11 @@ from ..model import Dynamic, Model
 from ..rotors.force_law import BASE_TIME
 from .auto import Auto, choose_scheme
 from .cosim_run import CoSimulation, couple, require_times
-from .fmu_slave import ExchangeRotor, FmuSlave, local_name
+from .fmu_slave import ExchangeRotor, FmuSlave
 from .schemes.explicit import GaussSeidel
 from .schemes.scheme import Scheme
 from .slaves import InProcessSlave, Slave
+from .wiring import local_name
 
 Path = str | PathLike[str]
 Film = Path | Model

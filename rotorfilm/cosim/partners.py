@@ -199,7 +199,7 @@ class Partners:
         }
 
     def _fed(self, station: str, film: Slave) -> tuple[int, list[tuple[str, int | None, str]]]:
-        """Return the first place of a station, and of each input of its film that among the journal's or its source."""
+        """Return the first place of a station, and each input of its film: its place or its source."""
         found = sources(self.rotor.outputs, station, film.inputs)
         places = {name: JOURNAL_INPUTS.index(name) if name in JOURNAL_INPUTS else None for name in found}
         first = 2 * self.wiring.stations.index(station)

@@ -106,7 +106,7 @@ class Watch:
         """Whether the distance from the limit is known, and looked at in each `CHECK`-th step."""
 
     def check(self, tangents: Tangents | None) -> None:
-        """Ask the partners, which are at the latest point, for what their distance from the limit follows from.
+        """Ask the partners at the latest point for what their distance from the limit follows from.
 
         The price is the films' derivatives, unless they are known.
         """

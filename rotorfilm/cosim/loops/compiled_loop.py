@@ -133,7 +133,7 @@ class CompiledLoop:
         self._struct.work = self._room(master()["rf_coupling_work"](byref(self._struct), widest))
 
     def integrate(self, x: Array, nominal: Array, base: Array) -> None:
-        """Have the rotor integrated: the array of its state, nominal values, forces where its motion is asked for."""
+        """Have the rotor integrated: its state, nominal values, forces where its motion is asked for."""
         self._driven.mode, self._driven.x = INTEGRATED, self._held(x)
         self._driven.nominal, self._driven.base = self._floats(nominal), self._floats(base)
         names = self._partners.wiring.force

@@ -1,4 +1,4 @@
-"""Macro steps in C where rotor, films and scheme allow it, chunk by chunk, and what follows where one fails."""
+"""Macro steps in C where rotor, films and scheme allow it, and what follows where one fails."""
 
 from __future__ import annotations
 
@@ -109,7 +109,7 @@ def compiled_run(
     macro_step: float,
     points: Sequence[float],
 ) -> CompiledRun | None:
-    """Return the macro steps of partners that were started in C; None where one, or the scheme, needs Python."""
+    """Return the macro steps in C of partners that were started; None where one needs Python."""
     plan = plan_of(scheme)
     slaves = [partners.rotor, *partners.films.values()]
     if plan is None or not all(isinstance(slave, Compiled) for slave in slaves):
