@@ -133,9 +133,10 @@ def coupled(
     run = _Run(partners, scheme, macro_step, duration)
     try:
         run.start()
-        for time in run.reached():
+        for times in run.reached():
             if progress is not None:
-                progress(time)
+                for time in times:
+                    progress(time)
         run.judge()
     except (FilmContactError, FmuError, ConvergenceError) as failure:
         run.judge()
@@ -178,8 +179,8 @@ class _Run:
             self._partners, self._scheme, self._record, self._watch, self._macro_step, self._points
         )
 
-    def reached(self) -> Iterator[float]:
-        """Take all macro steps, in C where that is possible; yield the end of each."""
+    def reached(self) -> Iterator[Iterator[float]]:
+        """Take all macro steps, in C where that is possible; yield the ends of those that were taken."""
         number, t, last = 0, self._points[0], len(self._points) - 1
         while number < last:
             before = number
@@ -191,7 +192,7 @@ class _Run:
                 self._history = self._record.latest(MEMORY)
             if self._compiled is not None or number % BLOCK == 0:
                 self.judge()
-            yield from (self._end(k) for k in range(before, number))
+            yield map(self._end, range(before, number))
 
     def _end(self, number: int) -> float:
         """Return the end of a macro step [s], as its films have it."""

@@ -121,13 +121,12 @@ class Watch:
         if tangents is None or linear is None:
             self.checks = False
         else:
-            self.take(Check(point, tangents.stiffness, tangents.damping, linear))
+            self.checks = not np.any(linear.D)
+            self.take([Check(point, tangents.stiffness, tangents.damping, linear)])
 
-    def take(self, check: Check) -> None:
+    def take(self, checks: list[Check]) -> None:
         """Take what the distance from the limit follows from."""
-        if self.checks:
-            self.checks = not np.any(check.linear.D)
-            self._checks += [check] if self.checks else []
+        self._checks += checks if self.checks else []
 
     def alarm(self) -> int | None:
         """Look at the points since the last look; return the number of those before the forces alternate."""
@@ -141,10 +140,9 @@ class Watch:
         """Take account of the points before this one."""
         rows = slice(self._seen, count)
         if count > self._seen:
-            for size in np.sum(self._surprises() ** 2, axis=1).tolist()[: count - max(self._seen, 1)]:
-                self._unforeseen += size
-            for size in np.sum(self._record.force[rows] ** 2, axis=1).tolist():
-                self._squares += size
+            later = count - max(self._seen, 1)
+            self._unforeseen += float(np.sum(self._surprises()[:later] ** 2))
+            self._squares += float(np.sum(self._record.force[rows] ** 2))
             self._seen = count
         self._measure([check for check in self._checks if check.point < count])
         self._checks = []

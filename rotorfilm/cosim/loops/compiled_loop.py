@@ -204,13 +204,15 @@ class CompiledLoop:
     def _hand_over(self, first: int) -> None:
         """Give what was met to those who keep it."""
         c, m, n = self._struct, self.record.size, len(self.rotor.states)
-        for k in range(c.checks):
-            tangents, slopes = self._check_tangents[k].copy(), self._check_slopes[k].copy()
-            linear = Linearization(slopes[:n, :n], slopes[:n, n:], slopes[n:, :n], slopes[n:, n:])
-            stiffness, damping = tangents[: m * m].reshape(m, m), tangents[m * m : 2 * m * m].reshape(m, m)
-            self._watch.take(Check(int(self._checked[k]), stiffness, damping, linear))
-        if not c.checking:
+        tangents, slopes = self._check_tangents[: c.checks].copy(), self._check_slopes[: c.checks].copy()
+        if not c.checking or np.any(slopes[:, n:, n:]):
             self._watch.checks = False
+        square = (c.checks, m, m)
+        stiffness = tangents[:, : m * m].reshape(square)
+        damping = tangents[:, m * m : 2 * m * m].reshape(square)
+        parts = (slopes[:, :n, :n], slopes[:, :n, n:], slopes[:, n:, :n], slopes[:, n:, n:])
+        linear = map(Linearization, *parts)
+        self._watch.take(list(map(Check, self._checked[: c.checks].tolist(), stiffness, damping, linear)))
         if self._partners.laws is not None:
             rows = self._laws[: self.record.count - first].copy()
             self._partners.laws += [_law(row, m) for row in rows]
