@@ -36,9 +36,9 @@ def cosimulate(
     """Couple a rotor with one or several films, FMUs of FMI 2.0 or 3.0 or models in this process, from t = 0.
 
     Signals are connected by their local names (`rotor.x` to `film.x`; in a rotor with several journals
-    `rotor.left_x` to `x` of the film in the station `left`). The loop over the macro steps runs in C, in chunks
-    between which it is watched and can be interrupted, where scheme and partners allow it: Gauss-Seidel, Jacobi,
-    SI-exp and SI-exp3 over FMUs and over models with a kernel.
+    `rotor.left_x` to `x` of the film in the station `left`). The loop over the macro steps runs in C,
+    in chunks between which it is watched and can be interrupted, where scheme and partners allow it:
+    Gauss-Seidel, Jacobi, SI-exp and SI-exp3 over FMUs and over models with a kernel.
 
     Parameters
     ----------

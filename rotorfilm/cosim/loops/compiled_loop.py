@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from ctypes import addressof, byref
 from time import perf_counter
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -24,14 +24,11 @@ from ...native.master_structs import (
 )
 from ...rotors.force_law import BASE_TIME, ForceLaw, law_inputs
 from ...signals import FORCE_OUTPUTS, JOURNAL_INPUTS
-from ..coupling_replay import Starting
 from ..partners import Partners
-from ..schemes.explicit import GaussSeidel, Jacobi
 from ..schemes.exponential import NODES, TO_POWERS
-from ..schemes.implicit import SIExp, SIExp3
-from ..schemes.scheme import Scheme
 from ..watch import CHECK, Check, Watch
 from .compiled_partners import CompiledPartner
+from .plan import Plan
 from .record import WORK, Record
 
 FIRST_CHUNK, MOST_CHUNK = 32, 1024
@@ -42,27 +39,6 @@ PATIENCE = 0.05
 
 EXTRA = 8
 """Most further points of a gentle start."""
-
-
-class Plan(NamedTuple):
-    """A scheme as the loop in C knows it; see couple.h."""
-
-    scheme: int
-    degree: int = 0
-    gentle: bool = False
-    third: bool = False
-
-
-def plan_of(scheme: Scheme) -> Plan | None:
-    """Return how the loop in C takes a scheme; None if it does not, as those that go back."""
-    if type(scheme) is Starting:
-        inner = plan_of(scheme.scheme)
-        return None if inner is None else inner._replace(gentle=True)
-    if type(scheme) is GaussSeidel or type(scheme) is Jacobi:
-        return Plan(int(type(scheme) is Jacobi), scheme.degree, scheme.degree > 1)
-    if type(scheme) is SIExp or type(scheme) is SIExp3:
-        return Plan(2, third=type(scheme) is SIExp3)
-    return None
 
 
 class CompiledLoop:

@@ -13,8 +13,9 @@ from ..partners import Partners, require_finite_outputs
 from ..schemes.scheme import Scheme
 from ..slaves import Compiled, Integrated, Slave
 from ..watch import Watch
-from .compiled_loop import CompiledLoop, plan_of
+from .compiled_loop import CompiledLoop
 from .compiled_partners import KernelPartner
+from .plan import plan_of
 from .record import Record
 
 MOST_PAUSE = 64
