@@ -1,7 +1,7 @@
 """A macro step of the co-simulation master: in C, in Python, and as one writes it with fmpy, on equal FMUs.
 
-Run as `python benchmarks/coupling_master.py [STEPS]`, 4000 by default. CPU times; files are opened too, and each
-run is started and judged. A further step is the difference of runs of 5 times and once as many steps.
+Run as `python benchmarks/coupling_master.py [STEPS]`, 4000 by default. CPU times; files are opened too and
+each run is started and judged. A further step is the difference of runs of 5 times and once as many steps.
 """
 
 import sys
@@ -110,8 +110,8 @@ def line(title, one, other, scheme, slow, steps, plain):
     apart = np.abs(found - expected).max(axis=0) / np.abs(expected).max(axis=0)
     by_hand = "" if title != "Gauss-Seidel, two FMUs" else f", fmpy's {np.abs(found - plain).max():.0e}"
     return (
-        f"{title:28s} {1e6 * in_c / steps:9.1f} in C, {1e6 * (longer - in_c) / (4 * steps):6.2f} a further one, "
-        f"{1e6 * in_python / steps:7.1f} in Python: {in_python / in_c:5.1f} times; "
+        f"{title:28s} {1e6 * in_c / steps:9.1f} in C, "
+        f"{1e6 * (longer - in_c) / (4 * steps):6.2f} a further one, {1e6 * in_python / steps:7.1f} in Python: {in_python / in_c:5.1f} times; "
         f"apart {apart.max():.0e}{by_hand}"
     )
 
