@@ -1,13 +1,15 @@
 """The point contact: cost against dense Newton, limits of grid and rectangle, decay, reduced law, failures.
 
-    python benchmarks/contact.py [cost] [grid] [decay] [law] [hard]
+    python benchmarks/contact.py [cost] [growth] [grid] [decay] [law] [hard]
 
 `cost`: time of a step of case 4.1 (W = 1, BDF2, dt = 0.1, t = 1 to 2) by the product, and by the best that
 numpy and scipy offer without its structure: the same Newton steps with a dense matrix, the elastic kernel
-tabulated beforehand, y-symmetry used, LAPACK. Both in one run, to the same tolerance. `grid`: stationary
-solution on ever finer grids and larger rectangles. `decay`: decay time of case 4.1 in three independent ways.
-`law`: the reduced law beside the full model. `hard`: continuation and load step. All
-of it takes some ten minutes on one core.
+tabulated beforehand, y-symmetry used, LAPACK. Both in one run, to the same tolerance. `growth`: work and time
+of a stationary contact and of such a step from 64 to 256 cells a side, and beside them what they were when
+sparse factors alone were the preconditioner and the film's end moved by a ring of cells a step. `grid`:
+stationary solution on ever finer grids and larger rectangles. `decay`: decay time of case 4.1 in three
+independent ways. `law`: the reduced law beside the full model. `hard`: thin
+films and a load step. All of it takes some ten minutes on one core.
 """
 
 from __future__ import annotations
@@ -22,6 +24,7 @@ from scipy import linalg
 from rotorfilm import (
     AdaptiveSteps,
     ContactGrid,
+    ConvergenceError,
     FixedSteps,
     PointContact,
     SineLoad,
@@ -34,7 +37,7 @@ from rotorfilm import (
 )
 from rotorfilm.bearings.contact.film.contact_newton import NewtonKrylov
 from rotorfilm.bearings.contact.film.small_motion import SmallMotion
-from rotorfilm.bearings.contact.film.stationary import HERTZ_LOAD
+from rotorfilm.bearings.contact.film.stationary import HERTZ_LOAD, stationary
 from rotorfilm.bearings.contact.motion import contact_steps
 from rotorfilm.comparisons.contact.motion_features import decay_time
 
@@ -48,14 +51,14 @@ class DenseNewton(NewtonKrylov):
             self.columns = np.stack(
                 [self.equations.sampling.deflection(row) for row in np.eye(cells)], axis=1
             )
-        wet = np.flatnonzero(linear.wet)
+        wet, closure = np.flatnonzero(linear.place.wet), linear.place.closure
         by_pressure, by_film = linear.derivatives
         size = len(wet)
         matrix = np.empty((size + 1, size + 1), order="F")
         matrix[:size, :size] = by_film[wet] @ self.columns[:, wet] + by_pressure[wet][:, wet].toarray()
         matrix[:size, size] = linear.by_delta[wet]
-        matrix[size, :size] = linear.closure.load * self.equations.area
-        matrix[size, size] = linear.closure.approach
+        matrix[size, :size] = closure.load * self.equations.area
+        matrix[size, size] = closure.approach
         answer = linalg.solve(matrix, np.append(residual[wet], miss), overwrite_a=True, check_finite=False)
         change = np.zeros_like(residual)
         change[wet] = answer[:size]
@@ -96,6 +99,45 @@ def print_cost():
             f"{1e3 * dense[cells]:11.0f}{dense[cells] / product[cells]:8.0f}{gap:12.1e}"
         )
     print("growth: " + ", ".join(f"{a} to {b}: {product[b] / product[a]:.1f}" for a, b in pairwise(product)))
+
+
+def measured(cells, act):
+    """Return what an act of a contact gives, and its CPU time without that of the grid's matrices."""
+    c = contact(cells)
+    c.equations.derivatives(np.ones(c.equations.grid.shape).ravel(), c.equations.sampling.gap + 1.0, 0.0)
+    begin = process_time()
+    answer = act(c)
+    return answer, process_time() - begin
+
+
+ALONE = {64: (5, 28, 25, 198), 128: (4, 27, 27, 268), 256: (5, 71, 40, 537)}
+"""Newton and GMRES steps of a stationary contact and of ten steps in time by sparse factors alone."""
+
+
+def print_growth():
+    print("stationary contact, and ten steps of case 4.1 (t = 1 to 2): Newton, GMRES, CPU s")
+    print(f"{'cells':>7s}{'stationary':>20s}{'factors alone':>15s}{'ten steps':>22s}{'factors alone':>15s}")
+    rows = {}
+    for cells in (64, 128, 256):
+        c, control = contact(cells), FixedSteps(step=0.1)
+        start = c.simulate(perturbed(c, c.stationary(), -0.2), duration=1.0, W=1.0, control=control).final
+        still, rest = measured(cells, lambda c: stationary(c.equations, 1.0))
+        work, moving = measured(
+            cells,
+            lambda c, start=start, control=control: (
+                c.simulate(start, duration=1.0, W=1.0, control=control).work
+            ),
+        )
+        rows[cells] = still.iterations, rest, work["gmres"], moving
+        before = ALONE[cells]
+        print(
+            f"{cells:7d}{still.steps:8d}{still.iterations:5d}{rest:7.2f}{before[0]:10d}{before[1]:5d}"
+            f"{work['newton']:10d}{work['gmres']:5d}{moving:7.2f}{before[2]:10d}{before[3]:5d}"
+        )
+    for a, b in pairwise(rows):
+        shares = [new / old for old, new in zip(rows[a], rows[b], strict=True)]
+        names = ("GMRES", "stationary time", "GMRES of ten steps", "time of ten steps")
+        print(f"{a} to {b}: " + ", ".join(f"{n} {s:.2f}" for n, s in zip(names, shares, strict=True)))
 
 
 def print_grid():
@@ -186,8 +228,14 @@ def print_law():
 
 
 def print_hard():
-    state = PointContact(V=0.006, Q0=20.0, grid=ContactGrid(cells=(64, 64))).stationary()
-    print(f"Q0 = 20, V = .006, 64 x 64: delta {state.delta:.5f}, H0 {state.central_film:.5f}")
+    for V, cells in ((0.006, 64), (0.002, 64), (0.002, 128), (0.0005, 128), (0.0005, 256)):
+        begin = process_time()
+        try:
+            state = PointContact(V=V, Q0=20.0, grid=ContactGrid(cells=(cells, cells))).stationary()
+            told = f"delta {state.delta:.5f}, H0 {state.central_film:.5f}, thinnest {state.minimum_film:.5f}"
+        except ConvergenceError as error:
+            told = str(error)
+        print(f"Q0 = 20, V = {V}, {cells} x {cells}: {told} ({process_time() - begin:.1f} CPU s)")
     c = contact((72, 56), inlet=-4.5, outlet=4.0, half_width=3.5)
     run = c.simulate(
         c.stationary(), duration=10.0, W=1.0, load=StepLoad(amplitude=8.0, start=1.0),
@@ -197,7 +245,14 @@ def print_hard():
     print("where the published scheme fails: rotorfilm chart contact-limits")
 
 
-PARTS = {"cost": print_cost, "grid": print_grid, "decay": print_decay, "law": print_law, "hard": print_hard}
+PARTS = {
+    "cost": print_cost,
+    "growth": print_growth,
+    "grid": print_grid,
+    "decay": print_decay,
+    "law": print_law,
+    "hard": print_hard,
+}
 
 if __name__ == "__main__":
     for part in sys.argv[1:] or PARTS:

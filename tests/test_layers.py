@@ -58,7 +58,7 @@ PARTS = {
     "bearings/contact": [["film"], ["motion"]],
     "rotors": [["shaft"]],
     "motion": [["compiled"], ["transient", "circular"], ["periodic"]],
-    "cosim": [["schemes"]],
+    "cosim": [["schemes"], ["loops"]],
     "fmu": [["description"], ["python", "check"], ["native"]],
     "scenes": [["reading"], ["journal"], ["damper", "contact", "bush", "shaft", *FURTHER]],
     "questions": [["journal"], ["damper", "contact", "bush", "shaft"]],

@@ -106,14 +106,24 @@ def inspect_coupling(time: ArrayLike, force: ArrayLike) -> CouplingReport:
 
 def is_calm(force: Array) -> bool:
     """Return whether forces (k, n) change too little from step to step for any mark of chatter."""
+    return bool(calm_windows(force, force.shape[1])[0])
+
+
+def calm_windows(force: Array, length: int) -> NDArray[np.bool_]:
+    """Return the same for each window of so many forces (k, n), at least 3, shape (n - length + 1,)."""
     change = np.diff(force, axis=1)
-    swing = np.diff(change, axis=1)
-    level = _rms(force)
+    swing = np.abs(np.diff(change, axis=1)).max(axis=0)
+    level = np.sqrt(np.mean(sliding_window_view(np.sum(force**2, axis=0), length), axis=1))
     # Of vectors, which are no longer than the square root of k times their largest component.
     longest = len(force) ** 0.5
-    alternates = 0.25 * longest * np.abs(swing).max(initial=0.0) > SIGNIFICANT * level
-    jumps = 0.5 * longest * np.abs(change).max(initial=0.0) > JUMP * level
-    return not (alternates or jumps or not np.isfinite(level))
+    alternates = 0.25 * longest * _peaks(swing, length - 2) > SIGNIFICANT * level
+    jumps = 0.5 * longest * _peaks(np.abs(change).max(axis=0), length - 1) > JUMP * level
+    return np.asarray(~(alternates | jumps | ~np.isfinite(level)))
+
+
+def _peaks(values: Array, length: int) -> Array:
+    """Return the largest value of each window."""
+    return np.asarray(sliding_window_view(values, length).max(axis=1))
 
 
 def _sustained(swing: Array) -> tuple[NDArray[np.bool_], Array]:

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from itertools import pairwise
-
-import numpy as np
 
 from ..errors import (
     ContactError,
@@ -22,6 +20,8 @@ from ..errors import (
 from ..results import Trajectory
 from .bench import Sample
 from .chatter import CouplingReport, inspect_coupling
+from .loops.compiled_run import CompiledRun, compiled_run
+from .loops.record import Record
 from .partners import Partners
 from .schemes.explicit import GaussSeidel
 from .schemes.scheme import MEMORY, Scheme
@@ -30,6 +30,9 @@ from .watch import CouplingWatch, Watch
 
 COARSE = 0.3
 """Local error, in root mean square forces, of a run that is no answer; it is below 0.08 in good ones."""
+
+BLOCK = 32
+"""Steps between two looks at a run, which is cut where it began to chatter."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,15 +119,27 @@ def couple(
     require_times(macro_step, duration)
     chosen = GaussSeidel() if scheme is None else scheme
     films = film if isinstance(film, Mapping) else {"": film}
-    run = _Run(Partners(rotor, films, chosen.needs), chosen, macro_step)
+    return coupled(Partners(rotor, films, chosen.needs), chosen, macro_step, duration, progress)
+
+
+def coupled(
+    partners: Partners,
+    scheme: Scheme,
+    macro_step: float,
+    duration: float,
+    progress: Callable[[float], None] | None = None,
+) -> CoSimulation:
+    """Couple partners; see `couple`."""
+    run = _Run(partners, scheme, macro_step, duration)
     try:
         run.start()
-        for t, dt in _steps(macro_step, duration):
-            run.reach(t, t + dt)
+        for times in run.reached():
             if progress is not None:
-                progress(t + dt)
-            run.judge()
+                for time in times:
+                    progress(time)
+        run.judge()
     except (FilmContactError, FmuError, ConvergenceError) as failure:
+        run.judge()
         raise _failed(failure, run.result()) from failure
     result = run.result()
     if _is_coarse(result) or result.coupling.chatter:
@@ -147,56 +162,86 @@ def require_times(macro_step: float, duration: float) -> None:
 class _Run:
     """A co-simulation on its way: the partners, and what they have exchanged so far."""
 
-    def __init__(self, partners: Partners, scheme: Scheme, macro_step: float) -> None:
+    def __init__(self, partners: Partners, scheme: Scheme, macro_step: float, duration: float) -> None:
         self._partners, self._scheme, self._macro_step = partners, scheme, macro_step
-        self._samples: list[Sample] = []
-        self._watch = Watch(partners, scheme, macro_step)
+        self._history: list[Sample] = []
+        self._record = Record(*partners.signals, partners.places, scheme.needs.derivatives)
+        self._watch = Watch(partners, scheme, macro_step, self._record)
+
+        self._points = _points(macro_step, duration)
+        self._compiled: CompiledRun | None = None
 
     def start(self) -> None:
         """Start rotor and films."""
         self._keep(self._partners.start())
+        self._record.work[0] = list(self._partners.work.values())
+        self._compiled = compiled_run(
+            self._partners, self._scheme, self._record, self._watch, self._macro_step, self._points
+        )
 
-    def reach(self, t: float, end: float) -> None:
+    def reached(self) -> Iterator[Iterator[float]]:
+        """Take all macro steps, in C where that is possible; yield the ends of those that were taken."""
+        number, t, last = 0, self._points[0], len(self._points) - 1
+        while number < last:
+            before = number
+            if self._compiled is None or self._compiled.rests():
+                self._reach(t, number)
+                number, t = number + 1, self._points[number + 1]
+            else:
+                number, t = self._compiled.advance(number, t, last)
+                self._history = self._record.latest(MEMORY)
+            if self._compiled is not None or number % BLOCK == 0:
+                self.judge()
+            yield map(self._end, range(before, number))
+
+    def _end(self, number: int) -> float:
+        """Return the end of a macro step [s], as its films have it."""
+        begin = self._points[number]
+        return begin + (self._points[number + 1] - begin)
+
+    def _reach(self, t: float, number: int) -> None:
         """Advance to the end of a macro step, in one step of the scheme unless that takes shorter ones."""
+        end = self._end(number)
         while t < end:
-            found = self._scheme.step(self._partners, self._samples[-MEMORY:], t, end - t)
+            found = self._scheme.step(self._partners, self._history, t, end - t)
             self._keep(found)
             self._partners.work["steps"] += 1
+            self._record.work[self._record.count - 1] = list(self._partners.work.values())
             t = end if found.time >= end - 1e-9 * self._macro_step else found.time
 
     def judge(self) -> None:
-        """Raise CouplingError where the run has begun to chatter."""
-        if self._watch.chatters:
-            result = self.result()
-            if result.coupling.chatter or result.coupling.coarse:
+        """Raise CouplingError where the run has begun to chatter, without what was computed after that."""
+        record = self._record
+        while (count := self._watch.alarm()) is not None:
+            coupling = inspect_coupling(record.time[:count], record.force[:count].T)
+            if coupling.chatter or coupling.coarse:
+                self._partners.work = Counter(record.work_at(count - 1))
+                record.count = count
+                result = self.result()
                 raise CouplingError(_coupling_message(result), result)
 
     def result(self) -> CoSimulation:
         """Return what has been exchanged so far."""
-        time = np.array([sample.time for sample in self._samples])
-        rows = [{**sample.motion.outputs, **sample.outputs} for sample in self._samples]
-        signals = {name: np.array([row[name] for row in rows]) for name in self._partners.signals}
-        forces = (
-            np.array([sample.force for sample in self._samples]).reshape(len(rows), self._partners.size).T
-        )
+        record = self._record
+        time = record.time[: record.count].copy()
         return CoSimulation(
-            trajectory=Trajectory(time=time, signals=signals, work=dict(self._partners.work)),
+            trajectory=Trajectory(time=time, signals=record.signals(), work=dict(self._partners.work)),
             macro_step=self._macro_step,
             scheme=self._scheme,
-            coupling=inspect_coupling(time, forces),
+            coupling=inspect_coupling(time, record.force[: record.count].T),
             watch=self._watch.result(),
         )
 
     def _keep(self, sample: Sample) -> None:
-        self._samples.append(sample)
-        self._watch.see(sample)
+        self._history = [*self._history[1 - MEMORY :], sample]
+        self._record.keep(sample)
+        self._watch.check(sample.tangents)
 
 
-def _steps(macro_step: float, duration: float) -> list[tuple[float, float]]:
-    """Return (t, dt) of each step; times are multiples, not sums, so that roundoff does not add up."""
+def _points(macro_step: float, duration: float) -> list[float]:
+    """Return the ends of all steps [s]; they are multiples, not sums, so that roundoff does not add up."""
     count = max(1, math.ceil(duration / macro_step * (1.0 - 1e-12)))
-    points = [*(k * macro_step for k in range(count)), duration]
-    return [(start, end - start) for start, end in pairwise(points)]
+    return [*(k * macro_step for k in range(count)), duration]
 
 
 def _failed(failure: Exception, result: CoSimulation) -> PartialResultError:

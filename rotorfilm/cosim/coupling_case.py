@@ -13,16 +13,16 @@ from ..errors import PartialResultError, UndefinedDerivativeError
 from ..model import Reaction
 from ..rotors import RigidRotor
 from ..rotors.force_law import ForceLaw
-from .cosim_run import CoSimulation, couple
+from .cosim_run import CoSimulation, coupled
 from .coupling_loop import coupling_loop, dominant_eigenvalue
 from .coupling_motion import Drift, drift, inner_motion, largest, law_forces, propagated
 from .coupling_replay import Starting, laws_on, samples_of
+from .partners import Partners
 from .schemes.explicit import GaussSeidel, Jacobi
 from .schemes.implicit import SIExp, SIExp3
 from .schemes.scheme import Scheme
 from .slaves import InProcessSlave
 from .watch import quietly
-from .wiring import Wiring
 
 SCHEMES: tuple[Scheme, ...] = (
     *(GaussSeidel(degree=degree) for degree in range(3)),
@@ -83,19 +83,6 @@ class Pilot(NamedTuple):
     macro_angle: float
 
 
-class _Recording(InProcessSlave):
-    """A rotor that keeps the force laws it was driven by."""
-
-    def __init__(self, model: RigidRotor) -> None:
-        super().__init__(model)
-        self.laws: list[ForceLaw] = []
-
-    def drive(self, t: float, dt: float, law: ForceLaw, wiring: Wiring) -> None:
-        """Advance the states under a force law, and keep it."""
-        self.laws.append(law)
-        super().drive(t, dt, law, wiring)
-
-
 @dataclass(frozen=True, kw_only=True)
 class CouplingCase:
     """A rigid rotor and the film or damper under it, from where the rotor starts.
@@ -129,16 +116,13 @@ class CouplingCase:
         CouplingError, ContactError, ConvergenceError
             See `cosimulate`.
         """
-        speed, rotor = abs(self.rotor.profile.speeds[0]), _Recording(self.rotor)
+        speed, films = abs(self.rotor.profile.speeds[0]), {"": InProcessSlave(self.reaction)}
+        partners = Partners(InProcessSlave(self.rotor), films, scheme.needs)
+        laws: list[ForceLaw] = []
+        partners.laws = laws
         with quietly():
-            outcome = couple(
-                rotor,
-                InProcessSlave(self.reaction),
-                macro_step=angle / speed,
-                duration=2.0 * math.pi * self.revolutions / speed,
-                scheme=scheme,
-            )
-        return PilotRun(outcome, rotor.laws)
+            outcome = coupled(partners, scheme, angle / speed, 2.0 * math.pi * self.revolutions / speed)
+        return PilotRun(outcome, laws)
 
     def drift(self, run: PilotRun) -> Drift:
         """Return how far a run is off; raises FilmContactError where it is at the wall within a step."""

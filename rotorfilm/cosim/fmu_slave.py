@@ -6,22 +6,23 @@ for Model Exchange is integrated by the master.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
 
 from ..errors import FilmContactError, FmuError, InputError
-from ..fmu.check.calls import EventInfo
-from ..fmu.check.described import DERIVATIVES, STATES, nominal_of, provides, variables_of
+from ..fmu.check.calls import EventInfo, Port, Slopes
+from ..fmu.check.described import DERIVATIVES, STATES, nominal_of, provides
 from ..fmu.check.instance import instantiated
 from ..model import Array, Linearization
+from ..native.master_structs import Call
 from ..rotors.force_law import BASE_TIME, ForceLaw, law_inputs
-from ..signals import from_fmi_name
+from .loops.compiled_partners import CompiledPartner, FmuPartner
 from .schemes.exponential import LawIntegrator
-from .wiring import Wiring
+from .wiring import Wiring, references_of
 
 CONTACT = (FilmContactError.__name__, "inside the clearance")
 """What the log of a film FMU contains when its journal touched the wall, in Python and in C."""
@@ -43,7 +44,7 @@ class FmuSlave:
         self._name = description.modelName
         self._failed = False
         self._references = {
-            causality: _references(description, causality) for causality in ("input", "output")
+            causality: references_of(description, causality) for causality in ("input", "output")
         }
         self.differentiates, self.restores = provides(folder, DERIVATIVES), provides(folder, STATES)
         slopes = [unknown.variable for unknown in description.derivatives or ()]
@@ -51,8 +52,12 @@ class FmuSlave:
         self._states = [slope.derivative.valueReference for slope in slopes]
         self._nominals = np.array([nominal_of(slope.derivative) for slope in slopes])
         self._wiring: Wiring | None = None
-        self._lawful = False
+        self._law: Port | None = None
         self._instance = instantiated(description, folder, exchange)
+        # Values are exchanged in each step: their references are told once.
+        self._ports: dict[tuple[str, ...], Port] = {}
+        self._slopes_of: dict[tuple[tuple[int, ...], tuple[int, ...]], Slopes] = {}
+        self._output = self._instance.port(list(self._references["output"].values()))
 
     @property
     def inputs(self) -> tuple[str, ...]:
@@ -66,24 +71,23 @@ class FmuSlave:
 
     def start(self, values: Mapping[str, float]) -> None:
         """Initialize at t = 0 with these inputs."""
-        with self._reported("initialization"):
-            self._instance.initialize(self._inputs(values), list(values.values()))
+        self._calling(
+            "initialization", self._instance.initialize, self._inputs(values), list(values.values())
+        )
 
     def set(self, values: Mapping[str, float]) -> None:
         """Set inputs by their local names."""
-        with self._reported("setting inputs"):
-            self._instance.set(self._inputs(values), list(values.values()))
+        port = self._ports.get(names := tuple(values)) or self._port(names)
+        self._calling("setting inputs", port.set, list(values.values()))
 
     def step(self, t: float, dt: float) -> None:
         """Advance from t to t + dt [s]."""
-        with self._reported(f"the step from t = {t:.9g} s"):
-            self._instance.step(t, dt)
+        self._calling(f"the step from t = {t:.9g} s", self._instance.step, t, dt)
 
     def get(self) -> dict[str, float]:
         """Return the outputs at the present time."""
-        references = self._references["output"]
-        with self._reported("reading outputs"):
-            return dict(zip(references, self._instance.get(list(references.values())), strict=True))
+        found = self._calling("reading outputs", self._output.get)
+        return dict(zip(self._references["output"], found, strict=True))
 
     def jacobian(self, outputs: Sequence[str], inputs: Sequence[str]) -> Array:
         """Return d(outputs)/d(inputs), shape (n_outputs, n_inputs), now; native FMUs know it."""
@@ -92,37 +96,33 @@ class FmuSlave:
 
     def save(self) -> Any:
         """Return the FMU state."""
-        with self._reported("saving its state"):
-            return self._instance.save()
+        return self._calling("saving its state", self._instance.save)
 
     def restore(self, state: Any) -> None:
         """Return to an FMU state."""
-        with self._reported("restoring its state"):
-            self._instance.restore(state)
+        self._calling("restoring its state", self._instance.restore, state)
 
     def release(self, state: Any) -> None:
         """Free an FMU state."""
-        with self._reported("freeing a state"):
-            self._instance.release(state)
+        self._calling("freeing a state", self._instance.release, state)
 
     def takes_laws(self, wiring: Wiring) -> bool:
         """Whether it has the inputs of force laws."""
         if wiring is not self._wiring:
-            wanted = [BASE_TIME, *(name for station in wiring.stations for name in law_inputs(station))]
-            self._wiring, self._lawful = wiring, set(wanted) <= set(self.inputs)
-        return self._lawful
+            wanted = (BASE_TIME, *(name for station in wiring.stations for name in law_inputs(station)))
+            self._wiring, self._law = wiring, self._port(wanted) if set(wanted) <= set(self.inputs) else None
+        return self._law is not None
 
     def drive(self, t: float, dt: float, law: ForceLaw, wiring: Wiring) -> None:
         """Advance from t to t + dt [s] under a force law; without its inputs, under a held force."""
         if self.takes_laws(wiring):
-            values = {BASE_TIME: law.start}
-            for number, station in enumerate(wiring.stations):
-                values |= dict(zip(law_inputs(station), law.station(number), strict=True))
+            assert self._law is not None  # it has just been found
+            values = [law.start, *(v for k in range(len(wiring.stations)) for v in law.station(k))]
+            self._calling("setting inputs", self._law.set, values)
         elif law.held:
-            values = dict(zip(wiring.force, law.force.tolist(), strict=True))
+            self.set(dict(zip(wiring.force, law.force.tolist(), strict=True)))
         else:
             raise InputError(f"rotor must have the inputs of a force law, got {list(self.inputs)}")
-        self.set(values)
         self.step(t, dt)
 
     def linear(self, t: float) -> Linearization | None:
@@ -135,9 +135,29 @@ class FmuSlave:
 
     def _derivatives(self, unknowns: Sequence[int], knowns: Sequence[int]) -> Array:
         """Return d(unknowns)/d(knowns) at present."""
-        with self._reported("reading derivatives"):
-            columns = [self._instance.directional(unknowns, [known], [1.0]) for known in knowns]
-        return np.array(columns).reshape(len(knowns), len(unknowns)).T
+        wanted = tuple(unknowns), tuple(knowns)
+        if wanted not in self._slopes_of:
+            self._slopes_of[wanted] = self._instance.slopes(*wanted)
+        found: Array = self._calling("reading derivatives", self._slopes_of[wanted].get)
+        return found
+
+    def compiled(self, film: bool) -> CompiledPartner | None:
+        """Return the functions of the library of the FMU; None of a subclass, which may differ."""
+        if type(self) not in (FmuSlave, ExchangeRotor):
+            return None
+        entry = self._instance.entry()
+        inputs, outputs = self._references["input"], self._references["output"]
+        return FmuPartner(*entry, inputs, outputs, self._slopes, self._states)
+
+    def fail(self, call: Call, status: int, t: float) -> None:
+        """Raise the FmuError, or FilmContactError, of a call from C that failed in the step from t [s]."""
+        doing = {
+            Call.PUT: "setting inputs",
+            Call.TAKE: "reading outputs",
+            Call.STRIDE: f"the step from t = {t:.9g} s",
+            Call.SLOPE: "reading derivatives",
+        }
+        self._calling(doing[call], self._instance.fail, call.name.lower(), status)
 
     def close(self) -> None:
         """Terminate, free the instance and unload its library, whatever happened before."""
@@ -146,14 +166,16 @@ class FmuSlave:
         with suppress(FMICallException):
             self._instance.close(terminate=not self._failed)
 
-    def _inputs(self, values: Mapping[str, float]) -> list[int]:
+    def _inputs(self, values: Iterable[str]) -> list[int]:
         return [self._references["input"][name] for name in values]
 
-    @contextmanager
-    def _reported(self, doing: str) -> Iterator[None]:
-        """Turn an error status into an FmuError, or FilmContactError, that quotes the log."""
+    def _port(self, names: tuple[str, ...]) -> Port:
+        return self._ports.setdefault(names, self._instance.port(self._inputs(names)))
+
+    def _calling(self, doing: str, call: Callable[..., Any], *arguments: Any) -> Any:
+        """Call the FMU; an error status is an FmuError, or FilmContactError, that quotes the log."""
         try:
-            yield
+            return call(*arguments)
         except FMICallException as error:
             self._failed = True
             text = " ".join([f"FMU {self._name!r} failed in {doing}: {error}", *self._instance.log])
@@ -172,7 +194,22 @@ class ExchangeRotor(FmuSlave):
         self._t, self._kink = 0.0, np.inf
         self._x = np.zeros(len(self._states))
         self._base = np.zeros(len(self.inputs))
+        self._input = self._instance.port(list(self._references["input"].values()))
         self._integrator: LawIntegrator | None = None
+
+    @property
+    def state(self) -> Array:
+        """The state at present."""
+        return self._x
+
+    @property
+    def base(self) -> Array:
+        """The start values of the inputs."""
+        return self._base
+
+    def resume(self, t: float, x: Array) -> None:
+        """Go to a time [s] and a state."""
+        self.restore((t, x.copy()))
 
     @property
     def nominals(self) -> Array:
@@ -183,20 +220,25 @@ class ExchangeRotor(FmuSlave):
         """Initialize at t = 0 with these inputs."""
         if not self.differentiates:
             raise InputError(f"rotor must provide directional derivatives, got {self._name!r} without")
-        with self._reported("initialization"):
-            event = self._instance.initialize(self._inputs(values), list(values.values()))
-            self._x = self._instance.states(len(self._states))
-            self._base = np.array(self._instance.get(list(self._references["input"].values())))
+        self._calling("initialization", self._initialize, values)
+
+    def _initialize(self, values: Mapping[str, float]) -> None:
+        event = self._instance.initialize(self._inputs(values), list(values.values()))
+        self._x = self._instance.states(len(self._states))
+        self._base = np.array(self._input.get())
         self._scheduled(event)
 
     def drive(self, t: float, dt: float, law: ForceLaw, wiring: Wiring) -> None:
         """Advance from t to t + dt [s] under a force law."""
         if self._integrator is None:
             self._integrator = LawIntegrator(self, wiring, self._base)
-        with self._reported(f"the step from t = {t:.9g} s"):
-            self._x = self._integrator.advance(t, self._x, dt, law)
-            self._t = t + dt
-            self._instance.move(self._t, self._x)
+        self._calling(f"the step from t = {t:.9g} s", self._advance, t, dt, law)
+
+    def _advance(self, t: float, dt: float, law: ForceLaw) -> None:
+        assert self._integrator is not None  # made by `drive`
+        self._x = self._integrator.advance(t, self._x, dt, law)
+        self._t = t + dt
+        self._instance.move(self._t, self._x)
 
     def takes_laws(self, wiring: Wiring) -> bool:
         """Return True."""
@@ -222,7 +264,7 @@ class ExchangeRotor(FmuSlave):
     def outcome(self, t: float, x: Array, u: Array) -> Array:
         """Return the outputs."""
         self._move(t, x, u)
-        return np.array(self._instance.get(list(self._references["output"].values())))
+        return np.array(self._output.get())
 
     def matrices(self, t: float, x: Array, u: Array) -> Linearization:
         """Return the exact derivatives."""
@@ -245,23 +287,4 @@ class ExchangeRotor(FmuSlave):
 
     def _move(self, t: float, x: Array, u: Array) -> None:
         self._instance.move(t, x)
-        self._instance.set(list(self._references["input"].values()), u.tolist())
-
-
-def _references(description: Any, causality: str) -> dict[str, int]:
-    """Return the value references of the real inputs or outputs, by local name."""
-    references: dict[str, int] = {}
-    for variable in variables_of(description, causality):
-        name = local_name(variable.name)
-        if name in references:
-            raise InputError(f"{causality} names must differ without their component, got {name!r} twice")
-        references[name] = variable.valueReference
-    return references
-
-
-def local_name(name: str) -> str:
-    """Return the signal of `component.signal`; other spellings stay as they are."""
-    try:
-        return from_fmi_name(name)[1]
-    except InputError:
-        return name
+        self._input.set(u.tolist())

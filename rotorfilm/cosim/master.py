@@ -14,10 +14,11 @@ from ..model import Dynamic, Model
 from ..rotors.force_law import BASE_TIME
 from .auto import Auto, choose_scheme
 from .cosim_run import CoSimulation, couple, require_times
-from .fmu_slave import ExchangeRotor, FmuSlave, local_name
+from .fmu_slave import ExchangeRotor, FmuSlave
 from .schemes.explicit import GaussSeidel
 from .schemes.scheme import Scheme
 from .slaves import InProcessSlave, Slave
+from .wiring import local_name
 
 Path = str | PathLike[str]
 Film = Path | Model
@@ -35,7 +36,9 @@ def cosimulate(
     """Couple a rotor with one or several films, FMUs of FMI 2.0 or 3.0 or models in this process, from t = 0.
 
     Signals are connected by their local names (`rotor.x` to `film.x`; in a rotor with several journals
-    `rotor.left_x` to `x` of the film in the station `left`).
+    `rotor.left_x` to `x` of the film in the station `left`). The loop over the macro steps runs in C,
+    in chunks between which it is watched and can be interrupted, where scheme and partners allow it:
+    Gauss-Seidel, Jacobi, SI-exp and SI-exp3 over FMUs and over models with a kernel.
 
     Parameters
     ----------
@@ -52,7 +55,7 @@ def cosimulate(
         `GaussSeidel()` by default: the film is evaluated at the rotor's new state, and its force is held over
         the next step. `Auto()`, or "auto" for short, finds the cheapest that is stable and accurate enough.
     progress : callable, optional
-        Called after each step with the time reached [s].
+        Called for each step with the time reached [s], once a chunk of them is done.
 
     Raises
     ------

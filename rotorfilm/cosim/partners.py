@@ -15,8 +15,9 @@ from ..rotors.force_law import ForceLaw, held_law
 from ..rotors.stations import station_name
 from ..signals import FORCE_OUTPUTS, JOURNAL_INPUTS
 from .bench import Needs, Sample, StationMotion, Tangents, no_tangents
+from .loops.record import WORK
 from .slaves import Differentiable, Driven, Restorable, Slave
-from .wiring import sources, wired
+from .wiring import Journals, sources, wired
 
 PROBE = 1e3
 """Force of a trial step [N]; a linear rotor tells the same with any."""
@@ -41,18 +42,24 @@ class Partners:
     def __init__(self, rotor: Slave, films: Mapping[str, Slave], needs: Needs) -> None:
         self.rotor, self.films, self._needs = rotor, dict(films), needs
         self.wiring = wired(rotor, self.films)
-        self._wanted = {
-            station: sources(rotor.outputs, station, film.inputs) for station, film in self.films.items()
-        }
-        self.work: Counter[str] = Counter(
-            dict.fromkeys(("steps", "film_evaluations", "film_jacobians", "rotor_steps", "rollbacks"), 0)
-        )
+        self.work: Counter[str] = Counter(dict.fromkeys(WORK, 0))
         self._require(needs)
-        # Asked once: checks against protocols are slow.
+        # Asked once: checks against protocols, names and places are slow.
+        self.feeds = {station: self._fed(station, film) for station, film in self.films.items()}
+        self._told = {
+            station: [station_name(station, n) for n in film.outputs] for station, film in self.films.items()
+        }
+        self._at = self.places
+        self._motion_at = [*self._at.position, *self._at.velocity]
         self._driven = rotor if isinstance(rotor, Driven) else None
-        self._known = {name: [n for n in JOURNAL_INPUTS if n in film.inputs] for name, film in films.items()}
+        self._known = {
+            name: [k for k, n in enumerate(JOURNAL_INPUTS) if n in film.inputs]
+            for name, film in films.items()
+        }
         self._differentiable = [film for film in films.values() if isinstance(film, Differentiable)]
         self._restorable = [p for p in (rotor, *films.values()) if isinstance(p, Restorable)]
+        self.laws: list[ForceLaw] | None = None
+        """The force laws of all steps of the rotor, if a list is put here."""
         self._probed: tuple[float, Array] | None = None
 
     def start(self) -> Sample:
@@ -66,6 +73,8 @@ class Partners:
     def drive(self, t: float, dt: float, law: ForceLaw) -> StationMotion:
         """Advance the rotor; see `Bench`."""
         self.work["rotor_steps"] += 1
+        if self.laws is not None:
+            self.laws.append(law)
         if self._driven is not None:
             self._driven.drive(t, dt, law, self.wiring)
         else:
@@ -110,10 +119,15 @@ class Partners:
         return len(self.wiring.force)
 
     @property
-    def signals(self) -> list[str]:
-        """Names of all outputs: those of the rotor, then those of the films."""
+    def signals(self) -> tuple[list[str], list[str]]:
+        """Names of all outputs: those of the rotor, and those of the films with their stations."""
         films = [station_name(station, n) for station, film in self.films.items() for n in film.outputs]
-        return [*self.rotor.outputs, *films]
+        return list(self.rotor.outputs), films
+
+    @property
+    def places(self) -> Journals:
+        """Where the signals of the journals are among those of the rotor."""
+        return self.wiring.places(self.rotor.inputs, self.rotor.outputs)
 
     @property
     def differentiates(self) -> bool:
@@ -133,7 +147,7 @@ class Partners:
         for number, (known, film) in enumerate(zip(self._known.values(), self._differentiable, strict=True)):
             own = slice(2 * number, 2 * number + 2)
             whole = np.zeros((2, len(JOURNAL_INPUTS)))
-            whole[:, [JOURNAL_INPUTS.index(name) for name in known]] = film.jacobian(FORCE_OUTPUTS, known)
+            whole[:, known] = film.jacobian(FORCE_OUTPUTS, [JOURNAL_INPUTS[k] for k in known])
             found.stiffness[own, own], found.damping[own, own] = -whole[:, :2], -whole[:, 2:4]
             found.by_speed[own] = whole[:, 4]
         self.work["film_jacobians"] += 1
@@ -144,17 +158,16 @@ class Partners:
         found = self._driven.linear(t) if self._driven is not None else None
         if found is None:
             return None
-        forces, position, velocity = self.wiring.places(self.rotor.inputs, self.rotor.outputs)
-        motion = [*position, *velocity]
-        return Linearization(found.A, found.B[:, forces], found.C[motion], found.D[np.ix_(motion, forces)])
+        forces, motion = self._at.force, self._motion_at
+        return Linearization(found.A, found.B[:, forces], found.C[motion], found.D[motion][:, forces])
 
     def _sample(self, t: float, motion: StationMotion, derive: bool) -> Sample:
         self.work["film_evaluations"] += 1
         outputs: dict[str, float] = {}
         forces: list[float] = []
-        for station, film in self.films.items():
-            own = _finite("film", t, film.get())
-            outputs |= {station_name(station, name): value for name, value in own.items()}
+        for film, told in zip(self.films.values(), self._told.values(), strict=True):
+            own = require_finite_outputs("film", t, film.get())
+            outputs |= zip(told, (own[name] for name in film.outputs), strict=True)
             forces += [own[name] for name in FORCE_OUTPUTS]
         tangents = self._tangents_or_none() if derive else None
         return Sample(t, motion, np.array(forces), tangents, outputs)
@@ -167,7 +180,7 @@ class Partners:
             return no_tangents(self.size)
 
     def _motion(self, t: float) -> StationMotion:
-        outputs = _finite("rotor", t, self.rotor.get())
+        outputs = require_finite_outputs("rotor", t, self.rotor.get())
         return StationMotion(
             np.array([outputs[name] for name in self.wiring.position]),
             np.array([outputs[name] for name in self.wiring.velocity]),
@@ -177,13 +190,20 @@ class Partners:
 
     def _values(self, station: str, motion: StationMotion) -> dict[str, float]:
         """Return the inputs of a film: its journal's motion and the speed as given, others as they are."""
-        first = 2 * self.wiring.stations.index(station)
-        own = [*motion.position[first : first + 2], *motion.velocity[first : first + 2], motion.speed]
-        journal = dict(zip(JOURNAL_INPUTS, own, strict=True))
+        first, feeds = self.feeds[station]
+        x, y = motion.position[first : first + 2].tolist()
+        vx, vy = motion.velocity[first : first + 2].tolist()
+        journal = (x, y, vx, vy, motion.speed)
         return {
-            name: float(journal[name]) if name in journal else motion.outputs[source]
-            for name, source in self._wanted[station].items()
+            name: motion.outputs[source] if place is None else journal[place] for name, place, source in feeds
         }
+
+    def _fed(self, station: str, film: Slave) -> tuple[int, list[tuple[str, int | None, str]]]:
+        """Return the first place of a station, and each input of its film: its place or its source."""
+        found = sources(self.rotor.outputs, station, film.inputs)
+        places = {name: JOURNAL_INPUTS.index(name) if name in JOURNAL_INPUTS else None for name in found}
+        first = 2 * self.wiring.stations.index(station)
+        return first, [(name, places[name], source) for name, source in found.items()]
 
     def _trial(self, t: float, dt: float, force: Array) -> Array:
         """Return the motion after a step under a held force [kN], per N, and go back."""
@@ -206,8 +226,9 @@ class Partners:
             raise InputError("rotor and film must get and set their state for this scheme, got one without")
 
 
-def _finite(who: str, t: float, values: dict[str, float]) -> dict[str, float]:
+def require_finite_outputs(who: str, t: float, values: dict[str, float]) -> dict[str, float]:
+    """Return outputs at a time [s]; raise FmuError unless all are finite."""
+    if all(map(math.isfinite, values.values())):
+        return values
     bad = {name: value for name, value in values.items() if not math.isfinite(value)}
-    if bad:
-        raise FmuError(f"outputs of the {who} must be finite, got {bad} at t = {t:.9g} s")
-    return values
+    raise FmuError(f"outputs of the {who} must be finite, got {bad} at t = {t:.9g} s")

@@ -10,9 +10,11 @@ import numpy as np
 from ..errors import InputError
 from ..fmu.advance import advance
 from ..model import Array, Dynamic, Linearization, Model, breakpoints
+from ..native.master_structs import Call
 from ..rotors.force_law import ForceLaw
 from ..signals import names
 from ..warming import in_time
+from .loops.compiled_partners import CompiledPartner, kernel_partner
 from .schemes.exponential import LawIntegrator
 from .wiring import Wiring
 
@@ -88,6 +90,40 @@ class Driven(Protocol):
         """Return the exact derivatives of the rotor at present, if it knows them."""
 
 
+@runtime_checkable
+class Compiled(Protocol):
+    """What a partner may add: the loop over macro steps in C calls it itself."""
+
+    def compiled(self, film: bool) -> CompiledPartner | None:
+        """Return how C calls it, as a film or as the rotor; None if it does not."""
+
+    def fail(self, call: Call, status: int, t: float) -> None:
+        """Raise what a call from C that failed in the step from t [s] means."""
+
+
+@runtime_checkable
+class Integrated(Compiled, Protocol):
+    """A rotor that the master integrates."""
+
+    @property
+    def state(self) -> Array:
+        """The state at present."""
+
+    @property
+    def nominals(self) -> Array:
+        """Typical magnitudes of the states."""
+
+    @property
+    def base(self) -> Array:
+        """The inputs beside the forces of films, shape (n_inputs,)."""
+
+    def next_kink(self, t: float) -> float:
+        """Return the next time after t [s] at which the rates have a kink."""
+
+    def resume(self, t: float, x: Array) -> None:
+        """Go to a time [s] and a state that were reached in C."""
+
+
 class SlaveSystem:
     """A Dynamic model as the system that the exponential integrates; see `exponential.System`."""
 
@@ -129,6 +165,7 @@ class InProcessSlave:
         self._x: Array = np.zeros(0) if self._moving is None else self._moving.initial_state
         self._t = 0.0
         self._integrator: LawIntegrator | None = None
+        self._system: SlaveSystem | None = None
 
     @property
     def inputs(self) -> tuple[str, ...]:
@@ -191,6 +228,42 @@ class InProcessSlave:
     def linear(self, t: float) -> Linearization | None:
         """Return the exact derivatives at present."""
         return self._dynamic().linearization(t, self._x, self._u)
+
+    def compiled(self, film: bool) -> CompiledPartner | None:
+        """Return the kernel of the model, for a film without states or a rotor with some."""
+        if type(self) is not InProcessSlave or film is (self._moving is not None):
+            return None
+        return kernel_partner(self._model)
+
+    def fail(self, call: Call, status: int, t: float) -> None:
+        """Raise what the model raises where its kernel failed."""
+        self.get()
+        self.jacobian(self._outputs, self._inputs)
+
+    @property
+    def state(self) -> Array:
+        """The states at present."""
+        return self._x
+
+    @property
+    def nominals(self) -> Array:
+        """Nominal values of the states."""
+        return np.array([signal.nominal for signal in self._model.states])
+
+    @property
+    def base(self) -> Array:
+        """The inputs beside the forces of films."""
+        return self._u
+
+    def next_kink(self, t: float) -> float:
+        """Return the next kink after t [s]."""
+        if self._system is None:
+            self._system = SlaveSystem(self._dynamic())
+        return self._system.next_kink(t)
+
+    def resume(self, t: float, x: Array) -> None:
+        """Go to a time [s] and a state."""
+        self._t, self._x = t, x.copy()
 
     def _dynamic(self) -> Dynamic:
         if self._moving is None:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from ..errors import InputError
+from ..fmu.check.described import variables_of
 from ..rotors.stations import station_name, station_names
-from ..signals import FORCE_OUTPUTS, MOTION_NAMES, indices
+from ..signals import FORCE_OUTPUTS, MOTION_NAMES, from_fmi_name, indices
 
 
 class Signals(Protocol):
@@ -89,3 +90,22 @@ def sources(outputs: Sequence[str], station: str, inputs: Iterable[str]) -> dict
     """Return, for each input of a film, the output of the rotor that feeds it."""
     own = {name: station_name(station, name) for name in inputs}
     return {name: at if name in MOTION_NAMES or at in outputs else name for name, at in own.items()}
+
+
+def references_of(description: Any, causality: str) -> dict[str, int]:
+    """Return the value references of the real inputs or outputs, by local name."""
+    references: dict[str, int] = {}
+    for variable in variables_of(description, causality):
+        name = local_name(variable.name)
+        if name in references:
+            raise InputError(f"{causality} names must differ without their component, got {name!r} twice")
+        references[name] = variable.valueReference
+    return references
+
+
+def local_name(name: str) -> str:
+    """Return the signal of `component.signal`; other spellings stay as they are."""
+    try:
+        return from_fmi_name(name)[1]
+    except InputError:
+        return name

@@ -25,4 +25,15 @@
 #define RF_EXPORT_LOOP
 #endif
 
+/* The same of the library of the co-simulation master. */
+#if defined(RF_SUBSET) && RF_SUBSET != RF_ROTORFILM_MASTER
+#define RF_EXPORT_MASTER
+#elif defined(_WIN32)
+#define RF_EXPORT_MASTER __declspec(dllexport)
+#elif defined(__GNUC__)
+#define RF_EXPORT_MASTER __attribute__((visibility("default")))
+#else
+#define RF_EXPORT_MASTER
+#endif
+
 #endif

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import sys
-from ctypes import c_double, c_int, c_int64, c_size_t, c_void_p
+from ctypes import c_char_p, c_double, c_int, c_int64, c_size_t, c_void_p
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
@@ -13,8 +13,8 @@ from typing import Any
 from ..errors import RotorfilmError
 
 FOLDER = Path(__file__).parent
-FILMS, LOOPS = "rotorfilm", "rotorfilm_loops"
-"""Libraries that Python calls: films one by one, and loops over them."""
+FILMS, LOOPS, MASTER = "rotorfilm", "rotorfilm_loops", "rotorfilm_master"
+"""Libraries that Python calls: films one by one, loops over them, the loop of the co-simulation master."""
 
 RECORD = "sources.sha256"
 """Of the C sources that an installed distribution was built from; CMakeLists.txt writes it."""
@@ -66,6 +66,13 @@ _LOOPS: dict[str, list[Any]] = {
     "rf_march_to": [c_void_p, c_double, c_int64, c_void_p, c_int64, c_void_p, c_void_p],
     "rf_journal_forces": [c_void_p, c_int64, c_void_p, c_double, c_void_p, c_void_p],
 }
+_MASTER: dict[str, list[Any]] = {
+    "rf_couple": [c_void_p, c_int64],
+    "rf_open_kernel": [c_char_p, c_void_p, c_void_p, c_void_p],
+    "rf_close_kernel": [c_void_p],
+    "rf_coupling_work": [c_void_p, c_size_t],
+    "rf_rotor_work": [c_size_t, c_size_t],
+}
 
 
 @cache
@@ -92,6 +99,22 @@ def loops() -> dict[str, Any]:
         As `functions`.
     """
     return _typed(ctypes.CDLL, LOOPS, _LOOPS)
+
+
+@cache
+def master() -> dict[str, Any]:
+    """Return the functions of the co-simulation master by name; all release the interpreter lock.
+
+    Raises
+    ------
+    NativeLibraryError
+        As `functions`.
+    """
+    found = _typed(ctypes.CDLL, MASTER, _MASTER)
+    found["rf_open_kernel"].restype = c_void_p
+    found["rf_coupling_work"].restype = found["rf_rotor_work"].restype = c_size_t
+    found["rf_close_kernel"].restype = None
+    return found
 
 
 def _typed(loader: type[ctypes.CDLL], name: str, signatures: dict[str, list[Any]]) -> dict[str, Any]:

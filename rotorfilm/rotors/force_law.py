@@ -9,6 +9,7 @@ stiffness K = -dF/dq and damping C = -dF/dv of the film at the start of the step
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -64,8 +65,9 @@ class ForceLaw(NamedTuple):
     @property
     def held(self) -> bool:
         """Whether the force is constant."""
+        none = _zeros(self.slope.shape), _zeros(self.stiffness.shape)
         rest = (self.slope, self.curvature, self.stiffness, self.damping)
-        return not any(np.asarray(part).any() for part in rest)
+        return all(any(part is zero for zero in none) or not np.asarray(part).any() for part in rest)
 
     def at(self, t: float, position: ArrayLike, velocity: ArrayLike) -> Array:
         """Return the force at a time [s] and a motion [m], [m/s], shape (m, ...) [N]."""
@@ -91,8 +93,16 @@ class ForceLaw(NamedTuple):
 
 def held_law(start: float, force: Array) -> ForceLaw:
     """Return the law of a constant force, shape (m, ...) [N]."""
-    none, zero = np.zeros((len(force), len(force))), np.zeros_like(force)
+    none, zero = _zeros((len(force), len(force))), _zeros(force.shape)
     return ForceLaw(start, force, zero, zero, none, none, zero, zero)
+
+
+@lru_cache(maxsize=64)
+def _zeros(shape: tuple[int, ...]) -> Array:
+    """Return zeros that are made once and cannot be changed."""
+    zeros = np.zeros(shape)
+    zeros.flags.writeable = False
+    return zeros
 
 
 def law_inputs(station: str) -> list[str]:

@@ -4,10 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from studies.master_cases import BEARING, RAMP, ROTOR, rotor_at
 
-from rotorfilm.errors import FilmContactError
+from rotorfilm.cosim import cosim_run, cosimulate
+from rotorfilm.errors import FilmContactError, PartialResultError
+from rotorfilm.fmu import export_fmu
 from rotorfilm.model import static_linearization
-from rotorfilm.rotors import RigidRotor
+from rotorfilm.rotors import LawRotor, RigidRotor
 from rotorfilm.signals import force_outputs, journal_inputs
 
 GAUSS, WEIGHTS = np.polynomial.legendre.leggauss(120)
@@ -118,3 +121,39 @@ def _nondimensional():
 @pytest.fixture
 def make_spring_damper():
     return SpringDamper
+
+
+@pytest.fixture(scope="module", params=["2.0", "3.0"])
+def native_fmus(request, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("fmus")
+    models = {
+        "film": BEARING,
+        "held": ROTOR,
+        "law": LawRotor(rotor=rotor_at(0.6, 0.2, speed=RAMP)),
+        "thrown": rotor_at(0.6, 0.2, velocity=(0.0, -0.6)),
+    }
+    return {
+        name: export_fmu(model, folder / f"{name}.fmu", request.param, "native", component=name)
+        for name, model in models.items()
+    }
+
+
+@pytest.fixture
+def compiled(monkeypatch):
+    """Return a list to which each run adds its part in C, or nothing for one in Python."""
+    made, make = [], cosim_run.compiled_run
+    monkeypatch.setattr(cosim_run, "compiled_run", lambda *given: made.append(make(*given)) or made[-1])
+    return made
+
+
+@pytest.fixture
+def outcome():
+    """Return what runs partners and returns the run, complete or not, and what it was stopped by."""
+
+    def outcome(*partners, **arguments):
+        try:
+            return cosimulate(*partners, **arguments), ""
+        except PartialResultError as error:
+            return error.partial, str(error)
+
+    return outcome

@@ -30,7 +30,8 @@ DEGREE = 6
 NODES = np.concatenate([[0.0], 0.5 - 0.5 * np.cos(np.pi * (2.0 * np.arange(DEGREE) + 1.0) / (2.0 * DEGREE))])
 """Where the rates are taken, in steps."""
 
-_TO_POWERS = np.linalg.inv(np.vander(NODES, increasing=True))
+TO_POWERS = np.linalg.inv(np.vander(NODES, increasing=True))
+"""Coefficients of the polynomial from the rates at the nodes."""
 
 TOLERANCE = 1e-9
 """Of the state at the end of a step, relative to it and to its nominal value."""
@@ -123,7 +124,7 @@ class LawIntegrator:
         nominal = self._system.nominals
         M = self._loop(matrices, law)
         rates = np.array([self._rates(t + node * dt, x, law) for node in NODES])
-        powers = (_TO_POWERS @ rates).T
+        powers = (TO_POWERS @ rates).T
         y = nominal * _integral(dt * M * nominal / nominal[:, None], dt * powers / nominal[:, None])
         # Just before the end, where there may be a kink.
         found = self._rates(float(np.nextafter(t + dt, t)), x + y, law)

@@ -16,6 +16,9 @@ MEMORY = 4
 """Communication points that a scheme may look back on."""
 
 
+Moment = float | Array
+"""A time [s], or one for each of several runs."""
+
 FIRST = 1.0 / 63.0
 """First step of a scheme of parabolas, in macro steps: doubled five times, the sum is one."""
 
@@ -52,12 +55,12 @@ class Scheme(Hashable, Protocol):
         """
 
 
-def extrapolation(times: Sequence[float], values: Sequence[Array]) -> tuple[Array, Array, Array]:
+def extrapolation(times: Sequence[Moment], values: Sequence[Array]) -> tuple[Array, Array, Array]:
     """Return the polynomial through the latest values, as value, slope and curvature about the last time.
 
     Parameters
     ----------
-    times : sequence of float [s]
+    times : sequence of float, or of ndarray that fits the values [s]
         One to three, rising.
     values : sequence of ndarray
         One for each.

@@ -7,6 +7,7 @@ from ctypes import c_double
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
+from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import (
     calloc,
     fmi2CallbackAllocateMemoryTYPE,
@@ -17,6 +18,7 @@ from fmpy.fmi2 import (
 )
 
 from ...model import Array
+from .ports import Calls, Port, Slopes
 
 FMI_OK = 0
 
@@ -34,16 +36,6 @@ class EventInfo(NamedTuple):
 
     terminate: bool
     next_time: float | None
-
-
-class Calls(NamedTuple):
-    """How an FMI version spells what both have."""
-
-    set: str
-    get: str
-    derivatives: str
-    update: str
-    deserialize: str
 
 
 class Instance:
@@ -92,13 +84,30 @@ class Instance:
         """Return variables."""
         return list(self._call(self.calls.get, list(references))) if len(references) else []
 
+    def port(self, references: Sequence[int]) -> Port:
+        """Return these variables to be set or got again and again; the instance must exist."""
+        return Port(self._fmu, self.calls, references)
+
+    def slopes(self, unknowns: Sequence[int], knowns: Sequence[int]) -> Slopes:
+        """Return the derivatives of the unknowns by each known, to be asked for again and again."""
+        return Slopes(self._fmu, self.calls, unknowns, knowns)
+
+    def entry(self) -> tuple[int, int, dict[str, int | None]]:
+        """Return the version, the component and the addresses of what a loop in C calls."""
+        found = {name: self.calls.address(self._fmu, spelled) for name, spelled in self.calls.called.items()}
+        return 3 if self.calls.counts_values else 2, self._fmu.component, found
+
+    def fail(self, call: str, status: int) -> None:
+        """Raise what fmpy raises where a function of `entry` answers this status."""
+        raise FMICallException(function=self.calls.spelled(self.calls.called[call]), status=status)
+
     def deserialize(self, content: bytes) -> Any:
         """Return the FMU state that `serialize` turned into bytes."""
         return self._call(self.calls.deserialize, content)
 
     def step(self, t: float, dt: float) -> None:
         """Advance from t to t + dt [s] (Co-Simulation)."""
-        self._fmu.doStep(currentCommunicationPoint=t, communicationStepSize=dt)
+        self._fmu.doStep(t, dt)
 
     def move(self, t: float, states: Array) -> None:
         """Go to a time [s] and a state (Model Exchange)."""
@@ -188,7 +197,7 @@ class Instance:
 class Instance2(Instance):
     """An instance of an FMI 2.0 FMU; see `Instance`."""
 
-    calls = Calls("setReal", "getReal", "getDerivatives", "newDiscreteStates", "deSerializeFMUstate")
+    calls = Calls("setReal", "getReal", "getDerivatives", "newDiscreteStates", "deSerializeFMUstate", False)
 
     def __init__(self, fmu: Any, exchange: bool) -> None:
         super().__init__(fmu, exchange)
@@ -219,6 +228,7 @@ class Instance3(Instance):
         "getContinuousStateDerivatives",
         "updateDiscreteStates",
         "deserializeFMUState",
+        True,
     )
 
     def instantiate(self) -> None:

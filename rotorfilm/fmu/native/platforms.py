@@ -60,6 +60,9 @@ OPTIONS = (
     *("-std=c99", "-O2", "-ffp-contract=off", "-fno-math-errno", "-fvisibility=hidden", "-shared", "-s"),
     *("-ffunction-sections", "-fdata-sections"),
 )
+UNSHIPPED = ("loops", "master")
+"""Folders of what only Python calls."""
+
 _TRIMMED = {"dylib": ("-Wl,-dead_strip",), "so": ("-Wl,--gc-sections",), "dll": ("-Wl,--gc-sections",)}
 """What the linker leaves out: kernels of other libraries."""
 
@@ -73,7 +76,7 @@ def native_sources() -> dict[str, bytes]:
         If the installation lacks them.
     """
     root = Path(str(files(NATIVE)))
-    paths = sorted(path for path in root.rglob("*.[ch]") if path.parent.name != "loops")
+    paths = sorted(path for path in root.rglob("*.[ch]") if path.parent.name not in UNSHIPPED)
     found = {path.relative_to(root).as_posix(): path.read_bytes() for path in paths}
     if not any(name.endswith(".c") for name in found):
         raise FmuError(f"the C sources of the library must lie in {root}, got none; install rotorfilm again")

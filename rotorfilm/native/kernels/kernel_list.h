@@ -1,8 +1,9 @@
 /* The libraries and their kernels: the one list of them, which C, CMake and native/kernel_table.py read.
 
    A library is a bit. It is compiled with RF_SUBSET set to its name, into a file of that name in lower case
-   without RF_. Python calls the first of them, and the last, whose loops over films no FMU needs. Without
-   RF_SUBSET, as from the sources in an FMU, a library has all kernels. */
+   without RF_. Python calls the first of them, and the last two, whose loops no FMU needs: over films, and over
+   the macro steps of a co-simulation, with all kernels. Without RF_SUBSET, as from the sources in an FMU, a
+   library has all kernels too. */
 #define RF_ROTORFILM 1
 #define RF_ROTORFILM_STATES 2
 #define RF_ROTORFILM_SYSTEMS 4
@@ -11,6 +12,7 @@
 #define RF_ROTORFILM_HEAT 32
 #define RF_ROTORFILM_GRID_SYSTEMS 64
 #define RF_ROTORFILM_LOOPS 128
+#define RF_ROTORFILM_MASTER 255
 
 /* RF_KERNEL(name, libraries, picture): rf_<name>_type of kernel_<name>.c, which also has the text for the
    documentation of its FMUs; libraries that have it, of which its FMUs carry the first that has the kernels of

@@ -13,9 +13,11 @@ import numpy as np
 
 from ....errors import ConvergenceError
 from ....model import Array
-from .film_equations import ContactEquations, Derivatives, TimeDerivative
+from .coarse_correction import COARSEST, Cycle, HalvedGrid, cycle, halved_grids
+from .film_edge import settled_edge
+from .film_equations import ContactEquations, TimeDerivative
 from .krylov import gmres
-from .preconditioner import Closure, Distribution, Factors, distribution, factorize
+from .linear_contact import Closure, LinearContact, Place, linearized
 
 MAX_STEPS = 30
 """Newton steps tried."""
@@ -26,18 +28,21 @@ FORCING = (1e-4, 1e-2)
 KRYLOV = 80
 """Most iterations of GMRES in a step."""
 
-STALE = 0.06
-"""Cells that may gain or lose film before the preconditioner is renewed, per cells along x.
+FEW = 0.02
+"""Cells that may gain or lose film in a step without a search for the film's end, per cells along x."""
 
-Each costs an iteration more, and factors cost more iterations on finer grids. Old coefficients cost nothing.
+STALE = 0.06
+"""Cells that may gain or lose film before the preconditioner is renewed, per cells along x, up to `COARSEST`.
+
+Each costs an iteration more, and the factors cost as many iterations on every finer grid. Old coefficients
+cost nothing.
 """
 
 SHRINK = 0.2
 """A step may thin the film down to this share at most."""
 
-
-THINNEST = 1e-7
-"""Film thickness below which a search has gone astray."""
+THINNEST, HIGHEST = 1e-7, 30.0
+"""Film thickness below which, and pressure above which, a search has gone astray."""
 
 
 class Contact(NamedTuple):
@@ -48,36 +53,6 @@ class Contact(NamedTuple):
     film: Array
     steps: int
     iterations: int
-
-
-class Place(NamedTuple):
-    """Where equations are linearized: enough to make the factors of a preconditioner again.
-
-    Attributes
-    ----------
-    pressure : ndarray, shape (n,)
-    film : ndarray, shape (samples,)
-    wet : ndarray of bool, shape (n,)
-    closure : Closure
-    rate : float
-    """
-
-    pressure: Array
-    film: Array
-    wet: np.ndarray
-    closure: Closure
-    rate: float
-
-
-class _Linear(NamedTuple):
-    """The linearized equations on the cells with film."""
-
-    derivatives: Derivatives
-    by_delta: Array
-    wet: np.ndarray
-    closure: Closure
-    rate: float
-    place: Place
 
 
 class NewtonKrylov:
@@ -94,11 +69,16 @@ class NewtonKrylov:
 
     def __init__(self, equations: ContactEquations, tolerance: float, place: Place | None = None) -> None:
         self.equations, self.tolerance = equations, tolerance
-        self._change: Distribution | None = None
-        self._factors: Factors | None = None
-        self.place: Place | None = None
+        self._few = FEW * equations.grid.shape[0]
+        self._grids: tuple[HalvedGrid, ...] = ()
+        self._cycle: Cycle | None = None
         if place is not None:
-            self._factors = self._factorized(self._linear(place))
+            self._cycle = self._renewed(linearized(equations, place))
+
+    @property
+    def place(self) -> Place | None:
+        """Where the preconditioner was made."""
+        return None if self._cycle is None else self._cycle.linear.place
 
     def solve(self, pressure: Array, delta: float, closure: Closure, time: TimeDerivative) -> Contact:
         """Return the solution near a guess.
@@ -121,19 +101,17 @@ class NewtonKrylov:
         pressure = np.where(wet, pressure, 0.0)
         film = self.equations.film(pressure, delta)
         for step in range(MAX_STEPS):
-            if not film.min() > THINNEST:
+            if not (film.min() > THINNEST and pressure.max() < HIGHEST):
                 break
             residual = self.equations.residual(pressure, film, time)
             settled = np.where(wet, pressure > 0.0, residual > 0.0)
-            changed = bool(np.any(settled != wet))
-            if error <= self.tolerance and not changed:
+            moved = int(np.sum(settled != wet))
+            if error <= self.tolerance and not moved:
                 return Contact(pressure, delta, film, step, iterations)
-            wet = settled
-            if np.any(pressure < 0.0):
-                pressure = np.where(wet, pressure, 0.0)
-                film = self.equations.film(pressure, delta)
-                residual = self.equations.residual(pressure, film, time)
-            linear = self._linear(Place(pressure, film, wet, closure, time.rate))
+            here = Place(pressure, film, settled, closure, time.rate)
+            here, residual = self._feasible(here, residual, delta, time, far=moved > self._few)
+            wet, pressure, film = here.wet, here.pressure, here.film
+            linear = linearized(self.equations, here)
             miss = closure.value - closure.approach * delta - closure.load * self.equations.load(pressure)
             forcing = float(np.clip(0.3 * self.tolerance / error, *FORCING)) if error < np.inf else FORCING[1]
             dp, dd, count = self._step(linear, np.where(wet, -residual, 0.0), miss, forcing)
@@ -147,64 +125,57 @@ class NewtonKrylov:
             f"{self.tolerance:.0e}, got an error of {error:.1e} at delta = {delta:.6g}"
         )
 
-    def _linear(self, place: Place) -> _Linear:
-        pressure, film, wet, closure, rate = place
-        derivatives = self.equations.derivatives(pressure, film, rate)
-        by_delta = derivatives.by_film @ np.ones(derivatives.by_film.shape[1])
-        return _Linear(derivatives, np.where(wet, by_delta, 0.0), wet, closure, rate, place)
+    def _feasible(
+        self, place: Place, residual: Array, delta: float, time: TimeDerivative, *, far: bool
+    ) -> tuple[Place, Array]:
+        """Return a place with pressures >= 0 and its residual; `far` if the film ends elsewhere."""
+        if np.any(place.pressure < 0.0):
+            pressure = np.where(place.wet, place.pressure, 0.0)
+            place = place._replace(pressure=pressure, film=self.equations.film(pressure, delta))
+            residual = self.equations.residual(place.pressure, place.film, time)
+        if far:
+            pressure = settled_edge(linearized(self.equations, place), residual)
+            film = self.equations.film(pressure, delta)
+            moved = self.equations.residual(pressure, film, time)
+            if film.min() > SHRINK * place.film.min():
+                wet = (pressure > 0.0) | (moved > 0.0)
+                return place._replace(pressure=pressure, film=film, wet=wet), moved
+        return place, residual
 
     def _step(
-        self, linear: _Linear, residual: Array, miss: float, forcing: float
+        self, linear: LinearContact, residual: Array, miss: float, forcing: float
     ) -> tuple[Array, float, int]:
         """Return the changes of pressure and approach, and the iterations."""
-        if linear.closure.approach == 0.0 and not np.any(linear.wet):
+        wet = linear.place.wet
+        if linear.place.closure.approach == 0.0 and not np.any(wet):
             raise ConvergenceError("some cell must hold film for a load to rest on, got none")
-        limit = STALE * self.equations.grid.shape[0]
-        fresh = self._factors is None or int(np.sum(self._factors.wet != linear.wet)) > limit
-        factors = self._factors = (
-            self._factorized(linear) if fresh or self._factors is None else self._factors
-        )
-        answer, count = self._krylov(linear, factors, residual, miss, forcing)
+        known = self._cycle
+        limit = STALE * min(COARSEST, self.equations.grid.shape[0])
+        fresh = known is None or int(np.sum(known.linear.place.wet != wet)) > limit
+        self._cycle = used = self._renewed(linear) if fresh or known is None else known
+        right = np.append(residual, miss)
+        answer, count = self._krylov(linear, used, right, forcing)
         if count >= KRYLOV and not fresh:
-            self._factors = self._factorized(linear)
-            answer, more = self._krylov(linear, self._factors, residual, miss, forcing)
+            self._cycle = used = self._renewed(linear)
+            answer, more = self._krylov(linear, used, right, forcing)
             count += more
-        return np.where(linear.wet, answer[:-1], 0.0), float(answer[-1]), count
+        return np.where(wet, answer[:-1], 0.0), float(answer[-1]), count
 
-    def _factorized(self, linear: _Linear) -> Factors:
-        if self._change is None:
-            self._change = distribution(self.equations)
-        self.place = linear.place
-        return factorize(
-            self.equations, self._change, linear.derivatives, linear.wet, linear.closure, linear.rate
-        )
+    def _renewed(self, linear: LinearContact) -> Cycle:
+        self._grids = self._grids or halved_grids(self.equations)
+        return cycle(self._grids, linear)
 
-    def _krylov(
-        self, linear: _Linear, factors: Factors, residual: Array, miss: float, forcing: float
-    ) -> tuple[Array, int]:
+    def _krylov(self, linear: LinearContact, used: Cycle, right: Array, forcing: float) -> tuple[Array, int]:
         """Return the solution of the linear equations by GMRES, preconditioned from the right."""
         # The two residuals count alike: film equations per V, the closure per its coefficients.
-        scales = np.full(len(residual) + 1, 1.0 / self.equations.V)
-        scales[-1] = 1.0 / (abs(linear.closure.approach) + 2.0 * linear.closure.load)
+        scales = np.full(len(right), 1.0 / self.equations.V)
+        scales[-1] = 1.0 / (abs(linear.place.closure.approach) + 2.0 * linear.place.closure.load)
 
         def product(y: Array) -> Array:
-            return scales * self._product(linear, self._preconditioned(linear, factors, y / scales))
+            return scales * linear.product(used.answer(y / scales, linear))
 
-        y, count = gmres(product, scales * np.append(residual, miss), tolerance=forcing, most=KRYLOV)
-        return self._preconditioned(linear, factors, y / scales), count
-
-    def _product(self, linear: _Linear, x: Array) -> Array:
-        pressure = np.where(linear.wet, x[:-1], 0.0)
-        by_pressure, by_film = linear.derivatives
-        bent = self.equations.sampling.deflection(pressure)
-        film = by_pressure @ pressure + by_film @ bent + linear.by_delta * x[-1]
-        closure = linear.closure.approach * x[-1] + linear.closure.load * self.equations.load(pressure)
-        return np.append(np.where(linear.wet, film, x[:-1]), closure)
-
-    def _preconditioned(self, linear: _Linear, factors: Factors, y: Array) -> Array:
-        pressure = np.where(linear.wet, factors.pressures(y[:-1]), y[:-1])
-        delta = (y[-1] - linear.closure.load * self.equations.load(pressure)) / factors.pivot
-        return np.append(pressure - factors.shift * linear.wet * delta, delta)
+        y, count = gmres(product, scales * right, tolerance=forcing, most=KRYLOV)
+        return used.answer(y / scales, linear), count
 
     def _damped(self, film: Array, dp: Array, dd: float) -> tuple[float, Array]:
         """Return the share of a step that keeps a film everywhere, and the film after it."""

@@ -11,7 +11,7 @@ kernel out of the equation of motion. In time, (rho H)_t = rate * (rho H) + hist
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -19,7 +19,7 @@ import numpy as np
 from scipy import sparse
 
 from ....model import Array
-from .contact_grid import ContactGrid
+from .contact_grid import SMALLEST, ContactGrid
 from .contact_scheme import SLACK, ContactScheme, Sampling, opening, product
 from .film_assembly import Assembly
 from .pressure_fluid import DowsonHigginsonDensity, Piezoviscosity
@@ -77,6 +77,22 @@ class ContactEquations:
     def sampling(self) -> Sampling:
         """Samples of the film and their matrices."""
         return self.scheme.sampling(self.grid)
+
+    @cached_property
+    def halved(self) -> ContactEquations | None:
+        """The equations on cells twice as large, or None where the cells cannot be paired."""
+        nx, ny = self.grid.cells
+        if nx % 2 or ny % 4 or min(nx, ny) < 2 * SMALLEST:
+            return None
+        return replace(self, grid=replace(self.grid, cells=(nx // 2, ny // 2)))
+
+    def of(self, *, V: float, Q0: float) -> ContactEquations:
+        """Return the equations of another contact on the same grid, with what has been made of the grid."""
+        other = replace(self, V=V, Q0=Q0)
+        for name in ("sampling", "_flow", "_bending", "_unlimited"):
+            if name in self.__dict__:
+                other.__dict__[name] = self.__dict__[name]
+        return other
 
     @cached_property
     def area(self) -> float:

@@ -4,8 +4,8 @@ The elastic kernel couples every cell to every other, but its second differences
 the distance. Under the load, where pressure moves hardly any lubricant and the film follows from the elastic
 kernel, p = T w with the five-point Laplacian T makes the equations for w sparse up to a small remainder
 (distributive relaxation, Venner and Lubrecht 2000). Around it the flow by pressure governs, which is sparse
-in p itself, and the kernel a smooth disturbance. The sparse factors of both together precondition GMRES in
-some ten iterations, on any grid.
+in p itself, and the kernel a smooth disturbance. The sparse factors of both together answer all that changes
+over few cells; `coarse_correction` sees to the rest.
 """
 
 from __future__ import annotations
@@ -18,25 +18,20 @@ from scipy.sparse import linalg
 
 from ....errors import ConvergenceError
 from ....model import Array
-from .film_equations import ContactEquations, Derivatives
+from .film_equations import ContactEquations
+from .linear_contact import LinearContact
 
 REACH = 1
 """Cells that the truncated kernel reaches; more make the factors slower than the iterations they save."""
 
+STRIP = 8
+"""Lines of cells along x that are factorized together where a coarser grid carries what reaches farther."""
 
 STIFF = 0.05
 """Conductance H^3/mu below which the kernel governs a cell, per V (1 + rate/SLOW)."""
 
 SLOW = 15.0
 """Rate above which storage governs what the film carries."""
-
-
-class Closure(NamedTuple):
-    """The scalar equation beside the film's: approach * delta + load * (integral of p) = value."""
-
-    approach: float
-    load: float
-    value: float
 
 
 class Distribution(NamedTuple):
@@ -54,17 +49,50 @@ class Distribution(NamedTuple):
     deflection: Any
 
 
+class Strips:
+    """Factors of the diagonal blocks of a matrix, each of the cells of a few lines along x.
+
+    Cells go from line to line within a strip before the next column, so the band is as wide as the strip and
+    the factors grow as the cells do.
+
+    Parameters
+    ----------
+    matrix : sparse matrix, shape (cells, cells)
+    lines, columns : ndarray of int, shape (cells,)
+        Place of each cell across and along x.
+    """
+
+    def __init__(self, matrix: Any, lines: np.ndarray, columns: np.ndarray) -> None:
+        strip = lines // STRIP
+        self._order = np.lexsort((lines, columns, strip))
+        place = np.empty_like(self._order)
+        place[self._order] = np.arange(len(place))
+        entries = matrix.tocoo()
+        kept = strip[entries.row] == strip[entries.col]
+        rows, across = place[entries.row[kept]], place[entries.col[kept]]
+        blocks = sparse.csc_matrix((entries.data[kept], (rows, across)), shape=matrix.shape)
+        self._factors = linalg.splu(blocks, permc_spec="NATURAL", diag_pivot_thresh=0.01)
+
+    def solve(self, right: Array) -> Array:
+        """Return the solution."""
+        answer = np.empty_like(right)
+        answer[self._order] = self._factors.solve(right[self._order])
+        return answer
+
+
 class Factors(NamedTuple):
     """Factors of the equations at one state.
 
     Attributes
     ----------
-    solver : scipy.sparse.linalg.SuperLU or None
+    solver : scipy.sparse.linalg.SuperLU, Strips or None
         Of the equations for w of the cells with film, in single precision; None where there are none.
     laplacian : sparse matrix
         T between those cells.
-    wet : ndarray of bool, shape (n,)
-        Cells with film.
+    diagonal : ndarray, shape (n,)
+        Derivative of a cell's residual by its pressure alone, for cells that have gained film since.
+    linear : LinearContact
+        The equations there.
     shift : ndarray, shape (n,)
         Pressures that answer the film equations to delta = 1.
     pivot : float
@@ -73,16 +101,32 @@ class Factors(NamedTuple):
 
     solver: Any
     laplacian: Any
-    wet: np.ndarray
+    diagonal: Array
+    linear: LinearContact
     shift: Array
     pivot: float
 
+    def answer(self, right: Array, wet: np.ndarray) -> Array:
+        """Return pressures and approach, shape (n + 1,), that about answer a right side.
+
+        Parameters
+        ----------
+        right : ndarray, shape (n + 1,)
+        wet : ndarray of bool, shape (n,)
+            Cells with film by now.
+        """
+        pressure = np.where(wet, self.pressures(right[:-1]), right[:-1])
+        load = self.linear.place.closure.load * self.linear.equations.load(pressure)
+        delta = (right[-1] - load) / self.pivot
+        return np.append(pressure - self.shift * wet * delta, delta)
+
     def pressures(self, residual: Array) -> Array:
         """Return the pressures, shape (n,), that answer residuals of the film equations, shape (n,)."""
-        answer = residual.copy()
+        answer = np.divide(residual, self.diagonal, out=residual.copy(), where=self.diagonal != 0.0)
         if self.solver is None:
             return answer
-        answer[self.wet] = self.laplacian @ self.solver.solve(residual[self.wet].astype(np.float32))
+        wet = self.linear.place.wet
+        answer[wet] = self.laplacian @ self.solver.solve(residual[wet].astype(np.float32))
         return answer
 
 
@@ -106,55 +150,47 @@ def distribution(equations: ContactEquations) -> Distribution:
     )
 
 
-def factorize(
-    equations: ContactEquations,
-    change: Distribution,
-    derivatives: Derivatives,
-    wet: np.ndarray,
-    closure: Closure,
-    rate: float,
-) -> Factors:
-    """Return the factors at a state.
+def factorize(linear: LinearContact, change: Distribution, *, in_strips: bool) -> Factors:
+    """Return the factors of linearized equations.
 
     Parameters
     ----------
-    equations : ContactEquations
+    linear : LinearContact
     change : Distribution
-    derivatives : Derivatives
-        Of the equations there.
-    wet : ndarray of bool, shape (n,)
-        Cells with film.
-    closure : Closure
-    rate : float
-        Of the time derivative, 0 for a stationary contact.
+        For the grid of the equations.
+    in_strips : bool
+        Whether to leave out what couples strips of cells along x, for a coarser grid to carry.
     """
-    cells = np.flatnonzero(wet)
-    stiff = sparse.diags(_stiff(equations, derivatives, rate).astype(float))
+    equations, (by_pressure, by_film) = linear.equations, linear.derivatives
+    cells = np.flatnonzero(linear.place.wet)
+    stiff = sparse.diags(stiff_cells(linear).astype(float))
     # As large in the loose cells as T is, for single precision's sake.
-    pressures = change.laplacian @ stiff + 4.0 * (sparse.identity(len(wet)) - stiff)
-    matrix = derivatives.by_pressure[cells] @ pressures + derivatives.by_film[cells] @ (
-        change.deflection @ stiff
-    )
-    solver = None
+    pressures = change.laplacian @ stiff + 4.0 * (sparse.identity(linear.place.wet.size) - stiff)
+    matrix = by_pressure[cells] @ pressures + by_film[cells] @ (change.deflection @ stiff)
+    solver: Any = None
     if len(cells):
         square = matrix[:, cells].tocsc().astype(np.float32)
+        columns, lines = divmod(cells, equations.grid.shape[1])
         try:
-            solver = linalg.splu(square, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01)
+            if in_strips:
+                solver = Strips(square, lines, columns)
+            else:
+                solver = linalg.splu(square, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01)
         except RuntimeError:  # of SuperLU: exactly singular
             raise ConvergenceError(
                 f"the equations of a contact must be regular, got singular ones with V = {equations.V:g}"
             ) from None
-    bare = Factors(solver, pressures.tocsr()[cells][:, cells], wet, np.zeros(len(wet)), 1.0)
-    by_delta = derivatives.by_film @ np.ones(derivatives.by_film.shape[1])
-    shift = bare.pressures(np.where(wet, by_delta, 0.0))
+    between = pressures.tocsr()[cells][:, cells]
+    bare = Factors(solver, between, by_pressure.diagonal(), linear, np.zeros(len(linear.by_delta)), 1.0)
+    shift, closure = bare.pressures(linear.by_delta), linear.place.closure
     return bare._replace(shift=shift, pivot=closure.approach - closure.load * equations.load(shift))
 
 
-def _stiff(equations: ContactEquations, derivatives: Derivatives, rate: float) -> np.ndarray:
+def stiff_cells(linear: LinearContact) -> np.ndarray:
     """Return which cells the elastic kernel governs, from the diagonal of the flow by pressure."""
-    dx, dy = equations.grid.spacing
-    conductance = -derivatives.by_pressure.diagonal() / (2.0 / dx**2 + 2.0 / dy**2)
-    return np.asarray(conductance < STIFF * equations.V * (1.0 + rate / SLOW))
+    dx, dy = linear.equations.grid.spacing
+    conductance = -linear.derivatives.by_pressure.diagonal() / (2.0 / dx**2 + 2.0 / dy**2)
+    return np.asarray(conductance < STIFF * linear.equations.V * (1.0 + linear.place.rate / SLOW))
 
 
 def _bent(table: Array) -> Array:

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 
 from ....errors import ConvergenceError
 from ....model import Array
+from .coarse_correction import prolonged
 from .contact_newton import Contact, NewtonKrylov
 from .film_equations import ContactEquations, TimeDerivative
-from .preconditioner import Closure
+from .linear_contact import Closure
 
 HERTZ_LOAD = 2.0 * math.pi / 3.0
 """Integral of the pressure of the dry contact, sqrt(1 - r^2): the unit of the load f."""
@@ -27,6 +27,12 @@ LIFTED, LIGHTEST = 0.3, 0.05
 
 FARTHEST, CLOSE, SEARCHES = 1.0, 1e-4, 30
 """Of the search for an approach: largest change of ln(load), error of ln(load) to end it, and its steps."""
+
+THINNEST_SPEED, FINENESS = 0.225, 1.7
+"""Smallest V that cells of width 1 would hold at Q0 = 20, and its power of their width."""
+
+MARGIN, PAIRS = 0.8, 16
+"""Of advised cells: smallest V they hold per V, and what their numbers are multiples of."""
 
 SMALLEST_MOVE = 1.0 / 64.0
 """Share of the way from easy to hard below which the search is given up."""
@@ -47,15 +53,28 @@ def stationary(equations: ContactEquations, load: float, tolerance: float = 1e-7
     ConvergenceError
         If Newton's method fails, also along the way from an easier contact.
     """
-    coarse = _halved(equations)
-    if coarse is None:
-        return _from_dry(equations, load, tolerance)
-    try:
-        below = stationary(coarse, load, max(tolerance, 1e-4))
-        guess = _refined(below.pressure.reshape(coarse.grid.shape)).ravel()
-        return _solved(equations, guess, below.delta, load, tolerance)
-    except ConvergenceError:
-        return _from_dry(equations, load, tolerance)
+    found, share = _reached(equations, load, tolerance)
+    if share == 1.0:
+        return found
+    near, width = _at(equations, share), max(equations.grid.spacing)
+    least = thinnest_speed(equations.Q0, width, load)
+    finer = (least / (MARGIN * equations.V)) ** (1.0 / FINENESS)
+    sides = tuple(PAIRS * math.ceil(finer * n / PAIRS) for n in equations.grid.cells)
+    advice = f"take a larger V or {sides} cells" if finer > 1.0 else "take other cells"
+    raise ConvergenceError(
+        f"the cells must be fine enough for the film at V = {equations.V:.4g}, Q0 = {equations.Q0:.4g}, got "
+        f"cells of {width:.3g}, known to hold V down to some {least:.2g}: continuation from a thicker film "
+        f"came to V = {near.V:.4g}, Q0 = {near.Q0:.4g} with films down to {found.film.min():.2g}; {advice}"
+    )
+
+
+def thinnest_speed(Q0: float, width: float, load: float = 1.0) -> float:
+    """Return about the smallest V whose film cells of a width can hold, to some 10 % (Q0 from 5 to 20).
+
+    Below it the film of the side lobes, the thinnest, vanishes on the cells: found by continuation on 32, 64
+    and 128 cells (`docs/contact.md`). A contact under a load is one under the unit load in other units.
+    """
+    return float(THINNEST_SPEED * width**FINENESS * math.sqrt(20.0 / Q0) * load**0.6)
 
 
 def follow(equations: ContactEquations, start: Contact, load: float, tolerance: float = 1e-7) -> Contact:
@@ -99,46 +118,41 @@ def _solved(
     return solver.solve(pressure, delta, Closure(0.0, 1.0, HERTZ_LOAD * load), TimeDerivative())
 
 
-def _from_dry(equations: ContactEquations, load: float, tolerance: float) -> Contact:
-    """Return the solution by continuation in ln V and Q0 from a contact that is solvable at once."""
-    easy = (max(equations.V, EASY[0]), min(equations.Q0, EASY[1]))
-    pressure, delta = dry_contact(equations, load)
-    # Thick enough to be positive, thin enough to be near: films are some V^(2/3).
-    found = _solved(_at(equations, easy, 0.0), pressure, delta + easy[0] ** (2.0 / 3.0), load, tolerance)
-    done, move = 0.0, 1.0
-    while done < 1.0 and easy != (equations.V, equations.Q0):
+def _reached(equations: ContactEquations, load: float, tolerance: float) -> tuple[Contact, float]:
+    """Return a solution on the way from an easy contact, and the share of the way: 1 for the one asked for.
+
+    The way goes by ln V and Q0, on a coarse grid as far as that holds the film, and from there on finer ones.
+    """
+    coarse, found, done = equations.halved, None, 0.0
+    if coarse is not None and min(coarse.grid.cells) >= COARSEST:
+        try:
+            below, done = _reached(coarse, load, max(tolerance, 1e-4))
+            guess = prolonged(below.pressure.reshape(coarse.grid.shape)).ravel()
+            found = _solved(_at(equations, done), guess, below.delta, load, tolerance)
+        except ConvergenceError:
+            done = 0.0
+    if found is None:
+        pressure, delta = dry_contact(equations, load)
+        # Thick enough to be positive, thin enough to be near: films are some V^(2/3).
+        easy = _at(equations, done)
+        found = _solved(easy, pressure, delta + easy.V ** (2.0 / 3.0), load, tolerance)
+        done = 1.0 if easy == equations else 0.0
+    move = 1.0
+    while done < 1.0 and move >= SMALLEST_MOVE:
         share = min(1.0, done + move)
         try:
-            near = _at(equations, easy, share)
-            found = _solved(near, found.pressure, found.delta, load, tolerance)
+            found = _solved(_at(equations, share), found.pressure, found.delta, load, tolerance)
         except ConvergenceError:
-            move *= 0.5
-            if move < SMALLEST_MOVE:
-                raise
+            move = 0.5 * (share - done)
         else:
             done, move = share, 1.5 * move
-    return found
+    return found, done
 
 
-def _at(equations: ContactEquations, easy: tuple[float, float], share: float) -> ContactEquations:
-    """Return the equations at a share of the way from the easy contact to the one asked for."""
-    speed = easy[0] ** (1.0 - share) * equations.V**share
-    return replace(equations, V=speed, Q0=(1.0 - share) * easy[1] + share * equations.Q0)
-
-
-def _halved(equations: ContactEquations) -> ContactEquations | None:
-    nx, ny = equations.grid.cells
-    if nx % 2 or ny % 4 or min(nx, ny) < 2 * COARSEST:
-        return None
-    return replace(equations, grid=replace(equations.grid, cells=(nx // 2, ny // 2)))
-
-
-def _refined(values: Array) -> Array:
-    """Return values at the centers of cells half as large, linear between the old ones."""
-    return _doubled(_doubled(values).T).T
-
-
-def _doubled(values: Array) -> Array:
-    wide = np.pad(values, ((1, 1), (0, 0)), mode="edge")
-    pairs = (0.75 * values + 0.25 * wide[:-2], 0.75 * values + 0.25 * wide[2:])
-    return np.stack(pairs, axis=1).reshape(2 * values.shape[0], values.shape[1])
+def _at(equations: ContactEquations, share: float) -> ContactEquations:
+    """Return the equations at a share of the way from an easy contact to the one asked for."""
+    easy_V, easy_Q0 = max(equations.V, EASY[0]), min(equations.Q0, EASY[1])
+    if share == 1.0 or (easy_V, easy_Q0) == (equations.V, equations.Q0):
+        return equations
+    speed = easy_V ** (1.0 - share) * equations.V**share
+    return equations.of(V=speed, Q0=(1.0 - share) * easy_Q0 + share * equations.Q0)

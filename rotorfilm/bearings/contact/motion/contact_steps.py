@@ -14,8 +14,9 @@ import numpy as np
 
 from ....errors import ConvergenceError, InputError, require_positive
 from ....model import Array
-from ..film.contact_newton import NewtonKrylov, Place
+from ..film.contact_newton import NewtonKrylov
 from ..film.film_equations import ContactEquations, TimeDerivative
+from ..film.linear_contact import Place
 from .levels import ContactMotion, Level, derivative_weights, error_share, extrapolation_weights
 
 LEVELS = 3

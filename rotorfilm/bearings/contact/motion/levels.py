@@ -10,7 +10,7 @@ import numpy as np
 
 from ....errors import InputError, require_non_negative
 from ....model import Array, breakpoints
-from ..film.preconditioner import Closure
+from ..film.linear_contact import Closure
 from ..film.stationary import HERTZ_LOAD
 
 

@@ -11,9 +11,8 @@ import numpy as np
 from scipy.io import netcdf_file
 
 from ....files import read_sealed, write_sealed
-from ..film.contact_newton import Place
 from ..film.film_equations import ContactEquations
-from ..film.preconditioner import Closure
+from ..film.linear_contact import Closure, Place
 from .contact_run import SERIES
 from .contact_state import ContactRun, state_of
 from .contact_steps import Memory
