@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..bearings.tabulated import TabulatedBearing
 from ..errors import InputError, require_finite, require_number
 from ..model import Reaction
 from ..results import Coefficients
 from ..warming import settled
 from .equilibrium import equilibrium
+
+if TYPE_CHECKING:
+    from ..bearings.tabulated import TabulatedBearing
 
 
 def coefficients(reaction: Reaction, position: ArrayLike, speed: float) -> Coefficients:
@@ -70,6 +74,9 @@ def coefficient_table(reaction: Reaction, load: ArrayLike, speeds: ArrayLike) ->
     grid = require_finite("speeds", speeds)
     if grid.ndim != 1 or not grid.size:
         raise InputError(f"speeds must be a list of rising numbers, got {speeds!r}")
+    # Imported here: interpolation takes scipy, which coefficients do not need.
+    from ..bearings.tabulated import TabulatedBearing
+
     points = [coefficients(reaction, equilibrium(reaction, load, w).position, w) for w in grid.tolist()]
     return TabulatedBearing(
         speeds=grid,

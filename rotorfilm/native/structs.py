@@ -274,33 +274,3 @@ class MarchStruct(ctypes.Structure):
         ("walls", c_int64),
         ("z", c_void_p),
     ]
-
-
-class OilStruct(ctypes.Structure):
-    """rf_oil of heated_film.h."""
-
-    _fields_: ClassVar[Sequence[Any]] = [
-        ("cells", c_int32),
-        ("ln", c_void_p),
-        ("coldest", c_double),
-        ("hottest", c_double),
-    ]
-
-
-class HeatedStruct(ctypes.Structure):
-    """rf_heated of heated_film.h."""
-
-    _fields_: ClassVar[Sequence[Any]] = [
-        ("journal", JournalStruct),
-        ("loss", c_void_p),
-        ("loss_data", c_void_p),
-        ("oil", OilStruct),
-        ("radius", c_double),
-        ("length", c_double),
-        ("clearance", c_double),
-        ("supply", c_double),
-        ("ambient", c_double),
-        ("conductance", c_double),
-        ("volumetric_heat", c_double),
-        ("full_gap", c_int32),
-    ]

@@ -19,7 +19,8 @@ from ..ladders import BaseRung, Ladder
 from ..linear import equilibrium
 from ..model import Reaction
 from ..rotors import RigidRotor
-from ..scenes.journal.film_rungs import has_map, with_film
+from ..scenes.journal.film_rungs import with_film
+from ..scenes.journal.packaged_map import has_map
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene

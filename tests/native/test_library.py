@@ -19,14 +19,15 @@ LARGEST = {
     "rotorfilm_states": 60_000,
     "rotorfilm_systems": 74_000,
     "rotorfilm_bushes": 60_000,
-    "rotorfilm_grids": 76_000,
+    "rotorfilm_grids": 78_000,
     "rotorfilm_grid_systems": 98_000,
     "rotorfilm_heat": 66_000,
-    "rotorfilm_loops": 114_000,
+    "rotorfilm_loops": 120_000,
+    "rotorfilm_master": 176_000,
 }
 """Bytes of each library on Linux, x86_64: what it has, and some room for other compilers."""
 
-CALLED = ("rotorfilm", "rotorfilm_loops")
+CALLED = ("rotorfilm", "rotorfilm_loops", "rotorfilm_master")
 """Libraries that Python calls."""
 
 

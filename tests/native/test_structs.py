@@ -7,13 +7,17 @@ import subprocess
 
 import pytest
 
-from rotorfilm.native import structs
+from rotorfilm.native import heat_structs, master_structs, structs
 from rotorfilm.native.library import FOLDER
 
-PLACES = {
-    name: re.match(r"(\w+) of ([\w.]+)\.$", inspect.getdoc(kind)).groups()
-    for name, kind in inspect.getmembers(structs, inspect.isclass)
+KINDS = {
+    name: kind
+    for module in (structs, heat_structs, master_structs)
+    for name, kind in inspect.getmembers(module, inspect.isclass)
     if issubclass(kind, ctypes.Structure) and kind is not ctypes.Structure
+}
+PLACES = {
+    name: re.match(r"(\w+) of ([\w.]+)\.$", inspect.getdoc(kind)).groups() for name, kind in KINDS.items()
 }
 
 
@@ -25,7 +29,7 @@ def printed(tmp_path_factory, compiled):
     lines += ["#include <stddef.h>", "#include <stdio.h>", "int main(void) {"]
     for name, (c_name, _) in PLACES.items():
         lines.append(f'printf("{name} %zu", sizeof({c_name}));')
-        for field, *_ in getattr(structs, name)._fields_:
+        for field, *_ in KINDS[name]._fields_:
             lines.append(f'printf(" %zu", offsetof({c_name}, {field}));')
         lines.append('printf("\\n");')
     lines.append('printf("counts %d %d\\n", RF_SLOTS, RF_STEPS); return 0; }')
@@ -38,7 +42,7 @@ def printed(tmp_path_factory, compiled):
 
 @pytest.mark.parametrize("name", PLACES)
 def test_size_and_places_are_those_of_c(printed, name):
-    kind = getattr(structs, name)
+    kind = KINDS[name]
     places = [getattr(kind, field).offset for field, *_ in kind._fields_]
     assert printed[name] == [ctypes.sizeof(kind), *places]
 

@@ -15,7 +15,8 @@ from ...model import Reaction
 from ...results import Coefficients
 from ...scenes.journal.film_defects import corrected
 from ...scenes.journal.film_rung import FilmRung
-from ...scenes.journal.film_rungs import has_map, turn_films
+from ...scenes.journal.film_rungs import turn_films
+from ...scenes.journal.packaged_map import has_map
 
 if TYPE_CHECKING:
     from ...scenes.shaft.shaft_table import ShaftTable

@@ -21,9 +21,7 @@ from ...bearings.journal import (
 from ...errors import ValidityWarning
 from .echo import film_name
 from .film_rung import MAP_MADE, FilmRung
-
-TABLE_RANGE = (0.1, 4.0)
-"""Length / diameter of the map that is there from the start; other bearings have to make theirs."""
+from .packaged_map import has_map
 
 COARSE_MAP = GroovedMapFilm(cells=(96, 8), nodes=(8, 48, 32))
 """Made in a fifth of the time of the map with openings, with errors some four times as large."""
@@ -142,12 +140,6 @@ def _making_time(bearing: JournalBearing) -> float:
     """Return about how long the map with openings of a bearing takes [s]; 0 where it is there."""
     film = bearing.fitted_film
     return film.making_time(bearing.slenderness) if isinstance(film, GroovedMapFilm) else 0.0
-
-
-def has_map(bearing: JournalBearing) -> bool:
-    """Return whether the map that comes with the package holds a bearing."""
-    low, high = TABLE_RANGE
-    return not (bearing.grooves or bearing.pads) and low <= bearing.slenderness <= high
 
 
 def _plain_films(bearing: JournalBearing, tabulated: bool) -> list[FilmRung]:

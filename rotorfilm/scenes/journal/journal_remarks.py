@@ -11,7 +11,7 @@ from ...errors import RotorfilmError, ValidityWarning
 from ...linear import equilibrium
 from ..lubricant_table import Lubricant
 from ..remarks import Remark, said
-from .film_rungs import has_map
+from .packaged_map import has_map
 
 TAYLOR = 41.2
 """Reynolds number times sqrt(c/R) from which vortices grow between cylinders, the inner one turning.
