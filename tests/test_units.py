@@ -80,7 +80,16 @@ SIZES = st.floats(1e-20, 1e20) | st.floats(-1e20, -1e-20) | st.just(0.0)
 @given(number=SIZES, name=st.sampled_from(sorted(DISPLAY_UNITS)))
 def test_every_number_with_every_unit_is_read(number, name):
     unit = next(key for key in UNITS if UNITS[key].exponents == DISPLAY_UNITS[name].exponents)
-    assert parse_quantity(f"{number!r} {name}", unit) == number * DISPLAY_UNITS[name].factor
+    of = DISPLAY_UNITS[name]
+    assert parse_quantity(f"{number!r} {name}", unit, absolute=True) == number * of.factor + of.zero
+
+
+@pytest.mark.closed_form
+def test_a_temperature_has_a_zero_and_a_difference_has_none():
+    assert parse_quantity("45 degC", "K", absolute=True) == 318.15
+    assert parse_quantity("45 \N{DEGREE SIGN}C", "K", absolute=True) == 318.15
+    with pytest.raises(InputError, match=r"must be a difference in K.*got '45 degC'"):
+        parse_quantity("45 degC", "K")
 
 
 @pytest.mark.parametrize(

@@ -82,7 +82,7 @@ def test_what_shaft_and_films_leave_out_is_said(run, short):
     scene = Scene.load(short)
     rotor, bearings = scene.shaft.build(), scene.shaft.build_bearings()
     fastest = scene.shaft.speeds.build()[-1]
-    assert remarks == list(shaft_remarks(rotor, bearings, scene.lubricant, fastest))
+    assert remarks == list(shaft_remarks(rotor, bearings, scene.lubricant.properties, fastest))
     assert [line.split(": ")[:2] for line in remarks] == [
         [f"{name}, at {fastest:.4g} rad/s", "heat"] for name in ("left", "right")
     ]

@@ -75,7 +75,13 @@ int rf_heat_at(const rf_heated *film, const double *state, rf_heat *heat, rf_hea
         return status;
     const double r = film->radius, l = film->length, c = film->clearance, *f = heat->force;
     kinematics(c, state, e, w);
-    const int known = film->loss(film->loss_data, e, w, losses, slopes ? by_loss : NULL);
+    int known = film->loss(film->loss_data, e, w, losses, slopes ? by_loss : NULL);
+    if (known == RF_UNDEFINED) {
+        /* Without source the losses have a kink, whatever the direction: their mean slope is none. */
+        for (int k = 0; slopes && k < 4 * RF_LOSSES; ++k)
+            by_loss[k] = 0.0;
+        known = RF_OK;
+    }
     if (known > RF_OUTSIDE)
         return known;
     status = known > status ? known : status;

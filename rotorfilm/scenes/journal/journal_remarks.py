@@ -119,7 +119,8 @@ def journal_numbers(
         "side_flow": flow,
         "warming": warming,
         "unknown": float(math.isnan(warming)),
-        "thinning": -math.expm1(-oil.thinning * warming),
+        # A bearing that is given its oil is answered as warm as it gets.
+        "thinning": 0.0 if bearing.oil is not None else -math.expm1(-oil.thinning * warming),
         "pressure": mean / ATMOSPHERE,
         "compression": mean / oil.bulk_modulus,
         "tilt": 2e3 * c / bearing.length,

@@ -105,7 +105,8 @@ def heat_by_state(at: FilmAt, dissipation: Array, dimensions: Dimensions, coolin
     cooling : Cooling
     """
     R, L, c, mu = dimensions
-    film, streamers, flow = np.asarray(at.losses.slopes)
+    # Without source the losses have a kink, whatever the direction: their mean slope is none.
+    film, streamers, flow = np.nan_to_num(np.asarray(at.losses.slopes))
     chi = float(np.hypot(*at.e))
     gap = np.concatenate([at.e, np.zeros(2)]) * float(at.losses.shear_gap) / ((1.0 - chi) * (1.0 + chi))
     shear, by_shear = (at.losses.shear_gap, gap) if cooling.full_gap else (at.losses.shear, film + streamers)

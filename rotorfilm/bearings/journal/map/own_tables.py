@@ -54,6 +54,8 @@ def _film(around: int, along: int) -> _TwoFilms:
 
 def reference_film(slenderness: float) -> ReynoldsFilm:
     """Return the two-dimensional film of a bearing that the packaged table leaves out."""
+    from ..reynolds_film import ReynoldsFilm
+
     return ReynoldsFilm(cells=_SHORT if slenderness < 1.0 else _LONG)
 
 
