@@ -16,6 +16,9 @@ PRINTED = {"name", "label", "title", "text", "x_label", "y_label"}
 """Attributes that are shown to people."""
 
 ALLOWED = {
+    # Names of parameters and modules in Python, not display names.
+    ("cli/command.py", "parameter.name.replace('_', '-')"),
+    ("cli/main.py", "started.name == f'{package}.__main__'"),
     # an answer knows the rung that gave it by its name alone
     ("cli/question_printing.py", "report.name == answer.model"),
     # a fingerprint, which is shown to no one
