@@ -104,15 +104,30 @@ double rf_heat_surplus(const rf_heated *film, const rf_heat *heat, double t, dou
     return heat->drag * mu - oil * (t - film->supply) - film->conductance * (t - film->ambient);
 }
 
+/* The root of an oil that thins evenly, as from the temperature t0 that the film has without heat: x e^x = z by a formula
+   for Lambert's W, within some per cent. */
+static double guess(const rf_heated *film, const rf_heat *heat, double takes, double t0)
+{
+    double mu, slope;
+    rf_oil_viscosity(&film->oil, t0, &mu, &slope);
+    const double thinning = -slope / mu, rise = heat->drag * mu / takes;
+    if (!(thinning > 0.0 && rise > 0.0))
+        return t0;
+    const double l = log(1.0 + thinning * rise);
+    return t0 + l * (1.0 - log(1.0 + l) / (2.0 + l)) / thinning;
+}
+
 int rf_balance(const rf_heated *film, const rf_heat *heat, double *temperature)
 {
-    const double takes = film->volumetric_heat * heat->flow + film->conductance;
-    double t = film->conductance > 0.0 ? fmin(film->supply, film->ambient) : film->supply, slope;
-    *temperature = t;
+    const double oil = film->volumetric_heat * heat->flow, takes = oil + film->conductance;
+    double slope;
+    *temperature = film->supply;
     if (!(takes > 0.0))
         return heat->drag > 0.0 ? RF_STUCK : RF_OK;
+    const double unheated = (oil * film->supply + film->conductance * film->ambient) / takes;
+    double t = guess(film, heat, takes, unheated);
     for (int k = 0; k < STEPS; ++k) {
-        const double step = -rf_heat_surplus(film, heat, t, &slope) / slope;
+        const double step = fmax(-rf_heat_surplus(film, heat, t, &slope) / slope, unheated - t);
         t += step;
         if (fabs(step) <= ROUNDOFF * t) {
             *temperature = t;

@@ -51,7 +51,7 @@ int rf_heat_at(const rf_heated *film, const double *state, rf_heat *heat, rf_hea
 /* Heat made less heat taken away at a temperature [W] and, unless NULL, its derivative. */
 double rf_heat_surplus(const rf_heated *film, const rf_heat *heat, double temperature, double *slope);
 
-/* The root of (1) by Newton's method from below. RF_STUCK if nothing takes the heat away. */
+/* The root of (1) by Newton's method. RF_STUCK if nothing takes the heat away. */
 int rf_balance(const rf_heated *film, const rf_heat *heat, double *temperature);
 
 /* Force f[2], temperature and, unless NULL, jacobian[2][5] of the film that at every state has the temperature of
