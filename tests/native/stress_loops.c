@@ -130,11 +130,12 @@ static void try_ring(const rf_ring *ring)
     const double size = 0.95 * uniform() / fmax(1e-6, sqrt(2.0) * fmax(fabs(e[0]), fabs(e[1])));
     const double inside[2] = {isfinite(size * e[0]) ? size * e[0] : 0.3, isfinite(size * e[1]) ? size * e[1] : 0.0};
     const double source[2] = {about(100.0, 0.0), about(100.0, 0.0)};
-    double fine[2], coarse[2], J[RF_LEVELS], slope[2 * RF_LEVELS], side_flow;
+    double fine[2], coarse[2], slopes[8], J[RF_LEVELS], slope[2 * RF_LEVELS], side_flow;
+    rf_grid_work work;
     size_t first;
-    if (rf_ring_pair(ring, 1, inside, source, fine, coarse, &first) == RF_OK)
+    if (rf_ring_pair(ring, 1, inside, source, fine, coarse, uniform() < 0.5 ? slopes : NULL, &first) == RF_OK)
         require_finite(fine, 2, "pair of a ring");
-    if (rf_ring_potential(ring, inside, 1, source, J, slope, &first) == RF_OK)
+    if (rf_ring_potential(ring, inside, 1, source, J, slope, &work, &first) == RF_OK)
         require_finite(J, RF_LEVELS, "potential of a ring");
     const rf_grid *grid = &ring->grids[0];
     double *field = malloc((2 + grid->nodes) * grid->lines * sizeof *field);

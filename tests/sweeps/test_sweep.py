@@ -13,7 +13,7 @@ import pytest
 from rotorfilm import JournalBearing, ShortFilm, equilibrium, sweep
 from rotorfilm.errors import InputError, SceneError
 from rotorfilm.scenes import Scene
-from rotorfilm.scenes.reading.tables import unit_of
+from rotorfilm.scenes.reading.key_paths import quantity_of
 from rotorfilm.sweeps.store import Store
 
 xarray = pytest.importorskip("xarray")
@@ -177,7 +177,8 @@ def test_units_are_those_of_the_schema_where_numbers_have_none():
     ],
 )
 def test_unit_of_a_key(key, unit):
-    assert unit_of(Scene, key.split(".")) == unit
+    found = quantity_of(Scene, key.split("."))
+    assert (found.unit if found else None) == unit
 
 
 def test_damaged_results_are_refused(tmp_path):
