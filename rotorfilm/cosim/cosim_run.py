@@ -19,6 +19,7 @@ from ..errors import (
     PartialResultError,
     require_positive,
 )
+from ..readable.result import Drawable, Readable
 from ..results import Trajectory
 from .bench import Sample
 from .chatter import CouplingReport, inspect_coupling
@@ -33,7 +34,7 @@ COARSE = 0.3
 
 
 @dataclass(frozen=True, kw_only=True)
-class Trial:
+class Trial(Readable):
     """What a trial run of one scheme said.
 
     Attributes
@@ -57,7 +58,7 @@ class Trial:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Choice:
+class Choice(Readable):
     """The scheme chosen, and the trials that led to it.
 
     Attributes
@@ -71,7 +72,7 @@ class Choice:
 
 
 @dataclass(frozen=True, kw_only=True)
-class CoSimulation:
+class CoSimulation(Drawable):
     """The outcome of a co-simulation.
 
     Attributes
@@ -180,7 +181,9 @@ class _Run:
             np.array([sample.force for sample in self._samples]).reshape(len(rows), self._partners.size).T
         )
         return CoSimulation(
-            trajectory=Trajectory(time=time, signals=signals, work=dict(self._partners.work)),
+            trajectory=Trajectory(
+                time=time, signals=signals, work=dict(self._partners.work), units=self._partners.units
+            ),
             macro_step=self._macro_step,
             scheme=self._scheme,
             coupling=inspect_coupling(time, forces),

@@ -45,6 +45,8 @@ class FmuSlave:
         self._references = {
             causality: _references(description, causality) for causality in ("input", "output")
         }
+        told = variables_of(description, "output")
+        self.units = {local_name(one.name): one.unit for one in told if one.unit}
         self.differentiates, self.restores = provides(folder, DERIVATIVES), provides(folder, STATES)
         slopes = [unknown.variable for unknown in description.derivatives or ()]
         self._slopes = [slope.valueReference for slope in slopes]

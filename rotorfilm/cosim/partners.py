@@ -15,7 +15,7 @@ from ..rotors.force_law import ForceLaw, held_law
 from ..rotors.stations import station_name
 from ..signals import FORCE_OUTPUTS, JOURNAL_INPUTS
 from .bench import Needs, Sample, StationMotion, Tangents, no_tangents
-from .slaves import Differentiable, Driven, Restorable, Slave
+from .slaves import Differentiable, Driven, Measured, Restorable, Slave
 from .wiring import sources, wired
 
 PROBE = 1e3
@@ -114,6 +114,15 @@ class Partners:
         """Names of all outputs: those of the rotor, then those of the films."""
         films = [station_name(station, n) for station, film in self.films.items() for n in film.outputs]
         return [*self.rotor.outputs, *films]
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Units of the outputs, of partners that tell them."""
+        known = dict(self.rotor.units) if isinstance(self.rotor, Measured) else {}
+        for station, film in self.films.items():
+            said = film.units if isinstance(film, Measured) else {}
+            known |= {station_name(station, name): unit for name, unit in said.items()}
+        return known
 
     @property
     def differentiates(self) -> bool:

@@ -11,7 +11,7 @@ from ..errors import InputError
 from ..fmu.advance import advance
 from ..model import Array, Dynamic, Linearization, Model, breakpoints
 from ..rotors.force_law import ForceLaw
-from ..signals import names
+from ..signals import names, units
 from .schemes.exponential import LawIntegrator
 from .wiring import Wiring
 
@@ -53,6 +53,15 @@ class Differentiable(Protocol):
 
     def jacobian(self, outputs: Sequence[str], inputs: Sequence[str]) -> Array:
         """Return d(outputs)/d(inputs) at present, shape (n_outputs, n_inputs)."""
+
+
+@runtime_checkable
+class Measured(Protocol):
+    """What a partner may add: the units of its outputs."""
+
+    @property
+    def units(self) -> dict[str, str]:
+        """SI units by the names of the outputs, where they are known."""
 
 
 @runtime_checkable
@@ -121,6 +130,7 @@ class InProcessSlave:
         self._model = model
         self.differentiates = hasattr(model, "linearization")
         self._inputs, self._outputs = tuple(names(model.inputs)), tuple(names(model.outputs))
+        self.units = units(model.outputs)
         self._u = np.zeros(len(model.inputs))
         # Asked once: checks against protocols are slow.
         self._moving = model if isinstance(model, Dynamic) else None

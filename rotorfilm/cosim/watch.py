@@ -11,6 +11,7 @@ import numpy as np
 
 from ..errors import CouplingWarning, RotorfilmError, warn_user
 from ..model import Array
+from ..readable.result import Readable
 from .bench import Sample
 from .chatter import WINDOW, inspect_coupling, is_calm
 from .coupling_loop import Loop, dominant_eigenvalue, squeeze_limit
@@ -33,7 +34,7 @@ EARLY = 0.5
 
 
 @dataclass(frozen=True, kw_only=True)
-class CouplingWatch:
+class CouplingWatch(Readable):
     """How far a coupling was from its limit, and its local error.
 
     Attributes

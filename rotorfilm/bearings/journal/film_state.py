@@ -9,13 +9,14 @@ from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_finite
 from ...model import Array
+from ...readable.result import Drawable
 from ..films.film_field import FilmField
 from .bearing import JournalBearing
 from .reynolds_film import ReynoldsFilm
 
 
 @dataclass(frozen=True, kw_only=True)
-class FilmState:
+class FilmState(Drawable):
     """Pressure, force, flow and friction of a film at one state of the journal.
 
     Attributes

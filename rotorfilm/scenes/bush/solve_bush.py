@@ -9,6 +9,7 @@ from typing import Any
 from ...bearings.bush import BushContact, BushWear, MeltingBush, f4k20_bush
 from ...errors import InputError
 from ...printable import brief
+from ...readable.result import Readable
 from ...units import parse_quantity
 
 SETTINGS: dict[str, tuple[str, str]] = {
@@ -33,7 +34,7 @@ SETTINGS: dict[str, tuple[str, str]] = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class BushAnswer:
+class BushAnswer(Readable):
     """What `rotorfilm bush` prints.
 
     Attributes

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from ...bearings.films.geometry import Groove, Pad
 from ...bearings.films.law import FilmLaw
 from ...bearings.journal import JournalBearing
+from ...readable.result import Readable
 from ..reading.shared_fields import made_from
 
 _GEOMETRY = "geometry"
@@ -15,7 +16,7 @@ _GEOMETRY = "geometry"
 
 
 @dataclass(frozen=True, kw_only=True)
-class BearingData:
+class BearingData(Readable):
     """A journal bearing as it was understood.
 
     Attributes

@@ -6,12 +6,13 @@ from dataclasses import dataclass
 
 from ...bearings.journal import JournalBearing
 from ...linear import CriticalMass, coefficients, critical_mass, equilibrium, whirl_threshold
+from ...readable.result import Readable
 from ...results import Coefficients, Equilibrium, WhirlThreshold
 from .echo import BearingData, bearing_data, film_name
 
 
 @dataclass(frozen=True, kw_only=True)
-class Answer:
+class Answer(Readable):
     """What a scene has been answered with.
 
     Attributes

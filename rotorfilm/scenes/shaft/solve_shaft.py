@@ -22,6 +22,7 @@ from ...linear import (
 )
 from ...model import Array
 from ...progress import Report, silent
+from ...readable.result import Drawable
 from ..excitation_table import UnbalanceTable
 from .shaft_remarks import shaft_remarks
 
@@ -39,7 +40,7 @@ LEAST_DECREMENT = 1e-6
 
 
 @dataclass(frozen=True, kw_only=True)
-class RotorAnswer:
+class RotorAnswer(Drawable):
     """A flexible rotor in its bearings over a range of speeds.
 
     Attributes
