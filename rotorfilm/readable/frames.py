@@ -1,4 +1,4 @@
-"""Results as variables with dimensions and units: a `pandas.DataFrame` or an `xarray.Dataset`."""
+"""Results as arrays with dimensions and units: a `pandas.DataFrame` or an `xarray.Dataset`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ AXIS = "axis"
 """Dimension along x and y; that of forces in a matrix is `force_axis`."""
 
 
-class Variable(NamedTuple):
+class LabeledArray(NamedTuple):
     """An array of a result.
 
     Attributes
@@ -32,7 +32,7 @@ class Variable(NamedTuple):
     unit: str
 
 
-Variables = dict[str, Variable]
+Arrays = dict[str, LabeledArray]
 
 
 def optional(package: str, install: str) -> Any:
@@ -58,8 +58,8 @@ def dimensions(name: str, shape: Iterable[str], count: int) -> tuple[str, ...]:
     return tuple(f"{dim}_{k}" if dim in dims[:k] else dim for k, dim in enumerate(dims))
 
 
-def consistent(found: Mapping[str, Variable]) -> Variables:
-    """Return variables so that one name of a dimension has one length: others get the variable's own name."""
+def consistent(found: Mapping[str, LabeledArray]) -> Arrays:
+    """Return arrays so that one name of a dimension has one length: others get the array's own name."""
     lengths: dict[str, int] = {}
     result = {}
     for name, one in found.items():
@@ -69,26 +69,26 @@ def consistent(found: Mapping[str, Variable]) -> Variables:
     return result
 
 
-def stacked(name: str, dim: str, values: Sequence[Any], shape: Iterable[str], unit: str) -> Variables:
+def stacked(name: str, dim: str, values: Sequence[Any], shape: Iterable[str], unit: str) -> Arrays:
     """Return equal things of many results along a dimension; arrays of unequal shapes by their number."""
     if all(isinstance(one, str) for one in values):
-        return {name: Variable((dim,), np.array(values, dtype=object), "")}
+        return {name: LabeledArray((dim,), np.array(values, dtype=object), "")}
     if not all(one is None or is_number(one) for one in values):
         return {}
     arrays = [np.asarray(one) for one in values if one is not None]
     if len({one.shape for one in arrays}) == 1:
         empty = np.full(arrays[0].shape, np.nan)
         whole = np.stack([empty if one is None else np.asarray(one) for one in values])
-        return {name: Variable((dim, *dimensions(name, shape, arrays[0].ndim)), whole, unit)}
+        return {name: LabeledArray((dim, *dimensions(name, shape, arrays[0].ndim)), whole, unit)}
     numbered = {f"{name}_{k}": np.asarray(one) for k, one in enumerate(values) if one is not None}
-    return {key: Variable(dimensions(key, (), one.ndim), one, unit) for key, one in numbered.items()}
+    return {key: LabeledArray(dimensions(key, (), one.ndim), one, unit) for key, one in numbered.items()}
 
 
-def to_dataset(variables: Variables, index: str, along: str, notes: Mapping[str, Any]) -> Any:
-    """Return an xarray.Dataset; the variable `index`, if there is one, is the coordinate of its dimension."""
+def to_dataset(arrays: Arrays, index: str, along: str, notes: Mapping[str, Any]) -> Any:
+    """Return an xarray.Dataset; the array `index`, if there is one, is the coordinate of its dimension."""
     xarray = optional("xarray", "'rotorfilm[sweep]'")
     renamed = {}
-    for name, one in variables.items():
+    for name, one in arrays.items():
         dims = tuple(index if index and dim == along else dim for dim in one.dims)
         renamed[name] = dims, one.values, {"units": one.unit} if one.unit else {}
     used = {dim for dims, _, _ in renamed.values() for dim in dims}
@@ -98,11 +98,11 @@ def to_dataset(variables: Variables, index: str, along: str, notes: Mapping[str,
     return xarray.Dataset(renamed, coords=coords, attrs=notes)
 
 
-def to_frame(variables: Variables, index: str, along: str, notes: Mapping[str, Any]) -> Any:
+def to_frame(arrays: Arrays, index: str, along: str, notes: Mapping[str, Any]) -> Any:
     """Return a pandas.DataFrame; what does not run along its rows is in its `attrs`, as are the units."""
     pandas = optional("pandas", "pandas")
     columns, units, rest = {}, {}, {}
-    for name, one in variables.items():
+    for name, one in arrays.items():
         if along and along not in one.dims:
             rest[name] = one.values.tolist()
             units[name] = one.unit
@@ -116,13 +116,13 @@ def to_frame(variables: Variables, index: str, along: str, notes: Mapping[str, A
     return frame
 
 
-def rows_of(variables: Variables) -> str:
+def rows_of(arrays: Arrays) -> str:
     """Return the dimension that the first array has beside x and y; nothing where all are numbers."""
-    dims = (dim for one in variables.values() for dim in one.dims if not dim.endswith(AXIS))
+    dims = (dim for one in arrays.values() for dim in one.dims if not dim.endswith(AXIS))
     return next(dims, "")
 
 
-def _columns(name: str, one: Variable, along: str) -> Iterator[tuple[str, np.ndarray]]:
+def _columns(name: str, one: LabeledArray, along: str) -> Iterator[tuple[str, np.ndarray]]:
     """Yield a column for each entry of an array beside its rows."""
     values = np.moveaxis(one.values, one.dims.index(along), 0) if along else one.values[None]
     dims = [dim for dim in one.dims if dim != along]

@@ -14,6 +14,7 @@ from ..units import DISPLAY_UNITS
 
 PREFIXED = {
     "m": ("m", "mm", "um", "nm"),
+    "m/s": ("m/s", "mm/s", "um/s"),
     "s": ("s", "ms", "us"),
     "Pa": ("GPa", "MPa", "kPa", "Pa"),
     "kg m": ("kg m", "g mm"),
@@ -21,7 +22,7 @@ PREFIXED = {
 }
 """Units that are shown in place of the SI unit: the largest that leaves a value of 1 or more."""
 
-FACTORS = {"us": 1e-6, "nm": 1e-9}
+FACTORS = {"us": 1e-6, "nm": 1e-9, "mm/s": 1e-3, "um/s": 1e-6}
 """SI units in those that `units.DISPLAY_UNITS` does not have."""
 
 FEW = 4
@@ -30,9 +31,13 @@ FEW = 4
 AXES = "xy"
 
 
+WORDS = {"remarks": "left out"}
+"""Names that say more than themselves: remarks are what the physics leaves out."""
+
+
 def label_of(name: str) -> str:
     """Return the name of a field as words."""
-    return name.strip("_").replace("_", " ")
+    return WORDS.get(name, name.strip("_").replace("_", " "))
 
 
 def quantity(value: Any, unit: str, name: str = "") -> str:
@@ -55,7 +60,12 @@ def _scale(unit: str, size: float) -> tuple[str, float]:
         return fitting[0]
     if scales:
         return scales[0 if size == 0.0 and unit != "Pa" else -1]
-    return unit.removeprefix("1") if unit == "1" else unit, 1.0
+    return _spelled(unit), 1.0
+
+
+def _spelled(unit: str) -> str:
+    """Return a unit as it is written behind a number."""
+    return "" if unit == "1" else unit.replace(".", " ")
 
 
 def _number(value: np.ndarray) -> str:
@@ -97,9 +107,11 @@ def texts(name: str, value: Any, unit: str) -> list[str]:
 def _array(name: str, value: np.ndarray, unit: str) -> list[str]:
     if value.ndim == 0 or (value.ndim == 1 and 0 < value.size <= FEW):
         return [quantity(value, unit, name)]
-    if value.shape == (2, 2):
+    if value.dtype.kind not in "fiucb":
+        return [shortened(str(value))] if value.size else []
+    if value.shape == (2, 2) and value.dtype.kind != "b":
         rows = [[f"{a}{b} {value[i, j]:14.7g}" for j, b in enumerate(AXES)] for i, a in enumerate(AXES)]
-        return [f"{'   '.join(row)} {unit.removeprefix('1')}".rstrip() for row in rows]
+        return [f"{'   '.join(row)} {_spelled(unit)}".rstrip() for row in rows]
     return [_summary(name, value, unit)] if value.size else []
 
 

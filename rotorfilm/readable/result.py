@@ -10,7 +10,7 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from ..printable import visible
+from ..printable import LONGEST, visible
 from . import frames
 from .docstrings import explained
 from .quantities import is_number, label_of, texts
@@ -48,12 +48,17 @@ def items_of(value: Any, further: Iterable[str] = ()) -> Iterator[Item]:
     own = value._own_units() if isinstance(value, Readable) else {}
     for name in (*(one.name for one in fields(value) if not one.name.startswith("_")), *further):
         held, said = getattr(value, name), explained(type(value), name)
-        if isinstance(held, Mapping) and any(isinstance(one, np.ndarray | Readable) for one in held.values()):
+        if isinstance(held, Mapping) and any(_is_measured(one) for one in held.values()):
             for key, one in held.items():
                 below = key if name == SERIES else f"{name}_{key}"
                 yield Item(below, one, own.get(key, said.unit), said.shape)
         elif name != UNITS:
             yield Item(name, held, own.get(name, said.unit), said.shape)
+
+
+def _is_measured(value: Any) -> bool:
+    """Return whether an entry of a mapping is shown by itself, as a counter is not."""
+    return isinstance(value, np.ndarray | Readable | float)
 
 
 def rows_of(items: Iterable[Item]) -> list[Row]:
@@ -138,12 +143,12 @@ class Readable:
         return self._handed(frames.to_frame)
 
     def _handed(self, make: Callable[..., Any]) -> Any:
-        variables, notes = _variables(items_of(self, self._shown))
-        variables = frames.consistent(variables)
+        arrays, notes = _arrays(items_of(self, self._shown))
+        arrays = frames.consistent(arrays)
         first = fields(self)[0].name  # type: ignore[arg-type]
-        along = self._along or frames.rows_of(variables)
-        index = first if first in variables and variables[first].dims == (along,) else ""
-        return make(variables, index, along, {"title": type(self).__name__, **notes})
+        along = self._along or frames.rows_of(arrays)
+        index = first if first in arrays and arrays[first].dims == (along,) else ""
+        return make(arrays, index, along, {"title": type(self).__name__, **notes})
 
 
 class Drawable(Readable):
@@ -168,8 +173,9 @@ class Drawable(Readable):
 def _rows(item: Item) -> list[Row]:
     """Return the rows of one thing that a result holds."""
     label, value = label_of(item.name), item.value
-    if isinstance(value, Readable):
-        return [(label, ""), *((f"  {inner}", text) for inner, text in value.rows())]
+    if isinstance(value, Readable) or (is_dataclass(value) and len(_line(value)) > LONGEST):
+        inside = rows_of(items_of(value, getattr(value, "_shown", ())))
+        return [(label, ""), *((f"  {inner}", text) for inner, text in inside)]
     if isinstance(value, tuple | list) and any(is_dataclass(one) for one in value):
         return [(f"{label} {k}", _line(one)) for k, one in _ends(value)]
     lines = [_line(value)] if is_dataclass(value) else texts(item.name, value, item.unit)
@@ -199,20 +205,20 @@ def in_one_line(rows: Iterable[Row]) -> str:
     return line
 
 
-def _variables(items: Iterable[Item]) -> tuple[frames.Variables, dict[str, Any]]:
+def _arrays(items: Iterable[Item]) -> tuple[frames.Arrays, dict[str, Any]]:
     """Return the arrays of a result, and what is said of it in words."""
-    found: frames.Variables = {}
+    found: frames.Arrays = {}
     notes: dict[str, Any] = {}
     for name, value, unit, shape in items:
         if isinstance(value, Readable):
-            inner, said = _variables(items_of(value, value._shown))
+            inner, said = _arrays(items_of(value, value._shown))
             found |= {f"{name}_{key}": one for key, one in inner.items()}
             notes |= {f"{name}_{key}": one for key, one in said.items()}
         elif isinstance(value, tuple) and value and all(isinstance(one, Readable) for one in value):
             found |= _stacked(name, (*shape, name)[0], value)
         elif is_number(value) or (value is None and unit):
             values = np.asarray(np.nan if value is None else value)
-            found[name] = frames.Variable(frames.dimensions(name, shape, values.ndim), values, unit)
+            found[name] = frames.LabeledArray(frames.dimensions(name, shape, values.ndim), values, unit)
         elif isinstance(value, Mapping):
             notes |= {f"{name}_{key}": one for key, one in value.items()}
         else:
@@ -220,9 +226,9 @@ def _variables(items: Iterable[Item]) -> tuple[frames.Variables, dict[str, Any]]
     return found, notes
 
 
-def _stacked(name: str, dim: str, results: Sequence[Any]) -> frames.Variables:
-    """Return the variables of many results of one kind."""
-    found: frames.Variables = {}
+def _stacked(name: str, dim: str, results: Sequence[Any]) -> frames.Arrays:
+    """Return the arrays of many results of one kind."""
+    found: frames.Arrays = {}
     parts = [list(items_of(one, one._shown)) for one in results]
     for items in zip(*parts, strict=False):
         key, values = f"{name}_{items[0].name}", [item.value for item in items]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 
 import numpy as np
@@ -24,7 +24,7 @@ from ..films.bound_law import BoundLaw, kinematics
 from ..films.geometry import FilmGeometry, Groove, Pad
 from ..films.law import BoundFilm, FilmLaw, FilmOptions, options
 from ..reaction import NOMINAL_SPEED, Feedthrough, broadcast_state
-from .fitting import fitted_film
+from .fitting import film_name, fitted_film
 from .journal_kernel import NATIVE_PARAMETERS, journal_spec
 from .map.map_film import MapFilm
 
@@ -116,9 +116,15 @@ class JournalBearing(Feedthrough):
         limit = self._options.slenderness_limit
         if self.slenderness > limit:
             warn_user(
-                f"length / diameter must not exceed {limit} for {self.film!r}, got {self.slenderness:.6g}: "
-                "the film force can be wrong by half and more"
+                f"length / diameter must not exceed {limit} for {film_name(self.fitted_film)}, "
+                f"got {self.slenderness:.6g}: the film force can be wrong by half and more"
             )
+
+    def __repr__(self) -> str:
+        """As of a dataclass, but with the film that the bearing really uses: with openings it is another."""
+        values = {one.name: repr(getattr(self, one.name)) for one in fields(self)}
+        values["film"] = film_name(self.fitted_film)
+        return f"{type(self).__name__}({', '.join(f'{name}={value}' for name, value in values.items())})"
 
     @property
     def slenderness(self) -> float:

@@ -12,6 +12,7 @@ from ...model import Array
 from ...readable.result import Drawable
 from ..films.film_field import FilmField
 from .bearing import JournalBearing
+from .fitting import film_name
 from .reynolds_film import ReynoldsFilm
 
 
@@ -88,7 +89,7 @@ def film_state(bearing: JournalBearing, position: ArrayLike, velocity: ArrayLike
     """
     film = bearing.fitted_film
     if not isinstance(film, ReynoldsFilm):
-        raise InputError(f"film must be a ReynoldsFilm to have a pressure field, got {bearing.film!r}")
+        raise InputError(f"film must be a ReynoldsFilm to have a pressure field, got {film_name(film)}")
     q, v, omega = _single("position", position), _single("velocity", velocity), require_finite("speed", speed)
     if omega.ndim != 0:
         raise InputError(f"speed must be a single number, got shape {omega.shape}")

@@ -10,6 +10,7 @@ from ...bearings.bush import BushContact, BushWear, MeltingBush, f4k20_bush
 from ...errors import InputError
 from ...printable import brief
 from ...readable.result import Readable
+from ...signals import units
 from ...units import parse_quantity
 
 SETTINGS: dict[str, tuple[str, str]] = {
@@ -58,6 +59,9 @@ class BushAnswer(Readable):
     contact_angle: float
     onset_speed: float
     operation: dict[str, float]
+
+    def _own_units(self) -> dict[str, str]:
+        return units(BushWear(bush=self.bush, melting_heat=1.0).outputs)
 
 
 def bush_from_settings(settings: Mapping[str, str]) -> MeltingBush:

@@ -80,6 +80,9 @@ class RotorAnswer(Drawable):
     response: control.FrequencyResponseData | None = field(repr=False)
     remarks: tuple[str, ...] = ()
 
+    def _own_units(self) -> dict[str, str]:
+        return {name: "N" if "_force_" in name else "m" for name in self.amplitudes}
+
 
 def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
     """Return what the shaft of a scene does over its speeds.
