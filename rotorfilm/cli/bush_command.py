@@ -40,4 +40,4 @@ def bush(
 
 def print_bush(answer: BushAnswer) -> None:
     """Print contact and critical speeds of a melting bush."""
-    console.print_rows("melting bush", answer.rows())
+    console.print_rows("melting bush", answer.to_rows())

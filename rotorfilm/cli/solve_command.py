@@ -73,4 +73,4 @@ def remark_rows(remarks: tuple[str, ...]) -> list[tuple[str, str]]:
 
 def print_answer(title: str, answer: Answer) -> None:
     """Print equilibrium, coefficients and whirl threshold."""
-    console.print_rows(title, answer.rows())
+    console.print_rows(title, answer.to_rows())

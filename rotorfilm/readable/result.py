@@ -46,8 +46,9 @@ class Item(NamedTuple):
 def items_of(value: Any, further: Iterable[str] = ()) -> Iterator[Item]:
     """Yield what a dataclass holds, and further properties; the series of a mapping one by one."""
     own = value._own_units() if isinstance(value, Readable) else {}
+    kind: type[object] = type(value)
     for name in (*(one.name for one in fields(value) if not one.name.startswith("_")), *further):
-        held, said = getattr(value, name), explained(type(value), name)
+        held, said = getattr(value, name), explained(kind, name)
         if isinstance(held, Mapping) and any(_is_measured(one) for one in held.values()):
             for key, one in held.items():
                 below = key if name == SERIES else f"{name}_{key}"
@@ -92,15 +93,15 @@ class Readable:
         """Return units that only the result itself knows, by the name of the field or of the entry in it."""
         return {}
 
-    def rows(self) -> list[Row]:
+    def to_rows(self) -> list[Row]:
         """Return names and values with their units, a row for each; of a result in it, all of its rows."""
         return rows_of(items_of(self, self._shown))
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({in_one_line(self.rows())})"
+        return f"{type(self).__name__}({in_one_line(self.to_rows())})"
 
     def __str__(self) -> str:
-        shown = self.rows()
+        shown = self.to_rows()
         width = max((len(label) for label, _ in shown), default=0)
         lines = [f"{visible(label):{width}}  {visible(text)}".rstrip() for label, text in shown]
         return "\n".join([type(self).__name__, *lines])
@@ -112,7 +113,7 @@ class Readable:
         lines = "".join(
             f'<tr><th style="text-align:left">{escape(visible(label)).replace("  ", "&#8195;")}</th>'
             f'<td style="text-align:left"><pre style="margin:0">{escape(visible(text))}</pre></td></tr>'
-            for label, text in self.rows()
+            for label, text in self.to_rows()
         )
         return f"<table><caption>{type(self).__name__}</caption><tbody>{lines}</tbody></table>"
 
@@ -191,7 +192,7 @@ def _ends(results: Iterable[Any]) -> list[tuple[int, Any]]:
 def _line(value: Any) -> str:
     """Return a dataclass in one line; of one that is no result its name too."""
     if isinstance(value, Readable):
-        return in_one_line(value.rows())
+        return in_one_line(value.to_rows())
     return f"{type(value).__name__}({in_one_line(rows_of(items_of(value)))})"
 
 

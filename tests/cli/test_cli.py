@@ -96,11 +96,8 @@ def test_print_outs_repeat_the_bearing(run, scene):
     code, out, _ = run("solve", scene)
     assert code == 0
     shown = dict(line.strip().split("  ", 1) for line in out.splitlines() if "  " in line.strip())
-    assert [shown[name].strip() for name in ("radius", "clearance", "slenderness")] == [
-        "50 mm",
-        "100 um",
-        "0.3",
-    ]
+    sizes = [shown[name].strip() for name in ("radius", "clearance", "slenderness")]
+    assert sizes == ["50 mm", "100 um", "0.3"]
     assert "MapFilm()" in out
     told = [json.loads(run(*arguments, "--json")[1]) for arguments in (("solve", scene), coefficients())]
     assert told[0]["bearing"] == told[1]["bearing"]

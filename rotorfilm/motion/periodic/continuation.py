@@ -63,7 +63,7 @@ class OrbitCurve(Drawable):
     Attributes
     ----------
     parameters : ndarray, shape (n,)
-    orbits : tuple of PeriodicOrbit
+    orbits : tuple of PeriodicOrbit, shape (n,)
     events : tuple of OrbitEvent
         In the order in which they are met.
     reason : str
