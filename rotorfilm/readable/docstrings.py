@@ -56,7 +56,6 @@ def _block(block: str, where: str) -> Iterator[Entry]:
         yield Entry(name, unit, bare, " ".join(body.split()), where)
 
 
-@cache
 def explained(kind: type, name: str) -> Entry:
     """Return what is said of a field of a class, or of a property by its own docstring."""
     for one in kind.__mro__:

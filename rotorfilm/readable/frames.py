@@ -10,7 +10,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..errors import AbsentError
-from .quantities import is_number
 
 AXIS = "axis"
 """Dimension along x and y; that of forces in a matrix is `force_axis`."""
@@ -70,11 +69,7 @@ def consistent(found: Mapping[str, LabeledArray]) -> Arrays:
 
 
 def stacked(name: str, dim: str, values: Sequence[Any], shape: Iterable[str], unit: str) -> Arrays:
-    """Return equal things of many results along a dimension; arrays of unequal shapes by their number."""
-    if all(isinstance(one, str) for one in values):
-        return {name: LabeledArray((dim,), np.array(values, dtype=object), "")}
-    if not all(one is None or is_number(one) for one in values):
-        return {}
+    """Return equal numbers of many results along a dimension; arrays of unequal shapes by their number."""
     arrays = [np.asarray(one) for one in values if one is not None]
     if len({one.shape for one in arrays}) == 1:
         empty = np.full(arrays[0].shape, np.nan)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields, is_dataclass
-from html import escape
 from importlib import import_module
 from typing import Any, ClassVar, NamedTuple
 
@@ -46,9 +45,8 @@ class Item(NamedTuple):
 def items_of(value: Any, further: Iterable[str] = ()) -> Iterator[Item]:
     """Yield what a dataclass holds, and further properties; the series of a mapping one by one."""
     own = value._own_units() if isinstance(value, Readable) else {}
-    kind: type[object] = type(value)
     for name in (*(one.name for one in fields(value) if not one.name.startswith("_")), *further):
-        held, said = getattr(value, name), explained(kind, name)
+        held, said = getattr(value, name), explained(type(value), name)
         if isinstance(held, Mapping) and any(_is_measured(one) for one in held.values()):
             for key, one in held.items():
                 below = key if name == SERIES else f"{name}_{key}"
@@ -110,6 +108,8 @@ class Readable:
         printer.text("..." if cycle else str(self))
 
     def _repr_html_(self) -> str:
+        from html import escape  # with a table of all letters, which no calculation needs
+
         lines = "".join(
             f'<tr><th style="text-align:left">{escape(visible(label)).replace("  ", "&#8195;")}</th>'
             f'<td style="text-align:left"><pre style="margin:0">{escape(visible(text))}</pre></td></tr>'
@@ -223,7 +223,7 @@ def _arrays(items: Iterable[Item]) -> tuple[frames.Arrays, dict[str, Any]]:
         elif isinstance(value, Mapping):
             notes |= {f"{name}_{key}": one for key, one in value.items()}
         else:
-            notes[name] = "; ".join(text for _, text in _rows(Item(name, value, unit, shape)))
+            notes[name] = _words(Item(name, value, unit, shape))
     return found, notes
 
 
@@ -235,6 +235,14 @@ def _stacked(name: str, dim: str, results: Sequence[Any]) -> frames.Arrays:
         key, values = f"{name}_{items[0].name}", [item.value for item in items]
         if all(isinstance(one, Readable) for one in values):
             found |= _stacked(key, dim, values)
-        else:
+        elif all(one is None or is_number(one) for one in values):
             found |= frames.stacked(key, dim, values, items[0].shape, items[0].unit)
+        else:
+            words = np.array([_words(item) for item in items], dtype=object)
+            found[key] = frames.LabeledArray((dim,), words, "")
     return found
+
+
+def _words(item: Item) -> str:
+    """Return something that is no number as text."""
+    return "; ".join(text for _, text in _rows(item))

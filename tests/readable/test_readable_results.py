@@ -283,6 +283,7 @@ def test_an_orbit_is_drawn_in_micrometers():
 def test_the_ladder_is_the_table_of_an_answer():
     frame = SAMPLES["QuestionAnswer"].to_dataframe()
     assert len(frame) == 2
+    assert list(frame["rungs_verdict"]) == ["str <&> text"] * 2
     assert frame["rungs_cost"][0] == SAMPLES["QuestionAnswer"].rungs[0].cost
 
 
