@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Annotated
@@ -40,4 +41,18 @@ def bush(
 
 def print_bush(answer: BushAnswer) -> None:
     """Print contact and critical speeds of a melting bush."""
-    console.print_rows("melting bush", answer.to_rows())
+    at = answer.contact
+    onset = console.speed_text(answer.onset_speed)
+    rows = [
+        ("load", f"{at.load:.6g} N"),
+        ("contact half angle", f"{at.contact_angle:.6g} rad = {math.degrees(at.contact_angle):.4g} deg"),
+        ("settlement", f"{at.settlement * 1e6:.6g} um"),
+        ("pressure", f"mean {at.mean_pressure * 1e-6:.5g} MPa, largest {at.maximum_pressure * 1e-6:.5g} MPa"),
+        ("heat", f"shaft {at.shaft_flux:.6g} W/m2, liner {at.liner_flux:.6g} W/m2"),
+        ("critical speed", console.speed_text(at.critical_speed)),
+        ("", f"{onset} once worn to a settlement of {answer.settlement * 1e6:g} um"),
+    ]
+    operation = [(name.replace("_", " "), f"{value:.6g}") for name, value in answer.operation.items()]
+    console.print_rows("melting bush", rows)
+    if operation:
+        console.print_rows("at the speed given, unworn (SI)", operation)

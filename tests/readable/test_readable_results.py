@@ -1,14 +1,17 @@
 """Every result is read with its units: in print, in notebooks, as data frame, data set and picture."""
 
 import dataclasses
+import doctest
 import importlib
 import re
 import sys
+from pathlib import Path
 from xml.etree import ElementTree
 
 import glossary
 import numpy as np
 import pytest
+from scipy.integrate import BDF
 
 import rotorfilm
 from rotorfilm.bearings.bush import f4k20_bush
@@ -16,6 +19,7 @@ from rotorfilm.charts.result_charts import PICTURES
 from rotorfilm.errors import AbsentError, InputError
 from rotorfilm.motion.periodic.continuation import Bifurcation
 from rotorfilm.readable.docstrings import explained
+from rotorfilm.readable.quantities import quantity
 from rotorfilm.readable.result import Drawable, Readable
 from rotorfilm.results import Coefficients, Equilibrium, Trajectory, WhirlThreshold
 from rotorfilm.units import DISPLAY_UNITS, parse_quantity
@@ -36,6 +40,8 @@ NO_RESULTS = {
 
 READERS = ("scenes.reading.", "questions.", "ladders.")
 """Where classes hold what they were made from: readers of files, and rungs."""
+
+BEARING = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}
 
 NUMBERS = iter(range(1, 100000))
 
@@ -233,6 +239,34 @@ iterations          4"""
     )
 
 
+@pytest.mark.parametrize(
+    ("value", "unit", "text"),
+    [
+        (2.5e-3, "m/s", "2.5 mm/s"),
+        (-4e-6, "m/s", "-4 um/s"),
+        (3e-9, "m", "3 nm"),
+        (1.5, "m", "1.5 m"),
+        (0.0, "m", "0 m"),
+        (0.0, "Pa", "0 Pa"),
+        (2.5e7, "Pa", "25 MPa"),
+        (4e-5, "s", "40 us"),
+        (2.0, "N.m", "2 N m"),
+        (3.0, "1/s", "3 1/s"),
+        (float("nan"), "N", "nan N"),
+        (np.array([1e-3, 2.0]), "m", "(0.001, 2) m"),
+        (1.0 - 2.0j, "1/s", "1-2i 1/s"),
+    ],
+)
+def test_a_quantity_has_a_unit_of_its_size(value, unit, text):
+    assert quantity(value, unit) == text
+
+
+def test_properties_have_the_units_of_their_docstrings():
+    data = SAMPLES["Campbell"].to_xarray()
+    np.testing.assert_array_equal(data.frequency.values, SAMPLES["Campbell"].eigenvalues.imag)
+    assert (data.frequency.attrs["units"], data.log_decrement.attrs["units"]) == ("rad/s", "1")
+
+
 def test_a_matrix_has_its_entries_by_name():
     film = Coefficients(
         stiffness=np.array([[1.25e7, 2.0], [-3.0, 4.0]]), damping=np.eye(2), position=np.zeros(2), speed=0.0
@@ -280,6 +314,35 @@ def test_an_orbit_is_drawn_in_micrometers():
     assert [line.get_label() for line in over_time.get_lines()] == ["left x", "left y"]
 
 
+def test_the_pressure_of_a_film_is_drawn_from_end_to_end():
+    state = dataclasses.replace(
+        SAMPLES["FilmState"],
+        angle=np.array([3.0, 1.0]),
+        axial=np.array([0.0, 0.01]),
+        pressure=np.array([[5e6, 1e6], [7e6, 2e6]]),
+    )
+    (mesh,) = state.plot().collections
+    np.testing.assert_allclose(mesh.get_array(), [[2.0, 1.0], [7.0, 5.0], [2.0, 1.0]])
+
+
+def test_the_page_on_results_is_executed():
+    page = Path(__file__).parents[2] / "docs" / "results.md"
+    text = page.read_text(encoding="utf-8").partition("```python")[2].partition("```")[0]
+    example = doctest.DocTestParser().get_doctest(text, {}, page.name, str(page), 0)
+    assert doctest.DocTestRunner(optionflags=doctest.ELLIPSIS, verbose=False).run(example).failed == 0
+    assert len(example.examples) == 4
+
+
+def test_signals_of_a_run_have_the_units_of_the_models():
+    film = rotorfilm.JournalBearing(**BEARING)
+    rotor = rotorfilm.RigidRotor(mass=50.0, speed=100.0)
+    run = rotorfilm.simulate(rotor, film, duration=1e-3)
+    slow = rotorfilm.simulate(rotor, film, duration=1e-3, method=BDF)
+    coupled = rotorfilm.cosimulate(rotor, film, macro_step=1e-4, duration=1e-3).trajectory
+    units = {"x": "m", "y": "m", "vx": "m/s", "vy": "m/s", "speed": "rad/s", "force_x": "N", "force_y": "N"}
+    assert run.units == slow.units == coupled.units == units
+
+
 def test_the_ladder_is_the_table_of_an_answer():
     frame = SAMPLES["QuestionAnswer"].to_dataframe()
     assert len(frame) == 2
@@ -292,9 +355,6 @@ def test_a_missing_package_is_named(monkeypatch, package, method):
     monkeypatch.setitem(sys.modules, package, None)
     with pytest.raises(AbsentError, match=f"{package} must be installed for this, .* pip install"):
         getattr(equilibrium(), method)()
-
-
-BEARING = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "viscosity": 0.1}
 
 
 def test_a_bearing_with_openings_tells_its_film():
