@@ -5,7 +5,6 @@ shows, is explained where it stands: in the numpydoc section of its class or met
 """
 
 import ast
-import inspect
 import re
 from collections import defaultdict
 from collections.abc import Iterator
@@ -15,20 +14,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 import rotorfilm
+from rotorfilm.readable.docstrings import Entry, entries, units
 
 PACKAGE = Path(rotorfilm.__file__).parent
-SECTIONS = ("Parameters", "Attributes")
-ENTRY = re.compile(r"(\w+(?:, \w+)*) : (.+)")
-
-
-class Entry(NamedTuple):
-    """What a docstring says of one name."""
-
-    name: str
-    unit: str
-    kind: str
-    meaning: str
-    where: str
 
 
 class Owner(NamedTuple):
@@ -61,33 +49,6 @@ def exported_names() -> set[str]:
     nodes = [node for path in PACKAGE.rglob("__init__.py") for node in ast.walk(parse(path))]
     relative = [node for node in nodes if isinstance(node, ast.ImportFrom) and node.level]
     return {*rotorfilm.__all__, *(alias.name for node in relative for alias in node.names)}
-
-
-def units(kind: str, count: int) -> list[str]:
-    """Return the units of the names of one entry: one for each, or one for all."""
-    found = [unit for text in re.findall(r"\[([^\[\]]+)\]", kind) for unit in text.split(", ")]
-    return found if len(found) == count else [", ".join(dict.fromkeys(found))] * count
-
-
-def entries(docstring: str, where: str) -> Iterator[Entry]:
-    """Yield what the sections of a numpydoc docstring say, name by name."""
-    parts = re.split(r"^(\w[\w ]*)\n-{3,}$", inspect.cleandoc(docstring), flags=re.MULTILINE)
-    for title, text in zip(parts[1::2], parts[2::2], strict=True):
-        if title in SECTIONS:
-            for block in re.split(r"\n(?=\S)", text.strip("\n")):
-                yield from _block(block, where)
-
-
-def _block(block: str, where: str) -> Iterator[Entry]:
-    """Yield the names of one entry of a section."""
-    head, _, body = block.partition("\n")
-    match = ENTRY.fullmatch(head)
-    if match is None:
-        raise ValueError(f"{where}: an entry must be 'name : type [unit]', got {head!r}")
-    names, kind = match[1].split(", "), match[2]
-    bare = re.sub(r"\s*(?:, )?\[[^\[\]]+\]", "", kind)
-    for name, unit in zip(names, units(kind, len(names)), strict=True):
-        yield Entry(name, unit, bare, " ".join(body.split()), where)
 
 
 def _strings(where: str, node: ast.ClassDef) -> Iterator[Entry]:

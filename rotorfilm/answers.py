@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
+
+from .readable.result import Drawable, Readable
 
 ISOTHERMAL = "isothermal films"
 """`within` of what rests on a film of one temperature."""
@@ -88,7 +90,7 @@ def beside_bound(error: float, bound: float, method: str, work: Work, doubt: str
 
 
 @dataclass(frozen=True, kw_only=True)
-class RungReport:
+class RungReport(Readable):
     """What became of one rung.
 
     Attributes
@@ -127,7 +129,7 @@ class RungReport:
 
 
 @dataclass(frozen=True, kw_only=True)
-class QuestionAnswer:
+class QuestionAnswer(Drawable):
     """The answer to the question of a scene.
 
     Attributes
@@ -175,6 +177,11 @@ class QuestionAnswer:
     rungs: tuple[RungReport, ...]
     remarks: tuple[str, ...]
     within: str = ""
+
+    _along: ClassVar[str] = "rungs"
+
+    def _own_units(self) -> dict[str, str]:
+        return {"value": self.unit}
 
     @property
     def message(self) -> str:

@@ -6,21 +6,22 @@ import csv
 import dataclasses
 import io
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import InitVar, dataclass
+from dataclasses import InitVar, dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Protocol, runtime_checkable
+from typing import Any, ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .files import write_whole
+from .readable.result import Drawable, Readable
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
-class BearingLosses:
+class BearingLosses(Readable):
     """What a film takes from the shaft, and the oil that runs through it; arrays for a batch of states.
 
     Attributes
@@ -54,7 +55,7 @@ class _Lossy(Protocol):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Equilibrium:
+class Equilibrium(Readable):
     """The static position of a journal at which the film balances the load.
 
     Attributes
@@ -108,7 +109,7 @@ class Equilibrium:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Coefficients:
+class Coefficients(Readable):
     """Stiffness K = -dF/dq and damping C = -dF/dv of a film at a position, F being the force on the journal.
 
     Attributes
@@ -128,7 +129,7 @@ class Coefficients:
 
 
 @dataclass(frozen=True, kw_only=True)
-class WhirlThreshold:
+class WhirlThreshold(Readable):
     """The onset of self-excited whirl of a rigid rotor, or the reason why there is none.
 
     Attributes
@@ -161,7 +162,7 @@ class WhirlThreshold:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Trajectory:
+class Trajectory(Drawable):
     """Signals over time, from a time integration or a co-simulation.
 
     Attributes
@@ -172,11 +173,17 @@ class Trajectory:
         One series for each signal name, in the SI unit of the signal.
     work : dict of str to int
         Counters of the work done: film evaluations, Jacobians, steps.
+    units : dict of str to str
+        SI unit of each signal, where it is known.
     """
 
     time: Array
     signals: dict[str, Array]
     work: dict[str, int]
+    units: dict[str, str] = field(default_factory=dict)
+
+    def _own_units(self) -> dict[str, str]:
+        return self.units
 
     def __getitem__(self, name: str) -> Array:
         """Return the series of one signal, shape (n,)."""
@@ -216,7 +223,7 @@ def orbit_distance(
 
 
 @dataclass(frozen=True, kw_only=True)
-class CircularOrbit:
+class CircularOrbit(Readable):
     """A synchronous circular orbit of an unbalanced rotor, about the bearing center.
 
     Attributes
@@ -240,6 +247,8 @@ class CircularOrbit:
     phase: float
     transmissibility: float
     growth_rate: float
+
+    _shown: ClassVar[tuple[str, ...]] = ("stable",)
 
     @property
     def stable(self) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import keyword
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from .errors import InputError, require_positive
@@ -129,6 +129,11 @@ class Variable(Scalar):
 def names(signals: tuple[Signal, ...]) -> list[str]:
     """Return the names of `signals`, in order: the labels that python-control wants."""
     return [signal.name for signal in signals]
+
+
+def units(signals: Iterable[Signal]) -> dict[str, str]:
+    """Return the units of `signals`, by name."""
+    return {signal.name: signal.unit for signal in signals}
 
 
 def indices(owner: str, available: Sequence[str], needed: Sequence[str]) -> list[int]:

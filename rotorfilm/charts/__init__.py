@@ -45,6 +45,13 @@ if TYPE_CHECKING:
     )
     from .motion_charts import plot_locus as plot_locus, plot_orbits as plot_orbits
     from .page import write_page as write_page
+    from .result_charts import (
+        plot_contact_run as plot_contact_run,
+        plot_film as plot_film,
+        plot_question as plot_question,
+        plot_result as plot_result,
+        plot_trajectory as plot_trajectory,
+    )
     from .rotor_charts import (
         plot_campbell as plot_campbell,
         plot_critical_speed_map as plot_critical_speed_map,
@@ -52,6 +59,10 @@ if TYPE_CHECKING:
         plot_mode_shape as plot_mode_shape,
         plot_unbalance_response as plot_unbalance_response,
     )
-    from .whirl_charts import plot_basin as plot_basin, plot_orbit_curves as plot_orbit_curves
+    from .whirl_charts import (
+        plot_basin as plot_basin,
+        plot_orbit_curves as plot_orbit_curves,
+        plot_periodic_orbit as plot_periodic_orbit,
+    )
 else:
     show(__name__)

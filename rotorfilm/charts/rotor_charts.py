@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import control
 import numpy as np
@@ -105,7 +105,10 @@ def plot_critical_speed_map(
 
 
 def plot_unbalance_response(
-    response: control.FrequencyResponseData, outputs: Sequence[str], *, axes: Sequence[Axes] | None = None
+    response: control.FrequencyResponseData,
+    outputs: Sequence[str] | None = None,
+    *,
+    axes: Sequence[Axes] | None = None,
 ) -> tuple[Axes, Axes]:
     """Draw amplitude [um] and phase [deg] of displacements over speed [rpm].
 
@@ -113,8 +116,8 @@ def plot_unbalance_response(
     ----------
     response : control.FrequencyResponseData
         As `unbalance_response` returns it.
-    outputs : sequence of str
-        Names of displacements.
+    outputs : sequence of str, optional
+        Names of displacements; all of the response by default.
     axes : two Axes, optional
         For amplitude and phase; a new figure by default.
 
@@ -126,7 +129,7 @@ def plot_unbalance_response(
         axes = new_figure(size=(6.4, 6.0)).subplots(2, 1, sharex=True)
     above, below = axes
     speeds = np.asarray(response.frequency) / RPM
-    for name in outputs:
+    for name in displacements(response.output_labels) if outputs is None else outputs:
         phasor = np.asarray(response.complex)[response.output_labels.index(name), 0]
         above.semilogy(speeds, np.abs(phasor) * 1e6, label=name)
         below.plot(speeds, np.degrees(np.unwrap(np.angle(phasor))), label=name)
@@ -136,6 +139,12 @@ def plot_unbalance_response(
     for part in (above, below):
         part.grid(visible=True, alpha=0.3)
     return above, below
+
+
+def displacements(names: Iterable[str]) -> list[str]:
+    """Return the names of displacements among those of the outputs of a rotor."""
+    along = [name for name in names if name.rpartition("_")[2] in ("x", "y")]
+    return [name for name in along if not name.endswith(("force_x", "force_y"))]
 
 
 def plot_mode_shape(rotor: ShaftRotor, modes: RotorModes, number: int, *, axes: Axes | None = None) -> Axes:

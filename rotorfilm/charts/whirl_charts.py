@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..motion import BasinScan, Bifurcation, OrbitCurve
+from ..motion import BasinScan, Bifurcation, OrbitCurve, PeriodicOrbit
 from .canvas import new_axes
 from .palette import BAD, GOOD
 
@@ -59,6 +59,26 @@ def plot_orbit_curves(
                 label=name,
             )
     axes.set(ylabel="largest distance of the journal from its mean / clearance")
+    axes.legend(fontsize=8)
+    return axes
+
+
+def plot_periodic_orbit(orbit: PeriodicOrbit, *, axes: Axes | None = None) -> Axes:
+    """Draw a periodic orbit of each journal inside its clearance circle.
+
+    Parameters
+    ----------
+    orbit : PeriodicOrbit
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+    """
+    axes = axes or new_axes("Periodic orbit", size=(5.6, 5.2))
+    paths = orbit.position(np.linspace(0.0, orbit.period, 361)) / orbit.lengths[:, None, None]
+    for station, (x, y) in zip(orbit.stations, paths, strict=True):
+        axes.plot(x, y, label=station or "journal")
+    turn = np.linspace(0.0, 2.0 * np.pi, 361)
+    axes.plot(np.cos(turn), np.sin(turn), "k-", linewidth=1.0)
+    axes.set(xlabel="x / clearance", ylabel="y / clearance", aspect="equal")
     axes.legend(fontsize=8)
     return axes
 

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from ..errors import InputError, brief
 from ..progress import Report
+from ..readable.result import rows
 from ..units import whole_number
 from . import printing as console
 from .command import Argument, Option, Said
-from .solve_command import bearing_rows, coefficient_rows, equilibrium_rows, loss_rows, make_map, remark_rows
+from .solve_command import make_map
 
 if TYPE_CHECKING:
     from ..bearings.films.geometry import Groove
@@ -52,8 +53,9 @@ def coefficients(
     groove: Grooves = None,
 ) -> Said:
     """Find equilibrium, stiffness and damping of a journal bearing; numbers without a unit are SI."""
+    from ..bearings.journal import film_name
     from ..linear import coefficients as film_coefficients, equilibrium
-    from ..scenes.journal.echo import bearing_data, film_name
+    from ..scenes.journal.echo import bearing_data
     from ..scenes.journal.journal_remarks import film_remarks
     from ..scenes.lubricant_table import Lubricant
     from ..scenes.reading.tables import read_table
@@ -70,10 +72,9 @@ def coefficients(
     data, name = bearing_data(bearing), film_name(bearing.fitted_film)
     remarks = film_remarks(bearing, Lubricant(), rate, force)
     answer = {"bearing": data, "model": name, "equilibrium": at, "losses": at.losses}
-    answer = {**answer, "coefficients": derivatives}
-    rows = [*bearing_rows(data), ("film", name), *equilibrium_rows(at)]
-    rows += [*loss_rows(at.losses), *coefficient_rows(derivatives), *remark_rows(remarks)]
-    return Said({**answer, "remarks": remarks}, partial(console.print_rows, "journal bearing", rows))
+    answer["coefficients"] = derivatives
+    answer["remarks"] = remarks
+    return Said(answer, partial(console.print_rows, "journal bearing", rows(**answer)))
 
 
 def groove_map(

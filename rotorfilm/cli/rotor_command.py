@@ -102,8 +102,7 @@ def write_rotor(answer: RotorAnswer, folder: Path) -> None:
         save(plot_log_decrement(answer.campbell), part / "log_decrement.png")
         write_csv(part / "campbell.csv", campbell_columns(answer))
         if answer.response is not None:
-            shown = [name for name in answer.amplitudes if "_force_" not in name]
-            above, _ = plot_unbalance_response(answer.response, shown)
+            above, _ = plot_unbalance_response(answer.response)
             save(above, part / "unbalance_response.png")
             write_csv(part / "unbalance_response.csv", response_columns(answer))
         console.write_json(part / "rotor.json", plain_rotor(answer))

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import numpy as np
-
 from ..errors import InputError
 from ..progress import Report
-from ..results import BearingLosses, Coefficients, Equilibrium, WhirlThreshold
 from . import printing as console
 from .bush_command import print_bush
 from .command import Option, Said, SceneFile
@@ -19,7 +15,6 @@ from .command import Option, Said, SceneFile
 if TYPE_CHECKING:
     from ..bearings.journal import JournalBearing
     from ..scenes import Scene
-    from ..scenes.journal.echo import BearingData
     from ..scenes.journal.solve_journal import Answer
 
 
@@ -71,69 +66,6 @@ def make_map(bearing: JournalBearing, report: Report) -> None:
         build_groove_map(bearing, report)
 
 
-def bearing_rows(bearing: BearingData) -> list[tuple[str, str]]:
-    """Return the rows that repeat a bearing."""
-    size = f"R {bearing.radius * 1e3:.6g} mm, L {bearing.length * 1e3:.6g} mm, L/D {bearing.slenderness:.6g}"
-    rows = [
-        ("bearing", f"{size}, c {bearing.clearance * 1e6:.6g} um"),
-        ("viscosity", f"{bearing.viscosity:.6g} Pa s"),
-    ]
-    rows += [("groove", f"{_degrees(one.center)}, {_degrees(one.width)} wide") for one in bearing.grooves]
-    rows += [("pad", f"from {_degrees(one.start)} over {_degrees(one.extent)}") for one in bearing.pads]
-    if bearing.supply_pressure:
-        rows.append(("supply pressure", f"{bearing.supply_pressure:.6g} Pa"))
-    return rows
-
-
-def equilibrium_rows(at: Equilibrium) -> list[tuple[str, str]]:
-    """Return the rows that describe an equilibrium."""
-    return [
-        ("load", f"{_pair(at.load)} N"),
-        ("speed", console.speed_text(at.speed)),
-        ("position", f"{_pair(at.position * 1e6)} um"),
-        ("eccentricity ratio", f"{at.eccentricity_ratio:.6g}"),
-        ("attitude angle", _degrees(at.attitude_angle)),
-        ("minimum film", f"{at.minimum_film * 1e6:.6g} um"),
-        *([] if at.temperature is None else [("temperature", console.temperature_text(at.temperature))]),
-    ]
-
-
-def loss_rows(losses: BearingLosses | None) -> list[tuple[str, str]]:
-    """Return the rows of what a film takes from the shaft, and of the oil that runs through it."""
-    if losses is None:
-        return []
-    rows = [
-        ("power loss", f"{losses.power_loss:.6g} W, torque {losses.friction_torque:.6g} N m"),
-        ("side flow", f"{losses.side_flow:.6g} m3/s"),
-    ]
-    if losses.inflow.size:
-        rows.append(("from openings", f"{', '.join(f'{flow:.6g}' for flow in losses.inflow)} m3/s"))
-        rows.append(("to openings", f"{', '.join(f'{flow:.6g}' for flow in losses.arriving)} m3/s"))
-    return rows
-
-
-def coefficient_rows(film: Coefficients) -> list[tuple[str, str]]:
-    """Return the rows of a stiffness and a damping matrix."""
-    (kxx, kxy), (kyx, kyy) = film.stiffness
-    (cxx, cxy), (cyx, cyy) = film.damping
-    return [
-        ("stiffness K [N/m]", f"xx {kxx:14.7g}   xy {kxy:14.7g}"),
-        ("", f"yx {kyx:14.7g}   yy {kyy:14.7g}"),
-        ("damping C [N s/m]", f"xx {cxx:14.7g}   xy {cxy:14.7g}"),
-        ("", f"yx {cyx:14.7g}   yy {cyy:14.7g}"),
-    ]
-
-
-def whirl_rows(threshold: WhirlThreshold | None) -> list[tuple[str, str]]:
-    """Return the rows of a whirl threshold, or of the reason why there is none."""
-    if threshold is None:
-        return []
-    if threshold.speed is None:
-        return [("whirl threshold", f"none: {threshold.reason}")]
-    ratio = "" if threshold.whirl_ratio is None else f", whirl ratio {threshold.whirl_ratio:.4g}"
-    return [("whirl threshold", console.speed_text(threshold.speed) + ratio)]
-
-
 def remark_rows(remarks: tuple[str, ...]) -> list[tuple[str, str]]:
     """Return the rows of what the physics of a film leaves out."""
     return [("left out", remark) for remark in remarks]
@@ -141,15 +73,4 @@ def remark_rows(remarks: tuple[str, ...]) -> list[tuple[str, str]]:
 
 def print_answer(title: str, answer: Answer) -> None:
     """Print equilibrium, coefficients and whirl threshold."""
-    rows = [*bearing_rows(answer.bearing), ("film", answer.model), *equilibrium_rows(answer.equilibrium)]
-    rows += [*loss_rows(answer.losses), *coefficient_rows(answer.coefficients)]
-    rows += whirl_rows(answer.whirl_threshold)
-    console.print_rows(title, rows + remark_rows(answer.remarks))
-
-
-def _degrees(angle: float) -> str:
-    return f"{math.degrees(angle):.6g} deg"
-
-
-def _pair(values: np.ndarray) -> str:
-    return f"({values[0]:.6g}, {values[1]:.6g})"
+    console.print_rows(title, answer.to_rows())

@@ -32,6 +32,7 @@ from ..bearings.bush import (
 )
 from ..model import Array, Dynamic
 from ..progress import Report, silent
+from ..readable.result import Readable
 
 HEAT = 1e8
 """Melting heat [J/m3]; it scales the time and nothing else."""
@@ -52,7 +53,7 @@ STUBBINESSES = (0.1, 0.25, 0.5, 1.0)
 
 
 @dataclass(frozen=True, kw_only=True)
-class BushTier:
+class BushTier(Readable):
     """One tier.
 
     Attributes
@@ -76,7 +77,7 @@ class BushTier:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ShaftFluxError:
+class ShaftFluxError(Readable):
     """Relative error of the closed form (2.13) of the heat into the shaft at one pair of its numbers.
 
     Attributes
@@ -95,7 +96,7 @@ class ShaftFluxError:
 
 
 @dataclass(frozen=True, kw_only=True)
-class BushTiers:
+class BushTiers(Readable):
     """What `bush_tiers` answers.
 
     Attributes

@@ -24,6 +24,7 @@ from ..bearings.damper import (
 from ..bearings.films.cavitation import FullFilm, HalfSommerfeld
 from ..errors import ValidityWarning, require_count, require_positive
 from ..progress import Report, part_of, silent
+from ..readable.result import Readable
 from .journal.journal_states import SEED, States, relative_error
 from .journal.timing import FilmCost, film_costs
 
@@ -88,7 +89,7 @@ def squeeze_family(damper: PorousDamper) -> SqueezeFamily:
 
 
 @dataclass(frozen=True, kw_only=True)
-class DamperRung:
+class DamperRung(Readable):
     """Error and cost of one squeeze film.
 
     Attributes
@@ -114,7 +115,7 @@ class DamperRung:
 
 
 @dataclass(frozen=True, kw_only=True)
-class DamperAccuracy:
+class DamperAccuracy(Readable):
     """Error against cost of the ladder of squeeze films.
 
     Attributes

@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InputError, require_finite
 from ..model import Array
+from ..readable.result import Readable
 
 WINDOW = 12
 """Consecutive steps that are judged together."""
@@ -43,7 +44,7 @@ JUMPS = 5
 
 
 @dataclass(frozen=True, kw_only=True)
-class CouplingReport:
+class CouplingReport(Readable):
     """What the exchanged forces say about a coupling.
 
     Attributes

@@ -17,6 +17,7 @@ from ..errors import (
     PartialResultError,
     require_positive,
 )
+from ..readable.result import Drawable, Readable
 from ..results import Trajectory
 from .bench import Sample
 from .chatter import CouplingReport, inspect_coupling
@@ -36,7 +37,7 @@ BLOCK = 32
 
 
 @dataclass(frozen=True, kw_only=True)
-class Trial:
+class Trial(Readable):
     """What a trial run of one scheme said.
 
     Attributes
@@ -60,7 +61,7 @@ class Trial:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Choice:
+class Choice(Readable):
     """The scheme chosen, and the trials that led to it.
 
     Attributes
@@ -74,7 +75,7 @@ class Choice:
 
 
 @dataclass(frozen=True, kw_only=True)
-class CoSimulation:
+class CoSimulation(Drawable):
     """The outcome of a co-simulation.
 
     Attributes
@@ -225,7 +226,12 @@ class _Run:
         record = self._record
         time = record.time[: record.count].copy()
         return CoSimulation(
-            trajectory=Trajectory(time=time, signals=record.signals(), work=dict(self._partners.work)),
+            trajectory=Trajectory(
+                time=time,
+                signals=record.signals(),
+                work=dict(self._partners.work),
+                units=self._partners.units,
+            ),
             macro_step=self._macro_step,
             scheme=self._scheme,
             coupling=inspect_coupling(time, record.force[: record.count].T),

@@ -11,6 +11,7 @@ from scipy.optimize import brentq
 
 from ..errors import require_positive
 from ..model import Dynamic, Model
+from ..readable.result import Readable
 from .coupling_loop import Loop, coupling_loop, dominant_eigenvalue
 from .schemes.explicit import GaussSeidel
 from .schemes.scheme import Scheme
@@ -30,7 +31,7 @@ ROUNDOFF = 1e-12
 
 
 @dataclass(frozen=True, kw_only=True)
-class CouplingStability:
+class CouplingStability(Readable):
     """How a coupling amplifies small disturbances.
 
     Attributes
@@ -49,7 +50,7 @@ class CouplingStability:
 
 
 @dataclass(frozen=True, kw_only=True)
-class CriticalMacroStep:
+class CriticalMacroStep(Readable):
     """The longest macro step of a coupling, or why there is none.
 
     Attributes

@@ -15,14 +15,14 @@ from fmpy.fmi1 import FMICallException
 
 from ..errors import FilmContactError, FmuError, InputError
 from ..fmu.check.calls import EventInfo, Port, Slopes
-from ..fmu.check.described import DERIVATIVES, STATES, nominal_of, provides
+from ..fmu.check.described import DERIVATIVES, STATES, nominal_of, provides, variables_of
 from ..fmu.check.instance import instantiated
 from ..model import Array, Linearization
 from ..native.master_structs import Call
 from ..rotors.force_law import BASE_TIME, ForceLaw, law_inputs
 from .loops.compiled_partners import CompiledPartner, FmuPartner
 from .schemes.exponential import LawIntegrator
-from .wiring import Wiring, references_of
+from .wiring import Wiring, local_name, references_of
 
 CONTACT = (FilmContactError.__name__, "inside the clearance")
 """What the log of a film FMU contains when its journal touched the wall, in Python and in C."""
@@ -46,6 +46,8 @@ class FmuSlave:
         self._references = {
             causality: references_of(description, causality) for causality in ("input", "output")
         }
+        told = variables_of(description, "output")
+        self.units = {local_name(one.name): one.unit for one in told if one.unit}
         self.differentiates, self.restores = provides(folder, DERIVATIVES), provides(folder, STATES)
         slopes = [unknown.variable for unknown in description.derivatives or ()]
         self._slopes = [slope.valueReference for slope in slopes]

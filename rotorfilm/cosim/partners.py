@@ -16,7 +16,7 @@ from ..rotors.stations import station_name
 from ..signals import FORCE_OUTPUTS, JOURNAL_INPUTS
 from .bench import Needs, Sample, StationMotion, Tangents, no_tangents
 from .loops.record import WORK
-from .slaves import Differentiable, Driven, Restorable, Slave
+from .slaves import Differentiable, Driven, Measured, Restorable, Slave
 from .wiring import Journals, sources, wired
 
 PROBE = 1e3
@@ -128,6 +128,15 @@ class Partners:
     def places(self) -> Journals:
         """Where the signals of the journals are among those of the rotor."""
         return self.wiring.places(self.rotor.inputs, self.rotor.outputs)
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Units of the outputs, of partners that tell them."""
+        known = dict(self.rotor.units) if isinstance(self.rotor, Measured) else {}
+        for station, film in self.films.items():
+            said = film.units if isinstance(film, Measured) else {}
+            known |= {station_name(station, name): unit for name, unit in said.items()}
+        return known
 
     @property
     def differentiates(self) -> bool:

@@ -12,7 +12,7 @@ from ..fmu.advance import advance
 from ..model import Array, Dynamic, Linearization, Model, breakpoints
 from ..native.master_structs import Call
 from ..rotors.force_law import ForceLaw
-from ..signals import names
+from ..signals import names, units
 from ..warming import in_time
 from .loops.compiled_partners import CompiledPartner, kernel_partner
 from .schemes.exponential import LawIntegrator
@@ -56,6 +56,15 @@ class Differentiable(Protocol):
 
     def jacobian(self, outputs: Sequence[str], inputs: Sequence[str]) -> Array:
         """Return d(outputs)/d(inputs) at present, shape (n_outputs, n_inputs)."""
+
+
+@runtime_checkable
+class Measured(Protocol):
+    """What a partner may add: the units of its outputs."""
+
+    @property
+    def units(self) -> dict[str, str]:
+        """SI units by the names of the outputs, where they are known."""
 
 
 @runtime_checkable
@@ -159,6 +168,7 @@ class InProcessSlave:
         self._model = model
         self.differentiates = hasattr(model, "linearization")
         self._inputs, self._outputs = tuple(names(model.inputs)), tuple(names(model.outputs))
+        self.units = units(model.outputs)
         self._u = np.zeros(len(model.inputs))
         # Asked once: checks against protocols are slow.
         self._moving = model if isinstance(model, Dynamic) else None

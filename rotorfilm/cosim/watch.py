@@ -12,6 +12,7 @@ import numpy as np
 
 from ..errors import ConvergenceError, CouplingWarning, RotorfilmError, warn_user
 from ..model import Array, Linearization
+from ..readable.result import Readable
 from .bench import Tangents
 from .chatter import WINDOW, calm_windows, inspect_coupling, is_calm
 from .coupling_loop import Loop, dominant_eigenvalue, squeeze_limit
@@ -34,7 +35,7 @@ EARLY = 0.5
 
 
 @dataclass(frozen=True, kw_only=True)
-class CouplingWatch:
+class CouplingWatch(Readable):
     """How far a coupling was from its limit, and its local error.
 
     Attributes

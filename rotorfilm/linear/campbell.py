@@ -13,12 +13,13 @@ from scipy.optimize import brentq, linear_sum_assignment
 
 from ..errors import InputError, require_finite
 from ..model import Array, Reaction
+from ..readable.result import Drawable, Readable
 from ..rotors import FlexibleRotor
 from .rotor_modes import RotorModes, Whirls, rotor_modes, speeds_in_turn
 
 
 @dataclass(frozen=True, kw_only=True)
-class Campbell(Whirls):
+class Campbell(Whirls, Drawable):
     """Whirl modes over speed.
 
     Attributes
@@ -36,7 +37,7 @@ class Campbell(Whirls):
 
 
 @dataclass(frozen=True, kw_only=True)
-class CriticalSpeed:
+class CriticalSpeed(Readable):
     """A speed at which a whirl has the frequency of the rotation.
 
     Attributes

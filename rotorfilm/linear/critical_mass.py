@@ -7,13 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..readable.result import Readable
 from ..results import Coefficients
 
 _RANK_TOLERANCE = 1e-10
 
 
 @dataclass(frozen=True, kw_only=True)
-class CriticalMass:
+class CriticalMass(Readable):
     """The mass at the border of stability, or the reason why there is none.
 
     Attributes

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import InputError, require_number, require_positive
 from ..model import Reaction
+from ..readable.result import Readable
 from ..results import CircularOrbit
 from ..rotors import RigidRotor
 from ..rotors.rotating import rotating_linearization
@@ -23,7 +24,7 @@ _SYMMETRY = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
-class OrbitCoefficients:
+class OrbitCoefficients(Readable):
     """Equivalent stiffness and damping of a film on a circular orbit: F_r = -K e, F_t = -C w e.
 
     Attributes

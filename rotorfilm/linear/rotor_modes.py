@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InputError, require_finite
 from ..model import Array, Reaction
+from ..readable.result import Readable
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
 from .rotor_rest import rotor_equilibrium
@@ -27,6 +29,8 @@ class Whirls:
 
     eigenvalues: NDArray[np.complex128]
 
+    _shown: ClassVar[tuple[str, ...]] = ("frequency", "log_decrement")
+
     @property
     def frequency(self) -> Array:
         """Damped frequency [rad/s], in the shape of the eigenvalues."""
@@ -39,7 +43,7 @@ class Whirls:
 
 
 @dataclass(frozen=True, kw_only=True)
-class RotorModes(Whirls):
+class RotorModes(Whirls, Readable):
     """The oscillating modes of a rotor at a speed, by rising frequency.
 
     Attributes

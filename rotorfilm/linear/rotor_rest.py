@@ -11,6 +11,7 @@ import numpy as np
 
 from ..errors import EquilibriumError, InputError, require_number
 from ..model import Array, Reaction
+from ..readable.result import Readable
 from ..results import Coefficients
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure, across_planes
@@ -35,7 +36,7 @@ _SINGULAR = 1e15
 
 
 @dataclass(frozen=True, kw_only=True)
-class RotorEquilibrium:
+class RotorEquilibrium(Readable):
     """A rotor at rest in its bearings.
 
     Attributes

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from ..model import Array, Reaction
+from ..readable.result import Readable
 from ..rotors import FlexibleRotor
 from .rotor_modes import RotorModes, motions_at, oscillates, speeds_in_turn
 
@@ -18,7 +19,7 @@ NEUTRAL = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
-class RotorThreshold:
+class RotorThreshold(Readable):
     """The speed at which small motion of a rotor begins to grow, or the reason why there is none.
 
     Attributes

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from ..readable.result import Readable
 from .registry import ladder_of
 from .walk import walk
 
@@ -16,7 +17,7 @@ NEVER_MET = 1e-300
 
 
 @dataclass(frozen=True, kw_only=True)
-class LadderRow:
+class LadderRow(Readable):
     """One rung of a whole ladder.
 
     Attributes
@@ -40,7 +41,7 @@ class LadderRow:
 
 
 @dataclass(frozen=True, kw_only=True)
-class WholeLadder:
+class WholeLadder(Readable):
     """All rungs of a scene's question.
 
     Attributes

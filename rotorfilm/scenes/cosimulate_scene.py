@@ -24,6 +24,7 @@ from ..cosim import (
 )
 from ..errors import ContactError, InputError
 from ..progress import Report, part_of, silent
+from ..readable.result import Readable
 from ..results import Trajectory, orbit_distance
 from .export_scene import export_scene, resting_rotor
 from .monolithic import monolithic_solution
@@ -43,7 +44,7 @@ SCHEMES: dict[str, Scheme] = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class TrialRow:
+class TrialRow(Readable):
     """A trial of `Auto`, for print; the fields are those of `cosim.Trial`.
 
     Attributes
@@ -61,7 +62,7 @@ class TrialRow:
 
 
 @dataclass(frozen=True, kw_only=True)
-class CosimAnswer:
+class CosimAnswer(Readable):
     """What a co-simulation of a scene says.
 
     Attributes

@@ -14,6 +14,7 @@ from ..cosim.watch import quietly
 from ..errors import PartialResultError
 from ..model import Array
 from ..progress import Report
+from ..readable.result import Readable
 from ..results import Trajectory, orbit_distance
 from .export_scene import ExportedScene, resting_rotor
 from .monolithic import monolithic_solution
@@ -21,7 +22,7 @@ from .scene import Scene
 
 
 @dataclass(frozen=True, kw_only=True)
-class CoupledRun:
+class CoupledRun(Readable):
     """A co-simulation at one macro step, and how far it is from the monolithic solution.
 
     Attributes
@@ -51,7 +52,7 @@ class CoupledRun:
 
 
 @dataclass(frozen=True, kw_only=True)
-class CouplingStudy:
+class CouplingStudy(Readable):
     """Coupled runs beside the monolithic solution.
 
     Attributes

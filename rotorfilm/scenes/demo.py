@@ -23,6 +23,7 @@ from ..files import write_whole
 from ..linear import speed_parameter
 from ..model import Array
 from ..progress import Report, part_of, silent
+from ..readable.result import Readable
 from ..results import Trajectory, to_plain, write_csv
 from .cosimulate_scene import critical_macro_angle
 from .coupling_study import CoupledRun, CouplingStudy, study_coupling
@@ -63,7 +64,7 @@ ECCENTRICITY_RATIOS = tuple(np.linspace(0.02, 0.98, 49).tolist())
 
 
 @dataclass(frozen=True, kw_only=True)
-class DemoResult:
+class DemoResult(Readable):
     """All that the demonstration found.
 
     Attributes

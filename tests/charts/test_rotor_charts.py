@@ -64,6 +64,14 @@ def test_unbalance_response_as_amplitude_and_phase():
     np.testing.assert_allclose(below.get_lines()[0].get_ydata(), [0.0, -90.0])
 
 
+def test_unbalance_response_draws_all_displacements_unless_told():
+    names = ["left_x", "left_y", "left_vx", "left_vy", "left_housing_force_x", "speed"]
+    data = np.arange(1.0, 13.0).reshape(6, 1, 2)
+    response = control.FrequencyResponseData(data, [10.0, 20.0], inputs=["unbalance"], outputs=names)
+    above, _ = plot_unbalance_response(response)
+    assert [line.get_label() for line in above.get_lines()] == ["left_x", "left_y"]
+
+
 @pytest.mark.closed_form
 @pytest.mark.parametrize("speed", [0.0, 400.0])
 def test_mode_shapes_of_a_simply_supported_shaft_are_sines(speed):

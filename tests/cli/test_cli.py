@@ -95,7 +95,9 @@ def test_solve_prints_what_people_read(run, scene):
 def test_print_outs_repeat_the_bearing(run, scene):
     code, out, _ = run("solve", scene)
     assert code == 0
-    assert "R 50 mm, L 30 mm, L/D 0.3, c 100 um" in out
+    shown = dict(line.strip().split("  ", 1) for line in out.splitlines() if "  " in line.strip())
+    sizes = [shown[name].strip() for name in ("radius", "clearance", "slenderness")]
+    assert sizes == ["50 mm", "100 um", "0.3"]
     assert "MapFilm()" in out
     told = [json.loads(run(*arguments, "--json")[1]) for arguments in (("solve", scene), coefficients())]
     assert told[0]["bearing"] == told[1]["bearing"]
@@ -459,7 +461,7 @@ def test_groove_map_of_a_scene_is_that_which_the_scene_takes(run, scene, tmp_pat
     assert (code, err) == (0, "")
     assert json.loads(out)["model"].startswith("GroovedMapFilm(cells=(32, 4), nodes=(6, 12, 12)")
     assert json.loads(out)["bearing"]["grooves"][0]["center"] == pytest.approx(math.pi / 2.0)
-    assert "90 deg, 20 deg wide" in run("solve", scene)[1]
+    assert "Groove(center: 90 deg, width: 20 deg)" in run("solve", scene)[1]
     assert list((tmp_path / "cache").iterdir()) == [kept]
     code, out, err = run("groove-map", scene, "--cells", "32,4")
     assert (code, out) == (2, "")

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_finite, require_kind, require_non_negative, require_number
 from ...model import Array
+from ...readable.result import Readable
 from . import contact_arc as contact
 from .heat import ContactBalance, ExactShaft, HeatBalance, ShaftHeat
 from .materials import BushGeometry, Friction, LinerMaterial, ShaftMaterial
@@ -25,7 +26,7 @@ SCAN = 257
 
 
 @dataclass(frozen=True, kw_only=True)
-class BushContact:
+class BushContact(Readable):
     """A loaded bush at its melting point: what `MeltingBush.contact` answers.
 
     Attributes

@@ -168,7 +168,8 @@ def _motion(law: ContactLaw, rider: _Rider, parts: list[_Part], samples: int) ->
         "force_z": rider.law.force(rows) * law.force_scale,
     }
     steps = sum(len(part.time) - 1 for part in parts)
-    return Trajectory(time=time * law.time_scale, signals=signals, work={"steps": steps})
+    units = {"z": "m", "vz": "m/s", "force_z": "N"} if law.film_scale != 1.0 else {}
+    return Trajectory(time=time * law.time_scale, signals=signals, work={"steps": steps}, units=units)
 
 
 def _sampled(part: _Part, time: Array, first: bool) -> Array:

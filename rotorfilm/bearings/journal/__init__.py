@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from .build_groove_map import build_groove_map as build_groove_map
     from .extrapolated_film import ExtrapolatedFilm as ExtrapolatedFilm
     from .film_state import FilmState, film_state as film_state
+    from .fitting import film_name
     from .grooves.groove_table import GrooveMapTable as GrooveMapTable
     from .grooves.grooved_film import GroovedMapFilm as GroovedMapFilm
     from .grooves.openings import is_mappable

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 
 import numpy as np
@@ -26,7 +26,7 @@ from ..oil import Cooling, Oil
 from ..oil.lubricant import film_viscosity, require_lubricant
 from ..reaction import NOMINAL_SPEED, Feedthrough, broadcast_state
 from .dimensions import warn_of_odd_dimensions
-from .fitting import fitted_film
+from .fitting import film_name, fitted_film
 from .heat.warm_film import WarmFilm
 from .journal_kernel import journal_spec
 from .map.map_film import MapFilm
@@ -118,7 +118,13 @@ class JournalBearing(Feedthrough, WarmFilm):
                 f"got {self.slenderness:.6g}"
             )
         limit = self._options.slenderness_limit
-        warn_of_odd_dimensions(self.radius, self.length, self.clearance, self.film, limit)
+        warn_of_odd_dimensions(self.radius, self.length, self.clearance, film_name(self.fitted_film), limit)
+
+    def __repr__(self) -> str:
+        """As of a dataclass, but with the film that the bearing really uses: with openings it is another."""
+        values = {one.name: repr(getattr(self, one.name)) for one in fields(self)}
+        values["film"] = film_name(self.fitted_film)
+        return f"{type(self).__name__}({', '.join(f'{name}={value}' for name, value in values.items())})"
 
     @property
     def slenderness(self) -> float:

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_finite
 from ...model import Array
+from ...readable.result import Drawable
 from ...results import BearingLosses
 from ..films.film_field import FilmField
 from .bearing import JournalBearing
@@ -16,7 +17,7 @@ from .reynolds_film import ReynoldsFilm
 
 
 @dataclass(frozen=True, kw_only=True)
-class FilmState:
+class FilmState(Drawable):
     """Force, flow and friction of a film at one state of the journal, and its pressure where it has a field.
 
     Attributes

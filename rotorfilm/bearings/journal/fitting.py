@@ -2,10 +2,25 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 from ...errors import InputError
 from ..films.geometry import FilmGeometry
 from ..films.law import FilmLaw, FilmOptions, options
 from .map.map_film import MapFilm
+
+_GEOMETRY = "geometry"
+"""Parameter of the films that are fitted to a bearing: the bearing itself shows it."""
+
+
+def film_name(film: FilmLaw) -> str:
+    """Return a film law as Python would make it, without its geometry and what is None."""
+    name = type(film).__name__
+    if not dataclasses.is_dataclass(film):
+        return name
+    values = {f.name: getattr(film, f.name) for f in dataclasses.fields(film) if f.repr}
+    shown = [f"{key}={value!r}" for key, value in values.items() if value is not None and key != _GEOMETRY]
+    return f"{name}({', '.join(shown)})"
 
 
 def fitted_film(film: FilmLaw, geometry: FilmGeometry) -> FilmLaw:

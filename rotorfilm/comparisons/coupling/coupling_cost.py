@@ -13,6 +13,7 @@ from ...cosim.watch import quietly
 from ...errors import PartialResultError
 from ...motion import simulate
 from ...progress import Report, silent
+from ...readable.result import Readable
 from ...results import Trajectory, orbit_distance
 from ...rotors.rigid import RigidRotor
 from .coupling_setup import SCHEMES, SPEED, SchemeName, resting_rotor
@@ -24,7 +25,7 @@ ANGLES = tuple(np.radians([0.5, 1.0, 2.0, 3.0, 5.0, 7.5, 10.0]).tolist())
 
 
 @dataclass(frozen=True, kw_only=True)
-class CostRow:
+class CostRow(Readable):
     """One run of one scheme.
 
     Attributes
@@ -47,7 +48,7 @@ class CostRow:
 
 
 @dataclass(frozen=True, kw_only=True)
-class CouplingCost:
+class CouplingCost(Readable):
     """Runs of all schemes on one orbit.
 
     Attributes

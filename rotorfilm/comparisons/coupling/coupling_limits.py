@@ -13,6 +13,7 @@ from ...cosim.watch import quietly
 from ...errors import PartialResultError
 from ...model import Array, Dynamic
 from ...progress import Report, silent
+from ...readable.result import Readable
 from ...rotors.jeffcott import JeffcottRotor
 from ...rotors.rigid import RigidRotor
 from .coupling_setup import SCHEMES, SPEED, SchemeName, resting_rotor
@@ -31,7 +32,7 @@ SETTLED, COUNTED = 40, 40
 
 
 @dataclass(frozen=True, kw_only=True)
-class LimitRow:
+class LimitRow(Readable):
     """The limit of one scheme at one place.
 
     Attributes
@@ -55,7 +56,7 @@ class LimitRow:
 
 
 @dataclass(frozen=True, kw_only=True)
-class CouplingLimits:
+class CouplingLimits(Readable):
     """Limits of all schemes, over the eccentricity ratio and over the mass ratio.
 
     Attributes

@@ -10,6 +10,7 @@ import numpy as np
 from ...bearings.journal import JournalBearing, tension
 from ...errors import require_count
 from ...progress import Report, part_of, silent
+from ...readable.result import Readable
 from .journal_rungs import ComparedFilm, RungName, chosen_rungs, comparison_bearing, fitted_bearing
 from .journal_states import (
     LARGE,
@@ -33,7 +34,7 @@ ROUNDS = 9
 
 
 @dataclass(frozen=True, kw_only=True)
-class RungAccuracy(RungName):
+class RungAccuracy(RungName, Readable):
     """Error and cost of one rung.
 
     Attributes
@@ -53,7 +54,7 @@ class RungAccuracy(RungName):
 
 
 @dataclass(frozen=True, kw_only=True)
-class JournalAccuracy:
+class JournalAccuracy(Readable):
     """Error against cost of the ladder of journal films.
 
     Attributes

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ...readable.result import Readable
 from .journal_accuracy import TENSION
 from .journal_rungs import RungName
 
@@ -19,7 +20,7 @@ eccentricity ratio by 0.001 changes it by several per cent."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class RungStability(RungName):
+class RungStability(RungName, Readable):
     """Whirl threshold by one rung, over the eccentricity ratios of a `JournalStability`.
 
     Attributes
@@ -65,7 +66,7 @@ class RungStability(RungName):
 
 
 @dataclass(frozen=True, kw_only=True)
-class JournalStability:
+class JournalStability(Readable):
     """Whirl threshold over the eccentricity ratio, by every rung.
 
     Attributes

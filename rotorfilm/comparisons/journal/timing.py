@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from ...model import Array
 from ...progress import Report, silent
+from ...readable.result import Readable
 from .journal_states import States
 
 SHORTEST_RUN = 0.01
@@ -35,7 +36,7 @@ class Timed(Protocol):
 
 
 @dataclass(frozen=True, kw_only=True)
-class FilmCost:
+class FilmCost(Readable):
     """Cost of one force.
 
     Attributes

@@ -11,6 +11,7 @@ from scipy.optimize import brentq
 from ...bearings.damper import PorousDamper
 from ...errors import InputError, require_finite, require_number
 from ...model import Array
+from ...readable.result import Drawable
 
 _NODES = 2001
 _LARGEST = 0.999
@@ -18,7 +19,7 @@ _STRONGEST = 20.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class BistableMap:
+class BistableMap(Drawable):
     """Unbalance ratios at the folds over squeeze number Bs and spring ratio, both per speed of the rotor.
 
     Attributes

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,6 +13,7 @@ from scipy.optimize import brentq
 
 from ...errors import InputError, require_finite
 from ...model import Array, Reaction
+from ...readable.result import Drawable, Readable
 from ...results import CircularOrbit
 from ...rotors import RigidRotor
 from .orbit_points import OrbitRotor, growth_rates, orbit_points, orbit_rotor, orbit_slope
@@ -27,7 +29,7 @@ _BOUNDED = 1e-2
 
 
 @dataclass(frozen=True, kw_only=True)
-class OrbitBranch:
+class OrbitBranch(Readable):
     """Orbits between two folds, over the unbalance: arrays of shape (n,).
 
     Attributes
@@ -44,6 +46,8 @@ class OrbitBranch:
     transmissibility: Array
     growth_rate: Array
 
+    _shown: ClassVar[tuple[str, ...]] = ("stable",)
+
     @property
     def stable(self) -> np.ndarray:
         """Whether small disturbances die out, shape (n,)."""
@@ -51,7 +55,7 @@ class OrbitBranch:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Fold:
+class Fold(Readable):
     """An unbalance at which two orbits merge and the rotor jumps.
 
     Attributes
@@ -69,7 +73,7 @@ class Fold:
 
 
 @dataclass(frozen=True, kw_only=True)
-class SynchronousOrbits:
+class SynchronousOrbits(Drawable):
     """The circular orbits of a rotor at one speed.
 
     Attributes

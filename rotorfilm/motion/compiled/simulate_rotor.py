@@ -11,7 +11,7 @@ from ...errors import ContactError, ConvergenceError, InputError, require_finite
 from ...model import Array
 from ...results import Trajectory
 from ...rotors import MountedRotor
-from ...signals import names
+from ...signals import names, units
 from .march import March, rate_of
 from .modal import matrix_speed, modal_rotor, take_apart
 from .times import require_longest_step, sample_times
@@ -113,4 +113,5 @@ def _trajectory(mounted: MountedRotor, grid: Array, kept: list[Array], march: Ma
         x, y, vx, vy = (signals[prefix + key] for key in ("x", "y", "vx", "vy"))
         force = bearing.force(np.stack([x, y]), np.stack([vx, vy]), signals["speed"])
         signals[prefix + "force_x"], signals[prefix + "force_y"] = force
-    return Trajectory(time=time, signals=signals, work=dict(march.work))
+    known = {**dict.fromkeys(signals, "N"), **units(rotor.outputs)}
+    return Trajectory(time=time, signals=signals, work=dict(march.work), units=known)

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from ...errors import ContactError, InputError, require_count, require_positive, require_vector
 from ...model import Array
+from ...readable.result import Readable
 from ...rotors import MountedRotor
 from ..compiled.march import March
 from ..compiled.modal import Complex, ModalRotor, Parts, modal_rotor, take_apart
@@ -31,7 +32,7 @@ STEADY = 1e-6
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class BasinScan:
+class BasinScan(Readable):
     """Where a rotor goes from offsets of its journals.
 
     Attributes

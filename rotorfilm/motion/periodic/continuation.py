@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
+from typing import ClassVar
 
 import numpy as np
 from scipy.optimize import brentq
 
 from ...errors import ConvergenceError, InputError, require_count, require_finite, require_positive
 from ...model import Array
+from ...readable.result import Drawable, Readable
 from .branch_point import Curve, Family, Point
 from .harmonics import constant, with_wave
 from .hopf import HopfPoint
@@ -36,7 +38,7 @@ class Bifurcation(Enum):
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class OrbitEvent:
+class OrbitEvent(Readable):
     """A bifurcation on a curve of orbits.
 
     Attributes
@@ -55,13 +57,13 @@ class OrbitEvent:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class OrbitCurve:
+class OrbitCurve(Drawable):
     """Periodic orbits along a curve.
 
     Attributes
     ----------
     parameters : ndarray, shape (n,)
-    orbits : tuple of PeriodicOrbit
+    orbits : tuple of PeriodicOrbit, shape (n,)
     events : tuple of OrbitEvent
         In the order in which they are met.
     reason : str
@@ -72,6 +74,8 @@ class OrbitCurve:
     orbits: tuple[PeriodicOrbit, ...]
     events: tuple[OrbitEvent, ...]
     reason: str
+
+    _shown: ClassVar[tuple[str, ...]] = ("amplitudes",)
 
     @property
     def amplitudes(self) -> Array:

@@ -11,6 +11,7 @@ from scipy.optimize import brentq
 
 from ...errors import ConvergenceError, InputError, require_finite
 from ...model import Array
+from ...readable.result import Readable
 from ...rotors import MountedRotor
 from ..compiled.modal import Complex, ModalRotor, journal_rows, modal_rotor, take_apart
 from .modal_films import film_forces
@@ -24,7 +25,7 @@ REACH = 0.03
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class HopfPoint:
+class HopfPoint(Readable):
     """Where a rotor at rest begins to whirl as a parameter changes.
 
     With a the amplitude of the whirl in clearances (root of the sum of squares of the first harmonics of all

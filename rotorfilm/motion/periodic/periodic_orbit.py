@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_count, require_positive
 from ...model import Array
+from ...readable.result import Drawable
 from ...results import Trajectory
 from ...rotors import MountedRotor
 from ..compiled.modal import Complex, ModalRotor, modal_rotor, take_apart
@@ -33,7 +35,7 @@ BALANCED = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class PeriodicOrbit:
+class PeriodicOrbit(Drawable):
     """A periodic orbit of a rotor on films.
 
     Attributes
@@ -71,6 +73,8 @@ class PeriodicOrbit:
     residual: float
     truncation: float
     work: dict[str, int]
+
+    _shown: ClassVar[tuple[str, ...]] = ("period", "amplitude")
 
     @property
     def period(self) -> float:

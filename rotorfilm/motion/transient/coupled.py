@@ -9,7 +9,7 @@ import numpy as np
 
 from ...errors import ConvergenceError, InputError, UndefinedDerivativeError, require_inside
 from ...model import Array, Dynamic, Linearization, Reaction, prepared_force, static_linearization
-from ...signals import FORCE_OUTPUTS, JOURNAL_INPUTS, indices, names
+from ...signals import FORCE_OUTPUTS, JOURNAL_INPUTS, Signal, indices, names
 
 NUDGE = 1e-6
 """Velocity, in nominal velocities, at which a derivative is taken where the film has none."""
@@ -140,11 +140,10 @@ class Coupled:
         outputs = [self.reaction.output(t, x, u) for t, x, u in zip(time, film.T, journal.T, strict=True)]
         return np.concatenate([np.reshape(outputs, (len(time), -1)).T, film])
 
-    def film_names(self) -> list[str]:
-        """Return the names of the signals of `film_outputs`."""
-        if not self.reaction.states:
-            return list(FORCE_OUTPUTS)
-        return [*names(self.reaction.outputs), *names(self.reaction.states)]
+    def film_signals(self) -> tuple[Signal, ...]:
+        """Return the signals of `film_outputs`."""
+        outputs, states = self.reaction.outputs, self.reaction.states
+        return (*outputs, *states) if states else outputs[: len(FORCE_OUTPUTS)]
 
     def _input(self, t: float, x: Array, journal: Array) -> Array:
         """Return the rotor's input at a journal state: the film force, in the rotor's order."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,7 +12,7 @@ from scipy.integrate import OdeSolver, Radau
 from ...errors import ContactError, ConvergenceError, InputError, require_finite, require_positive
 from ...model import Array, Dynamic, Reaction, stops
 from ...results import Trajectory
-from ...signals import FORCE_OUTPUTS, names
+from ...signals import FORCE_OUTPUTS, names, units
 from ...warming import in_time
 from ..compiled.compiled_form import compiled_form
 from ..compiled.journal_films import CONTACT_GAP
@@ -115,7 +116,7 @@ def simulate(
 
 def _shown(run: Trajectory, labels: list[str]) -> Trajectory:
     """Return a trajectory of these of its signals, in this order."""
-    return Trajectory(time=run.time, signals={name: run.signals[name] for name in labels}, work=run.work)
+    return replace(run, signals={name: run.signals[name] for name in labels})
 
 
 def _initial(system: Coupled, initial_state: ArrayLike) -> Array:
@@ -146,7 +147,6 @@ def _trajectory(system: Coupled, kept: list[tuple[float, Array]]) -> Trajectory:
     outputs = outputs.reshape(len(inside), len(system.rotor.outputs)).T
     states = np.array([state[split:] for _, state in inside]).reshape(len(inside), -1).T
     film = system.film_outputs(time, outputs[system.wiring.motion], states)
-    labels = [*names(system.rotor.outputs), *system.film_names()]
-    return Trajectory(
-        time=time, signals=dict(zip(labels, [*outputs, *film], strict=True)), work=dict(system.work)
-    )
+    known = (*system.rotor.outputs, *system.film_signals())
+    signals = dict(zip(names(known), [*outputs, *film], strict=True))
+    return Trajectory(time=time, signals=signals, work=dict(system.work), units=units(known))

@@ -17,7 +17,7 @@ from ...linear import coefficients, equilibrium
 from ...model import Array, prepared_tangent
 from ...results import Equilibrium
 from ...scenes.counted import Counted
-from ...scenes.journal.echo import film_name
+from ...bearings.journal import film_name
 from ...scenes.journal.film_defects import corrected, one_defect
 from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.film_rungs import point_films

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ...errors import ConvergenceError, require_positive
 from ...model import Array
+from ...readable.result import Readable
 from ..structure import FlexibleRotor, Structure
 from .reduced_rotor import ReducedRotor
 
@@ -20,7 +21,7 @@ DAMPING_RATIO = 0.02
 
 
 @dataclass(frozen=True, kw_only=True)
-class Reduction:
+class Reduction(Readable):
     """A reduced rotor and its error.
 
     Attributes

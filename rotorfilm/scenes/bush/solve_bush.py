@@ -8,6 +8,8 @@ from typing import Any
 
 from ...bearings.bush import BushContact, BushWear, MeltingBush, f4k20_bush
 from ...errors import InputError, brief
+from ...readable.result import Readable
+from ...signals import units
 from ...units import parse_quantity
 
 SETTINGS: dict[str, tuple[str, str]] = {
@@ -32,7 +34,7 @@ SETTINGS: dict[str, tuple[str, str]] = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class BushAnswer:
+class BushAnswer(Readable):
     """What `rotorfilm bush` prints.
 
     Attributes
@@ -56,6 +58,9 @@ class BushAnswer:
     contact_angle: float
     onset_speed: float
     operation: dict[str, float]
+
+    def _own_units(self) -> dict[str, str]:
+        return units(BushWear(bush=self.bush, melting_heat=1.0).outputs)
 
 
 def bush_from_settings(settings: Mapping[str, str]) -> MeltingBush:

@@ -27,6 +27,7 @@ from ...bearings.contact import (
 from ...errors import ConvergenceError, require_positive
 from ...model import Array, breakpoints
 from ...progress import Report, silent
+from ...readable.result import Readable
 from ...results import Trajectory
 
 
@@ -51,7 +52,7 @@ class ContactCase(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class ContactAnswer:
+class ContactAnswer(Readable):
     """A stationary contact; in SI for a ball, else in units of the Hertzian contact.
 
     Attributes
@@ -90,7 +91,7 @@ class ContactAnswer:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ContactResponse:
+class ContactResponse(Readable):
     """The motion of the ball under a load over time, in the units of `ContactAnswer`.
 
     Attributes

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,6 +13,7 @@ from ...cosim import CoSimulation, cosimulate
 from ...errors import ContactError
 from ...model import Array
 from ...motion import simulate
+from ...readable.result import Drawable
 from ...results import Trajectory
 from ..export_scene import write_models
 from .damper_models import DamperScene, damper_fmus, damper_models
@@ -24,7 +25,7 @@ RTOL = 1e-6
 
 
 @dataclass(frozen=True, kw_only=True)
-class DamperRun:
+class DamperRun(Drawable):
     """A motion on a damper.
 
     Attributes
@@ -95,7 +96,7 @@ def _followed(models: DamperScene, follow: Callable[[], Trajectory | CoSimulatio
     signals = {name: values[shown] for name, values in run.signals.items()}
     time = models.start + run.time[shown]
     return DamperRun(
-        trajectory=Trajectory(time=time, signals=signals, work=run.work),
+        trajectory=replace(run, time=time, signals=signals),
         eccentricity_ratio=eps[shown],
         peak_eccentricity_ratio=float(eps[shown].max()),
         peak_force=float(np.hypot(signals["force_x"], signals["force_y"]).max()),

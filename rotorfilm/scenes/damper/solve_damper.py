@@ -11,12 +11,13 @@ from ...bearings.sprung import Sprung
 from ...linear import OrbitCoefficients, orbit_coefficients
 from ...model import Array, Reaction
 from ...motion import Fold, SynchronousOrbits, synchronous_orbits
+from ...readable.result import Readable
 from ...results import CircularOrbit
 from ...rotors import RigidRotor
 
 
 @dataclass(frozen=True, kw_only=True)
-class DamperAnswer:
+class DamperAnswer(Readable):
     """What a rigid rotor with unbalance does on a damper with retainer springs.
 
     Attributes

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import dataclasses
 from dataclasses import dataclass
 
 from ...bearings.films.geometry import Groove, Pad
-from ...bearings.films.law import FilmLaw
 from ...bearings.journal import JournalBearing
+from ...readable.result import Readable
 from ..reading.shared_fields import made_from
-
-_GEOMETRY = "geometry"
-"""Parameter of the films that are fitted to a bearing: the bearing itself shows it."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class BearingData:
+class BearingData(Readable):
     """A journal bearing as it was understood.
 
     Attributes
@@ -47,13 +43,3 @@ def bearing_data(bearing: JournalBearing) -> BearingData:
     """Return what a journal bearing is, without its film."""
     viscosity = bearing.film_viscosity
     return made_from(BearingData, bearing, slenderness=bearing.slenderness, viscosity=viscosity)
-
-
-def film_name(film: FilmLaw) -> str:
-    """Return a film law as Python would make it, without its geometry and what is None."""
-    name = type(film).__name__
-    if not dataclasses.is_dataclass(film):
-        return name
-    values = {f.name: getattr(film, f.name) for f in dataclasses.fields(film) if f.repr}
-    shown = [f"{key}={value!r}" for key, value in values.items() if value is not None and key != _GEOMETRY]
-    return f"{name}({', '.join(shown)})"

@@ -16,10 +16,10 @@ from ...bearings.journal import (
     RotatingArc,
     ShortFilm,
     SplittingFilm,
+    film_name,
     is_mappable,
 )
 from ...errors import ValidityWarning
-from .echo import film_name
 from .film_rung import MAP_MADE, FilmRung
 from .packaged_map import has_map
 

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...bearings.journal import JournalBearing
+from ...bearings.journal import JournalBearing, film_name
 from ...linear import CriticalMass, coefficients, critical_mass, equilibrium, whirl_threshold
+from ...readable.result import Readable
 from ...results import BearingLosses, Coefficients, Equilibrium, WhirlThreshold
-from .echo import BearingData, bearing_data, film_name
+from .echo import BearingData, bearing_data
 
 
 @dataclass(frozen=True, kw_only=True)
-class Answer:
+class Answer(Readable):
     """What a scene has been answered with.
 
     Attributes

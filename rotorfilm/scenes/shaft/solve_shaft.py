@@ -22,6 +22,7 @@ from ...linear import (
 )
 from ...model import Array
 from ...progress import Report, silent
+from ...readable.result import Drawable
 from ..excitation_table import UnbalanceTable
 from .shaft_remarks import shaft_remarks
 
@@ -39,7 +40,7 @@ LEAST_DECREMENT = 1e-6
 
 
 @dataclass(frozen=True, kw_only=True)
-class RotorAnswer:
+class RotorAnswer(Drawable):
     """A flexible rotor in its bearings over a range of speeds.
 
     Attributes
@@ -78,6 +79,9 @@ class RotorAnswer:
     amplitudes: Mapping[str, Array]
     response: control.FrequencyResponseData | None = field(repr=False)
     remarks: tuple[str, ...] = ()
+
+    def _own_units(self) -> dict[str, str]:
+        return {name: "N" if "_force_" in name else "m" for name in self.amplitudes}
 
 
 def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:

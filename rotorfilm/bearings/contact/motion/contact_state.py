@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ....model import Array
+from ....readable.result import Drawable, Readable
 from ..film.checkerboard import checkerboard
 from ..film.film_equations import ContactEquations
 from ..film.stationary import HERTZ_LOAD
@@ -13,7 +14,7 @@ from .levels import Level
 
 
 @dataclass(frozen=True, kw_only=True)
-class ContactState:
+class ContactState(Readable):
     """A point contact at one time, in units of the Hertzian contact; a run starts from one.
 
     Attributes
@@ -47,7 +48,7 @@ class ContactState:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ContactRun:
+class ContactRun(Drawable):
     """A contact over time; all series have the shape (steps + 1,) and begin with the start.
 
     Attributes

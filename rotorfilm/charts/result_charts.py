@@ -1,0 +1,164 @@
+"""The picture of each result: what `plot()` of it draws."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..answers import QuestionAnswer
+from ..errors import InputError
+from ..bearings.contact import ContactRun
+from ..bearings.journal import FilmState
+from ..readable.quantities import label_of
+from ..readable.result import Drawable
+from ..results import Trajectory
+from .canvas import new_axes, new_figure
+from .comparisons.scene_ladder import RungPoint, plot_scene_ladder
+from .damper_charts import plot_bistable, plot_damper_run, plot_eccentricity
+from .rotor_charts import plot_campbell
+from .whirl_charts import plot_orbit_curves, plot_periodic_orbit
+
+GRAM_MILLIMETER = 1e-6
+
+
+def plot_result(result: Drawable, *, axes: Any = None) -> Any:
+    """Draw a result as its kind has it: what its `plot()` calls.
+
+    Parameters
+    ----------
+    result : Drawable
+        A trajectory, a co-simulation, a Campbell diagram, periodic or synchronous orbits or a curve of them,
+        a bistable map, the state of a film, a contact over time, or the answer to a question or about a
+        rotor.
+    axes : Axes, or two of them for a trajectory, optional
+        Where to draw; a new figure by default.
+
+    Returns
+    -------
+    Axes, or two of them
+    """
+    kind = next(one.__name__ for one in type(result).__mro__ if one.__name__ in PICTURES)
+    return PICTURES[kind](result, axes=axes)
+
+
+def plot_trajectory(run: Trajectory, *, axes: Sequence[Axes] | None = None) -> tuple[Axes, Axes]:
+    """Draw the orbits of all journals [um], and their displacements over time.
+
+    Where no journal moves in a plane, the second signal over the first, and the first over time, in SI.
+
+    Parameters
+    ----------
+    run : Trajectory
+    axes : two Axes, optional
+        For orbit and time; a new figure by default.
+    """
+    beside, below = axes if axes is not None else new_figure(size=(9.6, 4.4)).subplots(1, 2)
+    stations = [name[:-1] for name in run.signals if name == "x" or name.endswith("_x")]
+    stations = [name for name in stations if not name.endswith("force_") and f"{name}y" in run.signals]
+    pairs, unit, factor = [(f"{name}x", f"{name}y") for name in stations], "um", 1e6
+    if not pairs:
+        pairs, unit, factor = [(*run.signals,)[:2]], "SI", 1.0  # type: ignore[list-item]
+    for pair in pairs:
+        first, second = (factor * run[name] for name in pair)
+        label = label_of(pair[0].removesuffix("x")) or "journal"
+        beside.plot(first, second, linewidth=1.3, label=label)
+        for name, values in zip(pair, (first, second), strict=True):
+            below.plot(run.time, values, linewidth=1.2, label=label_of(name))
+    x, y = (label_of(name) for name in pairs[0])
+    beside.set(xlabel=f"{x} [{unit}]", ylabel=f"{y} [{unit}]", title="Orbit")
+    if stations:
+        beside.set(xlabel="x [um]", ylabel="y [um]", aspect="equal", adjustable="datalim")
+    below.set(xlabel="time [s]", ylabel=f"displacement [{unit}]", title="Over time")
+    for part in (beside, below):
+        part.grid(visible=True, alpha=0.3)
+        part.legend(fontsize=8)
+    return beside, below
+
+
+def plot_film(state: FilmState, *, axes: Axes | None = None) -> Axes:
+    """Draw the pressure [MPa] of a film, unwrapped: the angle in the bearing, and from end to end.
+
+    Parameters
+    ----------
+    state : FilmState
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+    """
+    if state.angle is None or state.axial is None or state.pressure is None:
+        raise InputError("state must have a pressure field, as that of a ReynoldsFilm, got one without")
+    axes = axes or new_axes("Pressure of the film")
+    order = np.argsort(state.angle)
+    ends = np.concatenate([-state.axial[:0:-1], state.axial])
+    field = np.hstack([state.pressure[order, :0:-1], state.pressure[order]]) * 1e-6
+    shown = axes.pcolormesh(np.degrees(state.angle[order]), 1e3 * ends, field.T, shading="nearest")
+    figure = axes.get_figure()
+    assert isinstance(figure, Figure)
+    figure.colorbar(shown, ax=axes, label="pressure [MPa]")
+    axes.set(xlabel="angle from +x towards +y [deg]", ylabel="axial [mm]")
+    return axes
+
+
+def plot_question(answer: QuestionAnswer, *, axes: Axes | None = None) -> Axes:
+    """Draw the ladder behind an answer: the estimated error of each rung that was tried over its cost.
+
+    Parameters
+    ----------
+    answer : QuestionAnswer
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+    """
+    points = [
+        RungPoint(name=one.name, error_estimate=error, cost=cost, chosen=one.name == answer.model)
+        for one in answer.rungs
+        if (error := one.error_estimate) is not None and (cost := one.cost) is not None
+    ]
+    title = label_of(answer.quantity)
+    return plot_scene_ladder(points, title=title, tolerance=answer.tolerance, axes=axes)
+
+
+def plot_contact_run(run: ContactRun, *, axes: Axes | None = None) -> Axes:
+    """Draw the central and the smallest film of a contact over time, in units of the Hertzian contact.
+
+    Parameters
+    ----------
+    run : ContactRun
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+    """
+    axes = axes or new_axes("Film of the contact")
+    axes.plot(run.time, run.central_film, label="central film")
+    axes.plot(run.time, run.minimum_film, "--", label="smallest film")
+    axes.set(xlabel="time", ylabel="film thickness")
+    axes.legend(fontsize=8)
+    return axes
+
+
+def _synchronous(orbits: Any, *, axes: Axes | None) -> Axes:
+    drawn = plot_eccentricity({"orbits": orbits}, unit=GRAM_MILLIMETER, axes=axes)
+    drawn.set_xlabel("unbalance [g mm]")
+    return drawn
+
+
+PICTURES: dict[str, Callable[..., Any]] = {
+    "Trajectory": plot_trajectory,
+    "CoSimulation": lambda result, axes: plot_trajectory(result.trajectory, axes=axes),
+    "Campbell": plot_campbell,
+    "RotorAnswer": lambda result, axes: plot_campbell(
+        result.campbell, critical=result.critical_speeds, axes=axes
+    ),
+    "PeriodicOrbit": plot_periodic_orbit,
+    "OrbitCurve": lambda result, axes: plot_orbit_curves({"orbits": result}, axes=axes),
+    "SynchronousOrbits": _synchronous,
+    "BistableMap": plot_bistable,
+    "DamperRun": lambda result, axes: plot_damper_run(
+        result.trajectory.time, result.eccentricity_ratio, result.force, axes=axes
+    ),
+    "FilmState": plot_film,
+    "ContactRun": plot_contact_run,
+    "QuestionAnswer": plot_question,
+}
+"""What draws a result, by the name of its class."""
