@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .films.map_table import MapTable as MapTable
     from .journal import *
     from .linear import LinearBearing as LinearBearing
+    from .own_reaction import OwnReaction as OwnReaction, as_reaction as as_reaction
     from .sprung import Sprung as Sprung
     from .tabulated import TabulatedBearing as TabulatedBearing
 else:

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_number
-from ..model import Reaction
+from ..model import Reaction, require_reaction
 from ..results import Coefficients
 
 
@@ -31,6 +31,7 @@ def coefficients(reaction: Reaction, position: ArrayLike, speed: float) -> Coeff
     UndefinedDerivativeError
         If the film has no derivative there.
     """
+    require_reaction("reaction", reaction)
     position = require_finite("position", position)
     speed = require_number("speed", speed)
     if position.shape != (2,):
