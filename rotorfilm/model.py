@@ -167,12 +167,8 @@ class Stepped(Protocol):
         """
 
 
-@runtime_checkable
-class Reaction(Model, Protocol):
-    """A model whose outputs begin with FORCE_OUTPUTS, the force on the journal [N].
-
-    Its inputs begin with JOURNAL_INPUTS: position x, y [m], velocity vx, vy [m/s] and speed [rad/s].
-    """
+class JournalForce(Protocol):
+    """What a search for a position, or for an orbit, asks of a bearing."""
 
     @property
     def clearance(self) -> float:
@@ -195,9 +191,14 @@ class Reaction(Model, Protocol):
         """Return d(force_x, force_y)/d(x, y, vx, vy, speed), shape (2, 5, ...)."""
 
 
-def require_reaction(name: str, value: object) -> None:
-    """Raise InputError unless `value` is a Reaction; the message lists what it lacks."""
-    require_kind(name, value, Reaction, "a Reaction such as a JournalBearing, or what as_reaction makes")
+@runtime_checkable
+class Reaction(JournalForce, Model, Protocol):
+    """A model whose outputs begin with FORCE_OUTPUTS, on the journal, and its inputs with JOURNAL_INPUTS."""
+
+
+def require_reaction(name: str, value: object, kind: Any = Reaction) -> None:
+    """Raise InputError unless `value` is a Reaction, or of a lesser kind, with a list of what it lacks."""
+    require_kind(name, value, kind, "a Reaction such as a JournalBearing, or what as_reaction makes")
 
 
 def require_reactions(name: str, values: object) -> None:

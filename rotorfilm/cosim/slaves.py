@@ -7,7 +7,7 @@ from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
-from ..errors import InputError, require_kind
+from ..errors import InputError
 from ..fmu.advance import advance
 from ..model import Array, Dynamic, Linearization, Model, breakpoints
 from ..rotors.force_law import ForceLaw
@@ -118,7 +118,6 @@ class InProcessSlave:
     restores = True
 
     def __init__(self, model: Model) -> None:
-        require_kind("model", model, Model, "a Model such as a bearing or a rotor, or the path of an FMU")
         self._model = model
         self.differentiates = hasattr(model, "linearization")
         self._inputs, self._outputs = tuple(names(model.inputs)), tuple(names(model.outputs))

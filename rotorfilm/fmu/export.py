@@ -228,7 +228,7 @@ def _title(model: Model | Stepped) -> str:
 
 
 @runtime_checkable
-class Named(Protocol):
+class NamedModel(Protocol):
     """What a model may add: the name of its FMU, where the caller gives none."""
 
     @property
@@ -237,7 +237,7 @@ class Named(Protocol):
 
 
 def _component(model: Any) -> str:
-    if isinstance(model, Named):
+    if isinstance(model, NamedModel):
         return model.component
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", type(model).__name__).lower()
 

@@ -17,7 +17,7 @@ from ..errors import (
     require_finite,
     require_number,
 )
-from ..model import Array, Reaction, Tangent, prepared_tangent, require_reaction
+from ..model import Array, JournalForce, Reaction, Tangent, prepared_tangent, require_reaction
 from ..results import Equilibrium
 
 MAXIMUM_ECCENTRICITY = 0.9999
@@ -99,7 +99,7 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     grows as a power of chi near the center and as a power of 1 - chi near the wall, so these equations
     are nearly linear all the way.
     """
-    require_reaction("reaction", reaction)
+    require_reaction("reaction", reaction, JournalForce)
     load = checked_load(load)
     speed = require_number("speed", speed)
     wanted_x, wanted_y = (-load).tolist()
