@@ -1,6 +1,6 @@
 """A run-up on a nonlinear film: the rotor passes the threshold of stability, and whirl grows a little later.
 
-The part of a symmetric rotor that one film carries, with a small unbalance: twenty seconds, some thousand turns.
+The part of a symmetric rotor that one film carries, with a small unbalance: twenty seconds of motion.
 """
 
 import numpy as np
