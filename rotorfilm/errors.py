@@ -118,7 +118,7 @@ def require_each(owner: object, rule: Callable[[str, Any], object], *names: str)
         rule(name, getattr(owner, name))
 
 
-def require_kind(name: str, value: object, kind: Any, said: str) -> None:
+def require_kind(name: str, value: Any, kind: Any, said: str) -> None:
     """Raise InputError unless `value` is an instance of a class, of one of a union, or obeys a protocol.
 
     What `kind` is, `said` says in words. The message lists the members of a protocol that `value` lacks.
