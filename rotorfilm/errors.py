@@ -124,12 +124,13 @@ def require_kind(name: str, value: Any, kind: Any, said: str) -> None:
     What `kind` is, `said` says in words. The message lists the members of a protocol that `value` lacks.
     """
     if isinstance(value, type):
-        raise InputError(f"{name} must be {said}, got the class {value.__name__} itself")
+        raise InputError(f"{name} must be {said}, got {brief(value)}")
     if not getattr(kind, "_is_protocol", False):
         lacking = [] if isinstance(value, kind) else [""]
     else:
         # The protocol's own check asks every property of the value, and some of them are slow.
-        lacking = [member for member in _lacking(type(value), kind) if not hasattr(value, member)]
+        cls: Any = type(value)
+        lacking = [member for member in _lacking(cls, kind) if not hasattr(value, member)]
     if lacking:
         without = f" without {', '.join(lacking)}" if lacking[0] else ""
         raise InputError(f"{name} must be {said}, got {brief(value)}{without}")

@@ -12,6 +12,7 @@ from ...model import (
     Array,
     Dynamic,
     Linearization,
+    Model,
     Reaction,
     prepared_force,
     require_reaction,
@@ -39,7 +40,7 @@ def connect(rotor: Dynamic, reaction: Reaction) -> LoopWiring:
         If the rotor lacks an output that the film needs or an input for its force, has a further input,
         which nobody would drive, or the film has states and such an input or no derivative.
     """
-    require_kind("rotor", rotor, Dynamic, "a rotor such as a RigidRotor")
+    require_kind("rotor", rotor, Model, "a rotor such as a RigidRotor")
     require_reaction("reaction", reaction)
     inputs = names(rotor.inputs)
     motion = indices("rotor must have the outputs", names(rotor.outputs), JOURNAL_INPUTS)
