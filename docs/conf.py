@@ -4,14 +4,11 @@ import re
 import shutil
 import sys
 from importlib import metadata
-from itertools import groupby
 from pathlib import Path
-
-import rotorfilm
-from rotorfilm.sources import homes
 
 sys.path.insert(0, str(Path(__file__).parent))
 import glossary
+import interface_tasks
 from pictures import Pictures
 
 HERE = Path(__file__).parent
@@ -68,20 +65,6 @@ def write_examples(folder: Path) -> Path:
     return folder
 
 
-def part(name: str) -> str:
-    """Return the part of the package that a public name lives in."""
-    return homes("rotorfilm")[name].module.split(".")[1]
-
-
-def write_interface(path: Path) -> None:
-    """Write the page of all public names, by the package that they live in."""
-    lines = ["Interface", "=========", ""]
-    for home, names in groupby(sorted(rotorfilm.__all__, key=part), part):
-        lines += [home, "-" * len(home), "", ".. autosummary::", "   :toctree: _interface", ""]
-        lines += [f"   rotorfilm.{name}" for name in names] + [""]
-    path.write_text("\n".join(lines))
-
-
 sphinx_gallery_conf = {
     "examples_dirs": str(write_examples(HERE / "_examples")),
     "gallery_dirs": "gallery",
@@ -93,7 +76,7 @@ sphinx_gallery_conf = {
     "show_memory": False,
     "write_computation_times": False,
 }
-write_interface(HERE / "interface.rst")
+interface_tasks.write(HERE / "interface.rst")
 glossary.write(HERE)
 
 PAGES = {"fmus/README.md": "fmus.md", "CONTRIBUTING.md": "contributing.md"}
@@ -111,6 +94,7 @@ def included(match: re.Match[str]) -> str:
 def adapt(app, docname, source) -> None:
     """Put files of the tree where a page asks for them, and let links lead to their pages."""
     text = re.sub(r"<!-- include (\S+)(?: part (\d))? -->", included, source[0])
+    text = re.sub(r"\]\((?:\.\./)?examples/(\w+)\.py\)", r"](gallery/\1.rst)", text)
     for path, page in PAGES.items():
         text = re.sub(rf"\]\((?:\.\./)?{re.escape(path)}", f"]({page}", text)
     source[0] = text

@@ -6,6 +6,7 @@ import sys
 import unicodedata
 import warnings
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -119,10 +120,28 @@ def require_each(owner: object, rule: Callable[[str, Any], object], *names: str)
         rule(name, getattr(owner, name))
 
 
-def require_kind(name: str, value: object, kind: Any, said: str) -> None:
-    """Raise InputError unless `value` is an instance of a class, or of one of a union, `said` in words."""
-    if isinstance(value, type) or not isinstance(value, kind):
-        raise InputError(f"{name} must be {said}, got {value!r}")
+def require_kind(name: str, value: Any, kind: Any, said: str) -> None:
+    """Raise InputError unless `value` is an instance of a class, of one of a union, or obeys a protocol.
+
+    What `kind` is, `said` says in words. The message lists the members of a protocol that `value` lacks.
+    """
+    if isinstance(value, type):
+        raise InputError(f"{name} must be {said}, got {brief(value)}")
+    if not getattr(kind, "_is_protocol", False):
+        lacking = [] if isinstance(value, kind) else [""]
+    else:
+        # The protocol's own check asks every property of the value, and some of them are slow.
+        cls: Any = type(value)
+        lacking = [member for member in _lacking(cls, kind) if not hasattr(value, member)]
+    if lacking:
+        without = f" without {', '.join(lacking)}" if lacking[0] else ""
+        raise InputError(f"{name} must be {said}, got {brief(value)}{without}")
+
+
+@cache
+def _lacking(cls: type, protocol: type) -> tuple[str, ...]:
+    """Return the members of a protocol that a class does not define; its instances may still have them."""
+    return tuple(name for name in dir(protocol) if not name.startswith("_") and not hasattr(cls, name))
 
 
 def require_finite(name: str, value: ArrayLike) -> NDArray[np.float64]:

@@ -7,12 +7,14 @@ these protocols and never a particular bearing.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .errors import InputError, require_kind
+from .printable import brief
 from .signals import Signal
 
 Array = NDArray[np.float64]
@@ -91,17 +93,7 @@ class Dynamic(Model, Protocol):
         """The state at t = 0, shape (n_states,)."""
 
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
-        """Return dx/dt, shape (n_states,).
-
-        Parameters
-        ----------
-        t : float [s]
-            Time.
-        x : array_like, shape (n_states,)
-            State, in the SI units of `states`.
-        u : array_like, shape (n_inputs,)
-            Input, in the SI units of `inputs`.
-        """
+        """Return dx/dt, shape (n_states,), of the arguments of `output`."""
 
 
 @runtime_checkable
@@ -120,14 +112,7 @@ class Switched(Protocol):
     def events(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the switching functions, shape (n_events,): the model is smooth while none changes sign.
 
-        Parameters
-        ----------
-        t : float [s]
-            Time.
-        x : array_like, shape (n_states,)
-            State, in the SI units of the states.
-        u : array_like, shape (n_inputs,)
-            Input, in the SI units of the inputs.
+        The arguments are those of `Model.output`.
         """
 
 
@@ -182,12 +167,8 @@ class Stepped(Protocol):
         """
 
 
-@runtime_checkable
-class Reaction(Model, Protocol):
-    """A model whose outputs begin with FORCE_OUTPUTS, the force on the journal [N].
-
-    Its inputs begin with JOURNAL_INPUTS: position x, y [m], velocity vx, vy [m/s] and speed [rad/s].
-    """
+class JournalForce(Protocol):
+    """What a search for a position, or for an orbit, asks of a bearing."""
 
     @property
     def clearance(self) -> float:
@@ -208,6 +189,24 @@ class Reaction(Model, Protocol):
 
     def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return d(force_x, force_y)/d(x, y, vx, vy, speed), shape (2, 5, ...)."""
+
+
+@runtime_checkable
+class Reaction(JournalForce, Model, Protocol):
+    """A model whose outputs begin with FORCE_OUTPUTS, on the journal, and its inputs with JOURNAL_INPUTS."""
+
+
+def require_reaction(name: str, value: object, kind: Any = Reaction) -> None:
+    """Raise InputError unless `value` is a Reaction, or of a lesser kind, with a list of what it lacks."""
+    require_kind(name, value, kind, "a Reaction such as a JournalBearing, or what as_reaction makes")
+
+
+def require_reactions(name: str, values: object) -> None:
+    """Raise InputError unless `values` is a mapping from names of stations to Reactions."""
+    if not isinstance(values, Mapping):
+        raise InputError(f"{name} must be a mapping such as {{'left': film}}, got {brief(values)}")
+    for station, value in values.items():
+        require_reaction(f"{name}[{station!r}]", value)
 
 
 class Force(Protocol):

@@ -1,6 +1,7 @@
 """Every example runs as a user runs it, is short, and ends in a number that is checked here."""
 
 import os
+import re
 import runpy
 import subprocess
 import sys
@@ -8,7 +9,9 @@ import warnings
 from contextlib import nullcontext
 from pathlib import Path
 
+import numpy as np
 import pytest
+from matplotlib.image import imread
 
 from rotorfilm.errors import ValidityWarning
 from rotorfilm.scenes import Scene, bundled_scene
@@ -64,6 +67,19 @@ LAST_NUMBER = {
     "rolling_ball.py": pytest.approx(6.0, rel=0.03),
     # short bearing, eps .2 at the threshold: the small cycle folds 1 % above it
     "whirl_bifurcation.py": pytest.approx(1.01, abs=5e-4),
+    # the same film on cells halved twice: 1095.370; second order
+    "grooved_bearing.py": pytest.approx(1095.37, rel=2e-4),
+    # half-speed whirl
+    "three_disks.py": pytest.approx(0.5, abs=0.005),
+    # a run leaves the rest later than its threshold: 1 as it gets slower
+    "film_run_up.py": pytest.approx(1.047, abs=0.01),
+    "fmpy_loop.py": pytest.approx(1.0, abs=1e-9),
+    # closed form: |T| = 1 at sqrt(2 K/m) whatever the damping
+    "damper_bode.py": pytest.approx(1.0, abs=1e-12),
+    # a film knows clearance and viscosity as viscosity / clearance^2 only
+    "two_parameters.py": pytest.approx(0.0, abs=1e-12),
+    # below 1, as it says itself
+    "ask_to_a_tolerance.py": pytest.approx(0.5, abs=0.5),
     # fold of the response of a solid damper at Bs = .08, Omega_s = .4
     "damper_paper.py": pytest.approx(0.3931, abs=5e-5),
 }
@@ -93,6 +109,8 @@ def test_example_ends_in_its_number(path, tmp_path, monkeypatch, capsys):
         warnings.filterwarnings("error", module=OURS)
         runpy.run_path(str(path), run_name="__main__")
     assert float(capsys.readouterr().out.split()[-1]) == LAST_NUMBER[path.name]
+    for picture in re.findall(r'savefig\("(.*)"\)', path.read_text(encoding="utf-8")):
+        assert len(np.unique(imread(tmp_path / picture))) > 20
 
 
 @pytest.mark.parametrize("path", [*SCRIPTS, *SCENES], ids=lambda path: path.name)

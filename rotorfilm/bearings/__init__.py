@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from .journal import *
     from .linear import LinearBearing as LinearBearing
     from .oil import Cooling as Cooling, Oil as Oil
+    from .own_reaction import OwnReaction as OwnReaction, as_reaction as as_reaction
     from .sprung import Sprung as Sprung
     from .tabulated import TabulatedBearing as TabulatedBearing
 else:

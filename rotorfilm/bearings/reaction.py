@@ -52,7 +52,15 @@ class _Law(Protocol):
     def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array: ...
 
 
-class Feedthrough:
+class Called:
+    """What makes a reaction a function: of position, velocity and speed, as its `force`."""
+
+    def __call__(self: _Law, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+        """Return the force on the journal [N], shape (2, ...)."""
+        return self.force(position, velocity, speed)
+
+
+class Feedthrough(Called):
     """What makes a static Model of `force` and `jacobian`."""
 
     @property

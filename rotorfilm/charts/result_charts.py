@@ -10,9 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..answers import QuestionAnswer
-from ..errors import InputError
 from ..bearings.contact import ContactRun
 from ..bearings.journal import FilmState
+from ..errors import InputError
 from ..readable.quantities import label_of
 from ..readable.result import Drawable
 from ..results import Trajectory

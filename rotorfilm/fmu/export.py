@@ -6,7 +6,7 @@ import re
 import uuid
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -80,7 +80,7 @@ def export_fmu(
     model : Model, Stepped or control.StateSpace
         A continuous python-control system is a model whose signals are its labels. For the python backend
         a dataclass (of this package or from a module of the user) whose fields are numbers, bools, strings,
-        None, tuples, lists, numpy arrays or such dataclasses.
+        None, tuples, lists, numpy arrays, functions from the top of such a module, or such dataclasses.
     path : str or Path
         File to write, ending in `.fmu`; its folder is made if need be.
     version : str
@@ -92,8 +92,8 @@ def export_fmu(
         "host", the platform of this machine, or "all": Linux on x86_64 and aarch64, Windows on x86_64,
         macOS on both, compiled by zig (`pip install 'rotorfilm[platforms]'`). For the native backend.
     component : str, optional
-        Identifier in front of the dot of each variable's name, and name of the FMU; by default the name of
-        the model's class in snake case.
+        Identifier in front of the dot of each variable's name, and name of the FMU; by default that of
+        a bearing by `as_reaction`, or of the model's class in snake case.
     start : mapping of str to float, optional
         Start values of inputs by signal name, in SI units; 0 where none is given.
     stop_time, step_size : float [s]
@@ -228,7 +228,18 @@ def _title(model: Model | Stepped) -> str:
     return (type(model).__doc__ or type(model).__name__).strip().splitlines()[0]
 
 
+@runtime_checkable
+class NamedModel(Protocol):
+    """What a model may add: the name of its FMU, where the caller gives none."""
+
+    @property
+    def component(self) -> str:
+        """An ASCII identifier."""
+
+
 def _component(model: Any) -> str:
+    if isinstance(model, NamedModel):
+        return model.component
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", type(model).__name__).lower()
 
 

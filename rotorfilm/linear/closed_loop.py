@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_kind
-from ..model import Array, Dynamic, Reaction
+from ..model import Array, Dynamic, Model, Reaction, require_reaction
 from ..results import Equilibrium
 from ..signals import FORCE_OUTPUTS, MOTION_NAMES, indices, names
 from .equilibrium import equilibrium
@@ -48,6 +48,8 @@ def closed_loop(
     InputError
         If the rotor lacks one of these signals, or `at` is no Equilibrium.
     """
+    require_kind("rotor", rotor, Model, "a rotor such as a RigidRotor")
+    require_reaction("reaction", reaction)
     indices("rotor must have the inputs", names(rotor.inputs), FORCE_OUTPUTS)
     indices("rotor must have the outputs", names(rotor.outputs), MOTION_NAMES)
     require_kind("at", at, Equilibrium, "an Equilibrium, as equilibrium() returns it")

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_number
-from ..model import Reaction
+from ..model import JournalForce, Reaction, require_reaction
 from ..results import Coefficients
 from ..warming import settled
 from .equilibrium import equilibrium
@@ -39,6 +39,7 @@ def coefficients(reaction: Reaction, position: ArrayLike, speed: float) -> Coeff
     UndefinedDerivativeError
         If the film has no derivative there.
     """
+    require_reaction("reaction", reaction, JournalForce)
     position = require_finite("position", position)
     speed = require_number("speed", speed)
     if position.shape != (2,):

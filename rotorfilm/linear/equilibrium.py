@@ -18,7 +18,7 @@ from ..errors import (
     require_finite,
     require_number,
 )
-from ..model import Array, Reaction, Tangent, prepared_tangent
+from ..model import Array, JournalForce, Reaction, Tangent, prepared_tangent, require_reaction
 from ..results import Equilibrium
 from ..warming import Warming
 
@@ -103,6 +103,7 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     grows as a power of chi near the center and as a power of 1 - chi near the wall, so these equations
     are nearly linear all the way.
     """
+    require_reaction("reaction", reaction, JournalForce)
     load = checked_load(load)
     speed = require_number("speed", speed)
     if isinstance(reaction, Warming) and reaction.is_warming:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, require_finite
+from ..errors import InputError, require_finite, require_kind
 from ..model import Array, Linearization, Model
 from ..results import Equilibrium
 from ..signals import JOURNAL_INPUTS, Signal, names
@@ -54,6 +54,7 @@ def linearize(model: Model, at: OperatingPoint | Equilibrium, name: str | None =
     InputError
         If the point does not fit the model, or an Equilibrium is given for a model that is no film.
     """
+    require_kind("model", model, Model, "a Model such as a bearing or a rotor")
     point = _film_point(model, at) if isinstance(at, Equilibrium) else at
     x = checked_vector("x", point.x, len(model.states))
     u = checked_vector("u", point.u, len(model.inputs))

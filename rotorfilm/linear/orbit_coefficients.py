@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import InputError, require_number, require_positive
-from ..model import Reaction
+from ..model import JournalForce, Reaction, require_reaction
 from ..readable.result import Readable
 from ..results import CircularOrbit
 from ..rotors import RigidRotor
@@ -63,6 +63,7 @@ def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: flo
     FilmContactError
         If the orbit is as wide as the clearance.
     """
+    require_reaction("reaction", reaction, JournalForce)
     require_positive("eccentricity_ratio", eccentricity_ratio)
     if require_number("speed", speed) == 0.0:
         raise InputError(f"speed must not be zero on an orbit, got {speed!r}")
@@ -128,6 +129,7 @@ def orbit_system(
         their rates: change of the position in turning axes [m, m/s]; housing_radial, housing_tangential:
         change of the force on the housing [N]. Its poles are the Floquet exponents of the orbit.
     """
+    require_reaction("reaction", reaction, JournalForce)
     radius = orbit.eccentricity_ratio * reaction.clearance
     film = reaction.jacobian([radius, 0.0], [0.0, orbit.speed * radius], orbit.speed)
     matrices = rotating_linearization(rotor.mass, orbit.speed, film)

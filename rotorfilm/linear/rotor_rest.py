@@ -10,10 +10,10 @@ from typing import cast
 import numpy as np
 
 from ..errors import EquilibriumError, InputError, require_number
-from ..model import Array, Reaction
+from ..model import Array, Reaction, require_reactions
 from ..readable.result import Readable
 from ..results import Coefficients
-from ..rotors import FlexibleRotor
+from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure, across_planes
 from ..warming import Warming
 from .coefficients import coefficients
@@ -94,6 +94,8 @@ def rotor_equilibrium(
     (K + w H) q = weight + T' F(p) and T q = s p. At s = 0 the bearings are rigid, which gives the
     first loads; s then goes to 1, each step by Newton's method with the exact Jacobian.
     """
+    require_flexible(rotor)
+    require_reactions("bearings", bearings)
     speed = require_number("speed", speed)
     system = _System(rotor.structure, bearings, speed)
     q, loads = system.on_rigid_bearings()

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError
 from ..model import Array, Reaction
-from ..rotors import FlexibleRotor
+from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.stations import station_name
 from ..rotors.structure import Structure, across_planes, both_planes, output_rows
 from ..signals import names
@@ -134,6 +134,7 @@ def unbalance_response(
     EquilibriumError
         If there is no equilibrium at one of the speeds.
     """
+    require_flexible(rotor)
     grid = checked_speeds(speeds)
     s = rotor.structure
     if not s.unbalance.any():
@@ -181,6 +182,7 @@ def rotor_transmissibility(
     EquilibriumError
         If there is no equilibrium at one of the speeds.
     """
+    require_flexible(rotor)
     grid, s = checked_speeds(speeds), rotor.structure
     # A bearing pushes its housing back; an unbalance does not.
     push = s.journals if s.housings is None else s.journals + s.housings

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from ..errors import EquilibriumError, InputError, require_finite, require_positive
-from ..model import Array, Reaction
+from ..model import Array, JournalForce, Reaction, require_reaction
 from ..results import Coefficients, Equilibrium, WhirlThreshold
 from .coefficients import coefficients
 from .critical_mass import critical_mass, damping_has_rank_one, is_stable, whirl_margin
@@ -58,6 +58,7 @@ def whirl_threshold(
     The range is scanned upwards in steps of 21 % and the first loss of stability is refined to roundoff;
     stability lost and regained within one step goes unseen.
     """
+    require_reaction("reaction", reaction, JournalForce)
     require_positive("mass", mass)
     force = checked_load(load)
     low, high = _checked_range(speed_range, math.sqrt(math.hypot(*force) / (reaction.clearance * mass)))

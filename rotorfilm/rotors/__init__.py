@@ -36,6 +36,6 @@ if TYPE_CHECKING:
     from .shaft.reduced_rotor import ReducedRotor as ReducedRotor
     from .shaft.shaft_rotor import ShaftRotor as ShaftRotor
     from .steady import SteadyRotor as SteadyRotor
-    from .structure import FlexibleRotor as FlexibleRotor
+    from .structure import FlexibleRotor as FlexibleRotor, require_flexible
 else:
     show(__name__)

@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError
-from ..model import Array, Dynamic, Linearization, Reaction
+from ..errors import InputError, require_kind
+from ..model import Array, Dynamic, Linearization, Reaction, require_reaction, require_reactions
 from ..native.spec import NativeSpec
 from ..signals import JOURNAL_INPUTS, Signal, indices, names
 from ..warming import in_time
@@ -51,7 +51,9 @@ class MountedRotor(AroundRotor):
             raise InputError(
                 f"bearings must be one for each of the stations {self.stations!r}, got {len(self.bearings)}"
             )
-        for bearing in self.bearings:
+        require_kind("rotor", self.rotor, Dynamic, "a rotor such as a ShaftRotor")
+        for station, bearing in zip(self.stations, self.bearings, strict=True):
+            require_reaction(f"bearings[{station!r}]", bearing)
             if bearing.states and not isinstance(bearing, Dynamic):
                 raise InputError(f"bearings with states must be Dynamic, got {bearing!r}")
             if names(bearing.inputs) != list(JOURNAL_INPUTS):
@@ -236,6 +238,7 @@ def mount(rotor: Dynamic, bearings: Mapping[str, Reaction]) -> MountedRotor:
     InputError
         If the rotor has no such station, or a bearing does not fit.
     """
+    require_reactions("bearings", bearings)
     return MountedRotor(
         rotor=rotor, stations=tuple(bearings), bearings=tuple(map(in_time, bearings.values()))
     )

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg import cho_factor, cho_solve
 
-from ..errors import InputError, require_finite, require_number
+from ..errors import InputError, require_finite, require_kind, require_number
 from ..model import Array, Linearization
 from ..signals import Signal, force_outputs, journal_inputs
 from ..units import STANDARD_GRAVITY
@@ -192,6 +192,11 @@ class FlexibleRotor(Turning):
                 "the loss factor / the frequency of the bending in the rotating shaft"
             )
         return solved_equations(s)
+
+
+def require_flexible(rotor: object) -> None:
+    """Raise InputError unless `rotor` has the matrices of a flexible rotor."""
+    require_kind("rotor", rotor, FlexibleRotor, "a flexible rotor such as a ShaftRotor")
 
 
 def solved_equations(s: Structure) -> Operators:

@@ -21,7 +21,7 @@ from ...errors import (
 from ...model import Array, Linearization
 from ...native.spec import NativeSpec
 from ...signals import Signal
-from ..reaction import broadcast_state
+from ..reaction import Called, broadcast_state
 from . import worn_profile as profile
 from .bearing import MeltingBush
 from .bush_kernel import has_kernel, reaction_spec
@@ -31,7 +31,7 @@ from .worn_profile import LocalMelting, MeltingRule, Pressed, SharedMelting
 
 
 @dataclass(frozen=True, kw_only=True)
-class BushReaction:
+class BushReaction(Called):
     """A `MeltingBush` with wear depths at nodes, its contact at a given temperature: a Reaction with states.
 
     Loads may fall and turn, the shaft may leave the liner and come back. The pressure at an angle theta is

@@ -12,12 +12,13 @@ from ...errors import InputError, require_finite, require_kind, require_number, 
 from ...model import Array, Linearization
 from ...native.spec import NativeSpec
 from ...signals import Signal, force_outputs, journal_inputs
+from ..reaction import Called
 from .contact_kernel import MOST_CONTACTS, contact_spec
 from .contact_law import ContactLaw
 
 
 @dataclass(frozen=True, kw_only=True)
-class BallSupport:
+class BallSupport(Called):
     """A journal carried by equal balls at fixed angles, each through one lubricated contact.
 
     The ball at the angle theta is approached by z = gap - n . q, n = (cos theta, sin theta), q the position

@@ -5,7 +5,9 @@ from __future__ import annotations
 import dataclasses
 import importlib
 import math
+import sys
 from collections.abc import Iterator, Mapping
+from types import FunctionType
 from typing import Any
 
 import numpy as np
@@ -28,7 +30,8 @@ def encode(value: Any, name: str = "model") -> Any:
     Parameters
     ----------
     value : Any
-        A number, bool, string, None, tuple, list, numpy array of numbers, or a dataclass of such values.
+        A number, bool, string, None, tuple, list, numpy array of numbers, a function from the top of a
+        module, or a dataclass of such values.
     name : str
         What messages call the value, as `model.film.rupture`.
 
@@ -51,9 +54,11 @@ def encode(value: Any, name: str = "model") -> Any:
         return _encode_array(value, name)
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         return _encode_dataclass(value, name)
+    if isinstance(value, FunctionType):
+        return _encode_function(value, name)
     raise FmuError(
-        f"{name} must be a number, bool, string, None, tuple, list, numpy array of numbers or a dataclass "
-        f"of such values, got {value!r} of type {type(value).__qualname__}"
+        f"{name} must be a number, bool, string, None, tuple, list, numpy array of numbers, a function or a "
+        f"dataclass of such values, got {value!r} of type {type(value).__qualname__}"
     )
 
 
@@ -78,8 +83,10 @@ def decode(data: Any, modules: Mapping[str, str]) -> Any:
     if "array" in data:
         values = [decode(item, modules) for item in data["array"]]
         return np.array(values, dtype=data["dtype"]).reshape(data["shape"])
+    if "function" in data:
+        return _load(data["function"], modules)
     fields = {name: decode(field, modules) for name, field in data["fields"].items()}
-    return _load_class(data["class"], modules)(**fields)
+    return _load(data["class"], modules)(**fields)
 
 
 def shortened(data: Any) -> Any:
@@ -92,8 +99,8 @@ def shortened(data: Any) -> Any:
 
 
 def class_modules(data: Any) -> set[str]:
-    """Return the names of the modules whose classes occur in encoded data."""
-    return {name.partition(":")[0] for name in _class_names(data)}
+    """Return the names of the modules whose classes and functions occur in encoded data."""
+    return {name.partition(":")[0] for name in _loaded_names(data)}
 
 
 def _encode_items(items: list[Any] | tuple[Any, ...], name: str) -> list[Any]:
@@ -127,7 +134,22 @@ def _encode_dataclass(value: Any, name: str) -> dict[str, Any]:
     return {"class": f"{cls.__module__}:{cls.__qualname__}", "fields": fields}
 
 
-def _load_class(name: str, modules: Mapping[str, str]) -> Any:
+def _encode_function(value: FunctionType, name: str) -> dict[str, str]:
+    module, qualname = value.__module__, value.__qualname__
+    if (
+        module == "__main__"
+        or not qualname.isidentifier()
+        or getattr(sys.modules[module], qualname, None) is not value
+    ):
+        raise FmuError(
+            f"{name} must be a function that 'def' defines at the top of an importable module, because the "
+            f"FMU carries that module's source, got {module}.{qualname}: write it into a file of its own and "
+            "import it from there, its parameters as fields of a frozen dataclass with __call__"
+        )
+    return {"function": f"{module}:{qualname}"}
+
+
+def _load(name: str, modules: Mapping[str, str]) -> Any:
     module, _, qualname = name.partition(":")
     found: Any = importlib.import_module(modules.get(module, module))
     for part in qualname.split("."):
@@ -135,11 +157,10 @@ def _load_class(name: str, modules: Mapping[str, str]) -> Any:
     return found
 
 
-def _class_names(data: Any) -> Iterator[str]:
+def _loaded_names(data: Any) -> Iterator[str]:
     if isinstance(data, dict):
-        if "class" in data:
-            yield data["class"]
+        yield from (data[kind] for kind in ("class", "function") if kind in data)
         data = list(data.values())
     if isinstance(data, list):
         for item in data:
-            yield from _class_names(item)
+            yield from _loaded_names(item)

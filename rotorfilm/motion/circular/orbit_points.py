@@ -14,8 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...errors import InputError, require_positive
-from ...model import Array, Reaction, largest_eccentricity_ratio
+from ...errors import InputError, require_kind, require_positive
+from ...model import Array, JournalForce, Reaction, largest_eccentricity_ratio, require_reaction
 from ...rotors import RigidRotor
 from ...rotors.rotating import rotating_linearization
 
@@ -70,8 +70,8 @@ class OrbitSlope(NamedTuple):
 
 def orbit_rotor(rotor: RigidRotor, reaction: Reaction) -> OrbitRotor:
     """Return the constants of a rotor whose orbits are circular; raise InputError where they are not."""
-    if not isinstance(rotor, RigidRotor):
-        raise InputError(f"rotor must be a RigidRotor, got {rotor!r}")
+    require_kind("rotor", rotor, RigidRotor, "a RigidRotor")
+    require_reaction("reaction", reaction, JournalForce)
     speeds = set(rotor.profile.speeds)
     if len(speeds) != 1 or 0.0 in speeds:
         raise InputError(f"speed must be constant and not zero for synchronous orbits, got {rotor.speed!r}")

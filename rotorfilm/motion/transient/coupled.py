@@ -7,8 +7,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...errors import ConvergenceError, InputError, UndefinedDerivativeError, require_inside
-from ...model import Array, Dynamic, Linearization, Reaction, prepared_force, static_linearization
+from ...errors import ConvergenceError, InputError, UndefinedDerivativeError, require_inside, require_kind
+from ...model import (
+    Array,
+    Dynamic,
+    Linearization,
+    Model,
+    Reaction,
+    prepared_force,
+    require_reaction,
+    static_linearization,
+)
 from ...signals import FORCE_OUTPUTS, JOURNAL_INPUTS, Signal, indices, names
 
 NUDGE = 1e-6
@@ -31,6 +40,8 @@ def connect(rotor: Dynamic, reaction: Reaction) -> LoopWiring:
         If the rotor lacks an output that the film needs or an input for its force, has a further input,
         which nobody would drive, or the film has states and such an input or no derivative.
     """
+    require_kind("rotor", rotor, Model, "a rotor such as a RigidRotor")
+    require_reaction("reaction", reaction)
     inputs = names(rotor.inputs)
     motion = indices("rotor must have the outputs", names(rotor.outputs), JOURNAL_INPUTS)
     force = indices("rotor must have the inputs", inputs, FORCE_OUTPUTS)

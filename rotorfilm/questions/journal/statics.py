@@ -10,14 +10,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...answers import ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work, WorkUnit
-from ...bearings.journal import JournalBearing, has_losses
+from ...bearings.journal import JournalBearing, film_name, has_losses
 from ...errors import InputError
 from ...ladders import CandidateRung, Ladder
 from ...linear import coefficients, equilibrium
 from ...model import Array, prepared_tangent
 from ...results import Equilibrium
 from ...scenes.counted import Counted
-from ...bearings.journal import film_name
 from ...scenes.journal.film_defects import corrected, one_defect
 from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.film_rungs import point_films

@@ -97,7 +97,7 @@ def test_the_initial_state_is_that_of_both():
 )
 def test_a_film_that_nobody_could_integrate_is_refused(members, message):
     heat = Signal(name="heat", unit="1", nominal=1.0, description="another input")
-    model = dict.fromkeys(("outputs", "output", "linearization"), len)
+    model = dict.fromkeys(("clearance", "force", "jacobian", "outputs", "output", "linearization"), len)
     film = type("Odd", (), {**model, **members, "inputs": (*WORN.inputs, heat), "states": WORN.states})()
     with pytest.raises(InputError, match=message):
         Coupled(resting(1.0), film)

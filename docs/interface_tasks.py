@@ -1,0 +1,82 @@
+"""The interface page of the site: every public name once, by what one wants to do."""
+
+from pathlib import Path
+
+import rotorfilm
+from rotorfilm.sources import homes
+
+TASKS = {
+    "Journal bearings and their films": ("bearings.journal", "bearings.films"),
+    "Squeeze-film dampers": ("bearings.damper",),
+    "Rolling contacts and ball bearings": ("bearings.contact",),
+    "Bushes that wear": ("bearings.bush",),
+    "Springs, tables, bearings of your own": (
+        "bearings.linear",
+        "bearings.own_reaction",
+        "bearings.sprung",
+        "bearings.tabulated",
+    ),
+    "Equilibrium and coefficients": (
+        "linear.coefficient_table",
+        "linear.coefficients",
+        "linear.equilibrium",
+        "linear.rotor_rest",
+        "results.Coefficients",
+        "results.Equilibrium",
+    ),
+    "Stability, critical speeds, Campbell diagrams": (
+        "linear.campbell",
+        "linear.critical_mass",
+        "linear.rotor_modes",
+        "linear.rotor_threshold",
+        "linear.whirl",
+        "motion.periodic.hopf",
+        "results.WhirlThreshold",
+    ),
+    "Response, and systems for python-control": ("linear",),
+    "Rotors": ("rotors", "scenes.shaft.ross", "scenes.shaft.ross_bearing"),
+    "Motion over time": ("motion.compiled", "motion.transient", "results.Trajectory"),
+    "Orbits": ("motion", "results.CircularOrbit"),
+    "FMUs": ("fmu", "scenes.shaft.export_rotor"),
+    "Coupling in co-simulation": ("cosim",),
+    "Scenes, questions, sweeps": ("scenes", "sweeps"),
+    "Models of your own: protocols and signals": ("model", "signals"),
+    "Errors and warnings": ("errors",),
+}
+"""Headings, and below each the folders, modules or names it shows: the longest that fits a name takes it."""
+
+
+def home(name: str) -> str:
+    """Return where a public name lives, below the package, as `linear.whirl.whirl_threshold`."""
+    return f"{homes('rotorfilm')[name].module.partition('.')[2]}.{name}"
+
+
+def fitting(name: str) -> list[tuple[int, str, str]]:
+    """Return length, heading and place of all that fit a public name, the longest last."""
+    path = f"{home(name)}."
+    return sorted(
+        (len(place), heading, place)
+        for heading, places in TASKS.items()
+        for place in places
+        if path.startswith(f"{place}.")
+    )
+
+
+def tasks() -> dict[str, list[str]]:
+    """Return the public names under each heading."""
+    found: dict[str, list[str]] = {heading: [] for heading in TASKS}
+    for name in rotorfilm.__all__:
+        fits = fitting(name)
+        if not fits:
+            raise ValueError(f"TASKS of {Path(__file__).name} must have a place for {home(name)}")
+        found[fits[-1][1]].append(name)
+    return found
+
+
+def write(path: Path) -> None:
+    """Write the page of all public names."""
+    lines = ["Interface", "=========", ""]
+    for heading, names in tasks().items():
+        lines += [heading, "-" * len(heading), "", ".. autosummary::", "   :toctree: _interface", ""]
+        lines += [f"   rotorfilm.{name}" for name in names] + [""]
+    path.write_text("\n".join(lines))

@@ -1,0 +1,236 @@
+"""A bearing of the user's own: a function of position, velocity and speed as a Reaction."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import InputError, require_inside, require_positive
+from ..model import Array, Force
+from ..printable import brief
+from .differences import differences
+from .reaction import NOMINAL_SPEED, StaticReaction, broadcast_state
+
+RELATIVE_STEP = 2.0**-8
+"""Largest step of differences, relative to the scale of what is moved."""
+
+LARGEST_RELATIVE_STEP = 0.25
+
+Law = Callable[..., Any]
+
+
+@dataclass(frozen=True, kw_only=True)
+class OwnReaction(StaticReaction):
+    """A bearing whose force is a function of the user; `as_reaction` makes it.
+
+    Parameters
+    ----------
+    law : callable
+        The `force` of `as_reaction`.
+    slopes : callable or None
+        The `jacobian` of `as_reaction`.
+    clearance : float [m]
+        Radial clearance.
+    name : str
+        What messages call it, and its FMU.
+    nominal_force : float [N]
+        Typical force, for nominal values of signals.
+    vectorized : bool
+        Whether the functions take arrays.
+    relative_step : float [1]
+        Largest step of the differences.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+    """
+
+    law: Law
+    clearance: float
+    name: str
+    nominal_force: float
+    slopes: Law | None = None
+    vectorized: bool = False
+    relative_step: float = RELATIVE_STEP
+
+    def __post_init__(self) -> None:
+        for argument, function in (("force", self.law), ("jacobian", self.slopes)):
+            if not (callable(function) or (argument == "jacobian" and function is None)):
+                raise InputError(
+                    f"{argument} must be a function of (x, y, vx, vy, speed), got {brief(function)}"
+                )
+        require_positive("clearance", self.clearance)
+        require_positive("nominal_force", self.nominal_force)
+        require_positive("relative_step", self.relative_step)
+        if self.relative_step > LARGEST_RELATIVE_STEP:
+            raise InputError(
+                f"relative_step must be at most {LARGEST_RELATIVE_STEP}, got {self.relative_step!r}"
+            )
+        if not (isinstance(self.name, str) and self.name.isidentifier()):
+            raise InputError(f"name must be an identifier such as 'gas_bearing', got {brief(self.name)}")
+
+    @property
+    def component(self) -> str:
+        """What its FMU is called."""
+        return self.name
+
+    def prepare(self) -> Force:
+        """Return the force as a function of five numbers; see `StaticReaction.prepare`."""
+
+        def force(x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
+            if not math.hypot(x, y) < self.clearance:
+                require_inside(np.array((x, y)), self.clearance)
+            force_x, force_y = self._values(self.law, np.array((x, y, vx, vy, speed)), (2,)).tolist()
+            return force_x, force_y
+
+        return force
+
+    def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `force` for inner loops: float arrays of equal batch shape, inside the clearance."""
+        return self._values(self.law, _state(position, velocity, speed), (2,))
+
+    def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `jacobian` for inner loops: float arrays of equal batch shape, inside the clearance."""
+        state = _state(position, velocity, speed)
+        return self._differences(state)[0] if self.slopes is None else self._given(self.slopes, state)
+
+    def jacobian_error(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+        """Return how far `jacobian` may be off, in its units, shape (2, 5, ...).
+
+        Of differences that is an estimate, of a given `jacobian` its distance from differences.
+
+        Parameters
+        ----------
+        position, velocity, speed
+            As in `force`.
+
+        Raises
+        ------
+        InputError, FilmContactError
+            As in `force`.
+        """
+        q, v, omega = broadcast_state(position, velocity, speed)
+        require_inside(q, self.clearance)
+        state = _state(q, v, omega)
+        slopes, error = self._differences(state)
+        return error if self.slopes is None else np.abs(self._given(self.slopes, state) - slopes)
+
+    def _differences(self, state: Array) -> tuple[Array, Array]:
+        return differences(lambda moved: self._values(self.law, moved, (2,)), state, self._steps(state))
+
+    def _steps(self, state: Array) -> Array:
+        """Return the largest steps: of the gap that is left, and of the speed and the rate of motion."""
+        gap = self.clearance - np.hypot(state[0], state[1])
+        pace = np.abs(state[4]) + np.hypot(state[2], state[3]) / self.clearance
+        pace = np.where(pace > 0.0, pace, NOMINAL_SPEED)
+        rate = self.clearance * pace
+        return self.relative_step * np.stack([gap, gap, rate, rate, pace])
+
+    def _given(self, slopes: Law, state: Array) -> Array:
+        return self._values(slopes, state, (2, 5))
+
+    def _values(self, function: Law, state: Array, shape: tuple[int, ...]) -> Array:
+        """Return what a function of the user gives for states (5, ...), shape (*shape, ...)."""
+        batch = state.shape[1:]
+        if self.vectorized and batch:
+            return self._checked(function(*state), shape, batch)
+        columns = state.reshape(5, -1).T.tolist()
+        found = np.empty((*shape, len(columns)))
+        for k, column in enumerate(columns):
+            found[..., k] = self._checked(function(*column), shape, ())
+        return found.reshape(*shape, *batch)
+
+    def _checked(self, found: Any, shape: tuple[int, ...], batch: tuple[int, ...]) -> Array:
+        """Return numbers or arrays, in rows or not, as one array of shape (*shape, *batch)."""
+        try:
+            rows = [found] if len(shape) == 1 else found
+            entries = [[np.broadcast_to(np.asarray(e, dtype=float), batch) for e in row] for row in rows]
+            numbers = np.array(entries)
+        except (TypeError, ValueError):
+            numbers = np.zeros(0)
+        if numbers.shape != (*(1,) * (2 - len(shape)), *shape, *batch) or not np.isfinite(numbers).all():
+            what = "force" if len(shape) == 1 else "jacobian"
+            raise InputError(
+                f"{what} of {self.name!r} must return finite numbers of shape {(*shape, *batch)}, "
+                f"got {brief(found)}"
+            )
+        return numbers.reshape(*shape, *batch)
+
+
+def _state(position: Array, velocity: Array, speed: Array) -> Array:
+    return np.concatenate([position, velocity, speed[None]])
+
+
+def as_reaction(
+    force: Law,
+    *,
+    clearance: float,
+    name: str | None = None,
+    jacobian: Law | None = None,
+    vectorized: bool = False,
+    relative_step: float = RELATIVE_STEP,
+    nominal_force: float | None = None,
+) -> OwnReaction:
+    """Return a function that gives the force of a bearing as a bearing, which goes wherever a bearing goes.
+
+    Parameters
+    ----------
+    force : callable
+        (x, y, vx, vy, speed) [m, m/s, rad/s] -> (force_x, force_y) [N], the force on the journal. An FMU
+        carries a function from the top of an importable module, or a frozen dataclass with `__call__`.
+    clearance : float [m]
+        Radial clearance: the journal stays within it, and beyond it nobody asks for a force. It scales the
+        steps of differences.
+    name : str, optional
+        What messages call the bearing, and its FMU; that of the function by default.
+    jacobian : callable, optional
+        (x, y, vx, vy, speed) -> 2 rows of 5 numbers, d(force_x, force_y)/d(x, y, vx, vy, speed). By default
+        they are differences of sixth order, 30 forces a state: a smooth force has them within some 1e-11 of
+        the largest, and `OwnReaction.jacobian_error` says how far they are off at a state.
+    vectorized : bool
+        Whether the functions take arrays of one shape, and are called once for a batch of states.
+    relative_step : float [1]
+        Largest step of the differences, relative to what is left of the clearance, and to the speed and the
+        rate of motion per clearance together. A force with noise wants a larger one.
+    nominal_force : float [N], optional
+        Typical force, for nominal values of signals. By default the force half a clearance from the center at
+        100 rad/s.
+
+    Returns
+    -------
+    OwnReaction
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule, or the function does not return two finite numbers.
+
+    Examples
+    --------
+    >>> def spring(x, y, vx, vy, speed):
+    ...     return -1e6 * x - 300.0 * vx, -1e6 * y - 300.0 * vy
+    >>> bearing = as_reaction(spring, clearance=1e-4)
+    >>> bearing(position=[2e-5, 0.0], velocity=[0.0, 0.0], speed=100.0)
+    array([-20.,   0.])
+    """
+    own = name if name is not None else getattr(force, "__name__", "")
+    called = own if name is not None or own.isidentifier() else "own_bearing"
+    made = OwnReaction(
+        law=force,
+        clearance=clearance,
+        name=called,
+        nominal_force=1.0 if nominal_force is None else nominal_force,
+        slopes=jacobian,
+        vectorized=vectorized,
+        relative_step=relative_step,
+    )
+    if nominal_force is not None:
+        return made
+    tried = made.force((0.5 * clearance, 0.0), (0.0, 0.0), NOMINAL_SPEED)
+    return replace(made, nominal_force=float(np.hypot(*tried)) or 1.0)

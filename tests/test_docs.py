@@ -1,0 +1,72 @@
+"""The page of machine elements leads somewhere, and that of the interface shows every public name once."""
+
+import re
+from collections import Counter
+from pathlib import Path
+
+import interface_tasks
+import pytest
+
+import rotorfilm
+from rotorfilm import charts
+
+ROOT = Path(__file__).parents[1]
+
+
+def read(page):
+    return (ROOT / page).read_text(encoding="utf-8")
+
+
+ELEMENTS = read("docs/machine_elements.md")
+ASKED_FOR = """
+squeeze film damper; oil whirl; oil whip; half-speed whirl; K and C; stiffness and damping coefficients;
+tilting pad; ball bearing; lobed; multilobe; elliptical; lemon bore; offset halves; pressure dam; floating
+ring; thrust bearing; hydrostatic; gas bearing; foil; aerostatic; roller bearing; magnetic bearing; annular
+seal; labyrinth; plain bearing; sleeve bearing; axial groove; partial arc; bush; Campbell diagram; critical
+speed; unbalance response; Bode; run-up; blade loss; retainer spring; squirrel cage; EHL; ROSS; FMI;
+Sommerfeld number; short bearing; half Sommerfeld; cavitation; friction loss; oil flow; jump; logarithmic
+decrement; hybrid
+"""
+
+
+@pytest.mark.parametrize("term", [term.strip() for term in " ".join(ASKED_FOR.split()).split(";")])
+def test_a_search_for_a_machine_element_leads_to_the_page(term):
+    assert re.search(rf"\b{re.escape(term)}", ELEMENTS, re.IGNORECASE), term
+
+
+KNOWN = {*rotorfilm.__all__, *charts.__all__, "cage", "supply_pressure", "blade_loss_peak"}
+"""What an answer may name: public names, and a few arguments and quantities."""
+
+
+def test_every_row_leads_to_a_public_name_or_says_that_it_is_absent():
+    rows = re.findall(r"^\| (?!---|Name|Search)(.*?) \| (.*) \|$", ELEMENTS, re.MULTILINE)
+    assert len(rows) > 40
+    for words, answer in rows:
+        names = re.findall(r"`(?:charts\.)?(\w+)", answer)
+        assert names or "absent" in answer or "](" in answer, words
+        assert set(names) <= KNOWN, words
+
+
+def test_what_is_absent_is_said_to_be_not_covered():
+    absent = re.findall(r"^\| (.*?) \| absent", ELEMENTS, re.MULTILINE)
+    said = read("docs/accuracy.md").partition("\n## Not covered")[2].lower()
+    assert len(absent) >= 10
+    for words in absent:
+        assert words.split(",")[0].lower() in said, words
+
+
+def test_the_interface_page_shows_every_public_name_once():
+    shown_names = Counter(name for names in interface_tasks.tasks().values() for name in names)
+    assert shown_names == Counter(rotorfilm.__all__)
+
+
+def test_every_task_of_the_interface_page_has_names():
+    assert all(interface_tasks.tasks().values())
+    taken = {interface_tasks.fitting(name)[-1][2] for name in rotorfilm.__all__}
+    assert taken == {place for places in interface_tasks.TASKS.values() for place in places}
+
+
+def test_no_name_has_two_places_of_equal_length():
+    for name in rotorfilm.__all__:
+        lengths = [length for length, _, _ in interface_tasks.fitting(name)]
+        assert len(set(lengths)) == len(lengths), name
