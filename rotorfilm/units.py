@@ -104,7 +104,10 @@ DISPLAY_UNITS: dict[str, Unit] = {
     "Hz": Unit(2.0 * math.pi, {"rad": 1, "s": -1}),
     "%": Unit(0.01),
 }
-"""Units accepted in scene files and at the command line, besides plain SI numbers."""
+"""Units accepted from Python, in scene files and at the command line, besides plain SI numbers."""
+
+WEIGHT = f"; the weight of a mass is {STANDARD_GRAVITY} m/s2 times it"
+"""What to say where a mass is given for a force."""
 
 _QUANTITY = re.compile(r"^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
 
@@ -144,9 +147,25 @@ def parse_quantity(text: str | float, unit: str) -> float:
         exponents = UNITS[unit].exponents
         fitting = sorted(known for known, other in DISPLAY_UNITS.items() if other.exponents == exponents)
         raise InputError(f"unit must be one of {', '.join(fitting)}, got {brief(name)} in {brief(text)}")
+    value = float(match[1]) * DISPLAY_UNITS[name].factor
     if DISPLAY_UNITS[name].exponents != UNITS[unit].exponents:
-        raise InputError(f"quantity must be measured in {unit} or a multiple of it, got {brief(text)}")
-    return _sensible(float(match[1]) * DISPLAY_UNITS[name].factor, text)
+        raise InputError(
+            f"quantity must be measured in {unit} or a multiple of it, got {brief(text)}"
+            f"{_weight_hint(value, name, unit)}"
+        )
+    return _sensible(value, text)
+
+
+def si_name(unit: str) -> str:
+    """Return the key of `UNITS` of a unit as docstrings spell it, `"Pa s"` for `"Pa.s"`."""
+    return unit.replace(" ", ".")
+
+
+def _weight_hint(value: float, name: str, unit: str) -> str:
+    """Return the force [N] that a mass [kg] is as a weight, where one stands for the other."""
+    if unit != "N" or DISPLAY_UNITS[name].exponents != UNITS["kg"].exponents:
+        return ""
+    return f"{WEIGHT}, {value * STANDARD_GRAVITY:.6g} N"
 
 
 def whole_number(text: str) -> int | None:

@@ -30,6 +30,7 @@ LEAVES = [
 ]
 LAYERS = [
     LEAVES,
+    ["inputs"],
     ["native"],
     ["bearings", "rotors"],
     ["linear"],

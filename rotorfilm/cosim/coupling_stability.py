@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from ..errors import require_positive
+from ..inputs.kinds import arguments
 from ..model import Dynamic, Model
 from .coupling_loop import Loop, coupling_loop, dominant_eigenvalue
 from .schemes.explicit import GaussSeidel
@@ -70,6 +71,7 @@ class CriticalMacroStep:
     reason: str = ""
 
 
+@arguments
 def coupling_stability(
     rotor: Dynamic,
     reaction: Model | Mapping[str, Model],
@@ -107,6 +109,7 @@ def coupling_stability(
     return CouplingStability(macro_step=macro_step, spectral_radius=abs(dominant), eigenvalue=dominant)
 
 
+@arguments
 def critical_macro_step(
     rotor: Dynamic,
     reaction: Model | Mapping[str, Model],

@@ -12,6 +12,7 @@ from scipy.linalg import eigh
 from scipy.optimize import brentq, linear_sum_assignment
 
 from ..errors import InputError, require_finite
+from ..inputs.kinds import arguments
 from ..model import Array, Reaction
 from ..rotors import FlexibleRotor
 from .rotor_modes import RotorModes, Whirls, rotor_modes, speeds_in_turn
@@ -54,6 +55,7 @@ class CriticalSpeed:
     direction: float
 
 
+@arguments
 def campbell(
     rotor: FlexibleRotor,
     bearings: Mapping[str, Reaction],
@@ -93,6 +95,7 @@ def campbell(
     return Campbell(speeds=grid, eigenvalues=values[order], direction=direction[order])
 
 
+@arguments
 def critical_speeds(
     rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
 ) -> tuple[CriticalSpeed, ...]:
@@ -114,6 +117,7 @@ def critical_speeds(
     return tuple(sorted(found, key=lambda one: one.speed))
 
 
+@arguments
 def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 4) -> Array:
     """Return undamped critical speeds over the stiffness of equal isotropic bearings.
 

@@ -7,11 +7,13 @@ from numpy.typing import ArrayLike
 
 from ..bearings.tabulated import TabulatedBearing
 from ..errors import InputError, require_finite
+from ..inputs.kinds import arguments
 from ..model import Reaction
 from .coefficients import coefficients
 from .equilibrium import equilibrium
 
 
+@arguments
 def coefficient_table(reaction: Reaction, load: ArrayLike, speeds: ArrayLike) -> TabulatedBearing:
     """Return K and C of a film at its equilibria under a load, over speed.
 

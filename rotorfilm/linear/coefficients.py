@@ -6,10 +6,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_number
+from ..inputs.kinds import arguments
 from ..model import Reaction
 from ..results import Coefficients
 
 
+@arguments
 def coefficients(reaction: Reaction, position: ArrayLike, speed: float) -> Coefficients:
     """Return K = -dF/d(position) and C = -dF/d(velocity) of a film, for a journal at rest.
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..inputs.kinds import arguments
 from ..results import Coefficients
 
 _RANK_TOLERANCE = 1e-10
@@ -34,6 +35,7 @@ class CriticalMass:
     reason: str = ""
 
 
+@arguments
 def critical_mass(coefficients: Coefficients) -> CriticalMass:
     """Return the mass at which the rotor m q'' + C q' + K q = 0 loses stability.
 

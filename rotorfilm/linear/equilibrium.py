@@ -17,6 +17,7 @@ from ..errors import (
     require_finite,
     require_number,
 )
+from ..inputs.kinds import arguments
 from ..model import Array, Reaction, Tangent, prepared_tangent
 from ..results import Equilibrium
 
@@ -66,6 +67,7 @@ class _Point(NamedTuple):
         return math.hypot(self.ratio, self.angle)
 
 
+@arguments
 def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibrium:
     """Return the position at which the film balances a static load.
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import InputError, require_number, require_positive
+from ..inputs.kinds import arguments
 from ..model import Reaction
 from ..results import CircularOrbit
 from ..rotors import RigidRotor
@@ -40,6 +41,7 @@ class OrbitCoefficients:
     speed: float
 
 
+@arguments
 def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: float) -> OrbitCoefficients:
     """Return the equivalent coefficients of a film on a synchronous circular orbit.
 
@@ -75,6 +77,7 @@ def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: flo
     )
 
 
+@arguments
 def small_motion_transmissibility(
     rotor: RigidRotor, reaction: Reaction, name: str | None = None
 ) -> control.TransferFunction:
@@ -106,6 +109,7 @@ def small_motion_transmissibility(
     )
 
 
+@arguments
 def orbit_system(
     rotor: RigidRotor, reaction: Reaction, orbit: CircularOrbit, name: str | None = None
 ) -> control.StateSpace:

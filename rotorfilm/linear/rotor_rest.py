@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import EquilibriumError, InputError, require_number
+from ..inputs.kinds import arguments
 from ..model import Array, Reaction
 from ..results import Coefficients
 from ..rotors import FlexibleRotor
@@ -50,6 +51,7 @@ class RotorEquilibrium:
     residual: float
 
 
+@arguments
 def rotor_equilibrium(
     rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speed: float
 ) -> RotorEquilibrium:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
+from ..inputs.kinds import arguments
 from ..model import Array, Reaction
 from ..rotors import FlexibleRotor
 from .rotor_modes import RotorModes, motions_at, oscillates, speeds_in_turn
@@ -41,6 +42,7 @@ class RotorThreshold:
     reason: str = ""
 
 
+@arguments
 def rotor_threshold(
     rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
 ) -> RotorThreshold:

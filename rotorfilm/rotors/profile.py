@@ -12,6 +12,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..errors import InputError, require_finite, require_positive
+from ..inputs.si_arguments import quantities
 from ..model import Array
 
 PROBES = (0.25, 0.5, 0.75)
@@ -27,6 +28,7 @@ MAXIMUM_HALVINGS = 20
 """Halvings of a chord after which the function counts as discontinuous."""
 
 
+@quantities
 @dataclass(frozen=True)
 class SpeedProfile:
     """Angular speed over time, linear between points and constant outside them.

@@ -18,6 +18,7 @@ from ...errors import (
     require_number,
     require_positive,
 )
+from ...inputs.si_arguments import quantities
 from ...model import Array, Linearization
 from ...native.spec import NativeSpec
 from ...signals import Signal
@@ -30,6 +31,7 @@ from .held_liner import HeldLiner, Melt, NodeArc
 from .worn_profile import LocalMelting, MeltingRule, Pressed, SharedMelting
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class BushReaction:
     """A `MeltingBush` with wear depths at nodes, its contact at a given temperature: a Reaction with states.

@@ -17,6 +17,7 @@ from ...errors import (
     require_positive,
     warn_user,
 )
+from ...inputs.si_arguments import quantities
 from ...model import Array, Tangent
 from ...native.spec import NativeSpec
 from ...signals import Signal, force_outputs, journal_inputs
@@ -32,6 +33,7 @@ CLEARANCE_RATIOS = (1e-5, 2e-2)
 """Clearance / radius of bearings that are built; outside, a unit probably is wrong."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class JournalBearing(Feedthrough):
     """A cylindrical journal bearing, full unless it has pads or grooves: a Reaction and a static Model.

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_finite
+from ...inputs.kinds import arguments
 from ...model import Array
 from ..films.film_field import FilmField
 from .bearing import JournalBearing
@@ -61,6 +62,7 @@ class FilmState:
     power_loss: float
 
 
+@arguments
 def film_state(bearing: JournalBearing, position: ArrayLike, velocity: ArrayLike, speed: float) -> FilmState:
     """Return pressure, force, flow and friction of a bearing with a `ReynoldsFilm` at one state.
 

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from ...errors import InputError, require_finite
+from ...inputs.kinds import arguments
 from ...model import Array, Reaction
 from ...results import CircularOrbit
 from ...rotors import RigidRotor
@@ -108,6 +109,7 @@ class SynchronousOrbits:
         )
 
 
+@arguments
 def synchronous_orbits(
     rotor: RigidRotor, reaction: Reaction, unbalances: ArrayLike | None = None
 ) -> SynchronousOrbits:
@@ -157,6 +159,7 @@ def synchronous_orbits(
     )
 
 
+@arguments
 def orbits_over_speed(
     rotor: RigidRotor, reaction: Reaction, speeds: ArrayLike
 ) -> tuple[SynchronousOrbits, ...]:

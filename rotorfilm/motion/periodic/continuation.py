@@ -10,6 +10,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from ...errors import ConvergenceError, InputError, require_count, require_finite, require_positive
+from ...inputs.kinds import arguments
 from ...model import Array
 from .branch_point import Curve, Family, Point
 from .harmonics import constant, with_wave
@@ -84,6 +85,7 @@ class OrbitCurve:
         return np.array([orbit.stable for orbit in self.orbits])
 
 
+@arguments
 def continue_orbits(
     family: Family,
     start: PeriodicOrbit | HopfPoint,

@@ -10,6 +10,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from ...errors import ConvergenceError, InputError, require_finite
+from ...inputs.kinds import arguments
 from ...model import Array
 from ...rotors import MountedRotor
 from ..compiled.modal import Complex, ModalRotor, journal_rows, modal_rotor, take_apart
@@ -77,6 +78,7 @@ class _Onset(NamedTuple):
     value: complex
 
 
+@arguments
 def hopf_point(family: Callable[[float], MountedRotor], bounds: tuple[float, float]) -> HopfPoint:
     """Return where a rotor at rest loses stability to whirl, and the criticality of that.
 

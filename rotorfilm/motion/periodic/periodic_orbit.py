@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_count, require_positive
+from ...inputs.kinds import arguments
 from ...model import Array
 from ...results import Trajectory
 from ...rotors import MountedRotor
@@ -114,6 +115,7 @@ class PeriodicOrbit:
         return bool(np.all(np.abs(self.free_multipliers) < 1.0))
 
 
+@arguments
 def periodic_orbit(
     mounted: MountedRotor,
     *,

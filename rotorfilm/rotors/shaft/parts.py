@@ -9,11 +9,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_finite, require_non_negative, require_number, require_positive
+from ...inputs.si_arguments import quantities
 from ...model import Array
 
 Pair = tuple[tuple[float, float], tuple[float, float]]
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class Disk:
     """A rigid disk on a node.
@@ -54,6 +56,7 @@ class Disk:
         return cls(node=node, mass=mass, diametral_inertia=diametral, polar_inertia=polar)
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class Support:
     """A housing on springs: what carries a bearing, in series with it.
@@ -81,6 +84,7 @@ class Support:
             object.__setattr__(self, name, square_pair(name, getattr(self, name)))
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class TiltSpring:
     """Springs and dampers from the ground against the tilt of a node, as of a long bearing or a clamp.
@@ -148,6 +152,7 @@ class Probe:
             raise InputError(f"name must be an identifier, got {self.name!r}")
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class Unbalance:
     """An unbalance at a node.
