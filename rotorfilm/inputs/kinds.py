@@ -27,7 +27,7 @@ def arguments(function: Callable[P, R]) -> Callable[P, R]:
         If an argument is of the wrong kind, or as `si_arguments.in_si` says.
     """
     taking = in_si(function)
-    code = function.__code__  # type: ignore[attr-defined]
+    code = function.__code__
     names = code.co_varnames[: code.co_argcount]
 
     @wraps(function)

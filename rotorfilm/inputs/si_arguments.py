@@ -64,14 +64,14 @@ def quantities(cls: type[T]) -> type[T]:
     ValidityWarning
         If a dimension is far outside of what is built, as `dimensions.BUILT` has it.
     """
-    cls.__init__ = in_si(cls.__init__, cls)  # type: ignore[misc]
+    cls.__init__ = in_si(cls.__init__, cls)  # type: ignore[method-assign]
     return cls
 
 
 def in_si(function: Callable[P, R], documented: Any = None) -> Callable[P, R]:
     """Return a function that takes quantities with their units, by its docstring or that of its class."""
     home = documented or function
-    code = function.__code__  # type: ignore[attr-defined]
+    code = function.__code__
     names = code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
     doubled = {name.replace("radius", "diameter"): name for name in names if "radius" in name}
     bare = 0 if documented is None else 1

@@ -10,11 +10,12 @@ from ...bearings.contact import BallSupport, ContactGrid, PointContact, RollingB
 from ...errors import InputError, SceneError, require_non_negative
 from ...limits import CONTACT_CELLS, LAW_STATES
 from ...printable import brief
-from ..reading.readers import Count
+from ..reading.readers import Count, takes
 from ..reading.shared_fields import made_from
 from ..reading.tables import Quantity, flag
 
 
+@takes([Quantity("rad"), ...])
 def read_angles(where: str, value: Any) -> tuple[float, ...]:
     """Read a list of angles [rad]."""
     if not isinstance(value, list):
