@@ -204,7 +204,7 @@ def _add(parser: Parser, parameter: inspect.Parameter) -> list[str]:
             "--diameter",
             dest="radius",
             type=_half,
-            help="Twice the radius, in its place.",
+            help="Twice the radius.",
             metavar='"100 mm"',
         )
     holder.add_argument(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import sys
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -61,11 +60,9 @@ def schema(
 
     text = json_schema()
     if out is None:
-        return Said(json.loads(text), partial(sys.stdout.write, text))
-    return Said(
-        {"schema": str(write_whole(out, text.encode()))},
-        partial(console.print_rows, "", [("schema", str(out))]),
-    )
+        return Said(json.loads(text), partial(print, text, end=""))
+    written = str(write_whole(out, text.encode()))
+    return Said({"schema": written}, partial(console.print_rows, "", [("schema", written)]))
 
 
 def _question(path: Path, scene: Scene, explain: bool) -> Said:

@@ -64,8 +64,26 @@ def _is_checked(kind: Any) -> bool:
     return ours and (not issubclass(kind, Protocol) or getattr(kind, "_is_runtime_protocol", False))
 
 
+@cache
+def _fits(cls: type, kind: Any) -> bool:
+    """Return whether all of a class is of a kind, without a look at the properties of an object.
+
+    The check of a protocol by Python asks each property for its value, which may take long.
+    """
+    if get_origin(kind) is Mapping:
+        return False
+    if isinstance(kind, UnionType):
+        return any(_fits(cls, one) for one in get_args(kind))
+    if not getattr(kind, "_is_protocol", False):
+        return issubclass(cls, kind)
+    members = {name for name in dir(kind) if not name.startswith("_")}
+    return cls is not type and members <= {*dir(cls), *getattr(cls, "__dataclass_fields__", ())}
+
+
 def _require(name: str, value: Any, kind: Any) -> None:
     """Raise InputError unless a value is of a kind."""
+    if _fits(type(value), kind):
+        return None
     said = _said(kind)
     if get_origin(kind) is not Mapping:
         return require_kind(name, value, kind, said)

@@ -107,8 +107,10 @@ def _halved(home: Any, diameter: str, radius: str, given: Mapping[str, Any]) -> 
 def _read(home: Any, name: str, value: Any) -> Any:
     """Return an argument with its quantities in SI; anything else as it is."""
     unit = units_of(home).get(name, "")
-    found = quantity(name, value, unit) if unit else value
-    if isinstance(found, float | int) and unit:
+    if not unit:
+        return value
+    found = quantity(name, value, unit)
+    if isinstance(found, float | int):
         warn_of_odd_size(name, found, unit)
     return found
 
@@ -129,12 +131,16 @@ def quantity(name: str, value: Any, unit: str) -> Any:
     InputError
         If the quantity cannot be read, or measures something else than `unit`.
     """
+    if isinstance(value, float):
+        return value
     if isinstance(value, str):
         try:
             return parse_quantity(value, si_name(unit))
         except InputError as error:
             raise InputError(f"{name}: {error}") from None
     if isinstance(value, list | tuple):
+        if all(isinstance(entry, float) for entry in value):
+            return value
         read = [quantity(f"{name}[{k}]", entry, unit) for k, entry in enumerate(value)]
         changed = any(new is not old for new, old in zip(read, value, strict=True))
         return type(value)(read) if changed else value

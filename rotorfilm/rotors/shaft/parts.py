@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_finite, require_non_negative, require_number, require_positive
-from ...inputs.si_arguments import quantities
+from ...inputs.si_arguments import in_si, quantities
 from ...model import Array
 
 Pair = tuple[tuple[float, float], tuple[float, float]]
@@ -38,10 +38,17 @@ class Disk:
             require_non_negative(name, getattr(self, name))
 
     @classmethod
+    @in_si
     def solid(
         cls, node: int, *, density: float, width: float, outer_diameter: float, inner_diameter: float = 0.0
     ) -> Disk:
-        """Return a disk of even thickness with a bore [kg/m3, m]."""
+        """Return a disk of even thickness with a bore.
+
+        Parameters
+        ----------
+        node : int
+        density, width, outer_diameter, inner_diameter : float [kg/m3, m, m, m]
+        """
         for name, value in (("density", density), ("width", width), ("outer_diameter", outer_diameter)):
             require_positive(name, value)
         require_non_negative("inner_diameter", inner_diameter)
