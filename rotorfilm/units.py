@@ -143,6 +143,7 @@ def parse_quantity(text: str | float, unit: str) -> float:
     if match is None:
         raise InputError(f"quantity must be a number with a unit such as '1 {unit}', got {brief(text)}")
     name = (match[2] or unit).translate(_MICRO)
+    name = name if name in DISPLAY_UNITS else si_name(name)
     if name not in DISPLAY_UNITS:
         exponents = UNITS[unit].exponents
         fitting = sorted(known for known, other in DISPLAY_UNITS.items() if other.exponents == exponents)

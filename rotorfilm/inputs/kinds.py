@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from functools import cache, wraps
 from types import NoneType, UnionType
-from typing import Any, ParamSpec, Protocol, TypeVar, get_args, get_origin
+from typing import Any, NamedTuple, ParamSpec, TypeVar, get_args, get_origin
 
-from ..errors import InputError, require_kind
-from ..printable import brief
+from ..errors import require_kind
 from .si_arguments import in_si
 
 P = ParamSpec("P")
@@ -41,63 +41,73 @@ def arguments(function: Callable[P, R]) -> Callable[P, R]:
     return checked
 
 
+class Kinds(NamedTuple):
+    """What an argument may be.
+
+    Attributes
+    ----------
+    classes : tuple of type
+        Instances of one of them, protocols included.
+    mapped : Kinds or None
+        Or a mapping of names to these.
+    """
+
+    classes: tuple[type, ...]
+    mapped: Kinds | None
+
+    @property
+    def said(self) -> str:
+        """The same in words."""
+        names = [one.__name__ for one in self.classes if one is not NoneType]
+        words = [f"an {name}" if name[0] in "AEIOU" else f"a {name}" for name in names]
+        words += (
+            [f"a mapping of names, each to {self.mapped.said}, as {{'left': ...}}"] if self.mapped else []
+        )
+        return " or ".join([*words, *["None"] * (len(names) < len(self.classes))])
+
+
 @cache
-def kinds_of(function: Any) -> Mapping[str, Any]:
-    """Return the annotations of a function that can be checked."""
+def kinds_of(function: Any) -> Mapping[str, Kinds]:
+    """Return what the arguments of a function may be, of those that can be checked."""
     found = {}
     for name, written in function.__annotations__.items():
-        try:
-            kind = eval(written, function.__globals__)  # of our own source, one by one
-        except NameError:  # what type checkers alone import
-            continue
-        if _is_checked(kind):
-            found[name] = kind
+        with suppress(NameError):  # of what type checkers alone import
+            if kinds := _kinds(eval(written, function.__globals__)):
+                found[name] = kinds
     return found
 
 
-def _is_checked(kind: Any) -> bool:
-    if get_origin(kind) is Mapping:
-        return _is_checked(get_args(kind)[1])
-    if isinstance(kind, UnionType):
-        return all(one is NoneType or _is_checked(one) for one in get_args(kind))
-    ours = isinstance(kind, type) and kind.__module__.partition(".")[0] == __name__.partition(".")[0]
-    return ours and (not issubclass(kind, Protocol) or getattr(kind, "_is_runtime_protocol", False))
+def _kinds(annotation: Any) -> Kinds | None:
+    """Return what an annotation allows; None where that is no matter of classes of this package."""
+    parts = get_args(annotation) if isinstance(annotation, UnionType) else (annotation,)
+    maps = [_kinds(get_args(one)[1]) for one in parts if get_origin(one) is Mapping]
+    classes = tuple(one for one in parts if get_origin(one) is not Mapping)
+    return Kinds(classes, *maps or [None]) if all(map(_is_checked, classes)) and all(maps) else None
+
+
+def _is_checked(one: Any) -> bool:
+    ours = isinstance(one, type) and one.__module__.partition(".")[0] == __name__.partition(".")[0]
+    protocol = getattr(one, "_is_protocol", False)
+    return one is NoneType or (ours and getattr(one, "_is_runtime_protocol", not protocol))
+
+
+def _require(name: str, value: Any, kinds: Kinds) -> None:
+    """Raise InputError unless a value is what it may be."""
+    if kinds.mapped and isinstance(value, Mapping):
+        for key, one in value.items():
+            _require(f"{name}[{key!r}]", one, kinds.mapped)
+    elif not any(_fits(type(value), one) for one in kinds.classes):
+        allowed = kinds.classes[0] if len(kinds.classes) == 1 else kinds.classes
+        require_kind(name, value, allowed, kinds.said)
 
 
 @cache
-def _fits(cls: type, kind: Any) -> bool:
+def _fits(cls: type, kind: type) -> bool:
     """Return whether all of a class is of a kind, without a look at the properties of an object.
 
     The check of a protocol by Python asks each property for its value, which may take long.
     """
-    if get_origin(kind) is Mapping:
-        return False
-    if isinstance(kind, UnionType):
-        return any(_fits(cls, one) for one in get_args(kind))
     if not getattr(kind, "_is_protocol", False):
         return issubclass(cls, kind)
     members = {name for name in dir(kind) if not name.startswith("_")}
     return cls is not type and members <= {*dir(cls), *getattr(cls, "__dataclass_fields__", ())}
-
-
-def _require(name: str, value: Any, kind: Any) -> None:
-    """Raise InputError unless a value is of a kind."""
-    if _fits(type(value), kind):
-        return None
-    said = _said(kind)
-    if get_origin(kind) is not Mapping:
-        return require_kind(name, value, kind, said)
-    if not isinstance(value, Mapping):
-        raise InputError(f"{name} must be {said}, got {brief(value)}")
-    for key, one in value.items():
-        _require(f"{name}[{key!r}]", one, get_args(kind)[1])
-
-
-def _said(kind: Any) -> str:
-    if get_origin(kind) is Mapping:
-        return f"a mapping of names to {_names(get_args(kind)[1])}, as {{'left': ...}}"
-    return f"a {_names(kind)}"
-
-
-def _names(kind: Any) -> str:
-    return " or ".join("None" if one is NoneType else one.__name__ for one in get_args(kind) or (kind,))
