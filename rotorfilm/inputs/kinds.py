@@ -96,7 +96,7 @@ def _require(name: str, value: Any, kinds: Kinds) -> None:
     if kinds.mapped and isinstance(value, Mapping):
         for key, one in value.items():
             _require(f"{name}[{key!r}]", one, kinds.mapped)
-    elif not any(_fits(type(value), one) for one in kinds.classes):
+    elif not any(_fits(value.__class__, one) for one in kinds.classes):
         allowed = kinds.classes[0] if len(kinds.classes) == 1 else kinds.classes
         require_kind(name, value, allowed, kinds.said)
 

