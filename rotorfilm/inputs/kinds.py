@@ -19,7 +19,8 @@ def arguments(function: Callable[P, R]) -> Callable[P, R]:
     """Let a public function take quantities with their units, and check the kinds of its other arguments.
 
     An argument annotated with a class of this package, a union of such, or a mapping of names to such is
-    checked; arrays, numbers and what calls take are left to the function.
+    checked where the function fails by an error of Python: what has all that a function happens to ask of
+    it may go in, as a film without `inputs` in `equilibrium`.
 
     Raises, from then on
     --------------------
@@ -32,11 +33,14 @@ def arguments(function: Callable[P, R]) -> Callable[P, R]:
 
     @wraps(function)
     def checked(*args: P.args, **given: P.kwargs) -> R:
-        kinds = kinds_of(function)
-        for name, value in (*zip(names, args, strict=False), *given.items()):
-            if name in kinds:
-                _require(name, value, kinds[name])
-        return taking(*args, **given)
+        try:
+            return taking(*args, **given)
+        except (TypeError, AttributeError):
+            kinds = kinds_of(function)
+            for name, value in (*zip(names, args, strict=False), *given.items()):
+                if name in kinds:
+                    _require(name, value, kinds[name])
+            raise
 
     return checked
 
@@ -96,18 +100,5 @@ def _require(name: str, value: Any, kinds: Kinds) -> None:
     if kinds.mapped and isinstance(value, Mapping):
         for key, one in value.items():
             _require(f"{name}[{key!r}]", one, kinds.mapped)
-    elif not any(_fits(value.__class__, one) for one in kinds.classes):
-        allowed = kinds.classes[0] if len(kinds.classes) == 1 else kinds.classes
-        require_kind(name, value, allowed, kinds.said)
-
-
-@cache
-def _fits(cls: type, kind: type) -> bool:
-    """Return whether all of a class is of a kind, without a look at the properties of an object.
-
-    The check of a protocol by Python asks each property for its value, which may take long.
-    """
-    if not getattr(kind, "_is_protocol", False):
-        return issubclass(cls, kind)
-    members = {name for name in dir(kind) if not name.startswith("_")}
-    return cls is not type and members <= {*dir(cls), *getattr(cls, "__dataclass_fields__", ())}
+    else:
+        require_kind(name, value, kinds.classes[0] if len(kinds.classes) == 1 else kinds.classes, kinds.said)

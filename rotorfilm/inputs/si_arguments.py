@@ -81,13 +81,18 @@ def in_si(function: Callable[P, R], documented: Any = None) -> Callable[P, R]:
         for diameter, radius in doubled.items():
             if diameter in given:
                 given = _halved(home, diameter, radius, given)
+        odd = False
         for name, value in given.items():
             _, least, most = BUILT.get(name, ANY)
             if value.__class__ is not float or not least <= value <= most:
-                given[name] = _read(home, name, value)
+                given[name], odd = _read(home, name, value), True
         if len(args) > bare:
             args = tuple(_read(home, *pair) for pair in zip(chain(names, repeat("")), args, strict=False))
-        return function(*args, **given)
+        found = function(*args, **given)
+        if odd:  # of what broke no rule
+            for name in given.keys() & BUILT.keys():
+                warn_of_odd_size(name, given[name], units_of(home).get(name, ""))
+        return found
 
     return taking
 
@@ -106,13 +111,8 @@ def _halved(home: Any, diameter: str, radius: str, given: Mapping[str, Any]) -> 
 
 def _read(home: Any, name: str, value: Any) -> Any:
     """Return an argument with its quantities in SI; anything else as it is."""
-    unit = units_of(home).get(name, "")
-    if not unit:
-        return value
-    found = quantity(name, value, unit)
-    if isinstance(found, float | int):
-        warn_of_odd_size(name, found, unit)
-    return found
+    unit = units_of(home).get(name)
+    return quantity(name, value, unit) if unit else value
 
 
 def quantity(name: str, value: Any, unit: str) -> Any:
