@@ -43,7 +43,7 @@ class JournalBearing(Feedthrough):
     Parameters
     ----------
     radius : float [m]
-        Bearing radius.
+        Bearing radius; or `diameter`, twice that.
     length : float [m]
         Axial length.
     clearance : float [m]
