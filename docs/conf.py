@@ -29,6 +29,7 @@ html_theme = "furo"
 html_title = "rotorfilm"
 html_static_path = ["_css"]
 html_css_files = ["tables.css"]
+html_extra_path = ["../rotorfilm/scenes/data/scene.schema.json"]
 exclude_patterns = ["_build", "_examples"]
 myst_heading_anchors = 3
 autosummary_generate = True

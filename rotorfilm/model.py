@@ -13,8 +13,7 @@ from typing import Any, NamedTuple, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .errors import InputError, require_kind
-from .printable import brief
+from .errors import InputError, brief, require_kind
 from .signals import Signal
 
 Array = NDArray[np.float64]

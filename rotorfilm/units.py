@@ -121,7 +121,10 @@ DISPLAY_UNITS: dict[str, Unit] = {
     "Hz": Unit(2.0 * math.pi, {"rad": 1, "s": -1}),
     "%": Unit(0.01),
 }
-"""Units accepted in scene files and at the command line, besides plain SI numbers."""
+"""Units accepted from Python, in scene files and at the command line, besides plain SI numbers."""
+
+WEIGHT = f"; the weight of a mass is {STANDARD_GRAVITY} m/s2 times it"
+"""What to say where a mass is given for a force."""
 
 _QUANTITY = re.compile(r"^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
 
@@ -159,16 +162,33 @@ def parse_quantity(text: str | float, unit: str, *, absolute: bool = False) -> f
     if match is None:
         raise InputError(f"quantity must be a number with a unit such as '1 {unit}', got {brief(text)}")
     name = (match[2] or unit).translate(_MICRO)
+    name = name if name in DISPLAY_UNITS else si_name(name)
     if name not in DISPLAY_UNITS:
         exponents = UNITS[unit].exponents
         fitting = sorted(known for known, other in DISPLAY_UNITS.items() if other.exponents == exponents)
         raise InputError(f"unit must be one of {', '.join(fitting)}, got {brief(name)} in {brief(text)}")
     found = DISPLAY_UNITS[name]
+    value = float(match[1]) * found.factor
     if found.exponents != UNITS[unit].exponents:
-        raise InputError(f"quantity must be measured in {unit} or a multiple of it, got {brief(text)}")
+        raise InputError(
+            f"quantity must be measured in {unit} or a multiple of it, got {brief(text)}"
+            f"{_weight_hint(value, name, unit)}"
+        )
     if found.zero and not absolute:
         raise InputError(f"quantity must be a difference in {unit}, which has no zero, got {brief(text)}")
-    return _sensible(float(match[1]) * found.factor + found.zero, text)
+    return _sensible(value + found.zero, text)
+
+
+def si_name(unit: str) -> str:
+    """Return the key of `UNITS` of a unit as docstrings spell it, `"Pa s"` for `"Pa.s"`."""
+    return unit.replace(" ", ".")
+
+
+def _weight_hint(value: float, name: str, unit: str) -> str:
+    """Return the force [N] that a mass [kg] is as a weight, where one stands for the other."""
+    if unit != "N" or DISPLAY_UNITS[name].exponents != UNITS["kg"].exponents:
+        return ""
+    return f"{WEIGHT}, {value * STANDARD_GRAVITY:.6g} N"
 
 
 def whole_number(text: str) -> int | None:

@@ -31,6 +31,7 @@ LEAVES = [
 ]
 LAYERS = [
     LEAVES,
+    ["inputs"],
     ["native"],
     ["bearings", "rotors"],
     ["linear"],

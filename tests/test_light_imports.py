@@ -7,7 +7,7 @@ import pytest
 
 import rotorfilm
 
-FAR = {"scipy", "control", "matplotlib", "fmpy", "pythonfmu", "xarray", "platformdirs"}
+FAR = {"scipy", "control", "matplotlib", "fmpy", "pythonfmu", "xarray", "platformdirs", "pint"}
 """Packages that none of these paths needs."""
 
 OTHER_PARTS = {"motion", "cosim", "comparisons", "charts", "sweeps", "questions", "rotors", "fmu", "cli"}

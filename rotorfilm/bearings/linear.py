@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_vector
+from ..inputs.si_arguments import quantities
 from ..model import Array
 from ..signals import Signal, force_outputs, journal_inputs
 from .reaction import Feedthrough
@@ -19,6 +20,7 @@ NOMINAL_LENGTH = 1e-4
 """Typical displacement [m]."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class LinearBearing(Feedthrough):
     """A spring and a damper, force = -stiffness position - damping velocity: a Reaction at any speed.

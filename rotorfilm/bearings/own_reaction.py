@@ -10,9 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, require_inside, require_positive
+from ..errors import InputError, brief, require_inside, require_positive
 from ..model import Array, Force
-from ..printable import brief
 from .differences import differences
 from .reaction import NOMINAL_SPEED, StaticReaction, broadcast_state
 

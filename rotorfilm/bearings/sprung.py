@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import require_kind, require_positive
+from ..inputs.si_arguments import quantities
 from ..model import (
     Array,
     Force,
@@ -21,6 +22,7 @@ from ..native.spec import HasKernel, NativeSpec
 from .reaction import StaticReaction
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class Sprung(StaticReaction):
     """A reaction in parallel with equal springs along x and y: F = reaction - stiffness * position.

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
 from ..errors import InputError, require_finite, require_vector
+from ..inputs.si_arguments import quantities
 from ..model import Array
 from ..results import write_csv
 from ..signals import Signal, force_outputs, journal_inputs
@@ -26,6 +27,7 @@ HEADINGS = ("speed [rad/s]", *(f"k{e} [N/m]" for e in ENTRIES), *(f"c{e} [N s/m]
 """Columns of the CSV file."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class TabulatedBearing(Feedthrough):
     """force = -K(speed) position - C(speed) velocity: a Reaction for small motion about an equilibrium.

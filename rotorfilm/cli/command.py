@@ -195,19 +195,40 @@ def _add(parser: Parser, parameter: inspect.Parameter) -> list[str]:
         parser.add_argument(flag, dest=parameter.name, action="store_true", help=notes[0])
         return []
     shown = default.value if isinstance(default, Enum) else default
+    doubled = parameter.name == "radius"
+    holder = parser.add_mutually_exclusive_group(required=required) if doubled else parser
     notes += ["[required]"] if required else [f"[default: {shown}]".replace("%", "%%")] * (shown is not None)
     choices = " | ".join(each.value for each in kind) if issubclass(kind, Enum) else None
-    parser.add_argument(
+    if doubled:
+        holder.add_argument(
+            "--diameter",
+            dest="radius",
+            type=_half,
+            help="Twice the radius.",
+            metavar='"100 mm"',
+        )
+    holder.add_argument(
         flag,
         dest=parameter.name,
         type=lambda text: _read(kind, meant, text),
         action="append" if many else "store",
         default=default,
-        required=required,
+        required=required and not doubled,
         help=" ".join(notes),
         metavar=(meant.metavar or choices or kind.__name__.upper()).replace("%", "%%"),
     )
-    return [flag]
+    return [flag, "--diameter"] if doubled else [flag]
+
+
+def _half(diameter: str) -> str:
+    """Return the radius [m] of a diameter as a text; raise ArgumentTypeError if it is none."""
+    from ..errors import InputError
+    from ..units import parse_quantity
+
+    try:
+        return repr(0.5 * parse_quantity(diameter, "m"))
+    except InputError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
 
 
 def _kind_of(annotation: Any) -> tuple[type[Any], bool]:

@@ -17,6 +17,7 @@ from .command import BAD_INPUT, FAILED, Group, Parser, function_of, run_command
 
 COMMANDS = {
     "solve_command.solve": "solve examples/question.toml --explain",
+    "solve_command.schema": "schema --out scene.schema.json",
     "journal_commands.coefficients": 'coefficients --radius "50 mm" --length "30 mm" --clearance "0.1 mm" '
     '--viscosity "0.1 Pa s" --load "525 N" --speed "1500 rpm"',
     "journal_commands.groove_map": 'groove-map --slenderness 0.5 --groove "90 deg, 20 deg" '

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -43,6 +44,20 @@ def solve(
     make_map(loaded.bearing, report)
     answer = loaded.describe()
     return Said(answer, partial(print_answer, loaded.title, answer))
+
+
+def schema(
+    out: Annotated[Path | None, Option(help="Write it into this file instead.", metavar="FILE.json")] = None,
+) -> Said:
+    """Print the JSON Schema of scene files, by which editors complete and check them."""
+    from ..files import write_whole
+    from ..scenes.scene_file import json_schema
+
+    text = json_schema()
+    if out is None:
+        return Said(json.loads(text), partial(print, text, end=""))
+    written = str(write_whole(out, text.encode()))
+    return Said({"schema": written}, partial(console.print_rows, "", [("schema", written)]))
 
 
 def _question(path: Path, scene: Scene, explain: bool) -> Said:

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from ..errors import require_positive
+from ..inputs.kinds import arguments
 from ..model import Dynamic, Model
 from ..readable.result import Readable
 from .coupling_loop import Loop, coupling_loop, dominant_eigenvalue
@@ -71,6 +72,7 @@ class CriticalMacroStep(Readable):
     reason: str = ""
 
 
+@arguments
 def coupling_stability(
     rotor: Dynamic,
     reaction: Model | Mapping[str, Model],
@@ -108,6 +110,7 @@ def coupling_stability(
     return CouplingStability(macro_step=macro_step, spectral_radius=abs(dominant), eigenvalue=dominant)
 
 
+@arguments
 def critical_macro_step(
     rotor: Dynamic,
     reaction: Model | Mapping[str, Model],

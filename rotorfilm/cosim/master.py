@@ -10,6 +10,7 @@ from typing import Any
 
 from ..errors import InputError
 from ..fmu.check.instance import extracted
+from ..inputs.kinds import arguments
 from ..model import Dynamic, Model
 from ..rotors.force_law import BASE_TIME
 from .auto import Auto, choose_scheme
@@ -24,6 +25,7 @@ Path = str | PathLike[str]
 Film = Path | Model
 
 
+@arguments
 def cosimulate(
     rotor_fmu: Path | Dynamic,
     film_fmu: Film | Mapping[str, Film],

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..errors import FmuError, InputError, require_finite, require_positive
 from ..files import write_whole
+from ..inputs.kinds import arguments
 from ..model import Array, Dynamic, Model, Stepped
 from ..native.spec import HasKernel, NativeSpec
 from ..warming import in_time
@@ -53,6 +54,7 @@ BACKENDS = ("native", "python")
 PLATFORMS = ("host", "all")
 
 
+@arguments
 def export_fmu(
     model: Model | Stepped | control.StateSpace,
     path: str | Path,

@@ -12,6 +12,7 @@ from scipy.linalg import eigh
 from scipy.optimize import brentq, linear_sum_assignment
 
 from ..errors import InputError, require_finite
+from ..inputs.kinds import arguments
 from ..model import Array, Reaction
 from ..readable.result import Drawable, Readable
 from ..rotors import FlexibleRotor
@@ -55,6 +56,7 @@ class CriticalSpeed(Readable):
     direction: float
 
 
+@arguments
 def campbell(
     rotor: FlexibleRotor,
     bearings: Mapping[str, Reaction],
@@ -94,6 +96,7 @@ def campbell(
     return Campbell(speeds=grid, eigenvalues=values[order], direction=direction[order])
 
 
+@arguments
 def critical_speeds(
     rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
 ) -> tuple[CriticalSpeed, ...]:
@@ -115,6 +118,7 @@ def critical_speeds(
     return tuple(sorted(found, key=lambda one: one.speed))
 
 
+@arguments
 def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 4) -> Array:
     """Return undamped critical speeds over the stiffness of equal isotropic bearings.
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_kind
+from ..inputs.kinds import arguments
 from ..model import Array, Dynamic, Model, Reaction, require_reaction
 from ..results import Equilibrium
 from ..signals import FORCE_OUTPUTS, MOTION_NAMES, indices, names
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 HOUSING = ("housing_force_x", "housing_force_y")
 
 
+@arguments
 def closed_loop(
     rotor: Dynamic, reaction: Reaction, at: Equilibrium, name: str | None = None
 ) -> control.StateSpace:
@@ -75,6 +77,7 @@ def closed_loop(
     )
 
 
+@arguments
 def transmissibility(
     rotor: Dynamic, reaction: Reaction, load: ArrayLike, speeds: ArrayLike
 ) -> control.FrequencyResponseData:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_number
+from ..inputs.kinds import arguments
 from ..model import JournalForce, Reaction, require_reaction
 from ..results import Coefficients
 from ..warming import settled
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from ..bearings.tabulated import TabulatedBearing
 
 
+@arguments
 def coefficients(reaction: Reaction, position: ArrayLike, speed: float) -> Coefficients:
     """Return K = -dF/d(position) and C = -dF/d(velocity) of a film, for a journal at rest.
 
@@ -53,6 +55,7 @@ def coefficients(reaction: Reaction, position: ArrayLike, speed: float) -> Coeff
     )
 
 
+@arguments
 def coefficient_table(reaction: Reaction, load: ArrayLike, speeds: ArrayLike) -> TabulatedBearing:
     """Return K and C of a film at its equilibria under a load, over speed.
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..inputs.kinds import arguments
 from ..readable.result import Readable
 from ..results import Coefficients
 
@@ -35,6 +36,7 @@ class CriticalMass(Readable):
     reason: str = ""
 
 
+@arguments
 def critical_mass(coefficients: Coefficients) -> CriticalMass:
     """Return the mass at which the rotor m q'' + C q' + K q = 0 loses stability.
 

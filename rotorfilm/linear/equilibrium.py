@@ -18,6 +18,7 @@ from ..errors import (
     require_finite,
     require_number,
 )
+from ..inputs.kinds import arguments
 from ..model import Array, JournalForce, Reaction, Tangent, prepared_tangent, require_reaction
 from ..results import Equilibrium
 from ..warming import Warming
@@ -69,6 +70,7 @@ class _Point(NamedTuple):
         return math.hypot(self.ratio, self.angle)
 
 
+@arguments
 def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibrium:
     """Return the position at which the film balances a static load.
 

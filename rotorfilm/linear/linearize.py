@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_kind
+from ..inputs.kinds import arguments
+from ..inputs.si_arguments import quantities
 from ..model import Array, Linearization, Model
 from ..results import Equilibrium
 from ..signals import JOURNAL_INPUTS, Signal, names
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
     import control
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class OperatingPoint:
     """The time, state and input at which a model is linearized.
@@ -37,6 +40,7 @@ class OperatingPoint:
     u: ArrayLike = ()
 
 
+@arguments
 def linearize(model: Model, at: OperatingPoint | Equilibrium, name: str | None = None) -> control.StateSpace:
     """Return the exact linearization of a model, in SI units and with the model's signal names.
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
+from ..inputs.kinds import arguments
 from ..model import Array, Dynamic, Model
 from ..signals import Signal, names
 from .linearize import checked_vector, control_system
@@ -121,6 +122,7 @@ class ModelSystem(control.NonlinearIOSystem):
         return self.model.output(t, state, u * self.input_scale) / self.output_scale
 
 
+@arguments
 def to_nlsys(model: Model, scaled: bool = False, name: str | None = None) -> ModelSystem:
     """Return a model as a python-control system whose own `linearize` is exact.
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..errors import InputError, require_number, require_positive
+from ..inputs.kinds import arguments
 from ..model import JournalForce, Reaction, require_reaction
 from ..readable.result import Readable
 from ..results import CircularOrbit
@@ -41,6 +42,7 @@ class OrbitCoefficients(Readable):
     speed: float
 
 
+@arguments
 def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: float) -> OrbitCoefficients:
     """Return the equivalent coefficients of a film on a synchronous circular orbit.
 
@@ -77,6 +79,7 @@ def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: flo
     )
 
 
+@arguments
 def small_motion_transmissibility(
     rotor: RigidRotor, reaction: Reaction, name: str | None = None
 ) -> control.TransferFunction:
@@ -108,6 +111,7 @@ def small_motion_transmissibility(
     )
 
 
+@arguments
 def orbit_system(
     rotor: RigidRotor, reaction: Reaction, orbit: CircularOrbit, name: str | None = None
 ) -> control.StateSpace:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InputError, require_finite
+from ..inputs.kinds import arguments
 from ..model import Array, Reaction
 from ..readable.result import Readable
 from ..rotors import FlexibleRotor
@@ -69,6 +70,7 @@ def log_decrement(eigenvalues: ArrayLike) -> Array:
     return np.asarray(-2.0 * np.pi * values.real / np.abs(values.imag))
 
 
+@arguments
 def rotor_modes(rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speed: float) -> RotorModes:
     """Return the whirl modes of a rotor on its films at a speed.
 

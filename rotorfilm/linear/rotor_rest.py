@@ -10,6 +10,7 @@ from typing import cast
 import numpy as np
 
 from ..errors import EquilibriumError, InputError, require_number
+from ..inputs.kinds import arguments
 from ..model import Array, Reaction, require_reactions
 from ..readable.result import Readable
 from ..results import Coefficients
@@ -62,6 +63,7 @@ class RotorEquilibrium(Readable):
     temperatures: dict[str, float] = field(default_factory=dict)
 
 
+@arguments
 def rotor_equilibrium(
     rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speed: float
 ) -> RotorEquilibrium:

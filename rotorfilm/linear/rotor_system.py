@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
+from ..inputs.kinds import arguments
 from ..model import Array, Reaction
 from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.stations import station_name
@@ -70,6 +71,7 @@ def with_hysteresis(structure: Structure, system: SecondOrder, frequency: float,
     return system._replace(stiffness=system.stiffness + (1.0 - share) * driving + share * resisting)
 
 
+@arguments
 def rotor_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = None) -> control.StateSpace:
     """Return a rotor on its films, linearized about an equilibrium.
 
@@ -107,6 +109,7 @@ def rotor_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = 
     )
 
 
+@arguments
 def unbalance_response(
     rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
 ) -> control.FrequencyResponseData:
@@ -156,6 +159,7 @@ def unbalance_response(
     )
 
 
+@arguments
 def rotor_transmissibility(
     rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
 ) -> control.FrequencyResponseData:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
+from ..inputs.kinds import arguments
 from ..model import Array, Reaction
 from ..readable.result import Readable
 from ..rotors import FlexibleRotor
@@ -42,6 +43,7 @@ class RotorThreshold(Readable):
     reason: str = ""
 
 
+@arguments
 def rotor_threshold(
     rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
 ) -> RotorThreshold:

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from ..errors import EquilibriumError, InputError, require_finite, require_positive
+from ..inputs.kinds import arguments
 from ..model import Array, JournalForce, Reaction, require_reaction
 from ..results import Coefficients, Equilibrium, WhirlThreshold
 from .coefficients import coefficients
@@ -20,6 +21,7 @@ _POINTS_PER_DECADE = 12
 _SPEED_FACTOR = 100.0
 
 
+@arguments
 def whirl_threshold(
     reaction: Reaction, load: ArrayLike, mass: float, speed_range: tuple[float, float] | None = None
 ) -> WhirlThreshold:

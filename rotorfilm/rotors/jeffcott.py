@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import require_non_negative, require_number, require_positive
+from ..inputs.si_arguments import quantities
 from ..units import STANDARD_GRAVITY
 from .profile import SpeedProfile
 from .structure import (
@@ -22,6 +23,7 @@ from .structure import (
 )
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class JeffcottRotor(FlexibleRotor):
     """One journal's share of a disk on an elastic shaft in two equal bearings: a Dynamic model.

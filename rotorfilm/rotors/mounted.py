@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_kind
+from ..inputs.kinds import arguments
 from ..model import Array, Dynamic, Linearization, Reaction, require_reaction, require_reactions
 from ..native.spec import NativeSpec
 from ..signals import JOURNAL_INPUTS, Signal, indices, names
@@ -219,6 +220,7 @@ def _joined(parts: Sequence[Linearization], motion: Sequence[Array], size: int) 
     return _Slopes(A, np.concatenate(forces), np.concatenate(further))
 
 
+@arguments
 def mount(rotor: Dynamic, bearings: Mapping[str, Reaction]) -> MountedRotor:
     """Return a rotor with bearings in some of its stations.
 

@@ -12,6 +12,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..errors import InputError, require_finite, require_positive
+from ..inputs.si_arguments import in_si, quantities
 from ..model import Array
 
 PROBES = (0.25, 0.5, 0.75)
@@ -27,6 +28,7 @@ MAXIMUM_HALVINGS = 20
 """Halvings of a chord after which the function counts as discontinuous."""
 
 
+@quantities
 @dataclass(frozen=True)
 class SpeedProfile:
     """Angular speed over time, linear between points and constant outside them.
@@ -66,11 +68,18 @@ class SpeedProfile:
         object.__setattr__(self, "speeds", tuple(speeds.tolist()))
 
     @classmethod
+    @in_si
     def constant(cls, speed: float) -> SpeedProfile:
-        """Return the profile that stays at `speed` [rad/s]."""
+        """Return the profile that stays at one speed.
+
+        Parameters
+        ----------
+        speed : float [rad/s]
+        """
         return cls((0.0,), (speed,))
 
     @classmethod
+    @in_si
     def from_function(
         cls, function: Callable[[float], float], duration: float, tolerance: float
     ) -> SpeedProfile:

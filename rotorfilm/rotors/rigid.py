@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import require_non_negative, require_number, require_positive
+from ..inputs.si_arguments import quantities
 from ..model import Array, Linearization
 from ..native.spec import NativeParameter, NativeSpec
 from ..signals import MOTION_NAMES, Signal, force_outputs, journal_inputs
@@ -30,6 +31,7 @@ NATIVE_PARAMETERS = {
 """Units and meanings of what a simulator may set in the compiled rotor."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class RigidRotor(Turning):
     """One journal's share of a rigid rotor that moves without tilting: a Dynamic model.

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import InputError, require_finite, require_non_negative, require_positive
+from ..inputs.si_arguments import quantities
 from ..model import Array
 from ..units import STANDARD_GRAVITY
 from .profile import SpeedProfile
@@ -24,6 +25,7 @@ from .structure import (
 )
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class RigidShaft(FlexibleRotor):
     """A rigid rotor that translates and tilts, with gyroscopic effect: a Dynamic model.

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any
 
 from ..errors import SceneError, brief, require_positive
+from .reading.readers import takes
 from .reading.spelling import nearest
 from .reading.tables import Quantity, text
 
@@ -34,6 +35,7 @@ QUANTITIES = {
 """What a scene may ask for; the families that answer are listed in docs/scenes.md."""
 
 
+@takes(QUANTITIES)
 def read_quantity(where: str, value: Any) -> str:
     """Read the name of a quantity."""
     if not isinstance(value, str) or value not in QUANTITIES:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from importlib import resources
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -43,6 +44,11 @@ def parsed(document: str, source: str) -> dict[str, Any]:
         raise SceneError(f"{source}: tables and lists must not be nested that deep") from None
     except ValueError:  # Python reads no integer of more than 4300 digits
         raise SceneError(f"{source}: integers must not have thousands of digits") from None
+
+
+def json_schema() -> str:
+    """Return the JSON Schema of scene files, which `tools/scene_schema.py` makes of their tables."""
+    return resources.files(__package__).joinpath("data", "scene.schema.json").read_text(encoding="utf-8")
 
 
 def require_schema(source: str, data: dict[str, Any]) -> None:

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, require_count, warn_user
+from ..inputs.kinds import arguments
 from ..limits import WORKERS, require_at_most
 from ..progress import Report, silent
 from ..scenes.scene_file import read_tables
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     import xarray
 
 
+@arguments
 def sweep(
     scene: str | os.PathLike[str] | Mapping[str, Any],
     parameters: Mapping[str, Values],

@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import shlex
 import subprocess
 import sys
 from functools import partial
@@ -67,6 +68,45 @@ def test_coefficients_are_those_of_the_book(run):
     assert (code, err) == (0, "")
     stiffness = json.loads(out)["coefficients"]["stiffness"]
     assert [int(k) for row in stiffness for k in row] == [12807959, 16393593, -25060393, 8815302]
+
+
+DAMPER = """damper --radius 50mm --length 25mm --clearance 0.1mm --viscosity 4e-4 --mass 10kg
+    --speed "400 rad/s" --stiffness 2.56e5 --unbalance "400 g mm" """
+CONTACT = """contact --radius 50mm --mass 4kg --modulus 206GPa --poisson-ratio 0.3 --cells 16
+    --viscosity 8e-3 --pressure-coefficient 5e-9 --speed 0.9 --load 50"""
+
+
+@pytest.mark.parametrize("command", [coefficients(), shlex.split(DAMPER), shlex.split(CONTACT)])
+def test_a_diameter_is_twice_a_radius(run, command):
+    where = command.index("--radius")
+    doubled = [*command[:where], "--diameter", "100 mm", *command[where + 2 :]]
+    code, out, _ = run(*doubled, "--json")
+    assert (code, out) == (0, run(*command, "--json")[1])
+    assert "not allowed with argument" in run(*command, "--diameter", "100 mm")[2]
+    assert "argument --diameter: quantity must be measured in m" in run(*doubled, "--diameter", "3 kg")[2]
+
+
+def test_one_of_radius_and_diameter_is_required(run):
+    code, _, err = run("coefficients", *coefficients()[3:])
+    assert code == 2
+    assert "one of the arguments --diameter --radius is required" in err
+
+
+def test_kilograms_are_told_their_weight(run):
+    code, _, err = run(*coefficients(load="53.535 kg"))
+    assert code == 2
+    assert "error: --load: quantity must be measured in N" in err
+    assert "9.80665 m/s2 times it, 524.999 N" in err
+
+
+def test_the_schema_of_scenes(run, tmp_path):
+    code, out, err = run("schema")
+    assert (code, err) == (0, "")
+    assert json.loads(out)["title"] == "Scene file of rotorfilm, schema 1"
+    assert json.loads(run("schema", "--json")[1]) == json.loads(out)
+    path = tmp_path / "scene.schema.json"
+    assert run("schema", "--out", path)[0] == 0
+    assert path.read_text(encoding="utf-8") == out
 
 
 def test_coefficients_say_what_the_film_leaves_out(run):

@@ -37,6 +37,7 @@ def test_a_bundle_holds_what_its_modules_import_and_no_more():
     leaves = {
         "errors",
         "files",
+        "inputs",
         "limits",
         "model",
         "readable",

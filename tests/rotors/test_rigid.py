@@ -93,7 +93,7 @@ def test_breakpoints_are_the_kinks_of_the_profile():
         ({"unbalance_angle": np.inf}, "unbalance_angle must be a single finite number, got inf"),
         ({"speed": np.nan}, "speed must be a single finite number, got nan"),
         ({"speed": (1.0, 2.0)}, r"speed must be a single finite number, got \(1.0, 2.0\)"),
-        ({"speed": "fast"}, "speed must be a single finite number, got 'fast'"),
+        ({"speed": "fast"}, "speed: quantity must be a number with a unit such as '1 rad/s', got 'fast'"),
         ({"gravity": 9.81}, "gravity must be a pair of numbers, got 9.81"),
         ({"static_force": (0.0, np.nan)}, "static_force must be finite"),
         ({"position": (0.0, 0.0, 0.0)}, "position must be a pair of numbers"),

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_finite, require_kind, require_non_negative, require_number
+from ...inputs.si_arguments import quantities
 from ...model import Array
 from ...readable.result import Readable
 from . import contact_arc as contact
@@ -54,6 +55,7 @@ class BushContact(Readable):
     critical_speed: float
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class MeltingBush:
     """A rigid shaft that rubs in a thin polymer liner, in a rigid housing.

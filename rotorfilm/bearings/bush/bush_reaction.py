@@ -18,6 +18,7 @@ from ...errors import (
     require_number,
     require_positive,
 )
+from ...inputs.si_arguments import quantities
 from ...model import Array, Linearization
 from ...native.spec import NativeSpec
 from ...signals import Signal
@@ -30,6 +31,7 @@ from .held_liner import HeldLiner, Melt, NodeArc
 from .worn_profile import LocalMelting, MeltingRule, Pressed, SharedMelting
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class BushReaction(Called):
     """A `MeltingBush` with wear depths at nodes, its contact at a given temperature: a Reaction with states.
@@ -174,9 +176,8 @@ class BushReaction(Called):
         q, v, omega = broadcast_state(position, velocity, speed)
         pressed = self._liner.press(q, v, self.initial_state.reshape(-1, *(1,) * (q.ndim - 1)))
         by_position = self._liner.stiffness(pressed, omega)
-        return np.concatenate(
-            [by_position, self.retardation * by_position, np.zeros((2, 1, *omega.shape))], axis=1
-        )
+        parts = [by_position, self.retardation * by_position, np.zeros((2, 1, *omega.shape))]
+        return np.concatenate(parts, axis=1)
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the outputs, shape (5,), for the wear depths x [m] and u = (x, y, vx, vy, speed)."""

@@ -18,6 +18,7 @@ from ...errors import (
     require_positive,
     warn_user,
 )
+from ...inputs.si_arguments import quantities
 from ...model import Array, Linearization
 from ...native.spec import NativeSpec
 from ...signals import Signal
@@ -31,6 +32,7 @@ COOLED = 0.02
 """Part of the melting point by which a worn contact may be colder without a word."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class BushWear:
     """A `MeltingBush` under a load along one line: a Dynamic model with one state.

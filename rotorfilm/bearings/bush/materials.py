@@ -8,9 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_each, require_number, require_positive
+from ...inputs.si_arguments import quantities
 from ...model import Array
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class BushGeometry:
     """Radii and length of a bush.
@@ -49,6 +51,7 @@ class BushGeometry:
             )
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class LinerMaterial:
     """The polymer of a bush.
@@ -84,6 +87,7 @@ class LinerMaterial:
             raise InputError(f"poisson_ratio must be at least 0 and below 0.5, got {self.poisson_ratio!r}")
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class ShaftMaterial:
     """A shaft that conducts heat out of the bush and gives it to the air.
@@ -108,6 +112,7 @@ class ShaftMaterial:
         require_each(self, require_positive, "conductivity", "air_transfer")
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class Friction:
     """Coefficient of dry friction f(T) = f0 + f1 T + f2 T^2, T [K] above the ambient temperature.

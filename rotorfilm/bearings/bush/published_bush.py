@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import ConvergenceError, InputError, require_finite, require_number, require_positive
+from ...inputs.kinds import arguments
 from ...model import Array
 from .bearing import MeltingBush
 from .contact_arc import arc_angle, sinc
@@ -79,6 +80,7 @@ class PublishedStage:
         return self.level[:, None] * np.maximum(rise, 0.0)
 
 
+@arguments
 def published_stage(bush: MeltingBush, load: ArrayLike, speed: float, times: ArrayLike) -> PublishedStage:
     """Return the melting stage as published.
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_finite, require_kind, require_number, require_vector
+from ...inputs.si_arguments import quantities
 from ...model import Array, Linearization
 from ...native.spec import NativeSpec
 from ...signals import Signal, force_outputs, journal_inputs
@@ -17,6 +18,7 @@ from .contact_kernel import MOST_CONTACTS, contact_spec
 from .contact_law import ContactLaw
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class BallSupport(Called):
     """A journal carried by equal balls at fixed angles, each through one lubricated contact.

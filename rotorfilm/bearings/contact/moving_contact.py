@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import ConvergenceError, InputError, require_each, require_kind, require_positive
+from ...inputs.kinds import arguments
 from ...model import Array
 from ...signals import Signal
 from .film.stationary import HERTZ_LOAD, stationary_at
@@ -147,6 +148,7 @@ class MovingContact:
         )
 
 
+@arguments
 def moving_contact(ball: RollingBall, contact: PointContact) -> MovingContact:
     """Return the full contact of a ball, from `ball.contact(...)`, in SI."""
     return MovingContact(

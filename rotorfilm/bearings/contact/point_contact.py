@@ -19,6 +19,7 @@ from ...errors import (
     require_positive,
     warn_user,
 )
+from ...inputs.kinds import arguments
 from .film.contact_grid import ContactGrid
 from .film.contact_newton import Contact
 from .film.contact_scheme import ContactScheme, UpwindScheme
@@ -257,6 +258,7 @@ class PointContact:
         return state
 
 
+@arguments
 def perturbed(contact: PointContact, state: ContactState, share: float) -> ContactState:
     """Return a state with pressure and approach enlarged by a share, at rest (Panovko 2011, section 4.1)."""
     factor = 1.0 + require_number("share", share)

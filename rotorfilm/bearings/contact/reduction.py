@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...errors import InputError, ValidityWarning, require_positive
+from ...inputs.kinds import arguments
 from ...model import Linearization
 from .between_points import point_between
 from .contact_law import ContactLaw, transfer
@@ -25,6 +26,7 @@ SLOWEST = 0.3
 """Frequency below which a misfit of the damping counts less."""
 
 
+@arguments
 def reduce_contact(contact: PointContact, order: int = 5, load: float = 1.0) -> ContactLaw:
     """Return the dimensionless law of a contact: z = delta, force in Hertzian loads, time in its unit.
 
@@ -50,6 +52,7 @@ def reduce_contact(contact: PointContact, order: int = 5, load: float = 1.0) -> 
     return _scaled(_law(operating_point(under_load(contact.equations, load)), order), load)
 
 
+@arguments
 def interpolate_contact(contact: PointContact, order: int = 5, load: float = 1.0) -> ContactLaw:
     """Return the law of a contact from operating points on disk of the same grid, scheme and lubricant.
 
@@ -75,6 +78,7 @@ def interpolate_contact(contact: PointContact, order: int = 5, load: float = 1.0
     )
 
 
+@arguments
 def reduce_ball(ball: RollingBall, contact: PointContact, order: int = 5, load: float = 1.0) -> ContactLaw:
     """Return the law of a rolling ball in SI, from its contact (`ball.contact(...)`).
 

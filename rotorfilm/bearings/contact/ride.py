@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...errors import ConvergenceError, require_number, require_positive, warn_user
+from ...inputs.kinds import arguments
 from ...model import Array, breakpoints
 from ...results import Trajectory
 from .contact_law import ContactLaw
@@ -67,6 +68,7 @@ class _Rider(NamedTuple):
         return _Part(np.linspace(begin, end, n + 1), self.law.steps(start, (end - begin) / n, pushes))
 
 
+@arguments
 def ride(
     law: ContactLaw,
     *,

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from ...errors import InputError, require_each, require_non_negative, require_number, require_positive
+from ...inputs.si_arguments import quantities
 from .film.contact_grid import ContactGrid
 from .film.contact_scheme import ContactScheme, UpwindScheme
 from .film.pressure_fluid import HIGGINSON_PRESSURE, BarusViscosity, DowsonHigginsonDensity, RoelandsViscosity
@@ -36,6 +37,7 @@ class PublishedFilms(NamedTuple):
     hamrock_dowson_minimum: float
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class RollingBall:
     """A ball that rolls without slip on a lubricated plane.

@@ -16,6 +16,7 @@ from ...errors import (
     require_positive,
     warn_user,
 )
+from ...inputs.si_arguments import quantities
 from ...model import Array, Tangent, tangent_of
 from ...native.spec import NativeSpec
 from ..films.cavitation import FullFilm, HalfSommerfeld
@@ -33,6 +34,7 @@ LARGEST_RATIO = 0.5
 """Largest thickness / radius of a layer that may be unrolled to a plane."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class PorousDamper(StaticReaction):
     """A squeeze-film damper: a Reaction whose journal does not spin, so that the speed does not matter.

@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...errors import InputError, require_each, require_number, require_positive
+from ...inputs.si_arguments import quantities
 from .porous_layer import PorousLayer
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class PorousCage:
     """A porous ring around the film, Darcy's law in it: k(y) = permeability exp(grading y/thickness), y <= 0.
@@ -62,6 +64,7 @@ class PorousCage:
         )
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class RadialFeed:
     """Lubricant pressed through the layer: a given velocity at the back of a sealed layer, or at the film.
@@ -88,6 +91,7 @@ class RadialFeed:
         require_number("inflow", self.inflow)
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class AxialFeed:
     """Lubricant fed at the ends of film and layer.

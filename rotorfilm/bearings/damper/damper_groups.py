@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from ...errors import require_non_negative, require_number, require_positive
+from ...inputs.kinds import arguments
 from .bearing import PorousDamper
 
 
@@ -46,6 +47,7 @@ class DamperGroups:
     unbalance_ratio: float
 
 
+@arguments
 def damper_groups(
     damper: PorousDamper,
     *,

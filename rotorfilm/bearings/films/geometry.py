@@ -6,10 +6,12 @@ import math
 from dataclasses import dataclass
 
 from ...errors import InputError, require_finite, require_non_negative
+from ...inputs.si_arguments import quantities
 
 TURN = 2.0 * math.pi
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class Groove:
     """An axial groove in the bearing wall, filled with lubricant at the supply pressure.
@@ -32,6 +34,7 @@ class Groove:
             raise InputError(f"width must be below 2 pi, got {self.width!r}")
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class Pad:
     """A fixed pad: the film covers it and is at ambient pressure, 0, at both its ends.

@@ -16,6 +16,7 @@ from ...errors import (
     require_non_negative,
     require_positive,
 )
+from ...inputs.si_arguments import quantities
 from ...model import Array, Tangent
 from ...native.spec import NativeSpec
 from ...signals import Signal, force_outputs, journal_inputs
@@ -32,6 +33,7 @@ from .journal_kernel import journal_spec
 from .map.map_film import MapFilm
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class JournalBearing(Feedthrough, WarmFilm):
     """A cylindrical journal bearing, full unless it has pads or grooves: a Reaction and a static Model.
@@ -41,7 +43,7 @@ class JournalBearing(Feedthrough, WarmFilm):
     Parameters
     ----------
     radius : float [m]
-        Bearing radius.
+        Bearing radius; or `diameter`, twice that.
     length : float [m]
         Axial length.
     clearance : float [m]

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from ...errors import InputError
+from ...inputs.kinds import arguments
 from ...progress import Report, silent
 from .bearing import JournalBearing
 from .grooves.groove_table import GrooveMapTable
 from .grooves.grooved_film import GroovedMapFilm
 
 
+@arguments
 def build_groove_map(bearing: JournalBearing, report: Report = silent) -> GrooveMapTable:
     """Return the map of a bearing with grooves or several pads; made and kept on disk if it is not there yet.
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_finite
+from ...inputs.kinds import arguments
 from ...model import Array
 from ...readable.result import Drawable
 from ...results import BearingLosses
@@ -81,6 +82,7 @@ class FilmState(Drawable):
         return float(self.losses.power_loss)
 
 
+@arguments
 def film_state(
     bearing: JournalBearing,
     position: ArrayLike,

@@ -10,6 +10,7 @@ from scipy.optimize import brentq
 
 from ...bearings.damper import PorousDamper
 from ...errors import InputError, require_finite, require_number
+from ...inputs.kinds import arguments
 from ...model import Array
 from ...readable.result import Drawable
 
@@ -38,6 +39,7 @@ class BistableMap(Drawable):
     jump_down: Array
 
 
+@arguments
 def bistable_map(damper: PorousDamper, squeeze_numbers: ArrayLike, spring_ratios: ArrayLike) -> BistableMap:
     """Return where the response to an unbalance folds.
 
@@ -69,6 +71,7 @@ def bistable_map(damper: PorousDamper, squeeze_numbers: ArrayLike, spring_ratios
     )
 
 
+@arguments
 def bistability_limit(damper: PorousDamper, spring_ratio: float) -> float:
     """Return the squeeze number Bs/Omega above which the response to an unbalance has no fold."""
     require_number("spring_ratio", spring_ratio)

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from ...errors import InputError, require_finite
+from ...inputs.kinds import arguments
 from ...model import Array, Reaction
 from ...readable.result import Drawable, Readable
 from ...results import CircularOrbit
@@ -112,6 +113,7 @@ class SynchronousOrbits(Drawable):
         )
 
 
+@arguments
 def synchronous_orbits(
     rotor: RigidRotor, reaction: Reaction, unbalances: ArrayLike | None = None
 ) -> SynchronousOrbits:
@@ -161,6 +163,7 @@ def synchronous_orbits(
     )
 
 
+@arguments
 def orbits_over_speed(
     rotor: RigidRotor, reaction: Reaction, speeds: ArrayLike
 ) -> tuple[SynchronousOrbits, ...]:

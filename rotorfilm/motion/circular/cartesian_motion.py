@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from ...errors import InputError
+from ...inputs.kinds import arguments
 from ...model import Array, Reaction
 from ...results import Trajectory
 from ...rotors import RigidRotor
@@ -57,6 +58,7 @@ def polar_series(trajectory: Trajectory, rotor: RigidRotor, clearance: float) ->
     return np.hypot(x, y) / clearance, phase
 
 
+@arguments
 def transmitted_ratio(trajectory: Trajectory, rotor: RigidRotor) -> Array:
     """Return the force on the housing over time per centrifugal force of the unbalance, shape (n,) [1].
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import ContactError, ConvergenceError, InputError, require_finite, require_positive
+from ...inputs.kinds import arguments
 from ...model import Array
 from ...results import Trajectory
 from ...rotors import MountedRotor
@@ -20,6 +21,7 @@ LONGEST_TURN = 1.0
 """Longest step in turns of the shaft."""
 
 
+@arguments
 def simulate_rotor(
     mounted: MountedRotor,
     *,

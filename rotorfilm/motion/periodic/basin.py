@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import ContactError, InputError, require_count, require_positive, require_vector
+from ...inputs.kinds import arguments
 from ...model import Array
 from ...readable.result import Readable
 from ...rotors import MountedRotor
@@ -59,6 +60,7 @@ class BasinScan(Readable):
     work: dict[str, int]
 
 
+@arguments
 def basin_scan(
     mounted: MountedRotor, offsets: ArrayLike, *, turns: int = 400, rtol: float = 1e-6
 ) -> BasinScan:

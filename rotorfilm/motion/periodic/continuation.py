@@ -11,6 +11,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from ...errors import ConvergenceError, InputError, require_count, require_finite, require_positive
+from ...inputs.kinds import arguments
 from ...model import Array
 from ...readable.result import Drawable, Readable
 from .branch_point import Curve, Family, Point
@@ -88,6 +89,7 @@ class OrbitCurve(Drawable):
         return np.array([orbit.stable for orbit in self.orbits])
 
 
+@arguments
 def continue_orbits(
     family: Family,
     start: PeriodicOrbit | HopfPoint,

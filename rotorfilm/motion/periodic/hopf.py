@@ -10,6 +10,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from ...errors import ConvergenceError, InputError, require_finite
+from ...inputs.kinds import arguments
 from ...model import Array
 from ...readable.result import Readable
 from ...rotors import MountedRotor
@@ -78,6 +79,7 @@ class _Onset(NamedTuple):
     value: complex
 
 
+@arguments
 def hopf_point(family: Callable[[float], MountedRotor], bounds: tuple[float, float]) -> HopfPoint:
     """Return where a rotor at rest loses stability to whirl, and the criticality of that.
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_count, require_positive
+from ...inputs.kinds import arguments
 from ...model import Array
 from ...readable.result import Drawable
 from ...results import Trajectory
@@ -118,6 +119,7 @@ class PeriodicOrbit(Drawable):
         return bool(np.all(np.abs(self.free_multipliers) < 1.0))
 
 
+@arguments
 def periodic_orbit(
     mounted: MountedRotor,
     *,

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from scipy.integrate import OdeSolver, Radau
 
 from ...errors import ContactError, ConvergenceError, InputError, require_finite, require_positive
+from ...inputs.kinds import arguments
 from ...model import Array, Dynamic, Reaction, stops
 from ...results import Trajectory
 from ...signals import FORCE_OUTPUTS, names, units
@@ -22,6 +23,7 @@ from .coupled import Coupled
 from .integration import Integration, integrate
 
 
+@arguments
 def simulate(
     rotor: Dynamic,
     reaction: Reaction,

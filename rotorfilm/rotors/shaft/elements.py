@@ -7,9 +7,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...errors import InputError, require_non_negative, require_number, require_positive
+from ...inputs.si_arguments import quantities
 from .beam import POINTS, Beam, BeamMatrices, Section, beam_matrices, cowper_coefficient, round_section
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class ElasticMaterial:
     """An elastic material.
@@ -35,6 +37,7 @@ class ElasticMaterial:
         return self.young_modulus / (2.0 * self.shear_modulus) - 1.0
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class ShaftElement:
     """A piece of shaft between two nodes: a cylinder, or a cone where a diameter changes along it.
@@ -179,6 +182,7 @@ class LayeredElement:
         )
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class Coupling:
     """An elastic coupling without length or mass between two nodes; its flanges are disks.

@@ -9,11 +9,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_finite, require_non_negative, require_number, require_positive
+from ...inputs.si_arguments import in_si, quantities
 from ...model import Array
 
 Pair = tuple[tuple[float, float], tuple[float, float]]
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class Disk:
     """A rigid disk on a node.
@@ -36,10 +38,17 @@ class Disk:
             require_non_negative(name, getattr(self, name))
 
     @classmethod
+    @in_si
     def solid(
         cls, node: int, *, density: float, width: float, outer_diameter: float, inner_diameter: float = 0.0
     ) -> Disk:
-        """Return a disk of even thickness with a bore [kg/m3, m]."""
+        """Return a disk of even thickness with a bore.
+
+        Parameters
+        ----------
+        node : int
+        density, width, outer_diameter, inner_diameter : float [kg/m3, m, m, m]
+        """
         for name, value in (("density", density), ("width", width), ("outer_diameter", outer_diameter)):
             require_positive(name, value)
         require_non_negative("inner_diameter", inner_diameter)
@@ -54,6 +63,7 @@ class Disk:
         return cls(node=node, mass=mass, diametral_inertia=diametral, polar_inertia=polar)
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class Support:
     """A housing on springs: what carries a bearing, in series with it.
@@ -81,6 +91,7 @@ class Support:
             object.__setattr__(self, name, square_pair(name, getattr(self, name)))
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class TiltSpring:
     """Springs and dampers from the ground against the tilt of a node, as of a long bearing or a clamp.
@@ -148,6 +159,7 @@ class Probe:
             raise InputError(f"name must be an identifier, got {self.name!r}")
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class Unbalance:
     """An unbalance at a node.

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import ConvergenceError, require_positive
+from ...inputs.kinds import arguments
 from ...model import Array
 from ...readable.result import Readable
 from ..structure import FlexibleRotor, Structure
@@ -40,6 +41,7 @@ class Reduction(Readable):
     frequency: float
 
 
+@arguments
 def reduce_rotor(rotor: FlexibleRotor, *, frequency: float, tolerance: float = 1e-3) -> Reduction:
     """Return the rotor with as few modes as a tolerance allows.
 

@@ -9,6 +9,7 @@ import numpy as np
 from scipy.linalg import LinAlgError, eigh, null_space
 
 from ...errors import InputError
+from ...inputs.si_arguments import quantities
 from ...model import Array
 from ..profile import SpeedProfile
 from ..structure import (
@@ -25,6 +26,7 @@ _DEPENDENT = 1e-6
 """Part of a shape, by kinetic energy, below which it adds nothing to those before it."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class ReducedRotor(FlexibleRotor):
     """A rotor in the coordinates of Craig and Bampton (1968), AIAA J. 6, 1313-1319: a Dynamic model.

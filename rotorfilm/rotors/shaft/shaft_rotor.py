@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...errors import InputError, require_non_negative
+from ...inputs.si_arguments import quantities
 from ...model import Array
 from ...units import STANDARD_GRAVITY
 from ..profile import SpeedProfile
@@ -17,6 +18,7 @@ from .elements import Coupling, ShaftPiece
 from .parts import Disk, Probe, Station, TiltSpring, Unbalance
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class ShaftRotor(FlexibleRotor):
     """A shaft that bends and shears, with rotary inertia and gyroscopic effect: a Dynamic model.

@@ -21,7 +21,7 @@ from ...bearings.bush import (
 )
 from ...errors import SceneError, brief
 from ...limits import WORN_NODES
-from ..reading.readers import Count, Named
+from ..reading.readers import Count, Named, takes
 from ..reading.shared_fields import made_from
 from ..reading.tables import Quantity, choose
 
@@ -34,18 +34,22 @@ BALANCES = {"contact": ContactBalance, "global": GlobalBalance}
 MELTINGS = {"shared": SharedMelting, "local": LocalMelting}
 
 
+@takes(MATERIALS)
 def _read_material(where: str, value: Any) -> str:
     choose(where, value, MATERIALS)
     return str(value)
 
 
+FRICTION = (Quantity("1"), Quantity("1/K"), Quantity("1/K2"))
+
+
+@takes(Quantity("1"), *(list(FRICTION[:count]) for count in (1, 2, 3)))
 def _read_friction(where: str, value: Any) -> Friction:
     """Read a coefficient of friction: one number, or f0, f1 [1/K], f2 [1/K2] of f0 + f1 T + f2 T^2."""
     numbers = value if isinstance(value, list) else [value]
     if not 1 <= len(numbers) <= 3:
         raise SceneError(f"{where} must be one number or up to three, [f0, f1, f2], got {brief(value)}")
-    units = ("1", "1/K", "1/K2")
-    f = [Quantity(unit)(f"{where}[{k}]", x) for k, (unit, x) in enumerate(zip(units, numbers, strict=False))]
+    f = [read(f"{where}[{k}]", x) for k, (read, x) in enumerate(zip(FRICTION, numbers, strict=False))]
     return Friction(f0=f[0], f1=f[1] if len(f) > 1 else 0.0, f2=f[2] if len(f) > 2 else 0.0)
 
 

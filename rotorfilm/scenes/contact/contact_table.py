@@ -9,11 +9,12 @@ from typing import Annotated, Any
 from ...bearings.contact import BallSupport, ContactGrid, PointContact, RollingBall, reduce_ball
 from ...errors import InputError, SceneError, brief, require_non_negative
 from ...limits import CONTACT_CELLS, LAW_STATES
-from ..reading.readers import Count
+from ..reading.readers import Count, takes
 from ..reading.shared_fields import made_from
 from ..reading.tables import Quantity, flag
 
 
+@takes([Quantity("rad"), ...])
 def read_angles(where: str, value: Any) -> tuple[float, ...]:
     """Read a list of angles [rad]."""
     if not isinstance(value, list):

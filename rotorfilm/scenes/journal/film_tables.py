@@ -11,17 +11,19 @@ from ...bearings.films.geometry import Groove, Pad
 from ...bearings.films.law import FilmLaw
 from ...errors import SceneError, brief
 from ...limits import FILM_CELLS, FUNCTIONS, MAP_NODES
-from ..reading.readers import Count, Counts
+from ..reading.readers import Count, Counts, takes
 from ..reading.tables import Keyed, Quantity, Variant, flag
 
+ORDER = Count(FUNCTIONS)
 
+
+@takes([ORDER, (ORDER, {"inf": None})])
 def read_order(where: str, value: Any) -> tuple[int, int | None]:
     """Read an order [n, m] of the splitting method; m may be "inf", all axial modes."""
     if not isinstance(value, list) or len(value) != 2:
         raise SceneError(f"{where} must be [n, m] of positive integers, m also 'inf', got {brief(value)}")
     n, m = value
-    read = Count(FUNCTIONS)
-    return read(f"{where}[0]", n), None if m == "inf" else read(f"{where}[1]", m)
+    return ORDER(f"{where}[0]", n), None if m == "inf" else ORDER(f"{where}[1]", m)
 
 
 CELLS = Counts(("around", "along"), FILM_CELLS)

@@ -5,13 +5,33 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 from ...errors import SceneError, brief
 from ...linear.equilibrium import UNLOADED
-from .tables import Quantity, choose
+from .tables import Quantity, Reader, choose
+
+R = TypeVar("R", bound=Reader)
 
 
+def takes(*shapes: Any) -> Callable[[R], R]:
+    """Say of a reader that is a function what it reads, for the JSON Schema of scene files.
+
+    Parameters
+    ----------
+    *shapes
+        Alternatives: each a reader; a list of shapes, its last one `...` for any number of the one before;
+        a mapping whose keys are names; a tuple of alternatives.
+    """
+
+    def told(reader: R) -> R:
+        reader.takes = shapes  # type: ignore[attr-defined]
+        return reader
+
+    return told
+
+
+@takes(Quantity("N"), [Quantity("N"), Quantity("N")])
 def read_load(where: str, value: Any) -> tuple[float, float]:
     """Read a load [N]: one positive magnitude, which acts along -y, or the two components [x, y]."""
     if isinstance(value, list):

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ...errors import InputError
+from ...inputs.kinds import arguments
 from ...linear import rotor_equilibrium
 from ...model import Array, Reaction
 from ...rotors import FlexibleRotor, ReducedRotor, Reduction, SteadyRotor, mount, reduce_rotor
@@ -31,6 +32,7 @@ class ExportedSystem(NamedTuple):
     system: Path
 
 
+@arguments
 def export_rotor_fmu(
     rotor: FlexibleRotor,
     path: str | Path,

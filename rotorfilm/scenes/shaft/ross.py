@@ -21,6 +21,7 @@ import numpy as np
 from ...bearings.linear import LinearBearing
 from ...bearings.tabulated import TabulatedBearing
 from ...errors import InputError
+from ...inputs.kinds import arguments
 from ...rotors import (
     ClassicalBeam,
     Coupling,
@@ -59,6 +60,7 @@ class RossRotor:
     bearings: dict[str, LinearBearing | TabulatedBearing]
 
 
+@arguments
 def read_ross(path: str | Path, *, speed: float | SpeedProfile = 0.0) -> RossRotor:
     """Return the rotor in a TOML or JSON file that ROSS saved.
 

@@ -12,6 +12,7 @@ import numpy as np
 from ...bearings.linear import LinearBearing
 from ...bearings.tabulated import TabulatedBearing
 from ...errors import InputError
+from ...inputs.kinds import arguments
 
 if TYPE_CHECKING:
     from ross import BearingElement
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 ENTRIES = {"xx": (0, 0), "xy": (0, 1), "yx": (1, 0), "yy": (1, 1)}
 
 
+@arguments
 def to_ross(
     bearing: LinearBearing | TabulatedBearing, node: int, *, tag: str | None = None
 ) -> BearingElement:

@@ -21,7 +21,7 @@ from ...rotors import (
     TiltSpring,
 )
 from ..lubricant_table import LubricantTable
-from ..reading.readers import Count
+from ..reading.readers import Count, takes
 from ..reading.shared_fields import made_from
 from ..reading.tables import Keyed, Quantity, Table, read_table, require_table, text
 from ..schema import JournalTable
@@ -33,6 +33,7 @@ def matrix(unit: str) -> Callable[[str, Any], float | Pair]:
     """Return the reader of one quantity, the same along x and y, or of 2 x 2 of them."""
     read = Quantity(unit)
 
+    @takes(read, [[read, read], [read, read]])
     def reader(where: str, value: Any) -> float | Pair:
         if not isinstance(value, list):
             return read(where, value)
@@ -69,7 +70,7 @@ TILT_SPRING = Keyed(
 PROBE = Keyed(Probe, {"node": NODE, "name": text})
 """An entry of `shaft.probes`: a node whose displacement is shown."""
 
-ANY_MATERIAL = ElasticMaterial(young_modulus=2.5, shear_modulus=1.0, density=1.0)
+ANY_MATERIAL = ElasticMaterial(young_modulus=2.5e11, shear_modulus=1e11, density=1e3)
 """With it the parts of a shaft check their own keys, before the shaft has its material."""
 
 
@@ -108,6 +109,7 @@ class PieceTable:
         return whole.split(self.pieces)
 
 
+@takes([(Table(COUPLING), Table(PieceTable)), ...])
 def read_pieces(where: str, value: Any) -> tuple[PieceTable | Coupling, ...]:
     """Read the elements of a shaft: an entry with a stiffness is a coupling."""
     if not isinstance(value, list) or not value:

@@ -275,7 +275,10 @@ def test_bad_dampers_are_named(change, match):
             "supply_pressure must be 0 behind a sealed back, got 1.0",
         ),
         (lambda: RadialFeed(inflow=np.nan), "inflow must be a single finite number"),
-        (lambda: AxialFeed(start_pressure="a", end_pressure=0.0), "start_pressure must be a single finite"),
+        (
+            lambda: AxialFeed(start_pressure="a", end_pressure=0.0),
+            "start_pressure: quantity must be a number",
+        ),
         (lambda: Sprung(reaction=PI, stiffness=0.0), "stiffness must be finite and positive, got 0.0"),
         (
             lambda: Sprung(reaction=4, stiffness=1.0),

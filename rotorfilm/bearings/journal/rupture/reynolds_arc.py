@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....errors import ConvergenceError, require_finite
+from ....inputs.si_arguments import quantities
 from ....model import Array
 from .rupture import Basis, FilmArc
 from .trial_integrals import whitened_functions
@@ -39,6 +40,7 @@ SHORTEST = 0.05
 TURN = 2.0 * math.pi
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class ReynoldsArc:
     """Prescribed start, and an end where the pressure of axial mode 1 leaves with no slope.

@@ -9,6 +9,7 @@ from typing import ClassVar, NamedTuple, Protocol, runtime_checkable
 import numpy as np
 
 from ....errors import InputError, require_number
+from ....inputs.si_arguments import quantities
 from ....model import Array
 
 SHORTEST_ARC = 1e-3
@@ -78,6 +79,7 @@ def rigid_arc(start: Array, end: Array, rate: float) -> FilmArc:
     return FilmArc(start, end, zero, zero, turn, turn)
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class FixedArc:
     """An arc fixed to the line of maximum film, which moves with the attitude angle: as published.

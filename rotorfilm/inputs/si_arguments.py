@@ -1,0 +1,161 @@
+"""Quantities as engineers write them, where public constructors and functions take a float in SI.
+
+A decorated class or function takes for each argument with a unit in its docstring, as `radius : float [m]`,
+also a string such as "50 mm" or a quantity of pint, and `diameter` for twice a `radius`. Inside there are SI
+floats as ever. Python that runs without docstrings (-OO) takes floats alone.
+"""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Callable, Mapping
+from functools import cache, wraps
+from itertools import chain, repeat
+from typing import Any, ParamSpec, TypeVar
+
+import numpy as np
+
+from ..errors import InputError, brief
+from ..units import UNITS, WEIGHT, parse_quantity, si_name
+from .dimensions import BUILT, warn_of_odd_size
+
+P = ParamSpec("P")
+R = TypeVar("R")
+T = TypeVar("T")
+
+ENTRY = re.compile(r"(\w+(?:, \w+)*) : (.+)")
+"""The head of an entry of a numpydoc section."""
+
+ANY = ("", float("-inf"), float("inf"))
+
+
+def entry_units(kind: str, count: int) -> list[str]:
+    """Return the units of the names of one entry: one for each, or one for all; empty for none."""
+    found = [unit for text in re.findall(r"\[([^\[\]]+)\]", kind) for unit in text.split(", ")]
+    return found if len(found) == count else [", ".join(dict.fromkeys(found))] * count
+
+
+@cache
+def units_of(documented: Any) -> Mapping[str, str]:
+    """Return the unit of each argument of a class or function that has one, as its docstring spells it."""
+    homes = documented.__mro__ if isinstance(documented, type) else (documented,)
+    found: dict[str, str] = {}
+    for home in homes:
+        for line in inspect.cleandoc(vars(home).get("__doc__") or home.__doc__ or "").splitlines():
+            if match := ENTRY.fullmatch(line):
+                names = match[1].split(", ")
+                for name, unit in zip(names, entry_units(match[2], len(names)), strict=True):
+                    found.setdefault(name, unit)
+    return {name: unit for name, unit in found.items() if si_name(unit) in UNITS}
+
+
+def quantities(cls: type[T]) -> type[T]:
+    """Let a public dataclass take quantities with their units.
+
+    Raises, from then on
+    --------------------
+    InputError
+        If a quantity cannot be read or measures something else, or a radius is given with its diameter.
+
+    Warns, from then on
+    -------------------
+    ValidityWarning
+        If a dimension is far outside of what is built, as `dimensions.BUILT` has it.
+    """
+    cls.__init__ = in_si(cls.__init__, cls)  # type: ignore[method-assign]
+    return cls
+
+
+def in_si(function: Callable[P, R], documented: Any = None) -> Callable[P, R]:
+    """Return a function that takes quantities with their units, by its docstring or that of its class."""
+    home = documented or function
+    code = function.__code__
+    names = code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
+    doubled = {name.replace("radius", "diameter"): name for name in names if "radius" in name}
+    bare = 0 if documented is None else 1
+
+    @wraps(function)
+    def taking(*args: Any, **given: Any) -> R:
+        for diameter, radius in doubled.items():
+            if diameter in given:
+                given = _halved(home, diameter, radius, given)
+        odd = False
+        for name, value in given.items():
+            _, least, most = BUILT.get(name, ANY)
+            if value.__class__ is not float or not least <= value <= most:
+                given[name], odd = _read(home, name, value), True
+        if len(args) > bare:
+            args = tuple(_read(home, *pair) for pair in zip(chain(names, repeat("")), args, strict=False))
+        found = function(*args, **given)
+        if odd:  # of what broke no rule
+            for name in given.keys() & BUILT.keys():
+                warn_of_odd_size(name, given[name], units_of(home).get(name, ""))
+        return found
+
+    return taking
+
+
+def _halved(home: Any, diameter: str, radius: str, given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return arguments with a radius in place of a diameter."""
+    rest = dict(given)
+    value = rest.pop(diameter)
+    if radius in rest:
+        raise InputError(
+            f"{radius} and {diameter} must not both be given, got {rest[radius]!r} and {value!r}"
+        )
+    value = quantity(diameter, value, units_of(home).get(radius, ""))
+    return {**rest, radius: 0.5 * value if isinstance(value, float | int) else value}
+
+
+def _read(home: Any, name: str, value: Any) -> Any:
+    """Return an argument with its quantities in SI; anything else as it is."""
+    unit = units_of(home).get(name)
+    return quantity(name, value, unit) if unit else value
+
+
+def quantity(name: str, value: Any, unit: str) -> Any:
+    """Return a string or a quantity of pint as a float in SI, also inside of lists; anything else as it is.
+
+    Parameters
+    ----------
+    name : str
+        For the messages.
+    value : object
+    unit : str
+        As docstrings spell it, with spaces.
+
+    Raises
+    ------
+    InputError
+        If the quantity cannot be read, or measures something else than `unit`.
+    """
+    if isinstance(value, float):
+        return value
+    if isinstance(value, str):
+        try:
+            return parse_quantity(value, si_name(unit))
+        except InputError as error:
+            raise InputError(f"{name}: {error}") from None
+    if isinstance(value, list | tuple):
+        if all(isinstance(entry, float) for entry in value):
+            return value
+        read = [quantity(f"{name}[{k}]", entry, unit) for k, entry in enumerate(value)]
+        changed = any(new is not old for new, old in zip(read, value, strict=True))
+        return type(value)(read) if changed else value
+    return _from_pint(name, value, unit) if hasattr(value, "magnitude") else value
+
+
+def _from_pint(name: str, value: Any, unit: str) -> Any:
+    """Return the magnitude of a quantity of pint in SI, a float or an array."""
+    given = str(value.units)
+    rule = f"{name}: quantity must be measured in {unit} or a multiple of it"
+    if "rad" in unit and not re.search("rad|deg|turn|revolution|cycle|rpm", given):
+        # For pint a hertz is one radian per second.
+        raise InputError(f"{rule}, with its angle, got {brief(value)}")
+    try:
+        found = value.to(re.sub(r"(?<=[a-zA-Z])(?=\d)", "**", si_name(unit).replace(".", "*"))).magnitude
+    except (TypeError, ValueError, AttributeError):  # as pint's own errors are
+        weight = WEIGHT if unit == "N" and "gram" in given else ""
+        raise InputError(f"{rule}, got {brief(value)}{weight}") from None
+    return float(found) if np.ndim(found) == 0 else np.asarray(found, dtype=float)

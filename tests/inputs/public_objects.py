@@ -1,0 +1,88 @@
+"""One object of every public class that takes a quantity with a unit."""
+
+import dataclasses
+
+import numpy as np
+
+import rotorfilm as rf
+
+BEARING = rf.JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
+BUSH = rf.f4k20_bush()
+STEEL = rf.ElasticMaterial(young_modulus=2.06e11, shear_modulus=8e10, density=7850.0)
+PIECE = rf.ShaftElement(
+    length=0.2,
+    outer_diameter=0.05,
+    inner_diameter=0.01,
+    material=STEEL,
+    shear_coefficient=0.9,
+    end_outer_diameter=0.04,
+    end_inner_diameter=0.01,
+    axial_force=10.0,
+    torque=2.0,
+)
+STATIONS = (rf.Station(node=0, name="a"), rf.Station(node=1, name="b"))
+SHAFT = rf.ShaftRotor(elements=(PIECE,), speed=100.0, stations=STATIONS, internal_damping=1e-5)
+BALL = rf.RollingBall(
+    radius=0.01,
+    mass=0.033,
+    modulus=2.06e11,
+    poisson_ratio=0.3,
+    viscosity=0.008,
+    pressure_coefficient=5e-9,
+    speed=0.9,
+    load=10.0,
+    plane_modulus=2e11,
+)
+MADE = [
+    BEARING,
+    dataclasses.replace(
+        BEARING,
+        film=rf.ReynoldsFilm(),
+        grooves=(rf.Groove(center=0.0, width=0.2),),
+        supply_pressure=1e5,
+    ),
+    rf.Groove(center=1.0, width=0.2),
+    rf.Pad(start=1.0, extent=0.5),
+    rf.FixedArc(start=0.1, extent=3.0),
+    rf.ReynoldsArc(start=0.1),
+    rf.LinearBearing(stiffness=1e6, damping=100.0),
+    rf.LinearBearing(stiffness=((1e6, 2.0), (3.0, 1e6)), damping=100.0),
+    rf.TabulatedBearing(speeds=[1.0, 2.0], stiffness=np.ones((2, 2, 2)), damping=np.ones((2, 2, 2))),
+    rf.PorousDamper(
+        radius=0.05,
+        length=0.02,
+        clearance=1e-4,
+        viscosity=4e-4,
+        cage=rf.PorousCage(thickness=2.5e-3, permeability=4e-13),
+    ),
+    rf.Sprung(reaction=rf.LinearBearing(stiffness=1e6, damping=1.0), stiffness=2e6),
+    rf.PorousCage(thickness=2.5e-3, permeability=4e-13, anisotropy=2.0, vented=True, supply_pressure=1e5),
+    rf.RadialFeed(inflow=1e-4),
+    rf.AxialFeed(start_pressure=1e5, end_pressure=2e5),
+    BALL,
+    BUSH,
+    BUSH.geometry,
+    BUSH.liner,
+    BUSH.shaft,
+    BUSH.friction,
+    rf.BushWear(bush=BUSH, melting_heat=3e8, wear=0.0),
+    rf.BushReaction(bush=BUSH, melting_heat=3e8, temperature=200.0),
+    rf.BushReaction(bush=BUSH, melting_heat=3e8, nodes=8, wear_depth=(1e-6,) * 8, retardation=1e-3),
+    rf.RigidRotor(mass=10.0, speed=100.0, unbalance=1e-4, unbalance_angle=0.5),
+    rf.JeffcottRotor(mass=10.0, journal_mass=1.0, stiffness=1e6, speed=100.0, unbalance=1e-4),
+    rf.RigidShaft(
+        mass=10.0, diametral_inertia=0.2, polar_inertia=0.1, stations=(("a", -0.1), ("b", 0.1)), speed=9.0
+    ),
+    rf.SpeedProfile(times=(0.0, 1.0), speeds=(100.0, 200.0)),
+    STEEL,
+    PIECE,
+    rf.Coupling(stiffness=1e6, tilt_stiffness=1e3),
+    rf.Disk(node=0, mass=1.0, diametral_inertia=0.01, polar_inertia=0.02),
+    rf.Support(mass=5.0, stiffness=1e7, damping=10.0),
+    rf.TiltSpring(node=0, stiffness=1e4, damping=10.0),
+    rf.Unbalance(node=0, unbalance=1e-4, unbalance_angle=0.5),
+    SHAFT,
+    rf.ReducedRotor(rotor=SHAFT, modes=2, speed=100.0, gravity=SHAFT.gravity),
+    rf.OperatingPoint(t=1.0, x=(), u=(0.0,) * 5),
+]
+"""Of every public class that takes a quantity with a unit, one with all of them where that is possible."""
