@@ -6,7 +6,7 @@ import rotorfilm
 from rotorfilm.sources import homes
 
 TASKS = {
-    "Journal bearings and their films": ("bearings.journal", "bearings.films"),
+    "Journal bearings and their films": ("bearings.journal", "bearings.films", "bearings.oil"),
     "Squeeze-film dampers": ("bearings.damper",),
     "Rolling contacts and ball bearings": ("bearings.contact",),
     "Bushes that wear": ("bearings.bush",),
@@ -17,9 +17,9 @@ TASKS = {
         "bearings.tabulated",
     ),
     "Equilibrium and coefficients": (
-        "linear.coefficient_table",
         "linear.coefficients",
         "linear.equilibrium",
+        "linear.heated_equilibrium",
         "linear.rotor_rest",
         "results.Coefficients",
         "results.Equilibrium",

@@ -144,6 +144,12 @@ def _lacking(cls: type, protocol: type) -> tuple[str, ...]:
     return tuple(name for name in dir(protocol) if not name.startswith("_") and not hasattr(cls, name))
 
 
+def require_tuple(name: str, values: object, kind: type) -> None:
+    """Raise InputError unless `values` is a tuple of instances of a class."""
+    if not isinstance(values, tuple) or not all(isinstance(value, kind) for value in values):
+        raise InputError(f"{name} must be a tuple of {kind.__name__}, got {values!r}")
+
+
 def require_finite(name: str, value: ArrayLike) -> NDArray[np.float64]:
     """Return `value` as an array of floats; raise InputError where an entry is not finite."""
     try:

@@ -33,11 +33,11 @@ class BearingLosses(Readable):
         Torque about +z that keeps the journal turning; of the sign of the speed.
     bush_torque : float [N m]
         Torque about +z of the film on the bush. It differs from `friction_torque` by position x force.
-    side_flow : float [m^3/s]
+    side_flow : float [m3/s]
         Oil that leaves the film at both ends, without that straight out of grooves.
-    inflow : ndarray, shape (openings, ...) [m^3/s]
+    inflow : ndarray, shape (openings, ...) [m3/s]
         Oil that leaves each opening into the films beside it, in the order of `FilmGeometry.openings`.
-    arriving : ndarray, shape (openings, ...) [m^3/s]
+    arriving : ndarray, shape (openings, ...) [m3/s]
         Oil that comes to each opening from the films and streamers beside it.
     """
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, brief, require_inside, require_positive
+from ..inputs.si_arguments import quantities
 from ..model import Array, Force
 from .differences import differences
 from .reaction import NOMINAL_SPEED, StaticReaction, broadcast_state
@@ -23,6 +24,7 @@ LARGEST_RELATIVE_STEP = 0.25
 Law = Callable[..., Any]
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class OwnReaction(StaticReaction):
     """A bearing whose force is a function of the user; `as_reaction` makes it.

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import ConvergenceError, require_number
 from ..model import Reaction
+from ..readable.result import Readable
 from ..results import Equilibrium
 from .equilibrium import checked_load, equilibrium
 
@@ -32,7 +33,7 @@ class FieldFilm(Protocol):
 
 
 @dataclass(frozen=True, kw_only=True)
-class HeatedEquilibrium:
+class HeatedEquilibrium(Readable):
     """The place of a journal at which a film that warms balances the load.
 
     Attributes

@@ -45,7 +45,10 @@ class Item(NamedTuple):
 def items_of(value: Any, further: Iterable[str] = ()) -> Iterator[Item]:
     """Yield what a dataclass holds, and further properties; the series of a mapping one by one."""
     own = value._own_units() if isinstance(value, Readable) else {}
+    unset = {one.name for one in fields(value) if one.default is None and getattr(value, one.name) is None}
     for name in (*(one.name for one in fields(value) if not one.name.startswith("_")), *further):
+        if name in unset:
+            continue
         held, said = getattr(value, name), explained(type(value), name)
         if isinstance(held, Mapping) and any(_is_measured(one) for one in held.values()):
             for key, one in held.items():

@@ -9,7 +9,8 @@ from typing import Annotated, Any
 from ..bearings.oil import Cooling, Oil
 from ..errors import InputError, SceneError, brief, require_non_negative, require_positive
 from ..units import CELSIUS
-from .reading.tables import Quantity
+from .reading.readers import Count, takes
+from .reading.tables import Quantity, text
 
 _GRADE = re.compile(r"\s*(?:ISO\s*)?(?:VG\s*)?(\d{1,4})\s*", re.IGNORECASE)
 
@@ -17,6 +18,7 @@ WARM, HOT = 40.0 + CELSIUS, 100.0 + CELSIUS
 """Temperatures of `viscosity_40` and `viscosity_100` [K]."""
 
 
+@takes(Count(9999), text)
 def read_grade(where: str, value: Any) -> int:
     """Read an ISO viscosity grade, as "ISO VG 46" or 46."""
     match = _GRADE.fullmatch(str(value)) if isinstance(value, str | int) else None
@@ -29,7 +31,7 @@ def read_grade(where: str, value: Any) -> int:
 class Lubricant:
     """Properties of an oil at one temperature.
 
-    Attributes
+    Parameters
     ----------
     density : float [kg/m3]
     heat_capacity : float [J/(kg K)]

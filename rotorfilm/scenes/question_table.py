@@ -17,7 +17,7 @@ QUANTITIES = {
     "stiffness": "K of a film at its equilibrium [N/m]",
     "damping": "C of a film at its equilibrium [N s/m]",
     "power_loss": "heat made in a film at its equilibrium [W]",
-    "side_flow": "oil that leaves a film at both ends at its equilibrium [m^3/s]",
+    "side_flow": "oil that leaves a film at both ends at its equilibrium [m3/s]",
     "whirl_threshold": "speed at which the rotor begins to whirl [rad/s]",
     "critical_speed": "first critical speed of a rotor, or speed at which a bush melts [rad/s]",
     "unbalance_amplitude": "largest semi-axis of the synchronous orbit [m]",

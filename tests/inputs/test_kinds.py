@@ -40,18 +40,20 @@ def test_a_film_without_a_name_is_no_mapping():
     for function in (rf.campbell, rf.critical_speeds, rf.rotor_threshold):
         with pytest.raises(
             InputError,
-            match=r"^bearings must be a mapping of names, each to a Reaction, as \{'left': ...\}, got J",
+            match=r"^bearings must be a mapping such as \{'left': film\}, got J",
         ):
             function(ROTOR, FILM, [10.0, 20.0])
 
 
 def test_a_wrong_bearing_of_a_mapping_is_named():
-    with pytest.raises(InputError, match=r"^bearings\['b'\] must be a Reaction, got 'film'"):
+    with pytest.raises(
+        InputError, match=r"^bearings\['b'\] must be a Reaction such as .* got .film. without"
+    ):
         rf.campbell(ROTOR, {"a": FILM, "b": "film"}, [10.0, 20.0])
 
 
 def test_a_class_is_no_object():
-    with pytest.raises(InputError, match=r"^reaction must be a Reaction, got <class"):
+    with pytest.raises(InputError, match=r"^reaction must be a Reaction such as .*, got <class"):
         rf.equilibrium(rf.JournalBearing, (0.0, -500.0), 100.0)
 
 

@@ -15,6 +15,7 @@ from ...errors import (
     require_kind,
     require_non_negative,
     require_positive,
+    require_tuple,
 )
 from ...inputs.si_arguments import quantities
 from ...model import Array, Tangent
@@ -26,11 +27,11 @@ from ..films.law import BoundFilm, FilmLaw, FilmOptions, options
 from ..oil import Cooling, Oil
 from ..oil.lubricant import film_viscosity, require_lubricant
 from ..reaction import NOMINAL_SPEED, Feedthrough, broadcast_state
-from .dimensions import warn_of_odd_dimensions
 from .fitting import film_name, fitted_film
 from .heat.warm_film import WarmFilm
 from .journal_kernel import journal_spec
 from .map.map_film import MapFilm
+from .odd_dimensions import warn_of_odd_dimensions
 
 
 @quantities
@@ -71,16 +72,15 @@ class JournalBearing(Feedthrough, WarmFilm):
     Raises
     ------
     InputError
-        If a dimension or the viscosity is not finite and positive, not exactly one of viscosity and oil is
-        given, an oil has neither temperature nor cooling, the clearance is not below the radius, openings
-        overlap, there is a supply without a groove, or the film cannot represent length/diameter, pads or
-        grooves.
+        If a dimension is not finite and positive, viscosity and oil are not one of both, an oil has neither
+        temperature nor cooling, the clearance is not below the radius, openings overlap, there is a supply
+        without a groove, or the film cannot represent length/diameter, pads or grooves.
 
     Warns
     -----
     ValidityWarning
         If length / diameter is beyond the `slenderness_limit` that the film law declares, or clearance /
-        radius is outside `dimensions.CLEARANCE_RATIOS`.
+        radius is outside `odd_dimensions.CLEARANCE_RATIOS`.
 
     Examples
     --------
@@ -108,8 +108,8 @@ class JournalBearing(Feedthrough, WarmFilm):
             raise InputError(f"clearance must be below the radius {self.radius!r}, got {self.clearance!r}")
         require_kind("film", self.film, FilmLaw, "a film law with force and jacobian")
         require_non_negative("supply_pressure", self.supply_pressure)
-        _require_tuple("pads", self.pads, Pad)
-        _require_tuple("grooves", self.grooves, Groove)
+        require_tuple("pads", self.pads, Pad)
+        require_tuple("grooves", self.grooves, Groove)
         if self.supply_pressure > 0.0 and not self.grooves:
             raise InputError(f"supply_pressure must be 0 without grooves, got {self.supply_pressure!r}")
         # Fitted here so that a geometry that is beyond the film is refused at once.
@@ -123,7 +123,7 @@ class JournalBearing(Feedthrough, WarmFilm):
         warn_of_odd_dimensions(self.radius, self.length, self.clearance, film_name(self.fitted_film), limit)
 
     def __repr__(self) -> str:
-        """As of a dataclass, but with the film that the bearing really uses: with openings it is another."""
+        """As of a dataclass, but with the film that the bearing really uses."""
         values = {one.name: repr(getattr(self, one.name)) for one in fields(self)}
         values["film"] = film_name(self.fitted_film)
         return f"{type(self).__name__}({', '.join(f'{name}={value}' for name, value in values.items())})"
@@ -226,13 +226,7 @@ class JournalBearing(Feedthrough, WarmFilm):
         return self.prepared_jacobian(*broadcast_state(position, velocity, speed))
 
     def prepare(self) -> Callable[[float, float, float, float, float], tuple[float, float]]:
-        """Return the force as a function of five numbers, for loops that go state by state.
-
-        Returns
-        -------
-        callable
-            (x, y, vx, vy, speed) [m, m/s, rad/s] -> (force_x, force_y) [N]. Raises what `force` raises.
-        """
+        """Return `force` as a function of five numbers, for loops that go state by state: `model.Force`."""
         return self.bound_film.call
 
     def prepare_tangent(self) -> Tangent:
@@ -301,8 +295,3 @@ class JournalBearing(Feedthrough, WarmFilm):
     def kinematics(self, position: Array, velocity: Array, speed: Array) -> tuple[Array, Array]:
         """Return the eccentricity and the source w = v/c - (speed/2) z^ x e of the film laws."""
         return kinematics(position, velocity, speed, self.clearance)
-
-
-def _require_tuple(name: str, values: object, kind: type) -> None:
-    if not isinstance(values, tuple) or not all(isinstance(value, kind) for value in values):
-        raise InputError(f"{name} must be a tuple of {kind.__name__}, got {values!r}")

@@ -59,7 +59,7 @@ class FilmState(Drawable):
 
     @property
     def side_flow(self) -> float:
-        """Oil that leaves the film at both ends [m^3/s], without that straight out of grooves.
+        """Oil that leaves the film at both ends [m3/s], without that straight out of grooves.
 
         With a supply pressure it has no limit as the cells shrink: a groove open at the bearing's end feeds
         the corner beside it.

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from ...errors import InputError, require_non_negative, require_number, require_positive
+from ...inputs.si_arguments import quantities
 
 STEEL = 3.6e6
 """Heat capacity of steel per volume [J/(m^3 K)]."""
@@ -15,6 +16,7 @@ RING = 1.3
 `Cooling` assumes them."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class Cooling:
     """How the heat of a film leaves: with the oil that leaks and is replaced, and through the housing.

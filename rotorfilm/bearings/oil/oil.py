@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import InputError, require_each, require_kind, require_positive
+from ...inputs.si_arguments import quantities
 from ...model import Array
 from ...units import CELSIUS
 from .viscosity import Exponential, ViscosityLaw, Walther, relative_density
@@ -24,6 +25,7 @@ _WATER = 999.0
 """Density of water at 15 degrees Celsius [kg/m3]."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class Oil:
     """A lubricant whose properties depend on its temperature.

@@ -73,9 +73,9 @@ class FilmHeat(NamedTuple):
         Power that goes into the oil.
     viscosity : float [Pa s]
         At which that is.
-    flow : float [m^3/s]
+    flow : float [m3/s]
         Effective flow Q_e of fresh oil.
-    side_flow : float [m^3/s]
+    side_flow : float [m3/s]
         Oil that leaks at the ends.
     """
 
@@ -126,13 +126,13 @@ def _by_state(slope: Array, e: Array, speed: float, clearance: float) -> Array:
 
 
 def effective_flow(side_flow: float, inflow: Array, arriving: Array, carry_over: float) -> float:
-    """Return Q_e of (2) [m^3/s].
+    """Return Q_e of (2) [m3/s].
 
     Parameters
     ----------
-    side_flow : float [m^3/s]
+    side_flow : float [m3/s]
         Oil that leaks.
-    inflow, arriving : ndarray, shape (openings,) [m^3/s]
+    inflow, arriving : ndarray, shape (openings,) [m3/s]
         Q_1 into the film and Q_2 that arrives from it, at each opening.
     carry_over : float [1]
         lambda, the share of Q_2 that goes on into the next film.

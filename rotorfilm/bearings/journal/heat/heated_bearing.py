@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ....errors import InputError, require_finite, require_positive
+from ....inputs.si_arguments import quantities
 from ....model import Array, Linearization
 from ....native.spec import NativeSpec
 from ....signals import Signal
@@ -25,6 +26,7 @@ NOMINAL_TEMPERATURE = 300.0
 """Typical temperature [K]."""
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class HeatedBearing:
     """A journal bearing whose film and bush warm and cool: a Reaction with one state, the temperature.

@@ -9,6 +9,7 @@ import numpy as np
 
 from .....errors import InputError
 from .....model import Array
+from .....readable.result import Readable
 from ....oil import Cooling, Oil
 from ...bearing import JournalBearing
 from .film_flow import FilmFlow
@@ -17,7 +18,7 @@ from .heat_equations import HeatSolution
 
 
 @dataclass(frozen=True, kw_only=True)
-class HeatAccount:
+class HeatAccount(Readable):
     """Where the heat of a bearing comes from and goes to.
 
     Attributes
@@ -45,7 +46,7 @@ class HeatAccount:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class HeatedState:
+class HeatedState(Readable):
     """A film with its temperature, for a journal at rest; N lines with M + 1 nodes on each.
 
     Attributes
@@ -74,7 +75,7 @@ class HeatedState:
         Power of the shaft that becomes heat.
     friction_torque : float [N m]
         About +z, that keeps the journal turning.
-    side_flow : float [m^3/s]
+    side_flow : float [m3/s]
         Oil that leaves through both ends of the film.
     heat : HeatAccount
     film : FrozenFilm

@@ -8,6 +8,7 @@ from typing import NamedTuple, Protocol, runtime_checkable
 import numpy as np
 
 from .....errors import InputError, require_each, require_non_negative, require_positive
+from .....inputs.si_arguments import quantities
 from .....model import Array
 
 HARMONICS = 256
@@ -74,6 +75,7 @@ class AdiabaticWalls:
         return WallResponse(np.zeros((len(start), len(start))), 1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class HeldWalls:
     """Bush and journal at given temperatures.
@@ -101,6 +103,7 @@ class HeldWalls:
         return WallResponse(spread, 1.0, 0.0, self.bush_temperature, 1.0, 0.0, self.journal_temperature)
 
 
+@quantities
 @dataclass(frozen=True, kw_only=True)
 class BushRing:
     """A bush that conducts heat around and outwards, and a journal of one temperature.
