@@ -84,5 +84,9 @@ MADE = [
     SHAFT,
     rf.ReducedRotor(rotor=SHAFT, modes=2, speed=100.0, gravity=SHAFT.gravity),
     rf.OperatingPoint(t=1.0, x=(), u=(0.0,) * 5),
+    rf.Oil.iso_vg(46),
+    rf.Cooling(supply_temperature=310.0, housing_conductance=3.0),
+    rf.BushRing(outer_radius=0.1),
+    rf.HeldWalls(bush_temperature=310.0, journal_temperature=320.0),
 ]
 """Of every public class that takes a quantity with a unit, one with all of them where that is possible."""

@@ -18,12 +18,12 @@ from .public_objects import BALL, BEARING, MADE
 
 RESULTS = {
     "BasinScan", "Campbell", "CircularOrbit", "CoSimulation", "Coefficients", "CouplingReport",
-    "CriticalMass", "CriticalSpeed", "Equilibrium", "HopfPoint", "PeriodicOrbit", "Reduction",
+    "CriticalMass", "CriticalSpeed", "Equilibrium", "HeatedState", "HopfPoint", "PeriodicOrbit", "Reduction",
     "RotorEquilibrium", "RotorModes", "RotorThreshold", "Trajectory", "WhirlThreshold",
 }  # fmt: skip
 """Made by rotorfilm, not by its users."""
 
-SCALED = {"BallSupport", "ContactLaw", "MovingContact"}
+SCALED = {"BallSupport", "ContactLaw", "HeatedBearing", "MovingContact", "OwnReaction"}
 """Made by functions, from scales that these know."""
 
 

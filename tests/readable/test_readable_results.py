@@ -16,7 +16,7 @@ from scipy.integrate import BDF
 import rotorfilm
 from rotorfilm.bearings.bush import f4k20_bush
 from rotorfilm.charts.result_charts import PICTURES
-from rotorfilm.errors import AbsentError, InputError
+from rotorfilm.errors import AbsentError
 from rotorfilm.motion.periodic.continuation import Bifurcation
 from rotorfilm.readable.docstrings import explained
 from rotorfilm.readable.quantities import quantity
@@ -365,6 +365,3 @@ def test_a_bearing_with_openings_tells_its_film():
     assert made.fitted_film == grooved.fitted_film
     plain = rotorfilm.JournalBearing(**BEARING)
     assert "film=MapFilm()" in repr(plain)
-    film_state = importlib.import_module("rotorfilm.bearings.journal").film_state
-    with pytest.raises(InputError, match=r"film must be a ReynoldsFilm .* got GroovedMapFilm"):
-        film_state(grooved, [0.0, 0.0], [0.0, 0.0], 1.0)

@@ -120,7 +120,7 @@ class BushRing:
         r_o, above the bearing's radius r.
     conductivity : float [W/(m K)]
         k of the bush; 50 of steel.
-    transfer : float [W/(m^2 K)]
+    transfer : float [W/(m2 K)]
         h from the outside of the bush to its surroundings; 0 insulates it.
     ambient_temperature : float [K]
         Of the surroundings.
