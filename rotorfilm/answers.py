@@ -10,6 +10,9 @@ from typing import Any, NamedTuple
 ISOTHERMAL = "isothermal films"
 """`within` of what rests on a film of one temperature."""
 
+HEATED = "laminar films in the balance of their heat"
+"""`within` of what rests on a film of an oil whose temperature is found."""
+
 SAFETY = 1.5
 """An answer is accepted if so many times its estimated error is below the tolerance."""
 
@@ -71,6 +74,8 @@ class ErrorEstimate(NamedTuple):
         known to be too large.
     doubt : str
         Why the estimate must not be trusted; empty if it may.
+    shared : float [1]
+        Part of the error that all rungs have which share it; see `Rung.shares`.
     """
 
     error: float
@@ -78,6 +83,7 @@ class ErrorEstimate(NamedTuple):
     work: Work = {}  # noqa: RUF012  (never changed)
     bound: bool = False
     doubt: str = ""
+    shared: float = 0.0
 
 
 def beside_bound(error: float, bound: float, method: str, work: Work, doubt: str = "") -> ErrorEstimate:
@@ -111,6 +117,8 @@ class RungReport:
         Of the answer and of the estimate; work times the cost of its units.
     work : dict of str to int
         Of the answer, by the names of its units.
+    shared_error : float [1]
+        Part of the estimate that other rungs share.
     """
 
     name: str
@@ -124,6 +132,7 @@ class RungReport:
     cost: float | None = None
     estimate_cost: float | None = None
     work: dict[str, int] = field(default_factory=dict)
+    shared_error: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -158,6 +167,8 @@ class QuestionAnswer:
         Limits of the physics of all rungs, in dimensionless numbers.
     within : str
         The physics in which the tolerance is meant, such as "isothermal films".
+    assumptions : tuple of str
+        Figures that nobody gave and the answer rests on, and how much they move it.
     """
 
     quantity: str
@@ -175,6 +186,7 @@ class QuestionAnswer:
     rungs: tuple[RungReport, ...]
     remarks: tuple[str, ...]
     within: str = ""
+    assumptions: tuple[str, ...] = ()
 
     @property
     def message(self) -> str:

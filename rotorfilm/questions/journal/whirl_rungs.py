@@ -13,12 +13,13 @@ from ...errors import InputError, RotorfilmError
 from ...ladders import CandidateRung, Ladder
 from ...linear import coefficients, equilibrium, whirl_threshold
 from ...model import Array
-from ...results import Equilibrium
+from ...results import Coefficients, Equilibrium
 from ...scenes.counted import Counted
 from ...scenes.journal.film_defects import corrected
 from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.film_rungs import is_grid, point_films
 from ..walk import NoAnswerError
+from .heat_rungs import warm_films
 from .statics import film_units
 
 if TYPE_CHECKING:
@@ -72,7 +73,7 @@ class WhirlRung(CandidateRung[FilmRung]):
         bound = self._bound(at)
         if SAFETY * bound < tolerance:
             return ErrorEstimate(bound, "verified bound of the map", {self.film.tangents: 15}, bound=True)
-        moved = corrected(self.film, at, np.array(self.load), smooth=True)
+        moved = corrected(self.film_at(at), at, np.array(self.load), smooth=True)
         cheap = coefficients(self.film.reaction, at.position, at.speed)
         own = self._matrix(cheap.stiffness, cheap.damping)
         other = self._matrix(-moved.slopes[:, :2], -moved.slopes[:, 2:])
@@ -85,6 +86,15 @@ class WhirlRung(CandidateRung[FilmRung]):
         work = {self.film.defects(smooth=True): 1, self.film.tangents: 15}
         method = f"defect of {self.film.rich_name}, eigenvalue perturbation"
         return ErrorEstimate(error, method, work, bound=self.film.bounded, doubt=doubt)
+
+    def film_at(self, at: Equilibrium) -> FilmRung:
+        """Return the film at one equilibrium."""
+        return self.film
+
+    def change(self, own: Coefficients, other: Coefficients) -> float:
+        """Return how much other coefficients at the threshold change its speed [1], for what it does to growth."""
+        pair = (self._matrix(one.stiffness, one.damping) for one in (own, other))
+        return abs(growths(*pair)[1] / self._slope(own.speed)) / own.speed
 
     def _bound(self, at: Equilibrium) -> float:
         """Return the error [1] that the worst K and C within the verified bound would make."""
@@ -148,6 +158,8 @@ def whirl_ladder(scene: Scene, quantity: str) -> Ladder:
         raise InputError(f"rigid_rotor is required for {quantity}, got no such table")
     films = point_films(scene.bearing, fixed=scene.film_is_given)
     mass = scene.rigid_rotor.mass
+    if scene.bearing.is_warming:
+        return warm_whirl_ladder(scene, warm_films(films, scene.bearing), mass)
     return Ladder(
         rungs=tuple(WhirlRung(film=film, load=scene.static_load, mass=mass) for film in films),
         unit="rad/s",

@@ -23,8 +23,8 @@ from ...results import Coefficients, Equilibrium
 STEEL_CONDUCTIVITY = 50.0
 """Of the bush that a scene leaves open [W/(m K)]."""
 
-STEP_PROFILE, STEP_CELLS = LayeredTemperature(8), (80, 4)
-"""Layers and cells of a step."""
+STEP_PROFILE, STEP_CELLS = LayeredTemperature(8), (80, 8)
+"""Layers and cells of a step; the cells are those of the rungs with a temperature field."""
 
 
 @dataclass(frozen=True, kw_only=True)
