@@ -21,7 +21,8 @@ from ...scenes.excitation_table import BladeLossTable
 from ...scenes.journal.film_rung import MAP_BOUNDS, FilmRung
 from ...scenes.journal.warm_rest import WarmRest
 from ..peak_rung import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
-from .heat_rungs import HeatedQuestion, thermal_ladder, uniform_rungs, warm_films
+from .field_rungs import HeatedQuestion
+from .heat_rungs import thermal_ladder
 from .unbalance_orbits import film_batch_units, orbit_films, require_one_unbalance
 
 if TYPE_CHECKING:
@@ -137,7 +138,7 @@ def blade_loss_ladder(scene: Scene, quantity: str) -> Ladder:
         excitation=scene.excitation,
     )
     if scene.bearing.is_warming:
-        return warm_blade_ladder(scene, warm_films(films, scene.bearing), make)
+        return warm_blade_ladder(scene, films, make)
     rungs = [make(film=film, steps=steps) for film in films for steps in (0, *STEPS)]
     if any(film.makes_map for film in films[:-1]):
         # A linear motion takes so few forces that no map is worth it.
@@ -173,4 +174,4 @@ def warm_blade_ladder(
         )
         for steps in (0, *STEPS)
     )
-    return thermal_ladder(scene, questions[0], uniform_rungs(films, questions), "m")
+    return thermal_ladder(scene, films, questions, "m")

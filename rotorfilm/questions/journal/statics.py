@@ -22,7 +22,8 @@ from ...scenes.journal.film_defects import corrected, one_defect
 from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.film_rungs import point_films
 from ...scenes.journal.warm_rest import WarmRest
-from .heat_rungs import HeatedQuestion, thermal_ladder, uniform_rungs, warm_films
+from .field_rungs import HeatedQuestion
+from .heat_rungs import thermal_ladder
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
@@ -207,7 +208,6 @@ def static_ladder(scene: Scene, quantity: str) -> Ladder:
 
 def warm_static_ladder(scene: Scene, quantity: str, films: tuple[FilmRung, ...]) -> Ladder:
     """Return the ladder of a static quantity of a journal bearing on an oil."""
-    films = warm_films(films, scene.bearing)
 
     def apart(own: WarmRest, other: WarmRest) -> float:
         pair = rest_value(quantity, own), rest_value(quantity, other)
@@ -224,8 +224,7 @@ def warm_static_ladder(scene: Scene, quantity: str, films: tuple[FilmRung, ...])
         value=lambda own: rest_value(quantity, own),
         peak=quantity == PEAK,
     )
-    rungs = uniform_rungs(films, (question,), fresh=quantity not in TEMPERATURES)
-    return thermal_ladder(scene, question, rungs, UNITS[quantity])
+    return thermal_ladder(scene, films, (question,), UNITS[quantity], fresh=quantity not in TEMPERATURES)
 
 
 def rest_value(quantity: str, own: WarmRest) -> Array | float:

@@ -30,7 +30,8 @@ from ...scenes.journal.film_rung import MAP_BOUNDS, FilmRung
 from ...scenes.journal.film_rungs import turn_films
 from ...scenes.journal.warm_rest import WarmRest
 from ..orbit_place import UNITS, WALL, OrbitPlace, SolvedTurn
-from .heat_rungs import HeatedQuestion, thermal_ladder, uniform_rungs, warm_films
+from .field_rungs import HeatedQuestion
+from .heat_rungs import thermal_ladder
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
@@ -197,7 +198,6 @@ def warm_orbit_ladder(
 
     What a richer level of heat would change is taken of the linear orbit.
     """
-    films = warm_films(films, scene.bearing)
 
     def rung(film: FilmRung, samples: int = 0) -> OrbitRung:
         return OrbitRung(film=film, quantity=quantity, rotor=rotor, samples=samples)
@@ -212,7 +212,7 @@ def warm_orbit_ladder(
         )
         for n in (0, *SAMPLES)
     )
-    return thermal_ladder(scene, questions[0], uniform_rungs(films, questions), UNITS[quantity])
+    return thermal_ladder(scene, films, questions, UNITS[quantity])
 
 
 def orbit_films(scene: Scene) -> tuple[FilmRung, ...]:

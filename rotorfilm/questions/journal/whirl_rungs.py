@@ -19,7 +19,6 @@ from ...scenes.journal.film_defects import corrected
 from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.film_rungs import is_grid, point_films
 from ..walk import NoAnswerError
-from .heat_rungs import warm_films
 from .statics import film_units
 
 if TYPE_CHECKING:
@@ -159,7 +158,10 @@ def whirl_ladder(scene: Scene, quantity: str) -> Ladder:
     films = point_films(scene.bearing, fixed=scene.film_is_given)
     mass = scene.rigid_rotor.mass
     if scene.bearing.is_warming:
-        return warm_whirl_ladder(scene, warm_films(films, scene.bearing), mass)
+        # Found late: its rungs are made of the one above.
+        from .warm_whirl import warm_whirl_ladder
+
+        return warm_whirl_ladder(scene, films, mass)
     return Ladder(
         rungs=tuple(WhirlRung(film=film, load=scene.static_load, mass=mass) for film in films),
         unit="rad/s",
