@@ -142,12 +142,12 @@ def warm_films(films: tuple[FilmRung, ...], bearing: JournalBearing) -> tuple[Fi
     return known
 
 
-def known_films(scene: Scene, films: tuple[FilmRung, ...]) -> tuple[FilmRung, ...]:
+def known_films(films: tuple[FilmRung, ...]) -> tuple[FilmRung, ...]:
     """Return the films whose losses, which heat the oil, are known; InputError where there is none."""
     known = tuple(film for film in films if has_losses(film.reaction))
     if known:
         return known
-    name = film_name(scene.bearing.fitted_film)
+    name = film_name(films[0].reaction.fitted_film)
     raise InputError(f"film must be a law with losses for an oil that warms, as map or reynolds, got {name}")
 
 
@@ -177,7 +177,7 @@ def thermal_ladder(
     InputError
         If no film has losses, which heat the oil.
     """
-    known = known_films(scene, films)
+    known = known_films(films)
     # with the cheapest film: that of the scene might have to make a map first
     quick, question = known[0].reaction, questions[0]
     uniform = tuple(

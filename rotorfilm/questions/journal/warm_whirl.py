@@ -133,7 +133,7 @@ def moving_heat(bearing: JournalBearing, speed: float) -> float:
 
 def warm_whirl_ladder(scene: Scene, films: tuple[FilmRung, ...], mass: float) -> Ladder:
     """Return the ladder of the whirl threshold of a journal on an oil: T0 and T1."""
-    known = known_films(scene, films)
+    known = known_films(films)
     rungs = []
     for level in (FRESH, BALANCED):
         for warm in known:

@@ -51,6 +51,11 @@ def assumed_figures(
     return tuple(lines)
 
 
+def assumed_names(bearing: JournalBearing) -> tuple[str, ...]:
+    """Return which figures of a bearing on an oil are assumed."""
+    return tuple(text for text, _ in _varied(bearing))
+
+
 def _varied(bearing: JournalBearing) -> Iterator[tuple[str, list[JournalBearing]]]:
     """Yield each assumption, and the bearings that it might be as well."""
     oil, cooling = bearing.cooled
