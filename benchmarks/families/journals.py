@@ -180,7 +180,7 @@ def static_truth(scene: Scene, film: MapFilm | None, floor: float, slope_floor: 
     rung = FilmRung(name="", reaction=bearing, rich=bearing, rich_name="", position_prior=0.0, prior=0.0)
     made = StaticRung(film=rung, quantity=quantity, load=scene.static_load, speed=scene.speed)
     gap = at.minimum_film / bearing.clearance
-    return Truth(made.scalar(at.position), floor / (gap if quantity == "minimum_film" else 1.0))
+    return Truth(made.scalar(at.position, bearing), floor / (gap if quantity == "minimum_film" else 1.0))
 
 
 def whirl_by_map(scene: Scene) -> Truth:

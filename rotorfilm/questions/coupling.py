@@ -204,8 +204,8 @@ def _kept(case: CouplingCase) -> tuple[str, ...]:
     if temperature is None:
         return ()
     return (
-        f"heat: the film keeps the temperature of its rest, {temperature - CELSIUS:.4g} degC; the coupling of "
-        "the temperature, which is slow, is not judged",
+        f"heat: the film keeps the temperature of its rest, {temperature - CELSIUS:.4g} degC; the coupling "
+        "of the temperature, which is slow, is not judged",
     )
 
 

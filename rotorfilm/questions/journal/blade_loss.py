@@ -165,11 +165,14 @@ def warm_blade_ladder(
         before, after = (rung.answer(None).value for rung in rests)
         return abs(after - before) / after
 
+    def stepped(steps: int, film: FilmRung) -> BladeLossRung:
+        return make(film=film, steps=steps)
+
     questions = tuple(
         HeatedQuestion(
             load=scene.static_load,
             speed=scene.speed,
-            make=lambda film, steps=steps: make(film=film, steps=steps),
+            make=partial(stepped, steps),
             apart=apart,
         )
         for steps in (0, *STEPS)

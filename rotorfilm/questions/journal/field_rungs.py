@@ -1,7 +1,7 @@
 """Rungs of a journal on a film with a temperature field: T2 over it, T3 over and across it.
 
-Questions about a rest have their value there; those about a motion are answered on the film of T3, which keeps
-the temperature of the rest.
+Questions about a rest have their value there; those about a motion are answered on the film of T3, which
+keeps the temperature of the rest.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from ...answers import ErrorEstimate, Found, Work, WorkUnit
+from ...answers import ErrorEstimate, Found, WorkUnit
 from ...bearings.journal import HeatedFilm, JournalBearing, LayeredTemperature, MeanTemperature
 from ...ladders import BaseRung, Rung
 from ...scenes.journal.film_rung import FilmRung

@@ -33,7 +33,12 @@ BALANCES = 60
 
 @dataclass(frozen=True, eq=False)
 class HeatLevel:
-    """T0 or T1: rungs of one level share the error of its heat."""
+    """T0 or T1: rungs of one level share the error of its heat.
+
+    Attributes
+    ----------
+    name : str
+    """
 
     name: str
 
@@ -138,7 +143,9 @@ def warm_films(films: tuple[FilmRung, ...], bearing: JournalBearing) -> tuple[Fi
     known = tuple(film for film in films if has_losses(film.reaction))
     if not known:
         name = film_name(bearing.fitted_film)
-        raise InputError(f"film must be a law with losses for a journal on an oil, as map or reynolds, got {name}")
+        raise InputError(
+            f"film must be a law with losses for a journal on an oil, as map or reynolds, got {name}"
+        )
     return known
 
 

@@ -147,8 +147,8 @@ class StaticRung(CandidateRung[FilmRung]):
 def relative_distance(quantity: str, value: Array | float, better: Array | float, supply: float) -> float:
     """Return how far a value is from a better one, in the unit of the tolerance.
 
-    Relative to the largest entry of the better one, of an angle in radians, of a temperature to its rise above
-    that of the supply [K].
+    Relative to the largest entry of the better one, of an angle in radians, of a temperature to its rise
+    above that of the supply [K].
     """
     gap = float(np.max(np.abs(np.asarray(better) - value)))
     if quantity in TEMPERATURES:

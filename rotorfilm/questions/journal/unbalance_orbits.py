@@ -191,9 +191,7 @@ def orbit_ladder(scene: Scene, quantity: str) -> Ladder:
     )
 
 
-def warm_orbit_ladder(
-    scene: Scene, quantity: str, rotor: RigidRotor, films: tuple[FilmRung, ...]
-) -> Ladder:
+def warm_orbit_ladder(scene: Scene, quantity: str, rotor: RigidRotor, films: tuple[FilmRung, ...]) -> Ladder:
     """Return the ladder of an orbit on an oil, which keeps the temperature that it has at rest.
 
     What a richer level of heat would change is taken of the linear orbit.
@@ -207,9 +205,7 @@ def warm_orbit_ladder(
         return rung(films[0]).place.change(*values)
 
     questions = tuple(
-        HeatedQuestion(
-            load=scene.static_load, speed=scene.speed, make=partial(rung, samples=n), apart=apart
-        )
+        HeatedQuestion(load=scene.static_load, speed=scene.speed, make=partial(rung, samples=n), apart=apart)
         for n in (0, *SAMPLES)
     )
     return thermal_ladder(scene, films, questions, UNITS[quantity])

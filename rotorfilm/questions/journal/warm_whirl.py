@@ -1,4 +1,4 @@
-"""At which speed a rigid rotor begins to whirl on an oil: the film at each speed as warm as its rest makes it."""
+"""At which speed a rigid rotor begins to whirl on an oil: the film as warm as its rest at each speed."""
 
 from __future__ import annotations
 
@@ -15,9 +15,10 @@ from ...linear import whirl_threshold
 from ...results import Equilibrium, WhirlThreshold
 from ...scenes.journal.assumed import assumed_figures
 from ...scenes.journal.film_rung import FilmRung
+from ...scenes.journal.film_rungs import point_films
 from ...scenes.journal.warm_rest import step, uniform_rest
 from .heat_rungs import BALANCED, BALANCES, FRESH, HeatLevel, known_films
-from .whirl_rungs import AROUND, WhirlRung
+from .whirl_rungs import AROUND, WhirlRung, whirl_ladder
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
@@ -89,7 +90,10 @@ class WarmWhirlRung(WhirlRung):
         fresh = self.level is FRESH
         try:
             own = uniform_rest(
-                self.bearing, self.load, at.speed, self.bearing.cooled[1].supply_temperature if fresh else None
+                self.bearing,
+                self.load,
+                at.speed,
+                self.bearing.cooled[1].supply_temperature if fresh else None,
             )
             if fresh:
                 place = own.rest.position, np.zeros(2), at.speed
@@ -131,8 +135,17 @@ def moving_heat(bearing: JournalBearing, speed: float) -> float:
     return MOVING * (peclet / PECLET) ** POWER
 
 
-def warm_whirl_ladder(scene: Scene, films: tuple[FilmRung, ...], mass: float) -> Ladder:
-    """Return the ladder of the whirl threshold of a journal on an oil: T0 and T1."""
+def journal_whirl_ladder(scene: Scene, quantity: str) -> Ladder:
+    """Return the ladder of the whirl threshold: of an oil T0 and T1, else by one viscosity.
+
+    Raises
+    ------
+    InputError
+        If the scene has no rigid rotor.
+    """
+    if scene.rigid_rotor is None or not scene.bearing.is_warming:
+        return whirl_ladder(scene, quantity)
+    mass, films = scene.rigid_rotor.mass, point_films(scene.bearing, fixed=scene.film_is_given)
     known = known_films(films)
     rungs = []
     for level in (FRESH, BALANCED):

@@ -91,7 +91,7 @@ class WhirlRung(CandidateRung[FilmRung]):
         return self.film
 
     def change(self, own: Coefficients, other: Coefficients) -> float:
-        """Return how much other coefficients at the threshold change its speed [1], for what it does to growth."""
+        """Return how much other coefficients at the threshold change its speed [1], by the growth they bring."""
         pair = (self._matrix(one.stiffness, one.damping) for one in (own, other))
         return abs(growths(*pair)[1] / self._slope(own.speed)) / own.speed
 
@@ -157,11 +157,6 @@ def whirl_ladder(scene: Scene, quantity: str) -> Ladder:
         raise InputError(f"rigid_rotor is required for {quantity}, got no such table")
     films = point_films(scene.bearing, fixed=scene.film_is_given)
     mass = scene.rigid_rotor.mass
-    if scene.bearing.is_warming:
-        # Found late: its rungs are made of the one above.
-        from .warm_whirl import warm_whirl_ladder
-
-        return warm_whirl_ladder(scene, films, mass)
     return Ladder(
         rungs=tuple(WhirlRung(film=film, load=scene.static_load, mass=mass) for film in films),
         unit="rad/s",

@@ -1,9 +1,10 @@
-"""Flexible rotors on films of an oil: films at the temperatures of the rotor's rest, and how far that is off."""
+"""Flexible rotors on films of an oil: the films as warm as the rotor's rest, and how far that is off."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 from ...answers import HEATED, ErrorEstimate, Found, Work, WorkUnit
 from ...bearings.journal import JournalBearing
@@ -18,8 +19,8 @@ from .shaft_films import ShaftFilms
 
 
 @dataclass(frozen=True, eq=False)
-class ShaftHeat:
-    """What the heat of the films leaves open, of all rungs of a ladder.
+class RotorHeat:
+    """What the heat of the films leaves open in all rungs of a ladder.
 
     Attributes
     ----------
@@ -27,7 +28,7 @@ class ShaftHeat:
         Takes an answer and returns its error by heat [1].
     """
 
-    error: Callable[[Rung, Found], float]
+    error: Callable[[Any, Found], float]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,11 +39,11 @@ class WarmShaftRung(BaseRung):
     ----------
     rung : Rung
         Of the rotor.
-    heat : ShaftHeat
+    heat : RotorHeat
     """
 
     rung: Rung
-    heat: ShaftHeat
+    heat: RotorHeat
 
     @property
     def name(self) -> str:
@@ -82,12 +83,12 @@ class WarmShaftRung(BaseRung):
 
 
 def warm_rungs(
-    rungs: tuple[Rung, ...], films: ShaftFilms, error: Callable[[Rung, Found], float]
+    rungs: tuple[Rung, ...], films: ShaftFilms, error: Callable[[Any, Found], float]
 ) -> tuple[Rung, ...]:
     """Return the rungs of a rotor, with the error by heat where one of its films is of an oil."""
     if not films.on_oil:
         return rungs
-    heat = ShaftHeat(error)
+    heat = RotorHeat(error)
     return tuple(WarmShaftRung(rung=rung, heat=heat) for rung in rungs)
 
 
@@ -97,7 +98,7 @@ def warm_physics(films: ShaftFilms, bearings: Mapping[str, Reaction]) -> str:
 
 
 def shaft_assumptions(films: ShaftFilms) -> tuple[str, ...]:
-    """Return which figures of the oil and its cooling are assumed; how much they move a rotor is not known."""
+    """Return which figures of the oil and its cooling are assumed; how much they do is not known."""
     lines = {
         f"{text}: how much that moves the answer is not known for a shaft"
         for name in films.on_oil

@@ -208,7 +208,7 @@ def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
         for films in levels
         for model, samples in _choices(models, nonlinear=bool(films.journals))
     )
-    heat = cache(rungs[0].heat_error)
+    heat = cache(rungs[0].heat_error)  # of the linear orbit, that of all rungs
     return Ladder(
         rungs=warm_rungs(rungs, levels[0], lambda rung, found: heat()),
         unit=UNITS[quantity],

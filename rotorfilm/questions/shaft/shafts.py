@@ -267,7 +267,7 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
     ]
     films = levels[0]
     return Ladder(
-        rungs=warm_rungs(tuple(rungs), films, lambda rung, found: rung.heat_error(found)),
+        rungs=warm_rungs(tuple(rungs), films, ShaftRung.heat_error),
         unit="rad/s",
         remarks=shaft_remarks(rotor, bearings, scene.lubricant.properties, float(speeds[-1])),
         within=warm_physics(films, bearings),

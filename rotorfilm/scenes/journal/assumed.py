@@ -61,30 +61,25 @@ def _varied(bearing: JournalBearing) -> Iterator[tuple[str, list[JournalBearing]
     oil, cooling = bearing.cooled
     default = Cooling(supply_temperature=cooling.supply_temperature)
 
-    def cooled(**other: object) -> JournalBearing:
-        return replace(bearing, cooling=replace(cooling, **other))
-
     for text in oil.assumed:
         yield text, [replace(bearing, oil=thinner_when_hot(oil))]
     if bearing.geometry.openings() and cooling.carry_over == default.carry_over:
         low, high = CARRIED
         text = f"carry_over of the grooves: {cooling.carry_over:g}, in use are {low:g} to {high:g}"
-        yield text, [cooled(carry_over=one) for one in CARRIED]
+        yield text, [replace(bearing, cooling=replace(cooling, carry_over=one)) for one in CARRIED]
     if cooling.housing_conductance == 0.0:
         given = ring_conductance(bearing.radius, bearing.length)
         text = f"housing: takes no heat, {HOUSING}, would take {given:.3g} W/K"
-        yield text, [cooled(housing_conductance=given)]
+        yield text, [replace(bearing, cooling=replace(cooling, housing_conductance=given))]
     if not cooling.full_gap:
         text = "oil where the film is ruptured: in streamers, not in the full gap"
-        yield text, [cooled(full_gap=True)]
+        yield text, [replace(bearing, cooling=replace(cooling, full_gap=True))]
 
 
 def thinner_when_hot(oil: Oil) -> Oil:
     """Return an oil as viscous at 40 degrees Celsius, and by `SPREAD` less at 100."""
     warm, hot = (float(oil.viscosity(T) / oil.density(T)) for T in (WARM, HOT))
-    other = Oil.two_points(
-        (WARM, warm), (HOT, (1.0 - SPREAD) * hot), reference_density=oil.reference_density
-    )
+    other = Oil.two_points((WARM, warm), (HOT, (1.0 - SPREAD) * hot), reference_density=oil.reference_density)
     return replace(oil, law=other.law)
 
 

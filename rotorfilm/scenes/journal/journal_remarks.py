@@ -164,7 +164,7 @@ def film_remarks(
 
     Of a bearing whose oil warms it is said of the film at its temperature, and heat is not left out.
     """
-    remarks = REMARKS
+    remarks: tuple[Remark, ...] = REMARKS
     if bearing.is_warming:
         remarks = tuple(remark for remark in REMARKS if remark.number not in ("thinning", "unknown"))
         bearing = _warmed(bearing, speed, load)

@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...bearings.journal import BushRing, HeatedFilm, HeatedState, JournalBearing, LayeredTemperature, Walls
-from ...bearings.journal.heat.field.heated_state import volumetric_heat
 from ...bearings.oil.cooling import RING
 from ...linear import coefficients, equilibrium, heated_equilibrium
 from ...model import Reaction
@@ -134,8 +133,9 @@ def step(bearing: JournalBearing, before: WarmRest) -> WarmRest:
 
 
 def _of_state(bearing: JournalBearing, at: Equilibrium, film: Reaction, state: HeatedState) -> WarmRest:
-    supply, flow = bearing.cooled[1].supply_temperature, state.side_flow
-    carried = state.heat.leaked / (volumetric_heat(bearing) * flow) if flow > 0.0 else math.nan
+    (oil, cooling), flow = bearing.cooled, state.side_flow
+    supply = cooling.supply_temperature
+    carried = state.heat.leaked / (float(oil.volumetric_heat(supply)) * flow) if flow > 0.0 else math.nan
     return WarmRest(
         rest=at,
         reaction=film,
