@@ -91,7 +91,7 @@ class WhirlRung(CandidateRung[FilmRung]):
         return self.film
 
     def change(self, own: Coefficients, other: Coefficients) -> float:
-        """Return how much other coefficients at the threshold change its speed [1], by the growth they bring."""
+        """Return how much other coefficients at the threshold change its speed [1], by their growth."""
         pair = (self._matrix(one.stiffness, one.damping) for one in (own, other))
         return abs(growths(*pair)[1] / self._slope(own.speed)) / own.speed
 
