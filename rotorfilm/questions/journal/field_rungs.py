@@ -43,6 +43,8 @@ class HeatedQuestion:
         The quantity of a rest; None where it takes more than a rest, which has no rungs with a field.
     peak : bool
         Whether it is the peak temperature.
+    least : float [1]
+        Error of T2 that a step may not see.
     """
 
     load: tuple[float, float]
@@ -51,6 +53,7 @@ class HeatedQuestion:
     apart: Apart
     value: Callable[[WarmRest], Any] | None = None
     peak: bool = False
+    least: float = 0.0
 
 
 class FieldSolution(NamedTuple):
@@ -121,7 +124,7 @@ class FieldRung(BaseRung):
         if self.layers:
             return ErrorEstimate(grid, method, done)
         share = PEAK_SHARE if question.peak else STEP_SHARE
-        heat = share * question.apart(own, step(self.bearing, own))
+        heat = max(share * question.apart(own, step(self.bearing, own)), question.least)
         return ErrorEstimate(grid + heat, f"{method}; heat: one solution of T3, {heat:.2g}", done)
 
     def _coarser(self, before: Found | None) -> WarmRest:

@@ -32,6 +32,8 @@ ANGLE, MATRIX = "attitude_angle", {"stiffness": 0, "damping": 2}
 LOSSES = {"power_loss": "W", "side_flow": "m^3/s"}
 PEAK = "maximum_temperature"
 TEMPERATURES = {"temperature": "K", PEAK: "K"}
+CANCELLED = 0.02
+"""Power, flow and temperature rise that T2 misses where a step sees warmer oil and thinner film cancel."""
 UNITS = {
     "eccentricity_ratio": "1",
     "minimum_film": "m",
@@ -223,6 +225,7 @@ def warm_static_ladder(scene: Scene, quantity: str, films: tuple[FilmRung, ...])
         apart=apart,
         value=lambda own: rest_value(quantity, own),
         peak=quantity == PEAK,
+        least=CANCELLED if quantity in {*LOSSES, *TEMPERATURES} else 0.0,
     )
     return thermal_ladder(scene, films, (question,), UNITS[quantity], fresh=quantity not in TEMPERATURES)
 
