@@ -12,6 +12,9 @@ from .readable.result import Drawable, Readable
 ISOTHERMAL = "isothermal films"
 """`within` of what rests on a film of one temperature."""
 
+HEATED = "laminar films in the balance of their heat"
+"""`within` of what rests on a film of an oil whose temperature is found."""
+
 SAFETY = 1.5
 """An answer is accepted if so many times its estimated error is below the tolerance."""
 
@@ -73,6 +76,8 @@ class ErrorEstimate(NamedTuple):
         known to be too large.
     doubt : str
         Why the estimate must not be trusted; empty if it may.
+    shared : float [1]
+        Part of the error that all rungs have which share it; see `Rung.shares`.
     """
 
     error: float
@@ -80,6 +85,7 @@ class ErrorEstimate(NamedTuple):
     work: Work = {}  # noqa: RUF012  (never changed)
     bound: bool = False
     doubt: str = ""
+    shared: float = 0.0
 
 
 def beside_bound(error: float, bound: float, method: str, work: Work, doubt: str = "") -> ErrorEstimate:
@@ -113,6 +119,8 @@ class RungReport(Readable):
         Of the answer and of the estimate; work times the cost of its units.
     work : dict of str to int
         Of the answer, by the names of its units.
+    shared_error : float [1]
+        Part of the estimate that other rungs share.
     """
 
     name: str
@@ -126,6 +134,7 @@ class RungReport(Readable):
     cost: float | None = None
     estimate_cost: float | None = None
     work: dict[str, int] = field(default_factory=dict)
+    shared_error: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -160,6 +169,8 @@ class QuestionAnswer(Drawable):
         Limits of the physics of all rungs, in dimensionless numbers.
     within : str
         The physics in which the tolerance is meant, such as "isothermal films".
+    assumptions : tuple of str
+        Figures that nobody gave and the answer rests on, and how much they move it.
     """
 
     quantity: str
@@ -177,6 +188,7 @@ class QuestionAnswer(Drawable):
     rungs: tuple[RungReport, ...]
     remarks: tuple[str, ...]
     within: str = ""
+    assumptions: tuple[str, ...] = ()
 
     _along: ClassVar[str] = "rungs"
 

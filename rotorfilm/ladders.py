@@ -50,6 +50,10 @@ class Rung(Protocol):
     def refines(self) -> tuple[object, ...]:
         """What its steps refine: rungs of the same objects differ in nothing else. Empty without steps."""
 
+    @property
+    def shares(self) -> object:
+        """What its error has a part of: rungs of the same object have the same part. None without."""
+
     def answer(self, before: Found | None) -> Found:
         """Return its answer, from that of a lower rung or alone; raises RotorfilmError where it has none.
 
@@ -81,6 +85,11 @@ class BaseRung:
     def refines(self) -> tuple[object, ...]:
         """No steps."""
         return ()
+
+    @property
+    def shares(self) -> object:
+        """No part of the error."""
+        return None
 
     @property
     def unit(self) -> WorkUnit:
@@ -133,6 +142,8 @@ class Ladder:
         What the physics of all rungs leaves out and should not.
     within : str
         The physics that all rungs share, in which the tolerance is meant; may be empty.
+    assumptions : callable
+        Returns which figures are assumed, and how much they move the answer; asked once it is there.
     """
 
     rungs: tuple[Rung, ...]
@@ -140,3 +151,4 @@ class Ladder:
     units: Mapping[WorkUnit, Callable[[], object]] = field(default_factory=dict)
     remarks: tuple[str, ...] = ()
     within: str = ""
+    assumptions: Callable[[], tuple[str, ...]] = tuple

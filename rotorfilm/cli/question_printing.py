@@ -30,6 +30,9 @@ def print_question(title: str, answer: QuestionAnswer, *, explain: bool) -> None
     if explain:
         screen.print("", _ladder(answer))
         _print_reasons(screen, answer)
+    if answer.assumptions:
+        rows = [("", line) for line in answer.assumptions]
+        screen.print("", filled(plain_table("assumed, as nobody gave it", show_header=False), rows))
 
 
 def _summary(answer: QuestionAnswer) -> list[tuple[str, str]]:

@@ -125,7 +125,7 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
     """Return the equilibrium at the temperature at which the heat balances.
 
     A warmer film is thinner and leaks more: the temperature of the balance falls while that of the film
-    rises, so that there is one root, between the coldest film and what that one warms to.
+    rises, so that there is one root, between the coldest film and about what that one warms to.
     """
     if bearing.balanced() is not None:
         at = equilibrium(bearing.balanced(), load, speed)
@@ -144,6 +144,9 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
     low = bearing.coldest()
     rise = excess(low)
     if rise > 0.0:
+        # Openings make the temperature of the balance rise a little with that of the film.
+        while excess(low + rise) > 0.0:
+            rise *= 2.0
         low = brentq(excess, low, low + rise, xtol=_KELVIN, rtol=8.9e-16)
     at, _ = warmed[low]
     steps = sum(one.iterations for one, _ in warmed.values())

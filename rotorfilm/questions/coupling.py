@@ -21,6 +21,7 @@ from ..model import Reaction
 from ..rotors import RigidRotor
 from ..scenes.journal.film_rungs import with_film
 from ..scenes.journal.packaged_map import has_map
+from ..units import CELSIUS
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -166,7 +167,7 @@ def coupling_ladder(scene: Scene, quantity: str) -> Ladder:
         rungs=tuple(rungs),
         unit="1",
         units=_units(case),
-        remarks=() if scene.journal is None else scene.film_remarks,
+        remarks=() if scene.journal is None else (*_kept(case), *scene.film_remarks),
         within=ISOTHERMAL,
     )
 
@@ -190,9 +191,23 @@ def _case(scene: Scene, quantity: str) -> CouplingCase:
     if not (scene.film_is_given or has_map(film)):
         # A map of its own takes some seconds, and the coupling hardly depends on the film.
         film, name = with_film(film, ReynoldsFilm(cells=CELLS)), f"2-D {CELLS[0]} x {CELLS[1]}"
-    x, y = equilibrium(film, load, scene.speed).position.tolist()
+    at = equilibrium(film, load, scene.speed)
+    if at.temperature is not None:
+        film = film.at_temperature(at.temperature)
+    x, y = at.position.tolist()
     rotor = replace(scene.rigid_rotor.build(scene.speed, load), position=(x, y))
     return CouplingCase(rotor=rotor, reaction=film, revolutions=turns, film=name)
+
+
+def _kept(case: CouplingCase) -> tuple[str, ...]:
+    """Return that a film of an oil keeps the temperature of the rest."""
+    temperature = getattr(case.reaction, "temperature", None)
+    if temperature is None:
+        return ()
+    return (
+        f"heat: the film keeps the temperature of its rest, {temperature - CELSIUS:.4g} degC; the coupling "
+        "of the temperature, which is slow, is not judged",
+    )
 
 
 def _units(case: CouplingCase) -> dict[WorkUnit, Callable[[], object]]:

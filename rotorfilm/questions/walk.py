@@ -109,7 +109,11 @@ def walk(quantity: str, ladder: Ladder, tolerance: float) -> QuestionAnswer:
     for rung in ladder.rungs:
         if reports and reports[-1].verdict == "chosen":
             break
-        idle = _refused_more_accurate(rung, reports) or _refined_in_vain(rung, ladder, reports)
+        idle = (
+            _refused_more_accurate(rung, reports)
+            or _refined_in_vain(rung, ladder, reports)
+            or _shared_in_vain(rung, ladder, reports, tolerance)
+        )
         if idle:
             reports.append(RungReport(name=rung.name, verdict="skipped", reason=idle))
             continue
@@ -154,6 +158,7 @@ def _tried(rung: Rung, before: Found | None, meter: Meter, tolerance: float) -> 
         cost=cost,
         estimate_cost=estimate_cost,
         work={unit.name: count for unit, count in found.work.items()},
+        shared_error=about.shared,
     )
     return report, found
 
@@ -184,6 +189,17 @@ def _refined_in_vain(rung: Rung, ladder: Ladder, reports: Sequence[RungReport]) 
     if abs(before - after) > STALLED * after:
         return None
     return f"finer steps do not help: {known[0].name} is off by {before:.2g}, {known[1].name} by {after:.2g}"
+
+
+def _shared_in_vain(
+    rung: Rung, ladder: Ladder, reports: Sequence[RungReport], tolerance: float
+) -> str | None:
+    """Return why a rung cannot do: the part of the error that it shares with another is too large."""
+    for other, report in zip(ladder.rungs, reports, strict=False):
+        same = rung.shares is not None and other.shares is rung.shares
+        if same and SAFETY * report.shared_error >= tolerance:
+            return f"shares an error of {report.shared_error:.2g} with {report.name}"
+    return None
 
 
 def _refines_the_same(rung: Rung, other: Rung) -> bool:
@@ -226,6 +242,7 @@ def _answer(
         rungs=(*reports, *waiting),
         remarks=ladder.remarks,
         within=ladder.within,
+        assumptions=ladder.assumptions(),
     )
 
 

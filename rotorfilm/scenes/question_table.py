@@ -18,6 +18,8 @@ QUANTITIES = {
     "damping": "C of a film at its equilibrium [N s/m]",
     "power_loss": "heat made in a film at its equilibrium [W]",
     "side_flow": "oil that leaves a film at both ends at its equilibrium [m3/s]",
+    "temperature": "of the oil that leaves a film of an oil at its equilibrium, in the mean [K]",
+    "maximum_temperature": "highest in a film of an oil at its equilibrium [K]",
     "whirl_threshold": "speed at which the rotor begins to whirl [rad/s]",
     "critical_speed": "first critical speed of a rotor, or speed at which a bush melts [rad/s]",
     "unbalance_amplitude": "largest semi-axis of the synchronous orbit [m]",
@@ -55,7 +57,7 @@ class QuestionTable:
         A key of `QUANTITIES`.
     tolerance : float [1]
         Largest error allowed, relative to the quantity; of a matrix to its largest entry, of the error of a
-        co-simulation to the clearance, of an angle to 1 rad.
+        co-simulation to the clearance, of an angle to 1 rad, of a temperature to its rise above the supply.
     at : str
         Of a flexible rotor: bearing or probe that is asked about, the one that moves most unless given.
     """

@@ -17,6 +17,7 @@ class Made:
     """A rung with a given error and work."""
 
     refines = ()
+    shares = None
 
     def __init__(self, name, error, prior=0.0, work=1, doubt="", fails=False):
         self.name, self.error, self.prior, self.work, self.doubt, self.fails = (

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,7 +19,10 @@ from ...motion.transient.shaken_rotor import RestTangent, ShakenRotor, states_al
 from ...results import Coefficients
 from ...scenes.excitation_table import BladeLossTable
 from ...scenes.journal.film_rung import MAP_BOUNDS, FilmRung
+from ...scenes.journal.warm_rest import WarmRest
 from ..peak_rung import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
+from .field_rungs import HeatedQuestion
+from .heat_rungs import thermal_ladder
 from .unbalance_orbits import film_batch_units, orbit_films, require_one_unbalance
 
 if TYPE_CHECKING:
@@ -126,18 +130,16 @@ def blade_loss_ladder(scene: Scene, quantity: str) -> Ladder:
     calls = math.ceil(3 * COMMON_STEPS * scene.excitation.revolutions)
     films, rotor = tuple(sorted(orbit_films(scene), key=lambda film: film.time(calls))), scene.rotor
     require_one_unbalance(rotor)
-    rungs = [
-        BladeLossRung(
-            film=film,
-            load=scene.static_load,
-            speed=scene.speed,
-            mass=rotor.mass,
-            excitation=scene.excitation,
-            steps=steps,
-        )
-        for film in films
-        for steps in (0, *STEPS)
-    ]
+    make = partial(
+        BladeLossRung,
+        load=scene.static_load,
+        speed=scene.speed,
+        mass=rotor.mass,
+        excitation=scene.excitation,
+    )
+    if scene.bearing.is_warming:
+        return warm_blade_ladder(scene, films, make)
+    rungs = [make(film=film, steps=steps) for film in films for steps in (0, *STEPS)]
     if any(film.makes_map for film in films[:-1]):
         # A linear motion takes so few forces that no map is worth it.
         rungs.sort(key=lambda rung: rung.film.time(calls if rung.steps else LINEAR_CALLS))
@@ -148,3 +150,31 @@ def blade_loss_ladder(scene: Scene, quantity: str) -> Ladder:
         remarks=scene.film_remarks,
         within=ISOTHERMAL,
     )
+
+
+def warm_blade_ladder(
+    scene: Scene, films: tuple[FilmRung, ...], make: Callable[..., BladeLossRung]
+) -> Ladder:
+    """Return the ladder of the peak on an oil, which keeps the temperature that it has at rest.
+
+    What a richer level of heat would change is taken of the linear motion.
+    """
+
+    def apart(own: WarmRest, other: WarmRest) -> float:
+        rests = (make(film=films[0].frozen(one.reaction), steps=0) for one in (own, other))
+        before, after = (rung.answer(None).value for rung in rests)
+        return abs(after - before) / after
+
+    def stepped(steps: int, film: FilmRung) -> BladeLossRung:
+        return make(film=film, steps=steps)
+
+    questions = tuple(
+        HeatedQuestion(
+            load=scene.static_load,
+            speed=scene.speed,
+            make=partial(stepped, steps),
+            apart=apart,
+        )
+        for steps in (0, *STEPS)
+    )
+    return thermal_ladder(scene, films, questions, "m")

@@ -10,14 +10,14 @@ from ..orbit_place import UNITS as ORBITS
 from .blade_loss import blade_loss_ladder
 from .statics import UNITS as STATICS, static_ladder
 from .unbalance_orbits import orbit_ladder
-from .whirl_rungs import whirl_ladder
+from .warm_whirl import journal_whirl_ladder
 
 FAMILY = Family(
     table=JournalTable,
     ladders={
         **dict.fromkeys(STATICS, static_ladder),
         **dict.fromkeys(ORBITS, orbit_ladder),
-        "whirl_threshold": whirl_ladder,
+        "whirl_threshold": journal_whirl_ladder,
         "blade_loss_peak": blade_loss_ladder,
         "cosimulation_error": coupling_ladder,
     },

@@ -20,12 +20,19 @@ from ...scenes.counted import Counted
 from ...scenes.journal.film_defects import corrected, one_defect
 from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.film_rungs import point_films
+from ...scenes.journal.warm_rest import WarmRest
+from .field_rungs import HeatedQuestion
+from .heat_rungs import thermal_ladder
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
 
 ANGLE, MATRIX = "attitude_angle", {"stiffness": 0, "damping": 2}
 LOSSES = {"power_loss": "W", "side_flow": "m^3/s"}
+PEAK = "maximum_temperature"
+TEMPERATURES = {"temperature": "K", PEAK: "K"}
+CANCELLED = 0.02
+"""Power, flow and temperature rise that T2 misses where a step sees warmer oil and thinner film cancel."""
 UNITS = {
     "eccentricity_ratio": "1",
     "minimum_film": "m",
@@ -33,6 +40,7 @@ UNITS = {
     "stiffness": "N/m",
     "damping": "N s/m",
     **LOSSES,
+    **TEMPERATURES,
 }
 """Static quantities and their units."""
 
@@ -56,7 +64,7 @@ class StaticRung(CandidateRung[FilmRung]):
     @property
     def prior(self) -> float:
         """Order of magnitude of the film's error."""
-        positions = self.quantity not in MATRIX and self.quantity not in LOSSES
+        positions = self.quantity not in {**MATRIX, **LOSSES, **TEMPERATURES}
         return self.film.position_prior if positions else self.film.prior
 
     def answer(self, before: Found | None) -> Found:
@@ -75,6 +83,8 @@ class StaticRung(CandidateRung[FilmRung]):
         """Return a quantity that follows from the position (2,) [m] in this or the richer bearing."""
         if self.quantity in LOSSES:
             return float(getattr(bearing.losses(position, np.zeros(2), self.speed), self.quantity))
+        if self.quantity in TEMPERATURES:
+            return bearing.balanced_temperature(position, np.zeros(2), self.speed)
         distance = float(np.hypot(*position))
         if self.quantity == "eccentricity_ratio":
             return distance / self.film.reaction.clearance
@@ -96,6 +106,8 @@ class StaticRung(CandidateRung[FilmRung]):
         slopes = self.quantity in MATRIX
         if self.quantity in LOSSES:
             return self.film.loss_bound(at.eccentricity_ratio)
+        if self.quantity in TEMPERATURES:
+            return 2.0 * self.film.loss_bound(at.eccentricity_ratio)  # that of power/flow
         bound = self.film.bound(at.eccentricity_ratio, slopes=slopes)
         if slopes or not math.isfinite(bound):
             return bound
@@ -116,12 +128,14 @@ class StaticRung(CandidateRung[FilmRung]):
             better: Array | float = -moved.slopes[:, first : first + 2]
         else:
             better = self.scalar(moved.position, self.film.rich)
-        scale = 1.0 if self.quantity == ANGLE else float(np.max(np.abs(better)))
-        error = float(np.max(np.abs(np.asarray(better) - found.value))) / scale
+        cooling = self.film.reaction.cooling
+        zero = 0.0 if cooling is None else cooling.supply_temperature
+        error = relative_distance(self.quantity, found.value, better, zero)
+        twice = self.quantity in LOSSES or self.quantity in TEMPERATURES
         return ErrorEstimate(
             error,
             f"defect of {self.film.rich_name}",
-            {self.film.defects(smooth=slopes): 2 if self.quantity in LOSSES else 1, self.film.tangents: 2},
+            {self.film.defects(smooth=slopes): 2 if twice else 1, self.film.tangents: 2},
             bound=self.film.bounded,
             doubt=moved.doubt,
         )
@@ -129,6 +143,18 @@ class StaticRung(CandidateRung[FilmRung]):
     def expected(self, done: Work) -> Work:
         """Return as many tangents as a lower rung took."""
         return self.film.expected(sum(done.values()))
+
+
+def relative_distance(quantity: str, value: Array | float, better: Array | float, supply: float) -> float:
+    """Return how far a value is from a better one, in the unit of the tolerance.
+
+    Relative to the largest entry of the better one, of an angle in radians, of a temperature to its rise
+    above that of the supply [K].
+    """
+    gap = float(np.max(np.abs(np.asarray(better) - value)))
+    if quantity in TEMPERATURES:
+        return gap / (float(better) - supply)
+    return gap / (1.0 if quantity == ANGLE else float(np.max(np.abs(better))))
 
 
 def film_units(films: tuple[FilmRung, ...], speed: float) -> dict[WorkUnit, Callable[[], object]]:
@@ -148,8 +174,22 @@ def _one_tangent(bearing: JournalBearing, speed: float) -> Callable[[], object]:
 
 
 def static_ladder(scene: Scene, quantity: str) -> Ladder:
-    """Return the ladder of a static quantity of a journal bearing."""
+    """Return the ladder of a static quantity of a journal bearing; on an oil with the rungs of its heat.
+
+    Raises
+    ------
+    InputError
+        If the film has no losses, where they are asked for or heat the oil; if a temperature is asked for and
+        there is no oil.
+    """
     films = point_films(scene.bearing, fixed=scene.film_is_given)
+    if scene.bearing.is_warming:
+        return warm_static_ladder(scene, quantity, films)
+    if quantity in TEMPERATURES:
+        raise InputError(
+            f"lubricant must give the oil of the journal for {quantity}, as a grade, got journal.viscosity "
+            f"{scene.bearing.film_viscosity:g} Pa s"
+        )
     if quantity in LOSSES:
         films = tuple(film for film in films if has_losses(film.reaction))
         if not films:
@@ -165,3 +205,32 @@ def static_ladder(scene: Scene, quantity: str) -> Ladder:
         remarks=scene.film_remarks,
         within=ISOTHERMAL,
     )
+
+
+def warm_static_ladder(scene: Scene, quantity: str, films: tuple[FilmRung, ...]) -> Ladder:
+    """Return the ladder of a static quantity of a journal bearing on an oil."""
+
+    def apart(own: WarmRest, other: WarmRest) -> float:
+        pair = rest_value(quantity, own), rest_value(quantity, other)
+        return relative_distance(quantity, *pair, own.supply_temperature)
+
+    def make(film: FilmRung) -> StaticRung:
+        return StaticRung(film=film, quantity=quantity, load=scene.static_load, speed=scene.speed)
+
+    question = HeatedQuestion(
+        load=scene.static_load,
+        speed=scene.speed,
+        make=make,
+        apart=apart,
+        value=lambda own: rest_value(quantity, own),
+        peak=quantity == PEAK,
+        least=CANCELLED if quantity in {*LOSSES, *TEMPERATURES} else 0.0,
+    )
+    return thermal_ladder(scene, films, (question,), UNITS[quantity], fresh=quantity not in TEMPERATURES)
+
+
+def rest_value(quantity: str, own: WarmRest) -> Array | float:
+    """Return a static quantity of a rest on a film that warms."""
+    if quantity in MATRIX:
+        return np.asarray(getattr(own.coefficients, quantity))
+    return float(getattr(own if hasattr(own, quantity) else own.rest, quantity))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,7 +28,10 @@ from ...rotors import RigidRotor
 from ...scenes.excitation_table import UnbalanceTable
 from ...scenes.journal.film_rung import MAP_BOUNDS, FilmRung
 from ...scenes.journal.film_rungs import turn_films
+from ...scenes.journal.warm_rest import WarmRest
 from ..orbit_place import UNITS, WALL, OrbitPlace, SolvedTurn
+from .field_rungs import HeatedQuestion
+from .heat_rungs import thermal_ladder
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
@@ -171,6 +175,8 @@ def orbit_ladder(scene: Scene, quantity: str) -> Ladder:
     """Return the ladder of a quantity of the synchronous orbit: linear, then nonlinear, on each film."""
     rotor = rotor_of(scene)
     films = orbit_films(scene)
+    if scene.bearing.is_warming:
+        return warm_orbit_ladder(scene, quantity, rotor, films)
     rungs = [OrbitRung(film=film, quantity=quantity, rotor=rotor, samples=0) for film in films]
     rungs += [
         OrbitRung(film=film, quantity=quantity, rotor=rotor, samples=n) for film in films for n in SAMPLES
@@ -183,6 +189,26 @@ def orbit_ladder(scene: Scene, quantity: str) -> Ladder:
         remarks=scene.film_remarks,
         within=ISOTHERMAL,
     )
+
+
+def warm_orbit_ladder(scene: Scene, quantity: str, rotor: RigidRotor, films: tuple[FilmRung, ...]) -> Ladder:
+    """Return the ladder of an orbit on an oil, which keeps the temperature that it has at rest.
+
+    What a richer level of heat would change is taken of the linear orbit.
+    """
+
+    def rung(film: FilmRung, samples: int = 0) -> OrbitRung:
+        return OrbitRung(film=film, quantity=quantity, rotor=rotor, samples=samples)
+
+    def apart(own: WarmRest, other: WarmRest) -> float:
+        values = (rung(films[0].frozen(one.reaction)).answer(None).value for one in (own, other))
+        return rung(films[0]).place.change(*values)
+
+    questions = tuple(
+        HeatedQuestion(load=scene.static_load, speed=scene.speed, make=partial(rung, samples=n), apart=apart)
+        for n in (0, *SAMPLES)
+    )
+    return thermal_ladder(scene, films, questions, UNITS[quantity])
 
 
 def orbit_films(scene: Scene) -> tuple[FilmRung, ...]:

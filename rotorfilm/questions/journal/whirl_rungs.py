@@ -13,7 +13,7 @@ from ...errors import InputError, RotorfilmError
 from ...ladders import CandidateRung, Ladder
 from ...linear import coefficients, equilibrium, whirl_threshold
 from ...model import Array
-from ...results import Equilibrium
+from ...results import Coefficients, Equilibrium
 from ...scenes.counted import Counted
 from ...scenes.journal.film_defects import corrected
 from ...scenes.journal.film_rung import FilmRung
@@ -72,7 +72,7 @@ class WhirlRung(CandidateRung[FilmRung]):
         bound = self._bound(at)
         if SAFETY * bound < tolerance:
             return ErrorEstimate(bound, "verified bound of the map", {self.film.tangents: 15}, bound=True)
-        moved = corrected(self.film, at, np.array(self.load), smooth=True)
+        moved = corrected(self.film_at(at), at, np.array(self.load), smooth=True)
         cheap = coefficients(self.film.reaction, at.position, at.speed)
         own = self._matrix(cheap.stiffness, cheap.damping)
         other = self._matrix(-moved.slopes[:, :2], -moved.slopes[:, 2:])
@@ -85,6 +85,15 @@ class WhirlRung(CandidateRung[FilmRung]):
         work = {self.film.defects(smooth=True): 1, self.film.tangents: 15}
         method = f"defect of {self.film.rich_name}, eigenvalue perturbation"
         return ErrorEstimate(error, method, work, bound=self.film.bounded, doubt=doubt)
+
+    def film_at(self, at: Equilibrium) -> FilmRung:
+        """Return the film at one equilibrium."""
+        return self.film
+
+    def change(self, own: Coefficients, other: Coefficients) -> float:
+        """Return how much other coefficients at the threshold change its speed [1], by their growth."""
+        pair = (self._matrix(one.stiffness, one.damping) for one in (own, other))
+        return abs(growths(*pair)[1] / self._slope(own.speed)) / own.speed
 
     def _bound(self, at: Equilibrium) -> float:
         """Return the error [1] that the worst K and C within the verified bound would make."""

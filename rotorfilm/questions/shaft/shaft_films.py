@@ -17,8 +17,10 @@ from ...scenes.journal.film_defects import corrected
 from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.film_rungs import turn_films
 from ...scenes.journal.packaged_map import has_map
+from ..journal.heat_rungs import known_films
 
 if TYPE_CHECKING:
+    from ...scenes.schema import JournalTable
     from ...scenes.shaft.shaft_table import ShaftTable
 
 REST_BOUNDS = ((0.5, 2e-5), (0.95, 5e-5))
@@ -73,6 +75,11 @@ class ShaftFilms:
         """All bearings by station, with the richer films."""
         return {**self.springs, **{name: film.rich for name, film in self.journals.items()}}
 
+    @property
+    def on_oil(self) -> tuple[str, ...]:
+        """Stations whose films are of an oil, with a temperature."""
+        return tuple(name for name, film in self.journals.items() if film.reaction.oil is not None)
+
     def prepare(self) -> dict[WorkUnit, int]:
         """Make the maps that are not there yet, and return the work of that."""
         made: dict[WorkUnit, int] = {}
@@ -85,11 +92,7 @@ class ShaftFilms:
 def film_levels(shaft: ShaftTable) -> tuple[ShaftFilms, ...]:
     """Return what may stand in the journals of a shaft, the cheapest first; one level if all is settled."""
     springs = {one.name: one.build() for one in shaft.bearings if one.journal is None}
-    choices = {
-        one.name: turn_films(one.journal.build(), fixed=one.journal.film is not None, grids=GRIDS, maps=False)
-        for one in shaft.bearings
-        if one.journal is not None
-    }
+    choices = {one.name: _choices(one.journal) for one in shaft.bearings if one.journal is not None}
     count = max((len(each) for each in choices.values()), default=1)
     return tuple(
         ShaftFilms(
@@ -100,11 +103,19 @@ def film_levels(shaft: ShaftTable) -> tuple[ShaftFilms, ...]:
     )
 
 
+def _choices(journal: JournalTable) -> tuple[FilmRung, ...]:
+    bearing = journal.build()
+    films = turn_films(bearing, fixed=journal.film is not None, grids=GRIDS, maps=False)
+    return known_films(films) if bearing.is_warming else films
+
+
 def rich_coefficients(films: ShaftFilms, at: RotorEquilibrium) -> tuple[dict[str, Coefficients], str]:
     """Return K and C of all bearings by the richer films at their own equilibria, and why to doubt them."""
     found, doubt = dict(at.coefficients), ""
     for name, film in films.journals.items():
         load = at.loads[name]
+        if name in at.temperatures:
+            film = film.at_temperature(at.temperatures[name])
         moved = corrected(film, equilibrium(film.reaction, load, at.speed), load, smooth=True)
         found[name] = Coefficients(
             stiffness=-moved.slopes[:, :2],

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,15 +13,17 @@ from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Work, WorkUni
 from ...errors import InputError
 from ...ladders import BaseRung, Ladder
 from ...linear import rotor_equilibrium
+from ...linear.rotor_whirl import on_films
 from ...model import Reaction
 from ...motion.periodic.driven_rotor import RotorAnswers, distance, reach_of, rest_position, rotor_answers
 from ...motion.periodic.harmonics import first_wave, resized, rms
 from ...motion.periodic.orbit_newton import driven, newton_step
 from ...rotors.shaft.shaft_models import ShaftModel, shaft_models
 from ...scenes.excitation_table import UnbalanceTable
-from ...scenes.shaft.shaft_remarks import shaft_physics, shaft_remarks, stability_remark
+from ...scenes.shaft.shaft_remarks import shaft_remarks, stability_remark
 from ..orbit_place import FORCE, PHASE, UNITS, WALL, OrbitPlace, SolvedTurn
 from .shaft_films import ShaftFilms, film_levels
+from .shaft_heat import frozen_at, heated_coefficients, shaft_assumptions, warm_physics, warm_rungs
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
@@ -122,6 +124,17 @@ class ShaftOrbitRung(BaseRung):
         work = {WorkUnit(f"defects of {self.name}"): 1}
         return ErrorEstimate(error, method, work, bound=is_bound, doubt=doubt)
 
+    def heat_error(self) -> float:
+        """Return what one step of each film of an oil towards T3 changes the linear orbit by."""
+        structure = self.model.rotor.structure
+        at = rotor_equilibrium(self.model.rotor, self._reactions, self.speed)
+        values = []
+        for found in (dict(at.coefficients), heated_coefficients(self.films, at)):
+            answers = rotor_answers(structure, on_films(at, found), self.place.probes, LINEAR)
+            orbit = answers.linear_orbit(rest_position(at, answers.stations))
+            values.append(self.place.value(answers, orbit))
+        return self.place.change(*values)
+
     def _by_grid(self, turn: SolvedTurn, value: float) -> float:
         """Return the change that the forces of the richer films make, propagated by the slopes of the map."""
         answers = rotor_answers(self.model.rotor.structure, turn.at, self.place.probes, LINEAR)
@@ -186,19 +199,25 @@ def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
     assert shaft is not None  # checked by the above
     rotor = shaft.build(speed=scene.speed, extra=_extra(scene))
     models, levels, bearings = shaft_models(rotor), film_levels(shaft), shaft.build_bearings()
+    if levels[0].on_oil:
+        # In vibration films keep the temperatures of the rest.
+        rest = rotor_equilibrium(models[0].rotor, levels[0].reaction, scene.speed)
+        levels = tuple(frozen_at(films, rest) for films in levels)
     rungs = tuple(
         ShaftOrbitRung(model=model, films=films, place=place, speed=scene.speed, samples=samples)
         for films in levels
         for model, samples in _choices(models, nonlinear=bool(films.journals))
     )
+    heat = cache(rungs[0].heat_error)  # of the linear orbit, that of all rungs
     return Ladder(
-        rungs=rungs,
+        rungs=warm_rungs(rungs, levels[0], lambda rung, found: heat()),
         unit=UNITS[quantity],
         remarks=(
             *shaft_remarks(rotor, bearings, scene.lubricant.properties, scene.speed),
             *stability_remark(rotor, levels[0].reaction, scene.speed),
         ),
-        within=shaft_physics(bearings),
+        within=warm_physics(levels[0], bearings),
+        assumptions=lambda: shaft_assumptions(levels[0]),
     )
 
 

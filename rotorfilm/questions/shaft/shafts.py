@@ -26,9 +26,12 @@ from ...linear.rotor_whirl import (
 )
 from ...linear.speed_events import Critical, SpeedEvent, Threshold
 from ...model import Array
+from ...results import Coefficients
 from ...rotors.shaft.shaft_models import ShaftModel, shaft_models
-from ...scenes.shaft.shaft_remarks import shaft_physics, shaft_remarks
+from ...scenes.shaft.shaft_remarks import shaft_remarks
+from ..journal.warm_whirl import moving_heat
 from .shaft_films import ShaftFilms, coefficient_bounds, film_levels, rich_coefficients
+from .shaft_heat import heated_coefficients, shaft_assumptions, warm_physics, warm_rungs
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
@@ -186,9 +189,27 @@ class ShaftRung(BaseRung):
 
     def _corrected(self, whirl: Whirl, rate: float, *, trusted: bool) -> CorrectedSpeed:
         """Return a critical speed after steps of inverse iteration with the shift that this rung gives."""
-        coefficients, doubt = (
-            (whirl.at.coefficients, "") if trusted else rich_coefficients(self.films, whirl.at)
-        )
+        found = (whirl.at.coefficients, "") if trusted else rich_coefficients(self.films, whirl.at)
+        return self._stepped(whirl, rate, *found)
+
+    def heat_error(self, found: Found) -> float:
+        """Return what one step of each film of an oil towards T3 changes the speed by [1].
+
+        Of a threshold, with the heat that moves with the whirl.
+        """
+        whirl: Whirl = found.solution.whirls[0]
+        rate = self.event.rate(value_rate(self.model.rotor.structure, whirl, self.films))
+        both = whirl.at.coefficients, heated_coefficients(self.films, whirl.at)
+        before, after = (self._stepped(whirl, rate, dict(each), "").speed for each in both)
+        moving = 0.0
+        if isinstance(self.event, Threshold):
+            bearings = (self.films.journals[name].reaction for name in self.films.on_oil)
+            moving = max(moving_heat(bearing, whirl.at.speed) for bearing in bearings)
+        return abs(after - before) / whirl.at.speed + moving
+
+    def _stepped(
+        self, whirl: Whirl, rate: float, coefficients: dict[str, Coefficients], doubt: str
+    ) -> CorrectedSpeed:
         frequency = self.event.frequency(whirl.value, whirl.at.speed)
         system = small_motion(self.model.finer.structure, on_films(whirl.at, coefficients), frequency)
         right, left = self.model.lifted(whirl.right), self.model.lifted(whirl.left)
@@ -244,9 +265,11 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
         for films in levels
         for model in (models if films is levels[-1] else models[:3])
     ]
+    films = levels[0]
     return Ladder(
-        rungs=tuple(rungs),
+        rungs=warm_rungs(tuple(rungs), films, ShaftRung.heat_error),
         unit="rad/s",
         remarks=shaft_remarks(rotor, bearings, scene.lubricant.properties, float(speeds[-1])),
-        within=shaft_physics(bearings),
+        within=warm_physics(films, bearings),
+        assumptions=lambda: shaft_assumptions(films),
     )

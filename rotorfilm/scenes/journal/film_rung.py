@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ...answers import WorkUnit
 from ...bearings.journal import ExtrapolatedFilm, GroovedMapFilm, JournalBearing, ReynoldsFilm
+from ...model import Reaction
 
 MAP_BOUNDS = ((0.95, 2e-5, 1e-3), (0.999, 4e-4, math.inf))
 """Eccentricity ratio up to which, and largest error of a position and of K, C there: docs/accuracy.md."""
@@ -61,6 +62,15 @@ class FilmRung:
     def map_made(self) -> WorkUnit:
         """The work of making its map."""
         return WorkUnit(MAP_MADE.name, ("map", self.reaction), nominal=self.making)
+
+    def at_temperature(self, temperature: float) -> FilmRung:
+        """Return the rung with films of an oil at one temperature [K]."""
+        own, rich = (one.at_temperature(temperature) for one in (self.reaction, self.rich))
+        return replace(self, reaction=own, rich=rich)
+
+    def frozen(self, film: Reaction) -> FilmRung:
+        """Return the rung with the bearing replaced by a film that keeps its temperature."""
+        return replace(self, reaction=film, bounded=False, making=0.0)  # type: ignore[arg-type]
 
     def time(self, tangents: int) -> float:
         """Return about how long so many forces with derivatives take, with the map that is to be made [s]."""

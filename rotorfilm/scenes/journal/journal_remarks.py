@@ -161,5 +161,24 @@ def _quick(bearing: JournalBearing) -> JournalBearing:
 def film_remarks(
     bearing: JournalBearing, oil: Lubricant, speed: float, load: tuple[float, float]
 ) -> tuple[str, ...]:
-    """Return what is left out and should not be, one line each, at a speed [rad/s] and a load [N]."""
-    return said(REMARKS, journal_numbers(bearing, oil, speed, load))
+    """Return what is left out and should not be, one line each, at a speed [rad/s] and a load [N].
+
+    Of a bearing whose oil warms it is said of the film at its temperature, and heat is not left out.
+    """
+    remarks: tuple[Remark, ...] = REMARKS
+    if bearing.is_warming:
+        remarks = tuple(remark for remark in REMARKS if remark.number not in ("thinning", "unknown"))
+        bearing = _warmed(bearing, speed, load)
+    return said(remarks, journal_numbers(bearing, oil, speed, load))
+
+
+def _warmed(bearing: JournalBearing, speed: float, load: tuple[float, float]) -> JournalBearing:
+    """Return a bearing at the temperature of its balance, or of fresh oil where it has no rest."""
+    quick = _quick(bearing)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ValidityWarning)
+        try:
+            temperature = equilibrium(quick, load, speed).temperature
+        except RotorfilmError:
+            temperature = None
+    return quick.at_temperature(bearing.coldest() if temperature is None else temperature)

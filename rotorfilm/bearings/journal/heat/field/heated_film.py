@@ -160,19 +160,52 @@ class HeatedFilm:
             Whether the heat is that of this viscosity, to the last digit the power of the torque, and not
             already less where the oil gets warmer. Rounds come to rest slowly with it, or not at all.
         """
+        T = self._fresh() if before is None else _next_temperature(before)
+        empty = before.film.empty if before is not None and before.rounds >= FREE_ROUNDS else None
+        rounds = 1 if before is None else before.rounds + 1
+        return self._round(position, speed, T, empty=empty, rounds=rounds, closing=closing)
+
+    def warmed_from(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> HeatedState:
+        """Return one round that starts from a temperature of the film [K], its shape `profile.shape`, or one.
+
+        Parameters
+        ----------
+        position, speed
+            As in `solve`.
+        temperature : array_like [K]
+            Such as that of a cheaper film; it broadcasts to the cells.
+        """
+        T = np.broadcast_to(temperature, self._fresh().shape).astype(float)
+        return self._round(position, speed, T)
+
+    def following(self, state: HeatedState) -> FrozenFilm:
+        """Return the film of the viscosity that the oil of a state has got, as the next round takes it."""
+        e = state.position / self.bearing.clearance
+        film = self._frozen(e, state.oil_temperature)[1]
+        return fed_film(film, e, state.speed, full_gap=oil_and_cooling(self.bearing)[1].full_gap)[0]
+
+    def _round(
+        self,
+        position: ArrayLike,
+        speed: float,
+        T: Array,
+        *,
+        empty: np.ndarray | None = None,
+        rounds: int = 1,
+        closing: bool = False,
+    ) -> HeatedState:
         q, omega = require_finite("position", position), require_number("speed", speed)
         if q.shape != (2,):
             raise InputError(f"position must have shape (2,), got shape {q.shape}")
         if omega == 0.0:
             raise InputError("speed must not be 0 for a film that shear warms, got 0")
         require_inside(q, self.bearing.clearance)
-        e, T = q / self.bearing.clearance, self._fresh() if before is None else _next_temperature(before)
+        e = q / self.bearing.clearance
         viscosity, film = self._frozen(e, T)
-        if before is not None and before.rounds >= FREE_ROUNDS:
-            film = replace(film, empty=before.film.empty)
+        if empty is not None:
+            film = replace(film, empty=empty)
         film, found, flow = fed_film(film, e, omega, full_gap=oil_and_cooling(self.bearing)[1].full_gap)
         warm = self.profile.warm(self._heating(film.cells, flow, omega, T, viscosity, closing))
-        rounds = 1 if before is None else before.rounds + 1
         return heated_state(self.bearing, HeatRound(q, omega, rounds, T, film, found, flow, warm))
 
     def is_settled(self, before: HeatedState, state: HeatedState) -> bool:

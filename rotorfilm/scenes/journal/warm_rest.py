@@ -1,0 +1,148 @@
+"""A journal at rest on a film that warms: by one temperature, by a field, and by one step towards the field.
+
+T0 is the viscosity of fresh oil, T1 one temperature in balance, T2 a temperature over the film, T3 one over
+and across it. A step is one solution of the heat of T3 on the film of T1 or T2: it tells how far those are
+off.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...bearings.journal import BushRing, HeatedFilm, HeatedState, JournalBearing, LayeredTemperature, Walls
+from ...bearings.oil.cooling import RING
+from ...linear import coefficients, equilibrium, heated_equilibrium
+from ...model import Reaction
+from ...results import Coefficients, Equilibrium
+
+STEEL_CONDUCTIVITY = 50.0
+"""Of the bush that a scene leaves open [W/(m K)]."""
+
+STEP_PROFILE, STEP_CELLS = LayeredTemperature(8), (80, 8)
+"""Layers and cells of a step; the cells are those of the rungs with a temperature field."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class WarmRest:
+    """A journal at rest on a film that warms, by one of the rungs.
+
+    Attributes
+    ----------
+    rest : Equilibrium
+    reaction : Reaction
+        The film, frozen at its temperature.
+    power_loss : float [W]
+    side_flow : float [m^3/s]
+    temperature : float [K]
+        Of the oil that leaves at the ends, in the mean.
+    maximum_temperature : float [K]
+    supply_temperature : float [K]
+    field : ndarray or None [K]
+        Temperature of the oil, cell by cell; None of one temperature.
+    """
+
+    rest: Equilibrium
+    reaction: Reaction
+    power_loss: float
+    side_flow: float
+    temperature: float
+    maximum_temperature: float
+    supply_temperature: float
+    field: ArrayLike | None = None
+
+    @property
+    def coefficients(self) -> Coefficients:
+        """K and C at frozen temperature."""
+        return coefficients(self.reaction, self.rest.position, self.rest.speed)
+
+
+def bush_of(bearing: JournalBearing) -> Walls:
+    """Return the bush that a temperature field is in: of steel, to `RING` times the radius.
+
+    It carries as much heat to the ambient as the housing conductance of the bearing's cooling; where that is
+    0 it conducts around the film only. One that would hold that heat up is thinner. The shaft is as warm as
+    makes its net heat zero.
+    """
+    _, cooling = bearing.cooled
+    R, outer = bearing.radius, RING * bearing.radius
+    wanted = cooling.housing_conductance / (2.0 * math.pi * R * bearing.length)
+    if wanted > 0.0:
+        outer = min(outer, R * math.exp(0.5 * STEEL_CONDUCTIVITY / (R * wanted)))
+    resistance = R * math.log(outer / R) / STEEL_CONDUCTIVITY
+    return BushRing(
+        outer_radius=outer,
+        conductivity=STEEL_CONDUCTIVITY,
+        transfer=wanted / (1.0 - resistance * wanted) * R / outer,
+        ambient_temperature=cooling.ambient,
+    )
+
+
+def uniform_rest(
+    bearing: JournalBearing, load: ArrayLike, speed: float, temperature: float | None = None
+) -> WarmRest:
+    """Return the rest on a film of one temperature [K], that of its balance if none is given (T1)."""
+    _, cooling = bearing.cooled
+    at = equilibrium(bearing if temperature is None else bearing.at_temperature(temperature), load, speed)
+    film = at.temperature if temperature is None else temperature
+    assert film is not None  # of a film that warms
+    losses = at.losses
+    assert losses is not None  # a balance has them
+    return WarmRest(
+        rest=at,
+        reaction=bearing.at_temperature(film),
+        power_loss=float(losses.power_loss),
+        side_flow=float(losses.side_flow),
+        temperature=film,
+        maximum_temperature=film,
+        supply_temperature=cooling.supply_temperature,
+    )
+
+
+def field_rest(film: HeatedFilm, load: ArrayLike, speed: float) -> WarmRest:
+    """Return the rest on a film with a temperature field (T2, T3)."""
+    found = heated_equilibrium(film, load, speed)
+    return _of_state(film.bearing, found.rest, found.state.film, found.state)
+
+
+def step(bearing: JournalBearing, before: WarmRest) -> WarmRest:
+    """Return where one solution of the heat across the film (T3) moves a rest.
+
+    The heat is that of the film before, less where its oil gets warmer (its thinning); the viscosity that
+    follows gives the film of the step, which finds its own place. Power and flow change with the place as
+    those of the film before do.
+    """
+    film = HeatedFilm(bearing=bearing, walls=bush_of(bearing), cells=STEP_CELLS, profile=STEP_PROFILE)
+    field = before.temperature if before.field is None else np.asarray(before.field)[..., None]
+    state = film.warmed_from(before.rest.position, before.rest.speed, field)
+    after = film.following(state)
+    at = equilibrium(after, before.rest.load, before.rest.speed)
+    moved = _of_state(bearing, at, after, state)
+    own = bearing.at_temperature(before.temperature)
+    here, there = (own.losses(q, np.zeros(2), at.speed) for q in (before.rest.position, at.position))
+    assert here is not None  # a balance has them
+    assert there is not None
+    return replace(
+        moved,
+        power_loss=moved.power_loss * float(there.power_loss) / float(here.power_loss),
+        side_flow=moved.side_flow * float(there.side_flow) / float(here.side_flow),
+    )
+
+
+def _of_state(bearing: JournalBearing, at: Equilibrium, film: Reaction, state: HeatedState) -> WarmRest:
+    (oil, cooling), flow = bearing.cooled, state.side_flow
+    supply = cooling.supply_temperature
+    carried = state.heat.leaked / (float(oil.volumetric_heat(supply)) * flow) if flow > 0.0 else math.nan
+    return WarmRest(
+        rest=at,
+        reaction=film,
+        power_loss=state.power_loss,
+        side_flow=flow,
+        temperature=supply + carried,
+        maximum_temperature=state.maximum_temperature,
+        supply_temperature=supply,
+        field=state.oil_temperature,
+    )
