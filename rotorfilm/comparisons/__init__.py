@@ -32,6 +32,15 @@ if TYPE_CHECKING:
         damper_accuracy as damper_accuracy,
         damper_rungs as damper_rungs,
     )
+    from .journal.heat_accuracy import (
+        HeatAccuracy as HeatAccuracy,
+        HeatAnswer as HeatAnswer,
+        HeatLadder as HeatLadder,
+        HeatModel as HeatModel,
+        HeatRung as HeatRung,
+        heat_accuracy as heat_accuracy,
+    )
+    from .journal.heat_cases import HEAT_CASES as HEAT_CASES, HeatCase as HeatCase
     from .journal.journal_accuracy import (
         JournalAccuracy as JournalAccuracy,
         RungAccuracy as RungAccuracy,

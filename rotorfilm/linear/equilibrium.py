@@ -122,7 +122,7 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
     """Return the equilibrium at the temperature at which the heat balances.
 
     A warmer film is thinner and leaks more: the temperature of the balance falls while that of the film
-    rises, so that there is one root, between the coldest film and what that one warms to.
+    rises, or with openings hardly rises, so that there is one root, near what the coldest film warms to.
     """
     if bearing.balanced() is not None:
         at = equilibrium(bearing.balanced(), load, speed)
@@ -141,7 +141,10 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
     low = bearing.coldest()
     rise = excess(low)
     if rise > 0.0:
-        low = brentq(excess, low, low + rise, xtol=_KELVIN, rtol=8.9e-16)
+        high = low + rise
+        while excess(high) > 0.0:
+            high += rise
+        low = brentq(excess, low, high, xtol=_KELVIN, rtol=8.9e-16)
     at, _ = warmed[low]
     steps = sum(one.iterations for one, _ in warmed.values())
     return replace(at, temperature=low, iterations=steps, reaction=bearing.at_temperature(low))

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
         HeldWalls as HeldWalls,
         Walls,
     )
+    from .heat.heat_numbers import HeatNumbers as HeatNumbers, heat_numbers as heat_numbers
     from .heat.heated_bearing import HeatedBearing as HeatedBearing
     from .map.map_film import MapFilm as MapFilm
     from .map.own_tables import bearing_table

@@ -25,7 +25,7 @@ def two_grooves(width):
 
 
 ROSS_OIL = Oil(
-    law=Exponential(value=0.01901574, temperature=322.983, rate=np.log(0.01901574 / 0.00771523) / 30.0),
+    law=Exponential(value=0.01901574, temperature=322.983, decay=np.log(0.01901574 / 0.00771523) / 30.0),
     reference_density=854.9516 / (1.0 - 0.00064 * (322.983 - 288.15)),
     fixed_heat_capacity=1951.5015,
 )
