@@ -186,9 +186,9 @@ def page(out: Folder = OUT) -> Said:
 
 
 def heat(report: Report, out: Folder = OUT) -> Said:
-    """Films that warm: error against cost of the models of heat, where they fail, and pictures of one film."""
+    """Films that warm: error against cost of the models of heat, where they fail, pictures. A minute."""
     from .. import charts, comparisons
-    from ..comparisons.journal.heat_accuracy import heated_film
+    from ..comparisons.journal.heat_models import heated_film
 
     result = comparisons.heat_accuracy(report=part_of(report, 0.0, 0.7))
     report(0.7, "where each model fails")

@@ -34,13 +34,12 @@ if TYPE_CHECKING:
     )
     from .journal.heat_accuracy import (
         HeatAccuracy as HeatAccuracy,
-        HeatAnswer as HeatAnswer,
         HeatLadder as HeatLadder,
-        HeatModel as HeatModel,
         HeatRung as HeatRung,
         heat_accuracy as heat_accuracy,
     )
     from .journal.heat_cases import HEAT_CASES as HEAT_CASES, HeatCase as HeatCase
+    from .journal.heat_models import HeatAnswer as HeatAnswer, HeatModel as HeatModel
     from .journal.journal_accuracy import (
         JournalAccuracy as JournalAccuracy,
         RungAccuracy as RungAccuracy,

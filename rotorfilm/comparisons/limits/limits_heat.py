@@ -1,7 +1,8 @@
 """Limits of the models of a film's heat: a plain bearing with oils that thin and conduct more and less.
 
-All have the geometry, the viscosity of fresh oil and the load of one bearing, so that they differ in the thinning
-times rise E, the Peclet number Pe and the Nahme number Na alone. Reference: temperature over and across the film.
+All have the geometry, the viscosity of fresh oil and the load of one bearing, so that they differ in the
+thinning times rise E, the Peclet number Pe and the Nahme number Na alone. Reference: temperature over and
+across the film.
 """
 
 from __future__ import annotations
@@ -15,8 +16,8 @@ from ...bearings.journal import JournalBearing, heat_numbers
 from ...bearings.oil import Cooling, Oil
 from ...linear import equilibrium
 from ...units import CELSIUS
-from ..journal.heat_accuracy import HeatAnswer, HeatModel, answered, position_error
 from ..journal.heat_cases import HeatCase
+from ..journal.heat_models import HeatAnswer, HeatModel, answered, position_error
 from .limit_panels import Curve, panel
 
 SUPPLY, VISCOSITY, SPEED = 45.0 + CELSIUS, 0.03, 100.0 * np.pi
