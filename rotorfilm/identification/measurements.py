@@ -24,7 +24,7 @@ QUANTITIES = {
     **{f"k{row}{column}": "N/m" for row in "xy" for column in "xy"},
     **{f"c{row}{column}": "N.s/m" for row in "xy" for column in "xy"},
 }
-"""What can be measured, and its unit: position of the journal, temperature of the film, stiffness, damping."""
+"""What can be measured, and its unit: place of the journal, temperature of the film, stiffness, damping."""
 
 _AXES = {"speed": "rad/s", "load_x": "N", "load_y": "N"}
 _HEADING = re.compile(r"\s*(\w+)\s*\[(.+)\]\s*")
@@ -40,11 +40,11 @@ class Measurements:
     load : array_like, shape (2,) or (2, n) [N]
         External static force on the journal.
     values : mapping of str to array_like, shape (n,)
-        By name, in SI units: "x" and "y" of the journal, "temperature" of the film, "power_loss", "side_flow",
-        and "kxx" to "cyy". Not-a-number where one was not measured.
+        By name, in SI units: "x" and "y" of the journal, "temperature" of the film, "power_loss",
+        "side_flow", and "kxx" to "cyy". Not-a-number where one was not measured.
     noise : mapping of str to float, optional
-        Standard deviation of each quantity, in its unit. Without it, each counts relative to its own size, and
-        what the fit leaves over says how noisy it is.
+        Standard deviation of each quantity, in its unit. Without it, each counts relative to its own size,
+        and what the fit leaves over says how noisy it is.
 
     Raises
     ------
@@ -89,7 +89,7 @@ class Measurements:
     def read(
         cls, path: Path | str, *, load: ArrayLike | None = None, noise: Mapping[str, float] | None = None
     ) -> Measurements:
-        """Read a CSV file: a column for each quantity, headings as "speed [rpm]", "x [um]", "temperature [degC]".
+        """Read a CSV file: a column for each quantity, headings as "speed [rpm]", "temperature [degC]".
 
         Parameters
         ----------
@@ -109,7 +109,7 @@ class Measurements:
         columns = dict(_column(heading, [row[k] for row in rows]) for k, heading in enumerate(headings))
         if "speed" not in columns or (load is None and not {"load_x", "load_y"} <= set(columns)):
             raise InputError(
-                f"{path} must have columns speed, and load_x and load_y where no load is given, got {headings}"
+                f"{path} must have columns speed, and load_x and load_y where none is given, got {headings}"
             )
         given = load if load is not None else [columns["load_x"], columns["load_y"]]
         values = {name: series for name, series in columns.items() if name not in _AXES}

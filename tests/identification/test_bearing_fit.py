@@ -150,7 +150,7 @@ def test_csv_has_units_in_its_headings(tmp_path):
     with pytest.raises(InputError, match="headings must be a quantity with its unit"):
         Measurements.read(path, load=LOAD)
     path.write_text("x [um]\n1500\n")
-    with pytest.raises(InputError, match="must have columns speed, and load_x and load_y"):
+    with pytest.raises(InputError, match="must have columns speed, and load_x and load_y where"):
         Measurements.read(path)
 
 

@@ -69,6 +69,6 @@ def _draw(axes: Axes, ladder: HeatLadder) -> None:
 
 def _marks(ladder: HeatLadder) -> list[RungMark]:
     return [
-        RungMark(1e3 * rung.cost, rung.position_error, rung.power_error, rung.model.value, COLORS[rung.model])
+        RungMark(1e3 * rung.cost, rung.position_error, rung.power_error, rung.model.said, COLORS[rung.model])
         for rung in ladder.rungs
     ]

@@ -32,16 +32,17 @@ ROUNDS = 5
 
 
 SHOWN = {
-    "eccentricity": ("eccentricity ratio [1]", 1.0, 0.0),
-    "attitude [deg]": ("attitude angle [rad]", 180.0 / math.pi, 0.0),
+    "eps": ("eccentricity ratio [1]", 1.0, 0.0),
+    "angle [deg]": ("attitude angle [rad]", 180.0 / math.pi, 0.0),
     "power [W]": ("power loss [W]", 1.0, 0.0),
-    "T or T_max [degC]": ("temperature, or largest [K]", 1.0, CELSIUS),
+    "T [degC]": ("temperature, or largest [K]", 1.0, CELSIUS),
     "Kyy [MN/m]": ("stiffness yy [N/m]", 1e-6, 0.0),
-    "position off [%]": ("error of the position [1]", 100.0, 0.0),
+    "place off [%]": ("error of the position [1]", 100.0, 0.0),
     "power off [%]": ("error of the power [1]", 100.0, 0.0),
     "time [ms]": ("CPU time [s]", 1e3, 0.0),
 }
-"""What a print-out shows: column of the table, its factor and its zero."""
+"""What a print-out shows: column of the table, its factor and its zero. T is the one temperature of the film,
+or the largest of its field."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,12 +107,18 @@ class HeatAccuracy:
         return {heading: [row[heading] for row in rows] for heading in rows[0]}
 
     def summary(self) -> dict[str, list[object]]:
-        """Return the answers in the units of a print-out."""
-        table = self.columns()
-        shown: dict[str, list[object]] = {"bearing": table["bearing [-]"], "model": table["model [-]"]}
-        for heading, (column, unit, zero) in SHOWN.items():
-            values: list[Any] = table[column]
-            shown[heading] = [None if value is None else unit * value - zero for value in values]
+        """Return the answers in the units of a print-out, under a row with the name of each bearing."""
+        table, previous = self.columns(), None
+        shown: dict[str, list[object]] = {heading: [] for heading in ("model", *SHOWN)}
+        for k, (name, model) in enumerate(zip(table["bearing [-]"], table["model [-]"], strict=True)):
+            if name != previous:
+                previous = name
+                for column in shown.values():
+                    column.append(name if column is shown["model"] else None)
+            shown["model"].append(f"  {model}")
+            for heading, (column_name, unit, zero) in SHOWN.items():
+                value: Any = table[column_name][k]
+                shown[heading].append(None if value is None else unit * value - zero)
         return shown
 
 

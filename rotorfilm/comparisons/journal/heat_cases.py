@@ -73,9 +73,9 @@ def _case(
 
 
 HEAT_CASES = (
-    _case("textbook bearing, VG 100", (0.05, 0.03, 1e-4), (100, 37.1), (525.0, 1500.0), 0),
+    _case("textbook, VG 100", (0.05, 0.03, 1e-4), (100, 37.1), (525.0, 1500.0), 0),
     _case("two grooves, VG 46", (0.05, 0.05, 75e-6), (46, 45.0), (5e3, 3000.0), 2),
     _case("turbine, VG 32", (0.1, 0.16, 150e-6), (32, 45.0), (3e4, 3000.0), 2),
-    _case("small and fast, VG 22", (0.01, 0.01, 20e-6), (22, 50.0), (100.0, 6e4), 0),
+    _case("small, VG 22", (0.01, 0.01, 20e-6), (22, 50.0), (100.0, 6e4), 0),
 )
 """Between them the thinning of the oil by its rise is 2 to 40, the Peclet number 20 to 90."""

@@ -28,13 +28,27 @@ REFERENCE_CELLS, REFERENCE_LAYERS = (160, 12), 20
 class HeatModel(StrEnum):
     """Models of a film's heat, from the cheapest to the richest."""
 
-    SUPPLY = "T0, as cold as the supply"
-    BALANCE = "T1, heat balance"
-    HOUSING = "T1, with housing"
-    ADIABATIC = "T2, over the film"
-    BUSH = "T2, with bush"
-    LAYERS = "T3, across the film"
+    SUPPLY = "T0"
+    BALANCE = "T1"
+    HOUSING = "T1 housing"
+    ADIABATIC = "T2"
+    BUSH = "T2 bush"
+    LAYERS = "T3"
 
+    @property
+    def said(self) -> str:
+        """Return the model in words."""
+        return f"{self.value[:2]}, {_SAID[self]}"
+
+
+_SAID = {
+    HeatModel.SUPPLY: "as cold as the supply",
+    HeatModel.BALANCE: "heat balance",
+    HeatModel.HOUSING: "with housing",
+    HeatModel.ADIABATIC: "over the film",
+    HeatModel.BUSH: "with bush",
+    HeatModel.LAYERS: "across the film",
+}
 
 ONE_TEMPERATURE = (HeatModel.SUPPLY, HeatModel.BALANCE, HeatModel.HOUSING)
 """Models in which a film has one temperature."""
