@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from ..bearings.journal import HeatedState
 from ..errors import InputError
@@ -135,7 +136,7 @@ def _color_bar(axes: Axes, mesh: Any, label: str) -> None:
     figure.colorbar(mesh, ax=axes, label=label)
 
 
-def _around(state: HeatedState) -> tuple[Array, Array]:
+def _around(state: HeatedState) -> tuple[Array, NDArray[np.intp]]:
     """Return the angles of the lines [rad], rising, and their order."""
     order = np.argsort(state.angle)
     return state.angle[order], order

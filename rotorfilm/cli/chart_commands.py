@@ -199,7 +199,7 @@ def heat(report: Report, out: Folder = OUT) -> Said:
     pictures = charts.plot_heated_film(heated_film(case), title=f"Film that warms: {case.name}")
     files.append(("film", str(charts.save(pictures[0], out / "chart_heat_film.png", dpi=DPI))))
     table = result.summary()
-    rows = [[_number(entry) for entry in row] for row in zip(*table.values(), strict=True)]
+    rows = list(zip(*table.values(), strict=True))
     show = partial(_print, tuple(table), rows, [("reference", result.reference), *files])
     return Said(result.columns(), show)
 

@@ -32,17 +32,17 @@ ROUNDS = 5
 
 
 SHOWN = {
-    "eps": ("eccentricity ratio [1]", 1.0, 0.0),
-    "angle [deg]": ("attitude angle [rad]", 180.0 / math.pi, 0.0),
-    "power [W]": ("power loss [W]", 1.0, 0.0),
-    "T [degC]": ("temperature, or largest [K]", 1.0, CELSIUS),
-    "Kyy [MN/m]": ("stiffness yy [N/m]", 1e-6, 0.0),
-    "place off [%]": ("error of the position [1]", 100.0, 0.0),
-    "power off [%]": ("error of the power [1]", 100.0, 0.0),
-    "time [ms]": ("CPU time [s]", 1e3, 0.0),
+    "eps": ("eccentricity ratio [1]", 1.0, 0.0, ".4f"),
+    "angle [deg]": ("attitude angle [rad]", 180.0 / math.pi, 0.0, ".1f"),
+    "power [W]": ("power loss [W]", 1.0, 0.0, ".0f"),
+    "T [degC]": ("temperature, or largest [K]", 1.0, CELSIUS, ".1f"),
+    "Kyy [MN/m]": ("stiffness yy [N/m]", 1e-6, 0.0, ".4g"),
+    "place off [%]": ("error of the position [1]", 100.0, 0.0, ".1f"),
+    "power off [%]": ("error of the power [1]", 100.0, 0.0, ".1f"),
+    "time [ms]": ("CPU time [s]", 1e3, 0.0, ".4g"),
 }
-"""What a print-out shows: column of the table, its factor and its zero. T is the one temperature of the film,
-or the largest of its field."""
+"""What a print-out shows: column of the table, its factor, its zero and its format. T is the one temperature
+of the film, or the largest of its field."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,20 +106,16 @@ class HeatAccuracy:
         rows = [row for ladder in self.ladders for row in _rows(ladder)]
         return {heading: [row[heading] for row in rows] for heading in rows[0]}
 
-    def summary(self) -> dict[str, list[object]]:
-        """Return the answers in the units of a print-out, under a row with the name of each bearing."""
+    def summary(self) -> dict[str, list[str]]:
+        """Return the answers as a print-out, under a row with the name of each bearing."""
         table, previous = self.columns(), None
-        shown: dict[str, list[object]] = {heading: [] for heading in ("model", *SHOWN)}
+        rows: list[list[str]] = []
         for k, (name, model) in enumerate(zip(table["bearing [-]"], table["model [-]"], strict=True)):
             if name != previous:
+                rows.append([str(name), *("" for _ in SHOWN)])
                 previous = name
-                for column in shown.values():
-                    column.append(name if column is shown["model"] else None)
-            shown["model"].append(f"  {model}")
-            for heading, (column_name, unit, zero) in SHOWN.items():
-                value: Any = table[column_name][k]
-                shown[heading].append(None if value is None else unit * value - zero)
-        return shown
+            rows.append([f"  {model}", *(_shown(table, k, *how) for how in SHOWN.values())])
+        return {heading: [row[k] for row in rows] for k, heading in enumerate(("model", *SHOWN))}
 
 
 def heat_accuracy(
@@ -181,6 +177,13 @@ def _timed(solve: partial[HeatAnswer], rounds: int) -> tuple[HeatAnswer, float]:
         answer = solve()
         times.append(process_time() - begin)
     return answer, min(times)
+
+
+def _shown(
+    table: dict[str, list[object]], row: int, column: str, factor: float, zero: float, form: str
+) -> str:
+    value: Any = table[column][row]
+    return "" if value is None else format(factor * value - zero, form)
 
 
 def _rows(ladder: HeatLadder) -> Iterator[dict[str, object]]:

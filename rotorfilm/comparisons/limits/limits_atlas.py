@@ -22,7 +22,7 @@ PHYSICS = tuple(dict.fromkeys(each.panel.physics for each in PANELS.values()))
 
 
 def limits_atlas(physics: Sequence[str] | None = None, *, report: Report = silent) -> LimitAtlas:
-    """Return the atlas of limits; all of it takes some 12 s of CPU.
+    """Return the atlas of limits; all of it takes some 18 s of CPU.
 
     Parameters
     ----------
