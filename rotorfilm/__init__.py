@@ -30,6 +30,7 @@ if TYPE_CHECKING:
         ValidityWarning as ValidityWarning,
     )
     from .fmu import *
+    from .identification import *
     from .linear import *
     from .model import (
         Dynamic as Dynamic,

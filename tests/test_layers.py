@@ -35,7 +35,7 @@ LAYERS = [
     ["native"],
     ["bearings", "rotors"],
     ["linear"],
-    ["motion", "fmu"],
+    ["motion", "fmu", "identification"],
     ["cosim"],
     ["comparisons"],
     ["scenes"],

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     )
     from .comparisons.coupling_error import plot_coupling_error as plot_coupling_error
     from .comparisons.damper_ladder import plot_damper_accuracy as plot_damper_accuracy
+    from .comparisons.heat_ladder import plot_heat_accuracy as plot_heat_accuracy
     from .comparisons.limit_charts import plot_limits as plot_limits
     from .comparisons.scene_ladder import RungPoint as RungPoint, plot_scene_ladder as plot_scene_ladder
     from .comparisons.whirl_verdicts import (
@@ -42,6 +43,12 @@ if TYPE_CHECKING:
         plot_phase as plot_phase,
         plot_transmissibility as plot_transmissibility,
         plot_transmitted as plot_transmitted,
+    )
+    from .heat_charts import (
+        plot_heated_film as plot_heated_film,
+        plot_pressure_field as plot_pressure_field,
+        plot_temperature_across as plot_temperature_across,
+        plot_temperature_field as plot_temperature_field,
     )
     from .motion_charts import plot_locus as plot_locus, plot_orbits as plot_orbits
     from .page import write_page as write_page

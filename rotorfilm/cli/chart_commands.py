@@ -161,7 +161,7 @@ def scene(
 def limits(
     report: Report,
     physics: Annotated[
-        list[str] | None, Option(help="journal, rotor, damper, contact or bush; all unless given.")
+        list[str] | None, Option(help="journal, heat, rotor, damper, contact or bush; all unless given.")
     ] = None,
     out: Folder = OUT,
 ) -> Said:
@@ -183,6 +183,25 @@ def page(out: Folder = OUT) -> Said:
 
     path = str(write_page(out))
     return Said({"page": path}, partial(console.print_rows, "", [("page", path)]))
+
+
+def heat(report: Report, out: Folder = OUT) -> Said:
+    """Films that warm: error against cost of the models of heat, where they fail, pictures. A minute."""
+    from .. import charts, comparisons
+    from ..comparisons.journal.heat_models import heated_film
+
+    result = comparisons.heat_accuracy(report=part_of(report, 0.0, 0.7))
+    report(0.7, "where each model fails")
+    limits = comparisons.limits_atlas(["heat"], report=part_of(report, 0.7, 0.95))
+    files = _write(out, "chart_heat", result.columns(), charts.plot_heat_accuracy(result))
+    files += _write(out, "chart_heat_limits", limits.columns(), charts.plot_limits(limits))
+    case = comparisons.HEAT_CASES[1]
+    pictures = charts.plot_heated_film(heated_film(case), title=f"Film that warms: {case.name}")
+    files.append(("film", str(charts.save(pictures[0], out / "chart_heat_film.png", dpi=DPI))))
+    table = result.summary()
+    rows = list(zip(*table.values(), strict=True))
+    show = partial(_print, tuple(table), rows, [("reference", result.reference), *files])
+    return Said(result.columns(), show)
 
 
 def bush(report: Report, out: Folder = OUT) -> Said:

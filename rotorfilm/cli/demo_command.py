@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from ..progress import Report
+from ..units import CELSIUS
 from . import printing as console
 from .command import Option, Said
 from .solve_command import print_answer
@@ -41,9 +42,26 @@ def _print_all(result: DemoResult, folder: Path) -> None:
     console.print_rows(f"files in {folder}", files)
 
 
+def _print_running(result: DemoResult) -> None:
+    """Print the textbook bearing, its oil of one viscosity, beside the same bearing as it runs."""
+    warm, at, losses = result.running, result.answer.equilibrium, result.answer.losses
+    if warm is None or losses is None:
+        return
+    supply, running = (f"{T - CELSIUS:.1f} degC" for T in (warm.supply_temperature, warm.temperature))
+    rows = [
+        ("oil", f"{result.answer.bearing.viscosity:.3g} Pa s", f"{warm.oil}, fed at {supply}"),
+        ("eccentricity ratio", f"{at.eccentricity_ratio:.4g}", f"{warm.eccentricity_ratio:.4g}"),
+        ("power loss", f"{losses.power_loss:.4g} W", f"{warm.power_loss:.4g} W"),
+        ("temperature", supply, running),
+    ]
+    console.plain_console().print()
+    console.print_columns(("the bearing", "of the textbook", "as it runs"), rows)
+
+
 def print_demo(result: DemoResult) -> None:
     """Print the summary of the demonstration."""
     print_answer(result.scene.title, result.answer)
+    _print_running(result)
     runs, limit, order = result.coupling.runs, result.critical_macro_angle, result.coupling.observed_order
     table = console.plain_table("coupled FMUs beside the monolithic solution")
     for heading in ("macro step", "spectral radius", "orbit error / clearance", "time"):

@@ -55,6 +55,7 @@ CHARTS = {
     "chart_commands.limits": "chart limits --physics journal --physics damper",
     "chart_commands.page": "chart page --out rotorfilm-charts",
     "chart_commands.bush": "chart bush --json",
+    "chart_commands.heat": "chart heat --out rotorfilm-charts",
     "chart_commands.damper": "chart damper --ld 0.25 --permeability 0.001",
     "chart_commands.cosim": "chart cosim --json",
 }

@@ -32,6 +32,14 @@ if TYPE_CHECKING:
         damper_accuracy as damper_accuracy,
         damper_rungs as damper_rungs,
     )
+    from .journal.heat_accuracy import (
+        HeatAccuracy as HeatAccuracy,
+        HeatLadder as HeatLadder,
+        HeatRung as HeatRung,
+        heat_accuracy as heat_accuracy,
+    )
+    from .journal.heat_cases import HEAT_CASES as HEAT_CASES, HeatCase as HeatCase
+    from .journal.heat_models import HeatAnswer as HeatAnswer, HeatModel as HeatModel
     from .journal.journal_accuracy import (
         JournalAccuracy as JournalAccuracy,
         RungAccuracy as RungAccuracy,

@@ -29,6 +29,7 @@ from .cosimulate_scene import critical_macro_angle
 from .coupling_study import CoupledRun, CouplingStudy, study_coupling
 from .export_scene import ExportedScene, export_scene
 from .journal.locus import attitude_angles
+from .journal.running import RunningBearing, running_bearing
 from .journal.solve_journal import Answer
 from .scene import Scene
 
@@ -73,6 +74,9 @@ class DemoResult(Readable):
         The scene of the demonstration.
     answer : Answer
         Equilibrium, coefficients, whirl threshold.
+    running : RunningBearing or None
+        The bearing as it runs, its oil warm, beside the answer; None where no oil of the grades is as viscous
+        at any temperature.
     speed_parameter : float [1]
         speed * sqrt(clearance * mass / load) of the scene.
     fmus : ExportedScene
@@ -91,6 +95,7 @@ class DemoResult(Readable):
 
     scene: Scene
     answer: Answer
+    running: RunningBearing | None
     speed_parameter: float
     fmus: ExportedScene
     critical_macro_angle: float | None
@@ -167,6 +172,7 @@ def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
     result = DemoResult(
         scene=scene,
         answer=answer,
+        running=running_bearing(scene.bearing, scene.static_load, scene.speed),
         speed_parameter=speed_parameter(
             speed=scene.speed,
             clearance=scene.bearing.clearance,

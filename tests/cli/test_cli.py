@@ -19,6 +19,7 @@ from fmpy import read_model_description
 import rotorfilm
 from rotorfilm import comparisons as ladders
 from rotorfilm.cli import main as cli
+from rotorfilm.comparisons.limits.limits_atlas import PANELS
 from rotorfilm.fmu import export_fmu
 from rotorfilm.rotors import RigidRotor
 from rotorfilm.scenes.journal.film_tables import FILMS, RUPTURES
@@ -445,6 +446,25 @@ def test_chart_of_dampers_writes_picture_and_tables(run, tmp_path, monkeypatch):
     code, out, err = run("chart", "damper", "--permeability", "0", "--out", tmp_path)
     assert (code, out) == (2, "")
     assert "permeability_number must be finite and positive, got 0.0" in err
+
+
+def test_chart_of_heat_writes_pictures_and_tables(run, tmp_path, monkeypatch):
+    models = import_module("rotorfilm.comparisons.journal.heat_models")
+    few = {"cases": ladders.HEAT_CASES[:1], "cells": (48, 4), "layers": 4}
+    monkeypatch.setattr(ladders, "heat_accuracy", partial(ladders.heat_accuracy, **few))
+    monkeypatch.setattr(models, "heated_film", partial(models.heated_film, cells=(32, 4), layers=4))
+    curve = ladders.Limit(panel="heat_rise", name="T0", abscissa=np.ones(2), ordinate=np.ones(2))
+    panels = {"heat_rise": PANELS["heat_rise"].panel}
+    atlas = ladders.LimitAtlas(panels=panels, limits=(curve,))
+    monkeypatch.setattr(ladders, "limits_atlas", lambda physics, report: atlas)
+    code, out, _ = run("chart", "heat", "--out", tmp_path)
+    assert code == 0
+    assert "T2 bush" in out
+    for name in ("chart_heat", "chart_heat_limits", "chart_heat_film"):
+        assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+    table = (tmp_path / "chart_heat.csv").read_text(encoding="utf-8").splitlines()
+    assert len(table) == 1 + 7
+    assert "CPU time [s]" in table[0]
 
 
 def test_chart_of_stability_writes_picture_and_table(run, tmp_path, monkeypatch):

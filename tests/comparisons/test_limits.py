@@ -12,13 +12,14 @@ from rotorfilm.comparisons.limits import (
     limits_bush,
     limits_contact,
     limits_damper,
+    limits_heat,
     limits_journal,
     limits_rotor,
 )
 from rotorfilm.comparisons.limits.limit_panels import FAILED, Limit, failure
 from rotorfilm.comparisons.limits.limits_atlas import PANELS
 from rotorfilm.errors import InputError
-from rotorfilm.linear import coefficients
+from rotorfilm.linear import coefficients, equilibrium
 
 # That a model is used beyond its range is what the atlas shows.
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
@@ -212,6 +213,27 @@ def test_limits_of_the_published_models_of_a_bush_are_as_documented():
     assert all(1.01 <= load <= 1.02 for load in loads)
 
 
+def test_a_film_as_cold_as_its_supply_fails_where_the_oil_thins():
+    # docs/charts.md
+    cold, balance, bush = limits_heat.heat_rise.limits()
+    assert failure(cold, FAILED) == pytest.approx(0.19, abs=0.01)
+    assert failure(balance, FAILED) is None
+    assert failure(bush, FAILED) == pytest.approx(8.3, abs=0.5)
+    assert np.all(cold.ordinate > 2.0 * balance.ordinate)
+    slope = np.diff(np.log(bush.ordinate[:2])) / np.diff(np.log(bush.abscissa[:2]))
+    assert 0.7 < slope[0] < 1.1  # to first order what oil thins across the film grows with its thinning
+
+
+@pytest.mark.closed_form
+def test_cases_of_heat_have_their_numbers():
+    case = limits_heat.heat_case(2.0, 50.0)
+    at = equilibrium(case.bearing.at_temperature(limits_heat.SUPPLY), case.load, case.speed)
+    oil, capacity = case.bearing.oil, float(case.bearing.oil.volumetric_heat(limits_heat.SUPPLY))
+    rise = at.losses.power_loss / (capacity * at.losses.side_flow)
+    assert float(oil.thinning(limits_heat.SUPPLY)) * rise == pytest.approx(2.0)
+    assert case.speed * 75e-6**2 * capacity / oil.conductivity == pytest.approx(50.0)
+
+
 def test_atlas_names_the_abscissa_of_every_curve():
     atlas = limits_atlas(["damper"])
     columns = atlas.columns()
@@ -222,6 +244,7 @@ def test_atlas_names_the_abscissa_of_every_curve():
     assert all(np.isfinite(columns["error or limit"]))
     assert {each.panel.physics for each in PANELS.values()} == {
         "journal",
+        "heat",
         "rotor",
         "damper",
         "contact",
@@ -230,7 +253,7 @@ def test_atlas_names_the_abscissa_of_every_curve():
 
 
 def test_unknown_physics_are_named():
-    with pytest.raises(InputError, match="physics must be among journal, rotor, damper, contact, bush"):
+    with pytest.raises(InputError, match="physics must be among journal, heat, rotor, damper, contact, bush"):
         limits_atlas(["journals"])
     with pytest.raises(InputError, match="physics must name one of"):
         limits_atlas([])

@@ -12,12 +12,14 @@ import pytest
 
 from rotorfilm import scenes
 from rotorfilm.bearings.journal import ComplementarityArc, SplittingFilm
+from rotorfilm.bearings.oil import Oil
 from rotorfilm.cli.demo_command import print_demo
 from rotorfilm.cli.main import main
 from rotorfilm.errors import InputError
 from rotorfilm.linear import equilibrium
 from rotorfilm.scenes import demo as demo_module
 from rotorfilm.scenes.demo import plain_results, run_demo
+from rotorfilm.scenes.journal.running import running_bearing
 
 FILES = {
     "film.fmu",
@@ -128,6 +130,29 @@ def test_one_run_is_too_long_on_purpose_and_print_outs_say_so(demo, capsys):
     out = capsys.readouterr().out
     assert "1.3 x the limit: must be refused" in out
     assert out.count("too long on purpose") == 2
+
+
+def test_the_bearing_runs_warm_beside_its_textbook(demo, capsys):
+    """One temperature, all heat with the oil: eps .440, 262 W, 52.5 degC by an independent code."""
+    result, _, _ = demo
+    warm = result.running
+    assert warm.oil == "ISO VG 100"
+    assert warm.supply_temperature == pytest.approx(310.25, abs=0.1)
+    assert warm.eccentricity_ratio == pytest.approx(0.440, rel=0.01)
+    assert warm.power_loss == pytest.approx(262.0, rel=0.02)
+    assert warm.temperature == pytest.approx(325.65, abs=0.5)
+    print_demo(result)
+    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert ["eccentricity", "ratio", "0.275", "0.4413"] in lines
+    assert ["temperature", "37.1", "degC", "52.5", "degC"] in lines
+
+
+def test_a_bearing_without_such_an_oil_has_no_warm_one(scene):
+    for viscosity in (1e-5, 1e3):
+        thin = replace(scene.bearing, viscosity=viscosity)
+        assert running_bearing(thin, scene.static_load, scene.speed) is None
+    warm = replace(scene.bearing, viscosity=None, oil=Oil.iso_vg(46), temperature=320.0)
+    assert running_bearing(warm, scene.static_load, scene.speed) is None
 
 
 def test_results_are_on_disk(demo):

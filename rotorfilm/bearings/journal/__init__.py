@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from .grooves.openings import is_mappable
     from .heat.balanced_bearing import BalancedBearing as BalancedBearing
     from .heat.field.energy_film import MeanTemperature as MeanTemperature
-    from .heat.field.heated_film import HeatedFilm as HeatedFilm
+    from .heat.field.heated_film import FilmProfile, HeatedFilm as HeatedFilm
     from .heat.field.heated_state import HeatAccount, HeatedState as HeatedState
     from .heat.field.layers_film import LayeredTemperature as LayeredTemperature
     from .heat.field.walls import (
@@ -26,6 +26,8 @@ if TYPE_CHECKING:
         HeldWalls as HeldWalls,
         Walls,
     )
+    from .heat.heat_balance import heat_surplus
+    from .heat.heat_numbers import HeatNumbers as HeatNumbers, heat_numbers as heat_numbers
     from .heat.heated_bearing import HeatedBearing as HeatedBearing
     from .map.map_film import MapFilm as MapFilm
     from .map.own_tables import bearing_table

@@ -10,7 +10,7 @@ from ...comparisons.limits.limit_panels import LimitAtlas, Panel
 from ..canvas import new_figure
 
 COLUMNS = 4
-SIZE = (4.4, 3.6)
+SIZE = (4.4, 4.1)
 """Width and height of a panel [inch]."""
 
 
@@ -46,4 +46,5 @@ def _finish(axes: Axes, panel: Panel) -> None:
     if panel.level is not None:
         axes.axhline(panel.level, color="k", linewidth=1.0, linestyle="--", label=f"failed: {panel.level:g}")
     axes.grid(visible=True, alpha=0.3)
-    axes.legend(fontsize=7)
+    # below, where no curve is
+    axes.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=2, frameon=False)

@@ -162,6 +162,21 @@ def test_the_exact_linearization_over_time():
         assert whole[:, k] == pytest.approx(slope, rel=1e-5, abs=1e-9 * np.abs(slope).max())
 
 
+@pytest.mark.literature
+def test_openings_whose_balance_gets_warmer_as_the_film_does():
+    """What is replaced falls as the film warms. An independent code: VG 46, eps .575, 819 W, 61.5 degC."""
+    grooves = tuple(Groove(center=center, width=np.radians(20.0)) for center in (0.0, np.pi))
+    cooling, film = Cooling(supply_temperature=318.15), ReynoldsFilm(cells=(80, 8))
+    size = {"length": 0.05, "clearance": 75e-6, "grooves": grooves}
+    bearing = demo(**size, oil=Oil.iso_vg(46), cooling=cooling, film=film)
+    at = equilibrium(bearing, [0.0, -5e3], 100.0 * np.pi)
+    assert at.eccentricity_ratio == pytest.approx(0.575, rel=0.01)
+    assert at.losses.power_loss == pytest.approx(819.0, rel=0.02)
+    assert at.temperature - 273.15 == pytest.approx(61.5, abs=0.3)
+    still = at.position, np.zeros(2), at.speed
+    assert bearing.balanced_temperature(*still) == pytest.approx(at.temperature, abs=1e-6)
+
+
 @pytest.mark.closed_form
 def test_effective_flow_of_openings():
     # lambda 1: what leaks; lambda 0: Q_1 + Q_2 of each opening.

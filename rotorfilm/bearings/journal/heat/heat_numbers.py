@@ -1,0 +1,57 @@
+"""The numbers that say which model of a film's heat is enough."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .cooled import Cooled
+
+
+class HeatNumbers(NamedTuple):
+    """Numbers of a film at rest with the viscosity of fresh oil.
+
+    Attributes
+    ----------
+    thinning_rise : float [1]
+        E = thinning P/(C Q): what the oil thins where all heat leaves with the oil that leaks. The error of a
+        film at supply temperature.
+    peclet : float [1]
+        Pe = speed clearance^2 C/k: heat that flows along the film over heat that crosses it.
+    nahme : float [1]
+        Na = thinning viscosity (speed radius)^2/k: what heat from shear alone thins across the film.
+    """
+
+    thinning_rise: float
+    peclet: float
+    nahme: float
+
+
+def heat_numbers(bearing: Cooled, position: ArrayLike, speed: float) -> HeatNumbers:
+    """Return the numbers of the heat of a bearing with oil and cooling.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+    position : array_like, shape (2,) [m]
+        Of the journal, off the center: where the film at supply temperature carries the load.
+    speed : float [rad/s]
+
+    Raises
+    ------
+    InputError
+        If the bearing has no oil or no cooling, or its film law knows no losses.
+    FilmContactError
+        If the journal touches the wall.
+    """
+    oil, cooling = bearing.cooled
+    supply = cooling.supply_temperature
+    heat = bearing.at_temperature(supply).film_heat(position, np.zeros(2), speed)
+    capacity, thinning = float(oil.volumetric_heat(supply)), float(oil.thinning(supply))
+    return HeatNumbers(
+        thinning * heat.power / (capacity * heat.side_flow),
+        abs(speed) * bearing.clearance**2 * capacity / oil.conductivity,
+        thinning * heat.viscosity * (speed * bearing.radius) ** 2 / oil.conductivity,
+    )

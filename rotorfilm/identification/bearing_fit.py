@@ -1,0 +1,285 @@
+"""Parameters of a journal bearing from measurements, by least squares, with confidence intervals."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import least_squares
+from scipy.stats import norm, t as student
+
+from ..bearings.journal import JournalBearing
+from ..errors import ConvergenceError, InputError, ValidityWarning, require_kind, require_number
+from ..linear import coefficients, equilibrium
+from ..model import Array
+from ..results import Equilibrium
+from .fit_parameters import ZEROS, Search, search_of
+from .measurements import Measurements
+from .rest_slopes import rest_slopes
+
+STEP = 6e-6
+"""Step of central differences, in the units of the search."""
+
+APART = 1e-5
+"""Smallest singular value of the scaled Jacobian, in the largest, of parameters that can be told apart."""
+
+TAKES_PART = 0.1
+"""Part of a parameter in a direction that the measurements do not see, from which it is named."""
+
+TOLERANCE = 1e-12
+
+
+@dataclass(frozen=True, kw_only=True)
+class FittedParameter:
+    """A parameter as measurements have it, in its SI unit.
+
+    Attributes
+    ----------
+    value : float
+        With which the bearing comes closest to what was measured.
+    standard_error : float
+        Standard deviation of the value.
+    low, high : float
+        Ends of its confidence interval.
+    """
+
+    value: float
+    standard_error: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class BearingFit:
+    """A bearing fitted to measurements.
+
+    Attributes
+    ----------
+    parameters : dict of str to FittedParameter
+        Of each free parameter.
+    confidence : float [1]
+        Of the intervals, each by itself.
+    correlation : ndarray, shape (m, m) [1]
+        Of the errors of the parameters, in their order.
+    misfit : float [1]
+        Root of the mean square of what is left over, in the noise of each quantity, or in its size where no
+        noise was given.
+    residuals : dict of str to ndarray, shape (n,)
+        Measured less fitted, by quantity, in its SI unit; not-a-number where nothing was measured.
+    bearing : JournalBearing
+        With the fitted parameters.
+    evaluations : int
+        Trials of all parameters.
+    """
+
+    parameters: dict[str, FittedParameter]
+    confidence: float
+    correlation: Array
+    misfit: float
+    residuals: dict[str, Array]
+    bearing: JournalBearing
+    evaluations: int
+
+
+def fit_bearing(
+    bearing: JournalBearing,
+    measured: Measurements,
+    *,
+    free: Sequence[str] = ("clearance",),
+    confidence: float = 0.95,
+) -> BearingFit:
+    """Return the parameters with which a bearing shows what was measured.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        With a first guess of its parameters. Its temperature may be stated, or left to the heat balance.
+    measured : Measurements
+    free : sequence of str
+        Among "clearance", "length" [m], "viscosity" [Pa s] or "temperature" [K] of the film,
+        "supply_temperature", "ambient_temperature" [K], "housing_conductance" [W/K], "carry_over" of the
+        cooling, and "zero_x", "zero_y" [m], what the sensors show of a centered journal.
+    confidence : float [1]
+        Of the intervals, above 0 and below 1.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule, or the measurements do not tell the free parameters apart; the message
+        names those.
+    EquilibriumError
+        If a trial bearing does not carry a load.
+    ConvergenceError
+        If the search does not end.
+
+    Notes
+    -----
+    Least squares over scaled parameters. Positions and temperatures have exact derivatives by the clearance,
+    by viscosity or temperature of the film and, without openings, by the cooling; the others central
+    differences. The covariance is that of the linear problem at the solution: (J^T J)^-1, where no noise was
+    given times the mean square of what is left over, with the quantile of Student's distribution.
+
+    Examples
+    --------
+    >>> start = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
+    >>> seen = {"x": [31.3e-6, 21.9e-6], "y": [-17.8e-6, -8.5e-6]}
+    >>> data = Measurements(speed=[100.0, 200.0], load=[0.0, -500.0], values=seen)
+    >>> fit = fit_bearing(start, data, free=("clearance", "viscosity"))
+    >>> sorted(fit.parameters)
+    ['clearance', 'viscosity']
+    """
+    require_kind("bearing", bearing, JournalBearing, "a JournalBearing with a first guess")
+    require_kind("measured", measured, Measurements, "Measurements")
+    if not 0.0 < require_number("confidence", confidence) < 1.0:
+        raise InputError(f"confidence must be above 0 and below 1, got {confidence!r}")
+    search = search_of(bearing, free)
+    spare = measured.count - len(free)
+    if spare < (measured.noise is None):
+        raise InputError(
+            "free must be fewer parameters than there are measured numbers, "
+            f"got {len(free)} for {measured.count}"
+        )
+    problem = _Problem(search, measured)
+    with warnings.catch_warnings():
+        # A trial that the search only passes through is nobody's answer; that of the result is warned of.
+        warnings.simplefilter("ignore", ValidityWarning)
+        start = np.zeros(len(free))
+        problem.residual(start)  # which tells what the bearing cannot predict
+        _require_apart(search, problem.jacobian(start))
+        found = least_squares(
+            problem.residual,
+            start,
+            problem.jacobian,
+            bounds=search.bounds,
+            xtol=TOLERANCE,
+            ftol=TOLERANCE,
+            gtol=TOLERANCE,
+        )
+        if not found.success:
+            raise ConvergenceError(f"the fit must end, and did not: {found.message}", found.x)
+        J = problem.jacobian(found.x)
+        _require_apart(search, J)
+    inverse = np.linalg.inv(J.T @ J)
+    excess = 1.0 if measured.noise is not None else 2.0 * found.cost / spare
+    half = (1.0 + confidence) / 2.0
+    quantile = float(norm.ppf(half) if measured.noise is not None else student.ppf(half, spare))
+    error = np.sqrt(excess * np.diag(inverse))
+    ends = [search.values(np.clip(found.x + side * quantile * error, *search.bounds)) for side in (-1.0, 1.0)]
+    columns = (search.values(found.x), error * search.slopes(found.x), *ends)
+    left = measured.table - problem.predicted(found.x)
+    return BearingFit(
+        parameters={
+            name: FittedParameter(value=value, standard_error=sigma, low=low, high=high)
+            for name, value, sigma, low, high in zip(search.names, *np.array(columns).tolist(), strict=True)
+        },
+        confidence=confidence,
+        correlation=inverse / np.sqrt(np.outer(np.diag(inverse), np.diag(inverse))),
+        misfit=math.sqrt(2.0 * found.cost / measured.count),
+        residuals=dict(zip(measured.names, left.T, strict=True)),
+        bearing=search.trial(found.x).bearing,
+        evaluations=int(found.nfev),
+    )
+
+
+class _Problem(NamedTuple):
+    """Residuals of a fit, and their derivatives, over the numbers of the search."""
+
+    search: Search
+    measured: Measurements
+
+    def predicted(self, u: Array) -> Array:
+        """Return what trial parameters predict, shape (n, quantities)."""
+        return np.array([self._row(at, u) for at in self._rests(u)])
+
+    def residual(self, u: Array) -> Array:
+        """Return (predicted - measured)/noise of the numbers that were measured."""
+        return self._kept(self.predicted(u) - self.measured.table)
+
+    def jacobian(self, u: Array) -> Array:
+        """Return d residual/du."""
+        columns = []
+        for k, (name, slope) in enumerate(zip(self.search.names, self.search.slopes(u), strict=True)):
+            exact = self._exact(u, name)
+            columns.append(self._difference(u, k) if exact is None else self._kept(exact * slope))
+        return np.stack(columns, axis=-1)
+
+    def _exact(self, u: Array, name: str) -> Array | None:
+        """Return d predicted/d(parameter); None where it needs differences."""
+        names = self.measured.names
+        table = np.zeros(self.measured.table.shape)
+        if name in ZEROS:
+            shown = "xy"[ZEROS.index(name)]
+            return table + np.array([one == shown for one in names])
+        if not set(names) <= {"x", "y", "temperature"}:
+            return None
+        trial, order = self.search.trial(u), ("x", "y", "temperature")
+        for row, at in zip(table, self._rests(u), strict=True):
+            slopes = rest_slopes(trial.bearing, at, name)
+            if slopes is None:
+                return None
+            row[:] = [slopes[order.index(one)] for one in names]
+        return table
+
+    def _difference(self, u: Array, k: int) -> Array:
+        step = np.zeros(u.size)
+        low, high = (ends[k] for ends in self.search.bounds)
+        step[k] = STEP
+        up, down = (step * (low < v < high) for v in (u[k] + STEP, u[k] - STEP))
+        ends = self.residual(u + up), self.residual(u - down)
+        return np.asarray((ends[0] - ends[1]) / float((up + down)[k]))
+
+    def _rests(self, u: Array) -> tuple[Equilibrium, ...]:
+        return _rests(self.search.trial(u).bearing, self.measured)
+
+    def _row(self, at: Equilibrium, u: Array) -> list[float]:
+        trial = self.search.trial(u)
+        return [_quantity(name, trial.bearing, at, trial.zero) for name in self.measured.names]
+
+    def _kept(self, table: Array) -> Array:
+        seen = np.isfinite(self.measured.table)
+        return np.asarray((table / self.measured.scale)[seen])
+
+
+@lru_cache(maxsize=4)
+def _rests(bearing: JournalBearing, measured: Measurements) -> tuple[Equilibrium, ...]:
+    """Return the equilibria of a bearing at the rows of measurements."""
+    return tuple(equilibrium(bearing, load, speed) for speed, load in measured.rows)
+
+
+def _quantity(name: str, bearing: JournalBearing, at: Equilibrium, zero: Array) -> float:
+    """Return what a bearing at rest predicts for one quantity."""
+    if name in ("x", "y"):
+        k = "xy".index(name)
+        return float(at.position[k] + zero[k])
+    if name == "temperature":
+        if at.temperature is None:
+            raise InputError("bearing must have its temperature left to the heat balance for a measured one")
+        return at.temperature
+    if name in ("power_loss", "side_flow"):
+        if at.losses is None:
+            raise InputError(f"bearing must have a film with losses, as MapFilm, for a measured {name}")
+        return float(getattr(at.losses, name))
+    film = coefficients(bearing, at.position, at.speed)
+    matrix = film.stiffness if name[0] == "k" else film.damping
+    return float(matrix["xy".index(name[1]), "xy".index(name[2])])
+
+
+def _require_apart(search: Search, jacobian: Array) -> None:
+    """Raise InputError if some parameters, or some mixture of them, leave the measurements as they are."""
+    sizes = np.linalg.norm(jacobian, axis=0)
+    blind = [name for name, size in zip(search.names, sizes, strict=True) if not size > 0.0]
+    if blind:
+        raise InputError(f"free must be parameters that the measurements depend on, got {', '.join(blind)}")
+    _, singular, directions = np.linalg.svd(jacobian / sizes, full_matrices=False)
+    if jacobian.shape[0] >= sizes.size and singular[-1] > APART * singular[0]:
+        return
+    mixed = [n for n, part in zip(search.names, np.abs(directions[-1]), strict=True) if part > TAKES_PART]
+    raise InputError(
+        f"free must be parameters that the measurements tell apart, got {' and '.join(mixed)}: "
+        "together they change nothing that was measured"
+    )

@@ -1,0 +1,117 @@
+"""Pictures of films that warm: what is drawn is what was found, in the units of the labels."""
+
+import numpy as np
+import pytest
+
+from rotorfilm.bearings.films.geometry import Groove
+from rotorfilm.bearings.journal import (
+    BushRing,
+    HeatedFilm,
+    HeatNumbers,
+    JournalBearing,
+    LayeredTemperature,
+    MeanTemperature,
+)
+from rotorfilm.bearings.oil import Cooling, Oil
+from rotorfilm.charts import (
+    plot_heat_accuracy,
+    plot_heated_film,
+    plot_pressure_field,
+    plot_temperature_across,
+    plot_temperature_field,
+)
+from rotorfilm.comparisons import HEAT_CASES, HeatAccuracy, HeatAnswer, HeatLadder, HeatModel, HeatRung
+from rotorfilm.errors import InputError
+
+
+def state_of(profile):
+    bearing = JournalBearing(
+        radius=0.05,
+        length=0.05,
+        clearance=75e-6,
+        oil=Oil.iso_vg(46),
+        cooling=Cooling(supply_temperature=318.15),
+        grooves=(Groove(center=0.0, width=0.35), Groove(center=np.pi, width=0.35)),
+    )
+    film = HeatedFilm(bearing=bearing, walls=BushRing(outer_radius=0.1), cells=(32, 4), profile=profile)
+    return film.solve([22e-6, -37e-6], 314.2)
+
+
+@pytest.fixture(scope="module")
+def layered():
+    return state_of(LayeredTemperature(5))
+
+
+def mesh_of(axes):
+    return axes.collections[0]
+
+
+def test_fields_are_drawn_whole_and_in_degrees(layered):
+    axes = plot_temperature_field(layered)
+    shown = mesh_of(axes).get_array()
+    mean = layered.oil_temperature.mean(axis=-1) - 273.15
+    assert shown.shape == (2 * mean.shape[1] - 1, mean.shape[0])
+    assert (shown.min(), shown.max()) == pytest.approx((mean.min(), mean.max()))
+    np.testing.assert_array_equal(shown, shown[::-1])  # both halves
+    assert axes.get_xlim() == (0.0, 360.0)
+    assert axes.get_ylim() == pytest.approx((-25.0, 25.0))
+    assert axes.figure.axes[1].get_ylabel() == "temperature [degC]"
+
+
+def test_pressure_is_where_it_was_found(layered):
+    axes = plot_pressure_field(layered)
+    mesh = mesh_of(axes)
+    shown = mesh.get_array()
+    line, node = np.unravel_index(layered.pressure.argmax(), layered.pressure.shape)
+    assert shown.max() == pytest.approx(1e-6 * layered.pressure[line, node])
+    column = np.unravel_index(shown.argmax(), shown.shape)[1]
+    edges = np.sort(mesh.get_coordinates()[0, :, 0])
+    assert edges[column] <= np.degrees(layered.angle[line]) <= edges[column + 1]
+
+
+def test_the_gap_is_drawn_across(layered):
+    axes = plot_temperature_across(layered)
+    corners = mesh_of(axes).get_coordinates()
+    gap = corners[:, -1, 1]
+    chi = np.hypot(*layered.position) / 75e-6
+    assert gap.min() == pytest.approx(75.0 * (1.0 - chi), rel=5e-3)
+    assert gap.max() == pytest.approx(75.0 * (1.0 + chi), rel=5e-3)
+    thinnest = np.degrees(np.arctan2(layered.position[1], layered.position[0])) % 360.0
+    assert corners[gap.argmin(), 0, 0] == pytest.approx(thinnest, abs=12.0)
+    assert mesh_of(axes).get_array().max() == pytest.approx(layered.oil_temperature[:, 0].max() - 273.15)
+
+
+def test_a_film_with_a_mean_temperature_has_no_picture_across():
+    state = state_of(MeanTemperature())
+    assert len(plot_heated_film(state)) == 2
+    with pytest.raises(InputError, match="state must be that of a film with layers"):
+        plot_temperature_across(state)
+
+
+def test_the_whole_film_is_one_figure(layered):
+    shown = plot_heated_film(layered, title="a film")
+    assert [axes.get_figure().get_suptitle() for axes in shown] == ["a film"] * 3
+
+
+def test_ladder_has_a_panel_for_each_bearing():
+    def answer(power):
+        return HeatAnswer(
+            position=np.zeros(2), eccentricity_ratio=0.4, attitude_angle=0.7, power_loss=power,
+            temperature=330.0, load_stiffness=1e8,
+        )  # fmt: skip
+
+    rungs = tuple(
+        HeatRung(model=model, answer=answer(1.0), position_error=0.5 / k, power_error=0.2 / k, cost=1e-3 * k)
+        for k, model in enumerate(HeatModel, 1)
+    )
+    numbers, reference = HeatNumbers(2.0, 20.0, 3.0), answer(1.0)
+    ladders = [
+        HeatLadder(case=case, numbers=numbers, reference=reference, rungs=rungs) for case in HEAT_CASES
+    ]
+    shown = plot_heat_accuracy(HeatAccuracy(ladders=tuple(ladders), reference="finer"))
+    assert len(shown) == len(HEAT_CASES)
+    filled = [line for line in shown[0].get_lines() if line.get_markersize() == 7]
+    np.testing.assert_allclose([line.get_xdata()[0] for line in filled], np.arange(1.0, 7.0))
+    np.testing.assert_allclose([line.get_ydata()[0] for line in filled], 0.5 / np.arange(1.0, 7.0))
+    assert "E = 2, Pe = 20, Na = 3" in shown[0].get_title()
+    assert {text.get_text() for text in shown[0].texts} == {model.said for model in HeatModel}
