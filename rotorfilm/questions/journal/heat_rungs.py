@@ -15,11 +15,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ...answers import HEATED, ErrorEstimate, Found, Work, WorkUnit
-from ...bearings.journal import JournalBearing, has_losses
+from ...bearings.journal import JournalBearing, film_name, has_losses
 from ...errors import InputError, RotorfilmError
 from ...ladders import BaseRung, Ladder, Rung
 from ...scenes.journal.assumed import assumed_figures
-from ...scenes.journal.echo import film_name
 from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.warm_rest import WarmRest, step, uniform_rest
 from .field_rungs import HeatedQuestion, field_rungs, motion_rungs
