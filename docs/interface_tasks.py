@@ -37,6 +37,7 @@ TASKS = {
     "Rotors": ("rotors", "scenes.shaft.ross", "scenes.shaft.ross_bearing"),
     "Motion over time": ("motion.compiled", "motion.transient", "results.Trajectory"),
     "Orbits": ("motion", "results.CircularOrbit"),
+    "Bearings fitted to measurements": ("identification",),
     "FMUs": ("fmu", "scenes.shaft.export_rotor"),
     "Coupling in co-simulation": ("cosim",),
     "Scenes, questions, sweeps": ("scenes", "sweeps"),

@@ -15,8 +15,10 @@ from scipy.stats import norm, t as student
 
 from ..bearings.journal import JournalBearing
 from ..errors import ConvergenceError, InputError, ValidityWarning, require_kind, require_number
+from ..inputs.kinds import arguments
 from ..linear import coefficients, equilibrium
 from ..model import Array
+from ..readable.result import Readable
 from ..results import Equilibrium
 from .fit_parameters import ZEROS, Search, search_of
 from .measurements import Measurements
@@ -35,7 +37,7 @@ TOLERANCE = 1e-12
 
 
 @dataclass(frozen=True, kw_only=True)
-class FittedParameter:
+class FittedParameter(Readable):
     """A parameter as measurements have it, in its SI unit.
 
     Attributes
@@ -55,7 +57,7 @@ class FittedParameter:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class BearingFit:
+class BearingFit(Readable):
     """A bearing fitted to measurements.
 
     Attributes
@@ -86,6 +88,7 @@ class BearingFit:
     evaluations: int
 
 
+@arguments
 def fit_bearing(
     bearing: JournalBearing,
     measured: Measurements,

@@ -23,7 +23,10 @@ RESULTS = {
 }  # fmt: skip
 """Made by rotorfilm, not by its users."""
 
-SCALED = {"BallSupport", "ContactLaw", "HeatedBearing", "MovingContact", "OwnReaction"}
+ARRAYS = {"Measurements"}
+"""Of arrays, in SI."""
+
+SCALED = ARRAYS | {"BallSupport", "ContactLaw", "HeatedBearing", "MovingContact", "OwnReaction"}
 """Made by functions, from scales that these know."""
 
 

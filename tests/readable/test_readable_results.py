@@ -28,11 +28,13 @@ pytest.importorskip("pandas")
 pytest.importorskip("xarray")
 
 NO_RESULTS = {
+    "what a chart is drawn from": {"HeatAccuracy", "HeatAnswer", "HeatLadder", "HeatModel"},
     "what a caller gives": {"OperatingPoint", "DamperGroups", "Span", "Axis", "StateRange", "RungPoint"},
     "a part of the machinery": {
         *("WorkUnit", "Unit", "Family", "MarchMotion", "Residual", "ModalFilms", "Corrected", "ComparedFilm"),
         *("FilmField", "RungName", "BushRun", "RossRotor", "DemoResult", "PublishedStage", "RungPoint"),
         *("SolvedTurn", "OrbitPlace", "FollowedFilm", "ShaftSpeed", "ShaftModel", "ShakenBall"),
+        *("HeatCase", "HeatRung", "RunningBearing", "WarmRest"),
         *("RestingFilms", "DamperFilm", "FilmRung", "Limit", "Panel", "PanelCurves", "LimitAtlas"),
     },
 }
