@@ -72,7 +72,7 @@ def test_every_job_has_one_snippet_that_ends_in_a_number(title, code):
 def test_every_job_of_the_table_has_its_snippet():
     jobs = re.findall(r"\]\(#([\w-]+)\)", TEXT)
     assert jobs == [anchor(title) for title, _ in SNIPPETS]
-    assert len(jobs) == 9
+    assert len(jobs) == 10
 
 
 @pytest.mark.parametrize("target", sorted(set(re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", TEXT))))

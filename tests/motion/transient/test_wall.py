@@ -5,6 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotorfilm.bearings.journal.bearing import JournalBearing
+from rotorfilm.bearings.reaction import Feedthrough
 from rotorfilm.errors import ContactError, ConvergenceError, FilmContactError
 from rotorfilm.motion import simulate
 from rotorfilm.rotors import RigidRotor
@@ -45,7 +46,7 @@ def test_a_start_at_the_wall_is_refused(make_linear_film):
 
 
 @dataclass(frozen=True)
-class BrokenFilm:
+class BrokenFilm(Feedthrough):
     """A bearing whose force is not a number below some height."""
 
     bearing: JournalBearing
@@ -54,7 +55,6 @@ class BrokenFilm:
     clearance = property(lambda self: self.bearing.clearance)
     inputs = property(lambda self: self.bearing.inputs)
     outputs = property(lambda self: self.bearing.outputs)
-    states = ()
 
     def force(self, position, velocity, speed):
         return np.where(position[1] < self.height, np.nan, self.bearing.force(position, velocity, speed))
