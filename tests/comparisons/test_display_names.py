@@ -18,9 +18,11 @@ PRINTED = {"name", "label", "title", "text", "x_label", "y_label"}
 ALLOWED = {
     # Names of parameters and modules in Python, not display names.
     ("cli/command.py", "parameter.name.replace('_', '-')"),
+    ("cli/command.py", "parameter.name == 'radius'"),
     ("cli/main.py", "started.name == f'{package}.__main__'"),
     # an answer knows the rung that gave it by its name alone
     ("cli/question_printing.py", "report.name == answer.model"),
+    ("charts/result_charts.py", "one.name == answer.model"),
     # a fingerprint, which is shown to no one
     ("sweeps/store.py", "json.loads(text)['sweep'] != self.name"),
 }
