@@ -90,6 +90,8 @@ DISPLAY_UNITS: dict[str, Unit] = {
     "N m s/rad": UNITS["N.m.s/rad"],
     "N s/m": UNITS["N.s/m"],
     "kN m": Unit(1e3, {"kg": 1, "m": 2, "s": -2}),
+    "N/mm": Unit(1e3, {"kg": 1, "s": -2}),
+    "N/um": Unit(1e6, {"kg": 1, "s": -2}),
     "kN/m": Unit(1e3, {"kg": 1, "s": -2}),
     "MN/m": Unit(1e6, {"kg": 1, "s": -2}),
     "kN s/m": Unit(1e3, {"kg": 1, "s": -1}),

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, brief, require_inside, require_positive
+from ..inputs.kinds import arguments
 from ..inputs.si_arguments import quantities
 from ..model import Array, Force
 from .differences import differences
@@ -168,6 +169,7 @@ def _state(position: Array, velocity: Array, speed: Array) -> Array:
     return np.concatenate([position, velocity, speed[None]])
 
 
+@arguments
 def as_reaction(
     force: Law,
     *,

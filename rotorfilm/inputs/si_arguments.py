@@ -108,13 +108,31 @@ def _halved(home: Any, diameter: str, radius: str, given: Mapping[str, Any]) -> 
     return {**rest, radius: 0.5 * value if isinstance(value, float | int) else value}
 
 
+@cache
+def temperatures_of(documented: Any) -> frozenset[str]:
+    """Return the arguments that are temperatures, which may be given in degC, and no differences."""
+    homes = documented.__mro__ if isinstance(documented, type) else (documented,)
+    above: set[str] = set()
+    for home in homes:
+        name = ""
+        for line in inspect.cleandoc(vars(home).get("__doc__") or home.__doc__ or "").splitlines():
+            if match := ENTRY.fullmatch(line):
+                name = match[1]
+            elif "above ambient" in line:
+                above.add(name)
+    units = units_of(documented)
+    return frozenset(one for one in units if one.endswith("temperature") and units[one] == "K") - above
+
+
 def _read(home: Any, name: str, value: Any) -> Any:
     """Return an argument with its quantities in SI; anything else as it is."""
     unit = units_of(home).get(name)
-    return quantity(name, value, unit) if unit else value
+    if not unit:
+        return value
+    return quantity(name, value, unit, absolute=name in temperatures_of(home))
 
 
-def quantity(name: str, value: Any, unit: str) -> Any:
+def quantity(name: str, value: Any, unit: str, *, absolute: bool = False) -> Any:
     """Return a string or a quantity of pint as a float in SI, also inside of lists; anything else as it is.
 
     Parameters
@@ -124,6 +142,8 @@ def quantity(name: str, value: Any, unit: str) -> Any:
     value : object
     unit : str
         As docstrings spell it, with spaces.
+    absolute : bool
+        Whether it is a temperature, in K or degC, and no difference.
 
     Raises
     ------
@@ -134,7 +154,7 @@ def quantity(name: str, value: Any, unit: str) -> Any:
         return value
     if isinstance(value, str):
         try:
-            return parse_quantity(value, si_name(unit))
+            return parse_quantity(value, si_name(unit), absolute=absolute)
         except InputError as error:
             raise InputError(f"{name}: {error}") from None
     if isinstance(value, list | tuple):

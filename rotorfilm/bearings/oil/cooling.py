@@ -16,6 +16,20 @@ RING = 1.3
 `Cooling` assumes them."""
 
 
+OIL_RANGE = (150.0, 700.0)
+"""Temperatures [K] between which there are oils; outside, degrees Celsius probably were meant."""
+
+
+def require_absolute(name: str, temperature: float) -> None:
+    """Raise InputError unless a temperature [K] is one that an oil may have."""
+    low, high = OIL_RANGE
+    if not low <= require_number(name, temperature) <= high:
+        raise InputError(
+            f"{name} must be a temperature from {low:g} to {high:g} K, got {temperature!r}: "
+            f"'{temperature:g} degC'?"
+        )
+
+
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class Cooling:
@@ -55,10 +69,11 @@ class Cooling:
     full_gap: bool = False
 
     def __post_init__(self) -> None:
-        require_positive("supply_temperature", self.supply_temperature)
-        for name in ("ambient_temperature", "bush_heat_capacity"):
-            if getattr(self, name) is not None:
-                require_positive(name, getattr(self, name))
+        require_absolute("supply_temperature", self.supply_temperature)
+        if self.ambient_temperature is not None:
+            require_absolute("ambient_temperature", self.ambient_temperature)
+        if self.bush_heat_capacity is not None:
+            require_positive("bush_heat_capacity", self.bush_heat_capacity)
         require_non_negative("housing_conductance", self.housing_conductance)
         if not 0.0 <= require_number("carry_over", self.carry_over) <= 1.0:
             raise InputError(f"carry_over must be from 0 to 1, got {self.carry_over!r}")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import cast
 
 from ...errors import InputError, require_kind, require_positive
-from .cooling import Cooling
+from .cooling import Cooling, require_absolute
 from .oil import Oil
 
 
@@ -26,7 +26,7 @@ def require_lubricant(
         raise InputError(f"viscosity must be None where oil is given, got {viscosity!r}")
     require_kind("cooling", cooling, Cooling | None, "a Cooling")
     if temperature is not None:
-        require_positive("temperature", temperature)
+        require_absolute("temperature", temperature)
     elif cooling is None:
         raise InputError("temperature or cooling must be given with oil, got neither")
 

@@ -177,6 +177,21 @@ def test_openings_whose_balance_gets_warmer_as_the_film_does():
     assert bearing.balanced_temperature(*still) == pytest.approx(at.temperature, abs=1e-6)
 
 
+def test_a_bearing_that_begins_warm_stays_in_balance():
+    at = equilibrium(demo(), LOAD, SPEED)
+    running = demo().in_time(at.temperature)
+    u = np.concatenate([at.position, np.zeros(2), [SPEED]])
+    assert running.initial_state == at.temperature
+    assert running.output(0.0, running.initial_state, u)[:2] == pytest.approx([0.0, 525.0], abs=1e-5)
+    assert abs(running.derivative(0.0, running.initial_state, u)[0]) < 1e-6
+
+
+def test_temperatures_are_given_in_degrees_too():
+    warm = demo(cooling=Cooling(supply_temperature="37.1 degC", ambient_temperature="25 degC"))
+    assert (warm.cooling.supply_temperature, warm.cooling.ambient_temperature) == (310.25, 298.15)
+    assert demo(temperature="50 degC").temperature == 323.15
+
+
 @pytest.mark.closed_form
 def test_effective_flow_of_openings():
     # lambda 1: what leaks; lambda 0: Q_1 + Q_2 of each opening.
@@ -194,6 +209,8 @@ def test_effective_flow_of_openings():
         (lambda: demo(cooling=None), "temperature or cooling must be given with oil"),
         (lambda: demo().force(*AT), "temperature must be stated"),
         (lambda: demo().balanced_temperature((0, 0), (0, 0), SPEED), "housing_conductance must be positive"),
+        (lambda: Cooling(supply_temperature=45.0), "from 150 to 700 K, got 45.0: '45 degC'"),
+        (lambda: demo(temperature=52.0), "from 150 to 700 K, got 52.0: '52 degC'"),
         (lambda: Cooling(supply_temperature=300.0, carry_over=1.2), "carry_over must be from 0 to 1"),
         (lambda: JournalBearing(radius=0.05, length=0.03, clearance=1e-4), "viscosity or oil must be given"),
     ],

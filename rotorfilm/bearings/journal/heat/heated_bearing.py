@@ -11,11 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ....errors import InputError, require_finite, require_positive
+from ....errors import InputError, require_finite
 from ....inputs.si_arguments import quantities
 from ....model import Array, Linearization
 from ....native.spec import NativeSpec
 from ....signals import Signal
+from ...oil.cooling import require_absolute
 from ...oil.viscosity_table import viscosity_table
 from ...reaction import input_vector
 from .cooled import Cooled
@@ -59,7 +60,7 @@ class HeatedBearing:
     def __post_init__(self) -> None:
         _ = self.bearing.cooled
         if self.start_temperature is not None:
-            require_positive("start_temperature", self.start_temperature)
+            require_absolute("start_temperature", self.start_temperature)
 
     @property
     def clearance(self) -> float:

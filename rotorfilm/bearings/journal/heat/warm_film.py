@@ -126,9 +126,15 @@ class WarmFilm:
         found = losses is not None and isinstance(film, BoundKernel) and self.supply_pressure == 0.0
         return (film, losses) if found else None  # type: ignore[return-value]
 
-    def in_time(self: _Bearing) -> HeatedBearing:
-        """Return the bearing whose film warms and cools over time, from the temperature of the fresh oil."""
-        return HeatedBearing(bearing=self)
+    def in_time(self: _Bearing, start_temperature: float | None = None) -> HeatedBearing:
+        """Return the bearing whose film warms and cools over time.
+
+        Parameters
+        ----------
+        start_temperature : float or None [K]
+            As that of an equilibrium; None for that of the fresh oil.
+        """
+        return HeatedBearing(bearing=self, start_temperature=start_temperature)
 
     def balanced(self: _Bearing) -> BalancedBearing | None:
         """Return the bearing in balance at every state; None if nothing compiles its film."""
