@@ -112,8 +112,8 @@ def to_frame(arrays: Arrays, index: str, along: str, notes: Mapping[str, Any]) -
 
 
 def rows_of(arrays: Arrays) -> str:
-    """Return the dimension that the first array has beside x and y; nothing where all are numbers."""
-    dims = (dim for one in arrays.values() for dim in one.dims if not dim.endswith(AXIS))
+    """Return the dimension beside x and y that the first array with entries has; nothing for numbers."""
+    dims = (dim for one in arrays.values() if one.values.size for dim in one.dims if not dim.endswith(AXIS))
     return next(dims, "")
 
 

@@ -367,3 +367,12 @@ def test_a_bearing_with_openings_tells_its_film():
     assert made.fitted_film == grooved.fitted_film
     plain = rotorfilm.JournalBearing(**BEARING)
     assert "film=MapFilm()" in repr(plain)
+
+
+def test_losses_without_openings_are_one_row():
+    pytest.importorskip("pandas")
+    bearing = rotorfilm.JournalBearing(**BEARING)
+    losses = bearing.losses([3e-5, 0.0], [0.0, 0.0], 100.0)
+    frame = losses.to_dataframe()
+    assert frame.shape[0] == 1
+    assert frame["power_loss"][0] == losses.power_loss
