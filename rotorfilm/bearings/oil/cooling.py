@@ -16,17 +16,15 @@ RING = 1.3
 `Cooling` assumes them."""
 
 
-OIL_RANGE = (150.0, 700.0)
-"""Temperatures [K] between which there are oils; outside, degrees Celsius probably were meant."""
+COLDEST_OIL = 150.0
+"""Temperature [K] below which there is no oil; degrees Celsius probably were meant."""
 
 
 def require_absolute(name: str, temperature: float) -> None:
     """Raise InputError unless a temperature [K] is one that an oil may have."""
-    low, high = OIL_RANGE
-    if not low <= require_number(name, temperature) <= high:
+    if require_number(name, temperature) < COLDEST_OIL:
         raise InputError(
-            f"{name} must be a temperature from {low:g} to {high:g} K, got {temperature!r}: "
-            f"'{temperature:g} degC'?"
+            f"{name} must be at least {COLDEST_OIL:g} K, got {temperature!r}: '{temperature:g} degC'?"
         )
 
 
