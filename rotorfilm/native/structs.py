@@ -114,6 +114,7 @@ class RingStruct(ctypes.Structure):
         ("ruptured", c_int32),
         ("clipped", c_int32),
         ("extrapolated", c_int32),
+        ("pad", c_int32),
     ]
 
 

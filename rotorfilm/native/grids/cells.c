@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "../films/quintic.h"
 #include "clones.h"
 
 #define CROWDING 0.35 /* the distance of lines at the minimum film falls as its thickness to this power */
@@ -62,11 +63,28 @@ static double cubed(const double *e, double cosine, double sine, double factor, 
     return factor * film * film * film;
 }
 
+double rf_least_film(const rf_ring *ring, const double *e, double at[2])
+{
+    at[0] = e[0];
+    at[1] = e[1];
+    if (!ring->pad)
+        return 1.0 - rf_length(e[0], e[1]);
+    const double half = 0.5 * ring->extent[1], middle = ring->start[1] + half;
+    const double c = cos(middle), s = sin(middle), along = e[0] * c + e[1] * s, across = e[1] * c - e[0] * s;
+    const double place = fmin(fmax(atan2(across, along), -half), half), least = 1.0 - along * cos(place) - across * sin(place);
+    const double towards = fmax(1.0 - least, 0.0);
+    at[0] = towards * cos(middle + place);
+    at[1] = towards * sin(middle + place);
+    return least;
+}
+
 void rf_set_cells(const rf_ring *ring, const rf_grid *grid, const double *e, rf_cells *cells)
 {
     const size_t n = grid->lines;
-    const double depth = 1.0 + pow(1.0 - e[0] * e[0] - e[1] * e[1], CROWDING);
-    const double a[2] = {e[0] / depth, e[1] / depth}, across = 1.0 / (ring->slenderness * ring->slenderness);
+    double place[2];
+    rf_least_film(ring, e, place);
+    const double depth = 1.0 + pow(1.0 - place[0] * place[0] - place[1] * place[1], CROWDING);
+    const double a[2] = {place[0] / depth, place[1] / depth}, across = 1.0 / (ring->slenderness * ring->slenderness);
     set_angles(ring, grid, a, grid->line, cells->theta);
     set_angles(ring, grid, a, grid->face, cells->face);
     double before = cells->face[n - 1], cosine = cos(before), sine = sin(before);

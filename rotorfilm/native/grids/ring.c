@@ -121,18 +121,19 @@ static int film_at_center(rf_search *search, const double *e, double *f, double 
     return RF_OK;
 }
 
-int rf_judge_state(const double *e, const double *w)
+int rf_judge_state(const rf_ring *ring, const double *e, const double *w)
 {
     const double state[4] = {e[0], e[1], w[0], w[1]};
+    double at[2];
     if (rf_is_broken(state, 4))
         return RF_NOT_FINITE;
-    return rf_length(e[0], e[1]) >= 1.0 ? RF_AT_WALL : RF_OK;
+    return rf_least_film(ring, e, at) > 0.0 ? RF_OK : RF_AT_WALL;
 }
 
 int rf_ring_film(const void *data, const double *e, const double *w, double *f, double *jacobian)
 {
     const rf_ring *ring = data;
-    const int judged = rf_judge_state(e, w);
+    const int judged = rf_judge_state(ring, e, w);
     if (judged != RF_OK)
         return rf_fail(judged, f, jacobian, 8);
     const int resting = is_at_rest(ring, w), centered = rf_length(e[0], e[1]) <= CENTER && !ring->pinned;
@@ -156,7 +157,7 @@ int rf_ring_pair(const rf_ring *ring, size_t n, const double *e, const double *w
         const double here[2] = {e[i], e[n + i]}, source[2] = {w[i], w[n + i]};
         double f[2][2] = {{0.0, 0.0}, {0.0, 0.0}}, slopes[8];
         *first = i;
-        status = rf_judge_state(here, source);
+        status = rf_judge_state(ring, here, source);
         if (status != RF_OK)
             break;
         rf_place_journal(&search, here);
@@ -184,7 +185,7 @@ int rf_ring_field(const rf_ring *ring, const double *e, const double *w, double 
     double f[2];
     int status = rf_open_search(&search, ring);
     if (status == RF_OK)
-        status = rf_judge_state(e, w);
+        status = rf_judge_state(ring, e, w);
     if (status == RF_OK) {
         rf_place_journal(&search, e);
         status = rf_search_down_to(&search, 0, w);
@@ -220,7 +221,7 @@ int rf_ring_potential(const rf_ring *ring, const double *e, size_t n, const doub
     rf_search search;
     int status = rf_open_search(&search, ring);
     *first = 0;
-    if (status == RF_OK && (status = rf_judge_state(e, e)) == RF_OK)
+    if (status == RF_OK && (status = rf_judge_state(ring, e, e)) == RF_OK)
         rf_place_journal(&search, e);
     for (size_t d = 0; d < n && status == RF_OK; ++d) {
         const double source[2] = {w[d], w[n + d]};

@@ -4,7 +4,10 @@
    z from the middle, 0, to the end, 1, of the bearing, and p = 12 viscosity (R/c)^2 P. Its lines lie at
    exp(i theta) = (t + a)/(1 + conj(a) t), t = exp(i s), uniform in s on every span between two edges: a
    Moebius map of the circle that crowds them at the minimum film, a = e/(1 + (1 - |e|^2)^.35). Edges stay on
-   lines, and the lines follow e; the derivatives hold them. */
+   lines, and the lines follow e; the derivatives hold them.
+
+   A ring is a bore that the journal touches at |e| = 1, or one pad, which it touches where H = 0 on its arc, so
+   that |e| may be above 1. On a pad the lines crowd at its own minimum film, as if that were a bore's. */
 #ifndef ROTORFILM_RING_H
 #define ROTORFILM_RING_H
 
@@ -36,7 +39,14 @@ typedef struct rf_ring {
     int32_t ruptured; /* whether the film is where P > 0, and P >= 0 elsewhere */
     int32_t clipped;  /* whether a full film's negative pressures are dropped */
     int32_t extrapolated; /* whether the force is f + (f - f2)/3 of the finest grid and the next (Richardson) */
+    int32_t pad;          /* whether it is one pad: the second of its two spans */
 } rf_ring;
+
+/* The least H of the bore, or of the pad, and its place: `at` is the e of a bore with that film. */
+double rf_least_film(const rf_ring *ring, const double *e, double at[2]);
+
+/* RF_OK, or why there is no film at a state: RF_NOT_FINITE, RF_AT_WALL. */
+int rf_judge_state(const rf_ring *ring, const double *e, const double *w);
 
 /* What solving the film on its grids took. */
 typedef struct rf_grid_work {

@@ -324,7 +324,7 @@ int rf_ring_losses(const rf_ring *ring, size_t n, const double *e, const double 
     for (size_t i = 0; i < n && status == RF_OK; ++i) {
         const double here[2] = {e[i], e[n + i]}, source[2] = {w[i], w[n + i]};
         *first = i;
-        status = rf_judge_state(here, source);
+        status = rf_judge_state(ring, here, source);
         if (status != RF_OK)
             break;
         oil.rate = fabs(rate[i]);

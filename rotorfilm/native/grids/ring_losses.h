@@ -21,7 +21,4 @@ RF_EXPORT_LOOP int rf_ring_losses(const rf_ring *ring, size_t n, const double *e
 /* By the balance of the half cells that end the film, without openings and what a film in tension draws in. */
 double rf_flow_out_of_ends(const rf_search *search, const rf_grid *grid);
 
-/* Whether there is a film at all. */
-int rf_judge_state(const double *e, const double *w);
-
 #endif

@@ -69,6 +69,8 @@ class RingKernel(FilmKernel):
     cavitation : Cavitation
     extrapolated : bool
         Whether the force is that extrapolated from the finest grid and the next.
+    pad : bool
+        Whether the second of two spans is a pad of its own, which the journal touches on its arc only.
     """
 
     _function: ClassVar[str] = "rf_ring_film"
@@ -80,8 +82,9 @@ class RingKernel(FilmKernel):
         grids: tuple[Grid, ...],
         cavitation: Cavitation,
         extrapolated: bool = False,
+        pad: bool = False,
     ) -> None:
-        self._arguments = (slenderness, spans, grids, cavitation, extrapolated)
+        self._arguments = (slenderness, spans, grids, cavitation, extrapolated, pad)
         self.grids = grids
         self._kept: list[Array] = []
         self.struct = RingStruct(
@@ -94,6 +97,7 @@ class RingKernel(FilmKernel):
             cavitation.searched,
             cavitation.clipped,
             extrapolated,
+            pad,
         )
 
     def _grid(self, grid: Grid) -> GridStruct:
