@@ -9,6 +9,7 @@ import pytest
 CONVENTIONS = Path(__file__).parents[1] / "docs" / "conventions.md"
 
 SEVERAL_UNITS = {
+    "that of a pad is a share of its clearance, that of a ball bearing a force": {"preload"},
     "a rolling ball is in SI, its contact in units of the Hertzian one": {
         "central_film",
         "damping",

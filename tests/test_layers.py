@@ -20,6 +20,7 @@ LEAVES = [
     "signals",
     "model",
     "warming",
+    "contact_place",
     "results",
     "progress",
     "sources",

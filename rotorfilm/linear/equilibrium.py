@@ -10,8 +10,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..contact_place import WalledReaction
 from ..errors import (
     EquilibriumError,
+    FilmContactError,
     InputError,
     UndefinedDerivativeError,
     ValidityWarning,
@@ -48,6 +50,7 @@ class _Target(NamedTuple):
     speed: float
     x: float
     y: float
+    room: float
 
     @property
     def size(self) -> float:
@@ -111,7 +114,10 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     if isinstance(reaction, Warming) and reaction.is_warming:
         return _warm(reaction, load, speed)
     wanted_x, wanted_y = (-load).tolist()
-    target = _Target(prepared_tangent(reaction), reaction.clearance, speed, wanted_x, wanted_y)
+    room = 1.0
+    if isinstance(reaction, WalledReaction):
+        room = min(float(reaction.minimum_film(np.zeros(2))) / reaction.clearance, 1.0)
+    target = _Target(prepared_tangent(reaction), reaction.clearance, speed, wanted_x, wanted_y, room)
     with warnings.catch_warnings():
         # A state that the search only passes through is nobody's answer; that of the result is warned of.
         warnings.simplefilter("ignore", ValidityWarning)
@@ -167,19 +173,22 @@ def checked_load(load: ArrayLike) -> Array:
 def _search(target: _Target) -> _Point:
     """Return the first converged point, or the best of all starts."""
     points = []
-    for s, phi in _starts(math.atan2(-target.y, -target.x), target.speed):
+    for s, phi in _starts(math.atan2(-target.y, -target.x), target.speed, target.room):
         points.append(_newton(target, s, phi))
         if points[-1].norm <= _tolerance(points[-1].s):
             return points[-1]
     return min(points, key=lambda point: point.norm)
 
 
-def _starts(along_load: float, speed: float) -> list[tuple[float, float]]:
-    """Return starting points (s, phi); an isotropic film needs the first only."""
-    sense = math.copysign(1.0, speed)
+def _starts(along_load: float, speed: float, room: float) -> list[tuple[float, float]]:
+    """Return starting points (s, phi); an isotropic film needs the first only.
+
+    The first is half of the way to the wall, of which `room` is left at the center, in clearances.
+    """
+    sense, half = math.copysign(1.0, speed), math.log(room / (2.0 - room))
     turns = [k * math.pi / 3.0 for k in range(6)]
-    first = (0.0, along_load + sense * _FIRST_ANGLE)
-    return [first, *((s, along_load + turn) for s in (-2.0, 2.0) for turn in turns)]
+    first = (half, along_load + sense * _FIRST_ANGLE)
+    return [first, *((s, along_load + turn) for s in (half - 2.0, half + 2.0) for turn in turns)]
 
 
 def _newton(target: _Target, s: float, phi: float) -> _Point:
@@ -218,7 +227,7 @@ def _point(target: _Target, s: float, phi: float, steps: int) -> _Point:
     x, y = distance * math.cos(phi), distance * math.sin(phi)
     try:
         fx, fy, D = target.tangent(x, y, 0.0, 0.0, target.speed)
-    except UndefinedDerivativeError:
+    except (UndefinedDerivativeError, FilmContactError):
         return _Point(s, phi, steps)
     size = math.hypot(fx, fy)
     if not 0.0 < size < math.inf:
@@ -259,11 +268,18 @@ def _result(reaction: Reaction, load: Array, target: _Target, point: _Point) -> 
         load=load,
         eccentricity_ratio=1.0 / (1.0 + math.exp(-point.s)),
         attitude_angle=math.remainder(angle, 2.0 * math.pi),
-        minimum_film=target.clearance / (1.0 + math.exp(point.s)),
+        minimum_film=_minimum_film(reaction, target, point),
         residual=math.hypot(*(force + load)) / target.size,
         iterations=point.steps,
         reaction=reaction,
     )
+
+
+def _minimum_film(reaction: Reaction, target: _Target, point: _Point) -> float:
+    """Return the least film [m]; in a circle from s, which has its digits near the wall."""
+    if isinstance(reaction, WalledReaction):
+        return float(reaction.minimum_film(point.position))
+    return target.clearance / (1.0 + math.exp(point.s))
 
 
 def _why_not(load: Array, speed: float, best: _Point) -> str:

@@ -33,7 +33,7 @@ class NativeLibraryError(RotorfilmError, ImportError):
 _ROWS = [c_void_p, c_size_t]
 _BATCH: dict[str, list[Any]] = {
     "rf_film_batch": [c_void_p, c_void_p, c_size_t, *_ROWS * 4, c_void_p],
-    "rf_journal_batch": [c_void_p, c_size_t, *_ROWS * 5, c_void_p],
+    "rf_response_batch": [c_void_p, c_void_p, c_size_t, *_ROWS * 5, c_void_p],
     "rf_loss_batch": [c_void_p, c_void_p, c_size_t, *[c_void_p] * 5],
 }
 _SCALAR: dict[str, list[Any]] = {
@@ -42,7 +42,7 @@ _SCALAR: dict[str, list[Any]] = {
     "rf_short_film": [c_void_p] * 5,
     "rf_map_losses": [c_void_p] * 5,
     "rf_short_losses": [c_void_p] * 5,
-    "rf_journal_call": [c_void_p, *[c_double] * 5, c_void_p],
+    "rf_response_call": [c_void_p, c_void_p, *[c_double] * 5, c_void_p],
     "rf_journal_at": [c_void_p] * 4,
     "rf_map_slice": [c_void_p, c_double, c_void_p, c_void_p],
     "rf_map_to_wall": [c_void_p, c_double, c_double],
@@ -59,6 +59,7 @@ _LOOPS: dict[str, list[Any]] = {
     "rf_balanced_at": [c_void_p] * 5,
     "rf_balanced_batch": [c_void_p, c_size_t, *[c_void_p] * 5],
     "rf_ride": [c_void_p, c_void_p, c_double, c_int64, c_void_p, c_void_p],
+    "rf_lobes_at": [c_void_p] * 4,
     "rf_springs_at": [c_void_p] * 4,
     "rf_sprung_at": [c_void_p] * 4,
     "rf_follow_shaken": [c_void_p, c_int64, c_void_p, c_void_p],

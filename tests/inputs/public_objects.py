@@ -35,6 +35,8 @@ BALL = rf.RollingBall(
 )
 MADE = [
     BEARING,
+    rf.Lobe(start=0.1, extent=1.0, preload=0.3, offset=0.6),
+    LOBED,
     dataclasses.replace(
         BEARING,
         film=rf.ReynoldsFilm(),

@@ -1,1 +1,12 @@
 """Bearings made of pads: fixed ones, lobes and offset halves, and tilting ones."""
+
+from typing import TYPE_CHECKING
+
+from ...sources import show
+
+if TYPE_CHECKING:
+    from .lobe import Lobe as Lobe, lobe_set as lobe_set
+    from .lobed_bearing import LobedBearing as LobedBearing
+    from .pad_films import PadFilm as PadFilm, PadGridFilm as PadGridFilm
+else:
+    show(__name__)

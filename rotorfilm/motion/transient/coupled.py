@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...contact_place import minimum_film
 from ...errors import ConvergenceError, InputError, UndefinedDerivativeError, require_inside, require_kind
 from ...model import (
     Array,
@@ -105,7 +106,7 @@ class Coupled:
     def gap(self, t: float, x: Array) -> float:
         """Return the clearance left on the closest side, relative to the radial clearance [1]."""
         journal = self.motion(t, x)
-        return 1.0 - float(np.hypot(journal[0], journal[1])) / self.reaction.clearance
+        return float(minimum_film(self.reaction, journal[:2])) / self.reaction.clearance
 
     def derivative(self, t: float, x: Array) -> Array:
         """Return dx/dt at a state.
