@@ -20,7 +20,6 @@ LEAVES = [
     "signals",
     "model",
     "warming",
-    "contact_place",
     "results",
     "progress",
     "sources",

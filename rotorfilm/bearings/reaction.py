@@ -150,8 +150,8 @@ class FilmReaction(Feedthrough):
 
     @property
     def film_in_c(self: _Bound) -> _Film | None:
-        """The film for loops in C, which take those of the C library; None where a subclass has another."""
-        return self.bound_film if type(self).force is FilmReaction.force else None  # type: ignore[attr-defined]
+        """The film for loops in C, which take those of the C library; None of a subclass, which may differ."""
+        return self.bound_film if "bound_film" in vars(type(self)) else None
 
     def prepare(self: _Bound) -> Force:
         """Return `force` as a function of five numbers, for loops that go state by state: `model.Force`."""

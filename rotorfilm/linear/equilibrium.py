@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..contact_place import WalledReaction
+from ..bearings.contact_place import WalledReaction, relative_film
 from ..errors import (
     EquilibriumError,
     FilmContactError,
@@ -114,9 +114,7 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     if isinstance(reaction, Warming) and reaction.is_warming:
         return _warm(reaction, load, speed)
     wanted_x, wanted_y = (-load).tolist()
-    room = 1.0
-    if isinstance(reaction, WalledReaction):
-        room = min(float(reaction.minimum_film(np.zeros(2))) / reaction.clearance, 1.0)
+    room = min(relative_film(reaction, np.zeros(2)), 1.0)
     target = _Target(prepared_tangent(reaction), reaction.clearance, speed, wanted_x, wanted_y, room)
     with warnings.catch_warnings():
         # A state that the search only passes through is nobody's answer; that of the result is warned of.

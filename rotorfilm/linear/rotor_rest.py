@@ -9,7 +9,7 @@ from typing import cast
 
 import numpy as np
 
-from ..contact_place import minimum_film
+from ..bearings.contact_place import minimum_film
 from ..errors import EquilibriumError, InputError, require_number
 from ..inputs.kinds import arguments
 from ..model import Array, Reaction, require_reactions

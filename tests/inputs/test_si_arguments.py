@@ -139,8 +139,8 @@ def test_functions_take_what_constructors_take():
     found = rf.equilibrium(BEARING, load=["0 N", "-0.5 kN"], speed="100 rad/s")
     plain = rf.equilibrium(BEARING, (0.0, -500.0), 100.0)
     assert (found.position == plain.position).all()
-    found = rf.damper_groups(MADE[9], mass="1 kg", speed="100 rad/s")
-    assert found == rf.damper_groups(MADE[9], mass=1.0, speed=100.0)
+    found = rf.damper_groups(MADE[11], mass="1 kg", speed="100 rad/s")
+    assert found == rf.damper_groups(MADE[11], mass=1.0, speed=100.0)
 
 
 def test_quantities_of_pint_are_asked_for_si():

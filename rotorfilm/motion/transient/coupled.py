@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...contact_place import minimum_film
+from ...bearings.contact_place import relative_film
 from ...errors import ConvergenceError, InputError, UndefinedDerivativeError, require_inside, require_kind
 from ...model import (
     Array,
@@ -106,7 +106,7 @@ class Coupled:
     def gap(self, t: float, x: Array) -> float:
         """Return the clearance left on the closest side, relative to the radial clearance [1]."""
         journal = self.motion(t, x)
-        return float(minimum_film(self.reaction, journal[:2])) / self.reaction.clearance
+        return relative_film(self.reaction, journal[:2])
 
     def derivative(self, t: float, x: Array) -> Array:
         """Return dx/dt at a state.

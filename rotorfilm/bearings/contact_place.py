@@ -7,7 +7,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .model import Array, JournalForce
+from ..model import Array, JournalForce
 
 
 @runtime_checkable
@@ -23,3 +23,10 @@ def minimum_film(reaction: JournalForce, position: Array) -> Array:
     if isinstance(reaction, WalledReaction):
         return reaction.minimum_film(position)
     return np.asarray(reaction.clearance - np.hypot(position[0], position[1]))
+
+
+def relative_film(reaction: JournalForce, position: Array) -> float:
+    """Return the least film of a journal at a position (2,) [m], in clearances."""
+    if isinstance(reaction, WalledReaction):
+        return float(reaction.minimum_film(position)) / reaction.clearance
+    return 1.0 - float(np.hypot(position[0], position[1])) / reaction.clearance
