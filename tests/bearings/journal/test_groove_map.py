@@ -15,7 +15,7 @@ from rotorfilm.bearings.films.law import FilmLaw
 from rotorfilm.bearings.films.ring.ring_grids import LONG, ring_grids, ring_spans
 from rotorfilm.bearings.films.ring.ring_kernel import RingKernel, richardson
 from rotorfilm.bearings.journal import GroovedMapFilm, JournalBearing, MapFilm, ReynoldsFilm, build_groove_map
-from rotorfilm.bearings.journal.grooves.groove_bounds import state_errors
+from rotorfilm.bearings.films.map_bounds import state_errors
 from rotorfilm.bearings.journal.grooves.groove_build import (
     ORDER,
     Resolution,
