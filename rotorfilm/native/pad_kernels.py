@@ -48,7 +48,9 @@ class PadMapKernel(FilmKernel):
 
     _function: ClassVar[str] = "rf_pad_film"
 
-    def __init__(self, coefficients: Array, extent: float, u_range: tuple[float, float], y_end: float) -> None:
+    def __init__(
+        self, coefficients: Array, extent: float, u_range: tuple[float, float], y_end: float
+    ) -> None:
         self._arguments = (coefficients, extent, u_range, y_end)
         self.coefficients = np.ascontiguousarray(coefficients, dtype=float)
         cells = (count - 5 for count in self.coefficients.shape)

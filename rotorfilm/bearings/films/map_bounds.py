@@ -1,4 +1,4 @@
-"""How far a map is off: its force and derivatives against a finer film, at states that fill its range evenly."""
+"""How far a map is off: force and derivatives against a finer film, at states that fill its range evenly."""
 
 from __future__ import annotations
 
@@ -41,8 +41,8 @@ def state_errors(
 ) -> tuple[Array, Array]:
     """Return the errors of forces (2, n), and of K and C in (2, 4, n), the larger one, each (n,).
 
-    Relative to the force, and to the largest entry of the matrix; to `least` of them, (n,) and (2, n), where they
-    are below it.
+    Relative to the force, and to the largest entry of the matrix; to `least` of them, (n,) and (2, n), where
+    they are below it.
     """
     own = np.hypot(*(force - exact)) / np.maximum(np.hypot(*exact), least[0])
     gaps, sizes = matrix_sizes(slopes - exact_slopes), matrix_sizes(exact_slopes)

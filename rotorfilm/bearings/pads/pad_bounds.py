@@ -1,8 +1,9 @@
-"""How far the map of a pad is off: bounds from a film on finer grids, at states all over the range of the map.
+"""How far the map of a pad is off: bounds from a film on finer grids at states all over its range.
 
-Errors of the force are relative to it, those of K and C to the largest entry of the matrix; where these are below 5 % of
-their largest value over the directions of the source at that place, relative to those 5 %: towards the edge beyond which
-a source drives no film all of them vanish. The states fill the coordinates of the map evenly.
+Errors of the force are relative to it, those of K and C to the largest entry of the matrix; where these are
+below 5 % of their largest value over the directions of the source at that place, relative to those 5 %:
+towards the edge beyond which a source drives no film all of them vanish. The states fill the coordinates of
+the map evenly.
 """
 
 from __future__ import annotations
@@ -41,9 +42,7 @@ class PadStates(NamedTuple):
     phi: Array
 
 
-def pad_states(
-    extent: float, u_range: tuple[float, float], y_end: float, count: int = STATES
-) -> PadStates:
+def pad_states(extent: float, u_range: tuple[float, float], y_end: float, count: int = STATES) -> PadStates:
     """Return states that fill the range of a map evenly."""
     first, last = u_range
     shares = even_shares(count, 3)

@@ -80,6 +80,10 @@ class PadResolution(NamedTuple):
         return math.atanh(self.reach)
 
 
+FINE = PadResolution()
+"""With it the force is within 1e-3 of that of the film in 90 % of all states and within 5e-3 in 99 %."""
+
+
 class _Seen(NamedTuple):
     """The film on a pad or on an end of it, seen from its own middle: `turn` [rad] from that of the pad."""
 
@@ -107,7 +111,9 @@ def seen_film(extent: float, slenderness: float, cells: tuple[int, int], phi: fl
     if covered == extent:
         return _Seen(pad_grid(extent, slenderness, cells), 0.0)
     # Not kept among the films of whole pads: it is used while one map is made.
-    return _Seen(pad_grid.__wrapped__(covered, slenderness, cells), math.copysign(0.5 * (extent - covered), phi))
+    return _Seen(
+        pad_grid.__wrapped__(covered, slenderness, cells), math.copysign(0.5 * (extent - covered), phi)
+    )
 
 
 def _rotation(angle: float) -> Array:
@@ -166,7 +172,9 @@ def build_pad_table(
         If the search for a ruptured zone does not end.
     """
     *counts, count_phi = resolution.nodes
-    solver = _PadSolver(extent, slenderness, resolution.cells, node_angles(extent, count_phi)[count_phi // 2 :])
+    solver = _PadSolver(
+        extent, slenderness, resolution.cells, node_angles(extent, count_phi)[count_phi // 2 :]
+    )
     states = pad_states(extent, resolution.u_range, resolution.y_end)
     nodes = [partial(solver.exponents, e) for e in node_places(extent, resolution).reshape(2, -1).T]
     checks = _checks(extent, slenderness, resolution.cells, states)
@@ -206,4 +214,6 @@ def _checks(
 def _solved(extent: float, slenderness: float, cells: tuple[int, int], e: Array, phi: Array) -> Array:
     w = np.stack([np.cos(phi), np.sin(phi)])
     films = [seen_film(extent, slenderness, cells, angle) for angle in phi.tolist()]
-    return np.concatenate([films[k].reference(e[:, k : k + 1], w[:, k : k + 1]) for k in range(len(films))], axis=1)
+    return np.concatenate(
+        [films[k].reference(e[:, k : k + 1], w[:, k : k + 1]) for k in range(len(films))], axis=1
+    )

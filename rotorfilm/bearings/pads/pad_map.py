@@ -1,7 +1,7 @@
 """The film on one pad from its map: made in seconds, kept on disk, the same for all pads of one shape.
 
-Forces, frame and units are those of `pad_grid`: preload, offset, pivot and orientation of a pad are a place and a turn of
-its frame, so that pads of one extent and length/diameter share a map.
+Forces, frame and units are those of `pad_grid`: preload, offset, pivot and orientation of a pad are a place
+and a turn of its frame, so that pads of one extent and length/diameter share a map.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from ...progress import Report, silent
 from ...sources import source_digest
 from ..films.table_cache import cached_table, table_path, told
 from . import pad_build
-from .pad_build import PadResolution, build_pad_table, expected_time
+from .pad_build import FINE, PadResolution, build_pad_table, expected_time
 from .pad_table import VERSION, PadMapTable
 
 EXTENTS = (0.1, 3.1)
@@ -54,17 +54,15 @@ def _shape(extent: float, slenderness: float, resolution: PadResolution) -> _Sha
 
 
 @lru_cache(maxsize=64)
-def pad_map_kernel(
-    extent: float, slenderness: float, resolution: PadResolution = PadResolution()
-) -> PadMapKernel:
-    """Return the compiled film on one pad in its own frame, from its map; see `pad_table` for the arguments."""
+def pad_map_kernel(extent: float, slenderness: float, resolution: PadResolution = FINE) -> PadMapKernel:
+    """Return the compiled film on one pad in its own frame from its map; the arguments are of `pad_table`."""
     return pad_table(extent, slenderness, resolution).kernel()
 
 
 def pad_table(
     extent: float,
     slenderness: float,
-    resolution: PadResolution = PadResolution(),
+    resolution: PadResolution = FINE,
     report: Report = silent,
 ) -> PadMapTable:
     """Return the map of a pad: the one on disk, or a new one, which is then kept.
@@ -78,8 +76,8 @@ def pad_table(
     resolution : PadResolution, optional
         A coarser one is made sooner.
     report : callable, optional
-        Called with the fraction done, 0 to 1, and a text while a map is being made. Without it the log says that one is
-        being made.
+        Called with the fraction done, 0 to 1, and a text while a map is being made. Without it the log
+        says that one is being made.
 
     Raises
     ------
@@ -92,6 +90,6 @@ def pad_table(
     return cached_table(PadMapTable, shape.path, lambda: build_pad_table(*shape, telling))
 
 
-def making_time(extent: float, slenderness: float, resolution: PadResolution = PadResolution()) -> float:
+def making_time(extent: float, slenderness: float, resolution: PadResolution = FINE) -> float:
     """Return about how long making the map takes on this machine [s]; 0 where it is on disk."""
     return 0.0 if _shape(extent, slenderness, resolution).path.is_file() else expected_time(resolution)

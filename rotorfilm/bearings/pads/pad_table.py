@@ -1,11 +1,12 @@
 """The impedance map of one pad as a table: coordinates, saving, loading.
 
-With J(e, w) = min over films of the dissipation potential (`native/films/pad_kernel.h`), in the frame of the pad,
+With J(e, w) = min over films of the dissipation potential (`native/films/pad_kernel.h`), in the frame of the
+pad,
 
     ln(-J/|w|^2) = 5 ln(cos phi + sin b) + M(u, Y, phi),   xi = 1 - exp(-u),   eta = tanh(Y) E(xi),
 
-e = (xi, eta) and w at the angle phi from the middle of the pad, which covers 2 b, on uniform grids by quintic B-splines.
-The logarithm takes out how J vanishes with the source at the edge of the pad: as a fifth power.
+e = (xi, eta) and w at the angle phi from the middle of the pad, which covers 2 b, on uniform grids by quintic
+B-splines. The logarithm takes out how J vanishes with the source at the edge of the pad: as a fifth power.
 """
 
 from __future__ import annotations
@@ -44,8 +45,8 @@ class PadMapTable(StoredTable):
     coefficients : ndarray, shape (cells_u + 5, cells_y + 5, cells_phi + 5)
         Spline coefficients of M over u, Y and phi.
     bounds : ndarray, shape (BANDS, 3)
-        Largest errors found when the map was made (`pad_bounds`): from which least film / clearance on, of the force, and
-        of K and C, relative to what is said there.
+        Largest errors found when the map was made (`pad_bounds`): from which least film / clearance on, of
+        the force, and of K and C, relative to what is said there.
 
     Raises
     ------
@@ -63,7 +64,9 @@ class PadMapTable(StoredTable):
     def __post_init__(self) -> None:
         shape = np.shape(self.coefficients)
         if len(shape) != 3 or min(shape) < 6 or not np.isfinite(self.coefficients).all():
-            raise InputError(f"coefficients must be finite, of shape (u, Y, phi) of 6 at least, got shape {shape}")
+            raise InputError(
+                f"coefficients must be finite, of shape (u, Y, phi) of 6 at least, got shape {shape}"
+            )
         if np.shape(self.bounds) != (BANDS, 3) or not np.all(self.bounds >= 0.0):
             raise InputError(f"bounds must have shape ({BANDS}, 3) and not be negative, got {self.bounds!r}")
         numbers = self.extent, self.slenderness, self.y_end, self.u_range[1] - self.u_range[0]
@@ -78,7 +81,7 @@ class PadMapTable(StoredTable):
         return PadMapKernel(self.coefficients, self.extent, self.u_range, self.y_end)
 
     def bound(self, least_film: float, *, slopes: bool) -> float:
-        """Return the largest error [1] of the force, or of K and C; infinite below the least films that were tried."""
+        """Return the largest error [1] of the force, or of K and C, where the least film is at least this."""
         films, force, matrices = self.bounds.T
         errors = (matrices if slopes else force)[films <= least_film]
         return float(errors[0]) if len(errors) else np.inf

@@ -24,6 +24,7 @@ STATES = 64
 BESIDE = (-0.03, 0.3)
 """Angles outwards from the edge of an opening, where half of the states have the minimum film [rad]."""
 
+
 class BoundStates:
     """States of a journal at rest at which a map is compared with a finer film.
 
