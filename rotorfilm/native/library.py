@@ -40,6 +40,8 @@ _SCALAR: dict[str, list[Any]] = {
     "rf_map_film": [c_void_p] * 5,
     "rf_groove_film": [c_void_p] * 5,
     "rf_short_film": [c_void_p] * 5,
+    "rf_pad_film": [c_void_p] * 5,
+    "rf_shape_pad": [c_void_p, c_double],
     "rf_map_losses": [c_void_p] * 5,
     "rf_short_losses": [c_void_p] * 5,
     "rf_response_call": [c_void_p, c_void_p, *[c_double] * 5, c_void_p],
