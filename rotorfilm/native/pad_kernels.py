@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Sequence
-from ctypes import byref, c_double, c_int32, c_void_p
+from ctypes import byref, c_double, c_int32, c_void_p, cast
 from typing import Any, ClassVar
 
 import numpy as np
 
 from ..model import Array
 from .film_kernels import FilmKernel
-from .library import functions
+from .library import loops
 
 
 class PadMapStruct(ctypes.Structure):
@@ -47,6 +47,7 @@ class PadMapKernel(FilmKernel):
     """
 
     _function: ClassVar[str] = "rf_pad_film"
+    is_table: ClassVar[bool] = True
 
     def __init__(
         self, coefficients: Array, extent: float, u_range: tuple[float, float], y_end: float
@@ -56,4 +57,18 @@ class PadMapKernel(FilmKernel):
         cells = (count - 5 for count in self.coefficients.shape)
         self.struct = PadMapStruct(*cells, *u_range, y_end)
         self.struct.coefficients = self.coefficients.ctypes.data
-        functions()["rf_shape_pad"](byref(self.struct), extent)
+        loops()["rf_shape_pad"](byref(self.struct), extent)
+
+    @property
+    def film(self) -> int | None:
+        """The address of its rf_film."""
+        return cast(loops()[self._function], c_void_p).value
+
+    @property
+    def tables(self) -> dict[str, Array]:
+        """What the kernel of a bearing of pads reads of it."""
+        at = self.struct
+        return {
+            "coefficients": self.coefficients,
+            "shape": np.array([self._arguments[1], at.u_first, at.u_last, at.y_end]),
+        }

@@ -34,7 +34,7 @@ BALL = rf.RollingBall(
     plane_modulus=2e11,
 )
 LOBED = rf.LobedBearing(
-    radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, lobes=rf.lobe_set("elliptical")
+    radius=0.05, length=0.03, pad_clearance=1e-4, viscosity=0.1, lobes=rf.lobe_set("elliptical")
 )
 MADE = [
     BEARING,

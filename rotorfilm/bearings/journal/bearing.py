@@ -17,6 +17,7 @@ from ...errors import (
 )
 from ...inputs.si_arguments import quantities
 from ...model import Array
+from ...native.journal_spec import journal_spec
 from ...native.spec import NativeSpec
 from ...signals import Signal, force_outputs, journal_inputs
 from ..films.bound_law import BoundLaw, kinematics
@@ -27,7 +28,6 @@ from ..oil.lubricant import film_viscosity, require_lubricant
 from ..reaction import NOMINAL_SPEED, FilmReaction
 from .fitting import film_name, fitted_film
 from .heat.warm_film import WarmFilm
-from .journal_kernel import journal_spec
 from .map.map_film import MapFilm
 from .odd_dimensions import warn_of_odd_dimensions
 

@@ -7,6 +7,6 @@ from ...sources import show
 if TYPE_CHECKING:
     from .lobe import Lobe as Lobe, lobe_set as lobe_set
     from .lobed_bearing import LobedBearing as LobedBearing
-    from .pad_films import PadFilm as PadFilm, PadGridFilm as PadGridFilm
+    from .pad_film import PadFilm as PadFilm, PadGridFilm as PadGridFilm, PadMapFilm as PadMapFilm
 else:
     show(__name__)

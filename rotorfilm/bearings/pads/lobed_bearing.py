@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -21,12 +20,14 @@ from ...errors import (
 from ...inputs.si_arguments import quantities
 from ...model import Array
 from ...native import JournalKernel
+from ...native.journal_spec import journal_spec
 from ...native.response_kernels import LobePlace, LobesKernel
+from ...native.spec import NativeSpec
 from ...signals import Signal, force_outputs, journal_inputs
 from ..films.kernel_film import BoundKernel
 from ..reaction import NOMINAL_SPEED, FilmReaction
 from .lobe import Lobe, require_apart
-from .pad_films import PadFilm, PadGridFilm
+from .pad_film import PadFilm, PadMapFilm
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,9 +71,12 @@ class LobedBearing(FilmReaction):
         Journal radius; or `diameter`, twice that.
     length : float [m]
         Axial length.
-    clearance : float [m]
-        Radial clearance c_p of a pad: its radius of curvature less that of the journal. The assembled
-        clearance, of the largest journal that fits in, is (1 - preload) c_p.
+    pad_clearance : float or None [m]
+        Radial clearance c_p of a pad: its radius of curvature less that of the journal. Give this or the
+        assembled one.
+    assembled_clearance : float or None [m]
+        Radial clearance of the largest journal that fits in, (1 - preload) c_p, as drawings and ROSS have it;
+        for lobes of one preload.
     viscosity : float [Pa s]
         Dynamic viscosity of the lubricant.
     lobes : tuple of Lobe
@@ -83,71 +87,54 @@ class LobedBearing(FilmReaction):
     Raises
     ------
     InputError
-        If a dimension is not finite and positive, the clearance is not below the radius, there is no lobe, or
-        lobes overlap.
+        If a dimension is not finite and positive, there are not one of both clearances, it is not below the
+        radius, there is no lobe, or lobes overlap.
 
     Examples
     --------
     >>> lobes = lobe_set("elliptical", preload=0.5)
-    >>> bearing = LobedBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.02, lobes=lobes)
+    >>> bearing = LobedBearing(radius=0.05, length=0.05, pad_clearance=1e-4, viscosity=0.02, lobes=lobes)
     >>> bearing.force(position=[0.0, -3e-5], velocity=[0.0, 0.0], speed=300.0).shape
     (2,)
     """
 
     radius: float
     length: float
-    clearance: float
     viscosity: float
     lobes: tuple[Lobe, ...]
-    film: PadFilm = field(default_factory=PadGridFilm)
+    pad_clearance: float | None = None
+    assembled_clearance: float | None = None
+    film: PadFilm = field(default_factory=PadMapFilm)
 
     def __post_init__(self) -> None:
-        require_each(self, require_positive, "radius", "length", "clearance", "viscosity")
-        if self.clearance >= self.radius:
-            raise InputError(f"clearance must be below the radius {self.radius!r}, got {self.clearance!r}")
+        require_each(self, require_positive, "radius", "length", "viscosity")
         require_tuple("lobes", self.lobes, Lobe)
         if not self.lobes:
             raise InputError("lobes must have one at least, got ()")
         require_apart(self.lobes)
-        require_kind("film", self.film, PadFilm, "a film law of a pad with pad_kernel")
+        self._require_clearance()
+        require_kind("film", self.film, PadFilm, "a film law of pads, as PadMapFilm()")
 
-    @classmethod
-    def assembled(
-        cls,
-        *,
-        radius: float,
-        length: float,
-        assembled_clearance: float,
-        viscosity: float,
-        lobes: tuple[Lobe, ...],
-        film: PadFilm | None = None,
-    ) -> Self:
-        """Return a bearing by its assembled clearance, as drawings and ROSS (`radial_clearance`) have it.
+    def _require_clearance(self) -> None:
+        given = {name: getattr(self, name) for name in ("pad_clearance", "assembled_clearance")}
+        told = {name: value for name, value in given.items() if value is not None}
+        if len(told) != 1:
+            raise InputError(f"pad_clearance or assembled_clearance must be given, one of both, got {given}")
+        for name, value in told.items():
+            require_positive(name, value)
+        preloads = sorted({lobe.preload for lobe in self.lobes})
+        if self.pad_clearance is None and len(preloads) > 1:
+            raise InputError(f"lobes must have one preload for an assembled_clearance, got {preloads}")
+        if self.clearance >= self.radius:
+            raise InputError(f"clearance must be below the radius {self.radius!r}, got {self.clearance!r}")
 
-        Parameters
-        ----------
-        radius, length : float [m]
-        assembled_clearance : float [m]
-            Radial clearance of the largest journal that fits in, (1 - preload) c_p.
-        viscosity : float [Pa s]
-        lobes : tuple of Lobe
-            All of one preload.
-        film : PadFilm, optional
-
-        Raises
-        ------
-        InputError
-            If the lobes have different preloads, or as the class does.
-        """
-        require_positive("assembled_clearance", assembled_clearance)
-        preloads = {lobe.preload for lobe in lobes}
-        if len(preloads) != 1:
-            raise InputError(
-                f"lobes must have one preload for an assembled clearance, got {sorted(preloads)}"
-            )
-        clearance = assembled_clearance / (1.0 - preloads.pop())
-        law = {} if film is None else {"film": film}
-        return cls(radius=radius, length=length, clearance=clearance, viscosity=viscosity, lobes=lobes, **law)
+    @property
+    def clearance(self) -> float:
+        """Radial clearance c_p of a pad [m], the unit of eccentricity ratios."""
+        if self.pad_clearance is not None:
+            return self.pad_clearance
+        assert self.assembled_clearance is not None  # one of both is given
+        return self.assembled_clearance / (1.0 - self.lobes[0].preload)
 
     @property
     def slenderness(self) -> float:
@@ -180,10 +167,36 @@ class LobedBearing(FilmReaction):
     @cached_property
     def bound_film(self) -> BoundLobes:
         """The films of the pads tied to the dimensions of this bearing."""
-        extents = {lobe.extent: self.film.pad_kernel(lobe.extent, self.slenderness) for lobe in self.lobes}
+        extents = {lobe.extent: self.film.kernel(lobe.extent, self.slenderness) for lobe in self.lobes}
         films = [JournalKernel(extents[lobe.extent], self.clearance, self.force_scale) for lobe in self.lobes]
         places = [
             LobePlace(lobe.middle, (self.clearance * lobe.center[0], self.clearance * lobe.center[1]))
             for lobe in self.lobes
         ]
         return BoundLobes(LobesKernel(films, places), self.clearance, self.lobes)
+
+    def native(self) -> NativeSpec | None:
+        """Return the kernel of the C library that is this bearing; None if its film is no map.
+
+        Nor has a subclass. Its parameters are the dimensions, with the clearance of the pads, and the
+        viscosity; radius and length are fixed.
+        """
+        if type(self) is not LobedBearing or not isinstance(self.film, PadMapFilm):
+            return None
+        extents = list(dict.fromkeys(lobe.extent for lobe in self.lobes))
+        tables = {"slenderness": np.array([self.slenderness])}
+        for number, extent in enumerate(extents):
+            kernel = self.film.table(extent, self.slenderness).kernel()
+            tables |= {f"{number}.{name}": numbers for name, numbers in kernel.tables.items()}
+        rows = [(lobe.middle, *lobe.center, extents.index(lobe.extent)) for lobe in self.lobes]
+        lengths = {name: float(getattr(self, name)) for name in ("radius", "length", "clearance")}
+        dimensions = {**lengths, "viscosity": float(self.viscosity)}
+        return journal_spec("lobed_journal", {"lobes": np.array(rows), **tables}, dimensions, fixed=True)
+
+    def portable(self) -> LobedBearing:
+        """Return this bearing with a film that carries the maps it needs; see `model.Portable`."""
+        if not isinstance(self.film, PadMapFilm):
+            return self
+        extents = dict.fromkeys(lobe.extent for lobe in self.lobes)
+        tables = tuple(self.film.table(extent, self.slenderness) for extent in extents)
+        return replace(self, film=replace(self.film, tables=tables))

@@ -25,7 +25,7 @@ def bearing(lobes, slenderness=1.0, cells=(96, 8)):
     return LobedBearing(
         radius=RADIUS,
         length=2.0 * RADIUS * slenderness,
-        clearance=CLEARANCE,
+        pad_clearance=CLEARANCE,
         viscosity=VISCOSITY,
         lobes=lobes,
         film=PadGridFilm(cells=cells),
@@ -200,9 +200,7 @@ def test_equilibrium_of_a_tight_bearing_and_of_heavy_loads():
 
 def test_assembled_clearance():
     lobes = lobe_set("three_lobe", preload=0.6)
-    of = LobedBearing.assembled(
-        radius=RADIUS, length=0.1, assembled_clearance=4e-5, viscosity=VISCOSITY, lobes=lobes
-    )
+    of = LobedBearing(radius=RADIUS, length=0.1, assembled_clearance=4e-5, viscosity=VISCOSITY, lobes=lobes)
     assert of.clearance == pytest.approx(1e-4, rel=1e-14)
     assert of.minimum_film([0.0, 0.0]) == pytest.approx(4e-5, rel=1e-12)
 
@@ -219,10 +217,12 @@ def test_bad_input_names_argument_rule_and_value():
     with pytest.raises(InputError, match=r"name of a set of lobes must be one of.*got 'five_lobe'"):
         lobe_set("five_lobe")
     with pytest.raises(InputError, match="one preload"):
-        LobedBearing.assembled(
+        LobedBearing(
             radius=RADIUS,
             length=0.1,
             assembled_clearance=4e-5,
             viscosity=VISCOSITY,
             lobes=(Lobe(start=0.0, extent=1.0), Lobe(start=2.0, extent=1.0, preload=0.2)),
         )
+    with pytest.raises(InputError, match="pad_clearance or assembled_clearance must be given, one of both"):
+        LobedBearing(radius=RADIUS, length=0.1, viscosity=VISCOSITY, lobes=lobe_set("elliptical"))
