@@ -94,6 +94,10 @@ class Readable:
         """Return units that only the result itself knows, by the name of the field or of the entry in it."""
         return {}
 
+    def _items(self) -> Iterator[Item]:
+        """Yield what goes into data frames and data sets."""
+        return items_of(self, self._shown)
+
     def to_rows(self) -> list[Row]:
         """Return names and values with their units, a row for each; of a result in it, all of its rows."""
         return rows_of(items_of(self, self._shown))
@@ -147,7 +151,7 @@ class Readable:
         return self._handed(frames.to_frame)
 
     def _handed(self, make: Callable[..., Any]) -> Any:
-        arrays, notes = _arrays(items_of(self, self._shown))
+        arrays, notes = _arrays(self._items())
         arrays = frames.consistent(arrays)
         first = fields(self)[0].name  # type: ignore[arg-type]
         along = self._along or frames.rows_of(arrays)
