@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .files import write_whole
-from .readable.result import Drawable, Readable
+from .readable.result import Drawable, Item, Readable, Row, rows_of
 
 Array = NDArray[np.float64]
 
@@ -95,6 +95,12 @@ class Equilibrium(Readable):
 
     def __post_init__(self, reaction: Any) -> None:
         object.__setattr__(self, "_reaction", reaction)
+
+    def to_rows(self) -> list[Row]:
+        """Return names and values with their units; of a film that warms also what warms it."""
+        losses = None if self.temperature is None else self.losses
+        more = [] if losses is None else rows_of([Item("power_loss", losses.power_loss, "W", ())])
+        return [*super().to_rows(), *more]
 
     @cached_property
     def losses(self) -> BearingLosses | None:
