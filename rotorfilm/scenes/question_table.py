@@ -52,7 +52,8 @@ def read_tolerance(where: str, value: Any) -> float:
     """Read a relative tolerance; above 1 only in percent, as a plain number may be meant to be."""
     tolerance = Quantity("1")(where, value)
     if tolerance > 1.0 and "%" not in str(value):
-        raise SceneError(f"{where} must be at most 1 unless it is in percent, got {brief(value)}: '{value} %'?")
+        meant = brief(f"{value} %")
+        raise SceneError(f"{where} must be at most 1 unless it is in percent, got {brief(value)}: {meant}?")
     return tolerance
 
 

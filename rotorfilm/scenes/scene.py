@@ -206,8 +206,8 @@ class Scene:
             if one.journal is not None:
                 journals[f"shaft.bearings[{k}].journal"] = one.journal
         return tuple(
-            f"oil: {name} runs on its own viscosity of {one.viscosity:g} Pa s at all temperatures, not on the "
-            f"oil of [lubricant]; without {name}.viscosity it would"
+            f"oil: {name} runs on its own viscosity of {one.viscosity:g} Pa s at all temperatures and not on "
+            f"the oil of [lubricant]; without {name}.viscosity it would"
             for name, one in journals.items()
             if one.viscosity is not None
         )

@@ -239,5 +239,6 @@ def test_sizes_are_known_arguments_in_their_units():
 
 
 def test_zero_and_other_meanings_of_a_name_are_no_odd_size():
-    assert rf.RollingBall(**{**given_to(BALL), "mass": 0.0}).mass == 0.0  # without a warning, which would fail
+    # Without a warning, which would be an error here.
+    assert rf.RollingBall(**{**given_to(BALL), "mass": 0.0}).mass == 0.0
     assert rf.RollingBall(**{**given_to(BALL), "speed": 1e-9}).speed == 1e-9

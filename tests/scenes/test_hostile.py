@@ -78,10 +78,7 @@ def is_there(data, dotted):
 
 
 def bad_refusal(data):
-    """Return the error that refuses a scene, unless it is a short line about a key in it or one that it lacks.
-
-    Nothing for a scene that is read.
-    """
+    """Return the error that refuses a scene if it is no short line about a key in it or missing from it."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")

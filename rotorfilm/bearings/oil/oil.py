@@ -9,7 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, brief, require_each, require_kind, require_non_negative, require_number, require_positive
+from ...errors import (
+    InputError,
+    brief,
+    require_each,
+    require_kind,
+    require_non_negative,
+    require_number,
+    require_positive,
+)
 from ...inputs.kinds import arguments
 from ...inputs.si_arguments import quantities, quantity
 from ...model import Array
