@@ -5,7 +5,9 @@ from __future__ import annotations
 import csv
 import dataclasses
 import io
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import InitVar, dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -14,6 +16,7 @@ from typing import Any, ClassVar, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
+from .errors import RotorfilmError
 from .files import write_whole
 from .readable.result import Drawable, Item, Readable, Row, rows_of
 
@@ -97,10 +100,13 @@ class Equilibrium(Readable):
         object.__setattr__(self, "_reaction", reaction)
 
     def to_rows(self) -> list[Row]:
-        """Return names and values with their units; of a film that warms also what warms it."""
-        losses = None if self.temperature is None else self.losses
-        more = [] if losses is None else rows_of([Item("power_loss", losses.power_loss, "W", ())])
-        return [*super().to_rows(), *more]
+        """Return names and values with their units; of a film that warms also its power; never warns."""
+        rows = super().to_rows()
+        with warnings.catch_warnings(), suppress(RotorfilmError):
+            warnings.simplefilter("ignore")
+            if self.temperature is not None and self.losses is not None:
+                rows += rows_of([Item("power_loss", self.losses.power_loss, "W", ())])
+        return rows
 
     @cached_property
     def losses(self) -> BearingLosses | None:

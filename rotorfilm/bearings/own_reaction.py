@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, brief, require_inside, require_positive
+from ..errors import InputError, brief, require_inside, require_positive, shortened
 from ..inputs.kinds import arguments
 from ..inputs.si_arguments import quantities
 from ..model import Array, Force
@@ -182,7 +182,9 @@ def _require_five(name: str, function: Law | None) -> None:
     try:
         taken.bind(0.0, 0.0, 0.0, 0.0, 0.0)
     except TypeError:
-        raise InputError(f"{name} must be a function of (x, y, vx, vy, speed), got one of {taken}") from None
+        raise InputError(
+            f"{name} must be a function of (x, y, vx, vy, speed), got one of {shortened(str(taken))}"
+        ) from None
 
 
 @arguments

@@ -33,7 +33,7 @@ a viscosity or the modulus of a rigid shaft, has no bound there."""
 
 def built_unit(name: str, value: float, unit: str) -> str:
     """Return the first unit in which a number is a size that is built; empty where there is none."""
-    measure, least, most = BUILT.get(name, (None, 0.0, 0.0))
+    measure, least, most = BUILT.get(name) or BUILT.get(name.replace("diameter", "radius"), ("", 0.0, 0.0))
     if unit != measure:
         return ""
     same = UNITS[si_name(unit)].exponents

@@ -175,6 +175,9 @@ def test_print_of_a_film_that_warms_says_degrees_and_power():
     rows = dict(warm.to_rows())
     assert rows["temperature"] == f"{warm.temperature:.6g} K = {warm.temperature - 273.15:.6g} degC"
     assert rows["power loss"] == f"{warm.losses.power_loss:.6g} W"
+    with pytest.warns(ValidityWarning, match="where the oil is tabulated"):
+        odd = equilibrium(JournalBearing(**sizes, oil=Oil.iso_vg(46), cooling=cooling), (0.0, -1e-6), SPEED)
+    assert "power loss" in str(odd)  # which does not warn
     cold = equilibrium(JournalBearing(**sizes, viscosity=0.1), (0.0, -525.0), SPEED)
     assert not {"temperature", "power loss"} & dict(cold.to_rows()).keys()
 
