@@ -150,7 +150,7 @@ class FilmReaction(Feedthrough):
 
     @property
     def film_in_c(self: _Bound) -> _Film | None:
-        """The film for loops in C, which take those of the C library; None of a subclass, which may differ."""
+        """The film for loops in C, if it is of the C library; None of a subclass, which may differ."""
         return self.bound_film if "bound_film" in vars(type(self)) else None
 
     def prepare(self: _Bound) -> Force:

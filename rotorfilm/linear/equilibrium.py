@@ -161,8 +161,12 @@ def checked_load(load: ArrayLike) -> Array:
     """Return a static load as an array, shape (2,) [N]; raise InputError where it breaks a rule."""
     array = require_finite("load", load)
     if array.shape != (2,):
-        hint = f", e.g. (0, {-abs(float(array)):g})" if array.ndim == 0 else ""
-        raise InputError(f"load must have shape (2,){hint}, got shape {array.shape}")
+        if array.ndim == 0:
+            raise InputError(
+                "load must be the components (x, y) of the force on the journal, as load="
+                f"(0, {-abs(float(array)):g}) for a magnitude downward, got {float(array):g}"
+            )
+        raise InputError(f"load must have shape (2,), got shape {array.shape}")
     if not array.any():
         raise InputError(f"load must not be zero, got [0, 0]: {UNLOADED}")
     return array
