@@ -7,6 +7,7 @@ from rotorfilm.sources import homes
 
 TASKS = {
     "Journal bearings and their films": ("bearings.journal", "bearings.films", "bearings.oil"),
+    "Bearings of pads": ("bearings.pads",),
     "Squeeze-film dampers": ("bearings.damper",),
     "Rolling contacts and ball bearings": ("bearings.contact",),
     "Bushes that wear": ("bearings.bush",),

@@ -53,11 +53,12 @@ FURTHER = [home.split(".")[1] for home in REGISTERED.values() if home.startswith
 """Families that have only the one folder."""
 
 PARTS = {
-    "bearings": [["films"], ["oil"], ["journal"], ["damper", "contact", "bush"]],
+    "bearings": [["films"], ["oil"], ["journal"], ["damper", "contact", "bush", "pads"]],
     "bearings/films": [["ring"]],
     "bearings/journal": [["rupture"], ["map", "splitting"], ["grooves"], ["heat"]],
     "bearings/journal/heat": [["field"]],
     "bearings/contact": [["film"], ["motion"]],
+    "bearings/pads": [["dam"]],
     "rotors": [["shaft"]],
     "motion": [["compiled"], ["transient", "circular"], ["periodic"]],
     "cosim": [["schemes"], ["loops"]],
@@ -71,7 +72,7 @@ PARTS = {
 }
 """The same among the folders of a part."""
 
-FAMILIES = {"journal", "damper", "contact", "bush"}
+FAMILIES = {"journal", "damper", "contact", "bush", "pads"}
 BETWEEN_FAMILIES = {
     # The film of a damper over a map is the film of a journal that does not turn.
     ("damper", "journal"),

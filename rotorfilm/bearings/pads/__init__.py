@@ -1,0 +1,1 @@
+"""Bearings of pads, each with its own center of curvature."""
