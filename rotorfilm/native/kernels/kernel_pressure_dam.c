@@ -9,12 +9,12 @@
    (pressure dam, step, relief track), at ambient pressure; Reynolds equation in two dimensions by finite volumes. x
    and y are Cartesian from the bearing center, rotation is positive about +z (from x to y), the force acts on the
    journal. The clearance is that of the bearing as assembled; a pad has clearance/(1 - preload) = c_p. With d the
-   position from the pad's center of curvature, e = d/c_p, the source w = (vx, vy)/c_p - (speed/2) z^ x e and the depth
-   D of the recess over c_p:
+   position from the pad's center of curvature, e = d/c_p, the source w = (vx, vy)/c_p - (speed/2) z^ x e, n = (cos
+   theta, sin theta) and the depth D of the recess over c_p:
 
    Equations:
    (H^3 P_theta)_theta + (length/diameter)^-2 H^3 P_zz = -w.n + (speed/2) D_theta,  H = 1 - e.n + D
-   P = 0 at the ends of a pad, P >= 0 where the film ruptures, 0 < z < 1 over half the length, n = (cos theta, sin theta)
+   P = 0 at the ends of a pad, P >= 0 where the film ruptures, 0 < z < 1 over half the length
    F = sum over the pads of -12 viscosity length radius^3 / c_p^2  integral of P n over theta and z
 
    Validity: Laminar, isothermal, aligned; no loss nor inertia at a step, no inlet pressure. Arcs, preloads and the
@@ -132,13 +132,15 @@ static int explain(const model *self, int status, const double *u, rf_message *w
 {
     size_t pad;
     if (status == RF_UNDEFINED)
-        return rf_say(why, status, "velocity and speed must drive the film of every pad where a derivative is asked for: "
-                      "x = %.9g, y = %.9g m, vx = %.9g, vy = %.9g m/s, speed = %.9g rad/s", u[0], u[1], u[2], u[3], u[4]);
+        return rf_say(why, status,
+                      "velocity and speed must drive the film of every pad where a derivative is asked for: "
+                      "x = %.9g, y = %.9g m, vx = %.9g, vy = %.9g m/s, speed = %.9g rad/s",
+                      u[0], u[1], u[2], u[3], u[4]);
     if (status != RF_AT_WALL)
         return rf_explain_journal(&self->journal, status, u, why);
     const double least = rf_recess_least(&self->bearing, u, &pad);
-    return rf_say(why, status, "the journal must stay off the pads, got a film of %.9g m on pad %u (x = %.9g, y = %.9g)",
-                  least, (unsigned)pad, u[0], u[1]);
+    return rf_say(why, status,
+                  "the journal must stay off the pads, got a film of %.9g m on pad %u (x = %.9g, y = %.9g)", least, (unsigned)pad, u[0], u[1]);
 }
 
 static int output(const void *kernel, const rf_point *at, double *y, rf_message *why)
