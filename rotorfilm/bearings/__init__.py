@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from .films.map_table import MapTable as MapTable
     from .journal import *
     from .linear import LinearBearing as LinearBearing
-    from .pads.dam import *
     from .oil import Cooling as Cooling, Oil as Oil
     from .own_reaction import OwnReaction as OwnReaction, as_reaction as as_reaction
+    from .pads import *
     from .sprung import Sprung as Sprung
     from .tabulated import TabulatedBearing as TabulatedBearing
 else:

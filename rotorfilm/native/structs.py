@@ -140,7 +140,10 @@ class RecessPadStruct(ctypes.Structure):
     """rf_recess_pad of recess.h."""
 
     _fields_: ClassVar[Sequence[Any]] = [
-        *((name, c_double) for name in ("start", "extent", "preload", "anchor", "from", "to", "depth", "share")),
+        *(
+            (name, c_double)
+            for name in ("start", "extent", "preload", "anchor", "from", "to", "depth", "share")
+        ),
         ("around", c_int32 * 3),
         ("along", c_int32 * 2),
     ]

@@ -1,4 +1,4 @@
-"""Native FMUs of pressure dam bearings: forces and derivatives of Python, tunable dimensions, walls, systems."""
+"""Native FMUs of pressure dam bearings: forces and derivatives of Python, dimensions, walls, systems."""
 
 from dataclasses import replace
 
@@ -29,7 +29,9 @@ def motions(count):
     rng = np.random.default_rng(7)
     chi, angle = rng.uniform(0.0, 0.9, count), rng.uniform(-np.pi, np.pi, count)
     position = 1e-4 * chi * np.stack([np.cos(angle), np.sin(angle)])
-    return np.concatenate([position, 0.01 * rng.normal(size=(2, count)), 300.0 * rng.normal(size=(1, count))]).T
+    return np.concatenate(
+        [position, 0.01 * rng.normal(size=(2, count)), 300.0 * rng.normal(size=(1, count))]
+    ).T
 
 
 @versions
@@ -97,7 +99,11 @@ def test_a_rotor_in_pressure_dams_is_one_system(version, tmp_path):
     rotor = RigidRotor(mass=10.0, speed=300.0, unbalance=1e-4)
     path = export_fmu(mount(rotor, {"": DAM}), tmp_path / "system.fmu", version, component="system")
     ran = fmpy.simulate_fmu(
-        str(path), fmi_type="CoSimulation", stop_time=0.01, output_interval=1e-3, output=["system.x", "system.y"]
+        str(path),
+        fmi_type="CoSimulation",
+        stop_time=0.01,
+        output_interval=1e-3,
+        output=["system.x", "system.y"],
     )
     motion = simulate(rotor, DAM, duration=0.01, samples=11)
     apart = np.stack([ran["system.x"], ran["system.y"]]) - motion.position

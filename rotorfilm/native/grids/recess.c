@@ -34,10 +34,11 @@ static int add_pad(rf_plate *at, const rf_recess *bearing, double *force, double
 {
     const int extrapolated = bearing->extrapolated != 0;
     int status = rf_open_plate(at);
-    for (int level = 0; level <= extrapolated && status == RF_OK; ++level) {
-        const double share = !extrapolated ? 1.0 : level == 0 ? 4.0 / 3.0 : -1.0 / 3.0;
-        status = rf_solve_plate(at, level, jacobian != NULL);
-        if (status == RF_OK)
+    for (int level = 1; level >= 0 && status == RF_OK; --level) {
+        const double share = level == 1 ? -1.0 / 3.0 : extrapolated ? 4.0 / 3.0 : 1.0;
+        const int taken = level == 0 || extrapolated;
+        status = rf_solve_plate(at, level, taken && jacobian);
+        if (status == RF_OK && taken)
             add_plate(at, bearing, share, force, jacobian);
     }
     rf_close_plate(at);
@@ -92,8 +93,8 @@ int rf_recess_field(const rf_recess *bearing, size_t pad, const double *state, d
     if (!(rf_plate_least(&plate) > 0.0))
         return RF_AT_WALL;
     int status = rf_open_plate(&plate);
-    if (status == RF_OK)
-        status = rf_solve_plate(&plate, 0, 0);
+    for (int level = 1; level >= 0 && status == RF_OK; --level)
+        status = rf_solve_plate(&plate, level, 0);
     const double slope = bearing->radius / plate.own;
     for (size_t q = 0; q < plate.stencil.lines * plate.stencil.nodes; ++q)
         pressure[q] = 12.0 * bearing->viscosity * slope * slope * plate.pressure[q];

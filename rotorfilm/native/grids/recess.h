@@ -6,10 +6,10 @@
 
        (H^3 P_theta)_theta + (L/D)^-2 H^3 P_zz = -w.n + (speed/2) D_theta,    p = 12 viscosity (R/c_p)^2 P,
 
-   P = 0 at the ends of the pad and of the bearing, P >= 0 where the film ruptures. Cells are rectangles of one depth,
-   the edges of the recess are on nodes, and on either side of a node conductance and Couette flux are those of the
-   half cell there: what flows across a step is the difference of both (Rayleigh 1918). Lines rest while the journal
-   moves, so the derivatives are those of the discrete film. */
+   P = 0 at the ends of the pad and of the bearing, P >= 0 where the film ruptures. Cells are rectangles of one
+   depth, the edges of the recess are on nodes, and on either side of a node conductance and Couette flux are those
+   of the half cell there: what drives oil at a step is the difference of both (Rayleigh 1918). Lines rest while the
+   journal moves, so the derivatives are those of the discrete film. */
 #ifndef ROTORFILM_RECESS_H
 #define ROTORFILM_RECESS_H
 
@@ -31,13 +31,13 @@ typedef struct rf_recess_pad {
 typedef struct rf_recess {
     const rf_recess_pad *pads;
     size_t count;
-    double radius, length, clearance, viscosity; /* of the bearing: the clearance that a centered journal has least */
+    double radius, length, clearance, viscosity; /* of the bearing; least clearance if centered */
     int32_t extrapolated; /* whether the force is f + (f - f2)/3 of the grid and one with half its cells */
 } rf_recess;
 
-/* The force [N] on the journal at state[5] = position x, y [m], velocity vx, vy [m/s] and speed [rad/s] about +z and,
-   unless NULL, jacobian[2][5] = d f/d(x, y, vx, vy, speed). RF_AT_WALL where a pad is touched, RF_STUCK, RF_MEMORY;
-   RF_UNDEFINED for the derivative where nothing drives the film of some pad. */
+/* The force [N] on the journal at state[5] = position x, y [m], velocity vx, vy [m/s] and speed [rad/s] about +z
+   and, unless NULL, jacobian[2][5] = d f/d(x, y, vx, vy, speed). RF_AT_WALL where a pad is touched, RF_STUCK,
+   RF_MEMORY; RF_UNDEFINED for the derivative where nothing drives the film of some pad. */
 RF_EXPORT_LOOP int rf_recess_at(const rf_recess *bearing, const double *state, double *f, double *jacobian);
 
 /* The same of n states, rows of n one stride apart, as rf_journal_batch. */

@@ -21,7 +21,7 @@ static size_t nodes_of(const rf_recess_pad *pad, int level)
 int rf_open_plate(rf_plate *at)
 {
     const size_t lines = lines_of(at->pad, 0), nodes = nodes_of(at->pad, 0), all = lines * nodes;
-    double *next = malloc((8 * all + 4 * lines + 3 * nodes) * sizeof(double) + 2 * all + lines);
+    double *next = malloc((8 * all + 4 * lines + 3 * nodes) * sizeof(double) + 3 * all + lines);
     double **const large[] = {&at->around, &at->along, &at->source, &at->pressure, &at->around_slope,
                               &at->along_slope, &at->answers};
     double **const by_line[] = {&at->theta, &at->face, &at->normal[0], &at->normal[1]};
@@ -38,7 +38,8 @@ int rf_open_plate(rf_plate *at)
         *by_node[k] = next;
     at->held = (uint8_t *)next;
     at->full = at->held + all;
-    at->recessed = at->full + all;
+    at->known = at->full + all;
+    at->recessed = at->known + all;
     return RF_OK;
 }
 
@@ -220,6 +221,23 @@ static void set_bent(const rf_plate *at, const double *x, double bent[2])
     }
 }
 
+/* Guess the nodes that are full. A step drives pressure far beyond what the smooth film makes, and a film that
+   grows from its source gains one line an iteration: the search begins with film everywhere, and on the finer grid
+   with the nodes of the coarser and those between them. */
+static void set_guess(rf_plate *at, int level)
+{
+    const size_t lines = at->stencil.lines, nodes = at->stencil.nodes, wide = nodes / 2;
+    memset(at->full, 1, lines * nodes);
+    for (size_t i = 0; i < lines && level == 0; ++i) {
+        const uint8_t *here = at->known + i / 2 * wide;
+        const uint8_t *after = (i + 1) / 2 < lines / 2 ? at->known + (i + 1) / 2 * wide : here;
+        for (size_t j = 0; j < nodes; ++j) {
+            const size_t next = (j + 1) / 2 < wide ? (j + 1) / 2 : j / 2;
+            at->full[i * nodes + j] = here[j / 2] | here[next] | after[j / 2] | after[next];
+        }
+    }
+}
+
 int rf_solve_plate(rf_plate *at, int level, int differentiated)
 {
     const size_t lines = lines_of(at->pad, level), nodes = nodes_of(at->pad, level), all = lines * nodes;
@@ -234,13 +252,14 @@ int rf_solve_plate(rf_plate *at, int level, int differentiated)
         const double unit[2] = {k == 0, k == 1};
         set_source(at, unit, 0.0, at->answers + k * all);
     }
-    /* Both edges of the pad are its first line. A step drives pressure far beyond what the smooth film makes: the
-       search begins with film everywhere, as a film grown from the source gains one line an iteration. */
     memset(at->held, 0, all);
-    memset(at->held, 1, nodes);
-    memset(at->full, 1, all);
+    memset(at->held, 1, nodes); /* both edges of the pad are its first line */
     memset(at->pressure, 0, all * sizeof(double));
-    return rf_stencil_film(&at->stencil, at->pressure, at->full, answers, at->answers);
+    set_guess(at, level);
+    const int status = rf_stencil_film(&at->stencil, at->pressure, at->full, answers, at->answers);
+    if (level == 1)
+        memcpy(at->known, at->full, all);
+    return status;
 }
 
 /* A P = b(w, rate) and F_k = -12 N_k.P with N_k = b(unit k, 0), so with V_k = A^-1 N_k a change of b makes

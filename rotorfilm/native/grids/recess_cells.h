@@ -18,8 +18,10 @@ typedef struct rf_plate {
     double *around_slope, *along_slope;                   /* of the conductances by the thickness */
     double *theta, *face;                                 /* lines: angles, of the line and half way to the next */
     double *normal[2];                                    /* lines: integral of the normal over the cell */
-    double *deep, *shallow, *spacing; /* nodes: width of the cell within the recess and beside it; to the next node */
+    double *deep, *shallow;           /* nodes: width of the cell within the recess and beside it */
+    double *spacing;                  /* nodes: to the next */
     uint8_t *held, *full, *recessed;  /* the last: lines with the recess behind them */
+    uint8_t *known;                   /* nodes that are full on the grid with half the cells */
     void *memory;
 } rf_plate;
 
@@ -36,7 +38,7 @@ double rf_plate_least(const rf_plate *plate);
 int rf_open_plate(rf_plate *plate);
 void rf_close_plate(rf_plate *plate);
 
-/* Find the film on a grid, 0 the finest and 1 with half its cells, with what its derivatives need where they are
+/* Find the film on a grid, first 1, with half the cells, then 0; with what its derivatives need where they are
    asked for. RF_STUCK, RF_MEMORY. */
 int rf_solve_plate(rf_plate *plate, int level, int differentiated);
 

@@ -39,7 +39,7 @@ def found(clearance, depth, end):
 )
 def test_eccentricity_and_threshold(clearance, depth, end, sommerfeld, eccentricity, threshold):
     S, at, _, speed = found(clearance, depth, end)
-    assert S == pytest.approx(sommerfeld, rel=0.02)
+    assert pytest.approx(sommerfeld, rel=0.02) == S
     assert at.eccentricity_ratio == pytest.approx(eccentricity, abs=0.01)
     assert speed == pytest.approx(threshold, rel=0.04)
 

@@ -3,6 +3,7 @@
 import math
 import pickle
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -97,7 +98,7 @@ def test_plain_pads_are_the_film_on_a_ring():
 @pytest.mark.parametrize("pads", [PLAIN, STEPPED, DAM], ids=["plain", "step", "dam"])
 def test_force_converges_at_second_order(pads):
     forces = [bearing(pads, (n, n // 2), extrapolated=False).force(*STATE) for n in (16, 32, 64, 128)]
-    first, second, third = (np.hypot(*(b - a)) for a, b in zip(forces, forces[1:], strict=False))
+    first, second, third = (np.hypot(*(b - a)) for a, b in pairwise(forces))
     assert 1.8 < math.log2(first / second) < 2.2
     assert 1.8 < math.log2(second / third) < 2.2
 
@@ -145,7 +146,9 @@ def test_mirror_image():
     position, velocity, speed = states(10)
     turn = np.array([[-1.0], [1.0]])
     np.testing.assert_allclose(
-        there.force(turn * position, turn * velocity, -speed), turn * here.force(position, velocity, speed), 1e-9
+        there.force(turn * position, turn * velocity, -speed),
+        turn * here.force(position, velocity, speed),
+        1e-9,
     )
 
 
@@ -235,7 +238,10 @@ def test_equilibrium_coefficients_and_motion():
         ({"pad": {"offset": 1.2}}, r"offset must be in \[0, 1\], got 1.2"),
         ({"pad": {"extent": 7.0}}, r"extent must be in \(0, 2 pi\), got 7.0"),
         ({"pad": {"recess": 3}}, "recess must be a Recess or None, got 3"),
-        ({"bearing": {"cells": (30, 8)}}, r"cells must be two multiples of 4, at least \(16, 8\), got \(30, 8\)"),
+        (
+            {"bearing": {"cells": (30, 8)}},
+            r"cells must be two multiples of 4, at least \(16, 8\), got \(30, 8\)",
+        ),
         ({"bearing": {"pads": ()}}, r"pads must be one at least, got \(\)"),
         ({"bearing": {"clearance": 0.06}}, "must be below the radius 0.05, got clearance 0.06"),
         ({"bearing": {"viscosity": 0.0}}, "viscosity must be finite and positive, got 0.0"),
@@ -244,10 +250,14 @@ def test_equilibrium_coefficients_and_motion():
 def test_what_breaks_a_rule_is_named(wrong, message):
     wrong = dict(wrong)
     of_pad, of_bearing = wrong.pop("pad", {}), wrong.pop("bearing", {})
-    with pytest.raises(InputError, match=message):
+
+    def made():
         recess = Recess(**{"depth": 5e-5, "end": 1.5, **wrong})
         pad = RecessedPad(**{"start": 0.3, "extent": 2.0, "recess": recess, **of_pad})
-        PressureDamBearing(**{**DIMENSIONS, "pads": (pad,), **of_bearing})
+        return PressureDamBearing(**{**DIMENSIONS, "pads": (pad,), **of_bearing})
+
+    with pytest.raises(InputError, match=message):
+        made()
 
 
 def test_pads_that_overlap_are_refused():

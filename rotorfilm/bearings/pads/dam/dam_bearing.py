@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -27,7 +26,7 @@ from ....native.spec import NativeParameter, NativeSpec
 from ...films.geometry import FilmGeometry, Pad
 from ...films.ring.ring_grids import are_counts
 from ...reaction import NOMINAL_SPEED, StaticReaction, broadcast_state
-from .dam_kernel import DamKernel, cell_counts, pad_rows
+from .dam_kernel import DamKernel, PadPressure, pad_places, pad_rows
 from .recessed_pad import RecessedPad
 
 PARAMETERS = (
@@ -37,23 +36,6 @@ PARAMETERS = (
     ("viscosity", "Pa.s", "dynamic viscosity"),
 )
 """Names, units and meanings of what a simulator may set in the compiled bearing."""
-
-
-class PadPressure(NamedTuple):
-    """The pressure on one pad.
-
-    Attributes
-    ----------
-    theta : ndarray, shape (N,) [rad]
-        Angles of the lines of the grid, both ends of the pad included.
-    axial : ndarray, shape (M,) [1]
-        Places of its nodes, from the middle, 0, to the end, 1, of the bearing.
-    pressure : ndarray, shape (N, M) [Pa]
-    """
-
-    theta: Array
-    axial: Array
-    pressure: Array
 
 
 @quantities
@@ -92,8 +74,8 @@ class PressureDamBearing(StaticReaction):
     Notes
     -----
     With d the position from the pad's center of curvature, c_p the pad clearance, e = d/c_p, D the depth of
-    the recess over c_p, H = 1 - e.n + D, n = (cos theta, sin theta), w = velocity/c_p - (speed/2) z^ x e and z
-    from the middle, 0, to the end, 1, of the bearing,
+    the recess over c_p, H = 1 - e.n + D, n = (cos theta, sin theta), w = velocity/c_p - (speed/2) z^ x e and
+    z from the middle, 0, to the end, 1, of the bearing,
 
         (H^3 P_theta)_theta + (L/D)^-2 H^3 P_zz = -w.n + (speed/2) D_theta,  p = 12 viscosity (R/c_p)^2 P,
 
@@ -154,7 +136,7 @@ class PressureDamBearing(StaticReaction):
         return self.force_scale * NOMINAL_SPEED * min(1.0, self.slenderness**2)
 
     def minimum_film(self, position: ArrayLike) -> float:
-        """Return the least film over all pads [m] at one position (2,) [m]; 0 or less where one is touched."""
+        """Return the least film over all pads [m] at a position (2,) [m]; 0 or less where one is touched."""
         x, y = np.asarray(position, dtype=float).tolist()
         return self._film.least(x, y)[0]
 
@@ -170,7 +152,7 @@ class PressureDamBearing(StaticReaction):
                 pad = self.pads[touched]
                 raise FilmContactError(
                     f"position must keep the journal off pads[{touched}], {math.degrees(pad.start):.6g} to "
-                    f"{math.degrees(pad.end):.6g} deg, got ({x!r}, {y!r}) m with a film of {least:.6g} m there"
+                    f"{math.degrees(pad.end):.6g} deg, got ({x!r}, {y!r}) m with a film of {least:.6g} m"
                 )
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
@@ -221,21 +203,20 @@ class PressureDamBearing(StaticReaction):
         state = broadcast_state(position, velocity, speed)
         self.require_film(state[0])
         plain, richer = (
-            self._answers(DamKernel(self._rows, self._dimensions, both), *state, False) for both in (False, True)
+            self._answers(DamKernel(self._rows, self._dimensions, both), *state, False)
+            for both in (False, True)
         )
         return np.hypot(*(richer - plain)).reshape(state[2].shape)
 
     def pressure(self, pad: int, position: ArrayLike, velocity: ArrayLike, speed: float) -> PadPressure:
-        """Return the pressure on pads[pad] at one position (2,) [m], velocity (2,) [m/s] and speed [rad/s]."""
+        """Return the pressure on pads[pad] at a position (2,) [m], velocity (2,) [m/s] and speed [rad/s]."""
         q, v, omega = broadcast_state(position, velocity, speed)
         self.require_film(q)
         state = (*q.tolist(), *v.tolist(), float(omega))
         found, status = self._film.pressure(pad, np.array(state))
         if status:
             self._report(status, state)
-        counts, of = cell_counts(self.pads[pad], self.cells), self._rows[pad]
-        theta = _places(self.pads[pad].edges, counts.around)
-        axial = _places((0.0, float(of[7]), 1.0), counts.along)
+        theta, axial = pad_places(self.pads[pad], self.cells)
         return PadPressure(theta, axial, np.pad(found, ((0, 1), (0, 1))))
 
     def native(self) -> NativeSpec | None:
@@ -293,13 +274,3 @@ class PressureDamBearing(StaticReaction):
         if status == Status.NO_MEMORY:
             raise MemoryError("no memory for the film of a pad")
         raise ConvergenceError(f"the search for the ruptured zone of a pad must end, and did not: {said}")
-
-
-def _places(edges: tuple[float, ...], counts: tuple[int, ...]) -> Array:
-    """Return the nodes of a grid, equally spaced between edges."""
-    pieces = [
-        np.linspace(first, last, count, endpoint=False)
-        for first, last, count in zip(edges[:-1], edges[1:], counts, strict=True)
-        if count
-    ]
-    return np.concatenate([*pieces, edges[-1:]])

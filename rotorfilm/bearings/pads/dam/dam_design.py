@@ -23,9 +23,9 @@ def pressure_dam_pads(
 ) -> tuple[RecessedPad, ...]:
     """Return the two pads of a pressure dam bearing that carries a load along -y.
 
-    The axial grooves are at 0 and 180 deg. The upper pad has the dam, from its leading edge for a journal that
-    turns about +z; the lower one may have a relief track all along it, which loads its lands and so the
-    bearing (Nicholas, Barrett & Leader 1980).
+    The axial grooves are at 0 and 180 deg. The upper pad has the dam, from its leading edge for a journal
+    that turns about +z; the lower one may have a relief track all along it, which loads its lands and so
+    the bearing (Nicholas, Barrett & Leader 1980).
 
     Parameters
     ----------

@@ -20,22 +20,21 @@ COLUMNS = 13
 _Two, _Five, _Ten = c_double * 2, c_double * 5, c_double * 10
 
 
-class Counts(NamedTuple):
+class RecessCells(NamedTuple):
     """Cells of a pad: before, along and behind the recess, and over half the length beside it and beyond."""
 
     around: tuple[int, int, int]
     along: tuple[int, int]
 
 
-def cell_counts(pad: RecessedPad, cells: tuple[int, int]) -> Counts:
+def cell_counts(pad: RecessedPad, cells: tuple[int, int]) -> RecessCells:
     """Return how the cells around and along a pad fall on both sides of the edges of its recess.
 
     In proportion, to multiples of 2, so that half as many have the edges on nodes too.
     """
-    recess = pad.recess
-    share = 1.0 if recess is None or recess.depth == 0.0 else recess.share
     before, within, behind = _divided(np.diff(pad.edges).tolist(), cells[0])
-    return Counts((before, within, behind), (*_divided([share, 1.0 - share], cells[1]),))
+    inner, outer = _divided([_share(pad), 1.0 - _share(pad)], cells[1])
+    return RecessCells((before, within, behind), (inner, outer))
 
 
 def _divided(sizes: list[float], cells: int) -> list[int]:
@@ -49,12 +48,49 @@ def pad_rows(pads: Sequence[RecessedPad], cells: tuple[int, int]) -> Array:
     return np.array([_row(pad, cell_counts(pad, cells)) for pad in pads])
 
 
-def _row(pad: RecessedPad, counts: Counts) -> list[float]:
+def pad_places(pad: RecessedPad, cells: tuple[int, int]) -> tuple[Array, Array]:
+    """Return angles of the lines of a pad [rad] and places of its nodes along half the length, with ends."""
+    counts = cell_counts(pad, cells)
+    return _nodes(pad.edges, counts.around), _nodes((0.0, _share(pad), 1.0), counts.along)
+
+
+def _nodes(edges: tuple[float, ...], counts: tuple[int, ...]) -> Array:
+    """Return the nodes of a grid, equally spaced between edges."""
+    pieces = [
+        np.linspace(first, last, count, endpoint=False)
+        for first, last, count in zip(edges[:-1], edges[1:], counts, strict=True)
+        if count
+    ]
+    return np.concatenate([*pieces, edges[-1:]])
+
+
+def _share(pad: RecessedPad) -> float:
+    """Return the part of the length within which cells are of a recess; all of it without one."""
+    return 1.0 if pad.recess is None or pad.recess.depth == 0.0 else pad.recess.share
+
+
+def _row(pad: RecessedPad, counts: RecessCells) -> list[float]:
     depth = 0.0 if pad.recess is None else pad.recess.depth
-    share = 1.0 if pad.recess is None or depth == 0.0 else pad.recess.share
     _, first, last, _ = pad.edges
     arc = [pad.start, pad.extent, pad.preload, pad.closest]
-    return [*arc, first, last, depth, share, *counts.around, *counts.along]
+    return [*arc, first, last, depth, _share(pad), *counts.around, *counts.along]
+
+
+class PadPressure(NamedTuple):
+    """The pressure on one pad.
+
+    Attributes
+    ----------
+    theta : ndarray, shape (N,) [rad]
+        Angles of the lines of the grid, both ends of the pad included.
+    axial : ndarray, shape (M,) [1]
+        Places of its nodes, from the middle, 0, to the end, 1, of the bearing.
+    pressure : ndarray, shape (N, M) [Pa]
+    """
+
+    theta: Array
+    axial: Array
+    pressure: Array
 
 
 class DamKernel:
@@ -118,4 +154,3 @@ class DamKernel:
 def _pad_struct(row: Array) -> RecessPadStruct:
     counts = row[8:13].astype(int).tolist()
     return RecessPadStruct(*row[:8].tolist(), tuple(counts[:3]), tuple(counts[3:]))
-

@@ -124,6 +124,7 @@ class RecessedPad:
                 return end
         if angle > self.end:
             raise InputError(
-                f"{name} of the recess must be on its pad, from {self.start!r} to {self.end!r} rad, got {angle!r}"
+                f"{name} of the recess must be on its pad, from {self.start!r} to {self.end!r} rad, "
+                f"got {angle!r}"
             )
         return angle
