@@ -21,6 +21,8 @@ from rotorfilm import (
     UndefinedDerivativeError,
     coefficients,
     equilibrium,
+    mount,
+    periodic_orbit,
     pressure_dam_pads,
     simulate,
 )
@@ -225,6 +227,18 @@ def test_equilibrium_coefficients_and_motion():
     rotor = RigidRotor(mass=mass, speed=SPEED, position=tuple(0.9 * at.position), velocity=(0.0, 0.0))
     motion = simulate(rotor, film, duration=0.3)
     assert np.hypot(*(motion.position[:, -1] - at.position)) < 1e-3 * np.hypot(*at.position)
+
+
+@pytest.mark.closed_form
+def test_small_periodic_orbit_is_that_of_the_coefficients():
+    film, load, mass, unbalance = bearing(TRACKED, (16, 8)), (0.0, -300.0), 300.0 / 9.80665, 1e-6
+    orbit = periodic_orbit(mount(RigidRotor(mass=mass, speed=SPEED, unbalance=unbalance), {"": film}))
+    at = coefficients(film, equilibrium(film, load, SPEED).position, SPEED)
+    Z = at.stiffness - mass * SPEED**2 * np.eye(2) + 1j * SPEED * at.damping
+    expected = np.linalg.solve(Z, unbalance * SPEED**2 * np.array([1.0, -1j]))
+    motion = orbit.position(2.0 * math.pi / SPEED * np.arange(32) / 32.0)[0]
+    first = np.fft.rfft(motion, axis=-1)[:, 1] / 16.0
+    np.testing.assert_allclose(first, expected, rtol=0.0, atol=1e-4 * np.abs(expected).max())
 
 
 @pytest.mark.parametrize(
