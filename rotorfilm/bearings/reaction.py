@@ -184,6 +184,8 @@ class _Prepared(_Law, Protocol):
     @property
     def nominal_force(self) -> float: ...
 
+    def require_film(self, position: Array) -> None: ...
+
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array: ...
 
     def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array: ...
@@ -196,6 +198,13 @@ class StaticReaction(Feedthrough):
     def largest_eccentricity_ratio(self) -> float:
         """Eccentricity ratio to which the force is meant; 1 where it is meant up to the wall."""
         return 1.0
+
+    def require_film(self: _Prepared, position: Array) -> None:
+        """Raise FilmContactError unless the journal, at position (2, ...) [m], touches no wall.
+
+        By default the wall is the circle of the clearance.
+        """
+        require_inside(position, self.clearance)
 
     @property
     def inputs(self: _Prepared) -> tuple[Signal, ...]:
@@ -231,7 +240,7 @@ class StaticReaction(Feedthrough):
             If the journal touches the wall anywhere in the batch.
         """
         q, v, omega = broadcast_state(position, velocity, speed)
-        require_inside(q, self.clearance)
+        self.require_film(q)
         return self.prepared_force(q, v, omega)
 
     def jacobian(self: _Prepared, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
@@ -255,7 +264,7 @@ class StaticReaction(Feedthrough):
             Where the film has no derivative.
         """
         q, v, omega = broadcast_state(position, velocity, speed)
-        require_inside(q, self.clearance)
+        self.require_film(q)
         return self.prepared_jacobian(q, v, omega)
 
     def prepare(self: _Prepared) -> Force:

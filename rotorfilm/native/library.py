@@ -56,6 +56,10 @@ _LOOPS: dict[str, list[Any]] = {
     "rf_ring_losses": [c_void_p, c_size_t, *[c_void_p] * 5],
     "rf_ring_potential": [c_void_p, c_void_p, c_size_t, *[c_void_p] * 5],
     "rf_stencil_film": [c_void_p, c_void_p, c_void_p, c_size_t, c_void_p],
+    "rf_recess_at": [c_void_p] * 4,
+    "rf_recess_batch": [c_void_p, c_size_t, *[c_void_p] * 4],
+    "rf_recess_field": [c_void_p, c_size_t, c_void_p, c_void_p],
+    "rf_recess_least": [c_void_p] * 3,
     "rf_balanced_at": [c_void_p] * 5,
     "rf_balanced_batch": [c_void_p, c_size_t, *[c_void_p] * 5],
     "rf_ride": [c_void_p, c_void_p, c_double, c_int64, c_void_p, c_void_p],
@@ -101,7 +105,9 @@ def loops() -> dict[str, Any]:
     NativeLibraryError
         As `functions`.
     """
-    return _typed(ctypes.CDLL, LOOPS, _LOOPS)
+    found = _typed(ctypes.CDLL, LOOPS, _LOOPS)
+    found["rf_recess_least"].restype = c_double
+    return found
 
 
 @cache

@@ -17,10 +17,12 @@ from rotorfilm import (
     JournalBearing,
     MapFilm,
     MapTable,
+    PressureDamBearing,
     ReynoldsFilm,
     RigidRotor,
     SpeedProfile,
     f4k20_bush,
+    pressure_dam_pads,
 )
 from rotorfilm.bearings.bush.worn_profile import LocalMelting
 from rotorfilm.fmu.linear_system import LinearSystem
@@ -48,6 +50,14 @@ def grid_bearing():
     """Return a bearing with a groove under pressure, on a grid as small as may be."""
     groove = Groove(center=1.5, width=0.4)
     return replace(small_bearing(), film=ReynoldsFilm(cells=(16, 4)), grooves=(groove,), supply_pressure=1e5)
+
+
+def dam_bearing():
+    """Return a pressure dam with a relief track, on grids as small as may be."""
+    pads = pressure_dam_pads(depth=1e-4, end=2.3, share=0.7, track_depth=1e-4, preload=0.3)
+    return PressureDamBearing(
+        radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, pads=pads, cells=(16, 8)
+    )
 
 
 class RoughGrooves(JournalBearing):
@@ -185,8 +195,9 @@ def test_no_misuse_and_no_damaged_file_breaks_an_instance(unzipped, stress, tmp_
     assert not fault(stress, token, "200", "--", "--", *maybe)
 
 
-def test_no_misuse_and_no_damaged_file_breaks_a_film_on_a_grid(unzipped, stress, tmp_path):
-    good = unzipped(grid_bearing(), folder="grid", token="a token").resource
+@pytest.mark.parametrize("made", [grid_bearing, dam_bearing])
+def test_no_misuse_and_no_damaged_file_breaks_a_film_on_a_grid(made, unzipped, stress, tmp_path):
+    good = unzipped(made(), folder="grid", token="a token").resource
     content = good.read_bytes()
     maybe = [str(folder) for folder in resources(tmp_path, mutated(content, 60))]
     assert not fault(stress, "a token", "400", str(good.parent), "--", "--", *maybe[:30])

@@ -12,6 +12,8 @@ static const rf_kernel_type *const KINDS[] = {
     &rf_short_journal_type,
 #if !defined(RF_SUBSET) || (RF_SUBSET & RF_ROTORFILM_GRID_SYSTEMS)
     &rf_reynolds_journal_type,
+    &rf_pressure_dam_type,
+    &rf_lobed_journal_type,
 #endif
 };
 enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS };
