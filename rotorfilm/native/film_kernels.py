@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from ctypes import addressof, byref, c_double, c_size_t, c_void_p, cast
 from enum import IntEnum
 from typing import Any, ClassVar, NamedTuple
@@ -59,6 +60,7 @@ class FilmKernel:
     """
 
     _function: ClassVar[str]
+    _library: ClassVar[Callable[[], dict[str, Any]]] = staticmethod(functions)
     _arguments: tuple[Any, ...]
     struct: Any
     error: float = 0.0
@@ -75,7 +77,7 @@ class FilmKernel:
     @property
     def film(self) -> int | None:
         """The address of its rf_film."""
-        return cast(functions()[self._function], c_void_p).value
+        return cast(self._library()[self._function], c_void_p).value
 
     def force(self, eccentricity: Array, source: Array) -> Batch:
         """Return the forces (2, n) at the eccentricities and sources (2, n)."""

@@ -40,8 +40,6 @@ _SCALAR: dict[str, list[Any]] = {
     "rf_map_film": [c_void_p] * 5,
     "rf_groove_film": [c_void_p] * 5,
     "rf_short_film": [c_void_p] * 5,
-    "rf_pad_film": [c_void_p] * 5,
-    "rf_shape_pad": [c_void_p, c_double],
     "rf_map_losses": [c_void_p] * 5,
     "rf_short_losses": [c_void_p] * 5,
     "rf_journal_call": [c_void_p, *[c_double] * 5, c_void_p],
@@ -52,6 +50,8 @@ _SCALAR: dict[str, list[Any]] = {
     "rf_groove_error": [c_void_p],
 }
 _LOOPS: dict[str, list[Any]] = {
+    "rf_pad_film": [c_void_p] * 5,
+    "rf_shape_pad": [c_void_p, c_double],
     "rf_ring_film": [c_void_p] * 5,
     "rf_ring_pair": [c_void_p, c_size_t, *[c_void_p] * 6],
     "rf_ring_field": [c_void_p] * 7,

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..model import Array
 from .film_kernels import FilmKernel
-from .library import functions
+from .library import loops
 
 
 class PadMapStruct(ctypes.Structure):
@@ -47,6 +47,8 @@ class PadMapKernel(FilmKernel):
     """
 
     _function: ClassVar[str] = "rf_pad_film"
+    # There, so that the FMUs of other bearings do without it.
+    _library = staticmethod(loops)
 
     def __init__(
         self, coefficients: Array, extent: float, u_range: tuple[float, float], y_end: float
@@ -56,4 +58,4 @@ class PadMapKernel(FilmKernel):
         cells = (count - 5 for count in self.coefficients.shape)
         self.struct = PadMapStruct(*cells, *u_range, y_end)
         self.struct.coefficients = self.coefficients.ctypes.data
-        functions()["rf_shape_pad"](byref(self.struct), extent)
+        loops()["rf_shape_pad"](byref(self.struct), extent)

@@ -32,10 +32,10 @@ typedef struct rf_pad_map {
 } rf_pad_map;
 
 /* Set what depends on the extent [rad] of the pad, below pi. */
-RF_EXPORT void rf_shape_pad(rf_pad_map *map, double extent);
+RF_EXPORT_LOOP void rf_shape_pad(rf_pad_map *map, double extent);
 
 /* The film of an rf_pad_map. Beyond the last nodes: RF_OUTSIDE; where the journal touches the pad: RF_AT_WALL. Without
    source there is no derivative; where the source drives no film force and derivatives are zero. */
-RF_EXPORT int rf_pad_film(const void *map, const double *e, const double *w, double *f, double *jacobian);
+RF_EXPORT_LOOP int rf_pad_film(const void *map, const double *e, const double *w, double *f, double *jacobian);
 
 #endif
