@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from ctypes import addressof, byref, c_double, c_size_t, c_void_p, cast
 from enum import IntEnum
 from typing import Any, ClassVar, NamedTuple
@@ -60,7 +59,7 @@ class FilmKernel:
     """
 
     _function: ClassVar[str]
-    _library: ClassVar[Callable[[], dict[str, Any]]] = staticmethod(functions)
+    _library: ClassVar[staticmethod[[], dict[str, Any]]] = staticmethod(functions)
     _arguments: tuple[Any, ...]
     struct: Any
     error: float = 0.0

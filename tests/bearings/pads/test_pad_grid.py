@@ -93,7 +93,7 @@ def test_no_source_on_the_arc_no_force():
 @pytest.mark.closed_form
 @pytest.mark.parametrize("e", [(0.3, 0.2), (-0.2, 0.942), (-0.2, np.sqrt(0.96)), (-0.46, 1.07)])
 def test_shear_and_flow_of_a_full_pad_within_and_beyond_the_unit_circle(e):
-    """A pad whose film is whole shears as its gap; what does not leave at the trailing edge leaves at the sides."""
+    """A film on all of the pad shears as its gap, and feeds sides and trailing edge from the leading one."""
     extent, at = 60.0 * DEGREE, np.array(e)[:, None]
     w = np.array([at[1], -at[0]])
     film, streamers, side, leading, trailing = pad_grid(extent, 0.5).losses(at, w, np.ones(1))[:, 0]
