@@ -59,6 +59,7 @@ class FilmKernel:
     """
 
     _function: ClassVar[str]
+    _library: ClassVar[staticmethod[[], dict[str, Any]]] = staticmethod(functions)
     _arguments: tuple[Any, ...]
     struct: Any
     error: float = 0.0
@@ -76,7 +77,7 @@ class FilmKernel:
     @property
     def film(self) -> int | None:
         """The address of its rf_film."""
-        return cast(functions()[self._function], c_void_p).value
+        return cast(self._library()[self._function], c_void_p).value
 
     def force(self, eccentricity: Array, source: Array) -> Batch:
         """Return the forces (2, n) at the eccentricities and sources (2, n)."""

@@ -50,6 +50,8 @@ _SCALAR: dict[str, list[Any]] = {
     "rf_groove_error": [c_void_p],
 }
 _LOOPS: dict[str, list[Any]] = {
+    "rf_pad_film": [c_void_p] * 5,
+    "rf_shape_pad": [c_void_p, c_double],
     "rf_ring_film": [c_void_p] * 5,
     "rf_ring_pair": [c_void_p, c_size_t, *[c_void_p] * 6],
     "rf_ring_field": [c_void_p] * 7,
