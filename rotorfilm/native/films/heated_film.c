@@ -45,31 +45,70 @@ static void by_state(const double *by, const double *e, double speed, double c, 
     row[4] = 0.5 * (by[2] * e[1] - by[3] * e[0]);
 }
 
+/* Sigma and the effective flow of a film, and their derivatives by e and w, and of the flow by half the speed. */
+typedef struct taken {
+    double shear, flow, by_shear[4], by_flow[4], by_rate;
+} taken;
+
+/* Sigma of a gap that is full of oil. */
+static void fill_gap(const rf_heated *film, const double *e, taken *of)
+{
+    if (film->openings) {
+        of->shear = rf_land_shear(film->openings, e, of->by_shear);
+    } else {
+        const double gap = 1.0 - e[0] * e[0] - e[1] * e[1];
+        of->shear = TWO_PI / sqrt(gap);
+        of->by_shear[0] = of->shear / gap * e[0];
+        of->by_shear[1] = of->shear / gap * e[1];
+    }
+    of->by_shear[2] = of->by_shear[3] = 0.0;
+}
+
+static void take(const rf_heated *film, const double *e, double half, const double *losses, const double *by_loss,
+                 taken *of)
+{
+    double more[3] = {0.0, 0.0, 0.0};
+    of->shear = losses[0] + losses[1];
+    of->flow = losses[2];
+    for (int k = 0; k < 4; ++k) {
+        of->by_shear[k] = by_loss ? by_loss[k] + by_loss[4 + k] : 0.0;
+        of->by_flow[k] = by_loss ? by_loss[8 + k] : 0.0;
+    }
+    if (film->full_gap)
+        fill_gap(film, e, of);
+    if (film->openings)
+        of->flow += rf_replaced_flow(film->openings, e, half, film->carry_over, by_loss ? more : NULL);
+    of->by_flow[0] += more[0];
+    of->by_flow[1] += more[1];
+    of->by_rate = more[2];
+}
+
 /* Slopes of drag and flow: A = R^3 L/c speed^2 Sigma - F.W, W = c w, and Q = c R L times the flow of the losses. */
-static void set_slopes(const rf_heated *film, const double *state, const double *f, double shear,
-                       const double *by_loss, rf_heat_slopes *of)
+static void set_slopes(const rf_heated *film, const double *state, const double *f, const taken *by,
+                       const double *by_leak, rf_heat_slopes *of)
 {
     const double r = film->radius, l = film->length, c = film->clearance, speed = state[4], half = 0.5 * speed;
     const double ring = r * r * r * l / c, unit = c * r * l;
-    double e[2], w[2], by_shear[4];
+    double e[2], w[2];
     kinematics(c, state, e, w);
-    const double gap = 1.0 - e[0] * e[0] - e[1] * e[1];
-    for (int k = 0; k < 4; ++k)
-        by_shear[k] = film->full_gap ? (k < 2 ? shear / gap * e[k] : 0.0) : by_loss[k] + by_loss[4 + k];
-    by_state(by_shear, e, speed, c, of->drag);
-    by_state(by_loss + 8, e, speed, c, of->flow);
+    by_state(by->by_shear, e, speed, c, of->drag);
+    by_state(by->by_flow, e, speed, c, of->flow);
+    by_state(by_leak, e, speed, c, of->leak);
+    of->flow[4] += 0.5 * by->by_rate;
     const double by_w[2][5] = {{0.0, half, 1.0, 0.0, 0.5 * state[1]}, {-half, 0.0, 0.0, 1.0, -0.5 * state[0]}};
     for (int k = 0; k < 5; ++k) {
         of->drag[k] = ring * speed * speed * of->drag[k] - f[0] * by_w[0][k] - f[1] * by_w[1][k]
                       - c * (of->force[k] * w[0] + of->force[5 + k] * w[1]);
         of->flow[k] *= unit;
+        of->leak[k] *= unit;
     }
-    of->drag[4] += 2.0 * ring * speed * shear;
+    of->drag[4] += 2.0 * ring * speed * by->shear;
 }
 
 int rf_heat_at(const rf_heated *film, const double *state, rf_heat *heat, rf_heat_slopes *slopes)
 {
     double e[2], w[2], losses[RF_LOSSES], by_loss[4 * RF_LOSSES];
+    taken found;
     int status = rf_journal_at(&film->journal, state, heat->force, slopes ? slopes->force : NULL);
     if (status > RF_OUTSIDE)
         return status;
@@ -85,12 +124,12 @@ int rf_heat_at(const rf_heated *film, const double *state, rf_heat *heat, rf_hea
     if (known > RF_OUTSIDE)
         return known;
     status = known > status ? known : status;
-    const double chi2 = e[0] * e[0] + e[1] * e[1];
-    const double shear = film->full_gap ? TWO_PI / sqrt(1.0 - chi2) : losses[0] + losses[1];
-    heat->drag = r * r * r * l / c * state[4] * state[4] * shear - c * (f[0] * w[0] + f[1] * w[1]);
-    heat->flow = c * r * l * losses[2];
+    take(film, e, 0.5 * state[4], losses, slopes ? by_loss : NULL, &found);
+    heat->drag = r * r * r * l / c * state[4] * state[4] * found.shear - c * (f[0] * w[0] + f[1] * w[1]);
+    heat->flow = c * r * l * found.flow;
+    heat->leak = c * r * l * losses[2];
     if (slopes)
-        set_slopes(film, state, f, shear, by_loss, slopes);
+        set_slopes(film, state, f, &found, by_loss + 8, slopes);
     return status;
 }
 

@@ -2,17 +2,9 @@
 
 #include <math.h>
 
-#include "map_frame.h"
-
 #define PI 3.14159265358979323846
 
-/* A loss as a function of chi and of the angle t from e to w: its derivatives in both, the latter over chi. */
-typedef struct polar {
-    double value, by_chi, by_turn;
-} polar;
-
-/* The frame, with any direction across e where there is no source. */
-static int orient(const double *e, const double *w, rf_frame *at)
+int rf_orient_loss(const double *e, const double *w, rf_frame *at)
 {
     const int status = rf_orient(e, w, at);
     if (status != RF_UNDEFINED)
@@ -27,7 +19,7 @@ static int orient(const double *e, const double *w, rf_frame *at)
     return RF_OK;
 }
 
-static int fail(int status, double *losses, double *slopes)
+int rf_fail_losses(int status, double *losses, double *slopes)
 {
     for (int k = 0; k < RF_LOSSES; ++k)
         losses[k] = NAN;
@@ -36,8 +28,7 @@ static int fail(int status, double *losses, double *slopes)
     return status;
 }
 
-/* The flow, the last one, is that of a source of size 1. */
-static int answer(const rf_frame *at, const polar *of, double *losses, double *slopes)
+int rf_answer_losses(const rf_frame *at, const rf_polar *of, double *losses, double *slopes)
 {
     for (int k = 0; k < RF_LOSSES; ++k)
         losses[k] = of[k].value * (k == RF_LOSSES - 1 ? at->size : 1.0);
@@ -52,9 +43,10 @@ static int answer(const rf_frame *at, const polar *of, double *losses, double *s
         const int flows = k == RF_LOSSES - 1;
         const double size = flows ? at->size : 1.0, along = flows ? of[k].value : 0.0;
         const double chi = size * of[k].by_chi, turn = size * of[k].by_turn, across = at->chi * turn / at->size;
+        const double side = turn - size * of[k].by_side;
         double *row = slopes + 4 * k;
-        row[0] = chi * at->rx + turn * at->ry;
-        row[1] = chi * at->ry - turn * at->rx;
+        row[0] = chi * at->rx + side * at->ry;
+        row[1] = chi * at->ry - side * at->rx;
         row[2] = along * at->nx - across * at->ny;
         row[3] = along * at->ny + across * at->nx;
     }
@@ -68,12 +60,12 @@ typedef struct weights {
 } weights;
 
 /* L and, if `full`, its derivatives in chi and, over chi, in t. */
-static polar exponent(const rf_loss_map *map, const double *c, const weights *by, const rf_frame *at, double slope,
+static rf_polar exponent(const rf_loss_map *map, const double *c, const weights *by, const rf_frame *at, double slope,
                       double center, int full)
 {
     const size_t stride = (size_t)map->cells_s + RF_ORDER - 1;
     double row[RF_ORDER], row_x[RF_ORDER];
-    polar at_state = {0.0, 0.0, 0.0};
+    rf_polar at_state = {0.0, 0.0, 0.0, 0.0};
     rf_rows(c, stride, by->x, row);
     if (full || by->beyond > 0.0)
         rf_rows(c, stride, by->x_slope, row_x);
@@ -92,10 +84,10 @@ int rf_map_losses(const void *of, const double *e, const double *w, double *loss
 {
     const rf_loss_map *map = of;
     rf_frame at;
-    polar loss[RF_LOSSES];
-    const int status = orient(e, w, &at);
+    rf_polar loss[RF_LOSSES];
+    const int status = rf_orient_loss(e, w, &at);
     if (status != RF_OK)
-        return fail(status, losses, slopes);
+        return rf_fail_losses(status, losses, slopes);
     double u, v, slope;
     weights by;
     const double x = rf_stretch(at.chi, &slope), within = fmin(x, map->x_end), gap = (1.0 - at.chi) * (1.0 + at.chi);
@@ -112,17 +104,18 @@ int rf_map_losses(const void *of, const double *e, const double *w, double *loss
     by.beyond = x > within ? map->cells_x * log(x / within) : 0.0;
     for (size_t k = 0; k < RF_LOSSES; ++k) {
         const double *c = map->coefficients + k * all + (size_t)i * width + (size_t)j;
-        const polar power = exponent(map, c, &by, &at, slope, map->center[k], slopes != NULL);
+        const rf_polar power = exponent(map, c, &by, &at, slope, map->center[k], slopes != NULL);
         const int shears = k + 1 < RF_LOSSES;
         const double value = exp(power.value) / (shears ? sqrt(gap) : 1.0);
         loss[k].value = value;
         loss[k].by_chi = value * (power.by_chi + (shears ? at.chi / gap : 0.0));
         loss[k].by_turn = value * power.by_turn;
+        loss[k].by_side = 0.0;
     }
     loss[1].value -= loss[0].value;
     loss[1].by_chi -= loss[0].by_chi;
     loss[1].by_turn -= loss[0].by_turn;
-    return answer(&at, loss, losses, slopes);
+    return rf_answer_losses(&at, loss, losses, slopes);
 }
 
 /* Integrals from 0 to an angle of the gap H = 1 + chi cos: of 1/H and 1/H^2, and their derivatives in chi. */
@@ -148,16 +141,23 @@ static integrals between(const integrals *from, const integrals *to)
     return at;
 }
 
+double rf_gap_integral(double chi, double angle, double *by_chi)
+{
+    const integrals at = integrate(chi, angle);
+    *by_chi = at.film_chi;
+    return at.film;
+}
+
 /* The oil runs to the end at t + 3 pi/2, t in [-pi, 0]; the next film begins half a turn later. The streamers fill the
    gap until it is as wide as at that end again. */
 int rf_short_losses(const void *none, const double *e, const double *w, double *losses, double *slopes)
 {
     rf_frame at;
-    polar loss[RF_LOSSES] = {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {2.0, 0.0, 0.0}};
-    const int status = orient(e, w, &at);
+    rf_polar loss[RF_LOSSES] = {{0.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 0.0}, {2.0, 0.0, 0.0, 0.0}};
+    const int status = rf_orient_loss(e, w, &at);
     (void)none;
     if (status != RF_OK)
-        return fail(status, losses, slopes);
+        return rf_fail_losses(status, losses, slopes);
     const double chi = at.chi, side = at.sin < 0.0 ? -1.0 : 1.0, t = -atan2(fabs(at.sin), at.cos);
     const double first = t + 0.5 * PI, last = first + PI, back = last + PI;
     const double image = fmin(fmax(last, 2.0 * PI - last), back), c = cos(last);
@@ -171,7 +171,7 @@ int rf_short_losses(const void *none, const double *e, const double *w, double *
     loss[1].value = full.film + end * torn.square;
     loss[1].by_chi = full.film_chi + c * torn.square + end * torn.square_chi;
     loss[1].by_turn = side * (2.0 * c * (end + start) / (end * start * start) - sin(last) * torn.square);
-    return answer(&at, loss, losses, slopes);
+    return rf_answer_losses(&at, loss, losses, slopes);
 }
 
 int rf_loss_batch(rf_loss film, const void *data, size_t n, const double *e, const double *w, double *losses,
