@@ -19,22 +19,24 @@ typedef struct plane {
     double value, by_chi, by_angle;
 } plane;
 
-static RF_ONCE void weigh(double u, double per, double b[RF_ORDER], double slope[RF_ORDER])
+static RF_ONCE void weigh(double u, double per, int full, double b[RF_ORDER], double slope[RF_ORDER])
 {
     rf_values(u, b);
+    if (!full)
+        return;
     rf_slopes(u, slope);
     for (int k = 0; k < RF_ORDER; ++k)
         slope[k] *= per;
 }
 
-static void find_spot(const rf_opening_map *map, double chi, double angle, spot *at)
+static void find_spot(const rf_opening_map *map, double chi, double angle, int full, spot *at)
 {
     double u, v, slope;
     const double x = rf_stretch(chi, &slope), within = fmin(x, map->x_end);
     at->layer = (size_t)rf_cell(within / map->x_end * map->cells_x, map->cells_x, &u);
     at->row = (size_t)rf_turned(angle - map->axis, map->cells_e, &v);
-    weigh(u, x > within ? 0.0 : slope * map->cells_x / map->x_end, at->x, at->x_slope);
-    weigh(v, map->cells_e / RF_TURN, at->e, at->e_slope);
+    weigh(u, x > within ? 0.0 : slope * map->cells_x / map->x_end, full, at->x, at->x_slope);
+    weigh(v, map->cells_e / RF_TURN, full, at->e, at->e_slope);
 }
 
 /* Sums over theta and X of rows of numbers that lie `width` apart, with their derivatives. */
@@ -58,7 +60,7 @@ static RF_ONCE void sum_rows(const double *c, size_t layer, size_t width, const 
     }
 }
 
-int rf_groove_losses(const void *of, const double *e, const double *w, double *losses, double *slopes)
+int rf_groove_losses(const void *of, const double *e, const double *w, int first, double *losses, double *slopes)
 {
     const rf_opening_map *map = of;
     rf_frame at;
@@ -68,16 +70,16 @@ int rf_groove_losses(const void *of, const double *e, const double *w, double *l
         return rf_fail_losses(status, losses, slopes);
     spot here;
     double v, s_weights[RF_ORDER], s_slopes[RF_ORDER], sum[3][RF_ORDER];
-    find_spot(map, at.chi, atan2(at.ry, at.rx), &here);
+    find_spot(map, at.chi, atan2(at.ry, at.rx), slopes != NULL, &here);
     const double q = map->squeeze, across = fabs(at.sin), gap = (1.0 - at.chi) * (1.0 + at.chi);
     const size_t width = (size_t)map->cells_s + RF_ORDER - 1, layer = ((size_t)map->cells_e + RF_ORDER - 1) * width;
     const size_t all = ((size_t)map->cells_x + RF_ORDER - 1) * layer;
     const size_t k_s = (size_t)rf_cell(atan2(q * across, at.cos) / PI * map->cells_s, map->cells_s, &v);
     const double per = map->cells_s / PI * q / (at.cos * at.cos + q * q * across * across), off = fmax(at.chi, NEAR);
-    weigh(v, at.sin > 0.0 ? -per : per, s_weights, s_slopes);
+    weigh(v, at.sin > 0.0 ? -per : per, slopes != NULL, s_weights, s_slopes);
     const double *c = map->coefficients + (at.sin >= 0.0 ? 0 : RF_LOSSES * all) + here.layer * layer
                       + here.row * width + k_s;
-    for (size_t k = 0; k < RF_LOSSES; ++k) {
+    for (size_t k = (size_t)first; k < RF_LOSSES; ++k) {
         sum_rows(c + k * all, layer, width, &here, sum, slopes != NULL);
         const int shears = k + 1 < RF_LOSSES;
         const double value = exp(rf_dot(sum[0], s_weights)) / (shears ? sqrt(gap) : 1.0);
@@ -86,30 +88,34 @@ int rf_groove_losses(const void *of, const double *e, const double *w, double *l
         loss[k].by_turn = value * rf_dot(sum[0], s_slopes) / off;
         loss[k].by_side = value * rf_dot(sum[2], s_weights) / off;
     }
-    loss[1].value -= loss[0].value;
-    loss[1].by_chi -= loss[0].by_chi;
-    loss[1].by_turn -= loss[0].by_turn;
-    loss[1].by_side -= loss[0].by_side;
-    return rf_answer_losses(&at, loss, losses, slopes);
+    return rf_answer_losses(&at, loss, first, losses, slopes);
 }
 
 /* The flow of row k, (out, in) x openings, over half the speed. None is below zero. */
-static plane opening_flow(const rf_opening_map *map, const spot *at, int backward, size_t k)
+static plane opening_flow(const rf_opening_map *map, const spot *at, int backward, size_t k, int full)
 {
     const size_t width = (size_t)map->cells_e + RF_ORDER - 1, all = ((size_t)map->cells_x + RF_ORDER - 1) * width;
     const size_t rows = 2 * (size_t)map->openings;
     const double *c = map->flows + ((backward ? rows : 0) + k) * all + at->layer * width + at->row;
     double row[RF_ORDER], row_x[RF_ORDER];
+    plane found = {0.0, 0.0, 0.0};
     rf_rows(c, width, at->x, row);
-    rf_rows(c, width, at->x_slope, row_x);
-    const plane found = {rf_dot(row, at->e), rf_dot(row_x, at->e), rf_dot(row, at->e_slope)}, none = {0.0, 0.0, 0.0};
-    return found.value > 0.0 ? found : none;
+    const double value = rf_dot(row, at->e);
+    if (!(value > 0.0))
+        return found;
+    found.value = value;
+    if (full) {
+        rf_rows(c, width, at->x_slope, row_x);
+        found.by_chi = rf_dot(row_x, at->e);
+        found.by_angle = rf_dot(row, at->e_slope);
+    }
+    return found;
 }
 
-static double spot_of(const rf_opening_map *map, const double *e, spot *at)
+static double spot_of(const rf_opening_map *map, const double *e, int full, spot *at)
 {
     const double chi = rf_length(e[0], e[1]);
-    find_spot(map, chi, chi > 0.0 ? atan2(e[1], e[0]) : 0.0, at);
+    find_spot(map, chi, chi > 0.0 ? atan2(e[1], e[0]) : 0.0, full, at);
     return chi;
 }
 
@@ -119,10 +125,10 @@ int rf_groove_flows(const rf_opening_map *map, size_t n, const double *e, const 
     for (size_t i = 0; i < n; ++i) {
         const double here[2] = {e[i], e[n + i]};
         spot at;
-        if (!(spot_of(map, here, &at) < 1.0))
+        if (!(spot_of(map, here, 0, &at) < 1.0))
             return RF_AT_WALL;
         for (size_t k = 0; k < rows; ++k)
-            flows[k * n + i] = fabs(rate[i]) * opening_flow(map, &at, rate[i] < 0.0, k).value;
+            flows[k * n + i] = fabs(rate[i]) * opening_flow(map, &at, rate[i] < 0.0, k, 0).value;
     }
     return RF_OK;
 }
@@ -131,10 +137,10 @@ double rf_replaced_flow(const rf_opening_map *map, const double *e, double rate,
 {
     spot at;
     plane sum = {0.0, 0.0, 0.0};
-    const double chi = spot_of(map, e, &at), kept = carry_over;
+    const double chi = spot_of(map, e, slope != NULL, &at), kept = carry_over;
     for (size_t k = 0; k < (size_t)map->openings; ++k) {
-        const plane out = opening_flow(map, &at, rate < 0.0, k);
-        const plane in = opening_flow(map, &at, rate < 0.0, k + (size_t)map->openings);
+        const plane out = opening_flow(map, &at, rate < 0.0, k, slope != NULL);
+        const plane in = opening_flow(map, &at, rate < 0.0, k + (size_t)map->openings, slope != NULL);
         if (!(out.value > 0.0))
             continue;
         const double through = out.value + kept * in.value, part = 2.0 * (1.0 - kept) / (through * through);

@@ -28,8 +28,9 @@ typedef struct rf_opening_map {
     const double *edges;               /* lands x 2: where films begin and end, from the axis [rad] */
 } rf_opening_map;
 
-/* Sigma of film and streamers, and the side flow: an rf_loss. */
-RF_EXPORT int rf_groove_losses(const void *map, const double *e, const double *w, double *losses, double *slopes);
+/* An rf_loss. */
+RF_EXPORT int rf_groove_losses(const void *map, const double *e, const double *w, int first, double *losses,
+                               double *slopes);
 
 /* Flows out of (first) and into (then) the openings at n states, rows of n, in units of c R L; e (2 rows), half the
    speed (n). */

@@ -7,9 +7,9 @@
 
 #define TWO_PI 6.28318530717958647692
 #define STEPS 60
-#define ROUNDOFF 1e-14
+#define SMALL 2e-6 /* relative step of third order after which the next one is below roundoff */
 
-int rf_oil_viscosity(const rf_oil *oil, double t, double *mu, double *slope)
+int rf_oil_viscosity(const rf_oil *oil, double t, rf_viscosity *at)
 {
     double u, b[RF_ORDER];
     const double held = fmin(fmax(t, oil->coldest), oil->hottest), per = oil->cells / (oil->hottest - oil->coldest);
@@ -18,10 +18,20 @@ int rf_oil_viscosity(const rf_oil *oil, double t, double *mu, double *slope)
     const double ln = rf_dot(c, b);
     rf_slopes(u, b);
     const double thins = per * rf_dot(c, b);
-    *mu = exp(ln + thins * (t - held));
-    if (slope)
-        *slope = *mu * thins;
+    rf_curvatures(u, b);
+    at->value = exp(ln + thins * (t - held));
+    at->slope = at->value * thins;
+    at->curvature = at->value * (thins * thins + (t == held ? per * per * rf_dot(c, b) : 0.0));
     return t == held ? RF_OK : RF_OUTSIDE;
+}
+
+void rf_advance_viscosity(rf_viscosity *mu, double step)
+{
+    const double thins = mu->slope / mu->value, bends = mu->curvature / mu->value - thins * thins;
+    const double a = step * (thins + 0.5 * step * bends), there = thins + step * bends;
+    mu->value *= 1.0 + a * (1.0 + a * (0.5 + a / 6.0));
+    mu->slope = mu->value * there;
+    mu->curvature = mu->value * (there * there + bends);
 }
 
 /* Eccentricity and source of a state. */
@@ -68,10 +78,10 @@ static void take(const rf_heated *film, const double *e, double half, const doub
                  taken *of)
 {
     double more[3] = {0.0, 0.0, 0.0};
-    of->shear = losses[0] + losses[1];
+    of->shear = losses[1];
     of->flow = losses[2];
     for (int k = 0; k < 4; ++k) {
-        of->by_shear[k] = by_loss ? by_loss[k] + by_loss[4 + k] : 0.0;
+        of->by_shear[k] = by_loss ? by_loss[4 + k] : 0.0;
         of->by_flow[k] = by_loss ? by_loss[8 + k] : 0.0;
     }
     if (film->full_gap)
@@ -114,7 +124,7 @@ int rf_heat_at(const rf_heated *film, const double *state, rf_heat *heat, rf_hea
         return status;
     const double r = film->radius, l = film->length, c = film->clearance, *f = heat->force;
     kinematics(c, state, e, w);
-    int known = film->loss(film->loss_data, e, w, losses, slopes ? by_loss : NULL);
+    int known = film->loss(film->loss_data, e, w, 1, losses, slopes ? by_loss : NULL);
     if (known == RF_UNDEFINED) {
         /* Without source the losses have a kink, whatever the direction: their mean slope is none. */
         for (int k = 0; slopes && k < 4 * RF_LOSSES; ++k)
@@ -133,44 +143,48 @@ int rf_heat_at(const rf_heated *film, const double *state, rf_heat *heat, rf_hea
     return status;
 }
 
-double rf_heat_surplus(const rf_heated *film, const rf_heat *heat, double t, double *slope)
+double rf_heat_surplus(const rf_heated *film, const rf_heat *heat, double t, const rf_viscosity *mu)
 {
-    double mu, thins;
-    rf_oil_viscosity(&film->oil, t, &mu, &thins);
     const double oil = film->volumetric_heat * heat->flow;
-    if (slope)
-        *slope = heat->drag * thins - oil - film->conductance;
-    return heat->drag * mu - oil * (t - film->supply) - film->conductance * (t - film->ambient);
+    return heat->drag * mu->value - oil * (t - film->supply) - film->conductance * (t - film->ambient);
+}
+
+double rf_heat_slope(const rf_heated *film, const rf_heat *heat, const rf_viscosity *mu)
+{
+    return heat->drag * mu->slope - film->volumetric_heat * heat->flow - film->conductance;
 }
 
 /* The root of an oil that thins evenly, as from the temperature t0 that the film has without heat: x e^x = z by a formula
    for Lambert's W, within some per cent. */
 static double guess(const rf_heated *film, const rf_heat *heat, double takes, double t0)
 {
-    double mu, slope;
-    rf_oil_viscosity(&film->oil, t0, &mu, &slope);
-    const double thinning = -slope / mu, rise = heat->drag * mu / takes;
+    rf_viscosity mu;
+    rf_oil_viscosity(&film->oil, t0, &mu);
+    const double thinning = -mu.slope / mu.value, rise = heat->drag * mu.value / takes;
     if (!(thinning > 0.0 && rise > 0.0))
         return t0;
     const double l = log(1.0 + thinning * rise);
     return t0 + l * (1.0 - log(1.0 + l) / (2.0 + l)) / thinning;
 }
 
-int rf_balance(const rf_heated *film, const rf_heat *heat, double *temperature)
+int rf_balance(const rf_heated *film, const rf_heat *heat, double *temperature, rf_viscosity *mu)
 {
     const double oil = film->volumetric_heat * heat->flow, takes = oil + film->conductance;
-    double slope;
     *temperature = film->supply;
     if (!(takes > 0.0))
-        return heat->drag > 0.0 ? RF_STUCK : RF_OK;
+        return heat->drag > 0.0 ? RF_STUCK : rf_oil_viscosity(&film->oil, *temperature, mu);
     const double unheated = (oil * film->supply + film->conductance * film->ambient) / takes;
     double t = guess(film, heat, takes, unheated);
     for (int k = 0; k < STEPS; ++k) {
-        const double step = fmax(-rf_heat_surplus(film, heat, t, &slope) / slope, unheated - t);
+        const int known = rf_oil_viscosity(&film->oil, t, mu);
+        const double left = rf_heat_surplus(film, heat, t, mu), slope = rf_heat_slope(film, heat, mu);
+        const double newton = -left / slope, bent = 0.5 * newton * heat->drag * mu->curvature / slope;
+        const double step = fmax(newton / (1.0 + fmax(bent, -0.5)), unheated - t);
         t += step;
-        if (fabs(step) <= ROUNDOFF * t) {
+        if (fabs(step) <= SMALL * t) {
+            rf_advance_viscosity(mu, step);
             *temperature = t;
-            return RF_OK;
+            return known;
         }
     }
     return RF_STUCK;
@@ -180,27 +194,26 @@ int rf_balanced_at(const rf_heated *film, const double *state, double *f, double
 {
     rf_heat heat;
     rf_heat_slopes slopes;
-    double mu, thins, cools;
+    rf_viscosity mu;
     int status = rf_heat_at(film, state, &heat, jacobian ? &slopes : NULL);
-    const int balanced = status <= RF_OUTSIDE ? rf_balance(film, &heat, temperature) : RF_OK;
+    const int balanced = status <= RF_OUTSIDE ? rf_balance(film, &heat, temperature, &mu) : RF_OK;
     status = balanced > status ? balanced : status;
     if (status > RF_OUTSIDE) {
         *temperature = NAN;
         return rf_fail(status, f, jacobian, 10);
     }
-    const int known = rf_oil_viscosity(&film->oil, *temperature, &mu, &thins);
-    f[0] = mu * heat.force[0];
-    f[1] = mu * heat.force[1];
+    f[0] = mu.value * heat.force[0];
+    f[1] = mu.value * heat.force[1];
     if (jacobian) {
-        rf_heat_surplus(film, &heat, *temperature, &cools);
+        const double cools = rf_heat_slope(film, &heat, &mu);
         const double warmer = film->volumetric_heat * (*temperature - film->supply);
         for (int k = 0; k < 5; ++k) {
-            const double warms = -(mu * slopes.drag[k] - warmer * slopes.flow[k]) / cools;
+            const double warms = -(mu.value * slopes.drag[k] - warmer * slopes.flow[k]) / cools;
             for (int i = 0; i < 2; ++i)
-                jacobian[5 * i + k] = mu * slopes.force[5 * i + k] + thins * heat.force[i] * warms;
+                jacobian[5 * i + k] = mu.value * slopes.force[5 * i + k] + mu.slope * heat.force[i] * warms;
         }
     }
-    return known > status ? known : status;
+    return status;
 }
 
 int rf_balanced_batch(const rf_heated *film, size_t n, const double *states, double *f, double *temperature,

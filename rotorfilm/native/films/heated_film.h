@@ -44,17 +44,27 @@ typedef struct rf_heat_slopes {
     double force[10], drag[5], flow[5], leak[5];
 } rf_heat_slopes;
 
-/* Viscosity [Pa s] at a temperature and, unless NULL, its derivative. RF_OUTSIDE beyond the range. */
-int rf_oil_viscosity(const rf_oil *oil, double temperature, double *viscosity, double *slope);
+/* Viscosity and its derivatives by the temperature. */
+typedef struct rf_viscosity {
+    double value, slope, curvature; /* Pa s, Pa s/K, Pa s/K2 */
+} rf_viscosity;
+
+/* At a temperature. RF_OUTSIDE beyond the range. */
+int rf_oil_viscosity(const rf_oil *oil, double temperature, rf_viscosity *at);
+
+/* The same a step further, of milli-kelvins: what is left out is of third order. */
+void rf_advance_viscosity(rf_viscosity *at, double step);
 
 /* The film at a state x, y, vx, vy, speed and, unless NULL, its slopes. */
 RF_EXPORT_LOOP int rf_heat_at(const rf_heated *film, const double *state, rf_heat *heat, rf_heat_slopes *slopes);
 
-/* Heat made less heat taken away at a temperature [W] and, unless NULL, its derivative. */
-double rf_heat_surplus(const rf_heated *film, const rf_heat *heat, double temperature, double *slope);
+/* Heat made less heat taken away at a temperature with its viscosity [W], and its derivative by the temperature. */
+double rf_heat_surplus(const rf_heated *film, const rf_heat *heat, double temperature, const rf_viscosity *mu);
+double rf_heat_slope(const rf_heated *film, const rf_heat *heat, const rf_viscosity *mu);
 
-/* The root of (1) by Newton's method. RF_STUCK if nothing takes the heat away. */
-int rf_balance(const rf_heated *film, const rf_heat *heat, double *temperature);
+/* The root of (1), and the viscosity there, by Halley's method. RF_STUCK if nothing takes the heat away, RF_OUTSIDE beyond
+   the range of the oil. */
+int rf_balance(const rf_heated *film, const rf_heat *heat, double *temperature, rf_viscosity *mu);
 
 /* Force f[2], temperature and, unless NULL, jacobian[2][5] of the film that at every state has the temperature of
    its balance. */

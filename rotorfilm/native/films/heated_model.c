@@ -6,6 +6,10 @@
 #include "journal_model.h"
 
 #define TWO_PI 6.28318530717958647692
+#define TOLERANCE 1e-11 /* of the last term of the series in a step, relative to the temperature */
+#define STABLE 0.5      /* longest step in units of the time constant */
+#define PER_KELVIN 256.0
+#define MOST_STEPS 10000000
 
 enum { RADIUS, LENGTH, CLEARANCE, SUPPLY, AMBIENT, CONDUCTANCE, BUSH, VOLUMETRIC_HEAT, PARAMETERS };
 
@@ -39,12 +43,24 @@ static int explain(const rf_heated_model *m, int status, const rf_point *at, rf_
     return rf_explain_journal(&m->film.journal, status, at->u, why);
 }
 
+/* The viscosity at a temperature, by a series from the nearest of those that lie so close that it is exact. */
+static rf_viscosity viscosity_at(rf_heated_model *m, double t)
+{
+    const double near = floor(t * PER_KELVIN + 0.5) / PER_KELVIN;
+    if (m->t != near) {
+        rf_oil_viscosity(&m->film.oil, near, &m->mu);
+        m->t = near;
+    }
+    rf_viscosity mu = m->mu;
+    rf_advance_viscosity(&mu, t - near);
+    return mu;
+}
+
 int rf_heated_output(const void *kernel, const rf_point *at, double *y, rf_message *why)
 {
     rf_heated_model *m = writable(kernel);
     const rf_heat *heat = heat_at(m, at->u);
-    double mu;
-    rf_oil_viscosity(&m->film.oil, at->x[0], &mu, NULL);
+    const double mu = viscosity_at(m, at->x[0]).value;
     y[0] = mu * heat->force[0];
     y[1] = mu * heat->force[1];
     y[2] = at->x[0];
@@ -56,31 +72,57 @@ int rf_heated_output(const void *kernel, const rf_point *at, double *y, rf_messa
 int rf_heated_derivative(const void *kernel, const rf_point *at, double *dx, rf_message *why)
 {
     rf_heated_model *m = writable(kernel);
-    dx[0] = rf_heat_surplus(&m->film, heat_at(m, at->u), at->x[0], NULL) / m->capacity;
+    const rf_heat *heat = heat_at(m, at->u);
+    const rf_viscosity mu = viscosity_at(m, at->x[0]);
+    dx[0] = rf_heat_surplus(&m->film, heat, at->x[0], &mu) / m->capacity;
+    return explain(m, m->status, at, why);
+}
+
+/* By the series of third order in time, as long as its last term is below the tolerance: what is left out is far
+   smaller. Under held inputs the heat is one function of the temperature, so that nothing else is asked. */
+int rf_heated_step(void *kernel, const rf_point *at, double dt, double *x, rf_message *why)
+{
+    rf_heated_model *m = kernel;
+    const rf_heat *heat = heat_at(m, at->u);
+    const double per = 1.0 / m->capacity;
+    double left = dt, t = at->x[0];
+    for (long k = 0; left > 0.0 && k < MOST_STEPS && m->status <= RF_OUTSIDE; ++k) {
+        const rf_viscosity mu = viscosity_at(m, t);
+        const double f = rf_heat_surplus(&m->film, heat, t, &mu) * per;
+        const double by = rf_heat_slope(&m->film, heat, &mu) * per, bend = heat->drag * mu.curvature * per;
+        const double second = 0.5 * f * by, third = f * (by * by + f * bend) / 6.0, most = TOLERANCE * t;
+        double h = left;
+        if (!(h * fabs(by) <= STABLE && h * h * h * fabs(third) <= most))
+            h = fmin(left, fmin(STABLE / fabs(by), cbrt(most / fabs(third))));
+        t += h * (f + h * (second + h * third));
+        left = h < left ? left - h : 0.0;
+    }
+    if (m->status <= RF_OUTSIDE && !(left == 0.0))
+        return rf_say(why, RF_STUCK, "the temperature must follow the heat over %.9g s, and did not", dt);
+    if (m->status <= RF_OUTSIDE)
+        x[0] = t;
     return explain(m, m->status, at, why);
 }
 
 int rf_heated_derivatives(const void *kernel, const rf_point *at, rf_jacobian *answer, rf_message *why)
 {
-    const rf_heated_model *m = kernel;
+    rf_heated_model *m = writable(kernel);
     rf_heat heat;
     rf_heat_slopes by;
-    double mu, thins, cools;
     const int status = rf_heat_at(&m->film, at->u, &heat, &by);
     if (status > RF_OUTSIDE)
         return explain(m, status, at, why);
-    rf_oil_viscosity(&m->film.oil, at->x[0], &mu, &thins);
-    rf_heat_surplus(&m->film, &heat, at->x[0], &cools);
-    const double taken = m->film.volumetric_heat * (at->x[0] - m->film.supply);
+    const rf_viscosity mu = viscosity_at(m, at->x[0]);
+    const double taken = m->film.volumetric_heat * (at->x[0] - m->film.supply), thins = mu.slope;
     const double by_temperature[5] = {thins * heat.force[0], thins * heat.force[1], 1.0, thins * heat.drag, 0.0};
     memcpy(answer->C, by_temperature, sizeof by_temperature);
-    answer->A[0] = cools / m->capacity;
+    answer->A[0] = rf_heat_slope(&m->film, &heat, &mu) / m->capacity;
     for (int k = 0; k < 5; ++k) {
-        answer->B[k] = (mu * by.drag[k] - taken * by.flow[k]) / m->capacity;
-        answer->D[k] = mu * by.force[k];
-        answer->D[5 + k] = mu * by.force[5 + k];
+        answer->B[k] = (mu.value * by.drag[k] - taken * by.flow[k]) / m->capacity;
+        answer->D[k] = mu.value * by.force[k];
+        answer->D[5 + k] = mu.value * by.force[5 + k];
         answer->D[10 + k] = 0.0;
-        answer->D[15 + k] = mu * by.drag[k];
+        answer->D[15 + k] = mu.value * by.drag[k];
         answer->D[20 + k] = by.leak[k];
     }
     return explain(m, status, at, why);
@@ -140,5 +182,6 @@ int rf_set_heated(rf_heated_model *m, const double *p, rf_message *why)
     m->capacity = p[BUSH] + p[VOLUMETRIC_HEAT] * TWO_PI * p[RADIUS] * p[LENGTH] * p[CLEARANCE];
     for (int k = 0; k < 5; ++k)
         m->u[k] = NAN;
+    m->t = NAN;
     return RF_OK;
 }

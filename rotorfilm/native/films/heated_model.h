@@ -17,6 +17,8 @@ typedef struct rf_heated_model {
     double u[5]; /* the last input, with its heat and status: held inputs ask again and again */
     rf_heat heat;
     int status;
+    double t; /* a temperature near the last one, with its viscosity */
+    rf_viscosity mu;
 } rf_heated_model;
 
 extern const rf_sizes RF_HEATED_SIZES;
@@ -30,9 +32,10 @@ int rf_take_oil(rf_heated_model *model, const rf_tables *tables, rf_message *why
 /* Dimensions and heat from the parameters, or RF_INVALID and nothing changed. */
 int rf_set_heated(rf_heated_model *model, const double *parameters, rf_message *why);
 
-/* The functions `output`, `derivative` and `jacobian` of an rf_kernel_type. */
+/* The functions `output`, `derivative`, `jacobian` and `step` of an rf_kernel_type. */
 int rf_heated_output(const void *kernel, const rf_point *at, double *y, rf_message *why);
 int rf_heated_derivative(const void *kernel, const rf_point *at, double *dx, rf_message *why);
 int rf_heated_derivatives(const void *kernel, const rf_point *at, rf_jacobian *answer, rf_message *why);
+int rf_heated_step(void *kernel, const rf_point *at, double dt, double *x, rf_message *why);
 
 #endif

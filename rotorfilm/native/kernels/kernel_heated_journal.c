@@ -119,4 +119,5 @@ const rf_kernel_type rf_heated_journal_type = {
     .output = rf_heated_output,
     .jacobian = rf_heated_derivatives,
     .derivative = rf_heated_derivative,
+    .step = rf_heated_step,
 };
