@@ -17,16 +17,6 @@
 #include <stdint.h>
 
 #include "film.h"
-#include "quintic.h"
-
-#define RF_TURN 6.283185307179586476925286766559
-
-/* Cell of an angle on a turn of uniform nodes. */
-static inline int32_t rf_turned(double angle, int32_t cells, double *rest)
-{
-    const double turns = angle / RF_TURN;
-    return rf_cell((turns - floor(turns)) * cells, cells, rest);
-}
 
 typedef struct rf_groove_map {
     int32_t cells_x;            /* cells of [0, X_end] */

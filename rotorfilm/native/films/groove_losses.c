@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "groove_kernel.h"
+#include "loss_frame.h"
 
 #define PI 3.14159265358979323846
 #define NEAR 1e-3 /* eccentricity ratio of the first node: nearer to the center the angles count as there */
@@ -82,11 +82,12 @@ int rf_groove_losses(const void *of, const double *e, const double *w, int first
     for (size_t k = (size_t)first; k < RF_LOSSES; ++k) {
         sum_rows(c + k * all, layer, width, &here, sum, slopes != NULL);
         const int shears = k + 1 < RF_LOSSES;
-        const double value = exp(rf_dot(sum[0], s_weights)) / (shears ? sqrt(gap) : 1.0);
-        loss[k].value = value;
-        loss[k].by_chi = value * (rf_dot(sum[1], s_weights) + (shears ? at.chi / gap : 0.0));
-        loss[k].by_turn = value * rf_dot(sum[0], s_slopes) / off;
-        loss[k].by_side = value * rf_dot(sum[2], s_weights) / off;
+        const double sum_here = rf_dot(sum[0], s_weights), scale = shears ? 1.0 / sqrt(gap) : 1.0;
+        const double value = fmax(sum_here, 0.0), slope = sum_here > 0.0 ? scale : 0.0;
+        loss[k].value = value * scale;
+        loss[k].by_chi = slope * rf_dot(sum[1], s_weights) + (shears ? loss[k].value * at.chi / gap : 0.0);
+        loss[k].by_turn = slope * rf_dot(sum[0], s_slopes) / off;
+        loss[k].by_side = slope * rf_dot(sum[2], s_weights) / off;
     }
     return rf_answer_losses(&at, loss, first, losses, slopes);
 }

@@ -3,11 +3,12 @@
    Over X of groove_kernel.h, the angle theta of e from the axis of the openings, and s in [0, pi], tan s = squeeze
    tan |beta|, beta being the angle from e to w, and apart for each sense in which the oil runs, the maps hold
 
-       ln(g Sigma_f),  ln(g (Sigma_f + Sigma_r)),  ln(flow/|w|),  g = sqrt(1 - chi^2),
+       g Sigma_f,  g (Sigma_f + Sigma_r),  flow/|w|,  g = sqrt(1 - chi^2),
 
    with the oil running along as that of a journal at rest in w: it runs forward where w is to the right of e. Over X,
    theta and the sense, for a journal at rest, they hold the flow out of each opening, and what arrives there, over half
-   the speed. Beyond the last node all stays as it is there. */
+   the speed. Beyond the last node all stays as it is there. None is
+   below zero: a film that no oil reaches is none. */
 #ifndef ROTORFILM_GROOVE_LOSSES_H
 #define ROTORFILM_GROOVE_LOSSES_H
 

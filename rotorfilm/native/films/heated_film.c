@@ -17,21 +17,18 @@ int rf_oil_viscosity(const rf_oil *oil, double t, rf_viscosity *at)
     rf_values(u, b);
     const double ln = rf_dot(c, b);
     rf_slopes(u, b);
-    const double thins = per * rf_dot(c, b);
+    at->thins = per * rf_dot(c, b);
     rf_curvatures(u, b);
-    at->value = exp(ln + thins * (t - held));
-    at->slope = at->value * thins;
-    at->curvature = at->value * (thins * thins + (t == held ? per * per * rf_dot(c, b) : 0.0));
+    at->bends = t == held ? per * per * rf_dot(c, b) : 0.0;
+    at->value = exp(ln + at->thins * (t - held));
     return t == held ? RF_OK : RF_OUTSIDE;
 }
 
 void rf_advance_viscosity(rf_viscosity *mu, double step)
 {
-    const double thins = mu->slope / mu->value, bends = mu->curvature / mu->value - thins * thins;
-    const double a = step * (thins + 0.5 * step * bends), there = thins + step * bends;
+    const double a = step * (mu->thins + 0.5 * step * mu->bends);
     mu->value *= 1.0 + a * (1.0 + a * (0.5 + a / 6.0));
-    mu->slope = mu->value * there;
-    mu->curvature = mu->value * (there * there + bends);
+    mu->thins += step * mu->bends;
 }
 
 /* Eccentricity and source of a state. */
@@ -151,7 +148,7 @@ double rf_heat_surplus(const rf_heated *film, const rf_heat *heat, double t, con
 
 double rf_heat_slope(const rf_heated *film, const rf_heat *heat, const rf_viscosity *mu)
 {
-    return heat->drag * mu->slope - film->volumetric_heat * heat->flow - film->conductance;
+    return heat->drag * mu->value * mu->thins - film->volumetric_heat * heat->flow - film->conductance;
 }
 
 /* The root of an oil that thins evenly, as from the temperature t0 that the film has without heat: x e^x = z by a formula
@@ -160,7 +157,7 @@ static double guess(const rf_heated *film, const rf_heat *heat, double takes, do
 {
     rf_viscosity mu;
     rf_oil_viscosity(&film->oil, t0, &mu);
-    const double thinning = -mu.slope / mu.value, rise = heat->drag * mu.value / takes;
+    const double thinning = -mu.thins, rise = heat->drag * mu.value / takes;
     if (!(thinning > 0.0 && rise > 0.0))
         return t0;
     const double l = log(1.0 + thinning * rise);
@@ -178,7 +175,8 @@ int rf_balance(const rf_heated *film, const rf_heat *heat, double *temperature, 
     for (int k = 0; k < STEPS; ++k) {
         const int known = rf_oil_viscosity(&film->oil, t, mu);
         const double left = rf_heat_surplus(film, heat, t, mu), slope = rf_heat_slope(film, heat, mu);
-        const double newton = -left / slope, bent = 0.5 * newton * heat->drag * mu->curvature / slope;
+        const double newton = -left / slope, curve = mu->value * (mu->thins * mu->thins + mu->bends);
+        const double bent = 0.5 * newton * heat->drag * curve / slope;
         const double step = fmax(newton / (1.0 + fmax(bent, -0.5)), unheated - t);
         t += step;
         if (fabs(step) <= SMALL * t) {
@@ -210,7 +208,7 @@ int rf_balanced_at(const rf_heated *film, const double *state, double *f, double
         for (int k = 0; k < 5; ++k) {
             const double warms = -(mu.value * slopes.drag[k] - warmer * slopes.flow[k]) / cools;
             for (int i = 0; i < 2; ++i)
-                jacobian[5 * i + k] = mu.value * slopes.force[5 * i + k] + mu.slope * heat.force[i] * warms;
+                jacobian[5 * i + k] = mu.value * slopes.force[5 * i + k] + mu.value * mu.thins * heat.force[i] * warms;
         }
     }
     return status;

@@ -44,9 +44,9 @@ typedef struct rf_heat_slopes {
     double force[10], drag[5], flow[5], leak[5];
 } rf_heat_slopes;
 
-/* Viscosity and its derivatives by the temperature. */
+/* Viscosity, and the first two derivatives of its logarithm by the temperature. */
 typedef struct rf_viscosity {
-    double value, slope, curvature; /* Pa s, Pa s/K, Pa s/K2 */
+    double value, thins, bends; /* Pa s, 1/K, 1/K2 */
 } rf_viscosity;
 
 /* At a temperature. RF_OUTSIDE beyond the range. */

@@ -74,7 +74,7 @@ int rf_heated_derivative(const void *kernel, const rf_point *at, double *dx, rf_
     rf_heated_model *m = writable(kernel);
     const rf_heat *heat = heat_at(m, at->u);
     const rf_viscosity mu = viscosity_at(m, at->x[0]);
-    dx[0] = rf_heat_surplus(&m->film, heat, at->x[0], &mu) / m->capacity;
+    dx[0] = rf_heat_surplus(&m->film, heat, at->x[0], &mu) * m->per_capacity;
     return explain(m, m->status, at, why);
 }
 
@@ -84,12 +84,12 @@ int rf_heated_step(void *kernel, const rf_point *at, double dt, double *x, rf_me
 {
     rf_heated_model *m = kernel;
     const rf_heat *heat = heat_at(m, at->u);
-    const double per = 1.0 / m->capacity;
+    const double per = m->per_capacity;
     double left = dt, t = at->x[0];
     for (long k = 0; left > 0.0 && k < MOST_STEPS && m->status <= RF_OUTSIDE; ++k) {
         const rf_viscosity mu = viscosity_at(m, t);
         const double f = rf_heat_surplus(&m->film, heat, t, &mu) * per;
-        const double by = rf_heat_slope(&m->film, heat, &mu) * per, bend = heat->drag * mu.curvature * per;
+        const double by = rf_heat_slope(&m->film, heat, &mu) * per, bend = heat->drag * mu.value * (mu.thins * mu.thins + mu.bends) * per;
         const double second = 0.5 * f * by, third = f * (by * by + f * bend) / 6.0, most = TOLERANCE * t;
         double h = left;
         if (!(h * fabs(by) <= STABLE && h * h * h * fabs(third) <= most))
@@ -113,12 +113,12 @@ int rf_heated_derivatives(const void *kernel, const rf_point *at, rf_jacobian *a
     if (status > RF_OUTSIDE)
         return explain(m, status, at, why);
     const rf_viscosity mu = viscosity_at(m, at->x[0]);
-    const double taken = m->film.volumetric_heat * (at->x[0] - m->film.supply), thins = mu.slope;
+    const double taken = m->film.volumetric_heat * (at->x[0] - m->film.supply), thins = mu.value * mu.thins;
     const double by_temperature[5] = {thins * heat.force[0], thins * heat.force[1], 1.0, thins * heat.drag, 0.0};
     memcpy(answer->C, by_temperature, sizeof by_temperature);
-    answer->A[0] = rf_heat_slope(&m->film, &heat, &mu) / m->capacity;
+    answer->A[0] = rf_heat_slope(&m->film, &heat, &mu) * m->per_capacity;
     for (int k = 0; k < 5; ++k) {
-        answer->B[k] = (mu.value * by.drag[k] - taken * by.flow[k]) / m->capacity;
+        answer->B[k] = (mu.value * by.drag[k] - taken * by.flow[k]) * m->per_capacity;
         answer->D[k] = mu.value * by.force[k];
         answer->D[5 + k] = mu.value * by.force[5 + k];
         answer->D[10 + k] = 0.0;
@@ -179,7 +179,8 @@ int rf_set_heated(rf_heated_model *m, const double *p, rf_message *why)
     film->ambient = p[AMBIENT];
     film->conductance = p[CONDUCTANCE];
     film->volumetric_heat = p[VOLUMETRIC_HEAT];
-    m->capacity = p[BUSH] + p[VOLUMETRIC_HEAT] * TWO_PI * p[RADIUS] * p[LENGTH] * p[CLEARANCE];
+    const double capacity = p[BUSH] + p[VOLUMETRIC_HEAT] * TWO_PI * p[RADIUS] * p[LENGTH] * p[CLEARANCE];
+    m->per_capacity = 1.0 / capacity;
     for (int k = 0; k < 5; ++k)
         m->u[k] = NAN;
     m->t = NAN;

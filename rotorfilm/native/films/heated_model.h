@@ -13,7 +13,7 @@
 
 typedef struct rf_heated_model {
     rf_heated film;
-    double capacity;
+    double per_capacity; /* K/J */
     double u[5]; /* the last input, with its heat and status: held inputs ask again and again */
     rf_heat heat;
     int status;

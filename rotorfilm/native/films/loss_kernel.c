@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "loss_frame.h"
+
 #define PI 3.14159265358979323846
 
 int rf_orient_loss(const double *e, const double *w, rf_frame *at)

@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 #include "../export.h"
-#include "map_frame.h"
+#include "../status.h"
 
 /* Sigma of the film, that of film and streamers, and the side flow. */
 #define RF_LOSSES 3
@@ -19,24 +19,6 @@
    Without source nothing flows, and the shear is that of rotation; it has no slopes there: RF_UNDEFINED. What fails
    answers not-a-number together with its status. */
 typedef int (*rf_loss)(const void *data, const double *e, const double *w, int first, double *losses, double *slopes);
-
-/* A loss as a function of chi, of the angle t from e to w, and of the angle of e with t held: its derivatives, those in
-   the angles over chi. */
-typedef struct rf_polar {
-    double value, by_chi, by_turn, by_side;
-} rf_polar;
-
-/* The frame, with any direction across e where there is no source. */
-int rf_orient_loss(const double *e, const double *w, rf_frame *at);
-
-/* Losses and, unless NULL, slopes from those in polar axes. The flow, the last one, is that of a source of size 1. */
-int rf_answer_losses(const rf_frame *at, const rf_polar *of, int first, double *losses, double *slopes);
-
-/* Not-a-number, and the status. */
-int rf_fail_losses(int status, double *losses, double *slopes);
-
-/* The integral of 1/(1 + chi cos) from 0 to an angle of any size, and its derivative in chi. */
-double rf_gap_integral(double chi, double angle, double *by_chi);
 
 /* The losses of one plain bearing as three maps over X of map_kernel.h and s, tan s = squeeze tan beta, beta in [0, pi]
    being the angle between e and w, which crowds the nodes where the source is across the eccentricity:

@@ -44,10 +44,10 @@ NODE_TIME = 1.4e-7
 CHECK_NODES = 18
 """Nodes that take as long as one state of the bounds, four times the cells and derivatives."""
 
-LOSS_NODES = 5
+LOSS_NODES = 6
 """Nodes of the potential on a grid that take as long as one of the losses on it, whose film begins anew."""
 
-LOSS_CHECKS = 13
+LOSS_CHECKS = 16
 """The same of the losses at the states of the bounds."""
 
 TITLE = "map of the grooved bearing"

@@ -2,7 +2,7 @@
 
 With X and theta as in `groove_table.py`, and for each sense in which the oil runs, forward first, the splines are
 
-    ln(g Sigma_f),   ln(g (Sigma_f + Sigma_r)),   ln(flow/|w|),   g = sqrt(1 - chi^2),
+    g Sigma_f,   g (Sigma_f + Sigma_r),   flow/|w|,   g = sqrt(1 - chi^2),
 
 over X, theta and s in [0, pi], tan s = CROWDING tan |beta|, beta being the angle from eccentricity to source, and over X
 and theta, for a journal at rest, the flows out of and into each opening over half the speed. Streamers follow the end at
@@ -85,7 +85,7 @@ def fitted_losses(nodes: Array, chi: Array) -> tuple[Array, Array]:
         Their eccentricity ratios.
     """
     scale = np.sqrt((1.0 - chi) * (1.0 + chi)) ** np.array([[1.0], [1.0], [0.0]])
-    shear = np.log(nodes[:3] * scale[:, None, :, None, None]).swapaxes(0, 1)
+    shear = (nodes[:3] * scale[:, None, :, None, None]).swapaxes(0, 1)
     # A journal at rest, with a source of 1/s, has half a speed of 1/chi.
     flows = nodes[3:, ..., CELLS // 2] * chi[:, None]
     flows = flows.reshape(2, -1, *flows.shape[1:]).transpose(2, 0, 1, 3, 4)
