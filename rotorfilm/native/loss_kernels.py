@@ -137,11 +137,11 @@ class GrooveLossKernel(LossKernel):
     _function: ClassVar[str] = "rf_groove_losses"
     openings: ClassVar[bool] = True
 
-    def __init__(
-        self, shear: Array, flows: Array, edges: Array, numbers: tuple[float, float, float]
-    ) -> None:
+    def __init__(self, shear: Array, flows: Array, edges: Array, numbers: tuple[float, float, float]) -> None:
         self._arguments = (shear, flows, edges, numbers)
-        self._shear, self._flows = (np.ascontiguousarray(periodic(each, 3 + k)) for k, each in ((0, shear), (1, flows)))
+        self._shear, self._flows = (
+            np.ascontiguousarray(periodic(each, 3 + k)) for k, each in ((0, shear), (1, flows))
+        )
         self._edges = np.ascontiguousarray(edges)
         cells_x, cells_e, cells_s = (count - 5 for count in self._shear.shape[2:])
         places = (array.ctypes.data for array in (self._shear, self._flows, self._edges))

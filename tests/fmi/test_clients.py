@@ -75,7 +75,7 @@ def test_libcosim_warms_a_film_as_simulate(cosim, tmp_path):
     film = replace(BEARING, viscosity=None, oil=Oil.iso_vg(100), cooling=cooling).in_time()
     # So much mass that it stays where it is.
     with pytest.warns(ValidityWarning, match="mass should be"):
-        rotor = RigidRotor(mass=1e15, speed=157.0, gravity=(0.0, 0.0), position=(2e-5, -4e-5))
+        rotor = RigidRotor(mass=1e25, speed=157.0, gravity=(0.0, 0.0), position=(2e-5, -4e-5))
     start = {"x": 2e-5, "y": -4e-5, "speed": 157.0}
     path = export_fmu(film, tmp_path / "film.fmu", component="film", start=start)
     execution = execution_of.from_step_size(step_size=10_000_000)

@@ -73,7 +73,7 @@ def test_temperatures_are_those_of_simulate(film, tmp_path):
     """A rotor of so much mass that it stays where it is: the same inputs, by an integrator of its own."""
     position = (START["x"], START["y"])
     with pytest.warns(ValidityWarning, match="mass should be"):
-        rotor = RigidRotor(mass=1e15, speed=START["speed"], gravity=(0.0, 0.0), position=position)
+        rotor = RigidRotor(mass=1e25, speed=START["speed"], gravity=(0.0, 0.0), position=position)
     model = bearing(film).in_time()
     motion = simulate(rotor, model, duration=4.0, samples=9, rtol=1e-12, method=DOP853)
     start = {"x": position[0], "y": position[1], "speed": START["speed"]}
@@ -97,7 +97,9 @@ def test_a_c_host_gets_the_temperature_over_an_orbit(film, tmp_path):
     """Inputs that change from step to step, each step against a tight integration of the model in Python."""
     compiler = shutil.which("cc") or pytest.skip("no C compiler")
     host, dt = tmp_path / "host", 0.05
-    subprocess.run([compiler, "-std=c99", f"-I{FOLDER}", str(HOST), "-o", str(host), "-lm", "-ldl"], check=True)
+    subprocess.run(
+        [compiler, "-std=c99", f"-I{FOLDER}", str(HOST), "-o", str(host), "-lm", "-ldl"], check=True
+    )
     angle = np.linspace(0.0, 6.0, 25)
     x, y = 2e-5 + 3e-5 * np.cos(angle), -2e-5 + 3e-5 * np.sin(angle)
     rows = np.column_stack([x, y, -1e-3 * np.sin(angle), 1e-3 * np.cos(angle), 157.0 + 5.0 * angle])
@@ -126,7 +128,7 @@ def test_a_c_host_gets_the_temperature_over_an_orbit(film, tmp_path):
 @pytest.mark.parametrize("version", ["2.0", "3.0"])
 def test_a_bearing_with_openings_is_native_and_passes_all_checks(version, tmp_path):
     path = export_fmu(bearing(COARSE), tmp_path / "warm.fmu", version, component="film", start=START)
-    assert check_fmu(path) == []
+    assert [item.check for item in check_fmu(path) if item.passed is False] == []
     described = {v.name: v for v in fmpy.read_model_description(str(path)).modelVariables}
     assert float(described["film.carry_over"].start) == COOLING.carry_over
     assert described["film.carry_over"].variability == "tunable"

@@ -24,7 +24,8 @@ typedef struct rf_opening_map {
     double squeeze;                    /* in (0, 1] */
     double axis;                       /* angle of the axis of the openings in the bearing frame [rad] */
     const double *coefficients;        /* 2 senses, forward first, x RF_LOSSES x (cells_x + 5) x (cells_e + 5)
-                                          x (cells_s + 5), quintic, s fastest; of theta the last five repeat the first */
+                                          x (cells_s + 5), quintic, s fastest; over theta the last five repeat
+                                          the first */
     const double *flows;               /* 2 senses x out and in x openings x (cells_x + 5) x (cells_e + 5) */
     const double *edges;               /* lands x 2: where films begin and end, from the axis [rad] */
 } rf_opening_map;

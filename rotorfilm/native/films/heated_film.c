@@ -151,8 +151,8 @@ double rf_heat_slope(const rf_heated *film, const rf_heat *heat, const rf_viscos
     return heat->drag * mu->value * mu->thins - film->volumetric_heat * heat->flow - film->conductance;
 }
 
-/* The root of an oil that thins evenly, as from the temperature t0 that the film has without heat: x e^x = z by a formula
-   for Lambert's W, within some per cent. */
+/* The root of an oil that thins evenly, as from the temperature t0 that the film has without heat: x e^x = z by a
+   formula for Lambert's W, within some per cent. */
 static double guess(const rf_heated *film, const rf_heat *heat, double takes, double t0)
 {
     rf_viscosity mu;

@@ -62,8 +62,8 @@ RF_EXPORT_LOOP int rf_heat_at(const rf_heated *film, const double *state, rf_hea
 double rf_heat_surplus(const rf_heated *film, const rf_heat *heat, double temperature, const rf_viscosity *mu);
 double rf_heat_slope(const rf_heated *film, const rf_heat *heat, const rf_viscosity *mu);
 
-/* The root of (1), and the viscosity there, by Halley's method. RF_STUCK if nothing takes the heat away, RF_OUTSIDE beyond
-   the range of the oil. */
+/* The root of (1), and the viscosity there, by Halley's method. RF_STUCK if nothing takes the heat away, RF_OUTSIDE
+   beyond the range of the oil. */
 int rf_balance(const rf_heated *film, const rf_heat *heat, double *temperature, rf_viscosity *mu);
 
 /* Force f[2], temperature and, unless NULL, jacobian[2][5] of the film that at every state has the temperature of

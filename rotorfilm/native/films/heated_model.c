@@ -89,7 +89,8 @@ int rf_heated_step(void *kernel, const rf_point *at, double dt, double *x, rf_me
     for (long k = 0; left > 0.0 && k < MOST_STEPS && m->status <= RF_OUTSIDE; ++k) {
         const rf_viscosity mu = viscosity_at(m, t);
         const double f = rf_heat_surplus(&m->film, heat, t, &mu) * per;
-        const double by = rf_heat_slope(&m->film, heat, &mu) * per, bend = heat->drag * mu.value * (mu.thins * mu.thins + mu.bends) * per;
+        const double by = rf_heat_slope(&m->film, heat, &mu) * per;
+        const double bend = heat->drag * mu.value * (mu.thins * mu.thins + mu.bends) * per;
         const double second = 0.5 * f * by, third = f * (by * by + f * bend) / 6.0, most = TOLERANCE * t;
         double h = left;
         if (!(h * fabs(by) <= STABLE && h * h * h * fabs(third) <= most))
@@ -148,8 +149,8 @@ int rf_take_oil(rf_heated_model *m, const rf_tables *tables, rf_message *why)
     if (!gap)
         return RF_INVALID;
     if (oil->extent[0] < 6 || oil->extent[0] > 100000 || !(range[0] > 0.0 && range[1] > range[0]))
-        return rf_say(why, RF_INVALID, "the oil must be known over a range of temperatures, got %u numbers over %.9g to "
-                      "%.9g K", (unsigned)oil->extent[0], range[0], range[1]);
+        return rf_say(why, RF_INVALID, "the oil must be known over a range of temperatures, got %u numbers over %.9g "
+                      "to %.9g K", (unsigned)oil->extent[0], range[0], range[1]);
     m->film.oil.ln = oil->numbers;
     m->film.oil.cells = (int32_t)oil->extent[0] - 5;
     m->film.oil.coldest = range[0];

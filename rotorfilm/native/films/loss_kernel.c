@@ -163,7 +163,8 @@ int rf_short_losses(const void *none, const double *e, const double *w, int firs
     const double chi = at.chi, side = at.sin < 0.0 ? -1.0 : 1.0, c = -fabs(at.sin), s = -at.cos;
     const double end = 1.0 + chi * c, start = 1.0 - chi * c; /* thickness at the ends of the film */
     const double root = sqrt((1.0 - chi) / (1.0 + chi)), half = at.cos / (1.0 - c);
-    const double before = atan(root * half), behind = 0.5 * PI + atan(half / root), bent = s > 0.0 ? PI - behind : behind;
+    const double before = atan(root * half), behind = 0.5 * PI + atan(half / root);
+    const double bent = s > 0.0 ? PI - behind : behind;
     const integrals a = integrate(chi, before, -s, -c), b = integrate(chi, behind, s, c);
     const integrals film = between(&a, &b), z = integrate(chi, before + PI, -s, -c);
     const integrals m = integrate(chi, bent, -fabs(s), c), full = between(&b, &m), torn = between(&m, &z);

@@ -15,9 +15,9 @@
 /* Sigma of the film, that of film and streamers, and the side flow. */
 #define RF_LOSSES 3
 
-/* The losses from number `first` on, which is not the last, at e[2], w[2] and, unless NULL, slopes[3][4] = d losses/d(e, w).
-   Without source nothing flows, and the shear is that of rotation; it has no slopes there: RF_UNDEFINED. What fails
-   answers not-a-number together with its status. */
+/* The losses from number `first` on, which is not the last, at e[2], w[2] and, unless NULL, slopes[3][4] = d losses/
+   d(e, w). Without source nothing flows, and the shear is that of rotation; it has no slopes there: RF_UNDEFINED. What
+   fails answers not-a-number together with its status. */
 typedef int (*rf_loss)(const void *data, const double *e, const double *w, int first, double *losses, double *slopes);
 
 /* The losses of one plain bearing as three maps over X of map_kernel.h and s, tan s = squeeze tan beta, beta in [0, pi]

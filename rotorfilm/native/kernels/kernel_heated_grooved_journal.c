@@ -2,8 +2,8 @@
    (bearings/journal/heat/heated_bearing.py).
 
    Parameters, inputs, outputs and the tables of the oil as in heated_model.h, with one more parameter, carry_over;
-   tables of the film as in groove_model.h, and its losses as in groove_losses.h: loss_coefficients (2 x 3, x, theta, s),
-   loss_flows (4 x openings, x, theta) and loss_edges (lands, 2). */
+   tables of the film as in groove_model.h, and its losses as in groove_losses.h: loss_coefficients (2 x 3, x, theta,
+   s), loss_flows (4 x openings, x, theta) and loss_edges (lands, 2). */
 
 /* Documentation of the FMU
 
@@ -23,8 +23,8 @@
    capacity = bush_heat_capacity + volumetric_heat 2 pi radius length clearance
 
    Validity: One temperature for the whole film: eccentricity ratio within 6 %, power within 7 % of a film
-   with temperatures along and across it. Q_1 leaves an opening and Q_2 arrives there with the journal at rest. The map is
-   made for these openings and this length / diameter: radius and length are fixed. The oil is known between the
+   with temperatures along and across it. Q_1 leaves an opening and Q_2 arrives there with the journal at rest. The map
+   is made for these openings and this length / diameter: radius and length are fixed. The oil is known between the
    temperatures of the table `oil_range`. Laminar, aligned. In vibration the temperature hardly moves. */
 #include <stdlib.h>
 
@@ -54,7 +54,7 @@ static int take_losses(model *m, const rf_tables *tables, rf_message *why)
     for (int axis = 1; axis < 3; ++axis)
         fits = fits && flows->extent[axis] == c->extent[axis];
     if (!fits)
-        return rf_say(why, RF_INVALID, "the losses of a film must fit each other, for two senses and six nodes at least");
+        return rf_say(why, RF_INVALID, "the losses of a film must fit each other, for two senses and six nodes");
     m->losses = (rf_opening_map){(int32_t)c->extent[1] - 5, (int32_t)c->extent[2] - 5, (int32_t)c->extent[3] - 5,
                                  (int32_t)flows->extent[0] / 4, (int32_t)edges->extent[0], m->map.x_end,
                                  m->map.squeeze, m->map.axis, c->numbers, flows->numbers, edges->numbers};

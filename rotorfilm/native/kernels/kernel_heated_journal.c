@@ -1,8 +1,9 @@
 /* Kernel "heated_journal": a plain journal bearing whose film has one temperature
    (bearings/journal/heat/heated_bearing.py).
 
-   Parameters, inputs, outputs and the tables of the oil as in heated_model.h. The film is the map of coefficients (1, x, t), center (1), reach (1), with its losses loss_coefficients
-   (3, x, s), loss_center (3), loss_reach (1), loss_squeeze (1); without `coefficients` it is the short film. */
+   Parameters, inputs, outputs and the tables of the oil as in heated_model.h. The film is the map of coefficients
+   (1, x, t), center (1), reach (1), with its losses loss_coefficients (3, x, s), loss_center (3), loss_reach (1),
+   loss_squeeze (1); without `coefficients` it is the short film. */
 
 /* Documentation of the FMU
 

@@ -12,7 +12,6 @@ from rotorfilm.bearings.films.film_losses import gap_shear
 from rotorfilm.bearings.films.geometry import FilmGeometry, Groove, Pad
 from rotorfilm.bearings.journal import (
     ExtrapolatedFilm,
-    GroovedMapFilm,
     JournalBearing,
     MapFilm,
     ReynoldsFilm,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
@@ -116,7 +116,7 @@ def build_groove_table(
         for e, w in checks.batches()
     ]
     center = _center(potential)
-    pieces = [columns, losses.columns(solved), references]
+    pieces: list[Sequence[Callable[[], Array]]] = [columns, losses.columns(solved), references]
     found = iter(made_pieces([piece for group in pieces for piece in group], report, TITLE))
     levels, nodes, exact = ([next(found) for _ in group] for group in pieces)
     M = _exponents(center, np.reshape(levels, (len(solved), resolution.nodes[0], -1)), openings, resolution)
@@ -174,7 +174,7 @@ class _Losses:
         return [partial(node_losses_between, self._film, chi, turn) for turn in turns for chi in self._chi]
 
     def fitted(self, nodes: Array, solved: np.ndarray) -> tuple[Array, Array]:
-        """Return the splines of `fitted_losses` from losses at the solved nodes, in the order of `columns`."""
+        """Return the splines of `fitted_losses` from losses at the solved nodes, ordered as `columns`."""
         grooves, chi = self._openings.grooves, self._chi
         rows, senses, places = nodes.shape[1:]
         found = nodes.reshape(len(solved), len(chi), rows, senses, places)

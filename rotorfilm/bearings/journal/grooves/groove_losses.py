@@ -1,13 +1,13 @@
 """Shear and flow of a bearing with openings: their nodes by the two-dimensional film, and their splines.
 
-With X and theta as in `groove_table.py`, and for each sense in which the oil runs, forward first, the splines are
+With X and theta as in `groove_table.py`, and for each sense of the oil, forward first, the splines are
 
     g Sigma_f,   g (Sigma_f + Sigma_r),   flow/|w|,   g = sqrt(1 - chi^2),
 
-over X, theta and s in [0, pi], tan s = CROWDING tan |beta|, beta being the angle from eccentricity to source, and over X
-and theta, for a journal at rest, the flows out of and into each opening over half the speed. Streamers follow the end at
-which the film is torn, and the film begins where they bring oil, so that there is a step where the oil turns back: each
-sense is fitted from its own side.
+over X, theta and s in [0, pi], tan s = CROWDING tan |beta|, beta being the angle from eccentricity to source,
+and over X and theta, for a journal at rest, the flows out of and into each opening over half the speed. Streamers
+follow the end at which the film is torn, and the film begins where they bring oil, so that there is a step where
+the oil turns back: each sense is fitted from its own side.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ CROWDING = 0.6
 """Crowds the directions across the eccentricity, where the film turns; measured to be the best."""
 
 NEAR = 1e-3
-"""Eccentricity ratio of the first nodes: at the center the film begins in as many places as there are directions."""
+"""Eccentricity ratio of the first nodes: at the center each direction has a film of its own."""
 
 TURNING = 1e-9
 """Rate of the oil, for a source of 1/s, where it turns back: its sign alone counts."""
@@ -60,8 +60,8 @@ def loss_eccentricities(largest_eccentricity_ratio: float, cells_x: int) -> Arra
 def node_losses_between(film: RingKernel, chi: float, theta: float) -> Array:
     """Return shear of the film, shear, side flow and flows of openings, (3 + 2 openings, 2, CELLS + 1).
 
-    At eccentricity ratio chi in the direction theta, for sources of 1/s in the directions of the nodes: for oil
-    that runs forward, then backward.
+    At eccentricity ratio chi in the direction theta, for sources of 1/s in the directions of the nodes: for
+    oil that runs forward, then backward.
     """
     s = np.linspace(0.0, np.pi, CELLS + 1)
     beta = np.arctan2(np.sin(s), CROWDING * np.cos(s)) * np.array([[-1.0], [1.0]])
@@ -104,7 +104,7 @@ def bound_losses(film: RingKernel, e: Array, w: Array) -> Array:
 
 
 def loss_errors(kernel: GrooveLossKernel, e: Array, w: Array, exact: Array) -> tuple[Array, Array]:
-    """Return the errors of shear, and of the flow of fresh oil where openings replace all, each (n,), relative."""
+    """Return the relative errors, (n,), of shear, and of the flow of fresh oil where openings replace all."""
     film, streamers, flow = kernel.losses(e, w).losses
     arriving = kernel.flows(e, static_rate(e, w))[1].sum(axis=0)
     replaced = exact[1] + 2.0 * exact[2]
@@ -113,10 +113,13 @@ def loss_errors(kernel: GrooveLossKernel, e: Array, w: Array, exact: Array) -> t
 
 
 def opening_runs(grooves: tuple[Groove, ...]) -> list[int]:
-    """Return for each opening that the losses of a film tell the groove that it is; of those that touch the first."""
+    """Return the groove that each opening is of which a film tells losses; of those that touch, the first."""
     order = sorted(range(len(grooves)), key=lambda k: (grooves[k].center - 0.5 * grooves[k].width) % TURN)
     openings = FilmGeometry(grooves=grooves).openings()
-    gaps = [(first.start - last.start) % TURN - last.extent for first, last in zip(openings, openings[-1:] + openings[:-1], strict=True)]
+    gaps = [
+        (first.start - last.start) % TURN - last.extent
+        for first, last in zip(openings, openings[-1:] + openings[:-1], strict=True)
+    ]
     apart = [k for k in range(1, len(order)) if gaps[k] > 0.0]
     if apart and not gaps[0] > 0.0:
         apart.pop()

@@ -5,8 +5,8 @@ With J(e, w) = min over films of the dissipation potential (`native/films/groove
     ln(-J/|w|^2) = L0(phi) + chi M(X, theta, s),
     X = chi/(1 - chi^2)^(1/4),   tan s = crowding tan(phi - theta),
 
-e at the angle theta and w at phi from the axis of the openings, on uniform grids by quintic B-splines. Beside it are
-shear and flow of the film (`groove_losses.py`).
+e at the angle theta and w at phi from the axis of the openings, on uniform grids by quintic B-splines. Beside it
+are shear and flow of the film (`groove_losses.py`).
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class GrooveMapTable(StoredTable):
     coefficients : ndarray, shape (cells_x + 5, cells_e, cells_s)
         Spline coefficients of M over X, theta and s.
     shear : ndarray, shape (2, 3, cells_x + 5, cells_e, CELLS + 5)
-        Spline coefficients of shear and side flow over X, theta and s, for oil that runs forward and backward.
+        Spline coefficients of shear and side flow over X, theta and s, for both senses of the oil.
     flows : ndarray, shape (2, 2, openings, cells_x + 5, cells_e)
         Those of the flows out of the openings, and into them.
     bounds : ndarray, shape (bands, 5)
@@ -89,7 +89,7 @@ class GrooveMapTable(StoredTable):
                 f"coefficients must have shape (x, e, s) of 6 at least and log_center ({DIRECTIONS},), "
                 f"got shapes {shape} and {np.shape(self.log_center)}"
             )
-        expected = _loss_shapes(*shape[:2], len(self.grooves))
+        expected = _loss_shapes(shape[0], shape[1], len(self.grooves))
         if (np.shape(self.shear), np.shape(self.flows)) != expected:
             raise InputError(
                 f"shear and flows must have shapes {expected[0]} and {expected[1]}, "
@@ -98,7 +98,11 @@ class GrooveMapTable(StoredTable):
         splines = self.coefficients, self.log_center, self.shear, self.flows
         if not all(np.isfinite(each).all() for each in splines):
             raise InputError("coefficients, log_center, shear and flows must be finite")
-        if np.shape(self.bounds)[1:] != (ERRORS,) or len(self.bounds) > BANDS or not np.all(self.bounds >= 0.0):
+        if (
+            np.shape(self.bounds)[1:] != (ERRORS,)
+            or len(self.bounds) > BANDS
+            or not np.all(self.bounds >= 0.0)
+        ):
             raise InputError(
                 f"bounds must have shape (bands, {ERRORS}), {BANDS} bands at most, and not be negative, "
                 f"got {self.bounds!r}"
@@ -119,7 +123,7 @@ class GrooveMapTable(StoredTable):
         return self._bound(eccentricity_ratio, 2 if slopes else 1)
 
     def loss_bound(self, eccentricity_ratio: float) -> tuple[float, float]:
-        """Return the largest errors [1] of shear, which is most of the power, and flow; infinite where unknown."""
+        """Return the largest errors [1] of shear, most of the power, and flow; infinite where unknown."""
         return self._bound(eccentricity_ratio, 3), self._bound(eccentricity_ratio, 4)
 
     def _bound(self, eccentricity_ratio: float, column: int) -> float:
@@ -152,8 +156,10 @@ class GrooveMapTable(StoredTable):
             If the content is not such a table, of another version, truncated or damaged.
         """
         sizes, numbers, bands, center, *splines = unseal("groove table", MAGIC, VERSION, _layout, content)
-        shapes = (sizes[:3], *_loss_shapes(*sizes[:2], sizes[3]))
-        coefficients, shear, flows = (each.reshape(shape) for each, shape in zip(splines, shapes, strict=True))
+        shapes = (sizes[:3], *_loss_shapes(sizes[0], sizes[1], sizes[3]))
+        coefficients, shear, flows = (
+            each.reshape(shape) for each, shape in zip(splines, shapes, strict=True)
+        )
         scalars, openings = np.split(numbers, [4])
         slenderness, reach, crowding, known = scalars.tolist()
         return cls(
