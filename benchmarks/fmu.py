@@ -1,8 +1,8 @@
 """What an FMU costs, in one run: setting five inputs, a step, getting two outputs of a journal bearing.
 
 In C: the native FMU against its bare kernel. Through fmpy: the native FMUs against an FMU of the same
-interface that does nothing (`fmu_trivial.c`), and against the same bearing in Python. Then, in C again, a step
-of bearings whose oil warms against one of the same film at one viscosity. Errors are those of the
+interface that does nothing (`fmu_trivial.c`), and against the same bearing in Python. Then, in C again, a
+step of bearings whose oil warms against one of the same film at one viscosity. Errors are those of the
 forces against the Python model, relative to the largest. Needs a C compiler, on Linux or macOS.
 
     python benchmarks/fmu.py

@@ -58,7 +58,7 @@ class FilmLosses(NamedTuple):
 def kernel_losses(
     kernel: LossKernel, eccentricity: Array, source: Array, geometry: FilmGeometry
 ) -> FilmLosses:
-    """Return the losses of a film by its compiled kernel at states (2, ...), without the flows of openings."""
+    """Return the losses of a film by its kernel at states (2, ...), without the flows of openings."""
     shape = eccentricity.shape[1:]
     batch = kernel.losses(eccentricity.reshape(2, -1), source.reshape(2, -1))
     film, streamers, flow = batch.losses.reshape(3, *shape)

@@ -4,10 +4,10 @@ With X and theta as in `groove_table.py`, and for each sense of the oil, forward
 
     g Sigma_f,   g (Sigma_f + Sigma_r),   flow/|w|,   g = sqrt(1 - chi^2),
 
-over X, theta and s in [0, pi], tan s = CROWDING tan |beta|, beta being the angle from eccentricity to source,
-and over X and theta, for a journal at rest, the flows out of and into each opening over half the speed. Streamers
-follow the end at which the film is torn, and the film begins where they bring oil, so that there is a step where
-the oil turns back: each sense is fitted from its own side.
+over X, theta and s in [0, pi], tan s = CROWDING tan |beta|, beta being the angle from eccentricity to
+source, and over X and theta, for a journal at rest, the flows out of and into each opening over half the
+speed. Streamers follow the end at which the film is torn, and the film begins where they bring oil, so that
+there is a step where the oil turns back: each sense is fitted from its own side.
 """
 
 from __future__ import annotations

@@ -5,8 +5,8 @@ With J(e, w) = min over films of the dissipation potential (`native/films/groove
     ln(-J/|w|^2) = L0(phi) + chi M(X, theta, s),
     X = chi/(1 - chi^2)^(1/4),   tan s = crowding tan(phi - theta),
 
-e at the angle theta and w at phi from the axis of the openings, on uniform grids by quintic B-splines. Beside it
-are shear and flow of the film (`groove_losses.py`).
+e at the angle theta and w at phi from the axis of the openings, on uniform grids by quintic B-splines.
+Beside it are shear and flow of the film (`groove_losses.py`).
 """
 
 from __future__ import annotations
