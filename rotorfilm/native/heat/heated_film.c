@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-#include "map_frame.h"
-#include "quintic.h"
+#include "../films/map_frame.h"
+#include "../films/quintic.h"
 
 #define TWO_PI 6.28318530717958647692
 #define STEPS 60

@@ -12,7 +12,7 @@
 #include <stdint.h>
 
 #include "groove_losses.h"
-#include "journal_kernel.h"
+#include "../films/journal_kernel.h"
 
 /* ln viscosity over temperature: uniform quintic splines, beyond the range an exponential. */
 typedef struct rf_oil {

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "journal_model.h"
+#include "../films/journal_model.h"
 
 #define TWO_PI 6.28318530717958647692
 #define TOLERANCE 1e-11 /* of the last term of the series in a step, relative to the temperature */

@@ -3,7 +3,7 @@
 #define ROTORFILM_LOSS_FRAME_H
 
 #include "loss_kernel.h"
-#include "map_frame.h"
+#include "../films/map_frame.h"
 
 /* A loss as a function of chi, of the angle t from e to w, and of the angle of e with t held: its derivatives, those in
    the angles over chi. */
