@@ -34,8 +34,6 @@ _ROWS = [c_void_p, c_size_t]
 _BATCH: dict[str, list[Any]] = {
     "rf_film_batch": [c_void_p, c_void_p, c_size_t, *_ROWS * 4, c_void_p],
     "rf_journal_batch": [c_void_p, c_size_t, *_ROWS * 5, c_void_p],
-    "rf_groove_flows": [c_void_p, c_size_t, *[c_void_p] * 3],
-    "rf_groove_losses": [c_void_p] * 5,
     "rf_loss_batch": [c_void_p, c_void_p, c_size_t, *[c_void_p] * 5],
 }
 _SCALAR: dict[str, list[Any]] = {
@@ -60,6 +58,8 @@ _LOOPS: dict[str, list[Any]] = {
     "rf_stencil_film": [c_void_p, c_void_p, c_void_p, c_size_t, c_void_p],
     "rf_balanced_at": [c_void_p] * 5,
     "rf_heat_at": [c_void_p] * 4,
+    "rf_groove_flows": [c_void_p, c_size_t, *[c_void_p] * 3],
+    "rf_groove_losses": [c_void_p] * 5,
     "rf_balanced_batch": [c_void_p, c_size_t, *[c_void_p] * 5],
     "rf_ride": [c_void_p, c_void_p, c_double, c_int64, c_void_p, c_void_p],
     "rf_springs_at": [c_void_p] * 4,

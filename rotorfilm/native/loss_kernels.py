@@ -10,7 +10,7 @@ import numpy as np
 from ..model import Array
 from .film_kernels import periodic
 from .heat_structs import OpeningMapStruct
-from .library import functions
+from .library import functions, loops
 from .structs import LossMapStruct
 
 
@@ -62,13 +62,17 @@ class LossKernel:
     @property
     def address(self) -> int | None:
         """The address of its rf_loss."""
-        return cast(functions()[self._function], c_void_p).value
+        return cast(self._compiled(self._function), c_void_p).value
+
+    def _compiled(self, name: str) -> Any:
+        """Return a function; no FMU at one viscosity needs those of openings."""
+        return (loops() if self.openings else functions())[name]
 
     def losses(self, eccentricity: Array, source: Array) -> LossBatch:
         """Return losses and slopes at the eccentricities and sources (2, n)."""
         e, w = (np.ascontiguousarray(rows, dtype=float) for rows in (eccentricity, source))
         losses, slopes, first = np.empty((3, e.shape[1])), np.empty((3, 4, e.shape[1])), c_size_t()
-        function = cast(functions()[self._function], c_void_p)
+        function = c_void_p(self.address)
         data = None if self.struct is None else byref(self.struct)
         places = [rows.ctypes.data for rows in (e, w, losses, slopes)]
         status = functions()["rf_loss_batch"](function, data, e.shape[1], *places, byref(first))
@@ -153,7 +157,7 @@ class GrooveLossKernel(LossKernel):
         e, along = (np.ascontiguousarray(rows, dtype=float) for rows in (eccentricity, rate))
         found = np.empty((2, self.struct.openings, e.shape[1]))
         places = [rows.ctypes.data for rows in (e, along, found)]
-        functions()["rf_groove_flows"](byref(self.struct), e.shape[1], *places)
+        self._compiled("rf_groove_flows")(byref(self.struct), e.shape[1], *places)
         return found
 
     @property

@@ -31,12 +31,12 @@ typedef struct rf_opening_map {
 } rf_opening_map;
 
 /* An rf_loss. */
-RF_EXPORT int rf_groove_losses(const void *map, const double *e, const double *w, int first, double *losses,
+RF_EXPORT_LOOP int rf_groove_losses(const void *map, const double *e, const double *w, int first, double *losses,
                                double *slopes);
 
 /* Flows out of (first) and into (then) the openings at n states, rows of n, in units of c R L; e (2 rows), half the
    speed (n). */
-RF_EXPORT int rf_groove_flows(const rf_opening_map *map, size_t n, const double *e, const double *rate,
+RF_EXPORT_LOOP int rf_groove_flows(const rf_opening_map *map, size_t n, const double *e, const double *rate,
                               double *flows);
 
 /* The flow of fresh oil that replaces what arrives at openings and does not go on,
