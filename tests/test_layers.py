@@ -67,7 +67,7 @@ PARTS = {
     "questions": [["journal"], ["damper", "contact", "bush", "shaft"]],
     "comparisons": [["journal", "contact", "coupling"], ["limits"]],
     "charts": [["comparisons"]],
-    "native": [],
+    "native": [["layouts"]],
     "readable": [],
 }
 """The same among the folders of a part."""

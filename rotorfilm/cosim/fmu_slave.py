@@ -18,7 +18,7 @@ from ..fmu.check.calls import EventInfo, Port, Slopes
 from ..fmu.check.described import DERIVATIVES, STATES, nominal_of, provides, variables_of
 from ..fmu.check.instance import instantiated
 from ..model import Array, Linearization
-from ..native.master_structs import Call
+from ..native.layouts.master_structs import Call
 from ..rotors.force_law import BASE_TIME, ForceLaw, law_inputs
 from .loops.compiled_partners import CompiledPartner, FmuPartner
 from .schemes.exponential import LawIntegrator

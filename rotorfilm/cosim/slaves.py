@@ -10,7 +10,7 @@ import numpy as np
 from ..errors import InputError
 from ..fmu.advance import advance
 from ..model import Array, Dynamic, Linearization, Model, breakpoints
-from ..native.master_structs import Call
+from ..native.layouts.master_structs import Call
 from ..rotors.force_law import ForceLaw
 from ..signals import names, units
 from ..warming import in_time

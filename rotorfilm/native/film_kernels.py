@@ -9,8 +9,8 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 
 from ..model import Array
+from .layouts.structs import GrooveMapStruct, MapStruct, ShortStruct
 from .library import functions
-from .structs import GrooveMapStruct, MapStruct, ShortStruct
 
 
 class Status(IntEnum):

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..model import Array
-from .heat_structs import HeatedStruct, HeatSlopesStruct, HeatStruct, OilStruct
+from .layouts.heat_structs import HeatedStruct, HeatSlopesStruct, HeatStruct, OilStruct
 from .library import loops
 from .loss_kernels import LossKernel
 from .response_kernels import JournalKernel

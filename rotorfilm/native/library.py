@@ -69,8 +69,6 @@ _LOOPS: dict[str, list[Any]] = {
     "rf_balanced_batch": [c_void_p, c_size_t, *[c_void_p] * 5],
     "rf_ride": [c_void_p, c_void_p, c_double, c_int64, c_void_p, c_void_p],
     "rf_lobes_at": [c_void_p] * 4,
-    "rf_pad_film": [c_void_p] * 5,
-    "rf_shape_pad": [c_void_p, c_double],
     "rf_springs_at": [c_void_p] * 4,
     "rf_sprung_at": [c_void_p] * 4,
     "rf_follow_shaken": [c_void_p, c_int64, c_void_p, c_void_p],

@@ -9,9 +9,9 @@ import numpy as np
 
 from ..model import Array
 from .film_kernels import periodic
-from .heat_structs import OpeningMapStruct
+from .layouts.heat_structs import OpeningMapStruct
+from .layouts.structs import LossMapStruct
 from .library import functions, loops
-from .structs import LossMapStruct
 
 
 class LossBatch(NamedTuple):

@@ -7,8 +7,8 @@ from ctypes import byref, c_double
 import numpy as np
 
 from ..model import Array
+from .layouts.structs import MapTableStruct
 from .library import functions
-from .structs import MapTableStruct
 
 
 def slice_table(

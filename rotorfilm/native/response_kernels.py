@@ -10,9 +10,9 @@ import numpy as np
 
 from ..model import Array
 from .film_kernels import Batch, FilmKernel, as_rows, row_places, run_batch
+from .layouts.pad_structs import LobesStruct, LobeStruct
+from .layouts.structs import JournalStruct
 from .library import functions, loops
-from .pad_structs import LobesStruct, LobeStruct
-from .structs import JournalStruct
 
 _Pair, _Five, _Ten = c_double * 2, c_double * 5, c_double * 10
 

@@ -16,7 +16,7 @@ from rotorfilm.cosim.loops.compiled_loop import MOST_CHUNK
 from rotorfilm.errors import CouplingError, FmuError, ValidityWarning
 from rotorfilm.fmu import export_fmu
 from rotorfilm.fmu.check.calls import Instance
-from rotorfilm.native.master_structs import Call
+from rotorfilm.native.layouts.master_structs import Call
 
 pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.CouplingWarning")
 

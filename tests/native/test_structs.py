@@ -7,7 +7,8 @@ import subprocess
 
 import pytest
 
-from rotorfilm.native import heat_structs, master_structs, pad_kernels, pad_structs, structs
+from rotorfilm.native import pad_kernels
+from rotorfilm.native.layouts import heat_structs, master_structs, pad_structs, structs
 from rotorfilm.native.library import FOLDER
 
 KINDS = {

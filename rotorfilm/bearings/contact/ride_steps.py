@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ...model import Array
+from ...native.layouts.structs import RideStruct
 from ...native.library import loops
-from ...native.structs import RideStruct
 
 
 class RideLaw(NamedTuple):

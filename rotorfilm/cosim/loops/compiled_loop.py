@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...model import Array, Linearization
-from ...native.library import master
-from ...native.master_structs import (
+from ...native.layouts.master_structs import (
     HELD,
     INTEGRATED,
     LAWFUL,
@@ -22,6 +21,7 @@ from ...native.master_structs import (
     RotorStruct,
     StationStruct,
 )
+from ...native.library import master
 from ...rotors.force_law import BASE_TIME, ForceLaw, law_inputs
 from ...signals import FORCE_OUTPUTS, JOURNAL_INPUTS
 from ..partners import Partners

@@ -11,8 +11,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...model import Array, Model
-from ...native.library import master
-from ...native.master_structs import (
+from ...native.layouts.master_structs import (
     FMI2,
     FMI3,
     KERNEL,
@@ -22,6 +21,7 @@ from ...native.master_structs import (
     TablesStruct,
     TableStruct,
 )
+from ...native.library import master
 from ...native.spec import HasKernel, NativeSpec
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...errors import FmuError
 from ...model import Array
-from ...native.master_structs import Ended
+from ...native.layouts.master_structs import Ended
 from ..partners import Partners, require_finite_outputs
 from ..schemes.scheme import Scheme
 from ..slaves import Compiled, Integrated, Slave

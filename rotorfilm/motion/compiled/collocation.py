@@ -10,8 +10,8 @@ import numpy as np
 from scipy.special import roots_jacobi
 
 from ...model import Array
+from ...native.layouts.structs import ModesStruct, SchemeStruct, StepTableStruct
 from ...native.library import loops
-from ...native.structs import ModesStruct, SchemeStruct, StepTableStruct
 from .modal import Complex, ModalRotor
 
 STAGES = 4

@@ -27,8 +27,8 @@ from ...bearings.sprung import Sprung
 from ...errors import FilmContactError, RotorfilmError, UndefinedDerivativeError, warn_user
 from ...model import Reaction
 from ...native import Status
+from ...native.layouts.structs import SprungStruct
 from ...native.library import functions, loops
-from ...native.structs import SprungStruct
 
 _CALLBACK = CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double))
 

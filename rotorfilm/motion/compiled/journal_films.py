@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ...model import Array
+from ...native.layouts.structs import JournalsStruct
 from ...native.library import loops
-from ...native.structs import JournalsStruct
 from .modal import ModalRotor
 
 CONTACT_GAP = 1e-9

@@ -10,8 +10,8 @@ import numpy as np
 
 from ...errors import ContactError, ConvergenceError
 from ...model import Array
+from ...native.layouts.structs import SLOTS, STEPS, MarchStruct, SpeedsStruct, StepTableStruct
 from ...native.library import loops
-from ...native.structs import SLOTS, STEPS, MarchStruct, SpeedsStruct, StepTableStruct
 from ...rotors import SpeedProfile
 from .collocation import STAGES, ModalArrays, StepTable, radau_scheme
 from .film_calls import raise_foreign, warn_beyond

@@ -11,8 +11,8 @@ import numpy as np
 from ...errors import ConvergenceError, FilmContactError, RotorfilmError, UndefinedDerivativeError
 from ...model import Array, Reaction
 from ...native import Status
+from ...native.layouts.structs import ShakenStruct
 from ...native.library import loops
-from ...native.structs import ShakenStruct
 from ..compiled.film_calls import film_call, raise_foreign, warn_beyond
 
 ORDER = 2

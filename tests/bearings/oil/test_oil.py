@@ -6,7 +6,7 @@ import pytest
 from rotorfilm.bearings.oil import Exponential, Oil, Vogel, Walther
 from rotorfilm.bearings.oil.viscosity_table import RANGE, viscosity_table
 from rotorfilm.errors import InputError
-from rotorfilm.native.heat_structs import OilStruct
+from rotorfilm.native.layouts.heat_structs import OilStruct
 
 CELSIUS = 273.15
 

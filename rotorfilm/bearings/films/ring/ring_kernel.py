@@ -9,8 +9,8 @@ import numpy as np
 
 from ....model import Array
 from ....native.film_kernels import Batch, FilmKernel
+from ....native.layouts.structs import GridStruct, GridWorkStruct, RingStruct
 from ....native.library import loops
-from ....native.structs import GridStruct, GridWorkStruct, RingStruct
 from ..cavitation import Cavitation
 from ..kernel_film import report_law
 from .ring_grids import Grid, Spans

@@ -10,8 +10,8 @@ import numpy as np
 from ....errors import ConvergenceError
 from ....model import Array
 from ....native.film_kernels import Status
+from ....native.layouts.structs import StencilStruct
 from ....native.library import loops
-from ....native.structs import StencilStruct
 
 
 class Stencil(NamedTuple):

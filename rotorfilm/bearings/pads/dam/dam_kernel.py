@@ -10,8 +10,8 @@ import numpy as np
 
 from ....model import Array
 from ....native.film_kernels import Batch
+from ....native.layouts.pad_structs import RecessPadStruct, RecessStruct
 from ....native.library import loops
-from ....native.structs import RecessPadStruct, RecessStruct
 from .recessed_pad import RecessedPad
 
 COLUMNS = 13

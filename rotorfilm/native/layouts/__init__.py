@@ -1,0 +1,1 @@
+"""The structures of the C library, as ctypes reads them."""
