@@ -67,7 +67,7 @@ class Sprung(StaticReaction):
         return minimum_film(self.reaction, require_vector("position", position))
 
     def require_film(self, position: Array) -> None:
-        """Raise FilmContactError where the journal touches; of another wall than a circle the reaction does."""
+        """Raise FilmContactError where the journal touches; a reaction with a wall of its own does itself."""
         if not isinstance(self.reaction, WalledReaction):
             super().require_film(position)
 
