@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import (
     EquilibriumError,
+    FilmContactError,
     InputError,
     UndefinedDerivativeError,
     ValidityWarning,
@@ -19,7 +20,7 @@ from ..errors import (
     require_number,
 )
 from ..inputs.kinds import arguments
-from ..model import Array, JournalForce, Reaction, Tangent, prepared_tangent, require_reaction
+from ..model import Array, JournalForce, Reaction, Settling, Tangent, prepared_tangent, require_reaction
 from ..results import Equilibrium
 from ..warming import Warming
 
@@ -110,6 +111,8 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     speed = require_number("speed", speed)
     if isinstance(reaction, Warming) and reaction.is_warming:
         return _warm(reaction, load, speed)
+    at_rest = reaction.at_rest() if isinstance(reaction, Settling) else None
+    reaction = at_rest or reaction
     wanted_x, wanted_y = (-load).tolist()
     target = _Target(prepared_tangent(reaction), reaction.clearance, speed, wanted_x, wanted_y)
     with warnings.catch_warnings():
@@ -118,7 +121,10 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
         best = _search(target)
     if best.norm > _tolerance(best.s):
         raise EquilibriumError(_why_not(load, speed, best))
-    return _result(reaction, load, target, best)
+    found = _result(reaction, load, target, best)
+    if at_rest is None:
+        return found
+    return replace(found, minimum_film=at_rest.minimum_film(found.position, speed), reaction=at_rest)
 
 
 def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
@@ -218,7 +224,7 @@ def _point(target: _Target, s: float, phi: float, steps: int) -> _Point:
     x, y = distance * math.cos(phi), distance * math.sin(phi)
     try:
         fx, fy, D = target.tangent(x, y, 0.0, 0.0, target.speed)
-    except UndefinedDerivativeError:
+    except (UndefinedDerivativeError, FilmContactError):
         return _Point(s, phi, steps)
     size = math.hypot(fx, fy)
     if not 0.0 < size < math.inf:
