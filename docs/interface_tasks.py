@@ -10,6 +10,7 @@ TASKS = {
     "Squeeze-film dampers": ("bearings.damper",),
     "Rolling contacts and ball bearings": ("bearings.contact",),
     "Bushes that wear": ("bearings.bush",),
+    "Bearings made of pads": ("bearings.pads",),
     "Springs, tables, bearings of your own": (
         "bearings.linear",
         "bearings.own_reaction",

@@ -11,11 +11,12 @@ from scipy.optimize import brentq
 
 from ..errors import EquilibriumError, InputError, require_finite, require_positive
 from ..inputs.kinds import arguments
-from ..model import Array, JournalForce, Reaction, require_reaction
+from ..model import Array, JournalForce, Reaction, Settling, require_reaction
 from ..results import Coefficients, Equilibrium, WhirlThreshold
 from .coefficients import coefficients
 from .critical_mass import critical_mass, damping_has_rank_one, is_stable, whirl_margin
 from .equilibrium import checked_load, equilibrium
+from .settling_threshold import first_onset, least_damped
 
 _POINTS_PER_DECADE = 12
 _SPEED_FACTOR = 100.0
@@ -30,7 +31,7 @@ def whirl_threshold(
     Parameters
     ----------
     reaction : Reaction
-        The film.
+        The film; of one with states that rest, as tilting pads, rotor and states are judged together.
     load : array_like, shape (2,) [N]
         External static force on the journal, weight included.
     mass : float [kg]
@@ -64,6 +65,8 @@ def whirl_threshold(
     require_positive("mass", mass)
     force = checked_load(load)
     low, high = _checked_range(speed_range, math.sqrt(math.hypot(*force) / (reaction.clearance * mass)))
+    if isinstance(reaction, Settling):
+        return _settling(reaction, force, mass, reaction.clearance, (low, high))
     before, stable = None, []
     for at in _scan(reaction, force, low, high):
         if damping_has_rank_one(at):
@@ -101,10 +104,31 @@ def _checked_range(speed_range: tuple[float, float] | None, natural: float) -> t
     return float(ends[0]), float(ends[1])
 
 
+def _settling(
+    reaction: Settling, load: Array, mass: float, clearance: float, ends: tuple[float, float]
+) -> WhirlThreshold:
+    """Return the threshold by the exponents of rotor and bearing together."""
+    onset, stable = first_onset(lambda speed: least_damped(reaction, load, mass, speed)[0].real, _speeds(*ends))
+    if onset is None:
+        return _none(_why_none(stable, *ends))
+    exponent, rest = least_damped(reaction, load, mass, onset)
+    return WhirlThreshold(
+        speed=onset,
+        whirl_ratio=abs(exponent.imag) / onset,
+        critical_mass=mass,
+        speed_parameter=speed_parameter(speed=onset, clearance=clearance, mass=mass, load=load),
+        equilibrium=rest,
+    )
+
+
+def _speeds(low: float, high: float) -> Array:
+    points = max(3, 1 + math.ceil(_POINTS_PER_DECADE * math.log10(high / low)))
+    return np.geomspace(low, high, points)
+
+
 def _scan(reaction: Reaction, load: Array, low: float, high: float) -> Iterator[Coefficients]:
     """Yield the coefficients at the equilibria, from the lowest speed at which there is one."""
-    points = max(3, 1 + math.ceil(_POINTS_PER_DECADE * math.log10(high / low)))
-    speeds = np.geomspace(low, high, points).tolist()
+    speeds = _speeds(low, high).tolist()
     for speed in speeds[_first_carried(reaction, load, speeds) :]:
         at = equilibrium(reaction, load, speed)
         yield coefficients(reaction, at.position, at.speed)

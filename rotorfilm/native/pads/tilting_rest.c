@@ -43,7 +43,7 @@ static int rest_one(const rf_tilting *b, const double *n, const double *position
     const double share = sprung ? b->spring / (b->spring + own) : 1.0;
     out->tilt = c * (rest.eta - across);
     out->pivot = c * (xi - rigid);
-    out->load = -film * rest.force;
+    out->load = 0.0 - film * rest.force;
     out->stiffness = own * share;
     out->by_speed = -sense * b->force_scale * rest.force * share;
     out->least = c * rf_pad_least(&b->pad, e);

@@ -1,1 +1,13 @@
 """Tilting pads: bearings, pads at rest, and the coefficients that a journal feels."""
+
+from typing import TYPE_CHECKING
+
+from ....sources import show
+
+if TYPE_CHECKING:
+    from .pad_matrices import PadMatrices as PadMatrices, ReducedCoefficients as ReducedCoefficients
+    from .pads_at_rest import PadStates as PadStates, TiltingPadsAtRest
+    from .pivots import even_pivots as even_pivots
+    from .tilting_bearing import TiltingPadBearing as TiltingPadBearing
+else:
+    show(__name__)

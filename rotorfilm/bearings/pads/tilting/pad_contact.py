@@ -18,7 +18,7 @@ def report_pads(bearing: TiltingPadBearing, status: int, pad: int, position: Arr
     if status <= Status.OUTSIDE:
         return
     where = (
-        f"pad {pad + 1} (pivot at {math.degrees(bearing.pivots[pad]):g} deg), "
+        f"pad {pad + 1} (pivot at {math.degrees(bearing.pivots[pad]) % 360.0:g} deg), "
         f"got a journal at {position.tolist()} m"
     )
     if status == Status.AT_WALL:

@@ -21,8 +21,6 @@ class ReducedCoefficients(Coefficients):
 
     Attributes
     ----------
-    stiffness, damping, position, speed
-        As of `Coefficients`.
     frequency : float [rad/s]
         At which the journal whirls; `speed` for synchronous coefficients, 0 for those of slow motion.
     growth_rate : float [1/s]
@@ -133,4 +131,4 @@ class PadMatrices(Readable):
         follow = np.vstack([np.eye(2), -np.linalg.solve(inner, whole[pads, :2])])
         push = np.hstack([np.eye(2), -np.linalg.solve(inner.T, whole[:2, pads].T).T])
         kept = [0, 1, *pads]
-        return whole[:2] [:, kept] @ follow, push @ slope[np.ix_(kept, kept)] @ follow
+        return whole[:2, kept] @ follow, push @ slope[np.ix_(kept, kept)] @ follow

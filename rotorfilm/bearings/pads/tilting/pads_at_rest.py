@@ -81,7 +81,7 @@ class TiltingPadsAtRest:
         point = self._point(position, velocity, speed)
         loose = np.flatnonzero(point.pads["unloaded"])
         if loose.size:
-            angles = np.rad2deg(np.array(self.bearing.pivots)[loose])
+            angles = np.rad2deg(np.mod(self.bearing.pivots, 2.0 * np.pi))[loose]
             warn_user(
                 f"pads {', '.join(map(str, loose + 1))} (pivots at {', '.join(f'{a:g}' for a in angles)} deg) "
                 "are unloaded: they have no film and no unique tilt, and may flutter"
