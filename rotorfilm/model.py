@@ -274,48 +274,6 @@ def largest_eccentricity_ratio(reaction: Reaction) -> float:
     return reaction.largest_eccentricity_ratio if isinstance(reaction, LimitedReaction) else 1.0
 
 
-@runtime_checkable
-class Settling(Protocol):
-    """A Reaction with states that come to rest where the journal rests, as tilting pads."""
-
-    def at_rest(self) -> AtRest:
-        """Return its force with the states at rest."""
-
-
-class AtRest(JournalForce, Protocol):
-    """A force on a journal at rest whose own states rest too."""
-
-    def minimum_film(self, position: ArrayLike, speed: float) -> float:
-        """Return the least film [m].
-
-        Parameters
-        ----------
-        position : array_like, shape (2,) [m]
-        speed : float [rad/s]
-        """
-
-    def coefficients(self, position: ArrayLike, speed: float, frequency: float | None = None) -> Any:
-        """Return what the journal feels where its states follow, a Coefficients.
-
-        Parameters
-        ----------
-        position : array_like, shape (2,) [m]
-        speed : float [rad/s]
-        frequency : float or None [rad/s]
-            Of the whirl; None for that of the shaft.
-        """
-
-    def modes(self, position: ArrayLike, speed: float, rotor_mass: float) -> Array:
-        """Return the exponents of a rigid rotor with them [1/s], the least damped first.
-
-        Parameters
-        ----------
-        position : array_like, shape (2,) [m]
-        speed : float [rad/s]
-        rotor_mass : float [kg]
-        """
-
-
 def tangent_of(reaction: Reaction) -> Tangent:
     """Return force and derivatives of a reaction by its `force` and `jacobian`."""
 

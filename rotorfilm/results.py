@@ -112,7 +112,6 @@ class Equilibrium(Readable):
             return None
         return reaction.losses(self.position, np.zeros(2), self.speed)
 
-
     @cached_property
     def pads(self) -> Any:
         """Tilts and loads of tilting pads, as `PadStates`; None for a reaction without them."""

@@ -42,6 +42,7 @@ SEVERAL_UNITS = {
     "into a cage it is a velocity, out of a groove a flow": {"inflow"},
     "of a groove it is an angle, of a disk a length": {"width"},
     "of a rotor it is a damper, of a shaft's material a time": {"internal_damping"},
+    "of balls it is a force, of pads a share of the clearance": {"preload"},
     "of a tilt spring it is a moment per angle": {"stiffness", "damping"},
 }
 """Names with more than one unit, by the reason."""

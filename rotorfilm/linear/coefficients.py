@@ -9,9 +9,9 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_number
 from ..inputs.kinds import arguments
-from ..model import JournalForce, Reaction, Settling, require_reaction
+from ..model import JournalForce, Reaction, require_reaction
 from ..results import Coefficients
-from ..warming import settled
+from ..warming import Settling, settled
 from .equilibrium import equilibrium
 
 if TYPE_CHECKING:
@@ -34,8 +34,8 @@ def coefficients(
     speed : float [rad/s]
         Angular speed about +z.
     frequency : float or None [rad/s]
-        Of the whirl, where K and C depend on it, as on tilting pads: their result, `ReducedCoefficients`, names
-        it. None for that of the shaft, 0 for slow motion.
+        Of the whirl, where K and C depend on it, as on tilting pads: their result, `ReducedCoefficients`,
+        names it. None for that of the shaft, 0 for slow motion.
 
     Raises
     ------

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,9 +20,9 @@ from ..errors import (
     require_number,
 )
 from ..inputs.kinds import arguments
-from ..model import Array, JournalForce, Reaction, Settling, Tangent, prepared_tangent, require_reaction
+from ..model import Array, JournalForce, Reaction, Tangent, prepared_tangent, require_reaction
 from ..results import Equilibrium
-from ..warming import Warming
+from ..warming import Settling, Warming
 
 MAXIMUM_ECCENTRICITY = 0.9999
 """Eccentricity ratio beyond which a load counts as more than the film can carry."""
@@ -112,16 +112,16 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     if isinstance(reaction, Warming) and reaction.is_warming:
         return _warm(reaction, load, speed)
     at_rest = reaction.at_rest() if isinstance(reaction, Settling) else None
-    reaction = at_rest or reaction
+    film: Any = at_rest or reaction
     wanted_x, wanted_y = (-load).tolist()
-    target = _Target(prepared_tangent(reaction), reaction.clearance, speed, wanted_x, wanted_y)
+    target = _Target(prepared_tangent(film), film.clearance, speed, wanted_x, wanted_y)
     with warnings.catch_warnings():
         # A state that the search only passes through is nobody's answer; that of the result is warned of.
         warnings.simplefilter("ignore", ValidityWarning)
         best = _search(target)
     if best.norm > _tolerance(best.s):
         raise EquilibriumError(_why_not(load, speed, best))
-    found = _result(reaction, load, target, best)
+    found = _result(film, load, target, best)
     if at_rest is None:
         return found
     return replace(found, minimum_film=at_rest.minimum_film(found.position, speed), reaction=at_rest)

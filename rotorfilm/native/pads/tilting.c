@@ -217,7 +217,7 @@ int rf_tilting_at(const rf_tilting *bearing, const double *u, const double *x, d
         const double *n = bearing->pivot + 2 * k;
         y[0] += n[0] * found.value[ALONG] - n[1] * found.value[ACROSS];
         y[1] += n[1] * found.value[ALONG] + n[0] * found.value[ACROSS];
-        y[2 + k] = -found.value[ALONG];
+        y[2 + k] = 0.0 - found.value[ALONG];
         for (int i = 0; i < 2 && place[i] < states; ++i) {
             dx[bearing->inertia > 0.0 ? place[2 + i] : place[i]] = found.value[TURNS + i];
             if (bearing->inertia > 0.0)

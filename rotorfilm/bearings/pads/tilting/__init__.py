@@ -9,5 +9,6 @@ if TYPE_CHECKING:
     from .pads_at_rest import PadStates as PadStates, TiltingPadsAtRest
     from .pivots import even_pivots as even_pivots
     from .tilting_bearing import TiltingPadBearing as TiltingPadBearing
+    from .tilting_pads import TiltingPads as TiltingPads
 else:
     show(__name__)

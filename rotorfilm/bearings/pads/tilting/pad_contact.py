@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 from ....errors import ConvergenceError, FilmContactError, InputError, UndefinedDerivativeError
 from ....model import Array
 from ....native import Status
-
-if TYPE_CHECKING:
-    from .tilting_bearing import TiltingPadBearing
+from .tilting_pads import TiltingPads
 
 
-def report_pads(bearing: TiltingPadBearing, status: int, pad: int, position: Array) -> None:
+def report_pads(bearing: TiltingPads, status: int, pad: int, position: Array) -> None:
     """Raise what the status of a pad, counted from 0, says of a journal at a position (2,) [m]."""
     if status <= Status.OUTSIDE:
         return

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ....errors import InputError, require_number
 from ....model import Array
@@ -36,7 +37,8 @@ class PadMatrices(Readable):
     """Stiffness, damping and mass of journal and pads together at rest: M p'' + C p' + K p = 0.
 
     The coordinates p are x, y of the journal, the tilts q_1 .. q_N of the pads as lengths, and on springs the
-    places s_1 .. s_N of their pivots, negative outward. A pad without film has rows of zeros, but for its spring.
+    places s_1 .. s_N of their pivots, negative outward. A pad without film has rows of zeros, but for its
+    spring.
 
     Attributes
     ----------
@@ -46,7 +48,7 @@ class PadMatrices(Readable):
         Of the pads; that of the journal is 0.
     position : ndarray, shape (2,) [m]
     speed : float [rad/s]
-    unloaded : ndarray, shape (N,)
+    unloaded : ndarray of bool, shape (N,)
         Which pads have no film.
     """
 
@@ -55,7 +57,7 @@ class PadMatrices(Readable):
     mass: Array
     position: Array
     speed: float
-    unloaded: Array
+    unloaded: NDArray[np.bool_]
 
     def reduced(self, frequency: float, growth_rate: float = 0.0) -> ReducedCoefficients:
         """Return what the journal feels when it moves as exp(s t): the Schur complement of K + s C + s^2 M.
@@ -89,8 +91,8 @@ class PadMatrices(Readable):
             growth_rate=sigma,
         )
 
-    def modes(self, rotor_mass: float) -> Array:
-        """Return the exponents of the free motion of a rigid rotor and the pads, the least damped first [1/s].
+    def modes(self, rotor_mass: float) -> NDArray[np.complex128]:
+        """Return the exponents of free motion of a rigid rotor and the pads, the least damped first [1/s].
 
         Parameters
         ----------
@@ -100,18 +102,17 @@ class PadMatrices(Readable):
         kept = [0, 1, *self._loaded]
         K, C, M = (whole[np.ix_(kept, kept)] for whole in (self.stiffness, self.damping, self.mass))
         M = M + np.diag([rotor_mass] * 2 + [0.0] * (len(kept) - 2))
-        heavy = np.diag(M) > 0.0
-        light = ~heavy
-        n, rates = len(kept), np.linalg.solve(C[np.ix_(light, light)], np.eye(np.count_nonzero(light)))
+        heavy, light = np.flatnonzero(np.diag(M) > 0.0), np.flatnonzero(np.diag(M) == 0.0)
         # Velocities of what has mass are states; of what has none they follow from its balance.
-        count = np.count_nonzero(heavy)
+        n, count = len(kept), len(heavy)
         velocity = np.zeros((n, n + count))
         velocity[heavy, n:] = np.eye(count)
         pulled = np.hstack([K[light], C[np.ix_(light, heavy)]])
-        velocity[light] = -rates @ pulled
-        force = np.hstack([K[heavy], np.zeros((count, count))]) + C[heavy] @ velocity
+        velocity[light] = -np.linalg.solve(C[np.ix_(light, light)], pulled)
+        force = C[heavy] @ velocity
+        force[:, :n] += K[heavy]
         joined = np.vstack([velocity, -force / np.diag(M)[heavy, None]])
-        found = np.linalg.eigvals(joined)
+        found = np.linalg.eigvals(joined).astype(complex)
         return found[np.argsort(-found.real)]
 
     @property
@@ -120,7 +121,7 @@ class PadMatrices(Readable):
         pads = len(self.unloaded)
         return [k for k in range(2, len(self.stiffness)) if not self.unloaded[(k - 2) % pads]]
 
-    def _dynamic_stiffness(self, s: complex) -> tuple[Array, Array]:
+    def _dynamic_stiffness(self, s: complex) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
         """Return Z(s), shape (2, 2), and dZ/ds."""
         pads = self._loaded
         whole = self.stiffness + s * self.damping + s * s * self.mass

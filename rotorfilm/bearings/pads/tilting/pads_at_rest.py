@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ....errors import InputError, require_finite, require_number, warn_user
 from ....model import Array, Tangent, tangent_of
@@ -16,9 +15,7 @@ from .held_pads import TURN, pad_slopes
 from .pad_contact import report_pads
 from .pad_matrices import PadMatrices, ReducedCoefficients
 from .pivots import directions
-
-if TYPE_CHECKING:
-    from .tilting_bearing import TiltingPadBearing
+from .tilting_pads import TiltingPads
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,7 +35,7 @@ class PadStates(Readable):
         On the pivots.
     film_thickness : ndarray, shape (pads,) [m]
         The least of each pad.
-    unloaded : ndarray, shape (pads,)
+    unloaded : ndarray of bool, shape (pads,)
         Whether a pad has no film: its tilt is then not unique.
     """
 
@@ -47,7 +44,7 @@ class PadStates(Readable):
     pivot_deflections: Array
     pad_loads: Array
     film_thickness: Array
-    unloaded: Array
+    unloaded: NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,14 +55,14 @@ class TiltingPadsAtRest:
 
     Parameters
     ----------
-    bearing : TiltingPadBearing
+    bearing : TiltingPads
     """
 
-    bearing: TiltingPadBearing
+    bearing: TiltingPads
 
     @property
     def clearance(self) -> float:
-        """Distance [m] that the journal stays within; see `TiltingPadBearing.clearance`."""
+        """Distance [m] that the journal stays within; see `TiltingPads.clearance`."""
         return self.bearing.clearance
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
@@ -82,9 +79,10 @@ class TiltingPadsAtRest:
         loose = np.flatnonzero(point.pads["unloaded"])
         if loose.size:
             angles = np.rad2deg(np.mod(self.bearing.pivots, 2.0 * np.pi))[loose]
+            where = ", ".join(f"{angle:g}" for angle in angles)
             warn_user(
-                f"pads {', '.join(map(str, loose + 1))} (pivots at {', '.join(f'{a:g}' for a in angles)} deg) "
-                "are unloaded: they have no film and no unique tilt, and may flutter"
+                f"pads {', '.join(map(str, loose + 1))} (pivots at {where} deg) are unloaded: they have no "
+                "film and no unique tilt, and may flutter"
             )
         return point.force
 
@@ -128,7 +126,7 @@ class TiltingPadsAtRest:
         pads = self.pad_states(position, speed)
         sprung = self.bearing.pivot_stiffness is not None
         places = np.concatenate([pads.tilts, pads.pivot_deflections]) if sprung else pads.tilts
-        return places if self.bearing.pad_inertia is None else np.concatenate([places, 0.0 * places])
+        return self.bearing.moving(places)
 
     def matrices(self, position: ArrayLike, speed: float) -> PadMatrices:
         """Return stiffness, damping and mass of journal and pads about their rest.
@@ -145,7 +143,9 @@ class TiltingPadsAtRest:
         N, c, Q = len(bearing.pivots), bearing.film_clearance, directions(bearing.pivots)
         sprung = bearing.pivot_stiffness is not None
         local = np.einsum("kij,i->jk", Q, np.asarray(position, dtype=float))
-        e = (local + np.stack([pads.pivot_deflections, pads.tilts])) / c + np.array([[bearing.preload], [0.0]])
+        e = (local + np.stack([pads.pivot_deflections, pads.tilts])) / c + np.array(
+            [[bearing.preload], [0.0]]
+        )
         loaded = np.flatnonzero(~pads.unloaded)
         half = 0.5 * float(speed) * TURN
         by_e, by_w = pad_slopes(bearing, e[:, loaded], half @ e[:, loaded])
@@ -163,7 +163,7 @@ class TiltingPadsAtRest:
         masses = [bearing.reduced_inertia] * N + [bearing.pad_mass or 0.0] * (n - 2 - N)
         M[range(2, n), range(2, n)] = masses
         if sprung:
-            K[range(2 + N, n), range(2 + N, n)] += bearing.pivot_stiffness
+            K[range(2 + N, n), range(2 + N, n)] += bearing.pivot_stiffness or 0.0
         return PadMatrices(
             stiffness=K,
             damping=C,
@@ -180,7 +180,7 @@ class TiltingPadsAtRest:
         nu = abs(float(speed)) if frequency is None else frequency
         return self.matrices(position, speed).reduced(nu)
 
-    def modes(self, position: ArrayLike, speed: float, rotor_mass: float) -> Array:
+    def modes(self, position: ArrayLike, speed: float, rotor_mass: float) -> NDArray[np.complex128]:
         """Return the exponents of a rigid rotor on the pads; see `PadMatrices.modes`."""
         return self.matrices(position, speed).modes(rotor_mass)
 

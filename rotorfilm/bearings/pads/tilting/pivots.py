@@ -38,7 +38,7 @@ def even_pivots(
 
 
 def reach(pivots: Sequence[float]) -> float:
-    """Return how far a journal may go where no pivot lets it go beyond 1: the farthest corner, at most `OPEN`.
+    """Return how far a journal may go where each pivot lets it go to 1: the farthest corner, at most `OPEN`.
 
     Parameters
     ----------

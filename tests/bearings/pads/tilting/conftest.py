@@ -25,7 +25,9 @@ def tilting():
 
     def make(pads, slenderness, extent, preload, offset=0.5, *, cells=(48, 4), first=None, **further):
         angles = (
-            even_pivots(pads) if first is None else tuple((first + k * 360.0 / pads) * DEGREE for k in range(pads))
+            even_pivots(pads)
+            if first is None
+            else tuple((first + k * 360.0 / pads) * DEGREE for k in range(pads))
         )
         given = {"pad_clearance": 1e-4, "film": PadGridFilm(cells), "pivots": angles} | further
         return TiltingPadBearing(

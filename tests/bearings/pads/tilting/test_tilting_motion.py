@@ -1,4 +1,4 @@
-"""Tilting pads in motion: exact derivatives, orbits and their coefficients, pads that lift and return, inertia."""
+"""Tilting pads in motion: derivatives, orbits and their coefficients, pads that lift and return, inertia."""
 
 import math
 import warnings
@@ -88,13 +88,17 @@ def test_rest_is_at_rest_and_modes_are_those_of_the_linearization(smooth, kind):
     assert np.abs(bearing.derivative(0.0, x, u)).max() < 1e-9 * scale
     np.testing.assert_allclose(bearing.output(0.0, x, u)[:2], rest.force(place, [0.0, 0.0], SPEED), rtol=1e-9)
     A, B, C, D = bearing.linearization(0.0, x, u)
-    joined = np.block([
-        [np.zeros((2, 2)), np.eye(2), np.zeros((2, len(x)))],
-        [D[:2, :4] / mass, C[:2] / mass],
-        [B[:, :4], A],
-    ])
+    joined = np.block(
+        [
+            [np.zeros((2, 2)), np.eye(2), np.zeros((2, len(x)))],
+            [D[:2, :4] / mass, C[:2] / mass],
+            [B[:, :4], A],
+        ]
+    )
     expected, found = np.linalg.eigvals(joined), rest.modes(place, SPEED, mass)
-    np.testing.assert_allclose(np.sort_complex(found), np.sort_complex(expected), atol=1e-9 * abs(expected).max())
+    np.testing.assert_allclose(
+        np.sort_complex(found), np.sort_complex(expected), atol=1e-9 * abs(expected).max()
+    )
 
 
 def test_held_pads_have_exact_derivatives_and_no_own_motion(smooth):
@@ -106,9 +110,12 @@ def test_held_pads_have_exact_derivatives_and_no_own_motion(smooth):
         step = np.zeros(5)
         step[k] = 1e-6 * size
         a, b = (
-            bearing.force(q + s * step[:2, None], v + s * step[2:4, None], SPEED + s * step[4]) for s in (1.0, -1.0)
+            bearing.force(q + s * step[:2, None], v + s * step[2:4, None], SPEED + s * step[4])
+            for s in (1.0, -1.0)
         )
-        np.testing.assert_allclose(slopes[:, k] * size, (a - b) / 2e-6, atol=1e-7 * np.abs(slopes[:, k] * size).max())
+        np.testing.assert_allclose(
+            slopes[:, k] * size, (a - b) / 2e-6, atol=1e-7 * np.abs(slopes[:, k] * size).max()
+        )
     np.testing.assert_array_equal(slopes[:, :, 1], bearing.jacobian(q[:, 1], v[:, 1], SPEED))
 
 
@@ -127,7 +134,7 @@ def test_small_orbit_is_that_of_the_synchronous_coefficients(smooth, kind):
 
 
 def test_journal_in_time_is_where_another_program_has_it(tilting):
-    """Four pads, M 2, unbalance force .05 M: r/c = (-.0067, -.1161) at 3 rad (prototype on 64 x 8 and 128 x 16 cells)."""
+    """Four pads, M 2, unbalance force .05 M: r/c = (-.0067, -.1161) at 3 rad by a prototype."""
     bearing = tilting(4, 0.7, 75.0, 0.5, first=45.0, cells=(32, 4))
     at = equilibrium(bearing, [0.0, -bearing.force_scale * SPEED], SPEED)
     # It starts with the tilts that the pads had, seen by the journal at rest.
@@ -138,16 +145,18 @@ def test_journal_in_time_is_where_another_program_has_it(tilting):
 
 
 def test_pads_lift_and_return_and_idle_tilts_do_not_matter(tilting):
-    """Light pads without preload under unbalance: from two sets of tilts one orbit, though idle pads may differ."""
+    """Under unbalance, from two sets of tilts one orbit, though idle pads differ."""
     bearing = tilting(5, 0.5, 60.0, 0.0, first=270.0, cells=(16, 4))
     runs = []
-    for shift in (0.0, -0.1):
-        at, rotor, started = turning(bearing, 0.3, 2.0, 0.1)
+    for shift in (0.0, -0.3):
+        at, rotor, started = turning(bearing, 0.6, 2.0, 0.2)
         tilts = np.array(started.start) + shift * 1e-4 * at.pads.unloaded
         started = replace(started, start=tuple(tilts))
         runs.append(simulate(rotor, started, duration=40.0 / SPEED, samples=401, rtol=1e-6))
     last = slice(-63, None)
-    np.testing.assert_allclose(runs[0].position[:, last], runs[1].position[:, last], atol=3e-4 * 1e-4)
+    np.testing.assert_allclose(runs[0].position[:, last], runs[1].position[:, last], atol=1e-4 * 1e-4)
+    idle = [abs(runs[0][f"tilt_{k}"] - runs[1][f"tilt_{k}"])[last].min() for k in (3, 4)]
+    assert min(idle) > 1e-2 * 1e-4
     loads = np.array([runs[0][f"load_{k}"] for k in range(1, 6)])[:, 100:]
     returning = (loads.min(axis=1) == 0.0) & (loads.max(axis=1) > 0.0)
     assert returning.any()
@@ -201,7 +210,8 @@ def test_thresholds_of_light_pads_and_none_of_preloaded_ones(tilting):
     unit = light.force_scale * SPEED
     mass, load = unit / (1e-4 * SPEED**2), np.array([0.0, -0.05 * unit])
     onset = whirl_threshold(light, load, mass, (200.0, 600.0))
-    assert onset.whirl_ratio == pytest.approx(0.41, abs=0.03)
+    # A light pad has no damping below about half the frequency of the shaft.
+    assert 0.3 < onset.whirl_ratio < 0.5
     least = light.at_rest().modes(onset.equilibrium.position, onset.speed, mass)[0]
     assert abs(least.real) < 1e-8 * abs(least)
     firm = tilting(4, 0.7, 75.0, 0.5, first=45.0, cells=(16, 4))

@@ -1,4 +1,4 @@
-"""Tilting pads at rest: figures of another discretization, symmetries, and what a journal feels at a frequency."""
+"""Tilting pads at rest: other programs' figures, symmetries, what a journal feels at a frequency."""
 
 import math
 from dataclasses import replace
@@ -24,15 +24,27 @@ from rotorfilm.bearings.pads.tilting.pivots import directions
 SPEED = 300.0
 
 ROWS = {
-    "four, load between": ((4, 0.7, 75.0, 0.5), {"first": 45.0}, 1.0, -0.1219, (6.536, 6.536), (7.590, 7.590)),
+    "four, load between": (
+        (4, 0.7, 75.0, 0.5),
+        {"first": 45.0},
+        1.0,
+        -0.1219,
+        (6.536, 6.536),
+        (7.590, 7.590),
+    ),
     "five, load on": ((5, 0.5, 60.0, 0.3), {"first": 270.0}, 0.6, -0.2623, (1.128, 2.573), (2.118, 3.182)),
     "five, offset": ((5, 0.5, 60.0, 0.0, 0.6), {"first": 90.0}, 0.6, -0.4637, (1.580, 2.251), (1.615, 2.200)),
 }
-"""Arguments, load / unit, y / c, Kxx Kyy, Cxx Cyy at the frequency of the shaft: a prototype of finite volumes on
-64 x 8 and 128 x 16 cells, extrapolated."""
+"""Arguments, load / unit, y / c, Kxx Kyy, Cxx Cyy at the frequency of the shaft: a prototype of finite
+volumes on 64 x 8 and 128 x 16 cells, extrapolated."""
 
 ONE_PAD = {
-    0.5: {0.04: (0.098, 0.0237, 0.354), 0.2: (0.203, 0.081, 0.438), 0.6: (0.274, 0.673, 4.25), 0.9: (0.230, 13.0, 233.7)},
+    0.5: {
+        0.04: (0.098, 0.0237, 0.354),
+        0.2: (0.203, 0.081, 0.438),
+        0.6: (0.274, 0.673, 4.25),
+        0.9: (0.230, 13.0, 233.7),
+    },
     0.6: {
         -0.2: (0.942, 0.110, 0.206),
         0.04: (0.813, 0.181, 0.416),
@@ -41,8 +53,8 @@ ONE_PAD = {
         0.9: (0.245, 15.45, 262.9),
     },
 }
-"""eta, load and stiffness of one pad of 60 deg, L/D .5, by offset and xi: the same prototype on 64 x 8 cells, whose
-loads are .3 to .9 % low."""
+"""eta, load and stiffness of one pad of 60 deg, L/D .5, by offset and xi: the same prototype on 64 x 8
+cells, whose loads are .3 to .9 % low."""
 
 
 def units(bearing):
@@ -94,7 +106,7 @@ def test_one_pad_over_its_gap(tilting, offset, xi):
 
 
 def test_rest_is_where_a_search_over_all_tilts_finds_it(tilting):
-    """Position and tilts as unknowns of one system of equations over the film itself (scipy's hybrid method)."""
+    """Position and tilts as unknowns of one system over the film itself (scipy's hybrid method)."""
     bearing = tilting(5, 0.5, 60.0, 0.3, 0.55, first=270.0)
     force, _ = units(bearing)
     load = force * np.array([0.1, -0.6])
@@ -110,7 +122,9 @@ def test_rest_is_where_a_search_over_all_tilts_finds_it(tilting):
 
     at = equilibrium(bearing, load, SPEED)
     # From somewhere near: far from it that search leaves the film.
-    near = np.concatenate([at.position, at.pads.tilts]) / 1e-4 + 0.02 * np.random.default_rng(3).normal(size=2 + N)
+    near = np.concatenate([at.position, at.pads.tilts]) / 1e-4 + 0.02 * np.random.default_rng(3).normal(
+        size=2 + N
+    )
     found = root(lacking, near, tol=1e-13)
     assert np.abs(found.fun).max() < 1e-9
     np.testing.assert_allclose(at.position / 1e-4, found.x[:2], atol=1e-8)
@@ -137,7 +151,8 @@ def test_slow_motion_is_the_slope_of_the_force_at_rest(smooth):
     bearing, place, step = smooth(), np.array([3e-6, -5e-6]), 1e-10
     rest = bearing.at_rest()
     moved = [
-        [rest.force(place + sign * step * along, [0.0, 0.0], SPEED) for sign in (1.0, -1.0)] for along in np.eye(2)
+        [rest.force(place + sign * step * along, [0.0, 0.0], SPEED) for sign in (1.0, -1.0)]
+        for along in np.eye(2)
     ]
     slope = -np.array([(plus - minus) / (2.0 * step) for plus, minus in moved]).T
     found = coefficients(bearing, place, SPEED, 0.0)
@@ -149,11 +164,16 @@ def test_slow_motion_is_the_slope_of_the_force_at_rest(smooth):
 
 @pytest.mark.parametrize(
     "further",
-    [{}, {"pad_inertia": 3e-4}, {"pivot_stiffness": 6e8}, {"pivot_stiffness": 6e8, "pad_inertia": 3e-4, "pad_mass": 0.2}],
+    [
+        {},
+        {"pad_inertia": 3e-4},
+        {"pivot_stiffness": 6e8},
+        {"pivot_stiffness": 6e8, "pad_inertia": 3e-4, "pad_mass": 0.2},
+    ],
     ids=["massless", "inertia", "springs", "springs and inertia"],
 )
 def test_whole_matrices_reduce_to_the_assembly_of_single_pads(smooth, further):
-    """Lund (1964): sum of z_r n n^T with z_r = z_nn - z_nt z_tn/(z_tt + m s^2), on springs with both in series."""
+    """Lund (1964): sum of z_r n n^T, z_r = z_nn - z_nt z_tn/(z_tt + m s^2); springs are in series with it."""
     bearing, place = smooth(**further), np.array([3e-6, -5e-6])
     whole = bearing.at_rest().matrices(place, SPEED)
     N, Q = 3, directions(bearing.pivots)
@@ -192,11 +212,12 @@ def test_modes_are_where_rotor_and_reduced_pads_have_no_stiffness_left(smooth):
 
 
 def test_light_pad_loses_its_damping_in_slow_motion(tilting):
-    """C_r of one pad of 60 deg at xi .01: -2.5, -.47, .04, .33 at 0, .3, .5 and 1 of the speed (prototype, 64 x 8)."""
+    """C_r of one pad of 60 deg at xi .01, at 0, .3, .5 and 1 of the speed, by a prototype on 64 x 8 cells."""
     one = tilting(1, 0.5, 60.0, 0.01, first=0.0, cells=(64, 8))
     _, unit = units(one)
     found = [
-        coefficients(one, [0.0, 0.0], SPEED, nu * SPEED).damping[0, 0] * SPEED / unit for nu in (0.0, 0.3, 0.5, 1.0)
+        coefficients(one, [0.0, 0.0], SPEED, nu * SPEED).damping[0, 0] * SPEED / unit
+        for nu in (0.0, 0.3, 0.5, 1.0)
     ]
     np.testing.assert_allclose(found, [-2.5, -0.47, 0.04, 0.33], atol=0.05, rtol=0.05)
 
