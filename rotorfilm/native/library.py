@@ -34,7 +34,6 @@ _ROWS = [c_void_p, c_size_t]
 _BATCH: dict[str, list[Any]] = {
     "rf_film_batch": [c_void_p, c_void_p, c_size_t, *_ROWS * 4, c_void_p],
     "rf_journal_batch": [c_void_p, c_size_t, *_ROWS * 5, c_void_p],
-    "rf_tilting_forces": [c_void_p, c_size_t, *[c_void_p] * 5],
     "rf_loss_batch": [c_void_p, c_void_p, c_size_t, *[c_void_p] * 5],
 }
 _SCALAR: dict[str, list[Any]] = {
@@ -49,9 +48,6 @@ _SCALAR: dict[str, list[Any]] = {
     "rf_map_to_wall": [c_void_p, c_double, c_double],
     "rf_map_error": [c_void_p],
     "rf_groove_error": [c_void_p],
-    "rf_set_tilting_pad": [c_void_p, c_void_p, c_void_p, c_double, c_double],
-    "rf_tilting_at": [c_void_p] * 7,
-    "rf_tilting_at_rest": [c_void_p, c_void_p, c_double, *[c_void_p] * 4],
 }
 _LOOPS: dict[str, list[Any]] = {
     "rf_ring_film": [c_void_p] * 5,
@@ -59,6 +55,10 @@ _LOOPS: dict[str, list[Any]] = {
     "rf_ring_field": [c_void_p] * 7,
     "rf_ring_losses": [c_void_p, c_size_t, *[c_void_p] * 5],
     "rf_ring_potential": [c_void_p, c_void_p, c_size_t, *[c_void_p] * 5],
+    "rf_set_tilting_pad": [c_void_p, c_void_p, c_void_p, c_double, c_double],
+    "rf_tilting_at": [c_void_p] * 7,
+    "rf_tilting_at_rest": [c_void_p, c_void_p, c_double, *[c_void_p] * 4],
+    "rf_tilting_forces": [c_void_p, c_size_t, *[c_void_p] * 5],
     "rf_stencil_film": [c_void_p, c_void_p, c_void_p, c_size_t, c_void_p],
     "rf_balanced_at": [c_void_p] * 5,
     "rf_balanced_batch": [c_void_p, c_size_t, *[c_void_p] * 5],

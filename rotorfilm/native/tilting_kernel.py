@@ -11,7 +11,7 @@ import numpy as np
 
 from ..model import Array, Linearization
 from .film_kernels import Batch, FilmKernel
-from .library import functions
+from .library import loops
 
 REST = ("tilt", "pivot", "load", "stiffness", "by_speed", "least", "unloaded")
 """The numbers of rf_tilting_rest."""
@@ -131,7 +131,7 @@ class TiltingKernel:
         self.pads = len(pivots)
         self._directions = np.ascontiguousarray(np.stack([np.cos(pivots), np.sin(pivots)], axis=1))
         pad = TiltingPadStruct()
-        functions()["rf_set_tilting_pad"](byref(pad), film.film, addressof(film.struct), extent, offset)
+        loops()["rf_set_tilting_pad"](byref(pad), film.film, addressof(film.struct), extent, offset)
         place = self._directions.ctypes.data
         scales = preload, clearance, force_scale, spring, inertia, mass
         self.struct = TiltingStruct(pad, self.pads, place, *scales)
@@ -146,7 +146,7 @@ class TiltingKernel:
         by = [np.empty(shape) for shape in ((n, n), (n, 5), (outputs, n), (outputs, 5))] if slopes else []
         places = (c_void_p * 4)(*(one.ctypes.data for one in by)) if by else None
         given = [one.ctypes.data for one in (u, x, rates, answers)]
-        status = functions()["rf_tilting_at"](self._reference, *given, places, byref(pad))
+        status = loops()["rf_tilting_at"](self._reference, *given, places, byref(pad))
         return TiltingPoint(rates, answers, Linearization(*by) if by else None, status, pad.value)
 
     def at_rest(self, position: Array, speed: float) -> RestPoint:
@@ -154,7 +154,7 @@ class TiltingKernel:
         position, pad = _floats(position), c_size_t()
         force, slopes, rests = np.empty(2), np.empty((2, 5)), np.empty((self.pads, len(REST)))
         places = [one.ctypes.data for one in (force, slopes, rests)]
-        status = functions()["rf_tilting_at_rest"](
+        status = loops()["rf_tilting_at_rest"](
             self._reference, position.ctypes.data, speed, *places, byref(pad)
         )
         return RestPoint(force, slopes, dict(zip(REST, rests.T, strict=True)), status, pad.value)
@@ -164,7 +164,7 @@ class TiltingKernel:
         u, tilts, rates, first = _floats(u), _floats(tilts), _floats(rates), c_size_t()
         force = np.empty((2, u.shape[1]))
         places = [one.ctypes.data for one in (u, tilts, rates, force)]
-        status = functions()["rf_tilting_forces"](self._reference, u.shape[1], *places, byref(first))
+        status = loops()["rf_tilting_forces"](self._reference, u.shape[1], *places, byref(first))
         return Batch(force, status, first.value)
 
 

@@ -31,12 +31,12 @@ typedef struct rf_tilting_slopes {
 
 /* Rates dx of the states x, and y: force_x, force_y [N] on the journal and the load of each pivot [N], at u = x, y [m],
    vx, vy [m/s], speed [rad/s]. `slopes` may be NULL. *pad gets the place of the pad with the worst status. */
-RF_EXPORT int rf_tilting_at(const rf_tilting *bearing, const double *u, const double *x, double *dx, double *y,
+RF_EXPORT_LOOP int rf_tilting_at(const rf_tilting *bearing, const double *u, const double *x, double *dx, double *y,
                             const rf_tilting_slopes *slopes, size_t *pad);
 
 /* Forces f (2 x n) on the journal for n rows of u (5 x n), tilts q and their rates (count x n), pivots in their place.
    *first gets the place of the pad with the worst status, state by state. */
-RF_EXPORT int rf_tilting_forces(const rf_tilting *bearing, size_t n, const double *u, const double *q, const double *rate,
+RF_EXPORT_LOOP int rf_tilting_forces(const rf_tilting *bearing, size_t n, const double *u, const double *q, const double *rate,
                                 double *f, size_t *first);
 
 /* One pad at rest. */
@@ -51,7 +51,7 @@ typedef struct rf_tilting_rest {
 
 /* All pads at rest under a journal at rest: force[2], its derivatives by[2][5] as of a reaction unless NULL, by the
    velocity 0, and `pads`, count of them. */
-RF_EXPORT int rf_tilting_at_rest(const rf_tilting *bearing, const double *position, double speed, double *force,
+RF_EXPORT_LOOP int rf_tilting_at_rest(const rf_tilting *bearing, const double *position, double speed, double *force,
                                  double *by, rf_tilting_rest *pads, size_t *pad);
 
 #endif

@@ -22,7 +22,7 @@ typedef struct rf_tilting_pad {
 } rf_tilting_pad;
 
 /* A pad of this extent [rad], its pivot at a share of it from the leading end for speeds > 0. */
-RF_EXPORT void rf_set_tilting_pad(rf_tilting_pad *pad, rf_film film, const void *data, double extent, double offset);
+RF_EXPORT_LOOP void rf_set_tilting_pad(rf_tilting_pad *pad, rf_film film, const void *data, double extent, double offset);
 
 /* The least H = 1 - e.n on the arc. */
 double rf_pad_least(const rf_tilting_pad *pad, const double *e);
