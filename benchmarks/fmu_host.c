@@ -74,8 +74,10 @@ int main(int argc, char **argv)
     LOAD(fmi2SetReal, set);
     LOAD(fmi2GetReal, get);
     LOAD(fmi2DoStep, step);
-    int (*kernel)(const rf_journal *, double, double, double, double, double, double *);
-    *(void **)&kernel = function(library, "rf_journal_call");
+    int (*kernel)(rf_response, const void *, double, double, double, double, double, double *);
+    rf_response at;
+    *(void **)&kernel = function(library, "rf_response_call");
+    *(void **)&at = function(library, "rf_journal_at");
 
     size_t size, count;
     const double *map = read_numbers(argv[5], &size), *states = read_numbers(argv[6], &count);
@@ -98,7 +100,7 @@ int main(int argc, char **argv)
         double begin = now();
         for (size_t i = 0; i < n; ++i) {
             const double *u = states + 5 * i;
-            sum += kernel(&journal, u[0], u[1], u[2], u[3], u[4], forces + 2 * i);
+            sum += kernel(at, &journal, u[0], u[1], u[2], u[3], u[4], forces + 2 * i);
         }
         fastest[0] = fmin(fastest[0], (now() - begin) / (double)n);
         for (size_t i = 0; i < 2 * n; ++i)

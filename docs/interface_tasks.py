@@ -7,10 +7,10 @@ from rotorfilm.sources import homes
 
 TASKS = {
     "Journal bearings and their films": ("bearings.journal", "bearings.films", "bearings.oil"),
+    "Bearings made of pads": ("bearings.pads",),
     "Squeeze-film dampers": ("bearings.damper",),
     "Rolling contacts and ball bearings": ("bearings.contact",),
     "Bushes that wear": ("bearings.bush",),
-    "Bearings made of pads": ("bearings.pads",),
     "Springs, tables, bearings of your own": (
         "bearings.linear",
         "bearings.own_reaction",

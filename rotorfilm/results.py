@@ -5,7 +5,9 @@ from __future__ import annotations
 import csv
 import dataclasses
 import io
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import InitVar, dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -14,8 +16,9 @@ from typing import Any, ClassVar, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
+from .errors import RotorfilmError
 from .files import write_whole
-from .readable.result import Drawable, Readable
+from .readable.result import Drawable, Item, Readable, Row, rows_of
 
 Array = NDArray[np.float64]
 
@@ -100,6 +103,15 @@ class Equilibrium(Readable):
 
     def __post_init__(self, reaction: Any) -> None:
         object.__setattr__(self, "_reaction", reaction)
+
+    def to_rows(self) -> list[Row]:
+        """Return names and values with their units; of a film that warms also its power; never warns."""
+        rows = super().to_rows()
+        with warnings.catch_warnings(), suppress(RotorfilmError):
+            warnings.simplefilter("ignore")
+            if self.temperature is not None and self.losses is not None:
+                rows += rows_of([Item("power_loss", self.losses.power_loss, "W", ())])
+        return rows
 
     @cached_property
     def losses(self) -> BearingLosses | None:

@@ -70,7 +70,7 @@ class Settling(Protocol):
 class AtRest(JournalForce, Protocol):
     """A force on a journal at rest whose own states rest too."""
 
-    def minimum_film(self, position: ArrayLike, speed: float) -> float:
+    def least_film(self, position: ArrayLike, speed: float) -> float:
         """Return the least film [m].
 
         Parameters

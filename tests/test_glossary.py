@@ -9,6 +9,7 @@ import pytest
 CONVENTIONS = Path(__file__).parents[1] / "docs" / "conventions.md"
 
 SEVERAL_UNITS = {
+    "that of a pad is a share of its clearance, that of a ball bearing a force": {"preload"},
     "a rolling ball is in SI, its contact in units of the Hertzian one": {
         "central_film",
         "damping",
@@ -42,7 +43,7 @@ SEVERAL_UNITS = {
     "into a cage it is a velocity, out of a groove a flow": {"inflow"},
     "of a groove it is an angle, of a disk a length": {"width"},
     "of a rotor it is a damper, of a shaft's material a time": {"internal_damping"},
-    "of balls it is a force, of pads a share of the clearance": {"preload"},
+    "of a ball it is a force, of a pad a part of its clearance": {"preload"},
     "of a tilt spring it is a moment per angle": {"stiffness", "damping"},
 }
 """Names with more than one unit, by the reason."""

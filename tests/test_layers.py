@@ -58,7 +58,7 @@ PARTS = {
     "bearings/journal": [["rupture"], ["map", "splitting"], ["grooves"], ["heat"]],
     "bearings/journal/heat": [["field"]],
     "bearings/contact": [["film"], ["motion"]],
-    "bearings/pads": [["tilting"]],
+    "bearings/pads": [["dam", "tilting"]],
     "rotors": [["shaft"]],
     "motion": [["compiled"], ["transient", "circular"], ["periodic"]],
     "cosim": [["schemes"], ["loops"]],

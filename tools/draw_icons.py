@@ -37,6 +37,20 @@ def draw_grooved_journal(axes: Axes) -> None:
     axes.patches[2].set_zorder(0.5)
 
 
+def draw_lobed_journal(axes: Axes) -> None:
+    """Draw a journal between two pads, each an arc about a center of its own."""
+    axes.add_patch(Circle((0, 0), 0.95, color=STEEL))
+    axes.add_patch(Circle((0, 0), 0.78, color=OIL))
+    for side in (-1.0, 1.0):
+        angle = side * np.linspace(0.18, np.pi - 0.18, 60)
+        x, y = 0.82 * np.cos(angle), 0.82 * np.sin(angle) - 0.2 * side
+        axes.fill(np.append(x, 0.95 * np.cos(angle[::-1])), np.append(y, 0.95 * np.sin(angle[::-1])), STEEL)
+    axes.add_patch(Circle((0, 0), 0.56, facecolor="white", edgecolor=INK, lw=2))
+    angle = np.linspace(0.6, 2.6, 40)
+    axes.plot(0.33 * np.cos(angle), 0.33 * np.sin(angle), color=INK, lw=2)
+    axes.add_patch(FancyArrow(-0.27, 0.18, -0.03, -0.06, head_width=0.16, head_length=0.14, color=INK, lw=0))
+
+
 def draw_short_journal(axes: Axes) -> None:
     """Draw a shaft in a short bearing, from the side."""
     for y in (-0.85, 0.45):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -10,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import InputError, brief, require_inside, require_positive
+from ..errors import InputError, brief, require_inside, require_positive, shortened
 from ..inputs.kinds import arguments
 from ..inputs.si_arguments import quantities
 from ..model import Array, Force
@@ -67,6 +68,7 @@ class OwnReaction(StaticReaction):
                 raise InputError(
                     f"{argument} must be a function of (x, y, vx, vy, speed), got {brief(function)}"
                 )
+            _require_five(argument, function)
         require_positive("clearance", self.clearance)
         require_positive("nominal_force", self.nominal_force)
         require_positive("relative_step", self.relative_step)
@@ -167,6 +169,22 @@ class OwnReaction(StaticReaction):
 
 def _state(position: Array, velocity: Array, speed: Array) -> Array:
     return np.concatenate([position, velocity, speed[None]])
+
+
+def _require_five(name: str, function: Law | None) -> None:
+    """Raise InputError where it is known that a function cannot be called with five numbers."""
+    try:
+        taken = inspect.signature(function) if function is not None else None
+    except (TypeError, ValueError):  # of some that are not written in Python
+        return
+    if taken is None:
+        return
+    try:
+        taken.bind(0.0, 0.0, 0.0, 0.0, 0.0)
+    except TypeError:
+        raise InputError(
+            f"{name} must be a function of (x, y, vx, vy, speed), got one of {shortened(str(taken))}"
+        ) from None
 
 
 @arguments

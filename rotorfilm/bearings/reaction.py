@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_inside, require_vector
-from ..model import Array, Force, Linearization, Reaction, force_of, static_linearization
+from ..model import Array, Force, Linearization, Reaction, Tangent, force_of, static_linearization
 from ..signals import Signal, force_outputs, journal_inputs
 
 NOMINAL_SPEED = 100.0
@@ -79,12 +79,112 @@ class Feedthrough(Called):
         return static_linearization(self.jacobian(values[:2], values[2:4], values[4]))
 
 
+class _Film(Protocol):
+    """A film of one bearing in SI units, as `films.law.BoundFilm`."""
+
+    def call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]: ...
+
+    def tangent(
+        self, x: float, y: float, vx: float, vy: float, speed: float
+    ) -> tuple[float, float, list[float]]: ...
+
+    def force(self, position: Array, velocity: Array, speed: Array) -> Array: ...
+
+    def jacobian(self, position: Array, velocity: Array, speed: Array) -> Array: ...
+
+
+class _Bound(Protocol):
+    @property
+    def bound_film(self) -> _Film: ...
+
+
+class FilmReaction(Feedthrough):
+    """A Reaction made from its `bound_film`, which knows where the journal touches."""
+
+    def force(self: _Bound, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+        """Return the film force on the journal.
+
+        Parameters
+        ----------
+        position : array_like, shape (2, ...) [m]
+            Journal center from the bearing center.
+        velocity : array_like, shape (2, ...) [m/s]
+            Velocity of the journal center.
+        speed : array_like, shape (...) [rad/s]
+            Angular speed about +z, of either sign.
+
+        Returns
+        -------
+        ndarray, shape (2, ...) [N]
+
+        Raises
+        ------
+        InputError
+            If an argument is not finite or of the wrong shape.
+        FilmContactError
+            If the journal touches the wall anywhere in the batch.
+        """
+        return self.bound_film.force(*broadcast_state(position, velocity, speed))
+
+    def jacobian(self: _Bound, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
+        """Return the exact derivatives of the force.
+
+        Parameters
+        ----------
+        position, velocity, speed
+            As in `force`.
+
+        Returns
+        -------
+        ndarray, shape (2, 5, ...)
+            d(force_x, force_y)/d(x, y, vx, vy, speed) in [N/m], [N s/m] and [N s/rad].
+
+        Raises
+        ------
+        InputError, FilmContactError
+            As in `force`.
+        UndefinedDerivativeError
+            Where the film has no derivative: at rest without rotation, and in exact half-speed whirl.
+        """
+        return self.bound_film.jacobian(*broadcast_state(position, velocity, speed))
+
+    @property
+    def film_in_c(self: _Bound) -> _Film | None:
+        """The film for loops in C, if it is of the C library; None of a subclass, which may differ."""
+        return self.bound_film if "bound_film" in vars(type(self)) else None
+
+    def prepare(self: _Bound) -> Force:
+        """Return `force` as a function of five numbers, for loops that go state by state: `model.Force`."""
+        return self.bound_film.call
+
+    def prepare_tangent(self: _Bound) -> Tangent:
+        """Return force and derivatives as one function of five numbers, for searches state by state.
+
+        Returns
+        -------
+        callable
+            (x, y, vx, vy, speed) [m, m/s, rad/s] -> (force_x, force_y, the ten entries of `jacobian` row by
+            row). Raises what `jacobian` raises.
+        """
+        return self.bound_film.tangent
+
+    def prepared_force(self: _Bound, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `force` for inner loops: float arrays of equal batch shape, checked for contact only."""
+        return self.bound_film.force(position, velocity, speed)
+
+    def prepared_jacobian(self: _Bound, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `jacobian` for inner loops: float arrays of equal batch shape, checked for contact only."""
+        return self.bound_film.jacobian(position, velocity, speed)
+
+
 class _Prepared(_Law, Protocol):
     @property
     def clearance(self) -> float: ...
 
     @property
     def nominal_force(self) -> float: ...
+
+    def require_film(self, position: Array) -> None: ...
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array: ...
 
@@ -98,6 +198,13 @@ class StaticReaction(Feedthrough):
     def largest_eccentricity_ratio(self) -> float:
         """Eccentricity ratio to which the force is meant; 1 where it is meant up to the wall."""
         return 1.0
+
+    def require_film(self: _Prepared, position: Array) -> None:
+        """Raise FilmContactError unless the journal, at position (2, ...) [m], touches no wall.
+
+        By default the wall is the circle of the clearance.
+        """
+        require_inside(position, self.clearance)
 
     @property
     def inputs(self: _Prepared) -> tuple[Signal, ...]:
@@ -133,7 +240,7 @@ class StaticReaction(Feedthrough):
             If the journal touches the wall anywhere in the batch.
         """
         q, v, omega = broadcast_state(position, velocity, speed)
-        require_inside(q, self.clearance)
+        self.require_film(q)
         return self.prepared_force(q, v, omega)
 
     def jacobian(self: _Prepared, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
@@ -157,7 +264,7 @@ class StaticReaction(Feedthrough):
             Where the film has no derivative.
         """
         q, v, omega = broadcast_state(position, velocity, speed)
-        require_inside(q, self.clearance)
+        self.require_film(q)
         return self.prepared_jacobian(q, v, omega)
 
     def prepare(self: _Prepared) -> Force:

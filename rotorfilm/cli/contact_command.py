@@ -65,8 +65,7 @@ def contact(
     ] = None,
 ) -> Said:
     """Film thickness, approach and stiffness of a lubricated rolling ball, and its response to a load."""
-    from ..scenes.contact.contact_motions import require_followable
-    from ..scenes.contact.solve_contact import load_over_time, respond, response_of, solve_contact
+    from ..scenes.contact.solve_contact import respond, response_of, solve_contact
     from ..scenes.reading.readers import Count
 
     given = dict(
@@ -77,12 +76,7 @@ def contact(
     order = Count(LAW_STATES)("--order", order)
     full = full or save is not None or resume is not None
     _require_response(case, step, sine, frequency, full)
-    time = 20.0 if duration is None else _scaled(case, "--duration", duration, "s", case.time_scale)
-    rate = (
-        0.0 if frequency is None else _scaled(case, "--frequency", frequency, "rad/s", 1.0 / case.time_scale)
-    )
-    require_followable(time, rate)
-    drive = load_over_time(step, sine, rate)
+    time, drive = _drive(case, step, sine, frequency, duration)
     answer, law = solve_contact(case, order, report)
     response = None
     if full:
@@ -201,6 +195,24 @@ def _scaled(case: ContactCase, name: str, text: str, unit: str, scale: float) ->
     from ..scenes.reading.tables import Quantity
 
     return Quantity(unit if case.ball is not None else "1")(name, text) / scale
+
+
+def _drive(
+    case: ContactCase,
+    step: float | None,
+    sine: float | None,
+    frequency: str | None,
+    duration: str | None,
+) -> tuple[float, Callable[[float], float]]:
+    """Return the duration of the response, and the load over time that drives it, both scaled."""
+    from ..scenes.contact.contact_motions import require_followable
+    from ..scenes.contact.solve_contact import load_over_time
+
+    scale = case.time_scale
+    time = 20.0 if duration is None else _scaled(case, "--duration", duration, "s", scale)
+    rate = 0.0 if frequency is None else _scaled(case, "--frequency", frequency, "rad/s", 1.0 / scale)
+    require_followable(time, rate)
+    return time, load_over_time(step, sine, rate)
 
 
 def _run(

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from ..bearings.films.geometry import Groove
     from ..bearings.films.law import FilmLaw
     from ..bearings.journal import GrooveMapTable
+    from ..scenes.lubricant_table import LubricantTable
 
 Grooves = Annotated[
     list[str] | None,
@@ -31,9 +32,17 @@ def coefficients(
     radius: Annotated[str, Option(help="Journal radius.", metavar='"50 mm"')],
     length: Annotated[str, Option(help="Axial length.", metavar='"30 mm"')],
     clearance: Annotated[str, Option(help="Radial clearance.", metavar='"0.1 mm"')],
-    viscosity: Annotated[str, Option(help="Dynamic viscosity.", metavar='"0.1 Pa s"')],
     load: Annotated[str, Option(help='Static load: downward, or "X,Y" components.', metavar='"525 N"')],
     speed: Annotated[str, Option(help="Angular speed about +z.", metavar='"1500 rpm"')],
+    viscosity: Annotated[
+        str | None, Option(help="Dynamic viscosity, at all temperatures.", metavar='"0.1 Pa s"')
+    ] = None,
+    oil: Annotated[
+        str | None, Option(help="Or a grade, as warm as its film gets.", metavar='"ISO VG 46"')
+    ] = None,
+    supply_temperature: Annotated[
+        str | None, Option(help="Of the fresh oil, with a grade.", metavar='"45 degC"')
+    ] = None,
     film: Annotated[
         str, Option(help="Film law: map, grooved_map, reynolds, short or splitting.", metavar="NAME")
     ] = "map",
@@ -57,20 +66,22 @@ def coefficients(
     from ..linear import coefficients as film_coefficients, equilibrium
     from ..scenes.journal.echo import bearing_data
     from ..scenes.journal.journal_remarks import film_remarks
-    from ..scenes.lubricant_table import Lubricant
     from ..scenes.reading.tables import read_table
     from ..scenes.schema import JournalTable
 
-    geometry = {"radius": radius, "length": length, "clearance": clearance, "viscosity": viscosity}
+    lubricant = _lubricant(viscosity, oil, supply_temperature)
+    geometry = {"radius": radius, "length": length, "clearance": clearance}
+    geometry |= {"viscosity": viscosity} if viscosity is not None else {}
     grooves = tuple(_groove(text) for text in groove or [])
     law = _film(film, order, constant, rupture, cells)
-    bearing = replace(read_table(JournalTable, "--", geometry), film=law, grooves=grooves).build()
+    table = replace(read_table(JournalTable, "--", geometry), film=law, grooves=grooves)
+    bearing = table.on("--", lubricant).build()
     make_map(bearing, report)
     force, rate = _operation(load, speed)
     at = equilibrium(bearing, force, rate)
     derivatives = film_coefficients(bearing, at.position, rate)
     data, name = bearing_data(bearing), film_name(bearing.fitted_film)
-    remarks = film_remarks(bearing, Lubricant(), rate, force)
+    remarks = film_remarks(bearing, lubricant.properties, rate, force)
     answer = {"bearing": data, "model": name, "equilibrium": at, "losses": at.losses}
     answer["coefficients"] = derivatives
     answer["remarks"] = remarks
@@ -142,6 +153,24 @@ def _map_of_options(
         over, turning, moving = NODES("--nodes", _numbers(nodes))
         film = replace(film, nodes=(over, turning, moving))
     return film.built_table(slenderness, report)
+
+
+def _lubricant(viscosity: str | None, oil: str | None, supply_temperature: str | None) -> LubricantTable:
+    """Return the oil of a grade; without one a mineral oil for the remarks, beside the viscosity."""
+    from ..scenes.lubricant_table import LubricantTable, read_grade
+    from ..scenes.reading.tables import Quantity
+
+    if (viscosity is None) is (oil is None):
+        raise InputError(f"--viscosity or --oil must be given, got {'neither' if oil is None else 'both'}")
+    if (supply_temperature is None) is not (oil is None):
+        raise InputError(
+            "--oil and --supply-temperature must be given together, got "
+            f"{brief(oil)} and {brief(supply_temperature)}"
+        )
+    if oil is None:
+        return LubricantTable()
+    supplied = Quantity("K", absolute=True)("--supply-temperature", supply_temperature)
+    return LubricantTable(grade=read_grade("--oil", oil), supply_temperature=supplied)
 
 
 def _film(film: str, order: str | None, constant: bool, rupture: str | None, cells: str | None) -> FilmLaw:

@@ -17,7 +17,7 @@ from ..signals import FORCE_OUTPUTS, JOURNAL_INPUTS
 from .bench import Needs, Sample, StationMotion, Tangents, no_tangents
 from .loops.record import WORK
 from .slaves import Differentiable, Driven, Measured, Restorable, Slave
-from .wiring import Journals, sources, wired
+from .wiring import JournalPlaces, sources, wired
 
 PROBE = 1e3
 """Force of a trial step [N]; a linear rotor tells the same with any."""
@@ -125,7 +125,7 @@ class Partners:
         return list(self.rotor.outputs), films
 
     @property
-    def places(self) -> Journals:
+    def places(self) -> JournalPlaces:
         """Where the signals of the journals are among those of the rotor."""
         return self.wiring.places(self.rotor.inputs, self.rotor.outputs)
 

@@ -11,7 +11,7 @@ from ..rotors.stations import station_name, station_names
 from ..signals import FORCE_OUTPUTS, MOTION_NAMES, from_fmi_name, indices
 
 
-class Signals(Protocol):
+class Ports(Protocol):
     """What has inputs and outputs by name."""
 
     @property
@@ -23,7 +23,7 @@ class Signals(Protocol):
         """Names of the outputs."""
 
 
-class Journals(NamedTuple):
+class JournalPlaces(NamedTuple):
     """The signals of journals as indices of a rotor's inputs and outputs."""
 
     force: list[int]
@@ -46,22 +46,22 @@ class Wiring(NamedTuple):
     position: tuple[str, ...]
     velocity: tuple[str, ...]
 
-    def places(self, inputs: Sequence[str], outputs: Sequence[str]) -> Journals:
+    def places(self, inputs: Sequence[str], outputs: Sequence[str]) -> JournalPlaces:
         """Return where the signals of the journals are among those of the rotor."""
-        return Journals(
+        return JournalPlaces(
             [inputs.index(name) for name in self.force],
             [outputs.index(name) for name in self.position],
             [outputs.index(name) for name in self.velocity],
         )
 
 
-def wired(rotor: Signals, films: Mapping[str, Signals]) -> Wiring:
+def wired(rotor: Ports, films: Mapping[str, Ports]) -> Wiring:
     """Return the signals of the journals, having checked that rotor and films have all that connects them.
 
     Parameters
     ----------
-    rotor : Signals
-    films : mapping of str to Signals
+    rotor : Ports
+    films : mapping of str to Ports
         By station.
 
     Raises

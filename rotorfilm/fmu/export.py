@@ -217,7 +217,8 @@ def _require_supported(path: Path, version: str, native: bool, platforms: str) -
     if path.suffix != ".fmu":
         raise InputError(f"path must end in .fmu, got {str(path)!r}")
     if version not in VERSIONS:
-        raise InputError(f"version must be one of {list(VERSIONS)}, got {version!r}")
+        meant = next((f": as text, version={one!r}" for one in VERSIONS if str(version) in (one, one[0])), "")
+        raise InputError(f"version must be one of {list(VERSIONS)}, got {version!r}{meant}")
     if version == "3.0" and not native:
         raise FmuError("version must be '2.0' for the python backend: PythonFMU has no FMI 3.0, got '3.0'")
     if platforms not in PLATFORMS:
@@ -273,9 +274,23 @@ def _start_values(model: Model | Stepped, start: Mapping[str, float]) -> dict[st
     names = [signal.name for signal in model.inputs]
     for name, value in start.items():
         if name not in names:
-            raise InputError(f"start must have keys from the inputs {names}, got {name!r}")
+            raise InputError(
+                f"start must have keys from the inputs {names}, got {name!r}{_state_hint(model, name)}"
+            )
         require_finite(f"start[{name!r}]", value)
     return {name: float(start.get(name, 0.0)) for name in names}
+
+
+def _state_hint(model: Model | Stepped, name: str) -> str:
+    """Return how a state is given its start, where a name is that of one."""
+    if isinstance(model, Stepped) or name not in {signal.name for signal in model.states}:
+        return ""
+    argument = f"start_{name}"
+    given = f"{argument} of {type(model).__name__}" if hasattr(model, argument) else "the model"
+    return (
+        f", a state: {given} says where it starts, and who runs the FMU may set its variable "
+        f"state_{name} before the simulation starts"
+    )
 
 
 def _guid(contents: Mapping[str, bytes]) -> str:

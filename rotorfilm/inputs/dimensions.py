@@ -31,6 +31,20 @@ hydrogenerators and from gases to greases. What a study lets go to zero or to in
 a viscosity or the modulus of a rigid shaft, has no bound there."""
 
 
+def built_unit(name: str, value: float, unit: str) -> str:
+    """Return the first unit in which a number is a size that is built; empty where there is none."""
+    measure, least, most = BUILT.get(name) or BUILT.get(name.replace("diameter", "radius"), ("", 0.0, 0.0))
+    if unit != measure:
+        return ""
+    same = UNITS[si_name(unit)].exponents
+    fitting = (
+        other
+        for other, scale in DISPLAY_UNITS.items()
+        if scale.exponents == same and least <= abs(value) * scale.factor <= most
+    )
+    return next(fitting, "")
+
+
 def warn_of_odd_size(name: str, value: Any, unit: str) -> None:
     """Warn where a number in this unit is far outside of what is built; say which unit may be meant."""
     measure, least, most = BUILT[name]
@@ -38,10 +52,8 @@ def warn_of_odd_size(name: str, value: Any, unit: str) -> None:
         return
     if value == 0.0 or least <= abs(value) <= most or abs(value) == math.inf:
         return
-    same = UNITS[si_name(unit)].exponents
-    meant = (
-        f": {value:g} {other}?"
-        for other, scale in DISPLAY_UNITS.items()
-        if scale.exponents == same and least <= abs(value) * scale.factor <= most
+    meant = built_unit(name, value, unit)
+    warn_user(
+        f"{name} should be {least:g} to {most:g} {unit}, got {value:g}"
+        f"{f': {value:g} {meant}?' if meant else ''}"
     )
-    warn_user(f"{name} should be {least:g} to {most:g} {unit}, got {value:g}{next(meant, '')}")

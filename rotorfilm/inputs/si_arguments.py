@@ -18,7 +18,7 @@ import numpy as np
 
 from ..errors import InputError, brief
 from ..units import UNITS, WEIGHT, parse_quantity, si_name
-from .dimensions import BUILT, warn_of_odd_size
+from .dimensions import BUILT, built_unit, warn_of_odd_size
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -26,6 +26,9 @@ T = TypeVar("T")
 
 ENTRY = re.compile(r"(\w+(?:, \w+)*) : (.+)")
 """The head of an entry of a numpydoc section."""
+
+UNIT = re.compile(r"[a-df-z%]", re.IGNORECASE)
+"""What every unit has, and no number by itself."""
 
 ANY = ("", float("-inf"), float("inf"))
 
@@ -154,9 +157,13 @@ def quantity(name: str, value: Any, unit: str, *, absolute: bool = False) -> Any
         return value
     if isinstance(value, str):
         try:
-            return parse_quantity(value, si_name(unit), absolute=absolute)
+            found = parse_quantity(value, si_name(unit), absolute=absolute)
         except InputError as error:
             raise InputError(f"{name}: {error}") from None
+        if unit != "1" and not UNIT.search(value):
+            meant = built_unit(name, found, unit) or unit
+            raise InputError(f"{name} must have its unit, as '{value.strip()} {meant}', got {brief(value)}")
+        return found
     if isinstance(value, list | tuple):
         if all(isinstance(entry, float) for entry in value):
             return value

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..bearings.contact_place import WalledReaction, relative_film
 from ..errors import (
     EquilibriumError,
     FilmContactError,
@@ -49,6 +50,7 @@ class _Target(NamedTuple):
     speed: float
     x: float
     y: float
+    room: float
 
     @property
     def size(self) -> float:
@@ -114,7 +116,8 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     at_rest = reaction.at_rest() if isinstance(reaction, Settling) else None
     film: Any = at_rest or reaction
     wanted_x, wanted_y = (-load).tolist()
-    target = _Target(prepared_tangent(film), film.clearance, speed, wanted_x, wanted_y)
+    room = min(relative_film(film, np.zeros(2)), 1.0)
+    target = _Target(prepared_tangent(film), film.clearance, speed, wanted_x, wanted_y, room)
     with warnings.catch_warnings():
         # A state that the search only passes through is nobody's answer; that of the result is warned of.
         warnings.simplefilter("ignore", ValidityWarning)
@@ -124,7 +127,9 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     found = _result(film, load, target, best)
     if at_rest is None:
         return found
-    return replace(found, minimum_film=at_rest.minimum_film(found.position, speed), reaction=at_rest)
+    ratio = math.hypot(*found.position) / reaction.clearance
+    least = at_rest.least_film(found.position, speed)
+    return replace(found, eccentricity_ratio=ratio, minimum_film=least, reaction=at_rest)
 
 
 def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
@@ -163,8 +168,12 @@ def checked_load(load: ArrayLike) -> Array:
     """Return a static load as an array, shape (2,) [N]; raise InputError where it breaks a rule."""
     array = require_finite("load", load)
     if array.shape != (2,):
-        hint = f", e.g. (0, {-abs(float(array)):g})" if array.ndim == 0 else ""
-        raise InputError(f"load must have shape (2,){hint}, got shape {array.shape}")
+        if array.ndim == 0:
+            raise InputError(
+                "load must be the components (x, y) of the force on the journal, as load="
+                f"(0, {-abs(float(array)):g}) for a magnitude downward, got {float(array):g}"
+            )
+        raise InputError(f"load must have shape (2,), got shape {array.shape}")
     if not array.any():
         raise InputError(f"load must not be zero, got [0, 0]: {UNLOADED}")
     return array
@@ -173,19 +182,22 @@ def checked_load(load: ArrayLike) -> Array:
 def _search(target: _Target) -> _Point:
     """Return the first converged point, or the best of all starts."""
     points = []
-    for s, phi in _starts(math.atan2(-target.y, -target.x), target.speed):
+    for s, phi in _starts(math.atan2(-target.y, -target.x), target.speed, target.room):
         points.append(_newton(target, s, phi))
         if points[-1].norm <= _tolerance(points[-1].s):
             return points[-1]
     return min(points, key=lambda point: point.norm)
 
 
-def _starts(along_load: float, speed: float) -> list[tuple[float, float]]:
-    """Return starting points (s, phi); an isotropic film needs the first only."""
-    sense = math.copysign(1.0, speed)
+def _starts(along_load: float, speed: float, room: float) -> list[tuple[float, float]]:
+    """Return starting points (s, phi); an isotropic film needs the first only.
+
+    The first is half of the way to the wall, of which `room` is left at the center, in clearances.
+    """
+    sense, half = math.copysign(1.0, speed), math.log(room / (2.0 - room))
     turns = [k * math.pi / 3.0 for k in range(6)]
-    first = (0.0, along_load + sense * _FIRST_ANGLE)
-    return [first, *((s, along_load + turn) for s in (-2.0, 2.0) for turn in turns)]
+    first = (half, along_load + sense * _FIRST_ANGLE)
+    return [first, *((s, along_load + turn) for s in (half - 2.0, half + 2.0) for turn in turns)]
 
 
 def _newton(target: _Target, s: float, phi: float) -> _Point:
@@ -265,11 +277,18 @@ def _result(reaction: Reaction, load: Array, target: _Target, point: _Point) -> 
         load=load,
         eccentricity_ratio=1.0 / (1.0 + math.exp(-point.s)),
         attitude_angle=math.remainder(angle, 2.0 * math.pi),
-        minimum_film=target.clearance / (1.0 + math.exp(point.s)),
+        minimum_film=_minimum_film(reaction, target, point),
         residual=math.hypot(*(force + load)) / target.size,
         iterations=point.steps,
         reaction=reaction,
     )
+
+
+def _minimum_film(reaction: Reaction, target: _Target, point: _Point) -> float:
+    """Return the least film [m]; in a circle from s, which has its digits near the wall."""
+    if isinstance(reaction, WalledReaction):
+        return float(reaction.minimum_film(point.position))
+    return target.clearance / (1.0 + math.exp(point.s))
 
 
 def _why_not(load: Array, speed: float, best: _Point) -> str:

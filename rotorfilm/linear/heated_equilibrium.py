@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 from numpy.typing import ArrayLike
 
 from ..errors import ConvergenceError, require_number
+from ..inputs.kinds import arguments
 from ..model import Reaction
 from ..readable.result import Readable
 from ..results import Equilibrium
@@ -16,6 +17,7 @@ from .equilibrium import checked_load, equilibrium
 MOST_ROUNDS = 60
 
 
+@runtime_checkable
 class FieldFilm(Protocol):
     """A film that warms with its temperature a field, as `HeatedFilm`."""
 
@@ -52,6 +54,7 @@ class HeatedEquilibrium(Readable):
     rounds: int
 
 
+@arguments
 def heated_equilibrium(film: FieldFilm, load: ArrayLike, speed: float) -> HeatedEquilibrium:
     """Return the position at which a film with a temperature field balances a static load.
 

@@ -9,6 +9,7 @@ from typing import cast
 
 import numpy as np
 
+from ..bearings.contact_place import minimum_film
 from ..errors import EquilibriumError, InputError, require_number
 from ..inputs.kinds import arguments
 from ..model import Array, Reaction, require_reactions
@@ -249,7 +250,7 @@ class _System:
         share = 1.0
         pairs = zip(self.bearings, p.reshape(-1, 2), step.reshape(-1, 2), strict=True)
         for bearing, at, move in pairs:
-            gap, length = bearing.clearance - math.hypot(*at), math.hypot(*move)
+            gap, length = float(minimum_film(bearing, at)), math.hypot(*move)
             share = min(share, 0.5 * gap / length if length > 0.5 * gap else 1.0)
         return share
 

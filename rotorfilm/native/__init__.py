@@ -8,13 +8,13 @@ if TYPE_CHECKING:
     from .film_kernels import (
         FilmKernel as FilmKernel,
         GrooveMapKernel as GrooveMapKernel,
-        JournalKernel as JournalKernel,
         MapKernel as MapKernel,
         ShortKernel as ShortKernel,
         Status as Status,
     )
     from .library import NativeLibraryError as NativeLibraryError
     from .map_slice import slice_table as slice_table
+    from .response_kernels import JournalKernel as JournalKernel, LobesKernel as LobesKernel
     from .spec import HasKernel as HasKernel, NativeParameter as NativeParameter, NativeSpec as NativeSpec
 else:
     show(__name__)

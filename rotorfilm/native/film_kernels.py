@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ctypes import addressof, byref, c_double, c_size_t, c_void_p, cast
+from ctypes import byref, c_size_t, c_void_p, cast
 from enum import IntEnum
 from typing import Any, ClassVar, NamedTuple
 
@@ -10,9 +10,7 @@ import numpy as np
 
 from ..model import Array
 from .library import functions
-from .structs import GrooveMapStruct, JournalStruct, MapStruct, ShortStruct
-
-_Pair, _Five, _Ten = c_double * 2, c_double * 5, c_double * 10
+from .structs import GrooveMapStruct, MapStruct, ShortStruct
 
 
 class Status(IntEnum):
@@ -56,6 +54,8 @@ class FilmKernel:
         Largest error of a force beyond the film's table that was measured; 0 where none is known.
     openings : bool
         Whether that holds only where no opening is near.
+    is_table : bool
+        Whether it has a table, beyond which it goes on.
     """
 
     _function: ClassVar[str]
@@ -63,6 +63,7 @@ class FilmKernel:
     struct: Any
     error: float = 0.0
     openings: ClassVar[bool] = False
+    is_table: ClassVar[bool] = False
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._arguments
@@ -86,9 +87,9 @@ class FilmKernel:
         return self._batch(eccentricity, source, (2, 4))
 
     def _batch(self, e: Array, w: Array, shape: tuple[int, ...]) -> Batch:
-        e, w = _rows(e), _rows(w)
+        e, w = as_rows(e), as_rows(w)
         film = [self.film, byref(self.struct)]
-        return _run("rf_film_batch", film, e.shape[1], [*_pointer(e), *_pointer(w)], shape)
+        return run_batch("rf_film_batch", film, e.shape[1], [*row_places(e), *row_places(w)], shape)
 
 
 class ShortKernel(FilmKernel):
@@ -131,6 +132,7 @@ class MapKernel(FilmKernel):
     """
 
     _function: ClassVar[str] = "rf_map_film"
+    is_table: ClassVar[bool] = True
 
     def __init__(
         self,
@@ -200,73 +202,13 @@ class GrooveMapKernel(MapKernel):
         self.error = functions()["rf_groove_error"](byref(self.struct))
 
 
-class JournalKernel:
-    """The film force of a journal bearing in SI units.
-
-    Parameters
-    ----------
-    kernel : FilmKernel
-        Its film.
-    clearance : float [m]
-        Radial clearance.
-    force_scale : float [N s]
-        viscosity * length * radius^3 / clearance^2.
-    """
-
-    def __init__(self, kernel: FilmKernel, clearance: float, force_scale: float) -> None:
-        self._arguments = (kernel, clearance, force_scale)
-        self.film = kernel
-        self.struct = JournalStruct(
-            kernel.film, addressof(kernel.struct), clearance, force_scale, kernel.error, kernel.openings
-        )
-        self._reference = byref(self.struct)
-        self._call = functions()["rf_journal_call"]
-        self._tangent = functions()["rf_journal_at"]
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), self._arguments
-
-    def call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float, int]:
-        """Return (force_x, force_y, status) for numbers."""
-        pair = _Pair()
-        status = self._call(self._reference, x, y, vx, vy, speed, pair)
-        return pair[0], pair[1], status
-
-    def tangent(
-        self, x: float, y: float, vx: float, vy: float, speed: float
-    ) -> tuple[float, float, list[float], int]:
-        """Return force_x, force_y, the ten entries of the Jacobian row by row, and a status."""
-        pair, ten = _Pair(), _Ten()
-        status = self._tangent(self._reference, _Five(x, y, vx, vy, speed), pair, ten)
-        return pair[0], pair[1], ten[:], status
-
-    def force(self, position: Array, velocity: Array, speed: Array) -> Batch:
-        """Return the forces (2, n) at positions, velocities (2, n) and speeds (n,) or (1,)."""
-        return self._batch(position, velocity, speed, ())
-
-    def jacobian(self, position: Array, velocity: Array, speed: Array) -> Batch:
-        """Return d force / d (x, y, vx, vy, speed), shape (2, 5, n)."""
-        return self._batch(position, velocity, speed, (2, 5))
-
-    def _batch(self, q: Array, v: Array, omega: Array, shape: tuple[int, ...]) -> Batch:
-        q, v, omega = _rows(q), _rows(v), np.ascontiguousarray(omega, dtype=float)
-        n = q.shape[1]
-        step = 0 if omega.shape == (1,) else 1
-        given = [*_pointer(q), *_pointer(v), omega.ctypes.data, step]
-        if v.shape != (2, n):
-            raise ValueError(f"velocity must have the shape of position, (2, {n}), got {v.shape}")
-        if step and omega.shape != (n,):
-            raise ValueError(f"speed must have shape ({n},) or (1,), got {omega.shape}")
-        return _run("rf_journal_batch", [self._reference], n, given, shape)
-
-
 def _wrapped(coefficients: Array, axis: int) -> Array:
     """Return periodic coefficients as the kernel reads them: from the one two nodes back, five repeated."""
     count = coefficients.shape[axis]
     return np.take(coefficients, np.arange(-2, count + 3) % count, axis)
 
 
-def _run(name: str, of: list[Any], n: int, given: list[Any], shape: tuple[int, ...]) -> Batch:
+def run_batch(name: str, of: list[Any], n: int, given: list[Any], shape: tuple[int, ...]) -> Batch:
     """Call a batch function; its answer is the forces, or with a shape the Jacobians."""
     force, first = np.empty((2, n)), c_size_t()
     jacobian = np.empty((*shape, n)) if shape else None
@@ -275,7 +217,7 @@ def _run(name: str, of: list[Any], n: int, given: list[Any], shape: tuple[int, .
     return Batch(force if jacobian is None else jacobian, status, first.value)
 
 
-def _rows(array: Array) -> Array:
+def as_rows(array: Array) -> Array:
     """Return (2, n) floats whose two rows are contiguous, without a copy where they are already."""
     row, entry = array.strides
     if array.dtype == np.float64 and entry == 8 and row >= 0 and row % 8 == 0:
@@ -283,5 +225,6 @@ def _rows(array: Array) -> Array:
     return np.ascontiguousarray(array, dtype=float)
 
 
-def _pointer(rows: Array) -> tuple[int, int]:
+def row_places(rows: Array) -> tuple[int, int]:
+    """Return the address of (2, n) rows, and their distance in numbers."""
     return rows.ctypes.data, rows.strides[0] // 8

@@ -9,10 +9,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..model import Array
-from .film_kernels import JournalKernel
 from .heat_structs import HeatedStruct, OilStruct
 from .library import loops
 from .loss_kernels import LossKernel
+from .response_kernels import JournalKernel
 
 _Pair, _Five, _Ten = c_double * 2, c_double * 5, c_double * 10
 

@@ -33,7 +33,7 @@ class NativeLibraryError(RotorfilmError, ImportError):
 _ROWS = [c_void_p, c_size_t]
 _BATCH: dict[str, list[Any]] = {
     "rf_film_batch": [c_void_p, c_void_p, c_size_t, *_ROWS * 4, c_void_p],
-    "rf_journal_batch": [c_void_p, c_size_t, *_ROWS * 5, c_void_p],
+    "rf_response_batch": [c_void_p, c_void_p, c_size_t, *_ROWS * 5, c_void_p],
     "rf_loss_batch": [c_void_p, c_void_p, c_size_t, *[c_void_p] * 5],
 }
 _SCALAR: dict[str, list[Any]] = {
@@ -42,7 +42,7 @@ _SCALAR: dict[str, list[Any]] = {
     "rf_short_film": [c_void_p] * 5,
     "rf_map_losses": [c_void_p] * 5,
     "rf_short_losses": [c_void_p] * 5,
-    "rf_journal_call": [c_void_p, *[c_double] * 5, c_void_p],
+    "rf_response_call": [c_void_p, c_void_p, *[c_double] * 5, c_void_p],
     "rf_journal_at": [c_void_p] * 4,
     "rf_map_slice": [c_void_p, c_double, c_void_p, c_void_p],
     "rf_map_to_wall": [c_void_p, c_double, c_double],
@@ -60,9 +60,16 @@ _LOOPS: dict[str, list[Any]] = {
     "rf_tilting_at_rest": [c_void_p, c_void_p, c_double, *[c_void_p] * 4],
     "rf_tilting_forces": [c_void_p, c_size_t, *[c_void_p] * 5],
     "rf_stencil_film": [c_void_p, c_void_p, c_void_p, c_size_t, c_void_p],
+    "rf_recess_at": [c_void_p] * 4,
+    "rf_recess_batch": [c_void_p, c_size_t, *[c_void_p] * 4],
+    "rf_recess_field": [c_void_p, c_size_t, c_void_p, c_void_p],
+    "rf_recess_least": [c_void_p] * 3,
     "rf_balanced_at": [c_void_p] * 5,
     "rf_balanced_batch": [c_void_p, c_size_t, *[c_void_p] * 5],
     "rf_ride": [c_void_p, c_void_p, c_double, c_int64, c_void_p, c_void_p],
+    "rf_lobes_at": [c_void_p] * 4,
+    "rf_pad_film": [c_void_p] * 5,
+    "rf_shape_pad": [c_void_p, c_double],
     "rf_springs_at": [c_void_p] * 4,
     "rf_sprung_at": [c_void_p] * 4,
     "rf_follow_shaken": [c_void_p, c_int64, c_void_p, c_void_p],
@@ -102,7 +109,9 @@ def loops() -> dict[str, Any]:
     NativeLibraryError
         As `functions`.
     """
-    return _typed(ctypes.CDLL, LOOPS, _LOOPS)
+    found = _typed(ctypes.CDLL, LOOPS, _LOOPS)
+    found["rf_recess_least"].restype = c_double
+    return found
 
 
 @cache

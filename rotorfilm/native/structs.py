@@ -137,6 +137,30 @@ class StencilStruct(ctypes.Structure):
     ]
 
 
+class RecessPadStruct(ctypes.Structure):
+    """rf_recess_pad of recess.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        *(
+            (name, c_double)
+            for name in ("start", "extent", "preload", "anchor", "from", "to", "depth", "share")
+        ),
+        ("around", c_int32 * 3),
+        ("along", c_int32 * 2),
+    ]
+
+
+class RecessStruct(ctypes.Structure):
+    """rf_recess of recess.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("pads", c_void_p),
+        ("count", c_size_t),
+        *((name, c_double) for name in ("radius", "length", "clearance", "viscosity")),
+        ("extrapolated", c_int32),
+    ]
+
+
 class RideStruct(ctypes.Structure):
     """rf_ride_law of ride.h."""
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import shortened
-from ..units import DISPLAY_UNITS
+from ..units import CELSIUS, DISPLAY_UNITS
 
 PREFIXED = {
     "m": ("m", "mm", "um", "nm"),
@@ -41,8 +41,10 @@ def label_of(name: str) -> str:
 
 
 def quantity(value: Any, unit: str, name: str = "") -> str:
-    """Return a number or a short vector with its unit."""
+    """Return a number or a short vector with its unit; "degC" is that of temperatures in K, shown in both."""
     numbers = np.asarray(value)
+    if unit == "degC":
+        return f"{_number(numbers)} K = {_number(numbers - CELSIUS)} degC"
     if unit == "rad/s":
         turns = ("Hz", 0.5 / math.pi) if "frequency" in name else ("rpm", 30.0 / math.pi)
         return f"{_number(numbers)} rad/s = {_number(numbers * turns[1])} {turns[0]}"

@@ -34,12 +34,15 @@ class Item(NamedTuple):
     unit : str
     shape : tuple of str
         Names of the dimensions of an array.
+    absolute : bool
+        Whether it is a temperature in K, which people read in degC, and no difference.
     """
 
     name: str
     value: Any
     unit: str
     shape: tuple[str, ...]
+    absolute: bool = False
 
 
 def items_of(value: Any, further: Iterable[str] = ()) -> Iterator[Item]:
@@ -55,7 +58,8 @@ def items_of(value: Any, further: Iterable[str] = ()) -> Iterator[Item]:
                 below = key if name == SERIES else f"{name}_{key}"
                 yield Item(below, one, own.get(key, said.unit), said.shape)
         elif name != UNITS:
-            yield Item(name, held, own.get(name, said.unit), said.shape)
+            absolute = name.endswith("temperature") and "above ambient" not in said.meaning.lower()
+            yield Item(name, held, own.get(name, said.unit), said.shape, absolute and said.unit == "K")
 
 
 def _is_measured(value: Any) -> bool:
@@ -93,6 +97,10 @@ class Readable:
     def _own_units(self) -> Mapping[str, str]:
         """Return units that only the result itself knows, by the name of the field or of the entry in it."""
         return {}
+
+    def _items(self) -> Iterator[Item]:
+        """Yield what goes into data frames and data sets."""
+        return items_of(self, self._shown)
 
     def to_rows(self) -> list[Row]:
         """Return names and values with their units, a row for each; of a result in it, all of its rows."""
@@ -147,7 +155,7 @@ class Readable:
         return self._handed(frames.to_frame)
 
     def _handed(self, make: Callable[..., Any]) -> Any:
-        arrays, notes = _arrays(items_of(self, self._shown))
+        arrays, notes = _arrays(self._items())
         arrays = frames.consistent(arrays)
         first = fields(self)[0].name  # type: ignore[arg-type]
         along = self._along or frames.rows_of(arrays)
@@ -182,7 +190,8 @@ def _rows(item: Item) -> list[Row]:
         return [(label, ""), *((f"  {inner}", text) for inner, text in inside)]
     if isinstance(value, tuple | list) and any(is_dataclass(one) for one in value):
         return [(f"{label} {k}", _line(one)) for k, one in _ends(value)]
-    lines = [_line(value)] if is_dataclass(value) else texts(item.name, value, item.unit)
+    unit = "degC" if item.absolute else item.unit
+    lines = [_line(value)] if is_dataclass(value) else texts(item.name, value, unit)
     return [(label if k == 0 else "", line) for k, line in enumerate(lines)]
 
 
@@ -213,7 +222,7 @@ def _arrays(items: Iterable[Item]) -> tuple[frames.Arrays, dict[str, Any]]:
     """Return the arrays of a result, and what is said of it in words."""
     found: frames.Arrays = {}
     notes: dict[str, Any] = {}
-    for name, value, unit, shape in items:
+    for name, value, unit, shape, *_ in items:
         if isinstance(value, Readable):
             inner, said = _arrays(items_of(value, value._shown))
             found |= {f"{name}_{key}": one for key, one in inner.items()}

@@ -13,7 +13,14 @@ from .rigid import RigidRotor, native_parameter
 from .stations import prefixed
 from .structure import FlexibleRotor, Operators
 
-KINDS = ("journal", "grooved_journal", "short_journal", "reynolds_journal")
+KINDS = (
+    "journal",
+    "grooved_journal",
+    "short_journal",
+    "reynolds_journal",
+    "pressure_dam",
+    "lobed_journal",
+)
 """Kernels that may be a bearing of a system, in the order of `native/kernels/kernel_rotor_system.c`."""
 
 

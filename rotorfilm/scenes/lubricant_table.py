@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from typing import Annotated, Any
 
 from ..bearings.oil import Cooling, Oil
+from ..bearings.oil.oil import grade_number
 from ..errors import InputError, SceneError, brief, require_non_negative, require_positive
 from ..units import CELSIUS
 from .reading.readers import Count, takes
 from .reading.tables import Quantity, text
-
-_GRADE = re.compile(r"\s*(?:ISO\s*)?(?:VG\s*)?(\d{1,4})\s*", re.IGNORECASE)
 
 WARM, HOT = 40.0 + CELSIUS, 100.0 + CELSIUS
 """Temperatures of `viscosity_40` and `viscosity_100` [K]."""
@@ -21,10 +19,10 @@ WARM, HOT = 40.0 + CELSIUS, 100.0 + CELSIUS
 @takes(Count(9999), text)
 def read_grade(where: str, value: Any) -> int:
     """Read an ISO viscosity grade, as "ISO VG 46" or 46."""
-    match = _GRADE.fullmatch(str(value)) if isinstance(value, str | int) else None
-    if match is None or isinstance(value, bool):
+    number = grade_number(value)
+    if number is None or isinstance(value, float):
         raise SceneError(f"{where} must be an ISO viscosity grade such as 'ISO VG 46', got {brief(value)}")
-    return int(match[1])
+    return number
 
 
 @dataclass(frozen=True, kw_only=True)

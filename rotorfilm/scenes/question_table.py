@@ -47,6 +47,16 @@ def read_quantity(where: str, value: Any) -> str:
     return value
 
 
+@takes(Quantity("1"))
+def read_tolerance(where: str, value: Any) -> float:
+    """Read a relative tolerance; above 1 only in percent, as a plain number may be meant to be."""
+    tolerance = Quantity("1")(where, value)
+    if tolerance > 1.0 and "%" not in str(value):
+        meant = brief(f"{value} %")
+        raise SceneError(f"{where} must be at most 1 unless it is in percent, got {brief(value)}: {meant}?")
+    return tolerance
+
+
 @dataclass(frozen=True, kw_only=True)
 class QuestionTable:
     """`[question]`: what is asked.
@@ -63,7 +73,7 @@ class QuestionTable:
     """
 
     quantity: Annotated[str, read_quantity]
-    tolerance: Annotated[float, Quantity("1")]
+    tolerance: Annotated[float, read_tolerance]
     at: Annotated[str, text] = ""
 
     def __post_init__(self) -> None:

@@ -178,7 +178,7 @@ class Scene:
         bearing = self.bearing  # once: making it may warn
         answer = solve(bearing, load=self.static_load, speed=self.speed, mass=mass)
         remarks = film_remarks(bearing, self.lubricant.properties, self.speed, self.static_load)
-        return replace(answer, remarks=remarks)
+        return replace(answer, remarks=(*self.oil_remarks, *remarks))
 
     def melting(self) -> BushAnswer:
         """Return contact and critical speeds of the unworn bush; raises InputError if the scene has none."""
@@ -193,7 +193,24 @@ class Scene:
     @property
     def film_remarks(self) -> tuple[str, ...]:
         """What the physics of the journal's film leaves out and should not, one line each."""
-        return film_remarks(self.bearing, self.lubricant.properties, self.speed, self.static_load)
+        own = film_remarks(self.bearing, self.lubricant.properties, self.speed, self.static_load)
+        return (*self.oil_remarks, *own)
+
+    @property
+    def oil_remarks(self) -> tuple[str, ...]:
+        """That bearings have a viscosity of their own although `[lubricant]` has one, one line each."""
+        if not self.lubricant.has_viscosity:
+            return ()
+        journals = {"journal": self.journal} if self.journal is not None else {}
+        for k, one in enumerate(self.shaft.bearings if self.shaft is not None else ()):
+            if one.journal is not None:
+                journals[f"shaft.bearings[{k}].journal"] = one.journal
+        return tuple(
+            f"oil: {name} runs on its own viscosity of {one.viscosity:g} Pa s at all temperatures and not on "
+            f"the oil of [lubricant]; without {name}.viscosity it would"
+            for name, one in journals.items()
+            if one.viscosity is not None
+        )
 
     @property
     def film_is_given(self) -> bool:

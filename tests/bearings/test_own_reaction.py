@@ -236,6 +236,8 @@ def test_what_an_fmu_cannot_carry_is_named_with_a_remedy(tmp_path, law, named):
     [
         ({"force": 3.0}, r"force must be a function of \(x, y, vx, vy, speed\), got 3\.0"),
         ({"jacobian": 3.0}, "jacobian must be a function"),
+        ({"force": lambda x, y: (x, y)}, r"force must be .* of \(x, y, vx, vy, speed\), got one of \(x, y\)"),
+        ({"jacobian": lambda x: x}, r"jacobian must be a function of .*, got one of \(x\)"),
         ({"clearance": -1e-4}, r"clearance must be finite and positive, got -0\.0001"),
         ({"name": "a film"}, "name must be an identifier such as 'gas_bearing', got 'a film'"),
         ({"relative_step": 0.5}, r"relative_step must be at most 0\.25, got 0\.5"),

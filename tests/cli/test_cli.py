@@ -116,6 +116,31 @@ def test_coefficients_say_what_the_film_leaves_out(run):
     assert "left out" in run(*coefficients())[1]
 
 
+def test_coefficients_of_an_oil_are_those_of_its_scene(run, tmp_path):
+    plain = coefficients()
+    at = plain.index("--viscosity")
+    bare = plain[:at] + plain[at + 2 :]
+    oil = ("--oil", "ISO VG 100", "--supply-temperature", "37.1 degC")
+    path = tmp_path / "warm.toml"
+    lubricant = '[lubricant]\ngrade = "ISO VG 100"\nsupply_temperature = "37.1 degC"\n'
+    own = 'viscosity = "0.1 Pa s"\n'
+    assert own in SCENE
+    path.write_text(SCENE.replace(own, "") + lubricant, encoding="utf-8")
+    told, solved = (json.loads(run(*words, "--json")[1]) for words in ((*bare, *oil), ("solve", path)))
+    for part in ("equilibrium", "coefficients", "losses", "remarks"):
+        assert told[part] == solved[part]
+    assert told["equilibrium"]["temperature"] > 320.0
+    for words, said in (
+        (bare, "--viscosity or --oil must be given, got neither"),
+        ((*plain, *oil), "--viscosity or --oil must be given, got both"),
+        ((*bare, *oil[:2]), "--oil and --supply-temperature must be given together"),
+        ((*bare, "--oil", "SAE 30", *oil[2:]), "--oil must be an ISO viscosity grade"),
+    ):
+        code, _, err = run(*words)
+        assert code == 2
+        assert said in err
+
+
 def test_solve_gives_the_same_numbers_as_coefficients(run, scene):
     solved = json.loads(run("solve", scene, "--json")[1])
     direct = json.loads(run(*coefficients(), "--json")[1])

@@ -12,6 +12,9 @@ from fmpy.fmi2 import (
     free,
 )
 
+from rotorfilm import export_fmu
+from rotorfilm.fmu.check.instance import extracted, instantiated
+
 
 class Instance:
     """An FMU instance by variable names, with its log."""
@@ -60,3 +63,22 @@ def load(tmp_path):
     yield load_one
     for instance in loaded:
         instance.fmu.freeInstance()
+
+
+@pytest.fixture
+def opened(tmp_path):
+    """Return a function (model, version, exchange) -> (instance, value references by local name)."""
+    held = []
+
+    def open_one(model, version, exchange):
+        path = export_fmu(model, tmp_path / f"{len(held)}.fmu", version, component="film")
+        context = extracted(path)
+        description, folder = context.__enter__()
+        held.append((context, instantiated(description, folder, exchange)))
+        references = {v.name.removeprefix("film."): v.valueReference for v in description.modelVariables}
+        return held[-1][1], references
+
+    yield open_one
+    for context, instance in held:
+        instance.close(terminate=False)
+        context.__exit__(None, None, None)

@@ -24,7 +24,6 @@ from rotorfilm import (
 from rotorfilm.bearings.films.cavitation import FullFilm
 from rotorfilm.errors import ContactError, FmuError, InputError
 from rotorfilm.fmu import check_fmu
-from rotorfilm.fmu.check.instance import extracted, instantiated
 from rotorfilm.fmu.python.codec import class_modules, decode, encode
 
 CAGE = PorousCage(thickness=2.5e-3, permeability=4e-13, grading=0.1)
@@ -59,25 +58,6 @@ def kept(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("ROTORFILM_CACHE", str(folder))
         yield folder
-
-
-@pytest.fixture
-def opened(tmp_path):
-    """Return a function (model, version, exchange) -> (instance, value references by local name)."""
-    held = []
-
-    def open_one(model, version, exchange):
-        path = export_fmu(model, tmp_path / f"{len(held)}.fmu", version, component="film")
-        context = extracted(path)
-        description, folder = context.__enter__()
-        held.append((context, instantiated(description, folder, exchange)))
-        references = {v.name.removeprefix("film."): v.valueReference for v in description.modelVariables}
-        return held[-1][1], references
-
-    yield open_one
-    for context, instance in held:
-        instance.close(terminate=False)
-        context.__exit__(None, None, None)
 
 
 def motions(count, largest=0.97):

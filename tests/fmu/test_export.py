@@ -13,6 +13,7 @@ from fmpy.validation import validate_fmu
 
 from rotorfilm.bearings.journal import MapFilm, RotatingArc, ShortFilm, SplittingFilm
 from rotorfilm.bearings.journal.bearing import JournalBearing
+from rotorfilm.bearings.oil import Cooling, Oil
 from rotorfilm.errors import FmuError, InputError
 from rotorfilm.fmu import archive, export_fmu
 from rotorfilm.rotors.rigid import RigidRotor
@@ -21,6 +22,14 @@ from rotorfilm.units import UNITS
 SPLITTING = SplittingFilm(order=(2, 1), rupture=RotatingArc())
 BEARING = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=SPLITTING)
 MAP, SHORT = replace(BEARING, film=MapFilm()), replace(BEARING, film=ShortFilm())
+WARM = JournalBearing(
+    radius=0.05,
+    length=0.03,
+    clearance=1e-4,
+    oil=Oil.iso_vg(46),
+    cooling=Cooling(supply_temperature="45 degC"),
+    film=ShortFilm(),
+)
 ROTOR = RigidRotor(mass=50.0, speed=157.0, unbalance=8e-4)
 
 EXPORT_ELSEWHERE = """
@@ -181,10 +190,17 @@ def test_the_component_is_named_after_the_class_by_default(tmp_path):
     ("arguments", "message"),
     [
         ({"version": "1.0"}, r"version must be one of \['2\.0', '3\.0'\], got '1\.0'"),
+        ({"version": 3.0}, r"version must be one of .*, got 3\.0: as text, version='3\.0'$"),
+        ({"version": 2}, r"version must be one of .*, got 2: as text, version='2\.0'$"),
         ({"backend": "java"}, r"backend must be one of \['native', 'python'\] or None, got 'java'"),
         ({"platforms": "mine"}, r"platforms must be one of \['host', 'all'\], got 'mine'"),
         ({"component": "a.b"}, r"component must be an ASCII identifier without dots, got 'a\.b'"),
         ({"start": {"z": 1.0}}, r"start must have keys from the inputs \['x', .*got 'z'"),
+        (
+            {"model": WARM, "start": {"temperature": 320.0}},
+            r"start must have .*'temperature', a state: start_temperature of HeatedBearing says where it "
+            r"starts, .* variable state_temperature before",
+        ),
         (
             {"start": {"x": 2e-4}},
             r"start must be values at which the model has an output, got \[0\.0002, .*inside the clearance",

@@ -33,8 +33,13 @@ BALL = rf.RollingBall(
     load=10.0,
     plane_modulus=2e11,
 )
+LOBED = rf.LobedBearing(
+    radius=0.05, length=0.03, pad_clearance=1e-4, viscosity=0.1, lobes=rf.lobe_set("elliptical")
+)
 MADE = [
     BEARING,
+    rf.Lobe(start=0.1, extent=1.0, preload=0.3, offset=0.6),
+    LOBED,
     dataclasses.replace(
         BEARING,
         film=rf.ReynoldsFilm(),

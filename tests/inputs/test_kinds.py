@@ -7,6 +7,7 @@ import pytest
 import rotorfilm as rf
 from rotorfilm.errors import InputError
 from rotorfilm.inputs.kinds import kinds_of
+from rotorfilm.inputs.si_arguments import units_of
 
 FILM = rf.JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
 ROTOR = rf.RigidShaft(
@@ -34,6 +35,11 @@ def test_the_public_functions_are_among_them():
         "closed_loop",
     } <= known
     assert len(CHECKED) > 40
+
+
+def test_every_public_function_with_units_takes_quantities():
+    bare = {one.__name__ for one in FUNCTIONS if units_of(one) and not hasattr(one, "__wrapped__")}
+    assert not bare
 
 
 def test_a_film_without_a_name_is_no_mapping():

@@ -111,6 +111,9 @@ def test_a_disk_of_given_size():
         ({"length": "3 kg"}, r"length: quantity must be measured in m or a multiple of it, got '3 kg'"),
         ({"length": "3 furlongs"}, r"length: unit must be one of .*mm.*, got 'furlongs' in '3 furlongs'"),
         ({"length": "long"}, r"length: quantity must be a number with a unit such as '1 m', got 'long'"),
+        ({"radius": "50"}, r"radius must have its unit, as '50 mm', got '50'"),
+        ({"length": " 30. "}, r"length must have its unit, as '30. mm', got ' 30. '"),
+        ({"viscosity": "1e-1"}, r"viscosity must have its unit, as '1e-1 Pa.s', got '1e-1'"),
         ({"clearance": "-1 mm"}, r"clearance must be finite and positive, got -0.001"),
         ({"diameter": "0.1 m"}, r"radius and diameter must not both be given, got 0.05 and '0.1 m'"),
         ({"viscosity": True}, r"viscosity must be finite and positive, got True"),
@@ -139,8 +142,8 @@ def test_functions_take_what_constructors_take():
     found = rf.equilibrium(BEARING, load=["0 N", "-0.5 kN"], speed="100 rad/s")
     plain = rf.equilibrium(BEARING, (0.0, -500.0), 100.0)
     assert (found.position == plain.position).all()
-    found = rf.damper_groups(MADE[9], mass="1 kg", speed="100 rad/s")
-    assert found == rf.damper_groups(MADE[9], mass=1.0, speed=100.0)
+    found = rf.damper_groups(MADE[11], mass="1 kg", speed="100 rad/s")
+    assert found == rf.damper_groups(MADE[11], mass=1.0, speed=100.0)
 
 
 def test_quantities_of_pint_are_asked_for_si():
@@ -236,5 +239,6 @@ def test_sizes_are_known_arguments_in_their_units():
 
 
 def test_zero_and_other_meanings_of_a_name_are_no_odd_size():
-    rf.RollingBall(**{**given_to(BALL), "mass": 0.0})
-    rf.RollingBall(**{**given_to(BALL), "speed": 1e-9})
+    # Without a warning, which would be an error here.
+    assert rf.RollingBall(**{**given_to(BALL), "mass": 0.0}).mass == 0.0
+    assert rf.RollingBall(**{**given_to(BALL), "speed": 1e-9}).speed == 1e-9

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from rotorfilm.bearings.journal import MapFilm, RotatingArc, ShortFilm, SplittingFilm
+from rotorfilm.bearings.journal import JournalBearing, MapFilm, RotatingArc, ShortFilm, SplittingFilm
 from rotorfilm.bearings.journal.map.potential import potential
+from rotorfilm.bearings.oil import Cooling, Oil
 from rotorfilm.errors import EquilibriumError, InputError, ValidityWarning
 from rotorfilm.linear import equilibrium
 
@@ -167,13 +168,28 @@ def test_force_that_cannot_point_against_the_load(linear_film):
         equilibrium(film, [1.0, -1.0], SPEED)
 
 
+def test_print_of_a_film_that_warms_says_degrees_and_power():
+    cooling = Cooling(supply_temperature="45 degC")
+    sizes = {"radius": 0.05, "length": 0.03, "clearance": 1e-4, "film": ShortFilm()}
+    warm = equilibrium(JournalBearing(**sizes, oil=Oil.iso_vg(46), cooling=cooling), (0.0, -525.0), SPEED)
+    rows = dict(warm.to_rows())
+    assert rows["temperature"] == f"{warm.temperature:.6g} K = {warm.temperature - 273.15:.6g} degC"
+    assert rows["power loss"] == f"{warm.losses.power_loss:.6g} W"
+    with pytest.warns(ValidityWarning, match="where the oil is tabulated"):
+        odd = equilibrium(JournalBearing(**sizes, oil=Oil.iso_vg(46), cooling=cooling), (0.0, -1e-6), SPEED)
+    assert "power loss" in str(odd)  # which does not warn
+    cold = equilibrium(JournalBearing(**sizes, viscosity=0.1), (0.0, -525.0), SPEED)
+    assert not {"temperature", "power loss"} & dict(cold.to_rows()).keys()
+
+
 @pytest.mark.parametrize(
     ("load", "speed", "message"),
     [
         ([0.0, 0.0], SPEED, "load must not be zero"),
         ([math.nan, 1.0], SPEED, "load must be finite"),
         ([1.0, 1.0, 1.0], SPEED, "load must have shape"),
-        (5.0, SPEED, r"load must have shape \(2,\), e\.g\. \(0, -5\), got shape \(\)"),
+        (5.0, SPEED, r"load must be the components .*, as load=\(0, -5\) .* downward, got 5$"),
+        ("5 N", SPEED, r"load must be the components .*, as load=\(0, -5\) .* downward, got 5$"),
         ([1.0, 0.0], math.inf, "speed must be a single finite number, got inf"),
         ([1.0, 0.0], [1.0, 2.0], "speed must be a single finite number"),
     ],

@@ -77,6 +77,7 @@ static void read_ring(const char *path, rf_ring *ring)
     ring->pinned = next_number(file) != 0.0;
     ring->extrapolated = next_number(file) != 0.0;
     ring->spans = (int32_t)next_number(file);
+    ring->pad = ring->spans == 2 && uniform() < 0.5;
     ring->start = numbers_of(file, (size_t)ring->spans);
     ring->extent = numbers_of(file, (size_t)ring->spans);
     for (int level = 0; level < RF_LEVELS; ++level) {

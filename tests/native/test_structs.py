@@ -7,12 +7,12 @@ import subprocess
 
 import pytest
 
-from rotorfilm.native import heat_structs, master_structs, structs, tilting_kernel
+from rotorfilm.native import heat_structs, master_structs, pad_kernels, pad_structs, structs, tilting_kernel
 from rotorfilm.native.library import FOLDER
 
 KINDS = {
     name: kind
-    for module in (structs, heat_structs, master_structs, tilting_kernel)
+    for module in (structs, heat_structs, master_structs, pad_kernels, pad_structs, tilting_kernel)
     for name, kind in inspect.getmembers(module, inspect.isclass)
     if issubclass(kind, ctypes.Structure) and kind is not ctypes.Structure
 }

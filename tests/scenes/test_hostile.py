@@ -77,31 +77,32 @@ def is_there(data, dotted):
     return int(last) < len(inner) if isinstance(inner, list) else last in inner
 
 
-def require_read_or_named(data):
-    """Fail unless a scene is read, or refused by a short line about a key in it or one that it lacks."""
+def bad_refusal(data):
+    """Return the error that refuses a scene if it is no short line about a key in it or missing from it."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             read_scene(data, "case.toml")
     except SceneError as error:
         message = str(error)
-        assert len(message) < LONGEST
-        assert message.isprintable()
-        assert message.startswith("case.toml: ")
         found = re.match(r"case\.toml: ([\w.\[\]]+)", message)
-        assert found
-        assert is_there(data, found[1]) or re.search("is required|no such table|must have", message), message
+        short = len(message) < LONGEST and message.isprintable()
+        named = found and (
+            is_there(data, found[1]) or re.search("is required|no such table|must have", message)
+        )
+        return "" if short and named else message
+    return ""
 
 
 @pytest.mark.parametrize("key", KEYS, ids=".".join)
 def test_extreme_values_at_every_key_are_read_or_named(key):
     name, place = KEYS[key]
     for value in EXTREMES:
-        require_read_or_named(replaced(SCENES[name], place, value))
+        assert not bad_refusal(replaced(SCENES[name], place, value))
 
 
 @settings(max_examples=100, deadline=None)
 @given(where=st.sampled_from(PLACES), value=VALUES)
 def test_any_value_at_any_key_is_read_or_named(where, value):
     name, place = where
-    require_read_or_named(replaced(SCENES[name], place, value))
+    assert not bad_refusal(replaced(SCENES[name], place, value))

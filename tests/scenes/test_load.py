@@ -364,6 +364,8 @@ def test_excitation_is_chosen_by_kind(lines, expected):
 def test_question_takes_a_tolerance_in_per_cent():
     question = parse(f'{GOOD}[question]\nquantity = "stiffness"\ntolerance = "2 %"\n').question
     assert (question.quantity, question.tolerance) == ("stiffness", pytest.approx(0.02))
+    question = parse(f'{GOOD}[question]\nquantity = "stiffness"\ntolerance = "300 %"\n').question
+    assert question.tolerance == pytest.approx(3.0)
 
 
 @pytest.mark.parametrize(
@@ -391,6 +393,10 @@ def test_question_takes_a_tolerance_in_per_cent():
         (
             '[question]\nquantity = "stiffness"\ntolerance = 0',
             "question.tolerance must be finite and positive, got 0.0",
+        ),
+        (
+            '[question]\nquantity = "stiffness"\ntolerance = 3',
+            r"question.tolerance must be at most 1 unless it is in percent, got 3: '3 %'\?",
         ),
         ('[question]\nquantity = "stiffness"', "question.tolerance is required and missing"),
     ],

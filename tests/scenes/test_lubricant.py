@@ -66,6 +66,16 @@ def test_a_stated_viscosity_stays_what_it_is():
     assert beside.lubricant.properties.thinning == pytest.approx(0.0549, abs=1e-4)
 
 
+def test_a_viscosity_beside_an_oil_is_told():
+    plain, beside = (
+        scene("density = 870", "viscosity = 0.1").describe(),
+        scene(GRADE, "viscosity = 0.1").describe(),
+    )
+    assert not any(remark.startswith("oil: ") for remark in plain.remarks)
+    assert beside.remarks[0].startswith("oil: journal runs on its own viscosity of 0.1 Pa s")
+    assert beside.equilibrium.position.tobytes() == plain.equilibrium.position.tobytes()
+
+
 @pytest.mark.parametrize(
     ("lubricant", "match"),
     [

@@ -1,4 +1,4 @@
-"""The numbers of a melting bush that the kernels of the C library read (`native/films/bush.h`)."""
+"""The numbers of a melting bush that the kernels of the C library read (`native/bushes/bush.h`)."""
 
 from __future__ import annotations
 

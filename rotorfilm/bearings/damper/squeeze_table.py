@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -14,7 +13,7 @@ from ...model import Array
 from ...sources import source_digest
 from ..films.map_fit import fit_map_table, node_eccentricities, tabulate_film
 from ..films.map_table import VERSION, MapTable
-from ..films.table_cache import cache_folder, cached_table
+from ..films.table_cache import cached_table, table_path
 from .cavitated_squeeze import CavitatedSqueezeFilm
 from .finite_squeeze import FiniteSqueezeFilm
 from .full_squeeze import FullSqueezeFilm, SqueezeFilm
@@ -92,7 +91,7 @@ def finite_table(
     slenderness: float, layer: PorousLayer | None, cavitated: bool, cells: tuple[int, int]
 ) -> SqueezeTable:
     """Return the table of a film of finite length, from disk if it was made before; see `short_table`."""
-    path = table_path(slenderness, layer, cavitated, cells)
+    path = squeeze_path(slenderness, layer, cavitated, cells)
 
     def build() -> MapTable:
         if cavitated:
@@ -105,12 +104,11 @@ def finite_table(
     return SqueezeTable(slenderness, layer and tuple(layer), cavitated, table)
 
 
-def table_path(
+def squeeze_path(
     slenderness: float, layer: PorousLayer | None, cavitated: bool, cells: tuple[int, int]
 ) -> Path:
     """Return where a table lies; the name is a digest of all that decides its content."""
-    key = repr((VERSION, source_digest(__name__), slenderness, layer, cavitated, cells))
-    return cache_folder() / f"damper-{hashlib.sha256(key.encode()).hexdigest()[:24]}.bin"
+    return table_path("damper", (VERSION, source_digest(__name__), slenderness, layer, cavitated, cells))
 
 
 def _cavitated_table(slenderness: float, layer: PorousLayer | None, cells: tuple[int, int]) -> MapTable:

@@ -10,7 +10,8 @@ import numpy as np
 from ...errors import InputError, require_inside, warn_user
 from ...model import Array
 from ...native import FilmKernel, JournalKernel, Status
-from ...native.film_kernels import Batch, MapKernel
+from ...native.film_kernels import Batch
+from ...native.response_kernels import ResponseKernel
 from .law import FilmOptions, endless_search, vanishing_source, wall_contact
 
 
@@ -64,19 +65,24 @@ class BoundKernel:
 
     Parameters
     ----------
-    kernel : JournalKernel
+    kernel : ResponseKernel
         The compiled film of the bearing.
     clearance : float [m]
         Its radial clearance.
     """
 
-    kernel: JournalKernel
+    kernel: ResponseKernel
     clearance: float
 
     @property
     def beyond(self) -> str:
         """How the force goes on beyond the map of the film; empty where it has none."""
-        return continued(self.kernel.film) if isinstance(self.kernel.film, MapKernel) else ""
+        film = self.kernel.film
+        return continued(film) if film.is_table else ""
+
+    def require_inside(self, position: Array) -> None:
+        """Raise FilmContactError where a journal at a position (2,) [m] touches."""
+        require_inside(position, self.clearance)
 
     def call(self, x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
         """Return (force_x, force_y) [N] for numbers, as fast as Python can ask."""
@@ -130,7 +136,7 @@ class BoundKernel:
                 f"got ({x!r}, {y!r}) m, ({vx!r}, {vy!r}) m/s and {speed!r} rad/s"
             )
         if status == Status.AT_WALL:
-            require_inside(np.array([x, y]), self.clearance)
+            self.require_inside(np.array([x, y]))
         if status == Status.STUCK:
             e = np.array([x, y]) / self.clearance
             raise endless_search(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import logging
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -9,10 +11,13 @@ from typing import TypeVar
 
 from ...errors import FileWarning, RotorfilmError, warn_user
 from ...files import read_sealed, write_sealed
+from ...progress import Report, silent
 from .table_bytes import StoredTable
 
 FOLDER_VARIABLE = "ROTORFILM_CACHE"
 """Environment variable that names the folder of the cache."""
+
+_logger = logging.getLogger(__name__)
 
 T = TypeVar("T")
 S = TypeVar("S", bound=StoredTable)
@@ -27,6 +32,32 @@ def cache_folder() -> Path:
     from platformdirs import user_cache_path
 
     return user_cache_path("rotorfilm", appauthor=False)
+
+
+def table_path(kind: str, key: object) -> Path:
+    """Return where a table of a kind lies: its name is a digest of all that decides its content."""
+    return cache_folder() / f"{kind}-{hashlib.sha256(repr(key).encode()).hexdigest()[:24]}.bin"
+
+
+def told(report: Report, of: str, folder: Path) -> Report:
+    """Return the report; without one, one that says once in the log that a table is being made.
+
+    Parameters
+    ----------
+    report : callable
+    of : str
+        What the table is of.
+    folder : Path
+        Where it will be kept.
+    """
+    said: list[str] = []
+
+    def log(fraction: float, text: str) -> None:
+        if not said:
+            said.append(text)
+            _logger.warning("making the %s, %s; it will be kept in %s", text, of, folder)
+
+    return log if report is silent else report
 
 
 def cached(

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ...errors import (
     InputError,
@@ -18,7 +16,8 @@ from ...errors import (
     require_tuple,
 )
 from ...inputs.si_arguments import quantities
-from ...model import Array, Tangent
+from ...model import Array
+from ...native.journal_spec import journal_spec
 from ...native.spec import NativeSpec
 from ...signals import Signal, force_outputs, journal_inputs
 from ..films.bound_law import BoundLaw, kinematics
@@ -26,17 +25,16 @@ from ..films.geometry import FilmGeometry, Groove, Pad
 from ..films.law import BoundFilm, FilmLaw, FilmOptions, options
 from ..oil import Cooling, Oil
 from ..oil.lubricant import film_viscosity, require_lubricant
-from ..reaction import NOMINAL_SPEED, Feedthrough, broadcast_state
+from ..reaction import NOMINAL_SPEED, FilmReaction
 from .fitting import film_name, fitted_film
 from .heat.warm_film import WarmFilm
-from .journal_kernel import journal_spec
 from .map.map_film import MapFilm
 from .odd_dimensions import warn_of_odd_dimensions
 
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class JournalBearing(Feedthrough, WarmFilm):
+class JournalBearing(FilmReaction, WarmFilm):
     """A cylindrical journal bearing, full unless it has pads or grooves: a Reaction and a static Model.
 
     x and y are Cartesian from the bearing center, rotation is about +z, the force acts on the journal.
@@ -177,76 +175,6 @@ class JournalBearing(Feedthrough, WarmFilm):
     def outputs(self) -> tuple[Signal, ...]:
         """Signals force_x, force_y: the force on the journal."""
         return force_outputs(self.force_scale * NOMINAL_SPEED * min(1.0, self.slenderness**2))
-
-    def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return the film force on the journal.
-
-        Parameters
-        ----------
-        position : array_like, shape (2, ...) [m]
-            Journal center from the bearing center.
-        velocity : array_like, shape (2, ...) [m/s]
-            Velocity of the journal center.
-        speed : array_like, shape (...) [rad/s]
-            Angular speed about +z, of either sign.
-
-        Returns
-        -------
-        ndarray, shape (2, ...) [N]
-
-        Raises
-        ------
-        InputError
-            If an argument is not finite or of the wrong shape.
-        FilmContactError
-            If the journal touches the wall anywhere in the batch.
-        """
-        return self.prepared_force(*broadcast_state(position, velocity, speed))
-
-    def jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
-        """Return the exact derivatives of the force.
-
-        Parameters
-        ----------
-        position, velocity, speed
-            As in `force`.
-
-        Returns
-        -------
-        ndarray, shape (2, 5, ...)
-            d(force_x, force_y)/d(x, y, vx, vy, speed) in [N/m], [N s/m] and [N s/rad].
-
-        Raises
-        ------
-        InputError, FilmContactError
-            As in `force`.
-        UndefinedDerivativeError
-            Where the film has no derivative: at rest without rotation, and in exact half-speed whirl.
-        """
-        return self.prepared_jacobian(*broadcast_state(position, velocity, speed))
-
-    def prepare(self) -> Callable[[float, float, float, float, float], tuple[float, float]]:
-        """Return `force` as a function of five numbers, for loops that go state by state: `model.Force`."""
-        return self.bound_film.call
-
-    def prepare_tangent(self) -> Tangent:
-        """Return force and derivatives as one function of five numbers, for searches state by state.
-
-        Returns
-        -------
-        callable
-            (x, y, vx, vy, speed) [m, m/s, rad/s] -> (force_x, force_y, the ten entries of `jacobian` row by
-            row). Raises what `jacobian` raises.
-        """
-        return self.bound_film.tangent
-
-    def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
-        """Return `force` for inner loops: float arrays of equal batch shape, checked for contact only."""
-        return self.bound_film.force(position, velocity, speed)
-
-    def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
-        """Return `jacobian` for inner loops: float arrays of equal batch shape, checked for contact only."""
-        return self.bound_film.jacobian(position, velocity, speed)
 
     def native(self) -> NativeSpec | None:
         """Return the kernel of the C library that is this bearing; None if its film has none.

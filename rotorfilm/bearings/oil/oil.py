@@ -2,15 +2,27 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import InputError, require_each, require_kind, require_positive
-from ...inputs.si_arguments import quantities
+from ...errors import (
+    InputError,
+    brief,
+    require_each,
+    require_kind,
+    require_non_negative,
+    require_number,
+    require_positive,
+)
+from ...inputs.kinds import arguments
+from ...inputs.si_arguments import quantities, quantity
 from ...model import Array
 from ...units import CELSIUS
+from .cooling import require_absolute
 from .viscosity import Exponential, ViscosityLaw, Walther, relative_density
 
 GRADES = {22: 4.3, 32: 5.36, 46: 6.76, 68: 8.73, 100: 11.4, 150: 15.0, 220: 19.4, 320: 24.9}
@@ -20,6 +32,8 @@ it."""
 
 DENSITY = 870.0
 """Density of a mineral oil at 15 degrees Celsius [kg/m3]."""
+
+_GRADE = re.compile(r"\s*(?:ISO\s*)?(?:VG\s*)?(\d{1,4})\s*", re.IGNORECASE)
 
 _WATER = 999.0
 """Density of water at 15 degrees Celsius [kg/m3]."""
@@ -71,13 +85,13 @@ class Oil:
             require_positive("fixed_heat_capacity", self.fixed_heat_capacity)
 
     @classmethod
-    def iso_vg(cls, grade: int, **further: float) -> Oil:
+    def iso_vg(cls, grade: int | str, **further: float) -> Oil:
         """Return a mineral oil of an ISO viscosity grade, its viscosity at 100 degrees Celsius assumed.
 
         Parameters
         ----------
-        grade : int
-            Kinematic viscosity at 40 degrees Celsius [mm2/s], one of `GRADES`.
+        grade : int or str
+            Kinematic viscosity at 40 degrees Celsius [mm2/s], one of `GRADES`, or its name as "ISO VG 46".
         **further
             Further fields of the oil, such as `conductivity`.
 
@@ -86,13 +100,16 @@ class Oil:
         InputError
             If there is no such grade in the table.
         """
-        if grade not in GRADES:
+        number = grade_number(grade)
+        if number not in GRADES:
             known = ", ".join(str(name) for name in GRADES)
-            raise InputError(f"grade must be one of {known}, got {grade!r}: give two points of viscosity")
+            raise InputError(
+                f"grade must be one of {known}, got {brief(grade)}: give two points of viscosity"
+            )
         oil = cls.two_points(
-            (40.0 + CELSIUS, 1e-6 * grade), (100.0 + CELSIUS, 1e-6 * GRADES[grade]), **further
+            (40.0 + CELSIUS, 1e-6 * number), (100.0 + CELSIUS, 1e-6 * GRADES[number]), **further
         )
-        second = f"kinematic viscosity of ISO VG {grade} at 100 degC: {GRADES[grade]:g} mm2/s, +-5 %"
+        second = f"kinematic viscosity of ISO VG {number} at 100 degC: {GRADES[number]:g} mm2/s, +-5 %"
         return replace(oil, assumed=(second,))
 
     @classmethod
@@ -109,7 +126,7 @@ class Oil:
         Parameters
         ----------
         first, second : (float, float) [K], [m^2/s]
-            Temperature and kinematic viscosity.
+            Temperature and kinematic viscosity, also with their units, as ("40 degC", "46 cSt").
         reference_density : float [kg/m3]
         **further
             Further fields of the oil.
@@ -117,12 +134,14 @@ class Oil:
         Raises
         ------
         InputError
-            If the viscosity does not fall from the colder to the warmer point.
+            If a point is none, or the viscosity does not fall from the colder to the warmer one.
         """
-        law = Walther.through(first, second, reference_density)
+        reference_density = quantity("reference_density", reference_density, "kg/m3")
+        law = Walther.through(_point("first", first), _point("second", second), reference_density)
         return cls(law=law, reference_density=reference_density, **further)  # type: ignore[arg-type]
 
     @classmethod
+    @arguments
     def thinning_at(cls, viscosity: float, temperature: float, thinning: float, **further: float) -> Oil:
         """Return an oil of one measured viscosity that thins at the same rate everywhere.
 
@@ -135,13 +154,27 @@ class Oil:
             -d ln(viscosity)/d temperature.
         **further
             Further fields of the oil.
+
+        Raises
+        ------
+        InputError
+            If a number is not finite and positive, or the thinning is negative.
         """
+        require_positive("viscosity", viscosity)
+        require_non_negative("thinning", thinning)
         law = Exponential(value=viscosity, temperature=temperature, decay=thinning)
         return cls(law=law, **further)  # type: ignore[arg-type]
 
     @classmethod
     def constant(cls, viscosity: float, **further: float) -> Oil:
-        """Return an oil of one dynamic viscosity [Pa s] at all temperatures."""
+        """Return an oil of one dynamic viscosity at all temperatures.
+
+        Parameters
+        ----------
+        viscosity : float [Pa s]
+        **further
+            Further fields of the oil.
+        """
         return cls.thinning_at(viscosity, 40.0 + CELSIUS, 0.0, **further)
 
     def viscosity(self, temperature: ArrayLike) -> Array:
@@ -172,6 +205,27 @@ class Oil:
     def volumetric_heat(self, temperature: ArrayLike) -> Array:
         """Return density times heat capacity [J/(m^3 K)] at temperatures [K], of their shape."""
         return self.density(temperature) * self.heat_capacity(temperature)
+
+
+def grade_number(grade: Any) -> int | None:
+    """Return the number of an ISO viscosity grade, as "ISO VG 46" or 46; None where it is none."""
+    if isinstance(grade, float) and grade.is_integer():
+        grade = int(grade)
+    match = _GRADE.fullmatch(str(grade)) if isinstance(grade, str | int | np.integer) else None
+    return None if match is None or isinstance(grade, bool) else int(match[1])
+
+
+def _point(name: str, given: Any) -> tuple[float, float]:
+    """Return a temperature [K] and a kinematic viscosity [m^2/s]; raise InputError where they are none."""
+    if not isinstance(given, tuple | list) or len(given) != 2:
+        raise InputError(
+            f"{name} must be a temperature and the kinematic viscosity there, as ('40 degC', '46 cSt'), "
+            f"got {brief(given)}"
+        )
+    temperature = quantity(f"{name}[0]", given[0], "K", absolute=True)
+    viscosity = quantity(f"{name}[1]", given[1], "m2/s")
+    require_absolute(f"{name}[0]", temperature)
+    return temperature, require_number(f"{name}[1]", viscosity)
 
 
 def _kelvin(temperature: ArrayLike) -> Array:

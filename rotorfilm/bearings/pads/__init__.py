@@ -5,7 +5,10 @@ from typing import TYPE_CHECKING
 from ...sources import show
 
 if TYPE_CHECKING:
-    from .pad_film import PadFilm, PadGridFilm as PadGridFilm
+    from .dam import *
+    from .lobe import Lobe as Lobe, lobe_set as lobe_set
+    from .lobed_bearing import LobedBearing as LobedBearing
+    from .pad_film import PadFilm as PadFilm, PadGridFilm as PadGridFilm, PadMapFilm as PadMapFilm
     from .tilting import *
 else:
     show(__name__)

@@ -1,9 +1,9 @@
 """The two-dimensional film on one pad: the reference of its map.
 
-In the frame of a pad its middle is at the angle 0. With the center of curvature r_p, the clearance c_p and the
-velocity v_p of the pad the film knows only e = (r - r_p)/c_p and w = (v - v_p)/c_p - (speed/2) z^ x e: a pad that is
-displaced is one in its place with another e (Lund 1964). H = 1 - e.n > 0 is asked for on the arc alone, so that |e|
-may be above 1. Forces are in units of viscosity * length * radius^3 / c_p^2.
+In the frame of a pad its middle is at the angle 0. With the center of curvature r_p, the clearance c_p and
+the velocity v_p of the pad the film knows only e = (r - r_p)/c_p and w = (v - v_p)/c_p - (speed/2) z^ x e: a
+pad that is displaced is one in its place with another e (Lund 1964). H = 1 - e.n > 0 is asked for on the arc
+alone, so that |e| may be above 1. Forces are in units of viscosity * length * radius^3 / c_p^2.
 """
 
 from __future__ import annotations

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...model import Array
 from ..bench import Sample, StationMotion, Tangents
-from ..wiring import Journals
+from ..wiring import JournalPlaces
 
 FIRST_ROOM = 64
 
@@ -23,13 +23,13 @@ class Record:
     ----------
     rotor, films : sequence of str
         Names of the outputs of the rotor and, with those of their stations, of all films.
-    at : Journals
+    at : JournalPlaces
         The forces, positions and velocities among the inputs and outputs of the rotor.
     derived : bool
         Whether films tell their derivatives at each point.
     """
 
-    def __init__(self, rotor: Sequence[str], films: Sequence[str], at: Journals, derived: bool) -> None:
+    def __init__(self, rotor: Sequence[str], films: Sequence[str], at: JournalPlaces, derived: bool) -> None:
         self.rotor, self.films, self.at = list(rotor), list(films), at
         self.size, self.count = len(at.force), 0
         self.speed_at = self.rotor.index("speed") if "speed" in self.rotor else None

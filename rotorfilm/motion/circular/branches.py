@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import ClassVar
@@ -14,7 +15,7 @@ from scipy.optimize import brentq
 from ...errors import InputError, require_finite
 from ...inputs.kinds import arguments
 from ...model import Array, Reaction
-from ...readable.result import Drawable, Readable
+from ...readable.result import Drawable, Item, Readable, items_of
 from ...results import CircularOrbit
 from ...rotors import RigidRotor
 from .orbit_points import OrbitRotor, growth_rates, orbit_points, orbit_rotor, orbit_slope
@@ -75,7 +76,7 @@ class Fold(Readable):
 
 @dataclass(frozen=True, kw_only=True)
 class SynchronousOrbits(Drawable):
-    """The circular orbits of a rotor at one speed.
+    """The circular orbits of a rotor at one speed; a data frame has a row for each, branch by branch.
 
     Attributes
     ----------
@@ -93,6 +94,22 @@ class SynchronousOrbits(Drawable):
     folds: tuple[Fold, ...]
     contact_unbalance: float | None
     speed: float
+
+    _along: ClassVar[str] = "orbit"
+
+    def _items(self) -> Iterator[Item]:
+        """Yield what all branches hold, one behind the other, and what is said of them as a whole."""
+        along = (self._along,)
+        counts = [branch.unbalance.size for branch in self.branches]
+        yield Item("branch", np.repeat(np.arange(len(counts)), counts), "", along)
+        for items in zip(*(items_of(one, one._shown) for one in self.branches), strict=True):
+            joined = np.concatenate([np.atleast_1d(item.value) for item in items])
+            yield Item(items[0].name, joined, items[0].unit, along)
+        for item in items_of(self):
+            if item.name == "speed":
+                yield item._replace(value=np.full(sum(counts), item.value), shape=along)
+            elif item.name != "branches":
+                yield item
 
     def at(self, unbalance: float) -> tuple[CircularOrbit, ...]:
         """Return the orbits at one of the unbalances asked for, the smallest first.

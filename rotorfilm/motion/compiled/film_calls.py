@@ -21,8 +21,8 @@ import numpy as np
 
 from ...bearings.damper import PorousDamper
 from ...bearings.films.kernel_film import BoundKernel
-from ...bearings.journal import JournalBearing
 from ...bearings.linear import LinearBearing
+from ...bearings.reaction import FilmReaction
 from ...bearings.sprung import Sprung
 from ...errors import FilmContactError, RotorfilmError, UndefinedDerivativeError, warn_user
 from ...model import Reaction
@@ -84,8 +84,8 @@ def film_call(reaction: Reaction) -> FilmCall:
 
 def kernel_call(reaction: Reaction) -> FilmCall | None:
     """Return the force of a reaction in the C library; None if it has none, as one of a user's own class."""
-    if type(reaction) is JournalBearing:
-        return _bound(reaction.bound_film)
+    if isinstance(reaction, FilmReaction):
+        return _bound(reaction.film_in_c)
     if type(reaction) is PorousDamper:
         film = _bound(reaction.film_in_c)
         return None if film is None else film.beside(0.0, still=True)
@@ -102,7 +102,7 @@ def _bound(film: object) -> FilmCall | None:
     if not isinstance(film, BoundKernel):
         return None
     data = ctypes.addressof(film.kernel.struct)
-    return FilmCall(address=_address("rf_journal_at"), data=data, owner=film, beyond=film.beyond)
+    return FilmCall(address=_address(film.kernel.function), data=data, owner=film, beyond=film.beyond)
 
 
 @cache

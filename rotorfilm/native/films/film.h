@@ -64,4 +64,15 @@ RF_EXPORT int rf_film_batch(rf_film film, const void *data, size_t n, const doub
                             const double *w, size_t w_stride, double *f, size_t f_stride, double *jacobian,
                             size_t jacobian_stride, size_t *first);
 
+/* Scalar call of a force at (x, y, vx, vy, speed), for hosts that hold numbers, not arrays. */
+RF_EXPORT int rf_response_call(rf_response respond, const void *of, double x, double y, double vx, double vy,
+                               double speed, double *f);
+
+/* A batch of n such states, with 2 x 5 rows of jacobian or NULL; `speed` advances by speed_step: 1, or 0 for one
+   speed. */
+RF_EXPORT int rf_response_batch(rf_response respond, const void *of, size_t n, const double *position,
+                                size_t position_stride, const double *velocity, size_t velocity_stride,
+                                const double *speed, size_t speed_step, double *f, size_t f_stride,
+                                double *jacobian, size_t jacobian_stride, size_t *first);
+
 #endif

@@ -38,8 +38,9 @@ static void set_jacobian(const rf_journal *journal, const double *e, double spee
     }
 }
 
-int rf_journal_at(const rf_journal *journal, const double *state, double *f, double *jacobian)
+int rf_journal_at(const void *of, const double *state, double *f, double *jacobian)
 {
+    const rf_journal *journal = of;
     double e[2], w[2], film[8];
     if (rf_is_broken(state, 5))
         return rf_fail(RF_NOT_FINITE, f, jacobian, 10);
@@ -53,28 +54,4 @@ int rf_journal_at(const rf_journal *journal, const double *state, double *f, dou
     if (status <= RF_OUTSIDE && (rf_is_broken(f, 2) || (jacobian && rf_is_broken(jacobian, 10))))
         return rf_fail(RF_NOT_FINITE, f, jacobian, 10);
     return status;
-}
-
-int rf_journal_call(const rf_journal *journal, double x, double y, double vx, double vy, double speed,
-                    double *f)
-{
-    const double state[5] = {x, y, vx, vy, speed};
-    return rf_journal_at(journal, state, f, NULL);
-}
-
-static int respond(const void *of, const double *state, double *f, double *jacobian)
-{
-    return rf_journal_at(of, state, f, jacobian);
-}
-
-int rf_journal_batch(const rf_journal *journal, size_t n, const double *position, size_t position_stride,
-                     const double *velocity, size_t velocity_stride, const double *speed, size_t speed_step,
-                     double *f, size_t f_stride, double *jacobian, size_t jacobian_stride, size_t *first)
-{
-    const rf_states states = {
-        {position, position + position_stride, velocity, velocity + velocity_stride, speed},
-        {1, 1, 1, 1, speed_step},
-    };
-    const rf_answers answers = {f, f_stride, jacobian, jacobian_stride};
-    return rf_each(respond, journal, &states, 5, n, &answers, first);
 }

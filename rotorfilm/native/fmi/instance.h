@@ -1,5 +1,5 @@
 /* An instance of an FMU, whatever the version of FMI: its phase, its variables, and its kernel behind them.
-   fmi2.c and fmi3.c add the names and the rules of call order. */
+   fmi2*.c and fmi3*.c add the names and the rules of call order. */
 #ifndef ROTORFILM_INSTANCE_H
 #define ROTORFILM_INSTANCE_H
 

@@ -1,6 +1,7 @@
 #include "chain.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "clones.h"
 
@@ -160,4 +161,17 @@ void rf_solve_chain(const rf_chain *chain, double *x, double *last)
     if (chain->bordered)
         solve_border(chain, x, last);
     backward(chain, x);
+}
+
+void rf_solve_ring(const rf_chain *chain, size_t cut, const uint8_t *wanted, const double *right, double *chained,
+                   double *answer)
+{
+    const size_t nodes = chain->half, all = (chain->lines + 1) * nodes, first = (cut + 1) * nodes;
+    for (size_t q = 0; q < all; ++q) {
+        const size_t from = q + first < all ? q + first : q + first - all;
+        chained[q] = wanted[from] ? right[from] : 0.0;
+    }
+    rf_solve_chain(chain, chained, chained + all - nodes);
+    memcpy(answer + first, chained, (all - first) * sizeof(double));
+    memcpy(answer, chained + all - first, first * sizeof(double));
 }

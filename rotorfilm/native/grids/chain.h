@@ -32,4 +32,9 @@ void rf_factorize_chain(rf_chain *chain);
    lines are 0. */
 void rf_solve_chain(const rf_chain *chain, double *x, double *last);
 
+/* The same for a ring that begins at line 0 and is cut at `cut`, in the unknowns that are wanted; the others are
+   0. `chained` is scratch for all unknowns of the ring; `answer` may be `right`. */
+void rf_solve_ring(const rf_chain *chain, size_t cut, const uint8_t *wanted, const double *right, double *chained,
+                   double *answer);
+
 #endif

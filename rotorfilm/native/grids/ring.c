@@ -51,7 +51,7 @@ static void set_derivatives(rf_search *search, int level, double *jacobian)
         rf_set_source(grid, &search->cells[level], unit, of_force);
         for (size_t q = 0; search->ring->clipped && q < all; ++q)
             of_force[q] = search->pressure[q] > 0.0 ? of_force[q] : 0.0;
-        rf_solve_free(search, level, of_force, of_force);
+        rf_solve_free(search, of_force, of_force);
         for (size_t m = 0; m < 2; ++m) {
             const double along[2] = {m == 0, m == 1};
             set_bent_flow(search, level, m, other);

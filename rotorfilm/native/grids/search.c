@@ -156,19 +156,9 @@ static void assemble(rf_search *search, int level, int all)
             last[j * stride] = -search->cells[level].around[before] * grid->width[j];
 }
 
-void rf_solve_free(const rf_search *search, int level, const double *flow, double *answer)
+void rf_solve_free(const rf_search *search, const double *flow, double *answer)
 {
-    const rf_grid *grid = &search->ring->grids[level];
-    const size_t nodes = grid->nodes, lines = grid->lines, all = lines * nodes;
-    const size_t first = (search->cut + 1) * nodes;
-    double *x = search->chained;
-    for (size_t q = 0; q < all; ++q) {
-        const size_t from = q + first < all ? q + first : q + first - all;
-        x[q] = search->free[from] ? flow[from] : 0.0;
-    }
-    rf_solve_chain(&search->chain, x, x + all - nodes);
-    memcpy(answer + first, x, (all - first) * sizeof(double));
-    memcpy(answer, x + all - first, first * sizeof(double));
+    rf_solve_ring(&search->chain, search->cut, search->free, flow, search->chained, answer);
 }
 
 /* Free every node that is full and every one that fills; return whether any changed. */
@@ -208,7 +198,7 @@ static int search_from_here(rf_search *search, int level)
         assemble(search, level, set == 0);
         ++search->work.solutions;
         rf_factorize_chain(&search->chain);
-        rf_solve_free(search, level, flow, flow);
+        rf_solve_free(search, flow, flow);
         for (size_t q = 0; q < all; ++q)
             pressure[q] += flow[q];
         if (!search->ring->ruptured)

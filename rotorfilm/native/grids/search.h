@@ -41,6 +41,6 @@ int rf_search_down_to(rf_search *search, int level, const double *w);
 int rf_search_without(rf_search *search);
 
 /* Solve on that grid again, with its film: right-hand side and answer N x M, 0 at nodes that are not free. */
-void rf_solve_free(const rf_search *search, int level, const double *flow, double *answer);
+void rf_solve_free(const rf_search *search, const double *flow, double *answer);
 
 #endif

@@ -122,15 +122,7 @@ static void factorize(rf_pool *pool)
 /* Replace a right-hand side by the solution at nodes that are full, 0 elsewhere. */
 static void solve(const rf_pool *pool, double *flow)
 {
-    const size_t nodes = pool->stencil->nodes, all = pool->stencil->lines * nodes;
-    const size_t first = (pool->cut + 1) * nodes;
-    for (size_t q = 0; q < all; ++q) {
-        const size_t from = q + first < all ? q + first : q + first - all;
-        pool->chained[q] = pool->full[from] ? flow[from] : 0.0;
-    }
-    rf_solve_chain(&pool->chain, pool->chained, pool->chained + all - nodes);
-    memcpy(flow + first, pool->chained, (all - first) * sizeof(double));
-    memcpy(flow, pool->chained + all - first, first * sizeof(double));
+    rf_solve_ring(&pool->chain, pool->cut, pool->full, flow, pool->chained, flow);
 }
 
 /* Keep every node that is full under pressure, and fill every one that gets too much; whether any changed. */

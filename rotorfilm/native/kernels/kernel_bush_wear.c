@@ -24,188 +24,25 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "../films/bush.h"
+#include "../bushes/bush_contact.h"
 
 #define HALF_PI 1.57079632679489661923
-#define MOST_STEPS 100
 #define TOLERANCE 1e-10 /* of the local error of W, relative to it and to a typical value */
 #define TYPICAL 1e-3
-#define LEAST 1e-250 /* of what is lifted: below, the powers of the angle are none */
 #define LONGEST 8.0 /* step, in times in which the rate of wear falls by 1/e */
 #define MOST_PARTS 20000
 #define COOLED 0.02 /* part of the melting point by which a worn contact may be colder without a word */
 
-/* Half the contact angle and what follows from it alone. */
-typedef struct arc {
-    double a, sin, cos, segment, moment;
-    double F, F_slope; /* segment/cos */
-    double weight;     /* mean pressure of a unit of load (2.15) */
-} arc;
-
-typedef struct demand {
-    double moment, load, speed; /* W, N, |speed| */
-} demand;
-
-typedef struct contact {
-    arc at;
-    double temperature;
-    int melting;
-} contact;
-
-static double of_weight(const arc *at) /* its logarithmic derivative */
-{
-    return at->a * at->sin / at->moment - 1.0 / at->a - 2.0 * at->sin * at->sin / at->segment;
-}
-
-static void see(double a, arc *at)
-{
-    at->a = a;
-    at->sin = sin(a);
-    at->cos = cos(a);
-    rf_arc(a, at->sin, at->cos, &at->segment, &at->moment);
-    at->F = at->segment / at->cos;
-    at->F_slope = at->sin * (2.0 * at->sin + at->F) / at->cos;
-    at->weight = at->moment / (a * at->segment);
-}
-
-/* The angle at which F = y > 0, by Halley's method. The start is a fit of it, good to 1e-5. */
-static double angle_of(double y)
-{
-    const double s = cbrt(1.5 * y), v = s * s;
-    double a = s < 1.5 ? s * (1.0 + v * (-0.10007 + v * (-0.002293 + v * (0.0036173 - v * 0.0004931))))
-                       : HALF_PI;
-    for (int i = 0; i < MOST_STEPS; ++i) {
-        const double sine = sin(a), cosine = cos(a), slope = sine * (2.0 * sine + y);
-        double segment, moment;
-        rf_arc(a, sine, cosine, &segment, &moment);
-        const double newton = (segment - y * cosine) / slope;
-        const double step = newton / (1.0 - 0.5 * newton * (4.0 * sine + y) * cosine / slope);
-        a -= step;
-        if (fabs(step) <= 2e-5 * a) /* its cube is what is left */
-            break;
-    }
-    return a;
-}
-
-static double gap(const rf_bush *b, double T)
-{
-    return b->is.clearance - b->is.closing * T;
-}
-
-static double sliding(const rf_bush *b, const arc *at, const demand *d)
-{
-    return b->is.pressure_work * d->speed * d->load * at->weight;
-}
-
-/* Where friction heat equals the losses, the lower root of a quadratic equation; infinite if it runs away. */
-static double steady(const rf_bush *b, const arc *at, const demand *d)
-{
-    const double heat = sliding(b, at, d), *f = b->friction;
-    const double source =
-        heat * f[0] + b->is.liner * (b->outer[0] + b->outer[1] * at->sin / at->a);
-    const double linear = rf_bush_conductance(b, at->a) - heat * f[1];
-    const double square = linear * linear - 4.0 * heat * f[2] * source;
-    const double below = linear + sqrt(fmax(square, 0.0));
-    return square < 0.0 || below <= 0.0 ? HUGE_VAL : 2.0 * source / below;
-}
-
-/* Derivatives of (losses - friction heat) by the angle, T, N and |speed|. */
-static void heat_slopes(const rf_bush *b, const arc *at, double T, const demand *d, double by[4])
-{
-    const double unit = b->is.pressure_work * rf_bush_friction(b, T);
-    by[0] = rf_bush_losses_slope(b, at->a, at->moment, T)
-            - unit * d->speed * d->load * at->weight * of_weight(at);
-    by[1] = rf_bush_conductance(b, at->a)
-            - sliding(b, at, d) * (b->friction[1] + 2.0 * b->friction[2] * T);
-    by[2] = -unit * d->speed * at->weight;
-    by[3] = -unit * d->load * at->weight;
-}
-
-/* Newton's method between bounds for c(T(a)) F(a) = lifted; the residual rises with a. */
-static int find_cold(const rf_bush *b, const demand *d, double lifted, contact *c, rf_message *why)
-{
-    double low = 0.0, high = c->at.a, residual = HUGE_VAL;
-    for (int i = 0; i < 2 * MOST_STEPS; ++i) {
-        double by[4];
-        c->temperature = steady(b, &c->at, d);
-        const double T = fmin(c->temperature, b->is.melting);
-        residual = gap(b, T) * c->at.F - lifted;
-        *(residual < 0.0 ? &low : &high) = c->at.a;
-        heat_slopes(b, &c->at, T, d, by);
-        const double slope = gap(b, T) * c->at.F_slope + b->is.closing * c->at.F * by[0] / by[1];
-        const double step = residual / slope;
-        if (fabs(step) <= 4e-16 * c->at.a || fabs(residual) <= 1e-15 * lifted || high - low <= 4e-16 * high)
-            break;
-        const double trial = c->at.a - step;
-        const int inside = trial > low && trial < high;
-        see(inside ? trial : 0.5 * (low + high), &c->at);
-        if (inside && fabs(step) <= 1e-8 * trial) { /* its square is what is left */
-            c->temperature = steady(b, &c->at, d);
-            return RF_OK;
-        }
-    }
-    if (fabs(residual) <= 1e-9 * lifted)
-        return RF_OK;
-    return rf_say(why, RF_STUCK,
-                  "contact must be steady, got one at the brink of thermal runaway at %.6g rad", c->at.a);
-}
-
-static int read_point(const rf_bush *b, const rf_point *at, demand *d, rf_message *why)
-{
-    if (!(at->u[0] >= 0.0))
-        return rf_say(why, RF_NOT_FINITE, "load must be finite and not negative, got %.9g N", at->u[0]);
-    d->moment = fmax(at->x[0], 0.0); /* integrators try states beyond the solution */
-    d->load = at->u[0] / b->is.force_unit;
-    d->speed = fabs(at->u[1]);
-    return RF_OK;
-}
-
-/* The contact at the melting point, the widest there can be, and its steady temperature. */
-static void find_hot(const rf_bush *b, const demand *d, contact *c)
-{
-    const double lifted = b->is.compliance * d->load + d->moment;
-    c->melting = 0;
-    c->at.a = 0.0;
-    c->temperature = b->is.liner * (b->outer[0] + b->outer[1]) / (b->is.shaft + b->is.liner);
-    if (lifted > LEAST) {
-        see(angle_of(lifted / b->gap), &c->at);
-        c->temperature = steady(b, &c->at, d);
-        c->melting = c->temperature >= b->is.melting;
-    }
-}
-
-static int find(const rf_bush *b, const demand *d, contact *c, rf_message *why)
-{
-    find_hot(b, d, c);
-    if (c->melting)
-        c->temperature = b->is.melting;
-    if (c->melting || c->at.a == 0.0)
-        return RF_OK;
-    return find_cold(b, d, b->is.compliance * d->load + d->moment, c, why);
-}
-
-static double surplus(const rf_bush *b, const contact *c, const demand *d)
-{
-    return c->melting ? fmax(sliding(b, &c->at, d) * b->grip - rf_bush_losses(b, c->at.a, c->at.sin, b->is.melting), 0.0)
-                      : 0.0;
-}
-
-/* Melting heat per contact area that raises W by one. */
-static double heat_per_moment(const rf_bush *b, const arc *at)
-{
-    return b->melting_heat * b->is.radius * at->weight;
-}
-
 static int derivative(const void *kernel, const rf_point *at, double *dx, rf_message *why)
 {
     const rf_bush *b = kernel;
-    demand d;
-    contact c;
-    int status = read_point(b, at, &d, why);
+    rf_bush_demand d;
+    rf_bush_contact c;
+    int status = rf_bush_read(b, at, &d, why);
     if (status == RF_OK)
-        status = find(b, &d, &c, why);
+        status = rf_bush_find(b, &d, &c, why);
     if (status == RF_OK)
-        *dx = c.melting ? surplus(b, &c, &d) / heat_per_moment(b, &c.at) : 0.0;
+        *dx = c.melting ? rf_bush_surplus(b, &c, &d) / rf_bush_heat_per_moment(b, &c.at) : 0.0;
     return status;
 }
 
@@ -215,7 +52,7 @@ static double sense(double speed)
 }
 
 /* Maximum pressure of a unit of load, (1 - cos)/segment. */
-static double peak(const arc *at)
+static double peak(const rf_bush_arc *at)
 {
     return at->sin * at->sin / ((1.0 + at->cos) * at->segment);
 }
@@ -223,16 +60,16 @@ static double peak(const arc *at)
 static int output(const void *kernel, const rf_point *at, double *y, rf_message *why)
 {
     const rf_bush *b = kernel;
-    demand d;
-    contact c;
-    int status = read_point(b, at, &d, why);
+    rf_bush_demand d;
+    rf_bush_contact c;
+    int status = rf_bush_read(b, at, &d, why);
     if (status == RF_OK)
-        status = find(b, &d, &c, why);
+        status = rf_bush_find(b, &d, &c, why);
     if (status != RF_OK)
         return status;
     const double cosine = c.at.a > 0.0 ? c.at.cos : 1.0;
     y[0] = c.at.a;
-    y[1] = b->is.radius * (gap(b, c.temperature) / cosine - b->is.clearance);
+    y[1] = b->is.radius * (rf_bush_gap(b, c.temperature) / cosine - b->is.clearance);
     y[2] = c.temperature;
     y[3] = y[4] = y[5] = y[6] = 0.0;
     if (!(y[1] < b->is.thickness))
@@ -244,8 +81,8 @@ static int output(const void *kernel, const rf_point *at, double *y, rf_message 
     y[3] = b->is.modulus * d.load * peak(&c.at);
     y[4] = sense(at->u[1]) * b->is.force_unit * b->is.shaft_radius * rf_bush_friction(b, c.temperature)
            * d.load * 2.0 * c.at.a * c.at.weight;
-    y[5] = surplus(b, &c, &d) / b->melting_heat;
-    y[6] = sliding(b, &c.at, &d) * b->grip / rf_bush_losses(b, c.at.a, c.at.sin, b->is.melting);
+    y[5] = rf_bush_surplus(b, &c, &d) / b->melting_heat;
+    y[6] = rf_bush_sliding(b, &c.at, &d) * b->grip / rf_bush_losses(b, c.at.a, c.at.sin, b->is.melting);
     if (d.moment > 0.0 && c.temperature < (1.0 - COOLED) * b->is.melting)
         return rf_say(why, RF_OUTSIDE,
                       "load and speed must keep a worn contact at its melting point, got %.4g K: it is taken to "
@@ -257,20 +94,20 @@ static int output(const void *kernel, const rf_point *at, double *y, rf_message 
 static int events(const void *kernel, const rf_point *at, double *z, rf_message *why)
 {
     const rf_bush *b = kernel;
-    demand d;
-    contact c;
-    if (read_point(b, at, &d, why) != RF_OK)
+    rf_bush_demand d;
+    rf_bush_contact c;
+    if (rf_bush_read(b, at, &d, why) != RF_OK)
         return RF_NOT_FINITE;
-    find_hot(b, &d, &c);
+    rf_bush_find_hot(b, &d, &c);
     z[0] = fmin(c.temperature - b->is.melting, b->is.melting);
     z[1] = at->u[1];
     return RF_OK;
 }
 
 /* d(angle)/d(W, N, |speed|) and the same of T; `cold` are the derivatives of the heat at T. */
-static void contact_slopes(const rf_bush *b, const contact *c, const double cold[4], double a[3], double T[3])
+static void contact_slopes(const rf_bush *b, const rf_bush_contact *c, const double cold[4], double a[3], double T[3])
 {
-    const double by_a = gap(b, c->temperature) * c->at.F_slope, by_T = -b->is.closing * c->at.F;
+    const double by_a = rf_bush_gap(b, c->temperature) * c->at.F_slope, by_T = -b->is.closing * c->at.F;
     const double lift[3] = {1.0, b->is.compliance, 0.0};
     const double right[3] = {0.0, -cold[2], -cold[3]};
     for (int k = 0; k < 3; ++k) {
@@ -283,34 +120,34 @@ static void contact_slopes(const rf_bush *b, const contact *c, const double cold
 static int jacobian(const void *kernel, const rf_point *point, rf_jacobian *answer, rf_message *why)
 {
     const rf_bush *b = kernel;
-    demand d;
-    contact c;
+    rf_bush_demand d;
+    rf_bush_contact c;
     double cold[4], hot[4], a[3], T[3];
-    int status = read_point(b, point, &d, why);
+    int status = rf_bush_read(b, point, &d, why);
     if (status == RF_OK)
-        status = find(b, &d, &c, why);
+        status = rf_bush_find(b, &d, &c, why);
     if (status != RF_OK)
         return status;
     if (c.at.a == 0.0)
         return rf_say(why, RF_UNDEFINED, "load and wear must not both be zero for a derivative");
-    heat_slopes(b, &c.at, c.temperature, &d, cold);
-    heat_slopes(b, &c.at, b->is.melting, &d, hot);
+    rf_bush_heat_slopes(b, &c.at, c.temperature, &d, cold);
+    rf_bush_heat_slopes(b, &c.at, b->is.melting, &d, hot);
     contact_slopes(b, &c, cold, a, T);
-    const arc *at = &c.at;
+    const rf_bush_arc *at = &c.at;
     const double f = rf_bush_friction(b, c.temperature), f_slope = b->friction[1] + 2.0 * b->friction[2] * c.temperature;
     const double unit = sense(point->u[1]) * b->is.force_unit * b->is.shaft_radius * 2.0 * at->a * at->weight;
-    const double losses = rf_bush_losses(b, at->a, at->sin, b->is.melting), log_weight = of_weight(at);
-    const double ratio = sliding(b, at, &d) * b->grip / losses, extra = surplus(b, &c, &d);
+    const double losses = rf_bush_losses(b, at->a, at->sin, b->is.melting), log_weight = rf_bush_of_weight(at);
+    const double ratio = rf_bush_sliding(b, at, &d) * b->grip / losses, extra = rf_bush_surplus(b, &c, &d);
     const double losses_slope = rf_bush_losses_slope(b, at->a, at->moment, b->is.melting);
     const double peak_slope = (at->sin - 2.0 * at->sin * at->sin * peak(at)) / at->segment;
     const double chain[3] = {point->x[0] >= 0.0, 1.0 / b->is.force_unit, copysign(1.0, point->u[1])};
     for (int k = 0; k < 3; ++k) {
         const double by_load = k == 1, more = -(hot[0] * a[k] + (k ? hot[k + 1] : 0.0));
-        const double rate = c.melting ? (more - extra * log_weight * a[k]) / heat_per_moment(b, at) : 0.0;
+        const double rate = c.melting ? (more - extra * log_weight * a[k]) / rf_bush_heat_per_moment(b, at) : 0.0;
         const double by[7] = {
             a[k],
             b->is.radius
-                * (gap(b, c.temperature) * at->sin / (at->cos * at->cos) * a[k]
+                * (rf_bush_gap(b, c.temperature) * at->sin / (at->cos * at->cos) * a[k]
                    - b->is.closing / at->cos * T[k]),
             T[k],
             b->is.modulus * (peak(at) * by_load + d.load * peak_slope * a[k]),
@@ -330,28 +167,28 @@ typedef struct rate {
     double f, by_moment;
 } rate;
 
-static rate melt(const rf_bush *b, const demand *d, const arc *at)
+static rate melt(const rf_bush *b, const rf_bush_demand *d, const rf_bush_arc *at)
 {
-    const double losses = rf_bush_losses(b, at->a, at->sin, b->is.melting), per = heat_per_moment(b, at);
-    const double slope = rf_bush_losses_slope(b, at->a, at->moment, b->is.melting) - losses * of_weight(at);
-    const rate found = {(sliding(b, at, d) * b->grip - losses) / per, -slope / (per * b->gap * at->F_slope)};
+    const double losses = rf_bush_losses(b, at->a, at->sin, b->is.melting), per = rf_bush_heat_per_moment(b, at);
+    const double slope = rf_bush_losses_slope(b, at->a, at->moment, b->is.melting) - losses * rf_bush_of_weight(at);
+    const rate found = {(rf_bush_sliding(b, at, d) * b->grip - losses) / per, -slope / (per * b->gap * at->F_slope)};
     return found;
 }
 
 /* W1 - W0 = h (f0 + f1)/2 + h^2 (f0 f0' - f1 f1')/12: implicit, of order 4, and stable for all h. Newton's
    method goes over the angle, of which W is a function. Answers the growth of W and, in *error, how far it is
    from that of order 3; not a number where no step was found. */
-static double grow(const rf_bush *b, const demand *d, double h, arc *at, rate *r, double *error)
+static double grow(const rf_bush *b, const rf_bush_demand *d, double h, rf_bush_arc *at, rate *r, double *error)
 {
     const rate r0 = *r;
-    const arc start = *at;
+    const rf_bush_arc start = *at;
     const double known = h * (0.5 * r0.f + h * r0.f * r0.by_moment / 12.0);
     double step = -h * (r0.f + 0.5 * h * r0.f * r0.by_moment) / (b->gap * start.F_slope);
     for (int i = 0; i < 20; ++i) {
         const double a = at->a - step;
         if (!(a >= start.a && a < HALF_PI))
             break;
-        see(a, at);
+        rf_bush_see(a, at);
         *r = melt(b, d, at);
         const double z = h * r->by_moment, growth = known + h * r->f * (0.5 - z / 12.0);
         step = (b->gap * (at->F - start.F) - growth) / (b->gap * at->F_slope * (1.0 - 0.5 * z + z * z / 12.0));
@@ -367,17 +204,17 @@ static double grow(const rf_bush *b, const demand *d, double h, arc *at, rate *r
 static int step(void *kernel, const rf_point *at, double dt, double *x, rf_message *why)
 {
     const rf_bush *b = kernel;
-    demand d;
-    contact c;
-    if (read_point(b, at, &d, why) != RF_OK)
+    rf_bush_demand d;
+    rf_bush_contact c;
+    if (rf_bush_read(b, at, &d, why) != RF_OK)
         return RF_NOT_FINITE;
-    find_hot(b, &d, &c);
+    rf_bush_find_hot(b, &d, &c);
     if (!c.melting)
         return RF_OK; /* nor will it under held inputs */
     double h = dt, left = dt, moment = d.moment;
     rate r = melt(b, &d, &c.at);
     for (int part = 0; part < MOST_PARTS && left > 0.0; ++part) {
-        arc next = c.at;
+        rf_bush_arc next = c.at;
         rate then = r;
         double error, allowed = TOLERANCE * (TYPICAL + moment);
         if (r.f <= -1e-3 * allowed * r.by_moment) {

@@ -11,8 +11,9 @@
 #define RF_ROTORFILM_GRIDS 16
 #define RF_ROTORFILM_HEAT 32
 #define RF_ROTORFILM_GRID_SYSTEMS 64
-#define RF_ROTORFILM_LOOPS 128
-#define RF_ROTORFILM_MASTER 255
+#define RF_ROTORFILM_PADS 128
+#define RF_ROTORFILM_LOOPS 256
+#define RF_ROTORFILM_MASTER 511
 
 /* RF_KERNEL(name, libraries, picture): rf_<name>_type of kernel_<name>.c, which also has the text for the
    documentation of its FMUs; libraries that have it, of which its FMUs carry the first that has the kernels of
@@ -26,6 +27,8 @@ RF_KERNEL(grooved_journal, RF_ROTORFILM | RF_ROTORFILM_SYSTEMS | RF_ROTORFILM_GR
 RF_KERNEL(heated_journal, RF_ROTORFILM_HEAT, journal)
 RF_KERNEL(journal, RF_ROTORFILM | RF_ROTORFILM_SYSTEMS | RF_ROTORFILM_GRID_SYSTEMS, journal)
 RF_KERNEL(linear, RF_ROTORFILM_STATES, linear)
+RF_KERNEL(lobed_journal, RF_ROTORFILM_PADS | RF_ROTORFILM_GRID_SYSTEMS, lobed_journal)
+RF_KERNEL(pressure_dam, RF_ROTORFILM_GRIDS | RF_ROTORFILM_GRID_SYSTEMS, grooved_journal)
 RF_KERNEL(reynolds_journal, RF_ROTORFILM_GRIDS | RF_ROTORFILM_GRID_SYSTEMS, grooved_journal)
 RF_KERNEL(rigid_rotor, RF_ROTORFILM_STATES, rotor)
 RF_KERNEL(rotor_system, RF_ROTORFILM_SYSTEMS | RF_ROTORFILM_GRID_SYSTEMS, rotor_system)

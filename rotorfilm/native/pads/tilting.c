@@ -38,7 +38,7 @@ static void take_force(const rf_tilting *b, const double *f, const double *J, do
 static int with_inertia(const rf_tilting *b, const double *z, local *out)
 {
     double f[2], J[8], by_w[2][LOCALS] = {{0.0}};
-    const int status = rf_pad_film(&b->pad, z, z + GIVEN_N, f, J);
+    const int status = rf_pivoted_film(&b->pad, z, z + GIVEN_N, f, J);
     by_w[0][GIVEN_N] = by_w[1][GIVEN_T] = 1.0;
     take_force(b, f, J, by_w, out);
     for (int k = 0; k < LOCALS; ++k) {
@@ -245,7 +245,7 @@ int rf_tilting_forces(const rf_tilting *bearing, size_t n, const double *u, cons
                                  (d[0] * u[n + i] - d[1] * u[i] + q[k * n + i]) / c};
             const double w[2] = {(d[0] * u[2 * n + i] + d[1] * u[3 * n + i]) / c + half * e[1],
                                  (d[0] * u[3 * n + i] - d[1] * u[2 * n + i] + rate[k * n + i]) / c - half * e[0]};
-            const int status = rf_pad_film(&bearing->pad, e, w, one, NULL);
+            const int status = rf_pivoted_film(&bearing->pad, e, w, one, NULL);
             if (status > worst) {
                 worst = status;
                 *first = i * bearing->count + k;

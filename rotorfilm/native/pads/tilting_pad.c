@@ -49,7 +49,7 @@ static void turned(const double *turn, double sense, const double *from, double 
     to[1] = sense * turn[1] * from[0] + turn[0] * from[1];
 }
 
-int rf_pad_film(const rf_tilting_pad *pad, const double *e, const double *w, double *f, double *jacobian)
+int rf_pivoted_film(const rf_tilting_pad *pad, const double *e, const double *w, double *f, double *jacobian)
 {
     double place[2], source[2], force[2], by[8];
     if (rf_is_broken(e, 2) || rf_is_broken(w, 2))
@@ -110,7 +110,7 @@ int rf_pad_follow(const rf_tilting_pad *pad, const double *e, double *w, double 
         return rf_fail(RF_AT_WALL, f, jacobian, 8);
     w[1] = narrow_follow(pad, e, w[0]);
     for (int step = 0; step < NEWTON; ++step) {
-        const int status = rf_pad_film(pad, e, w, f, by);
+        const int status = rf_pivoted_film(pad, e, w, f, by);
         if (status > RF_OUTSIDE)
             return rf_fail(status, f, jacobian, 8);
         /* The moment falls with w_t all along. */
@@ -146,7 +146,7 @@ static int standing(const rf_tilting_pad *pad, double xi, double eta, double sen
 {
     const double half = 0.5 * sense, e[2] = {xi, eta}, w[2] = {half * eta, -half * xi};
     double J[8];
-    const int status = rf_pad_film(pad, e, w, f, by ? J : NULL);
+    const int status = rf_pivoted_film(pad, e, w, f, by ? J : NULL);
     for (int i = 0; by && i < 2; ++i) {
         by[2 * i] = J[4 * i] - half * J[4 * i + 3];
         by[2 * i + 1] = J[4 * i + 1] + half * J[4 * i + 2];

@@ -28,7 +28,7 @@ RF_EXPORT_LOOP void rf_set_tilting_pad(rf_tilting_pad *pad, rf_film film, const 
 double rf_pad_least(const rf_tilting_pad *pad, const double *e);
 
 /* The force f[2] and, unless NULL, jacobian[2][4] = d f/d(e, w); zero where no film is. */
-int rf_pad_film(const rf_tilting_pad *pad, const double *e, const double *w, double *f, double *jacobian);
+int rf_pivoted_film(const rf_tilting_pad *pad, const double *e, const double *w, double *f, double *jacobian);
 
 /* The w_t of w[2] at which a pad without inertia has no moment, for w_n > 0, with force and jacobian there. */
 int rf_pad_follow(const rf_tilting_pad *pad, const double *e, double *w, double *f, double *jacobian);

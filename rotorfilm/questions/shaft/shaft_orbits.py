@@ -213,6 +213,7 @@ def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
         rungs=warm_rungs(rungs, levels[0], lambda rung, found: heat()),
         unit=UNITS[quantity],
         remarks=(
+            *scene.oil_remarks,
             *shaft_remarks(rotor, bearings, scene.lubricant.properties, scene.speed),
             *stability_remark(rotor, levels[0].reaction, scene.speed),
         ),

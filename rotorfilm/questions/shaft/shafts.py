@@ -269,7 +269,10 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
     return Ladder(
         rungs=warm_rungs(tuple(rungs), films, ShaftRung.heat_error),
         unit="rad/s",
-        remarks=shaft_remarks(rotor, bearings, scene.lubricant.properties, float(speeds[-1])),
+        remarks=(
+            *scene.oil_remarks,
+            *shaft_remarks(rotor, bearings, scene.lubricant.properties, float(speeds[-1])),
+        ),
         within=warm_physics(films, bearings),
         assumptions=lambda: shaft_assumptions(films),
     )

@@ -129,7 +129,10 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
         campbell=chart,
         amplitudes={} if response is None else _amplitudes(response),
         response=response,
-        remarks=shaft_remarks(rotor, bearings, scene.lubricant.properties, float(speeds[-1])),
+        remarks=(
+            *scene.oil_remarks,
+            *shaft_remarks(rotor, bearings, scene.lubricant.properties, float(speeds[-1])),
+        ),
     )
 
 

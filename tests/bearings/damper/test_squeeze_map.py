@@ -111,7 +111,7 @@ def test_map_of_a_full_film_is_the_film(laws, cage):
 def test_map_of_finite_length_is_made_once(kept, monkeypatch):
     cage = replace(CAGE, permeability=7e-13)
     one = replace(SHORT, cage=cage, film=FiniteMapSqueeze(cells=(6, 8)))
-    path = squeeze_table.table_path(one.slenderness, one.layer, True, (6, 8))
+    path = squeeze_table.squeeze_path(one.slenderness, one.layer, True, (6, 8))
     assert path.parent == kept
     assert path.is_file()
     squeeze_table.finite_table.cache_clear()
@@ -120,10 +120,10 @@ def test_map_of_finite_length_is_made_once(kept, monkeypatch):
     np.testing.assert_array_equal(replace(one, viscosity=0.01).force(q, v), one.force(q, v))
     monkeypatch.undo()
     others = {
-        squeeze_table.table_path(0.3, one.layer, True, (6, 8)),
-        squeeze_table.table_path(one.slenderness, None, True, (6, 8)),
-        squeeze_table.table_path(one.slenderness, one.layer, False, (6, 8)),
-        squeeze_table.table_path(one.slenderness, one.layer, True, (6, 12)),
+        squeeze_table.squeeze_path(0.3, one.layer, True, (6, 8)),
+        squeeze_table.squeeze_path(one.slenderness, None, True, (6, 8)),
+        squeeze_table.squeeze_path(one.slenderness, one.layer, False, (6, 8)),
+        squeeze_table.squeeze_path(one.slenderness, one.layer, True, (6, 12)),
     }
     assert len(others | {path}) == 5
 
@@ -131,7 +131,7 @@ def test_map_of_finite_length_is_made_once(kept, monkeypatch):
 def test_damaged_map_on_disk_is_made_again(kept):
     law = FiniteMapSqueeze(cells=(6, 8))
     one = replace(SHORT, cage=None, film=law)
-    path = squeeze_table.table_path(one.slenderness, None, True, (6, 8))
+    path = squeeze_table.squeeze_path(one.slenderness, None, True, (6, 8))
     whole = path.read_bytes()
     path.write_bytes(whole[:-3])
     squeeze_table.finite_table.cache_clear()

@@ -12,10 +12,10 @@ from hypothesis import given, settings, strategies as st
 from rotorfilm.bearings.films.cavitation import Complementarity
 from rotorfilm.bearings.films.geometry import FilmGeometry, Groove, Pad
 from rotorfilm.bearings.films.law import FilmLaw
+from rotorfilm.bearings.films.map_bounds import state_errors
 from rotorfilm.bearings.films.ring.ring_grids import LONG, ring_grids, ring_spans
 from rotorfilm.bearings.films.ring.ring_kernel import RingKernel, richardson
 from rotorfilm.bearings.journal import GroovedMapFilm, JournalBearing, MapFilm, ReynoldsFilm, build_groove_map
-from rotorfilm.bearings.journal.grooves.groove_bounds import state_errors
 from rotorfilm.bearings.journal.grooves.groove_build import (
     ORDER,
     Resolution,

@@ -18,6 +18,7 @@ from rotorfilm import (
     ShortFilm,
     coefficients,
     equilibrium,
+    heat_numbers,
 )
 from rotorfilm.bearings.journal.heat.heat_balance import effective_flow
 
@@ -218,3 +219,20 @@ def test_effective_flow_of_openings():
 def test_what_has_no_balance_is_refused(make, match):
     with pytest.raises(InputError, match=match):
         make()
+
+
+@pytest.mark.closed_form
+def test_numbers_of_heat_are_their_definitions():
+    bearing, (position, _, speed) = demo(), AT
+    T = COOLING.supply_temperature
+    losses = bearing.at_temperature(T).losses(position, np.zeros(2), speed)
+    heat, thinning = OIL.volumetric_heat(T), OIL.thinning(T)
+    found = heat_numbers(bearing, ("20 um", "-30 um"), "1500 rpm")
+    rise = losses.power_loss / (heat * losses.side_flow)
+    assert found.thinning_rise == pytest.approx(thinning * rise, rel=1e-12)
+    assert found.peclet == pytest.approx(speed * 1e-8 * heat / 0.13, rel=1e-12)
+    assert found.nahme == pytest.approx(thinning * OIL.viscosity(T) * (speed * 0.05) ** 2 / 0.13, rel=1e-12)
+    with pytest.raises(InputError, match=r"^position must be off the center, .*, got \(0.0, 0.0\)"):
+        heat_numbers(bearing, (0.0, 0.0), speed)
+    with pytest.raises(InputError, match=r"^bearing must be a Cooled, got 'film' without"):
+        heat_numbers("film", position, speed)

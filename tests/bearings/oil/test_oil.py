@@ -35,6 +35,15 @@ def test_a_grade_is_its_kinematic_viscosity_at_40_degrees(grade):
     assert "100 degC" in oil.assumed[0]
 
 
+def test_an_oil_takes_the_names_and_units_of_a_data_sheet():
+    assert Oil.iso_vg("ISO VG 46") == Oil.iso_vg("VG 46") == Oil.iso_vg(46.0) == Oil.iso_vg(46)
+    points = (40.0 + CELSIUS, 46.0 * 1e-6), (100.0 + CELSIUS, 6.8 * 1e-6)
+    sheet = ("40 degC", "46 cSt"), ("100 degC", "6.8 mm2/s")
+    assert Oil.two_points(*sheet, reference_density="870 kg/m3") == Oil.two_points(*points)
+    plain = Oil.thinning_at(30.0 * 1e-3, 40.0 + CELSIUS, 0.03)
+    assert Oil.thinning_at("30 mPa s", "40 degC", "0.03 1/K") == plain
+
+
 @pytest.mark.parametrize(
     "law",
     [
@@ -86,8 +95,17 @@ def _quintic_basis(u):
     ("make", "match"),
     [
         (lambda: Oil.iso_vg(47), "grade must be one of"),
+        (lambda: Oil.iso_vg("ISO VG 47"), "grade must be one of .*, got 'ISO VG 47'"),
+        (lambda: Oil.iso_vg([46]), r"grade must be one of .*, got \[46\]"),
+        (lambda: Oil.iso_vg(True), "grade must be one of .*, got True"),
+        (lambda: Oil.two_points("46 cSt", "7 cSt"), "^first must be a temperature and .*, got '46 cSt'"),
+        (lambda: Oil.two_points((313.0, 1e-5), 7e-6), "^second must be a temperature and .*, got 7e-06"),
+        (lambda: Oil.two_points((40.0, 1e-5), (100.0, 7e-6)), r"^first\[0\] must .*: '40 degC'\?"),
+        (lambda: Oil.two_points((313.0, None), (373.0, 7e-6)), r"^first\[1\] must be a single finite"),
+        (lambda: Oil.thinning_at("3 Pa", 313.0, 0.03), "^viscosity: quantity must be measured in Pa.s"),
+        (lambda: Oil.constant(None), "^viscosity must be finite and positive, got None"),
         (lambda: Oil.two_points((313.0, 1e-5), (373.0, 2e-5)), "must fall with temperature"),
-        (lambda: Oil.constant(-1.0), "value must be finite and positive"),
+        (lambda: Oil.constant(-1.0), "viscosity must be finite and positive"),
         (lambda: Oil.iso_vg(46).viscosity(-3.0), "temperature must be finite and positive"),
         (lambda: Oil(law="thick"), "law must be"),
     ],

@@ -14,7 +14,7 @@ def test_long_narrow_gap_is_a_slider():
     """A pad so short that H is linear on it is an infinitely long wedge between two lines (closed form)."""
     extent, S = 0.02, 50.0
     e, w = np.array([[0.3], [8.0]]), np.array([[0.7], [0.4]])
-    # Between a = -b and b: H = H0 - k x, (H^3 P')' = -g, g = w.n; with H' = -k: P = (A/H + B/H^2 + C), Couette only.
+    # (H^3 P')' = -w.n twice integrated along the pad, without a flow to the sides.
     x = np.linspace(-0.5 * extent, 0.5 * extent, 20001)
     n = np.array([np.cos(x), np.sin(x)])
     H, g = 1.0 - e[:, 0] @ n, w[:, 0] @ n

@@ -51,6 +51,24 @@ def test_folds_are_those_of_the_notes(support, rotor, unit, phi, up, down):
         assert folds[1].unbalance / unit == pytest.approx(down, abs=5e-5)
 
 
+def test_a_data_frame_has_a_row_for_each_orbit(support, rotor, unit):
+    unbalances = unit * np.array([0.1, 0.38, 0.5])
+    found = synchronous_orbits(rotor(0.1), support(0.08, 0.4), unbalances)
+    frame = found.to_dataframe()
+    assert frame.columns.tolist() == [
+        *("branch", "unbalance", "eccentricity_ratio", "phase"),
+        *("transmissibility", "growth_rate", "stable", "speed"),
+    ]
+    for unbalance in unbalances:
+        rows = frame[frame["unbalance"] == unbalance]
+        orbits = found.at(unbalance)
+        assert len(rows) == len(orbits) == (3 if unbalance == unbalances[1] else 1)
+        for (_, row), orbit in zip(rows.iterrows(), orbits, strict=True):
+            assert all(row[name] == getattr(orbit, name) for name in frame.columns.drop("branch"))
+    assert frame.attrs["units"]["speed"] == "rad/s"
+    assert frame.attrs["folds_unbalance"] == [fold.unbalance for fold in found.folds]
+
+
 @pytest.mark.closed_form
 def test_solid_folds_are_the_roots_of_the_polynomial(support, rotor, unit):
     # dU^2/de = 0 by the closed form, on a fine grid and by bisection: independent of the film and of Newton.

@@ -9,18 +9,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ....errors import ConvergenceError
 from ....model import Array
 from ....progress import Report, silent
 from ...films.cavitation import Complementarity
 from ...films.geometry import TURN, FilmGeometry, Groove
+from ...films.map_bounds import batches
 from ...films.map_fit import node_eccentricities
 from ...films.map_table import stretch
 from ...films.quintic import periodic_quintic, periodic_quintic_coefficients, quintic_coefficients
 from ...films.ring.ring_grids import LONG, ring_grids, ring_spans
-from ...films.ring.ring_kernel import RingKernel, RingPotential, richardson
+from ...films.ring.ring_kernel import RingKernel, richardson
+from ...films.ring.ring_samples import log_potential, reference
 from ...films.table_pieces import cores, made_pieces
-from .groove_bounds import BoundStates, reference
+from .groove_bounds import BoundStates
 from .groove_table import DIRECTIONS, GrooveMapTable
 from .openings import AlignedOpenings
 
@@ -95,7 +96,7 @@ def build_groove_table(
     columns = [
         partial(potential.level, *place) for j in solved.tolist() for place in _column_places(resolution, j)
     ]
-    references = [partial(reference, finer, e, w) for e, w in checks.batches()]
+    references = [partial(reference, finer, e, w) for e, w in batches(checks.e, checks.w)]
     center = _center(potential)
     found = made_pieces([*columns, *references], report, TITLE)
     levels = np.reshape(found[: len(columns)], (len(solved), resolution.nodes[0], -1))
@@ -149,19 +150,12 @@ class _Solver:
 
     def level(self, e: Array, phi: Array) -> Array:
         """Return ln(-J), (D,), at the eccentricity e for unit sources at the angles phi."""
-        return self._solved(e, phi, slopes=False)[0]
+        return log_potential(self._kernel, e, phi)[0]
 
     def center(self, phi: Array) -> tuple[Array, Array]:
         """Return ln(-J), (D,), and d ln(-J)/de, (D, 2), of the centered journal."""
-        level, found = self._solved(np.zeros(2), phi, slopes=True)
+        level, found = log_potential(self._kernel, np.zeros(2), phi, slopes=True)
         return level, -(richardson(*found.slope[:2]) / np.exp(level)).T
-
-    def _solved(self, e: Array, phi: Array, *, slopes: bool) -> tuple[Array, RingPotential]:
-        found = self._kernel.potential(e, np.stack([np.cos(phi), np.sin(phi)]), slopes=slopes)
-        J = richardson(*found.value[:2])
-        if not np.all(J < 0.0):
-            raise ConvergenceError(f"the film must carry, and does not at eccentricity {e.tolist()}")
-        return np.log(-J), found
 
 
 def node_angles(count_e: int, count_s: int) -> tuple[Array, Array]:

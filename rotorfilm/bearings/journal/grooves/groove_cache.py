@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import hashlib
 from pathlib import Path
 
 from ....sources import source_digest
 from ...films.geometry import TURN
-from ...films.table_cache import cache_folder
+from ...films.table_cache import table_path
 from . import groove_build
 from .groove_build import Resolution
 from .groove_table import VERSION
@@ -18,5 +17,5 @@ def cache_path(openings: AlignedOpenings, slenderness: float, resolution: Resolu
     """Return where the map of a bearing lies; the name is a digest of all that decides its content."""
     angles = [angle for groove in openings.grooves for angle in (groove.center, groove.width)]
     steps = [round(angle / TURN * STEPS) for angle in angles]
-    key = repr((VERSION, source_digest(groove_build.__name__), steps, f"{slenderness:.9g}", resolution))
-    return cache_folder() / f"groove-{hashlib.sha256(key.encode()).hexdigest()[:24]}.bin"
+    key = VERSION, source_digest(groove_build.__name__), steps, f"{slenderness:.9g}", resolution
+    return table_path("groove", key)

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
-import logging
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -20,7 +18,7 @@ from ...films.film_losses import FilmLosses
 from ...films.geometry import FilmGeometry
 from ...films.kernel_film import KernelFilm
 from ...films.ring.ring_grids import are_counts, require_cells
-from ...films.table_cache import cached_table
+from ...films.table_cache import cached_table, told
 from ..map.map_film import MapFilm
 from ..reynolds_film import ReynoldsFilm
 from .groove_build import Resolution, build_groove_table, expected_time
@@ -33,8 +31,6 @@ SAME = 2e-9
 
 GROOVED_RANGE = (0.05, 20.0)
 """Length/diameter for which a map can be made; a shorter film turns faster than the nodes can follow."""
-
-_logger = logging.getLogger(__name__)
 
 
 class _Key(NamedTuple):
@@ -165,7 +161,7 @@ class GroovedMapFilm(KernelFilm):
             return self.table
         key = self._key(slenderness)
         path = cache_path(*key)
-        telling = _logged(key.slenderness, path.parent) if report is silent else report
+        telling = told(report, f"length/diameter {key.slenderness:.6g}", path.parent)
         return cached_table(GrooveMapTable, path, lambda: build_groove_table(*key, telling))
 
     def making_time(self, slenderness: float) -> float:
@@ -191,20 +187,6 @@ def _kernel(film: GroovedMapFilm, slenderness: float) -> GrooveMapKernel:
     axis = aligned_openings(film.geometry).axis
     numbers = table.crowding, axis, table.slenderness
     return GrooveMapKernel(table.coefficients, table.reach, table.log_center, *numbers)
-
-
-def _logged(slenderness: float, folder: Path) -> Report:
-    """Return a report that says once in the log that a map is being made."""
-    said: list[str] = []
-
-    def report(fraction: float, text: str) -> None:
-        if not said:
-            said.append(text)
-            _logger.warning(
-                "making the %s, length/diameter %.6g; it will be kept in %s", text, slenderness, folder
-            )
-
-    return report
 
 
 def require_same_openings(table: GrooveMapTable, openings: AlignedOpenings) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 from numpy.typing import ArrayLike
 
@@ -14,6 +14,7 @@ from ..bearing_losses import LossyBearing
 from .heat_balance import FilmHeat
 
 
+@runtime_checkable
 class Cooled(LossyBearing, Protocol):
     """What a bearing with an oil and cooling offers; `JournalBearing` is one."""
 

@@ -7,6 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ....errors import InputError, brief
+from ....inputs.kinds import arguments
 from .cooled import Cooled
 
 
@@ -29,6 +31,7 @@ class HeatNumbers(NamedTuple):
     nahme: float
 
 
+@arguments
 def heat_numbers(bearing: Cooled, position: ArrayLike, speed: float) -> HeatNumbers:
     """Return the numbers of the heat of a bearing with oil and cooling.
 
@@ -42,13 +45,15 @@ def heat_numbers(bearing: Cooled, position: ArrayLike, speed: float) -> HeatNumb
     Raises
     ------
     InputError
-        If the bearing has no oil or no cooling, or its film law knows no losses.
+        If the bearing has no oil or no cooling, its film law knows no losses, or no oil leaves its film.
     FilmContactError
         If the journal touches the wall.
     """
     oil, cooling = bearing.cooled
     supply = cooling.supply_temperature
     heat = bearing.at_temperature(supply).film_heat(position, np.zeros(2), speed)
+    if not heat.side_flow > 0.0:
+        raise InputError(f"position must be off the center, where oil leaves the film, got {brief(position)}")
     capacity, thinning = float(oil.volumetric_heat(supply)), float(oil.thinning(supply))
     return HeatNumbers(
         thinning * heat.power / (capacity * heat.side_flow),

@@ -33,7 +33,7 @@ def pad_slopes(bearing: TiltingPads, e: Array, w: Array) -> tuple[Array, Array]:
     R = turning(bearing)
     batch = bearing.kernel.film.jacobian(R @ e, R @ w)
     report_pads(
-        bearing, batch.status, batch.first % len(bearing.pivots), bearing.film_clearance * e[:, batch.first]
+        bearing, batch.status, batch.first % len(bearing.pivots), bearing.clearance * e[:, batch.first]
     )
     by = batch.values.reshape(2, 2, 2, -1)
     by_e, by_w = (np.einsum("ai,abn,bj->ijn", R, by[:, k], R) for k in (0, 1))
@@ -70,7 +70,7 @@ def held_jacobian(bearing: TiltingPads, u: Array, tilts: Array) -> Array:
         x, y [m], vx, vy [m/s] and speed [rad/s].
     tilts : ndarray, shape (pads,) [m]
     """
-    Q, c, n = directions(bearing.pivots), bearing.film_clearance, u.shape[1]
+    Q, c, n = directions(bearing.pivots), bearing.clearance, u.shape[1]
     raised = np.stack([np.full(len(tilts), bearing.preload), tilts / c])[:, :, None]
     e = np.einsum("kij,in->jkn", Q, u[:2] / c) + raised
     half = 0.5 * u[4]

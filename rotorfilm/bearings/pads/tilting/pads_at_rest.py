@@ -62,8 +62,12 @@ class TiltingPadsAtRest:
 
     @property
     def clearance(self) -> float:
-        """Distance [m] that the journal stays within; see `TiltingPads.clearance`."""
-        return self.bearing.clearance
+        """Distance [m] that the journal stays within; see `TiltingPads.room`."""
+        return self.bearing.room
+
+    def minimum_film(self, position: ArrayLike) -> Array:
+        """Return the least gap at a pivot [m]; see `TiltingPads.minimum_film`."""
+        return self.bearing.minimum_film(position)
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the force on a journal at rest, shape (2,) [N], with a warning of pads without film.
@@ -94,7 +98,7 @@ class TiltingPadsAtRest:
         """Return force and slopes as a function of five numbers."""
         return tangent_of(_Silent(self))  # type: ignore[arg-type]
 
-    def minimum_film(self, position: ArrayLike, speed: float) -> float:
+    def least_film(self, position: ArrayLike, speed: float) -> float:
         """Return the least film of all pads [m]."""
         return float(self.pad_states(position, speed).film_thickness.min())
 
@@ -140,7 +144,7 @@ class TiltingPadsAtRest:
             As `force`.
         """
         bearing, pads = self.bearing, self.pad_states(position, speed)
-        N, c, Q = len(bearing.pivots), bearing.film_clearance, directions(bearing.pivots)
+        N, c, Q = len(bearing.pivots), bearing.clearance, directions(bearing.pivots)
         sprung = bearing.pivot_stiffness is not None
         local = np.einsum("kij,i->jk", Q, np.asarray(position, dtype=float))
         e = (local + np.stack([pads.pivot_deflections, pads.tilts])) / c + np.array(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -14,6 +14,7 @@ from ....model import Array, Linearization
 from ....native.tilting_kernel import TiltingPoint
 from ....signals import Signal, force_outputs, journal_inputs
 from ...reaction import NOMINAL_SPEED, Called, broadcast_state, input_vector
+from ..pad_film import PadMapFilm
 from .held_pads import held_force, held_jacobian
 from .pad_contact import report_pads
 from .pads_at_rest import TiltingPadsAtRest
@@ -66,7 +67,7 @@ class TiltingPadBearing(Called, TiltingPads):
     @property
     def states(self) -> tuple[Signal, ...]:
         """Signals tilt_1 .. tilt_N; of pivots on springs pivot_1 .. pivot_N; with inertia their rates."""
-        c, pads = self.film_clearance, range(1, len(self.pivots) + 1)
+        c, pads = self.clearance, range(1, len(self.pivots) + 1)
         rows = [("tilt", "m", c, "tilt of pad {} as a length at the film, positive about +z")]
         if self.pivot_stiffness is not None:
             rows.append(("pivot", "m", c, "place of the pivot of pad {}, negative outward"))
@@ -121,6 +122,13 @@ class TiltingPadBearing(Called, TiltingPads):
         found = self._at(x, u, slopes=True).slopes
         assert found is not None
         return found
+
+    def portable(self) -> TiltingPadBearing:
+        """Return this bearing with a film that carries the map it needs; see `model.Portable`."""
+        if not isinstance(self.film, PadMapFilm):
+            return self
+        table = self.film.table(self.extent, self.slenderness)
+        return replace(self, film=replace(self.film, tables=(table,)))
 
     @property
     def _tilts(self) -> Array:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ....errors import (
     InputError,
@@ -17,12 +18,13 @@ from ....errors import (
     require_non_negative,
     require_number,
     require_positive,
+    require_vector,
 )
 from ....inputs.si_arguments import quantities
 from ....model import Array
 from ....native.tilting_kernel import TiltingKernel
-from ..pad_film import PadFilm, PadGridFilm
-from .pivots import gaps, reach
+from ..pad_film import PadFilm, PadMapFilm
+from .pivots import directions, gaps, reach
 
 
 @quantities
@@ -89,7 +91,7 @@ class TiltingPads:
     pivot_distance: float = 0.0
     pad_mass: float | None = None
     start: tuple[float, ...] = ()
-    film: PadFilm = field(default_factory=PadGridFilm)
+    film: PadFilm = field(default_factory=PadMapFilm)
 
     def __post_init__(self) -> None:
         require_each(self, require_positive, "radius", "length", "viscosity", "extent")
@@ -106,13 +108,13 @@ class TiltingPads:
         if (self.pad_clearance is None) == (self.assembled_clearance is None):
             given = f"{self.pad_clearance!r} and {self.assembled_clearance!r}"
             raise InputError(f"pad_clearance and assembled_clearance must be given one of both, got {given}")
-        if self.film_clearance >= self.radius:
-            raise InputError(f"pad clearance must be below the radius, got {self.film_clearance!r}")
+        if self.clearance >= self.radius:
+            raise InputError(f"pad clearance must be below the radius, got {self.clearance!r}")
         heavy = self.pivot_stiffness is not None and self.pad_inertia is not None
         if heavy != (self.pad_mass is not None):
             rule = "with both pivot_stiffness and pad_inertia, and only then"
             raise InputError(f"pad_mass must be given {rule}, got {self.pad_mass!r}")
-        require_kind("film", self.film, PadFilm, "a film of pads such as PadGridFilm()")
+        require_kind("film", self.film, PadFilm, "a film of pads such as PadMapFilm()")
         self._check_pivots()
 
     def _check_pivots(self) -> None:
@@ -127,8 +129,8 @@ class TiltingPads:
         object.__setattr__(self, "start", tuple(start.tolist()))
 
     @property
-    def film_clearance(self) -> float:
-        """Clearance c_p of a pad [m], in which its film is measured."""
+    def clearance(self) -> float:
+        """Clearance c_p of a pad [m], the unit of eccentricity ratios."""
         if self.pad_clearance is not None:
             return self.pad_clearance
         return float(self.assembled_clearance or math.nan) / (1.0 - self.preload)
@@ -136,15 +138,28 @@ class TiltingPads:
     @property
     def bore_clearance(self) -> float:
         """Clearance c_b of the assembled bearing [m]."""
-        return self.film_clearance * (1.0 - self.preload)
+        return self.clearance * (1.0 - self.preload)
 
     @property
-    def clearance(self) -> float:
+    def room(self) -> float:
         """Distance [m] that the journal center stays within: the farthest corner that rigid pivots leave.
 
         Pivots on springs may give way: twice that. The pads themselves say where they are touched.
         """
-        return self.bore_clearance * reach(self.pivots) * (2.0 if self.pivot_stiffness else 1.0)
+        return self.bore_clearance * reach(self.pivots) * self._yielding
+
+    def minimum_film(self, position: ArrayLike) -> Array:
+        """Return the least gap at a pivot [m], shape (...), of journals at positions (2, ...) [m].
+
+        It is not positive where no tilt leaves a film; of pivots on springs that may give way it is larger by
+        the assembled clearance.
+        """
+        along = np.tensordot(directions(self.pivots)[:, :, 0], require_vector("position", position), 1)
+        return np.asarray(self.bore_clearance * self._yielding - along.max(axis=0))
+
+    @property
+    def _yielding(self) -> float:
+        return 1.0 if self.pivot_stiffness is None else 2.0
 
     @property
     def slenderness(self) -> float:
@@ -154,7 +169,7 @@ class TiltingPads:
     @property
     def force_scale(self) -> float:
         """Viscosity * length * radius^3 / c_p^2 [N s], the film's unit of force per 1/s."""
-        return self.viscosity * self.length * self.radius**3 / self.film_clearance**2
+        return self.viscosity * self.length * self.radius**3 / self.clearance**2
 
     @property
     def reduced_inertia(self) -> float:
@@ -170,7 +185,7 @@ class TiltingPads:
             self.pivot_offset,
             np.array(self.pivots),
             self.preload,
-            self.film_clearance,
+            self.clearance,
             self.force_scale,
             self.pivot_stiffness or 0.0,
             self.reduced_inertia,

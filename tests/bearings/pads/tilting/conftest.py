@@ -29,7 +29,7 @@ def tilting():
             if first is None
             else tuple((first + k * 360.0 / pads) * DEGREE for k in range(pads))
         )
-        given = {"pad_clearance": 1e-4, "film": PadGridFilm(cells), "pivots": angles} | further
+        given = {"pad_clearance": 1e-4, "film": PadGridFilm(cells=cells), "pivots": angles} | further
         return TiltingPadBearing(
             radius=0.05,
             length=0.1 * slenderness,

@@ -37,7 +37,7 @@ def turning(bearing, load, mass, unbalance=0.0, moved=(0.0, 0.0), start=None):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ValidityWarning)
         at = equilibrium(bearing, [0.0, -load * unit], SPEED)
-    c = bearing.film_clearance
+    c = bearing.clearance
     mass *= unit / (c * SPEED**2)
     rotor = RigidRotor(
         mass=mass,

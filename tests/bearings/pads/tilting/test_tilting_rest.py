@@ -60,7 +60,7 @@ cells, whose loads are .3 to .9 % low."""
 def units(bearing):
     """Return the units of force and stiffness."""
     force = bearing.force_scale * SPEED
-    return force, force / bearing.film_clearance
+    return force, force / bearing.clearance
 
 
 @pytest.mark.parametrize("name", ROWS)
@@ -69,7 +69,7 @@ def test_bearings_of_another_discretization(tilting, name):
     bearing = tilting(*arguments, **further)
     force, stiffness = units(bearing)
     at = equilibrium(bearing, [0.0, -load * force], SPEED)
-    np.testing.assert_allclose(at.position / bearing.film_clearance, [0.0, y], atol=2e-4)
+    np.testing.assert_allclose(at.position / bearing.clearance, [0.0, y], atol=2e-4)
     found = coefficients(bearing, at.position, SPEED)
     assert isinstance(found, ReducedCoefficients)
     assert found.frequency == SPEED
@@ -232,13 +232,13 @@ def test_unloaded_pads_are_flagged_and_said(tilting):
         extent=math.pi / 3.0,
         preload=0.3,
         assembled_clearance=194.564e-6,
-        film=PadGridFilm((64, 8)),
+        film=PadGridFilm(cells=(64, 8)),
     )
     with pytest.warns(ValidityWarning, match=r"pads 3, 4 \(pivots at 54, 126 deg\) are unloaded"):
         at = equilibrium(bearing, [0.0, -112815.0], "900 rpm")
     assert at.pads.unloaded.tolist() == [False, False, True, True, False]
     # Without film at the very end of the neutral tilts: eta = -|xi| tan b.
-    xi = directions(bearing.pivots)[2, :, 0] @ at.position + 0.3 * bearing.film_clearance
+    xi = directions(bearing.pivots)[2, :, 0] @ at.position + 0.3 * bearing.clearance
     eta = directions(bearing.pivots)[2, :, 1] @ at.position + at.pads.tilts[2]
     assert eta == pytest.approx(-abs(xi) * math.tan(math.pi / 6.0), rel=1e-9)
     K, C = (getattr(coefficients(bearing, at.position, at.speed), name) for name in ("stiffness", "damping"))
@@ -264,7 +264,7 @@ def test_springs_of_pivots_are_in_series_with_the_film(smooth):
 def test_clearances_of_pad_and_assembly_are_one_bearing(tilting):
     one = tilting(4, 0.7, 75.0, 0.4)
     other = tilting(4, 0.7, 75.0, 0.4, pad_clearance=None, assembled_clearance=0.6e-4)
-    assert other.film_clearance == pytest.approx(one.film_clearance, rel=1e-15)
+    assert other.clearance == pytest.approx(one.clearance, rel=1e-15)
     assert one.bore_clearance == pytest.approx(0.6e-4, rel=1e-15)
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ...model import Array
-from ...native.spec import NativeParameter, NativeSpec
+from ..model import Array
+from .spec import NativeParameter, NativeSpec
 
 NATIVE_PARAMETERS = (
     ("radius", "m", "bearing radius"),

@@ -1,0 +1,202 @@
+"""The bearing of fixed pads, each about a center of curvature of its own, in SI units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...errors import (
+    FilmContactError,
+    InputError,
+    require_each,
+    require_kind,
+    require_positive,
+    require_tuple,
+    require_vector,
+)
+from ...inputs.si_arguments import quantities
+from ...model import Array
+from ...native import JournalKernel
+from ...native.journal_spec import journal_spec
+from ...native.response_kernels import LobePlace, LobesKernel
+from ...native.spec import NativeSpec
+from ...signals import Signal, force_outputs, journal_inputs
+from ..films.kernel_film import BoundKernel
+from ..reaction import NOMINAL_SPEED, FilmReaction
+from .lobe import Lobe, require_apart
+from .pad_film import PadFilm, PadMapFilm
+
+
+@dataclass(frozen=True, eq=False)
+class BoundLobes(BoundKernel):
+    """The films of the pads of one bearing in SI units.
+
+    Parameters
+    ----------
+    kernel : LobesKernel
+        The compiled films.
+    clearance : float [m]
+        Of a pad.
+    lobes : tuple of Lobe
+    """
+
+    lobes: tuple[Lobe, ...]
+
+    def require_inside(self, position: Array) -> None:
+        """Raise FilmContactError, which names the pad, where a journal at a position (2,) [m] touches."""
+        films = [self.clearance * float(lobe.least_film(position / self.clearance)) for lobe in self.lobes]
+        touched = int(np.argmin(films))
+        if not films[touched] > 0.0:
+            raise FilmContactError(
+                f"position must leave a film on every pad, got {position.tolist()} m with a film of "
+                f"{films[touched]:.6g} m on lobe {touched}, {self.lobes[touched]!r}"
+            )
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class LobedBearing(FilmReaction):
+    """A journal bearing of fixed pads, such as an elliptical one: a Reaction and a static Model.
+
+    x and y are Cartesian from the bearing center, rotation is about +z, the force acts on the journal. The
+    film of a pad knows the journal only from the pad's own center of curvature (Lund & Thomsen 1978); that of
+    the bearing is their sum. Eccentricity ratios are in pad clearances.
+
+    Parameters
+    ----------
+    radius : float [m]
+        Journal radius; or `diameter`, twice that.
+    length : float [m]
+        Axial length.
+    pad_clearance : float or None [m]
+        Radial clearance c_p of a pad: its radius of curvature less that of the journal. Give this or the
+        assembled one.
+    assembled_clearance : float or None [m]
+        Radial clearance of the largest journal that fits in, (1 - preload) c_p, as drawings and ROSS have it;
+        for lobes of one preload.
+    viscosity : float [Pa s]
+        Dynamic viscosity of the lubricant.
+    lobes : tuple of Lobe
+        The pads; `lobe_set` makes the usual sets.
+    film : PadFilm
+        The film law of the pads.
+
+    Raises
+    ------
+    InputError
+        If a dimension is not finite and positive, there are not one of both clearances, it is not below the
+        radius, there is no lobe, or lobes overlap.
+
+    Examples
+    --------
+    >>> lobes = lobe_set("elliptical", preload=0.5)
+    >>> bearing = LobedBearing(radius=0.05, length=0.05, pad_clearance=1e-4, viscosity=0.02, lobes=lobes)
+    >>> bearing.force(position=[0.0, -3e-5], velocity=[0.0, 0.0], speed=300.0).shape
+    (2,)
+    """
+
+    radius: float
+    length: float
+    viscosity: float
+    lobes: tuple[Lobe, ...]
+    pad_clearance: float | None = None
+    assembled_clearance: float | None = None
+    film: PadFilm = field(default_factory=PadMapFilm)
+
+    def __post_init__(self) -> None:
+        require_each(self, require_positive, "radius", "length", "viscosity")
+        require_tuple("lobes", self.lobes, Lobe)
+        if not self.lobes:
+            raise InputError("lobes must have one at least, got ()")
+        require_apart(self.lobes)
+        self._require_clearance()
+        require_kind("film", self.film, PadFilm, "a film law of pads, as PadMapFilm()")
+
+    def _require_clearance(self) -> None:
+        given = {name: getattr(self, name) for name in ("pad_clearance", "assembled_clearance")}
+        told = {name: value for name, value in given.items() if value is not None}
+        if len(told) != 1:
+            raise InputError(f"pad_clearance or assembled_clearance must be given, one of both, got {given}")
+        for name, value in told.items():
+            require_positive(name, value)
+        preloads = sorted({lobe.preload for lobe in self.lobes})
+        if self.pad_clearance is None and len(preloads) > 1:
+            raise InputError(f"lobes must have one preload for an assembled_clearance, got {preloads}")
+        if self.clearance >= self.radius:
+            raise InputError(f"clearance must be below the radius {self.radius!r}, got {self.clearance!r}")
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance c_p of a pad [m], the unit of eccentricity ratios."""
+        if self.pad_clearance is not None:
+            return self.pad_clearance
+        assert self.assembled_clearance is not None  # one of both is given
+        return self.assembled_clearance / (1.0 - self.lobes[0].preload)
+
+    @property
+    def slenderness(self) -> float:
+        """Length / diameter [1]."""
+        return self.length / (2.0 * self.radius)
+
+    @property
+    def force_scale(self) -> float:
+        """Viscosity * length * radius^3 / clearance^2 [N s], the unit of force of a pad per 1/s."""
+        return self.viscosity * self.length * self.radius**3 / self.clearance**2
+
+    @property
+    def inputs(self) -> tuple[Signal, ...]:
+        """Signals x, y, vx, vy, speed."""
+        return journal_inputs(self.clearance, NOMINAL_SPEED)
+
+    @property
+    def outputs(self) -> tuple[Signal, ...]:
+        """Signals force_x, force_y: the force on the journal."""
+        return force_outputs(self.force_scale * NOMINAL_SPEED * min(1.0, self.slenderness**2))
+
+    def minimum_film(self, position: ArrayLike) -> Array:
+        """Return the least film on any pad [m], shape (...), of journals at positions (2, ...) [m].
+
+        It is not positive where the journal touches.
+        """
+        at = require_vector("position", position) / self.clearance
+        return self.clearance * np.min([lobe.least_film(at) for lobe in self.lobes], axis=0)
+
+    @cached_property
+    def bound_film(self) -> BoundLobes:
+        """The films of the pads tied to the dimensions of this bearing."""
+        extents = {lobe.extent: self.film.kernel(lobe.extent, self.slenderness) for lobe in self.lobes}
+        films = [JournalKernel(extents[lobe.extent], self.clearance, self.force_scale) for lobe in self.lobes]
+        places = [
+            LobePlace(lobe.middle, (self.clearance * lobe.center[0], self.clearance * lobe.center[1]))
+            for lobe in self.lobes
+        ]
+        return BoundLobes(LobesKernel(films, places), self.clearance, self.lobes)
+
+    def native(self) -> NativeSpec | None:
+        """Return the kernel of the C library that is this bearing; None if its film is no map.
+
+        Nor has a subclass. Its parameters are the dimensions, with the clearance of the pads, and the
+        viscosity; radius and length are fixed.
+        """
+        if type(self) is not LobedBearing or not isinstance(self.film, PadMapFilm):
+            return None
+        extents = list(dict.fromkeys(lobe.extent for lobe in self.lobes))
+        tables = {"slenderness": np.array([self.slenderness])}
+        for number, extent in enumerate(extents):
+            kernel = self.film.table(extent, self.slenderness).kernel()
+            tables |= {f"{number}.{name}": numbers for name, numbers in kernel.tables.items()}
+        rows = [(lobe.middle, *lobe.center, extents.index(lobe.extent)) for lobe in self.lobes]
+        lengths = {name: float(getattr(self, name)) for name in ("radius", "length", "clearance")}
+        dimensions = {**lengths, "viscosity": float(self.viscosity)}
+        return journal_spec("lobed_journal", {"lobes": np.array(rows), **tables}, dimensions, fixed=True)
+
+    def portable(self) -> LobedBearing:
+        """Return this bearing with a film that carries the maps it needs; see `model.Portable`."""
+        if not isinstance(self.film, PadMapFilm):
+            return self
+        extents = dict.fromkeys(lobe.extent for lobe in self.lobes)
+        tables = tuple(self.film.table(extent, self.slenderness) for extent in extents)
+        return replace(self, film=replace(self.film, tables=tables))

@@ -1,0 +1,62 @@
+#include "evaluate.h"
+
+#include <math.h>
+
+void rf_forget(rf_instance *c)
+{
+    c->known = 0;
+}
+
+rf_answer rf_failed(rf_instance *c, int status, const char *what, const rf_message *why)
+{
+    const int retry = c->now.phase == RF_CONTINUOUS && status != RF_INVALID;
+    return rf_log(c, retry ? RF_DISCARD : RF_ERROR, retry ? RF_LOG_DISCARD : RF_LOG_ERROR,
+                  "%s at t = %.9g s: %s", what, c->now.time, why->text);
+}
+
+rf_answer rf_judged(rf_instance *c, int status, const char *what, const rf_message *why)
+{
+    if (status > RF_OUTSIDE)
+        return rf_failed(c, status, what, why);
+    if (status == RF_OK || c->now.warned)
+        return RF_FINE;
+    c->now.warned = 1;
+    return rf_log(c, RF_WARNING, RF_LOG_WARNING, "%s at t = %.9g s: %s (told once)", what, c->now.time,
+                  why->text);
+}
+
+int rf_apply_parameters(rf_instance *c, rf_message *why)
+{
+    int status = RF_OK;
+    if (c->parameters_changed && c->type->set_parameters)
+        status = c->type->set_parameters(c->kernel, c->values[RF_PARAMETER], why);
+    c->parameters_changed = status != RF_OK;
+    return status;
+}
+
+rf_point rf_present_point(const rf_instance *c)
+{
+    const int before = c->now.phase == RF_CONTINUOUS && c->now.time == c->now.kink;
+    const rf_point at = {before ? nextafter(c->now.time, -HUGE_VAL) : c->now.time, c->values[RF_STATE],
+                         c->values[RF_INPUT]};
+    return at;
+}
+
+int rf_evaluate(rf_instance *c, rf_role role, rf_message *why)
+{
+    const rf_kernel_type *type = c->type;
+    int (*const function)(const void *, const rf_point *, double *, rf_message *) =
+        role == RF_OUTPUT ? type->output : role == RF_DERIVATIVE ? type->derivative : type->events;
+    if (c->known & 1u << role || !function)
+        return RF_OK;
+    int status = rf_apply_parameters(c, why);
+    const rf_point at = rf_present_point(c);
+    if (status == RF_OK)
+        status = function(c->kernel, &at, c->values[role], why);
+    for (size_t i = 0; status <= RF_OUTSIDE && i < c->resource->count[role]; ++i)
+        if (!isfinite(c->values[role][i]))
+            status = rf_say(why, RF_NOT_FINITE, "value %zu is not finite", i);
+    if (status <= RF_OUTSIDE)
+        c->known |= 1u << role;
+    return status;
+}

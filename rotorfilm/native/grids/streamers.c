@@ -1,0 +1,154 @@
+#include "streamers.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "../films/quintic.h"
+
+#define PI 3.14159265358979323846
+
+static rf_section section_at(const double *e, double chi, double angle)
+{
+    const double away = chi > 0.0 ? atan2(-e[1], -e[0]) : 0.0, t = remainder(angle - away, 2.0 * PI);
+    const double gap = (1.0 - chi) * (1.0 + chi), h = 1.0 + chi * cos(t);
+    const double bent = atan2(sqrt((1.0 - chi) / (1.0 + chi)) * sin(0.5 * t), cos(0.5 * t));
+    const double film = 2.0 * bent / sqrt(gap);
+    const rf_section at = {h, film, (film - chi * sin(t) / h) / gap};
+    return at;
+}
+
+void rf_place_stream(rf_stream *oil, const double *e)
+{
+    const rf_grid *grid = oil->grid;
+    const double chi = rf_length(e[0], e[1]), gap = (1.0 - chi) * (1.0 + chi);
+    oil->turn = 2.0 * PI / sqrt(gap);
+    oil->square_turn = oil->turn / gap;
+    for (size_t i = 0; i < grid->lines; ++i) {
+        oil->face[i] = section_at(e, chi, oil->search->cells[0].face[i]);
+        oil->line[i] = section_at(e, chi, oil->search->cells[0].theta[i]);
+    }
+}
+
+static size_t before(const rf_stream *oil, size_t i)
+{
+    return i > 0 ? i - 1 : oil->grid->lines - 1;
+}
+
+size_t rf_next_line(const rf_stream *oil, size_t i, int after)
+{
+    return (after != 0) != oil->backward ? (i + 1 < oil->grid->lines ? i + 1 : 0) : before(oil, i);
+}
+
+size_t rf_next_face(const rf_stream *oil, size_t i, int after)
+{
+    return (after != 0) != oil->backward ? i : before(oil, i);
+}
+
+int rf_is_film(const rf_stream *oil, size_t at)
+{
+    return oil->search->ring->clipped ? oil->search->pressure[at] > 0.0 : oil->search->free[at];
+}
+
+double rf_drawn(const rf_stream *oil, size_t i, size_t j, int after)
+{
+    const size_t nodes = oil->grid->nodes, face = rf_next_face(oil, i, after);
+    const double *p = oil->search->pressure;
+    return oil->search->cells[0].around[face] * oil->grid->width[j] * (p[rf_next_line(oil, i, after) * nodes + j]
+                                                                       - p[i * nodes + j]);
+}
+
+/* The pressure flow into a node along the film. */
+static double drawn_along(const rf_stream *oil, size_t i, size_t j)
+{
+    const size_t nodes = oil->grid->nodes, at = i * nodes + j;
+    const double *p = oil->search->pressure, *c = oil->grid->conductance, along = oil->search->cells[0].along[i];
+    const double inner = j > 0 ? c[j - 1] * (p[at - 1] - p[at]) : 0.0;
+    return along * (inner + (j + 1 < nodes ? c[j] * (p[at + 1] - p[at]) : 0.0));
+}
+
+void rf_reach(const rf_stream *oil, size_t i, size_t j, double share[3])
+{
+    const double taken = -oil->search->source[i * oil->grid->nodes + j];
+    const double inflow[3] = {rf_drawn(oil, i, j, 0), rf_drawn(oil, i, j, 1), drawn_along(oil, i, j)};
+    double left = oil->search->ring->ruptured ? 1.0 : 0.0;
+    for (int k = 0; k < 3; ++k) {
+        share[k] = taken > 0.0 ? fmin(fmax(inflow[k] / taken, 0.0), left) : 0.0;
+        left -= share[k];
+    }
+}
+
+/* Integrals from one place on the ring to the next. */
+static rf_section over(const rf_stream *oil, const rf_section *from, const rf_section *to)
+{
+    rf_section at = {0.0, to->film - from->film, to->square - from->square};
+    if (at.film < 0.0) {
+        at.film += oil->turn;
+        at.square += oil->square_turn;
+    }
+    return at;
+}
+
+/* Those over the half of a cell that the oil meets after or before its line. */
+static rf_section over_half(const rf_stream *oil, size_t i, int after)
+{
+    const rf_section *face = &oil->face[rf_next_face(oil, i, after)], *line = &oil->line[i];
+    return (after != 0) != oil->backward ? over(oil, line, face) : over(oil, face, line);
+}
+
+int rf_opens(const rf_stream *oil, size_t i, int after)
+{
+    return oil->grid->held[rf_next_line(oil, i, after)] && oil->grid->held[i];
+}
+
+void rf_cross_line(rf_stream *oil, size_t i, double *film, double *streamers)
+{
+    const double h = oil->line[i].thickness;
+    for (size_t j = 0; j < oil->grid->nodes; ++j) {
+        for (int after = 0; after < 2; ++after) {
+            const rf_section half = over_half(oil, i, after);
+            const int full = rf_is_film(oil, rf_next_line(oil, i, after) * oil->grid->nodes + j);
+            const double thin = after ? h : oil->brought[j];
+            if (!rf_opens(oil, i, after))
+                *(full ? film : streamers) += oil->width[j] * (!full && thin < h ? thin * half.square : half.film);
+        }
+        oil->brought[j] = h;
+    }
+}
+
+void rf_cross_cells(rf_stream *oil, size_t i, double *film, double *streamers)
+{
+    const rf_section cell = over(oil, &oil->face[before(oil, i)], &oil->face[i]);
+    const double in = oil->face[rf_next_face(oil, i, 0)].thickness, out = oil->face[rf_next_face(oil, i, 1)].thickness;
+    for (size_t j = 0; j < oil->grid->nodes; ++j) {
+        double share[3] = {1.0, 0.0, 0.0};
+        if (rf_is_film(oil, i * oil->grid->nodes + j)) {
+            oil->brought[j] = out;
+        } else {
+            rf_reach(oil, i, j, share);
+            oil->brought[j] += (share[0] + share[2]) * (out - in);
+        }
+        const double full = share[0] + share[1] + share[2], h = oil->line[i].thickness, thin = oil->brought[j];
+        *film += oil->width[j] * full * cell.film;
+        *streamers += oil->width[j] * (1.0 - full) * (thin < h ? thin * cell.square : cell.film);
+    }
+}
+
+int rf_open_stream(rf_stream *oil, const rf_search *search)
+{
+    const rf_grid *grid = search->ring->grids;
+    double rest = 1.0;
+    oil->search = search;
+    oil->grid = grid;
+    oil->line = malloc(2 * grid->lines * sizeof(rf_section) + 2 * grid->nodes * sizeof(double));
+    if (!oil->line)
+        return RF_MEMORY;
+    oil->face = oil->line + grid->lines;
+    oil->brought = (double *)(oil->face + grid->lines);
+    oil->width = oil->brought + grid->nodes;
+    for (size_t j = 0; j < grid->nodes; ++j) {
+        oil->width[j] = grid->width[j];
+        rest -= grid->width[j];
+    }
+    oil->width[grid->nodes - 1] += rest;
+    return RF_OK;
+}

@@ -1,0 +1,39 @@
+/* A rotor with its bearings as one system (rotors/mounted.py): its tables, and the linear equations of its steps. */
+#ifndef ROTORFILM_MOUNTED_H
+#define ROTORFILM_MOUNTED_H
+
+#include "../kernels/kernel.h"
+#include "../solvers/profile.h"
+
+typedef struct rf_mounted_bearing {
+    const rf_kernel_type *type;
+    void *kernel;
+    rf_table *tables;
+    size_t parameters;
+} rf_mounted_bearing;
+
+typedef struct rf_mounted {
+    size_t n, bearings, inputs, sensed; /* n: coordinates */
+    const double *steady, *spin, *push, *carry, *weight, *unbalance, *sense, *motion;
+    rf_profile profile;
+    rf_mounted_bearing *bearing;
+    double *numbers; /* one block behind all that follows */
+    double *moved, *force, *by_motion, *by_speed;     /* of the bearings at one point: (4b), (2b), (b, 2, 5), (2b) */
+    double *inverse, *response, *reaction;            /* (n, n); (2n, 2b) to forces; (2b, 2b) */
+    double *rates, *spare, *right;                    /* (n, n), (n, n); (2n) */
+    double shift, speed;                              /* of the inverse; shift 0 as long as there is none */
+} rf_mounted;
+
+/* NULL with the message if the tables are none of a system. */
+rf_mounted *rf_mounted_create(const rf_tables *tables, rf_sizes *sizes, rf_message *why);
+void rf_mounted_destroy(rf_mounted *self);
+
+/* What depends on shift and speed only: the inverse, and the response of the free rotor to the forces. */
+void rf_mounted_invert(rf_mounted *self, double shift, double speed);
+/* Inverse of I - (forces by motion) (motion by forces): the bearings close the loop. */
+int rf_mounted_close_loop(const rf_mounted *self, rf_message *why);
+
+/* b becomes (shift I - A)^-1 b, after both. */
+void rf_mounted_solve(const rf_mounted *self, double *b);
+
+#endif
