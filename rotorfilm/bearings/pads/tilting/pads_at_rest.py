@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ....errors import InputError, require_finite, require_number, warn_user
-from ....model import Array, Tangent, tangent_of
+from ....model import Array, Tangent
 from ....native.tilting_kernel import RestPoint
 from ....readable.result import Readable
 from .held_pads import TURN, pad_slopes
@@ -96,7 +96,15 @@ class TiltingPadsAtRest:
 
     def prepare_tangent(self) -> Tangent:
         """Return force and slopes as a function of five numbers."""
-        return tangent_of(_Silent(self))  # type: ignore[arg-type]
+
+        def tangent(
+            x: float, y: float, vx: float, vy: float, speed: float
+        ) -> tuple[float, float, list[float]]:
+            point = self._point((x, y), (vx, vy), speed)
+            force_x, force_y = point.force.tolist()
+            return force_x, force_y, point.slopes.ravel().tolist()
+
+        return tangent
 
     def least_film(self, position: ArrayLike, speed: float) -> float:
         """Return the least film of all pads [m]."""
@@ -198,16 +206,3 @@ class TiltingPadsAtRest:
         point = self.bearing.kernel.at_rest(place, require_number("speed", speed))  # type: ignore[arg-type]
         report_pads(self.bearing, point.status, point.pad, place)
         return point
-
-
-class _Silent:
-    """Forces that a search passes through, which warn of nothing."""
-
-    def __init__(self, of: TiltingPadsAtRest) -> None:
-        self._of = of
-
-    def force(self, position: Array, velocity: Array, speed: float) -> Array:
-        return self._of._point(position, velocity, speed).force
-
-    def jacobian(self, position: Array, velocity: Array, speed: float) -> Array:
-        return self._of.jacobian(position, velocity, speed)

@@ -11,6 +11,7 @@ from rotorfilm import (
     FilmContactError,
     InputError,
     PadGridFilm,
+    PadMapFilm,
     ReducedCoefficients,
     TiltingPadBearing,
     ValidityWarning,
@@ -259,6 +260,23 @@ def test_springs_of_pivots_are_in_series_with_the_film(smooth):
     stiff = coefficients(smooth(pivot_stiffness=1e16), place, SPEED)
     rigid = coefficients(hard, place, SPEED)
     np.testing.assert_allclose(stiff.stiffness, rigid.stiffness, rtol=1e-6)
+
+
+def test_map_has_the_film_of_the_grid_and_goes_along(tilting, monkeypatch, tmp_path):
+    bearing = tilting(5, 0.5, 60.0, 0.3, first=270.0, cells=(96, 8))
+    mapped = replace(bearing, film=PadMapFilm())
+    load = [0.0, -0.6 * units(bearing)[0]]
+    at, over = (equilibrium(one, load, SPEED) for one in (bearing, mapped))
+    np.testing.assert_allclose(over.position, at.position, atol=1e-4 * 1e-4)
+    K, C = coefficients(bearing, at.position, SPEED), coefficients(mapped, over.position, SPEED)
+    for name in ("stiffness", "damping"):
+        most = getattr(K, name).max()
+        np.testing.assert_allclose(getattr(C, name), getattr(K, name), atol=1e-3 * most)
+    # What is carried along finds its map without the disk.
+    carried = mapped.portable()
+    monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path))
+    np.testing.assert_array_equal(equilibrium(carried, load, SPEED).position, over.position)
+    assert not list(tmp_path.iterdir())
 
 
 def test_clearances_of_pad_and_assembly_are_one_bearing(tilting):
