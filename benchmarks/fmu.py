@@ -1,7 +1,8 @@
 """What an FMU costs, in one run: setting five inputs, a step, getting two outputs of a journal bearing.
 
 In C: the native FMU against its bare kernel. Through fmpy: the native FMUs against an FMU of the same
-interface that does nothing (`fmu_trivial.c`), and against the same bearing in Python. Errors are those of the
+interface that does nothing (`fmu_trivial.c`), and against the same bearing in Python. Then, in C again, a
+step of bearings whose oil warms against one of the same film at one viscosity. Errors are those of the
 forces against the Python model, relative to the largest. Needs a C compiler, on Linux or macOS.
 
     python benchmarks/fmu.py
@@ -13,16 +14,18 @@ import os
 import subprocess
 import tempfile
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 
 import fmpy
 import numpy as np
+from bush_fmu import compile_host, time_steps
 from fmpy.fmi2 import FMU2Slave
 from fmpy.fmi3 import FMU3Slave
 
 import rotorfilm.native
-from rotorfilm import JournalBearing, MapFilm, export_fmu
+from rotorfilm import Cooling, Groove, JournalBearing, MapFilm, Oil, ShortFilm, export_fmu
 from rotorfilm.bearings.journal.map.map_film import packaged_table
 
 HERE = Path(__file__).parent
@@ -144,8 +147,28 @@ def time_fmpy(paths: dict[str, Path], folder: Path, states: np.ndarray) -> None:
         print(f"    {name:24s}{1e6 * fastest[name]:9.2f} us{fastest[name] / fastest[nothing]:8.2f} x{shown}")
 
 
+def time_warm(folder: Path, states: np.ndarray) -> None:
+    """Print what the thermal state costs in C, the fastest of three runs in turn."""
+    host = compile_host(folder)
+    grooves = tuple(Groove(center=center, width=np.radians(20.0)) for center in (0.0, np.pi))
+    films = {"map": {}, "short film": {"film": ShortFilm()}, "two grooves": {"grooves": grooves}}
+    oil = {"viscosity": None, "oil": Oil.iso_vg(100), "cooling": Cooling(supply_temperature=318.15)}
+    pairs = {}
+    for name, changes in films.items():
+        cold = replace(BEARING, **changes)
+        pairs[name] = cold, replace(cold, **oil).in_time()
+    fastest = dict.fromkeys(films, (np.inf, np.inf))
+    for _ in range(3):
+        for name, pair in pairs.items():
+            taken = (time_steps(host, model, states, 1e-4, 100)[0] for model in pair)
+            fastest[name] = tuple(map(min, fastest[name], taken))
+    print("a thermal state in a C host: step at one viscosity, step that warms (aim: at most 1.5 times)")
+    for name, (cold, warm) in fastest.items():
+        print(f"    {name:24s}{1e3 * cold:9.1f} ns{1e3 * warm:9.1f} ns{warm / cold:8.2f} x")
+
+
 def main() -> None:
-    """Print both tables."""
+    """Print all tables."""
     states = random_states(STEPS)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -162,6 +185,7 @@ def main() -> None:
             ),
         }
         time_fmpy(paths, folder, states)
+        time_warm(folder, states)
 
 
 if __name__ == "__main__":

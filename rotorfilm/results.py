@@ -57,11 +57,6 @@ class _Lossy(Protocol):
     def losses(self, position: Array, velocity: Array, speed: float) -> BearingLosses | None: ...
 
 
-@runtime_checkable
-class _Padded(Protocol):
-    def pad_states(self, position: Array, speed: float) -> Any: ...
-
-
 @dataclass(frozen=True, kw_only=True)
 class Equilibrium(Readable):
     """The static position of a journal at which the film balances the load.
@@ -123,12 +118,6 @@ class Equilibrium(Readable):
         if not isinstance(reaction, _Lossy):
             return None
         return reaction.losses(self.position, np.zeros(2), self.speed)
-
-    @cached_property
-    def pads(self) -> Any:
-        """Tilts and loads of tilting pads, as `PadStates`; None for a reaction without them."""
-        reaction = vars(self)["_reaction"]
-        return reaction.pad_states(self.position, self.speed) if isinstance(reaction, _Padded) else None
 
 
 @dataclass(frozen=True, kw_only=True)

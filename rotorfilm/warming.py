@@ -70,13 +70,12 @@ class Settling(Protocol):
 class AtRest(JournalForce, Protocol):
     """A force on a journal at rest whose own states rest too."""
 
-    def least_film(self, position: ArrayLike, speed: float) -> float:
-        """Return the least film [m].
+    def settled(self, found: Any) -> Any:
+        """Return an Equilibrium of the journal with what it says of the states.
 
         Parameters
         ----------
-        position : array_like, shape (2,) [m]
-        speed : float [rad/s]
+        found : Equilibrium
         """
 
     def coefficients(self, position: ArrayLike, speed: float, frequency: float | None = None) -> Any:

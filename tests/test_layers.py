@@ -67,7 +67,8 @@ PARTS = {
     "questions": [["journal"], ["damper", "contact", "bush", "shaft"]],
     "comparisons": [["journal", "contact", "coupling"], ["limits"]],
     "charts": [["comparisons"]],
-    "native": [],
+    "native": [["pads"]],
+    "native/pads": [],
     "readable": [],
 }
 """The same among the folders of a part."""

@@ -59,6 +59,7 @@ class FilmKernel:
     """
 
     _function: ClassVar[str]
+    _library: ClassVar[staticmethod[[], dict[str, Any]]] = staticmethod(functions)
     _arguments: tuple[Any, ...]
     struct: Any
     error: float = 0.0
@@ -70,13 +71,13 @@ class FilmKernel:
 
     @property
     def tables(self) -> dict[str, Array] | None:
-        """What the kernel `heated_journal` reads of this film; None if it takes no such film."""
+        """What the kernels of bearings whose oil warms read of this film; None if they take no such film."""
         return None
 
     @property
     def film(self) -> int | None:
         """The address of its rf_film."""
-        return cast(functions()[self._function], c_void_p).value
+        return cast(self._library()[self._function], c_void_p).value
 
     def force(self, eccentricity: Array, source: Array) -> Batch:
         """Return the forces (2, n) at the eccentricities and sources (2, n)."""
@@ -180,7 +181,6 @@ class GrooveMapKernel(MapKernel):
 
     _function: ClassVar[str] = "rf_groove_film"
     openings: ClassVar[bool] = True
-    tables = None
 
     def __init__(
         self,
@@ -192,17 +192,27 @@ class GrooveMapKernel(MapKernel):
         slenderness: float,
     ) -> None:
         self._arguments = (coefficients, reach, log_center, crowding, axis, slenderness)
-        wide = _wrapped(_wrapped(coefficients, 1), 2)
+        wide = periodic(periodic(coefficients, 1), 2)
         self.coefficients = np.ascontiguousarray(wide, dtype=float)
-        self.log_center = np.ascontiguousarray(_wrapped(log_center, 0), dtype=float)
+        self.log_center = np.ascontiguousarray(periodic(log_center, 0), dtype=float)
         cells_x, cells_e, cells_s = (count - 5 for count in self.coefficients.shape)
         places = self.log_center.ctypes.data, self.coefficients.ctypes.data
         counts = cells_x, cells_e, cells_s, len(log_center)
         self.struct = GrooveMapStruct(*counts, reach, crowding, axis, *places, slenderness)
         self.error = functions()["rf_groove_error"](byref(self.struct))
 
+    @property
+    def tables(self) -> dict[str, Array]:
+        """The map as all kernels with openings read it."""
+        numbers = (self.struct.slenderness, self.struct.x_end, self.struct.squeeze, self.struct.axis)
+        return {
+            "coefficients": self.coefficients,
+            "center": self.log_center,
+            "map": np.array(numbers),
+        }
 
-def _wrapped(coefficients: Array, axis: int) -> Array:
+
+def periodic(coefficients: Array, axis: int) -> Array:
     """Return periodic coefficients as the kernel reads them: from the one two nodes back, five repeated."""
     count = coefficients.shape[axis]
     return np.take(coefficients, np.arange(-2, count + 3) % count, axis)

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..model import Array
-from .heat_structs import HeatedStruct, OilStruct
+from .heat_structs import HeatedStruct, HeatSlopesStruct, HeatStruct, OilStruct
 from .library import loops
 from .loss_kernels import LossKernel
 from .response_kernels import JournalKernel
@@ -65,7 +65,7 @@ class BalancedKernel:
     oil : OilTable
     numbers : mapping of str to float
         radius, length, clearance [m], supply, ambient [K], conductance [W/K], volumetric_heat [J/(m3 K)],
-        full_gap.
+        carry_over, full_gap.
     """
 
     def __init__(
@@ -77,11 +77,14 @@ class BalancedKernel:
         self._kept = ln, journal, losses
         table = OilStruct(len(ln) - 5, ln.ctypes.data, oil.coldest, oil.hottest)
         data = None if losses.struct is None else addressof(losses.struct)
-        self._struct = HeatedStruct(journal=journal.struct, loss=losses.address, loss_data=data, oil=table)
+        openings = data if losses.openings else None
+        self._struct = HeatedStruct(
+            journal=journal.struct, loss=losses.address, loss_data=data, openings=openings, oil=table
+        )
         for name, value in numbers.items():
             setattr(self._struct, name, int(value) if name == "full_gap" else value)
         self._reference = byref(self._struct)
-        self._at = loops()["rf_balanced_at"]
+        self._at, self._heat = loops()["rf_balanced_at"], loops()["rf_heat_at"]
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._arguments
@@ -94,6 +97,12 @@ class BalancedKernel:
         state = _Five(x, y, vx, vy, speed)
         status = self._at(self._reference, state, pair, ten, byref(temperature))
         return pair[0], pair[1], ten[:], temperature.value, status
+
+    def heat_slopes(self, state: list[float]) -> tuple[Array, int]:
+        """Return d(power, effective flow, side flow)/d state at unit viscosity, (3, 5), and a status."""
+        heat, slopes = HeatStruct(), HeatSlopesStruct()
+        status = self._heat(self._reference, _Five(*state), byref(heat), byref(slopes))
+        return np.array([slopes.drag, slopes.flow, slopes.leak]), status
 
     def batch(self, states: Array, *, slopes: bool = True) -> BalancedBatch:
         """Return forces, temperatures and Jacobians of states x, y, vx, vy, speed, shape (5, n)."""

@@ -50,6 +50,8 @@ _SCALAR: dict[str, list[Any]] = {
     "rf_groove_error": [c_void_p],
 }
 _LOOPS: dict[str, list[Any]] = {
+    "rf_pad_film": [c_void_p] * 5,
+    "rf_shape_pad": [c_void_p, c_double],
     "rf_ring_film": [c_void_p] * 5,
     "rf_ring_pair": [c_void_p, c_size_t, *[c_void_p] * 6],
     "rf_ring_field": [c_void_p] * 7,
@@ -65,11 +67,12 @@ _LOOPS: dict[str, list[Any]] = {
     "rf_recess_field": [c_void_p, c_size_t, c_void_p, c_void_p],
     "rf_recess_least": [c_void_p] * 3,
     "rf_balanced_at": [c_void_p] * 5,
+    "rf_heat_at": [c_void_p] * 4,
+    "rf_groove_flows": [c_void_p, c_size_t, *[c_void_p] * 3],
+    "rf_groove_losses": [c_void_p] * 5,
     "rf_balanced_batch": [c_void_p, c_size_t, *[c_void_p] * 5],
     "rf_ride": [c_void_p, c_void_p, c_double, c_int64, c_void_p, c_void_p],
     "rf_lobes_at": [c_void_p] * 4,
-    "rf_pad_film": [c_void_p] * 5,
-    "rf_shape_pad": [c_void_p, c_double],
     "rf_springs_at": [c_void_p] * 4,
     "rf_sprung_at": [c_void_p] * 4,
     "rf_follow_shaken": [c_void_p, c_int64, c_void_p, c_void_p],

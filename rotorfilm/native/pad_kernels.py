@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Sequence
-from ctypes import byref, c_double, c_int32, c_void_p, cast
+from ctypes import byref, c_double, c_int32, c_void_p
 from typing import Any, ClassVar
 
 import numpy as np
@@ -48,6 +48,8 @@ class PadMapKernel(FilmKernel):
 
     _function: ClassVar[str] = "rf_pad_film"
     is_table: ClassVar[bool] = True
+    # There, so that the FMUs of other bearings do without it.
+    _library = staticmethod(loops)
 
     def __init__(
         self, coefficients: Array, extent: float, u_range: tuple[float, float], y_end: float
@@ -58,11 +60,6 @@ class PadMapKernel(FilmKernel):
         self.struct = PadMapStruct(*cells, *u_range, y_end)
         self.struct.coefficients = self.coefficients.ctypes.data
         loops()["rf_shape_pad"](byref(self.struct), extent)
-
-    @property
-    def film(self) -> int | None:
-        """The address of its rf_film."""
-        return cast(loops()[self._function], c_void_p).value
 
     @property
     def tables(self) -> dict[str, Array]:

@@ -7,10 +7,13 @@ import control
 import fmpy
 import numpy as np
 import pytest
+from scipy.integrate import DOP853
 
 from rotorfilm.bearings.journal import MapFilm
 from rotorfilm.bearings.journal.bearing import JournalBearing
+from rotorfilm.bearings.oil import Cooling, Oil
 from rotorfilm.cosim import Jacobi, critical_macro_step
+from rotorfilm.errors import ValidityWarning
 from rotorfilm.fmu import export_fmu
 from rotorfilm.motion import simulate
 from rotorfilm.rotors import RigidRotor, mount
@@ -64,6 +67,26 @@ def test_libcosim_moves_a_rotor_as_its_closed_form(cosim, tmp_path):
     assert execution.step(50)
     x, vx = observer.last_real_values(index, [known["rotor.x"], known["rotor.vx"]])
     np.testing.assert_allclose([x, vx], [2e-5 + 0.5 * 0.4 * 0.05**2, 0.4 * 0.05], rtol=1e-11)
+
+
+def test_libcosim_warms_a_film_as_simulate(cosim, tmp_path):
+    execution_of, slave_of, observer_of = cosim
+    cooling = Cooling(supply_temperature=310.25, bush_heat_capacity=20.0)
+    film = replace(BEARING, viscosity=None, oil=Oil.iso_vg(100), cooling=cooling).in_time()
+    # So much mass that it stays where it is.
+    with pytest.warns(ValidityWarning, match="mass should be"):
+        rotor = RigidRotor(mass=1e25, speed=157.0, gravity=(0.0, 0.0), position=(2e-5, -4e-5))
+    start = {"x": 2e-5, "y": -4e-5, "speed": 157.0}
+    path = export_fmu(film, tmp_path / "film.fmu", component="film", start=start)
+    execution = execution_of.from_step_size(step_size=10_000_000)
+    index = execution.add_local_slave(slave_of(fmu_path=str(path), instance_name="film"))
+    observer = observer_of.create_last_value()
+    execution.add_observer(observer)
+    assert execution.step(100)
+    found = observer.last_real_values(index, [references(path)["film.film_temperature"]])
+    motion = simulate(rotor, film, duration=1.0, samples=2, rtol=1e-12, method=DOP853)
+    np.testing.assert_allclose(found, motion["film_temperature"][-1], rtol=1e-10)
+    assert found[0] > 313.0
 
 
 def resting(eccentricity):

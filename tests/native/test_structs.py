@@ -7,8 +7,9 @@ import subprocess
 
 import pytest
 
-from rotorfilm.native import heat_structs, master_structs, pad_kernels, pad_structs, structs, tilting_kernel
+from rotorfilm.native import heat_structs, master_structs, pad_kernels, pad_structs, structs
 from rotorfilm.native.library import FOLDER
+from rotorfilm.native.pads import tilting_kernel
 
 KINDS = {
     name: kind

@@ -55,14 +55,21 @@ class FilmLosses(NamedTuple):
         return self.shear_film + self.shear_streamers
 
 
-def plain_losses(kernel: LossKernel, eccentricity: Array, source: Array) -> FilmLosses:
-    """Return the losses of a plain film by its compiled kernel, at states (2, ...) off the wall."""
+def kernel_losses(
+    kernel: LossKernel, eccentricity: Array, source: Array, geometry: FilmGeometry
+) -> FilmLosses:
+    """Return the losses of a film by its kernel at states (2, ...), without the flows of openings."""
     shape = eccentricity.shape[1:]
     batch = kernel.losses(eccentricity.reshape(2, -1), source.reshape(2, -1))
     film, streamers, flow = batch.losses.reshape(3, *shape)
     none = np.empty((0, *shape))
-    gap = gap_shear(eccentricity, FilmGeometry())
+    gap = gap_shear(eccentricity, geometry)
     return FilmLosses(film, streamers, gap, flow, none, none, batch.slopes.reshape(3, 4, *shape))
+
+
+def plain_losses(kernel: LossKernel, eccentricity: Array, source: Array) -> FilmLosses:
+    """Return those of a plain film."""
+    return kernel_losses(kernel, eccentricity, source, FilmGeometry())
 
 
 def gap_shear(eccentricity: Array, geometry: FilmGeometry) -> Array:

@@ -49,8 +49,11 @@ def _shape(extent: float, slenderness: float, resolution: PadResolution) -> _Sha
     ):
         if not low <= require_number(name, value) <= high:
             raise InputError(f"{name} must be {low} to {high} for a map of a pad, got {value!r}")
-    rounded = (float(f"{value:.{DIGITS}g}") for value in (extent, slenderness))
-    return _Shape(*rounded, resolution.checked())
+    return _Shape(_rounded(extent), _rounded(slenderness), resolution.checked())
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.{DIGITS}g}")
 
 
 @lru_cache(maxsize=64)

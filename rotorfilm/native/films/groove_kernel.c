@@ -8,7 +8,6 @@
 #define EDGE (-0.414) /* sinh(ln(s)/3) of a contact at the edge: .23 of a film between parabola and edge is left */
 #define LEAST 1e-9    /* share of the film at the wall */
 #define MOST 0.999
-#define TURN 6.283185307179586476925286766559
 
 /* Of ln(-J/|w|^2) = L: its derivatives along and across e, those of L in the angle of w, and both. With
    chi factored out nothing is divided by it. */
@@ -20,13 +19,6 @@ typedef struct field {
 typedef struct spline {
     double m, m_x, m_e, m_s, m_xs, m_es, m_ss;
 } spline;
-
-/* Cell of an angle on a turn of uniform nodes. */
-static int32_t turned(double angle, int32_t cells, double *rest)
-{
-    const double turns = angle / TURN;
-    return rf_cell((turns - floor(turns)) * cells, cells, rest);
-}
 
 static RF_ONCE void values(double u, double b[RF_ORDER])
 {
@@ -56,8 +48,8 @@ static const double *place(const rf_groove_map *map, double x, double theta, dou
     const size_t row = (size_t)map->cells_s + RF_ORDER - 1;
     const size_t layer = ((size_t)map->cells_e + RF_ORDER - 1) * row;
     const size_t i = (size_t)rf_cell(x / map->x_end * map->cells_x, map->cells_x, rest);
-    const size_t j = (size_t)turned(theta, map->cells_e, rest + 1);
-    const size_t k = (size_t)turned(s, map->cells_s, rest + 2);
+    const size_t j = (size_t)rf_turned(theta, map->cells_e, rest + 1);
+    const size_t k = (size_t)rf_turned(s, map->cells_s, rest + 2);
     return map->coefficients + i * layer + j * row + k;
 }
 
@@ -70,7 +62,7 @@ static spline look_up(const rf_groove_map *map, double x, double theta, double s
     const size_t width = (size_t)map->cells_s + RF_ORDER - 1;
     const size_t layer = ((size_t)map->cells_e + RF_ORDER - 1) * width;
     const double per_x = map->cells_x / map->x_end;
-    const double per_e = map->cells_e / TURN, per_s = map->cells_s / TURN;
+    const double per_e = map->cells_e / RF_TURN, per_s = map->cells_s / RF_TURN;
     spline at = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     values(rest[0], b);
     layers(c, layer, width, b, block);
@@ -104,8 +96,8 @@ static spline look_up(const rf_groove_map *map, double x, double theta, double s
 static void center(const rf_groove_map *map, double phi, double out[3])
 {
     double rest, b[RF_ORDER];
-    const double *c = map->center + turned(phi, map->cells_w, &rest);
-    const double per = map->cells_w / TURN;
+    const double *c = map->center + rf_turned(phi, map->cells_w, &rest);
+    const double per = map->cells_w / RF_TURN;
     values(rest, b);
     out[0] = rf_dot(c, b);
     slopes(rest, b);

@@ -115,8 +115,8 @@ static inline int film(const rf_pad_map *map, const double *e, const double *w, 
 {
     const double state[4] = {e[0], e[1], w[0], w[1]};
     rf_frame to;
-    place at;
-    exponent by;
+    place at = {0.0, 0.0, 0.0, 0.0, 0.0};
+    exponent by = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     if (rf_is_broken(state, 4))
         return rf_fail(RF_NOT_FINITE, f, jacobian, 8);
     if (set_place(map, e, full, &at) != RF_OK)

@@ -9,6 +9,7 @@
 #define RF_ORDER 6         /* coefficients under one point, per axis */
 #define RF_SMALLEST 1e-200 /* squares outside these bounds lose digits or overflow */
 #define RF_LARGEST 1e200
+#define RF_TURN 6.283185307179586476925286766559
 
 /* Kept out of line: large, and called where a call costs little. */
 #if defined(__GNUC__)
@@ -90,6 +91,13 @@ static inline int32_t rf_cell(double at, int32_t cells, double *rest)
     i = i < 0 ? 0 : (i < cells ? i : cells - 1);
     *rest = at - (double)i;
     return i;
+}
+
+/* Cell of an angle on a turn of uniform nodes. */
+static inline int32_t rf_turned(double angle, int32_t cells, double *rest)
+{
+    const double turns = angle / RF_TURN;
+    return rf_cell((turns - floor(turns)) * cells, cells, rest);
 }
 
 /* hypot() of some C libraries is too new for the machines that an FMU may meet. */

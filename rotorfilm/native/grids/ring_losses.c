@@ -106,6 +106,7 @@ static void add_flows(rf_stream *oil, size_t n, size_t openings, double *out, do
         size_t opening = 0; /* the first one begins with line 0 */
         for (size_t q = 1; q <= i; ++q)
             opening += oil->grid->held[q] && !oil->grid->held[q - 1];
+        opening %= openings; /* the last one may end where the first begins */
         for (int after = 0; after < 2 && k >= lines; ++after)
             if (!rf_opens(oil, i, after))
                 cross_edge(oil, i, after, &out[opening * n], &in[opening * n]);

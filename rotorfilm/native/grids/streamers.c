@@ -5,14 +5,23 @@
 
 #include "../films/quintic.h"
 
+#define UNIT 1e-9 /* distance that |e| keeps from 1 */
 #define PI 3.14159265358979323846
 
+/* |e|, not quite 1: a journal on a pad may cross the unit circle, where the integrals below are limits. */
+static double off_unit(const double *e)
+{
+    const double chi = rf_length(e[0], e[1]);
+    return fabs(chi - 1.0) > UNIT ? chi : chi < 1.0 ? 1.0 - UNIT : 1.0 + UNIT;
+}
+
+/* Beyond the unit circle, where a pad has a film, its angle from the maximum film does not wrap. */
 static rf_section section_at(const double *e, double chi, double angle)
 {
     const double away = chi > 0.0 ? atan2(-e[1], -e[0]) : 0.0, t = remainder(angle - away, 2.0 * PI);
-    const double gap = (1.0 - chi) * (1.0 + chi), h = 1.0 + chi * cos(t);
-    const double bent = atan2(sqrt((1.0 - chi) / (1.0 + chi)) * sin(0.5 * t), cos(0.5 * t));
-    const double film = 2.0 * bent / sqrt(gap);
+    const double gap = (1.0 - chi) * (1.0 + chi), h = 1.0 + chi * cos(t), root = sqrt(fabs((1.0 - chi) / (1.0 + chi)));
+    const double bent = gap > 0.0 ? atan2(root * sin(0.5 * t), cos(0.5 * t)) : atanh(root * tan(0.5 * t));
+    const double film = 2.0 * bent / sqrt(fabs(gap));
     const rf_section at = {h, film, (film - chi * sin(t) / h) / gap};
     return at;
 }
@@ -20,8 +29,8 @@ static rf_section section_at(const double *e, double chi, double angle)
 void rf_place_stream(rf_stream *oil, const double *e)
 {
     const rf_grid *grid = oil->grid;
-    const double chi = rf_length(e[0], e[1]), gap = (1.0 - chi) * (1.0 + chi);
-    oil->turn = 2.0 * PI / sqrt(gap);
+    const double chi = off_unit(e), gap = (1.0 - chi) * (1.0 + chi);
+    oil->turn = gap > 0.0 ? 2.0 * PI / sqrt(gap) : 0.0;
     oil->square_turn = oil->turn / gap;
     for (size_t i = 0; i < grid->lines; ++i) {
         oil->face[i] = section_at(e, chi, oil->search->cells[0].face[i]);

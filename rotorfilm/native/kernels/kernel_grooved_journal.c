@@ -1,8 +1,7 @@
 /* Kernel "grooved_journal": a journal bearing with axial openings over the impedance map made for it.
 
-   Parameters, inputs and outputs as in journal_model.h; length/diameter must be that of the map. Tables:
-   coefficients (x, theta, s) and center (phi), in the angles the last five repeating the first; map (4:
-   length/diameter, reach, squeeze, axis [rad]). */
+   Parameters, inputs and outputs as in journal_model.h; length/diameter must be that of the map; tables as in
+   groove_model.h. */
 
 /* Documentation of the FMU
 
@@ -23,43 +22,15 @@
    last X, squeeze and the axis [rad]; beyond the last X the force goes on as that of the film near the
    wall, as far as the openings leave it, with a warning. Laminar, isothermal, aligned. Where w vanishes the
    force is zero and has no derivative. */
-#include <math.h>
 #include <stdlib.h>
 
-#include "../films/groove_kernel.h"
+#include "../films/groove_model.h"
 #include "../films/journal_model.h"
-
-#define ROUNDOFF 1e-12 /* relative, by which length/diameter may differ from that of the map */
 
 typedef struct model {
     rf_journal journal; /* first, as journal_model.h asks */
     rf_groove_map map;
-    double slenderness;
 } model;
-
-static int take_tables(model *self, const rf_tables *tables, rf_message *why)
-{
-    const rf_table *c = rf_find_table(tables, "coefficients", 3, why);
-    const rf_table *center = c ? rf_find_table(tables, "center", 1, why) : NULL;
-    const rf_table *map = center ? rf_find_table(tables, "map", 1, why) : NULL;
-    if (!map)
-        return RF_INVALID;
-    const uint32_t x = c->extent[0], e = c->extent[1], s = c->extent[2], w = center->extent[0];
-    if (x < 6 || e < 6 || s < 6 || w < 6 || x > 10000 || e > 10000 || s > 10000 || w > 10000
-        || map->extent[0] != 4)
-        return rf_say(why, RF_INVALID, "the tables of a journal must fit each other, got %u x %u x %u and %u",
-                      (unsigned)x, (unsigned)e, (unsigned)s, (unsigned)w);
-    const double *n = map->numbers;
-    if (!(n[0] > 0.0 && n[1] > 0.0 && n[2] > 0.0 && n[2] <= 1.0))
-        return rf_say(why, RF_INVALID,
-                      "length/diameter and reach must be positive and squeeze in (0, 1], got %.9g, %.9g, %.9g",
-                      n[0], n[1], n[2]);
-    const rf_groove_map groove_map = {(int32_t)x - 5, (int32_t)e - 5, (int32_t)s - 5, (int32_t)w - 5,
-                                      n[1], n[2], n[3], center->numbers, c->numbers, n[0]};
-    self->map = groove_map;
-    self->slenderness = n[0];
-    return RF_OK;
-}
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
@@ -68,7 +39,7 @@ static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
         rf_say(why, RF_MEMORY, "no memory for a journal");
         return NULL;
     }
-    if (take_tables(self, tables, why) != RF_OK) {
+    if (rf_take_groove_map(tables, &self->map, why) != RF_OK) {
         free(self);
         return NULL;
     }
@@ -86,10 +57,8 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     rf_journal scaled = self->journal;
     if (rf_scale_journal(&scaled, p, why) != RF_OK)
         return RF_INVALID;
-    const double slenderness = rf_slenderness(p);
-    if (!(fabs(slenderness - self->slenderness) <= ROUNDOFF * self->slenderness))
-        return rf_say(why, RF_INVALID, "length/diameter must be that of the map of the film, %.9g, got %.9g",
-                      self->slenderness, slenderness);
+    if (rf_judge_slenderness(&self->map, p, why) != RF_OK)
+        return RF_INVALID;
     self->journal = scaled;
     return RF_OK;
 }

@@ -111,7 +111,7 @@ def test_errors_at_rest_are_within_the_bounds_of_the_table(film, name, sense):
     fine = ReynoldsFilm(cells=(240, 16), geometry=grooved.geometry)
     lows = [0.0, *grooved.table.bounds[:-1, 0]]
     assert grooved.table.bounds[-1, 0] == pytest.approx(grooved.table.largest_eccentricity_ratio)
-    for low, (high, force, slopes) in zip(lows, grooved.table.bounds, strict=True):
+    for low, (high, force, slopes) in zip(lows, grooved.table.bounds[:, :3], strict=True):
         e, _ = random_states(40, lowest=low, highest=high, seed=int(100 * high))
         w = sense * np.stack([e[1], -e[0]])
         exact, _ = fine.extrapolated(e, w, slenderness)
@@ -125,7 +125,7 @@ def test_errors_at_rest_are_within_the_bounds_of_the_table(film, name, sense):
         assert errors[1].max() < slopes
         assert errors[0].max() > 0.1 * force
         assert grooved.table.bound(high, slopes=False) == force
-    assert max(grooved.table.bounds[0, 1:]) < 0.05
+    assert max(grooved.table.bounds[0, 1:3]) < 0.05
     assert grooved.table.bound(0.99, slopes=True) == np.inf
 
 

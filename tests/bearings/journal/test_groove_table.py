@@ -12,6 +12,7 @@ from rotorfilm.bearings.films.table_cache import cache_folder, cached_table
 from rotorfilm.bearings.journal import GrooveMapTable
 from rotorfilm.bearings.journal.grooves.groove_build import Resolution
 from rotorfilm.bearings.journal.grooves.groove_cache import cache_path
+from rotorfilm.bearings.journal.grooves.groove_losses import CELLS
 from rotorfilm.bearings.journal.grooves.groove_table import DIRECTIONS
 from rotorfilm.bearings.journal.grooves.openings import aligned_openings
 from rotorfilm.errors import InputError, RotorfilmError
@@ -29,7 +30,9 @@ def some_table(seed=0):
         crowding=0.6,
         log_center=rng.normal(size=DIRECTIONS),
         coefficients=rng.normal(size=(11, 8, 12)),
-        bounds=rng.uniform(size=(2, 3)),
+        shear=rng.normal(size=(2, 3, 11, 8, CELLS + 5)),
+        flows=rng.normal(size=(2, 2, 2, 11, 8)),
+        bounds=rng.uniform(size=(2, 5)),
     )
 
 
@@ -52,7 +55,7 @@ def test_bytes_and_back(tmp_path):
     [
         (lambda b: b[:-8], "groove table: size must be"),
         (lambda b: b"x" + b[1:], "does not begin with the mark of a groove table"),
-        (lambda b: b[:8] + b"\x09" + b[9:], "version must be 2, got 9"),
+        (lambda b: b[:8] + b"\x09" + b[9:], "version must be 3, got 9"),
         (lambda b: b[:-3] + b"abc", "the checksum does not fit"),
         (lambda b: b[:16] + b"\xff" * 4 + b[20:], "size must be"),
         (lambda b: b"", "does not begin"),
@@ -69,8 +72,10 @@ def test_damaged_bytes_are_refused(damage, message):
         ({"coefficients": np.zeros((11, 8))}, "coefficients must have shape"),
         ({"log_center": np.zeros(5)}, "coefficients must have shape"),
         ({"coefficients": np.full((11, 8, 12), np.nan)}, "must be finite"),
-        ({"bounds": np.zeros(3)}, r"bounds must have shape \(bands, 3\)"),
-        ({"bounds": np.full((2, 3), np.nan)}, "bounds must .* not be negative"),
+        ({"bounds": np.zeros(3)}, r"bounds must have shape \(bands, 5\)"),
+        ({"bounds": np.full((2, 5), np.nan)}, "bounds must .* not be negative"),
+        ({"shear": np.zeros((2, 3, 11, 8, 5))}, "shear and flows must have shapes"),
+        ({"flows": np.full((2, 2, 2, 11, 8), np.inf)}, "shear and flows must be finite"),
         ({"crowding": 0.0}, r"crowding in \(0, 1\], got 0\.5, 2\.0 and 0\.0"),
     ],
 )

@@ -12,7 +12,6 @@ from rotorfilm.bearings.films.film_losses import gap_shear
 from rotorfilm.bearings.films.geometry import FilmGeometry, Groove, Pad
 from rotorfilm.bearings.journal import (
     ExtrapolatedFilm,
-    GroovedMapFilm,
     JournalBearing,
     MapFilm,
     ReynoldsFilm,
@@ -304,10 +303,6 @@ def test_full_film_shears_all_of_the_gap_but_the_openings():
 def test_maps_without_tables_take_the_two_dimensional_film():
     e, w = states(2, 0.6)
     assert MapFilm().losses(e, w, 0.05).slopes is None
-    geometry = FilmGeometry(grooves=TWO)
-    grid = ReynoldsFilm(cells=(192, 12), geometry=geometry).losses(e, w, 1.0)
-    grooved = GroovedMapFilm(geometry=geometry).losses(e, w, 1.0)
-    np.testing.assert_array_equal(grooved.inflow, grid.inflow)
 
 
 def test_equilibrium_tells_losses_and_a_law_without_them_tells_none():

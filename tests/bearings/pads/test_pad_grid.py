@@ -88,3 +88,32 @@ def test_no_source_on_the_arc_no_force():
             phi = sign * (np.pi / 2.0 + b + turn)
             force = pad.force(e, np.array([[np.cos(phi)], [np.sin(phi)]])).values
             assert bool(np.any(force != 0.0)) is has
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("e", [(0.3, 0.2), (-0.2, 0.942), (-0.2, np.sqrt(0.96)), (-0.46, 1.07)])
+def test_shear_and_flow_of_a_full_pad_within_and_beyond_the_unit_circle(e):
+    """A film on all of the pad shears as its gap, and feeds sides and trailing edge from the leading one."""
+    extent, at = 60.0 * DEGREE, np.array(e)[:, None]
+    w = np.array([at[1], -at[0]])
+    film, streamers, side, leading, trailing = pad_grid(extent, 0.5).losses(at, w, np.ones(1))[:, 0]
+    theta, weight = np.polynomial.legendre.leggauss(60)
+    H = 1.0 - e[0] * np.cos(0.5 * extent * theta) - e[1] * np.sin(0.5 * extent * theta)
+    assert film == pytest.approx(0.5 * extent * weight @ (1.0 / H), rel=1e-7)
+    assert streamers == pytest.approx(0.0, abs=1e-12)
+    assert side == pytest.approx(leading - trailing, rel=1e-8)
+    # Pressure holds oil back at the leading edge and drives it out at the trailing one.
+    first, last = 1.0 - np.array(e) @ [
+        [np.cos(0.5 * extent)] * 2,
+        [-np.sin(0.5 * extent), np.sin(0.5 * extent)],
+    ]
+    assert leading < first
+    assert trailing > last
+
+
+def test_shear_and_flow_are_those_of_the_mirrored_pad():
+    extent, at = 100.0 * DEGREE, np.array([[0.7], [0.3]])
+    w, across = np.array([[0.6], [0.2]]), np.array([[1.0], [-1.0]])
+    pad = pad_grid(extent, 0.5)
+    forward, backward = pad.losses(at, w, np.ones(1)), pad.losses(across * at, across * w, -np.ones(1))
+    np.testing.assert_allclose(backward, forward, rtol=1e-9)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ctypes import byref, c_double, c_size_t, c_void_p, cast
+from ctypes import byref, c_double, c_size_t
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -74,6 +74,7 @@ class RingKernel(FilmKernel):
     """
 
     _function: ClassVar[str] = "rf_ring_film"
+    _library = staticmethod(loops)
 
     def __init__(
         self,
@@ -115,11 +116,6 @@ class RingKernel(FilmKernel):
     def _place(self, numbers: Array, kind: Any = np.float64) -> int:
         self._kept.append(np.ascontiguousarray(numbers, dtype=kind))
         return self._kept[-1].ctypes.data
-
-    @property
-    def film(self) -> int | None:
-        """The address of its rf_film."""
-        return cast(loops()[self._function], c_void_p).value
 
     def pair(self, eccentricity: Array, source: Array) -> tuple[Array, Array]:
         """Return the forces (2, n) on the finest grid and on the next; journals must be off the wall."""

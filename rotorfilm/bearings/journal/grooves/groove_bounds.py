@@ -13,6 +13,7 @@ from ....model import Array
 from ....native import GrooveMapKernel
 from ...films.geometry import TURN, Groove
 from ...films.map_bounds import MARGIN, even_shares, state_errors
+from .groove_losses import loss_errors
 from .groove_table import GrooveMapTable
 
 BANDS = (0.5, 0.8, 0.9)
@@ -57,15 +58,18 @@ class BoundStates:
         Parameters
         ----------
         table : GrooveMapTable
-        exact : ndarray, shape (10, n)
-            What `reference` of the finer film returns at all states.
+        exact : ndarray, shape (13, n)
+            What `reference` and `bound_losses` return at all states.
         """
         kernel = GrooveMapKernel(
             table.coefficients, table.reach, table.log_center, table.crowding, 0.0, table.slenderness
         )
         found = kernel.force(self.e, self.w).values, kernel.jacobian(self.e, self.w).values
-        force, slopes = state_errors(*found, exact[:2], exact[2:].reshape(2, 4, -1))
-        worst = (each.reshape(len(self.reaches), -1).max(axis=1) for each in (force, slopes))
+        errors = (
+            *state_errors(*found, exact[:2], exact[2:10].reshape(2, 4, -1)),
+            *loss_errors(table.loss_kernel(0.0), self.e, self.w, exact[10:]),
+        )
+        worst = (each.reshape(len(self.reaches), -1).max(axis=1) for each in errors)
         return np.stack([self.reaches, *(MARGIN * each for each in worst)], axis=1)
 
 

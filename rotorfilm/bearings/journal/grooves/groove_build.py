@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
@@ -11,22 +12,29 @@ import numpy as np
 
 from ....model import Array
 from ....progress import Report, silent
-from ...films.cavitation import Complementarity
-from ...films.geometry import TURN, FilmGeometry, Groove
+from ...films.geometry import TURN, Groove
 from ...films.map_bounds import batches
 from ...films.map_fit import node_eccentricities
 from ...films.map_table import stretch
 from ...films.quintic import periodic_quintic, periodic_quintic_coefficients, quintic_coefficients
-from ...films.ring.ring_grids import LONG, ring_grids, ring_spans
-from ...films.ring.ring_kernel import RingKernel, richardson
+from ...films.ring.ring_kernel import richardson
 from ...films.ring.ring_samples import log_potential, reference
 from ...films.table_pieces import cores, made_pieces
 from .groove_bounds import BoundStates
+from .groove_losses import (
+    CELLS,
+    CROWDING,
+    bound_losses,
+    fitted_losses,
+    images,
+    loss_cells,
+    loss_eccentricities,
+    node_losses_between,
+    opened_film,
+    opening_runs,
+)
 from .groove_table import DIRECTIONS, GrooveMapTable
 from .openings import AlignedOpenings
-
-CROWDING = 0.6
-"""Crowds the directions across the eccentricity, where the film turns; measured to be the best."""
 
 ORDER = 4
 """Order of convergence, in the size of the cells, of the potential extrapolated from two grids."""
@@ -36,6 +44,12 @@ NODE_TIME = 1.4e-7
 
 CHECK_NODES = 18
 """Nodes that take as long as one state of the bounds, four times the cells and derivatives."""
+
+LOSS_NODES = 6
+"""Nodes of the potential on a grid that take as long as one of the losses on it, whose film begins anew."""
+
+LOSS_CHECKS = 16
+"""The same of the losses at the states of the bounds."""
 
 TITLE = "map of the grooved bearing"
 
@@ -96,14 +110,32 @@ def build_groove_table(
     columns = [
         partial(potential.level, *place) for j in solved.tolist() for place in _column_places(resolution, j)
     ]
-    references = [partial(reference, finer, e, w) for e, w in batches(checks.e, checks.w)]
+    losses = _Losses(openings, slenderness, resolution)
+    references = [
+        partial(made, film, e, w)
+        for made, film in ((reference, finer), (bound_losses, losses.finer))
+        for e, w in batches(checks.e, checks.w)
+    ]
     center = _center(potential)
-    found = made_pieces([*columns, *references], report, TITLE)
-    levels = np.reshape(found[: len(columns)], (len(solved), resolution.nodes[0], -1))
-    M = _exponents(center, levels, openings, resolution)
-    table = _fitted(center, M, openings, slenderness, resolution)
-    exact = np.concatenate(found[len(columns) :], axis=1)
-    return replace(table, bounds=checks.bounds(table, exact))
+    pieces: list[Sequence[Callable[[], Array]]] = [columns, losses.columns(solved), references]
+    found = iter(made_pieces([piece for group in pieces for piece in group], report, TITLE))
+    levels, nodes, exact = ([next(found) for _ in group] for group in pieces)
+    M = _exponents(center, np.reshape(levels, (len(solved), resolution.nodes[0], -1)), openings, resolution)
+    splines = _splines(M, resolution)
+    shear, flows = losses.fitted(np.array(nodes), solved)
+    table = GrooveMapTable(
+        slenderness=slenderness,
+        grooves=openings.grooves,
+        reach=float(stretch(resolution.largest_eccentricity_ratio)),
+        crowding=CROWDING,
+        log_center=center.level,
+        coefficients=splines,
+        shear=shear,
+        flows=flows,
+    )
+    half = len(exact) // 2
+    both = np.concatenate([np.concatenate(part, axis=1) for part in (exact[:half], exact[half:])])
+    return replace(table, bounds=checks.bounds(table, both))
 
 
 def expected_time(openings: AlignedOpenings, resolution: Resolution) -> float:
@@ -111,35 +143,54 @@ def expected_time(openings: AlignedOpenings, resolution: Resolution) -> float:
     cells_x, count_e, count_s = resolution.nodes
     solved = np.unique(symmetric_nodes(openings, count_e)[0]).size
     states = BoundStates(openings.grooves, resolution.largest_eccentricity_ratio).e.shape[1]
-    work = DIRECTIONS + solved * cells_x * count_s + CHECK_NODES * states
-    return NODE_TIME * math.prod(resolution.cells) * work / cores()
+    work = DIRECTIONS + solved * cells_x * count_s + (CHECK_NODES + LOSS_CHECKS) * states
+    losses = LOSS_NODES * solved * (cells_x + 1) * 2 * (CELLS + 1)
+    cells = math.prod(resolution.cells) * work + math.prod(loss_cells(resolution.cells)) * losses
+    return NODE_TIME * cells / cores()
 
 
-def _fitted(
-    center: _Center, M: Array, openings: AlignedOpenings, slenderness: float, resolution: Resolution
-) -> GrooveMapTable:
-    """Return the table that has M, (cells_x + 1, count_e, count_s), at its nodes."""
+def _splines(M: Array, resolution: Resolution) -> Array:
+    """Return the coefficients of the spline that has M, (cells_x + 1, count_e, count_s), at its nodes."""
     cells_x, count_e, count_s = resolution.nodes
     # A step across the center turns e around, and with it the angle from e to w.
     ghosts = -np.roll(M[:0:-1], (count_e // 2, count_s // 2), axis=(1, 2))
     coefficients = quintic_coefficients(np.concatenate([ghosts, M]))[cells_x:]
     for axis in (1, 2):
         coefficients = periodic_quintic_coefficients(coefficients, axis)
-    return GrooveMapTable(
-        slenderness=slenderness,
-        grooves=openings.grooves,
-        reach=float(stretch(resolution.largest_eccentricity_ratio)),
-        crowding=CROWDING,
-        log_center=center.level,
-        coefficients=coefficients,
-    )
+    return coefficients
 
 
-def opened_film(grooves: tuple[Groove, ...], slenderness: float, cells: tuple[int, int]) -> RingKernel:
-    """Return the two-dimensional film of a bearing with openings."""
-    geometry = FilmGeometry(grooves=grooves)
-    grids = ring_grids(geometry, *cells, max(slenderness, LONG))
-    return RingKernel(slenderness, ring_spans(geometry), grids, Complementarity())
+class _Losses:
+    """Shear and flow of one bearing at the nodes of their maps."""
+
+    def __init__(self, openings: AlignedOpenings, slenderness: float, resolution: Resolution) -> None:
+        self._openings, self._count = openings, resolution.nodes[1]
+        self._film = opened_film(openings.grooves, slenderness, loss_cells(resolution.cells))
+        self.finer = opened_film(openings.grooves, slenderness, resolution.cells)
+        self._chi = loss_eccentricities(resolution.largest_eccentricity_ratio, resolution.nodes[0])
+
+    def columns(self, solved: np.ndarray) -> list[Callable[[], Array]]:
+        """Return the pieces of work for the directions of e that are solved, one for each eccentricity."""
+        turns = (TURN / self._count * solved).tolist()
+        return [partial(node_losses_between, self._film, chi, turn) for turn in turns for chi in self._chi]
+
+    def fitted(self, nodes: Array, solved: np.ndarray) -> tuple[Array, Array]:
+        """Return the splines of `fitted_losses` from losses at the solved nodes, ordered as `columns`."""
+        grooves, chi = self._openings.grooves, self._chi
+        rows, senses, places = nodes.shape[1:]
+        found = nodes.reshape(len(solved), len(chi), rows, senses, places)
+        whole = np.zeros((3 + 2 * len(grooves), senses, len(chi), self._count, places))
+        source, mirrored = symmetric_nodes(self._openings, self._count)
+        runs = np.array(opening_runs(grooves))
+        for j in range(self._count):
+            of = found[np.searchsorted(solved, source[j])].transpose(1, 2, 0, 3)
+            of = of[:, ::-1] if mirrored[j] else of
+            back = -source[j] if mirrored[j] else source[j]
+            at = np.array(images(grooves, TURN / self._count * (j - back), mirrored=bool(mirrored[j])))[runs]
+            whole[:3, :, :, j] = of[:3]
+            whole[3 + at, :, :, j] = of[3 : 3 + len(runs)]
+            whole[3 + len(grooves) + at, :, :, j] = of[3 + len(runs) :]
+        return fitted_losses(whole, chi)
 
 
 class _Solver:

@@ -6,6 +6,7 @@ With J(e, w) = min over films of the dissipation potential (`native/films/groove
     X = chi/(1 - chi^2)^(1/4),   tan s = crowding tan(phi - theta),
 
 e at the angle theta and w at phi from the axis of the openings, on uniform grids by quintic B-splines.
+Beside it are shear and flow of the film (`groove_losses.py`).
 """
 
 from __future__ import annotations
@@ -18,16 +19,21 @@ import numpy as np
 
 from ....errors import InputError
 from ....model import Array
+from ....native.loss_kernels import GrooveLossKernel
 from ...films.geometry import Groove
 from ...films.map_table import unstretch
 from ...films.table_bytes import Layout, Sizes, StoredTable, seal, unseal
+from .groove_losses import CELLS, land_edges
 
 MAGIC = b"RFGROOVE"
-VERSION = 2
-"""Since 2 a table has bounds of its error."""
+VERSION = 3
+"""Since 2 a table has bounds of its error, since 3 shear and flow."""
 
 BANDS = 8
 """Most bands of eccentricity ratios with a bound each."""
+
+ERRORS = 5
+"""Columns of the bounds: an eccentricity ratio, and errors up to it."""
 
 DIRECTIONS = 192
 """Nodes of L0 over the direction of the source."""
@@ -51,10 +57,14 @@ class GrooveMapTable(StoredTable):
         Spline coefficients of L0, each centered on its node.
     coefficients : ndarray, shape (cells_x + 5, cells_e, cells_s)
         Spline coefficients of M over X, theta and s.
-    bounds : ndarray, shape (bands, 3)
+    shear : ndarray, shape (2, 3, cells_x + 5, cells_e, CELLS + 5)
+        Spline coefficients of shear and side flow over X, theta and s, for both senses of the oil.
+    flows : ndarray, shape (2, 2, openings, cells_x + 5, cells_e)
+        Those of the flows out of the openings, and into them.
+    bounds : ndarray, shape (bands, 5)
         Largest errors with the journal at rest, found when the map was made (`groove_bounds`): up to which
-        eccentricity ratio, of the force relative to it, of K and C relative to their largest entry. None of
-        them where nothing is known.
+        eccentricity ratio, of the force relative to it, of K and C relative to their largest entry, of the
+        shear and of the flow of fresh oil relative to them. None of them where nothing is known.
 
     Raises
     ------
@@ -68,7 +78,9 @@ class GrooveMapTable(StoredTable):
     crowding: float
     log_center: Array = field(repr=False)
     coefficients: Array = field(repr=False)
-    bounds: Array = field(default_factory=lambda: np.empty((0, 3)), repr=False)
+    shear: Array = field(repr=False)
+    flows: Array = field(repr=False)
+    bounds: Array = field(default_factory=lambda: np.empty((0, ERRORS)), repr=False)
 
     def __post_init__(self) -> None:
         shape = np.shape(self.coefficients)
@@ -77,11 +89,22 @@ class GrooveMapTable(StoredTable):
                 f"coefficients must have shape (x, e, s) of 6 at least and log_center ({DIRECTIONS},), "
                 f"got shapes {shape} and {np.shape(self.log_center)}"
             )
-        if not (np.isfinite(self.coefficients).all() and np.isfinite(self.log_center).all()):
-            raise InputError("coefficients and log_center must be finite")
-        if np.shape(self.bounds)[1:] != (3,) or len(self.bounds) > BANDS or not np.all(self.bounds >= 0.0):
+        expected = _loss_shapes(shape[0], shape[1], len(self.grooves))
+        if (np.shape(self.shear), np.shape(self.flows)) != expected:
             raise InputError(
-                f"bounds must have shape (bands, 3), {BANDS} bands at most, and not be negative, "
+                f"shear and flows must have shapes {expected[0]} and {expected[1]}, "
+                f"got {np.shape(self.shear)} and {np.shape(self.flows)}"
+            )
+        splines = self.coefficients, self.log_center, self.shear, self.flows
+        if not all(np.isfinite(each).all() for each in splines):
+            raise InputError("coefficients, log_center, shear and flows must be finite")
+        if (
+            np.shape(self.bounds)[1:] != (ERRORS,)
+            or len(self.bounds) > BANDS
+            or not np.all(self.bounds >= 0.0)
+        ):
+            raise InputError(
+                f"bounds must have shape (bands, {ERRORS}), {BANDS} bands at most, and not be negative, "
                 f"got {self.bounds!r}"
             )
         if not (0.0 < self.reach < np.inf and 0.0 < self.crowding <= 1.0 and 0.0 < self.slenderness < np.inf):
@@ -97,9 +120,20 @@ class GrooveMapTable(StoredTable):
 
     def bound(self, eccentricity_ratio: float, *, slopes: bool) -> float:
         """Return the largest error [1] of the force at rest, or of K and C; infinite where it is unknown."""
-        reaches, force, matrices = self.bounds.T
-        errors = (matrices if slopes else force)[reaches >= eccentricity_ratio]
+        return self._bound(eccentricity_ratio, 2 if slopes else 1)
+
+    def loss_bound(self, eccentricity_ratio: float) -> tuple[float, float]:
+        """Return the largest errors [1] of shear, most of the power, and flow; infinite where unknown."""
+        return self._bound(eccentricity_ratio, 3), self._bound(eccentricity_ratio, 4)
+
+    def _bound(self, eccentricity_ratio: float, column: int) -> float:
+        errors = self.bounds[self.bounds[:, 0] >= eccentricity_ratio, column]
         return float(errors[0]) if len(errors) else math.inf
+
+    def loss_kernel(self, axis: float) -> GrooveLossKernel:
+        """Return shear and flow in compiled code, the axis of the openings being at this angle [rad]."""
+        numbers = self.reach, self.crowding, axis
+        return GrooveLossKernel(self.shear, self.flows, land_edges(self.grooves), numbers)
 
     def to_bytes(self) -> bytes:
         """Return the table as little-endian bytes: header with sizes and checksum, then the numbers."""
@@ -107,9 +141,10 @@ class GrooveMapTable(StoredTable):
         numbers = [self.slenderness, self.reach, self.crowding, len(self.bounds), *openings]
         cells_x, cells_e, cells_s = self.coefficients.shape
         sizes = (cells_x, cells_e, cells_s, len(self.grooves))
-        bands = np.zeros((BANDS, 3))
+        bands = np.zeros((BANDS, ERRORS))
         bands[: len(self.bounds)] = self.bounds
-        return seal(MAGIC, VERSION, sizes, np.array(numbers), bands, self.log_center, self.coefficients)
+        splines = self.log_center, self.coefficients, self.shear, self.flows
+        return seal(MAGIC, VERSION, sizes, np.array(numbers), bands, *splines)
 
     @classmethod
     def from_bytes(cls, content: bytes) -> Self:
@@ -120,7 +155,11 @@ class GrooveMapTable(StoredTable):
         RotorfilmError
             If the content is not such a table, of another version, truncated or damaged.
         """
-        sizes, numbers, bands, center, coefficients = unseal("groove table", MAGIC, VERSION, _layout, content)
+        sizes, numbers, bands, center, *splines = unseal("groove table", MAGIC, VERSION, _layout, content)
+        shapes = (sizes[:3], *_loss_shapes(sizes[0], sizes[1], sizes[3]))
+        coefficients, shear, flows = (
+            each.reshape(shape) for each, shape in zip(splines, shapes, strict=True)
+        )
         scalars, openings = np.split(numbers, [4])
         slenderness, reach, crowding, known = scalars.tolist()
         return cls(
@@ -129,15 +168,23 @@ class GrooveMapTable(StoredTable):
             reach=reach,
             crowding=crowding,
             log_center=center,
-            coefficients=coefficients.reshape(sizes[:3]),
-            bounds=bands.reshape(BANDS, 3)[: int(known)],
+            coefficients=coefficients,
+            shear=shear,
+            flows=flows,
+            bounds=bands.reshape(BANDS, ERRORS)[: int(known)],
         )
 
 
+def _loss_shapes(cells_x: int, cells_e: int, openings: int) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Return the shapes of shear and flows beside M with so many coefficients over X and theta."""
+    return (2, 3, cells_x, cells_e, CELLS + 5), (2, 2, openings, cells_x, cells_e)
+
+
 def _layout(sizes: Sizes) -> Layout:
-    """Return what a table of these sizes holds: numbers and openings, bounds, L0, coefficients of M."""
+    """Return what a table of these sizes holds: numbers and openings, bounds, L0, M, shear and flows."""
     cells_x, cells_e, cells_s, grooves = sizes
     if min(sizes) < 1:
         return ()
-    counts = 4 + 2 * grooves, 3 * BANDS, DIRECTIONS, cells_x * cells_e * cells_s
-    return tuple(("<f8", count) for count in counts)
+    counts = 4 + 2 * grooves, ERRORS * BANDS, DIRECTIONS, cells_x * cells_e * cells_s
+    losses = (math.prod(shape) for shape in _loss_shapes(cells_x, cells_e, grooves))
+    return tuple(("<f8", count) for count in (*counts, *losses))

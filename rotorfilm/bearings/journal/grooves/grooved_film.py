@@ -13,16 +13,18 @@ import numpy as np
 from ....errors import InputError, require_kind, require_number, require_positive
 from ....model import Array
 from ....native import GrooveMapKernel
+from ....native.loss_kernels import GrooveLossKernel
 from ....progress import Report, silent
-from ...films.film_losses import FilmLosses
+from ...films.film_losses import FilmLosses, kernel_losses, static_rate
 from ...films.geometry import FilmGeometry
 from ...films.kernel_film import KernelFilm
+from ...films.law import require_film
 from ...films.ring.ring_grids import are_counts, require_cells
 from ...films.table_cache import cached_table, told
 from ..map.map_film import MapFilm
-from ..reynolds_film import ReynoldsFilm
 from .groove_build import Resolution, build_groove_table, expected_time
 from .groove_cache import cache_path
+from .groove_losses import nearest
 from .groove_table import GrooveMapTable
 from .openings import AlignedOpenings, aligned_openings, require_mappable
 
@@ -119,17 +121,30 @@ class GroovedMapFilm(KernelFilm):
 
     def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
         """Return the kernel and its tables, made now if they are not there yet; see `FilmOptions`."""
-        kernel = self._kernel(slenderness)
-        numbers = [slenderness, kernel.struct.x_end, kernel.struct.squeeze, kernel.struct.axis]
-        return "grooved_journal", {
-            "coefficients": kernel.coefficients,
-            "center": kernel.log_center,
-            "map": np.array(numbers),
-        }
+        tables = self._kernel(slenderness).tables
+        numbers = np.array([slenderness, *tables["map"][1:]])
+        return "grooved_journal", {**tables, "map": numbers}
 
     def losses(self, e: Array, w: Array, slenderness: float, rate: Array | None = None) -> FilmLosses:
-        """Return shear and flow of the two-dimensional film on the cells of the map; see `FilmOptions`."""
-        return ReynoldsFilm(cells=self.cells, geometry=self.geometry).losses(e, w, slenderness, rate)
+        """Return shear and flow from the maps, with slopes; see `FilmOptions`.
+
+        The film begins, and the streamers run, as those of a journal at rest with the source w; what leaves
+        openings and arrives there is that of a journal at rest, for oil that runs at the rate.
+        """
+        flat = e.reshape(2, -1), w.reshape(2, -1)
+        require_film(flat[0])
+        kernel = self.loss_kernel(slenderness)
+        along = static_rate(e, w) if rate is None else np.broadcast_to(rate, e.shape[1:])
+        openings, aligned = self.geometry.openings(), aligned_openings(self.geometry)
+        middles = [opening.start + 0.5 * opening.extent - aligned.axis for opening in openings]
+        places = [nearest(aligned.grooves, middle) for middle in middles]
+        flows = kernel.flows(flat[0], along.ravel())[:, places].reshape(2, -1, *e.shape[1:])
+        found = kernel_losses(kernel, e, w, self.geometry)
+        return found._replace(inflow=flows[0], arriving=flows[1])
+
+    def loss_kernel(self, slenderness: float) -> GrooveLossKernel:
+        """Return shear and flow of the map in compiled code; see `FilmOptions`."""
+        return _loss_kernel(self, float(slenderness))
 
     def tabulated(self, slenderness: float) -> GroovedMapFilm:
         """Return this film with its table; see `FilmOptions`."""
@@ -187,6 +202,11 @@ def _kernel(film: GroovedMapFilm, slenderness: float) -> GrooveMapKernel:
     axis = aligned_openings(film.geometry).axis
     numbers = table.crowding, axis, table.slenderness
     return GrooveMapKernel(table.coefficients, table.reach, table.log_center, *numbers)
+
+
+@lru_cache(maxsize=64)
+def _loss_kernel(film: GroovedMapFilm, slenderness: float) -> GrooveLossKernel:
+    return film.built_table(slenderness).loss_kernel(aligned_openings(film.geometry).axis)
 
 
 def require_same_openings(table: GrooveMapTable, openings: AlignedOpenings) -> None:

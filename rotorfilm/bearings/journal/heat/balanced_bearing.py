@@ -35,8 +35,7 @@ class BalancedBearing(StaticReaction):
     Parameters
     ----------
     bearing : JournalBearing
-        With oil and cooling; its film law has losses in the C library, as `MapFilm` and `ShortFilm` without
-        openings.
+        With oil and cooling; its film law has losses in the C library, as `MapFilm` has and `ShortFilm`.
     """
 
     bearing: Cooled
@@ -70,6 +69,15 @@ class BalancedBearing(StaticReaction):
 
         return tangent
 
+    def heat_slopes(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
+        """Return d(power, effective flow, side flow)/d(x, y, vx, vy, speed) at 1 Pa s, shape (3, 5)."""
+        q, v, omega = broadcast_state(position, velocity, speed)
+        state = [*q.tolist(), *v.tolist(), float(omega)]
+        slopes, status = self._kernel.heat_slopes(state)
+        if status:
+            self._film.report(status, *state)
+        return slopes
+
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape, inside the clearance."""
         return self._batch(position, velocity, speed, slopes=False).force.reshape(position.shape)
@@ -90,7 +98,7 @@ class BalancedBearing(StaticReaction):
         """The film at unit viscosity."""
         found = self.bearing.film_at_unit_viscosity()
         if found is None:
-            raise InputError("film must have losses in the C library, as MapFilm without openings")
+            raise InputError("film must have losses in the C library, as MapFilm")
         return found[0]
 
     @cached_property
@@ -106,6 +114,7 @@ class BalancedBearing(StaticReaction):
             "ambient": cooling.ambient,
             "conductance": cooling.housing_conductance,
             "volumetric_heat": float(oil.volumetric_heat(cooling.supply_temperature)),
+            "carry_over": cooling.carry_over,
             "full_gap": cooling.full_gap,
         }
         return BalancedKernel(self._film.kernel, found[1], viscosity_table(oil), numbers)

@@ -22,46 +22,14 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple
 
-import numpy as np
-
 from ....errors import ConvergenceError, InputError
 from ....model import Array
 from ....results import BearingLosses
-from ...films.film_losses import FilmLosses
 from ...oil import Cooling, Oil
 
 _STEPS = 60
 _ROUNDOFF = 1e-14
 _KELVIN = 1e-9
-
-
-class FilmAt(NamedTuple):
-    """One state of a film.
-
-    Attributes
-    ----------
-    e : ndarray, shape (2,) [1]
-        Eccentricity.
-    w : ndarray, shape (2,) [1/s]
-        Source.
-    speed : float [rad/s]
-    losses : FilmLosses
-        There.
-    """
-
-    e: Array
-    w: Array
-    speed: float
-    losses: FilmLosses
-
-
-class Dimensions(NamedTuple):
-    """Radius, length, clearance [m] and viscosity [Pa s] of a film."""
-
-    radius: float
-    length: float
-    clearance: float
-    viscosity: float
 
 
 class FilmHeat(NamedTuple):
@@ -90,39 +58,6 @@ def film_heat(losses: BearingLosses, viscosity: float, cooling: Cooling) -> Film
     side_flow = float(losses.side_flow)
     flow = effective_flow(side_flow, losses.inflow, losses.arriving, cooling.carry_over)
     return FilmHeat(float(losses.power_loss), viscosity, flow, side_flow)
-
-
-def heat_by_state(at: FilmAt, dissipation: Array, dimensions: Dimensions, cooling: Cooling) -> Array:
-    """Return d(power, effective flow, side flow)/d(x, y, vx, vy, speed), shape (3, 5), without openings.
-
-    Parameters
-    ----------
-    at : FilmAt
-        Eccentricity, source, speed and losses with their slopes.
-    dissipation : ndarray, shape (4,)
-        Derivatives of -F . w by (eccentricity, source).
-    dimensions : Dimensions
-    cooling : Cooling
-    """
-    R, L, c, mu = dimensions
-    # Without source the losses have a kink, whatever the direction: their mean slope is none.
-    film, streamers, flow = np.nan_to_num(np.asarray(at.losses.slopes))
-    chi = float(np.hypot(*at.e))
-    gap = np.concatenate([at.e, np.zeros(2)]) * float(at.losses.shear_gap) / ((1.0 - chi) * (1.0 + chi))
-    shear, by_shear = (at.losses.shear_gap, gap) if cooling.full_gap else (at.losses.shear, film + streamers)
-    unit = mu * R**3 * L / c
-    power = unit * _by_state(at.speed**2 * by_shear + dissipation, at.e, at.speed, c)
-    power[4] += unit * 2.0 * at.speed * float(shear)
-    leaked = c * R * L * _by_state(flow, at.e, at.speed, c)
-    return np.stack([power, leaked, leaked])
-
-
-def _by_state(slope: Array, e: Array, speed: float, clearance: float) -> Array:
-    """Return derivatives by (x, y, vx, vy, speed) from those by (e, w), w = v/c - (speed/2) z^ x e."""
-    ex, ey, wx, wy = slope
-    half = 0.5 * speed
-    by_position = np.array([ex - half * wy, ey + half * wx, wx, wy]) / clearance
-    return np.append(by_position, 0.5 * (wx * e[1] - wy * e[0]))
 
 
 def effective_flow(side_flow: float, inflow: Array, arriving: Array, carry_over: float) -> float:

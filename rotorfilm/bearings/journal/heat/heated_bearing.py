@@ -114,7 +114,7 @@ class HeatedBearing:
         return np.array([self.bearing.cooled[1].supply_temperature if start is None else start])
 
     def native(self) -> NativeSpec | None:
-        """Return the kernel of the C library that is this bearing; None if its film has none, or openings."""
+        """Return the kernel of the C library that is this bearing; None if its film has none."""
         found = self.bearing.film_at_unit_viscosity() if type(self) is HeatedBearing else None
         if found is None or found[0].kernel.film.tables is None:
             return None
@@ -127,6 +127,8 @@ class HeatedBearing:
             "bush_heat_capacity": cooling.capacity(values["radius"], values["length"]),
             "volumetric_heat": float(oil.volumetric_heat(cooling.supply_temperature)),
         }
+        if found[1].openings:
+            values["carry_over"] = cooling.carry_over
         film = {**found[0].kernel.film.tables, **found[1].tables}
         return heated_spec(values, film, viscosity_table(oil), full_gap=cooling.full_gap)
 

@@ -19,6 +19,7 @@ _PARAMETERS = (
     ("housing_conductance", "W/K", "heat flow through bush and housing per kelvin between film and ambient"),
     ("bush_heat_capacity", "J/K", "heat capacity of bush and housing"),
     ("volumetric_heat", "J/(m3.K)", "density times heat capacity of the oil"),
+    ("carry_over", "1", "share of the oil arriving at an opening that goes on, 0 to 1"),
 )
 
 _FIXED = {"radius", "length"}
@@ -32,7 +33,7 @@ def heated_spec(
     Parameters
     ----------
     values : mapping of str to float
-        Of its parameters, in SI.
+        Of its parameters, in SI; `carry_over` where there are openings.
     film : mapping of str to ndarray
         Tables of the film and of its losses; empty for the short film.
     oil : OilTable
@@ -50,6 +51,7 @@ def heated_spec(
             description=description,
         )
         for name, unit, description in _PARAMETERS
+        if name in values
     )
     tables = {
         **film,
@@ -57,4 +59,5 @@ def heated_spec(
         "oil_range": np.array([oil.coldest, oil.hottest]),
         "full_gap": np.array([float(full_gap)]),
     }
-    return NativeSpec(kernel="heated_journal", parameters=parameters, tables=tables)
+    kernel = "heated_grooved_journal" if "carry_over" in values else "heated_journal"
+    return NativeSpec(kernel=kernel, parameters=parameters, tables=tables)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from functools import cached_property
 from typing import Protocol
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from ....errors import InputError
@@ -19,15 +18,7 @@ from ...reaction import broadcast_state
 from ..bearing_losses import bearing_losses
 from .balanced_bearing import BalancedBearing
 from .cooled import Cooled
-from .heat_balance import (
-    Dimensions,
-    FilmAt,
-    FilmHeat,
-    balance_temperature,
-    fed_temperature,
-    film_heat,
-    heat_by_state,
-)
+from .heat_balance import FilmHeat, balance_temperature, fed_temperature, film_heat
 from .heated_bearing import HeatedBearing
 
 
@@ -105,17 +96,12 @@ class WarmFilm:
         """Return d(power, effective flow, side flow)/d(x, y, vx, vy, speed) at one temperature, shape (3, 5).
 
         Parameters and errors are those of `film_heat`; InputError too if the film law has no slopes of its
-        losses, as those of openings have none.
+        losses.
         """
-        at = _state(self, position, velocity, speed)
-        if at is None or at.losses.slopes is None or at.losses.inflow.size:
-            raise InputError(
-                f"film must have slopes of its losses, as MapFilm without openings, got {self.fitted_film!r}"
-            )
-        film = self.fitted_film
-        force, slope = film.force(at.e, at.w, self.slenderness), film.jacobian(at.e, at.w, self.slenderness)
-        dissipation = -np.concatenate([at.w @ slope[:, :2], at.w @ slope[:, 2:] + force])
-        return heat_by_state(at, dissipation, _dimensions(self), self.cooled[1])
+        _ = self.cooled
+        if self.in_balance is None:
+            raise InputError(f"film must have slopes of its losses, as MapFilm, got {self.fitted_film!r}")
+        return self.in_balance.heat_slopes(position, velocity, speed) * [[self.film_viscosity], [1.0], [1.0]]
 
     def film_at_unit_viscosity(self: _Bearing) -> tuple[BoundKernel, LossKernel] | None:
         """Return the compiled film at 1 Pa s and its losses; None if the film law has not both, or is fed."""
@@ -162,16 +148,3 @@ class WarmFilm:
         if self.supply_pressure == 0.0:
             return balance_temperature(heat(cooling.coldest), oil, cooling)
         return fed_temperature(heat, oil, cooling)
-
-
-def _state(bearing: _Bearing, position: ArrayLike, velocity: ArrayLike, speed: float) -> FilmAt | None:
-    q, v, omega = broadcast_state(position, velocity, speed)
-    if q.shape != (2,):
-        raise InputError(f"position must have shape (2,) for heat, got shape {q.shape}")
-    e, w = bearing.kinematics(q, v, omega)
-    losses = options(bearing.fitted_film, FilmOptions).losses(e, w, bearing.slenderness)
-    return None if losses is None else FilmAt(e, w, float(omega), losses)
-
-
-def _dimensions(bearing: _Bearing) -> Dimensions:
-    return Dimensions(bearing.radius, bearing.length, bearing.clearance, bearing.film_viscosity)

@@ -6,7 +6,11 @@ from ....sources import show
 
 if TYPE_CHECKING:
     from .pad_matrices import PadMatrices as PadMatrices, ReducedCoefficients as ReducedCoefficients
-    from .pads_at_rest import PadStates as PadStates, TiltingPadsAtRest
+    from .pads_at_rest import (
+        PadEquilibrium as PadEquilibrium,
+        TiltedPads as TiltedPads,
+        TiltingPadsAtRest,
+    )
     from .pivots import even_pivots as even_pivots
     from .tilting_bearing import TiltingPadBearing as TiltingPadBearing
     from .tilting_pads import TiltingPads as TiltingPads

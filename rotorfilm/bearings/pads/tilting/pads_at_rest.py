@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ....errors import InputError, require_finite, require_number, warn_user
 from ....model import Array, Tangent
-from ....native.tilting_kernel import RestPoint
+from ....native.pads.tilting_kernel import RestPoint
 from ....readable.result import Readable
+from ....results import Equilibrium
 from .held_pads import TURN, pad_slopes
 from .pad_contact import report_pads
 from .pad_matrices import PadMatrices, ReducedCoefficients
@@ -19,7 +21,7 @@ from .tilting_pads import TiltingPads
 
 
 @dataclass(frozen=True, kw_only=True)
-class PadStates(Readable):
+class TiltedPads(Readable):
     """Tilting pads at rest, one entry for each pad.
 
     Attributes
@@ -45,6 +47,21 @@ class PadStates(Readable):
     pad_loads: Array
     film_thickness: Array
     unloaded: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, kw_only=True)
+class PadEquilibrium(Equilibrium):
+    """The static position of a journal on tilting pads, and how these stand.
+
+    Eccentricity ratios are in clearances of a pad, the least film is that of all pads.
+
+    Attributes
+    ----------
+    pads : TiltedPads
+        Tilts, loads and films.
+    """
+
+    pads: TiltedPads
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,11 +123,17 @@ class TiltingPadsAtRest:
 
         return tangent
 
-    def least_film(self, position: ArrayLike, speed: float) -> float:
-        """Return the least film of all pads [m]."""
-        return float(self.pad_states(position, speed).film_thickness.min())
+    def settled(self, found: Equilibrium) -> PadEquilibrium:
+        """Return an equilibrium with the pads, whose clearance and least film are those it tells."""
+        pads = self.pad_states(found.position, found.speed)
+        known = {one.name: getattr(found, one.name) for one in fields(found)}
+        known |= {
+            "eccentricity_ratio": math.hypot(*found.position) / self.bearing.clearance,
+            "minimum_film": float(pads.film_thickness.min()),
+        }
+        return PadEquilibrium(**known, pads=pads, reaction=self)
 
-    def pad_states(self, position: ArrayLike, speed: float) -> PadStates:
+    def pad_states(self, position: ArrayLike, speed: float) -> TiltedPads:
         """Return the pads under a journal at rest.
 
         Parameters
@@ -124,7 +147,7 @@ class TiltingPadsAtRest:
             As `force`.
         """
         pads = self._point(position, np.zeros(2), speed).pads
-        return PadStates(
+        return TiltedPads(
             pivots=np.array(self.bearing.pivots),
             tilts=pads["tilt"],
             pivot_deflections=pads["pivot"],

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from ....errors import InputError, require_finite
 from ....inputs.si_arguments import quantities
 from ....model import Array, Linearization
-from ....native.tilting_kernel import TiltingPoint
+from ....native.pads.tilting_kernel import TiltingPoint
 from ....signals import Signal, force_outputs, journal_inputs
 from ...reaction import NOMINAL_SPEED, Called, broadcast_state, input_vector
 from ..pad_film import PadMapFilm

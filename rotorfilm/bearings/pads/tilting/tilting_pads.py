@@ -22,7 +22,7 @@ from ....errors import (
 )
 from ....inputs.si_arguments import quantities
 from ....model import Array
-from ....native.tilting_kernel import TiltingKernel
+from ....native.pads.tilting_kernel import TiltingKernel
 from ..pad_film import PadFilm, PadMapFilm
 from .pivots import directions, gaps, reach
 

@@ -9,9 +9,9 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from ..model import Array, Linearization
-from .film_kernels import Batch, FilmKernel
-from .library import loops
+from ...model import Array, Linearization
+from ..film_kernels import Batch, FilmKernel
+from ..library import loops
 
 REST = ("tilt", "pivot", "load", "stiffness", "by_speed", "least", "unloaded")
 """The numbers of rf_tilting_rest."""
