@@ -40,7 +40,7 @@ QUANTITIES = (
 )
 FINE, COARSE = (160, 16), (80, 8)
 MANY, FEW = 24, 12
-"""Cells and layers of the reference, and of those whose distance from it is extrapolated."""
+"""Cells and layers of the reference: it is extrapolated from fine and coarse, and from many and few."""
 
 SMALLEST = 2e-4
 """Error that the reference may have itself in any case."""
@@ -101,14 +101,14 @@ def _is_fair(scene: Scene) -> bool:
 
 
 def by_layers(scene: Scene) -> Truth:
-    """Return a static quantity by T3 on fine cells in many layers, extrapolated.
+    """Return a static quantity by T3, extrapolated to cells and layers without end.
 
     Heat moves upwind, of first order in the cells, and layers are of second order.
     """
     assert scene.question is not None
     quantity = scene.question.quantity
-    fine, coarse, few = (np.asarray(rest_value(quantity, rest)) for rest in _rests(scene))
-    by_cells, by_layer = fine - coarse, (coarse - few) / 3.0
+    fine, coarse, many = (np.asarray(rest_value(quantity, rest)) for rest in _rests(scene))
+    by_cells, by_layer = fine - coarse, 4.0 / 3.0 * (many - coarse)
     truth = fine + by_cells + by_layer
     zero = scene.bearing.cooled[1].supply_temperature if quantity in TEMPERATURES else 0.0
     scale = 1.0 if quantity == "attitude_angle" else float(np.max(np.abs(truth - zero)))
@@ -128,5 +128,5 @@ def _rests(scene: Scene) -> tuple[WarmRest, ...]:
             scene.static_load,
             scene.speed,
         )
-        for cells, layers in ((FINE, MANY), (COARSE, MANY), (COARSE, FEW))
+        for cells, layers in ((FINE, FEW), (COARSE, FEW), (COARSE, MANY))
     )
