@@ -8,19 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 from ...answers import ErrorEstimate, Found, WorkUnit
 from ...bearings.journal import JournalBearing
 from ...ladders import BaseRung, Rung
-from ...scenes.journal.field_levels import FIELD_LEVELS, REFERENCE, FieldLevel
+from ...scenes.journal.field_levels import FIELD_LEVELS, REFERENCE, FieldLevel, grid_error
 from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.heat_steps import HeatError, HeatSteps, heat_error
 from ...scenes.journal.warm_rest import WarmRest
-
-LAYERS = 1.0 / 3.0
-"""Change by layers without end over that since half as many, of second order."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -98,26 +95,22 @@ class FieldRung(BaseRung):
         return Found(self.question.value(own), {self.unit: 1}, FieldSolution(self, own))
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return of T2 what steps towards T3 change, of T3 the change since longer cells and thicker layers.
-
-        Of first order in the cells T3 lacks what it gained since cells twice as long, and mostly less.
-        """
+        """Return of T2 what steps towards T3 change, of T3 what coarser grids do; see `grid_error`."""
         own, question = found.solution.own, self.question
         done = {WorkUnit(f"estimates of {self.name}"): 1}
         if not self.level.layers:
             steps = HeatSteps(self.bearing, own)
             heat = question.error(own, steps)
             return ErrorEstimate(heat.error, "steps towards T3", done, bound=heat.bound, doubt=steps.doubt)
-        coarse = self._coarser(before)
-        thick = self.level.coarser.thicker.rest(self.bearing, question.load, question.speed)
-        error = question.apart(coarse, own) + LAYERS * question.apart(thick, coarse)
+        error = grid_error(self.level, own, partial(self._rest, before), question.apart)
         return ErrorEstimate(error, "cells twice as long, half the layers", done, bound=True)
 
-    def _coarser(self, before: Found | None) -> WarmRest:
-        half = replace(self, level=self.level.coarser)
-        if before is not None and isinstance(before.solution, FieldSolution) and before.solution.rung == half:
+    def _rest(self, before: Found | None, level: FieldLevel) -> WarmRest:
+        """Return the rest by another level; that of a lower rung is known."""
+        rung = replace(self, level=level)
+        if before is not None and isinstance(before.solution, FieldSolution) and before.solution.rung == rung:
             return before.solution.own
-        own: WarmRest = half.answer(None).solution.own
+        own: WarmRest = rung.answer(None).solution.own
         return own
 
 

@@ -17,12 +17,11 @@ from ...ladders import BaseRung, Ladder
 from ...linear import whirl_threshold
 from ...results import Equilibrium, WhirlThreshold
 from ...scenes.journal.assumed import assumed_figures
-from ...scenes.journal.field_levels import FIELD_LEVELS, FieldLevel
+from ...scenes.journal.field_levels import FIELD_LEVELS, FieldLevel, grid_error
 from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.film_rungs import point_films
 from ...scenes.journal.heat_steps import HeatError, HeatSteps, heat_error
 from ...scenes.journal.warm_rest import WarmRest, uniform_rest
-from .field_rungs import LAYERS
 from .heat_rungs import BALANCED, BALANCES, FRESH, HeatLevel, balance_at, known_films, with_heat
 from .whirl_rungs import AROUND, WhirlRung, whirl_ladder
 
@@ -219,7 +218,7 @@ class FieldWhirlRung(BaseRung):
         )
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return of T2 what steps towards T3 change, of T3 longer cells and thicker layers; moving heat."""
+        """Return of T2 what steps towards T3 change, of T3 coarser grids; moving heat."""
         own, growth = found.solution
         bearing, load = self.uniform.bearing, self.uniform.load
         moving = moving_heat(bearing, growth.speed)
@@ -230,10 +229,9 @@ class FieldWhirlRung(BaseRung):
             bound = heat.bound or moving > heat.error
             method = f"steps towards T3, {heat.error:.2g}; moving heat, {moving:.2g} lower"
             return ErrorEstimate(heat.error + moving, method, work, bound=bound, doubt=steps.doubt)
-        coarse, thick = (
-            one.rest(bearing, load, growth.speed) for one in (self.level.coarser, self.level.coarser.thicker)
+        grid = grid_error(
+            self.level, own, lambda level: level.rest(bearing, load, growth.speed), growth.apart
         )
-        grid = growth.apart(coarse, own) + LAYERS * growth.apart(thick, coarse)
         method = f"cells twice as long, half the layers, {grid:.2g}; moving heat, {moving:.2g} lower"
         return ErrorEstimate(grid + moving, method, work, bound=True)
 

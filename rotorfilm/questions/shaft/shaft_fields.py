@@ -2,28 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ...answers import ErrorEstimate, Found, WorkUnit
 from ...errors import ConvergenceError
-from ...ladders import BaseRung
+from ...ladders import BaseRung, Rung
 from ...linear import RotorEquilibrium, rotor_equilibrium
 from ...linear.rotor_whirl import Whirl, mode_near, on_films, small_motion, value_rate
-from ...scenes.journal.field_levels import FieldLevel
+from ...scenes.journal.field_levels import FIELD_LEVELS, FieldLevel, grid_error
 from ...scenes.journal.heat_steps import HeatError
 from ...scenes.journal.warm_rest import WarmRest
-from ..journal.field_rungs import LAYERS
 from .shaft_films import ShaftFilms
-from .shaft_heat import HeatedShaft, ShaftHeat, steps_error, value_on, with_moving
+from .shaft_heat import HeatedShaft, ShaftHeat, frozen_at, steps_error, value_on, with_moving
 
 if TYPE_CHECKING:
+    from ...rotors.shaft.shaft_models import ShaftModel
     from .shaft_orbits import ShaftOrbitRung
     from .shafts import ShaftRung
+
+NONLINEAR = 3
+"""Nonlinear rungs of an orbit."""
 
 RESTS, NEAR, FARTHEST = 12, 3e-5, 0.1
 """Most speeds that a search takes, the relative change at which it ends, and the largest one of a step."""
@@ -42,17 +45,17 @@ def field_rests(films: ShaftFilms, at: RotorEquilibrium, level: FieldLevel) -> d
 def field_error(rung: HeatedShaft, found: Found, rests: dict[str, WarmRest], level: FieldLevel) -> ShaftHeat:
     """Return the error by heat of an answer on temperature fields.
 
-    Of T2 by steps towards T3, of T3 by cells twice as long and half the layers.
+    Of T2 by steps towards T3, of T3 by coarser grids.
     """
     own = value_on(rung, found, rests)
     if not level.layers:
         return steps_error(rung, found, own, rests)
     at = rung.rest(found)
-    coarse, thick = (
-        value_on(rung, found, field_rests(rung.films, at, one))
-        for one in (level.coarser, level.coarser.thicker)
-    )
-    grid = rung.distance(coarse, own) + LAYERS * rung.distance(thick, coarse)
+
+    def value(one: FieldLevel) -> float:
+        return value_on(rung, found, field_rests(rung.films, at, one))
+
+    grid = grid_error(level, own, value, rung.distance)
     heat = with_moving(rung, found, HeatError(grid, True), "")
     return heat._replace(how=heat.how.replace("steps towards T3", "cells twice as long, half the layers"))
 
@@ -186,7 +189,7 @@ class FieldOrbitRung(BaseRung):
 
     films: FrozenShaftFilms
     uniform: ShaftOrbitRung
-    make: Callable[[ShaftFilms], ShaftOrbitRung]
+    make: Callable[..., ShaftOrbitRung]
 
     @property
     def name(self) -> str:
@@ -214,3 +217,38 @@ class FieldOrbitRung(BaseRung):
         return with_fields(
             about, field_error(self.uniform, linear, self.films.rests, self.films.level), self.name
         )
+
+
+def field_speeds(balanced: Sequence[ShaftRung]) -> tuple[Rung, ...]:
+    """Return the rungs of a speed on T2 and T3, from those of T1, on the mesh of the file."""
+    mesh = next((rung for rung in balanced if rung.model.modes is None), balanced[0])
+    return tuple(FieldSpeedRung(level=level, uniform=mesh) for level in FIELD_LEVELS[:2])
+
+
+def field_orbits(
+    films: ShaftFilms,
+    rest: RotorEquilibrium,
+    rung_on: Callable[[ShaftFilms, ShaftModel, int], ShaftOrbitRung],
+    choices: Sequence[tuple[ShaftModel, int]],
+) -> tuple[Rung, ...]:
+    """Return the rungs of an orbit on T2 and T3: the last linear one, and the first others.
+
+    Parameters
+    ----------
+    films : ShaftFilms
+        On their oils.
+    rest : RotorEquilibrium
+        On these.
+    rung_on : callable
+        Takes films, a model of the shaft and samples over a turn, and returns the rung.
+    choices : sequence of (ShaftModel, int)
+        Models and samples, 0 of the linear orbit.
+    """
+    linear = [choice for choice in choices if not choice[1]]
+    taken = [linear[-1], *[choice for choice in choices if choice[1]][:NONLINEAR]]
+    uniform = rung_on(frozen_at(films, rest), *linear[-1])
+    return tuple(
+        FieldOrbitRung(films=warm, uniform=uniform, make=partial(rung_on, model=model, samples=samples))
+        for warm in (FrozenShaftFilms(level, films, rest) for level in FIELD_LEVELS[:2])
+        for model, samples in taken
+    )

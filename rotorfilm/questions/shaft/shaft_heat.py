@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -223,9 +224,7 @@ def shaft_assumptions(rung: HeatedShaft) -> tuple[str, ...]:
     lines: dict[str, None] = {}
     for name in on_oil:
         bearing: JournalBearing = rung.films.journals[name].reaction
-        lines |= dict.fromkeys(
-            assumed_figures(bearing, lambda other, like=bearing: moved(other, like), fields=True)
-        )
+        lines |= dict.fromkeys(assumed_figures(bearing, partial(moved, like=bearing), fields=True))
     return tuple(lines)
 
 

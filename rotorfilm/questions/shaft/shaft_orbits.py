@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,10 +21,9 @@ from ...motion.periodic.orbit_newton import driven, newton_step
 from ...results import Coefficients
 from ...rotors.shaft.shaft_models import ShaftModel, shaft_models
 from ...scenes.excitation_table import UnbalanceTable
-from ...scenes.journal.field_levels import FIELD_LEVELS
 from ...scenes.shaft.shaft_remarks import shaft_remarks, stability_remark
 from ..orbit_place import FORCE, PHASE, UNITS, WALL, OrbitPlace, SolvedTurn
-from .shaft_fields import FieldOrbitRung, FrozenShaftFilms
+from .shaft_fields import field_orbits
 from .shaft_films import ShaftFilms, film_levels
 from .shaft_heat import at_supply, frozen_at, shaft_assumptions, warm_physics, warm_rungs
 
@@ -37,9 +35,6 @@ LINEAR = 15
 
 NONLINEAR = (("reduced", 15), ("mesh", 15), ("mesh", 31), ("mesh", 63), ("split", 63), ("split", 127))
 """Models of the shaft and samples over a turn of the nonlinear rungs."""
-
-FIELD_CHOICES = 3
-"""Nonlinear rungs on films with a temperature field."""
 
 ROUNDOFF = 1e-12
 """Size of a step / size of the orbit that is no error any more."""
@@ -223,42 +218,26 @@ def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
     def rungs_on(levels: tuple[ShaftFilms, ...]) -> tuple[ShaftOrbitRung, ...]:
         return tuple(rung_on(films, *choice) for films in levels for choice in choices)
 
-    films, rungs = levels[0], rungs_on(levels)
-    ladder: tuple[Rung, ...] = rungs
+    films = levels[0]
+    fresh: tuple[ShaftOrbitRung, ...] = ()
+    fields: tuple[Rung, ...] = ()
     if films.on_oil:
         # In vibration films keep the temperatures of the rest.
         rest = rotor_equilibrium(models[0].rotor, films.reaction, scene.speed)
-        rungs = rungs_on(tuple(frozen_at(one, rest) for one in levels))
-        fields = (
-            FieldOrbitRung(films=warm, uniform=rungs[0], make=partial(_made, rung_on, choice))
-            for warm in (FrozenShaftFilms(level, films, rest) for level in FIELD_LEVELS[:2])
-            for choice in _field_choices(choices)
-        )
-        ladder = (*warm_rungs(rungs_on(tuple(map(at_supply, levels))), rungs), *fields)
+        fresh = rungs_on(tuple(map(at_supply, levels)))
+        levels = tuple(frozen_at(one, rest) for one in levels)
+        fields = field_orbits(films, rest, rung_on, choices)
+    rungs = rungs_on(levels)
     return Ladder(
-        rungs=ladder,
+        rungs=(*warm_rungs(fresh, rungs), *fields) if films.on_oil else rungs,
         unit=UNITS[quantity],
         remarks=(
             *shaft_remarks(rotor, bearings, scene.lubricant.properties, scene.speed),
-            *stability_remark(rotor, rungs[0].films.reaction, scene.speed),
+            *stability_remark(rotor, levels[0].reaction, scene.speed),
         ),
         within=warm_physics(films, bearings),
         assumptions=lambda: shaft_assumptions(rungs[0]),
     )
-
-
-def _made(
-    make: Callable[[ShaftFilms, ShaftModel, int], ShaftOrbitRung],
-    choice: tuple[ShaftModel, int],
-    films: ShaftFilms,
-) -> ShaftOrbitRung:
-    return make(films, *choice)
-
-
-def _field_choices(choices: list[tuple[ShaftModel, int]]) -> list[tuple[ShaftModel, int]]:
-    """Return those for films with a temperature field: the last linear one and the first others."""
-    linear = [choice for choice in choices if not choice[1]]
-    return [linear[-1], *[choice for choice in choices if choice[1]][:FIELD_CHOICES]]
 
 
 def _choices(models: tuple[ShaftModel, ...], *, nonlinear: bool) -> list[tuple[ShaftModel, int]]:

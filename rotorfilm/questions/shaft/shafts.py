@@ -10,7 +10,7 @@ import numpy as np
 
 from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Work, WorkUnit, beside_bound
 from ...errors import AbsentError, InputError
-from ...ladders import BaseRung, Ladder, Rung
+from ...ladders import BaseRung, Ladder
 from ...linear import RotorEquilibrium, rotor_equilibrium, rotor_modes
 from ...linear.rotor_system import SecondOrder, journal_rows, second_order
 from ...linear.rotor_whirl import (
@@ -28,10 +28,9 @@ from ...linear.speed_events import Critical, SpeedEvent, Threshold
 from ...model import Array
 from ...results import Coefficients
 from ...rotors.shaft.shaft_models import ShaftModel, shaft_models
-from ...scenes.journal.field_levels import FIELD_LEVELS
 from ...scenes.shaft.shaft_remarks import shaft_remarks
 from ..journal.warm_whirl import moving_heat
-from .shaft_fields import FieldSpeedRung
+from .shaft_fields import field_speeds
 from .shaft_films import ShaftFilms, coefficient_bounds, film_levels, rich_coefficients
 from .shaft_heat import at_supply, shaft_assumptions, warm_physics, warm_rungs
 
@@ -291,17 +290,11 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
         )
 
     films, rungs = levels[0], rungs_on(levels)
+    fresh = rungs_on(tuple(map(at_supply, levels)))
     return Ladder(
-        rungs=warm_speeds(rungs, rungs_on(tuple(map(at_supply, levels)))) if films.on_oil else rungs,
+        rungs=(*warm_rungs(fresh, rungs), *field_speeds(rungs)) if films.on_oil else rungs,
         unit="rad/s",
         remarks=shaft_remarks(rotor, bearings, scene.lubricant.properties, float(speeds[-1])),
         within=warm_physics(films, bearings),
         assumptions=lambda: shaft_assumptions(rungs[0]),
     )
-
-
-def warm_speeds(balanced: tuple[ShaftRung, ...], fresh: tuple[ShaftRung, ...]) -> tuple[Rung, ...]:
-    """Return the rungs of T0 and T1, and those of T2 and T3 on the mesh of the file."""
-    mesh = next((rung for rung in balanced if rung.model.modes is None), balanced[0])
-    fields = (FieldSpeedRung(level=level, uniform=mesh) for level in FIELD_LEVELS[:2])
-    return (*warm_rungs(fresh, balanced), *fields)

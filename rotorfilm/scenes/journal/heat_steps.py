@@ -93,7 +93,7 @@ class HeatSteps:
         own, bearing = self.own, self.bearing
         film = HeatedFilm(bearing=bearing, walls=bush_of(bearing), cells=cells, profile=PROFILE)
         state = film.warmed_from(own.rest.position, own.rest.speed, self._start(cells))
-        found = []
+        found: list[WarmRest] = []
         at = own.rest
         for _ in range(STEPS):
             if found:
