@@ -161,8 +161,9 @@ class Growth:
 
     def error(self, own: WarmRest, steps: HeatSteps) -> HeatError:
         """Return how far the threshold of a rest is off by heat."""
-        last, before, coarse = (self.value(one) for one in steps.sample)
-        return heat_error(self.value(own), (last, before, coarse), self.distance)
+        start, last, before, *bases = (self.value(one) for one in (steps.own, *steps.sample))
+        coarse, fine, long = bases
+        return heat_error(self.value(own), start, (last, before, coarse, fine, long), self.distance)
 
 
 class FieldThreshold(NamedTuple):

@@ -74,11 +74,15 @@ def value_on(rung: HeatedShaft, found: Found, rests: Mapping[str, WarmRest]) -> 
 def steps_error(rung: HeatedShaft, found: Found, own: float, rests: Mapping[str, WarmRest]) -> ShaftHeat:
     """Return how far a value is off by heat, by steps of each film towards T3."""
     steps = {name: HeatSteps(rung.films.journals[name].reaction, one) for name, one in rests.items()}
-    last, before, coarse = (
-        value_on(rung, found, {name: one.sample[k] for name, one in steps.items()}) for k in range(3)
+    samples = {name: one.sample for name, one in steps.items()}
+    start = value_on(rung, found, rests)
+    last, before, coarse, fine, long = (
+        value_on(rung, found, {name: one[k] for name, one in samples.items()}) for k in range(5)
     )
     doubt = next((one.doubt for one in steps.values() if one.doubt), "")
-    return with_moving(rung, found, heat_error(own, (last, before, coarse), rung.distance), doubt)
+    return with_moving(
+        rung, found, heat_error(own, start, (last, before, coarse, fine, long), rung.distance), doubt
+    )
 
 
 def with_moving(rung: HeatedShaft, found: Found, heat: HeatError, doubt: str) -> ShaftHeat:

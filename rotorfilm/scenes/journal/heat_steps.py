@@ -24,6 +24,9 @@ from .warm_rest import WarmRest, bush_of, rest_of_state
 PROFILE, CELLS = LayeredTemperature(8), (80, 8)
 """Layers and cells of a step; the cells are those of the rungs with a temperature field."""
 
+HALF = (CELLS[0] // 2, CELLS[1] // 2)
+"""Cells twice as long."""
+
 STEPS = 3
 """Steps on the cells, and on those twice as long."""
 
@@ -72,12 +75,13 @@ class HeatSteps:
     @cached_property
     def coarse(self) -> WarmRest:
         """The last one on cells twice as long."""
-        return self._steps((CELLS[0] // 2, CELLS[1] // 2))[-1]
+        return self._steps(HALF)[-1]
 
     @property
-    def sample(self) -> tuple[WarmRest, WarmRest, WarmRest]:
-        """The last rest, that before it, and the last one on cells twice as long."""
-        return self.taken[-1], self.taken[-2], self.coarse
+    def sample(self) -> tuple[WarmRest, WarmRest, WarmRest, WarmRest, WarmRest]:
+        """The last rest, that before it, the last one on cells twice as long, and the start on both cells."""
+        fine, coarse = self._start_on(CELLS), self._start_on(HALF)
+        return self.taken[-1], self.taken[-2], self.coarse, fine, coarse
 
     @property
     def doubt(self) -> str:
@@ -91,7 +95,7 @@ class HeatSteps:
 
     def _steps(self, cells: tuple[int, int]) -> tuple[WarmRest, ...]:
         own, bearing = self.own, self.bearing
-        film = HeatedFilm(bearing=bearing, walls=bush_of(bearing), cells=cells, profile=PROFILE)
+        film = self._film(cells)
         state = film.warmed_from(own.rest.position, own.rest.speed, self._start(cells))
         found: list[WarmRest] = []
         at = own.rest
@@ -102,6 +106,25 @@ class HeatSteps:
             at = equilibrium(after, own.rest.load, own.rest.speed)
             found.append(self._moved(rest_of_state(bearing, at, after, state), here))
         return tuple(found)
+
+    def _film(self, cells: tuple[int, int]) -> HeatedFilm:
+        bearing = self.bearing
+        return HeatedFilm(bearing=bearing, walls=bush_of(bearing), cells=cells, profile=PROFILE)
+
+    def _start_on(self, cells: tuple[int, int]) -> WarmRest:
+        """Return the start by one temperature on these cells, whose own error is none of the heat.
+
+        A field is on the cells of the steps, whose error is its own.
+        """
+        own = self.own
+        if own.field is not None:
+            return own
+        state = self._film(cells).warmed_from(
+            own.rest.position, own.rest.speed, own.temperature, closing=True
+        )
+        at = equilibrium(state.film, own.rest.load, own.rest.speed)
+        moved = self._moved(rest_of_state(self.bearing, at, state.film, state), own.rest)
+        return replace(moved, temperature=own.temperature, maximum_temperature=own.maximum_temperature)
 
     def _start(self, cells: tuple[int, int]) -> Any:
         """Return the temperature of the rest, the mean of a field on other cells."""
@@ -122,18 +145,22 @@ class HeatSteps:
         )
 
 
-def heat_error(own: Any, steps: tuple[Any, Any, Any], distance: Callable[[Any, Any], float]) -> HeatError:
-    """Return how far a value is off, by those after steps.
+def heat_error(
+    own: Any, start: Any, sample: tuple[Any, Any, Any, Any, Any], distance: Callable[[Any, Any], float]
+) -> HeatError:
+    """Return how far a value is off, by those of steps.
 
     Parameters
     ----------
-    own : float or ndarray
-    steps : tuple of three
+    own, start : float or ndarray
+        The value, and that where the steps start, which is another one only of T0.
+    sample : tuple of five
         Of `HeatSteps.sample`.
     distance : callable
         Takes a value and a better one, and returns how far it is off.
     """
-    last, before, coarse = (np.asarray(one) for one in steps)
+    last, before, coarse, fine, long = (np.asarray(one) for one in sample)
+    last, before, coarse = last - fine + start, before - fine + start, coarse - long + start
     error = distance(own, last + ONWARD * (last - coarse))
     unsure = ONWARD * distance(coarse, last) + distance(before, last)
     return HeatError(error, False) if error >= unsure else HeatError(error + unsure, True)
