@@ -114,10 +114,11 @@ class HeatSteps:
     def _start_on(self, cells: tuple[int, int]) -> WarmRest:
         """Return the start by one temperature on these cells, whose own error is none of the heat.
 
-        A field is on the cells of the steps, whose error is its own.
+        A field is on the cells of the steps, whose error is its own; and films that openings feed start only
+        where there is oil, which is not the film of one temperature.
         """
         own = self.own
-        if own.field is not None:
+        if own.field is not None or self.bearing.geometry.openings():
             return own
         state = self._film(cells).warmed_from(
             own.rest.position, own.rest.speed, own.temperature, closing=True
