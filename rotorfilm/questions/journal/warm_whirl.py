@@ -139,13 +139,13 @@ class Growth:
     rung : WhirlRung
         Of the rotor.
     speed : float [rad/s]
-    slope : float [1]
+    per_speed : float [1]
         d(growth)/d speed.
     """
 
     rung: WhirlRung
     speed: float
-    slope: float
+    per_speed: float
 
     def value(self, own: WarmRest) -> float:
         """Return the growth rate of the whirl of a rest [1/s]."""
@@ -153,7 +153,7 @@ class Growth:
 
     def distance(self, value: float, better: float) -> float:
         """Return by which share of itself the threshold is off."""
-        return abs((better - value) / self.slope) / self.speed
+        return abs((better - value) / self.per_speed) / self.speed
 
     def apart(self, own: WarmRest, other: WarmRest) -> float:
         """Return how far the threshold of one rest is from that of a better one."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -14,16 +14,13 @@ from ...errors import ConvergenceError
 from ...ladders import BaseRung, Rung
 from ...linear import RotorEquilibrium, rotor_equilibrium
 from ...linear.rotor_whirl import Whirl, mode_near, on_films, small_motion, value_rate
+from ...linear.speed_events import SpeedEvent
+from ...rotors.shaft.shaft_models import ShaftModel
 from ...scenes.journal.field_levels import FIELD_LEVELS, FieldLevel, grid_error
 from ...scenes.journal.heat_steps import HeatError
 from ...scenes.journal.warm_rest import WarmRest
 from .shaft_films import ShaftFilms
-from .shaft_heat import HeatedShaft, ShaftHeat, frozen_at, steps_error, value_on, with_moving
-
-if TYPE_CHECKING:
-    from ...rotors.shaft.shaft_models import ShaftModel
-    from .shaft_orbits import ShaftOrbitRung
-    from .shafts import ShaftRung
+from .shaft_heat import HeatedShaft, HeatFound, frozen_at, steps_error, value_on, with_moving
 
 NONLINEAR = 3
 """Nonlinear rungs of an orbit."""
@@ -42,7 +39,7 @@ def field_rests(films: ShaftFilms, at: RotorEquilibrium, level: FieldLevel) -> d
     }
 
 
-def field_error(rung: HeatedShaft, found: Found, rests: dict[str, WarmRest], level: FieldLevel) -> ShaftHeat:
+def field_error(rung: HeatedShaft, found: Found, rests: dict[str, WarmRest], level: FieldLevel) -> HeatFound:
     """Return the error by heat of an answer on temperature fields.
 
     Of T2 by steps towards T3, of T3 by coarser grids.
@@ -60,13 +57,31 @@ def field_error(rung: HeatedShaft, found: Found, rests: dict[str, WarmRest], lev
     return heat._replace(how=heat.how.replace("steps towards T3", "cells twice as long, half the layers"))
 
 
-def with_fields(about: ErrorEstimate, heat: ShaftHeat, name: str) -> ErrorEstimate:
+def with_fields(about: ErrorEstimate, heat: HeatFound, name: str) -> ErrorEstimate:
     """Return the error of a rotor's model with that of the heat in its films."""
     bound = heat.error.bound if heat.error.error > about.error else about.bound
     method = f"{about.method}; heat: {heat.how}, {heat.error.error:.2g}"
     work = {WorkUnit(f"estimates of {name}"): 1}
     total = about.error + heat.error.error
     return ErrorEstimate(total, method, work, bound=bound, doubt=about.doubt or heat.doubt)
+
+
+class SpeedRung(HeatedShaft, Protocol):
+    """A rung of a critical speed, or of the threshold, on films of one temperature."""
+
+    @property
+    def model(self) -> ShaftModel:
+        """Its model of the shaft."""
+
+    @property
+    def event(self) -> SpeedEvent:
+        """What happens at the speed."""
+
+    def solution(self, whirl: Whirl) -> Any:
+        """Return one whirl as what an answer starts from."""
+
+    def mesh_error(self, found: Found) -> ErrorEstimate:
+        """Return the error of the model of the shaft on the same K and C."""
 
 
 class FieldSpeed(NamedTuple):
@@ -84,12 +99,12 @@ class FieldSpeedRung(BaseRung):
     ----------
     level : FieldLevel
         T2 or T3.
-    uniform : ShaftRung
+    uniform : SpeedRung
         By T1, where the search starts.
     """
 
     level: FieldLevel
-    uniform: ShaftRung
+    uniform: SpeedRung
 
     @property
     def name(self) -> str:
@@ -171,7 +186,7 @@ class FieldOrbit(NamedTuple):
     """An orbit on temperature fields: the answer of the rung on its frozen films, and that rung."""
 
     found: Found
-    rung: ShaftOrbitRung
+    rung: HeatedShaft
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -181,15 +196,15 @@ class FieldOrbitRung(BaseRung):
     Attributes
     ----------
     films : FrozenShaftFilms
-    uniform : ShaftOrbitRung
+    uniform : HeatedShaft
         The linear one by T1, which tells what the films change.
     make : callable
         Takes films and returns the rung of the orbit on them.
     """
 
     films: FrozenShaftFilms
-    uniform: ShaftOrbitRung
-    make: Callable[..., ShaftOrbitRung]
+    uniform: HeatedShaft
+    make: Callable[..., HeatedShaft]
 
     @property
     def name(self) -> str:
@@ -219,7 +234,7 @@ class FieldOrbitRung(BaseRung):
         )
 
 
-def field_speeds(balanced: Sequence[ShaftRung]) -> tuple[Rung, ...]:
+def field_speeds(balanced: Sequence[SpeedRung]) -> tuple[Rung, ...]:
     """Return the rungs of a speed on T2 and T3, from those of T1, on the mesh of the file."""
     mesh = next((rung for rung in balanced if rung.model.modes is None), balanced[0])
     return tuple(FieldSpeedRung(level=level, uniform=mesh) for level in FIELD_LEVELS[:2])
@@ -228,7 +243,7 @@ def field_speeds(balanced: Sequence[ShaftRung]) -> tuple[Rung, ...]:
 def field_orbits(
     films: ShaftFilms,
     rest: RotorEquilibrium,
-    rung_on: Callable[[ShaftFilms, ShaftModel, int], ShaftOrbitRung],
+    rung_on: Callable[..., HeatedShaft],
     choices: Sequence[tuple[ShaftModel, int]],
 ) -> tuple[Rung, ...]:
     """Return the rungs of an orbit on T2 and T3: the last linear one, and the first others.
@@ -240,13 +255,14 @@ def field_orbits(
     rest : RotorEquilibrium
         On these.
     rung_on : callable
-        Takes films, a model of the shaft and samples over a turn, and returns the rung.
+        Takes films, `model` of the shaft and `samples` over a turn, and returns the rung.
     choices : sequence of (ShaftModel, int)
         Models and samples, 0 of the linear orbit.
     """
     linear = [choice for choice in choices if not choice[1]]
     taken = [linear[-1], *[choice for choice in choices if choice[1]][:NONLINEAR]]
-    uniform = rung_on(frozen_at(films, rest), *linear[-1])
+    model, samples = linear[-1]
+    uniform = rung_on(frozen_at(films, rest), model=model, samples=samples)
     return tuple(
         FieldOrbitRung(films=warm, uniform=uniform, make=partial(rung_on, model=model, samples=samples))
         for warm in (FrozenShaftFilms(level, films, rest) for level in FIELD_LEVELS[:2])

@@ -47,8 +47,17 @@ class HeatedShaft(Rung, Protocol):
         """Return the error by heat that moves with the motion."""
 
 
-class ShaftHeat(NamedTuple):
-    """The error of a rung by heat, how that is known, and why to doubt it."""
+class HeatFound(NamedTuple):
+    """What the heat of the films leaves open.
+
+    Attributes
+    ----------
+    error : HeatError
+    how : str
+        By which it is known.
+    doubt : str
+        Why it must not be trusted; empty if it may.
+    """
 
     error: HeatError
     how: str
@@ -71,7 +80,7 @@ def value_on(rung: HeatedShaft, found: Found, rests: Mapping[str, WarmRest]) -> 
     return rung.on(found, {**own, **{name: one.coefficients for name, one in rests.items()}})
 
 
-def steps_error(rung: HeatedShaft, found: Found, own: float, rests: Mapping[str, WarmRest]) -> ShaftHeat:
+def steps_error(rung: HeatedShaft, found: Found, own: float, rests: Mapping[str, WarmRest]) -> HeatFound:
     """Return how far a value is off by heat, by steps of each film towards T3."""
     steps = {name: HeatSteps(rung.films.journals[name].reaction, one) for name, one in rests.items()}
     samples = {name: one.sample for name, one in steps.items()}
@@ -85,11 +94,11 @@ def steps_error(rung: HeatedShaft, found: Found, own: float, rests: Mapping[str,
     )
 
 
-def with_moving(rung: HeatedShaft, found: Found, heat: HeatError, doubt: str) -> ShaftHeat:
+def with_moving(rung: HeatedShaft, found: Found, heat: HeatError, doubt: str) -> HeatFound:
     """Return an error with that of heat that moves with the motion."""
     moving = rung.moving(found)
     how = f"steps towards T3, moving heat {moving:.2g} lower" if moving else "steps towards T3"
-    return ShaftHeat(HeatError(heat.error + moving, heat.bound or moving > heat.error), how, doubt)
+    return HeatFound(HeatError(heat.error + moving, heat.bound or moving > heat.error), how, doubt)
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,14 +109,14 @@ class RotorHeat:
     ----------
     level : HeatLevel
         T0 or T1.
-    known : list of (float, float, ShaftHeat)
+    known : list of (float, float, HeatFound)
         Tolerance and speed [rad/s] at which it was found, and what.
     """
 
     level: HeatLevel
-    known: list[tuple[float, float, ShaftHeat]] = field(default_factory=list)
+    known: list[tuple[float, float, HeatFound]] = field(default_factory=list)
 
-    def error(self, rung: HeatedShaft, found: Found, tolerance: float) -> ShaftHeat:
+    def error(self, rung: HeatedShaft, found: Found, tolerance: float) -> HeatFound:
         """Return the error of an answer by heat; that of another rung next to it."""
         speed = rung.rest(found).speed
         for asked, at, heat in self.known:
@@ -117,7 +126,7 @@ class RotorHeat:
         self.known.append((tolerance, speed, heat))
         return heat
 
-    def _found(self, rung: HeatedShaft, found: Found, tolerance: float) -> ShaftHeat:
+    def _found(self, rung: HeatedShaft, found: Found, tolerance: float) -> HeatFound:
         rests = rests_of(rung, rung.rest(found))
         own = value_on(rung, found, rests)
         if self.level is FRESH:
@@ -126,7 +135,7 @@ class RotorHeat:
                 rests[name] = uniform_rest(bearing, one.rest.load, one.rest.speed, balance_at(bearing, one))
             error = rung.distance(own, value_on(rung, found, rests))
             if SAFETY * error >= tolerance:
-                return ShaftHeat(HeatError(error, False), "its balance", "")
+                return HeatFound(HeatError(error, False), "its balance", "")
         return steps_error(rung, found, own, rests)
 
 
