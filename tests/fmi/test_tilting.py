@@ -34,7 +34,9 @@ BOTH = replace(HEAVY, pivot_stiffness=2e8, pad_mass=0.1)
 INPUTS, SPEED = ("x", "y", "vx", "vy", "speed"), 300.0
 PLACE = np.array([3e-6, -1.5e-5, 1e-4, -2e-4, SPEED])
 kinds = pytest.mark.parametrize(
-    "model", [LIGHT, SPRUNG, HEAVY, BOTH], ids=["light", "sprung", "heavy", "sprung and heavy"]
+    ("model", "version"),
+    [(LIGHT, "2.0"), (LIGHT, "3.0"), (SPRUNG, "3.0"), (HEAVY, "2.0"), (BOTH, "3.0")],
+    ids=["light 2.0", "light 3.0", "sprung", "heavy", "sprung and heavy"],
 )
 versions = pytest.mark.parametrize("version", ["2.0", "3.0"])
 
@@ -63,7 +65,6 @@ def integrated(model, u, duration, x=None):
     return ran.y[:, -1]
 
 
-@versions
 @kinds
 def test_outputs_rates_and_derivatives_are_those_of_python(model, version, opened):
     model = started(model)
@@ -90,7 +91,6 @@ def test_tilting_pads_are_native_by_default_and_pass_all_checks(model, version, 
     assert [item.check for item in check_fmu(path) if item.passed is False] == []
 
 
-@versions
 @kinds
 def test_tilts_are_those_of_a_tight_integration(model, version, tmp_path):
     model, end = started(model), 2e-3
