@@ -22,7 +22,7 @@ LARGEST = {
     "rotorfilm_grids": 92_000,
     "rotorfilm_grid_systems": 124_000,
     "rotorfilm_heat": 82_000,
-    "rotorfilm_pads": 66_000,
+    "rotorfilm_pads": 74_000,
     "rotorfilm_loops": 172_000,
     "rotorfilm_master": 232_000,
 }
