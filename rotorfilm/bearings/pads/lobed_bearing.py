@@ -23,11 +23,17 @@ from ...native import JournalKernel
 from ...native.journal_spec import journal_spec
 from ...native.response_kernels import LobePlace, LobesKernel
 from ...native.spec import NativeSpec
+from ...results import BearingLosses
 from ...signals import Signal, force_outputs, journal_inputs
 from ..films.kernel_film import BoundKernel
-from ..reaction import NOMINAL_SPEED, FilmReaction
+from ..oil import Cooling, Oil
+from ..oil.lubricant import require_lubricant
+from ..oil.warm_bearing import WarmBearing
+from ..reaction import NOMINAL_SPEED, FilmReaction, broadcast_state
 from .lobe import Lobe, require_apart
+from .losses_of_pads import PadUnderJournal, losses_of_pads
 from .pad_film import PadFilm, PadMapFilm
+from .pad_losses import LossyPadFilm
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +64,7 @@ class BoundLobes(BoundKernel):
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class LobedBearing(FilmReaction):
+class LobedBearing(FilmReaction, WarmBearing):
     """A journal bearing of fixed pads, such as an elliptical one: a Reaction and a static Model.
 
     x and y are Cartesian from the bearing center, rotation is about +z, the force acts on the journal. The
@@ -77,8 +83,15 @@ class LobedBearing(FilmReaction):
     assembled_clearance : float or None [m]
         Radial clearance of the largest journal that fits in, (1 - preload) c_p, as drawings and ROSS have it;
         for lobes of one preload.
-    viscosity : float [Pa s]
-        Dynamic viscosity of the lubricant.
+    viscosity : float or None [Pa s]
+        Dynamic viscosity of the lubricant, the same at all temperatures; None where `oil` is given.
+    oil : Oil or None
+        The lubricant by its viscosity over temperature, in place of `viscosity`.
+    temperature : float or None [K]
+        Of the films, where the oil is given; None leaves it to the heat balance, with `cooling`, and to
+        `equilibrium`, as that of a `JournalBearing`.
+    cooling : Cooling or None
+        What takes the heat away; needed for a heat balance only. Its carry-over is from pad to pad.
     lobes : tuple of Lobe
         The pads; `lobe_set` makes the usual sets.
     film : PadFilm
@@ -87,8 +100,9 @@ class LobedBearing(FilmReaction):
     Raises
     ------
     InputError
-        If a dimension is not finite and positive, there are not one of both clearances, it is not below the
-        radius, there is no lobe, or lobes overlap.
+        If a dimension is not finite and positive, viscosity and oil are not one of both, an oil has neither
+        temperature nor cooling, there are not one of both clearances, it is not below the radius, there is no
+        lobe, or lobes overlap.
 
     Examples
     --------
@@ -100,14 +114,18 @@ class LobedBearing(FilmReaction):
 
     radius: float
     length: float
-    viscosity: float
     lobes: tuple[Lobe, ...]
+    viscosity: float | None = None
+    oil: Oil | None = None
+    temperature: float | None = None
+    cooling: Cooling | None = None
     pad_clearance: float | None = None
     assembled_clearance: float | None = None
     film: PadFilm = field(default_factory=PadMapFilm)
 
     def __post_init__(self) -> None:
-        require_each(self, require_positive, "radius", "length", "viscosity")
+        require_each(self, require_positive, "radius", "length")
+        require_lubricant(self.viscosity, self.oil, self.temperature, self.cooling)
         require_tuple("lobes", self.lobes, Lobe)
         if not self.lobes:
             raise InputError("lobes must have one at least, got ()")
@@ -144,7 +162,7 @@ class LobedBearing(FilmReaction):
     @property
     def force_scale(self) -> float:
         """Viscosity * length * radius^3 / clearance^2 [N s], the unit of force of a pad per 1/s."""
-        return self.viscosity * self.length * self.radius**3 / self.clearance**2
+        return self.film_viscosity * self.length * self.radius**3 / self.clearance**2
 
     @property
     def inputs(self) -> tuple[Signal, ...]:
@@ -166,7 +184,8 @@ class LobedBearing(FilmReaction):
 
     @cached_property
     def bound_film(self) -> BoundLobes:
-        """The films of the pads tied to the dimensions of this bearing."""
+        """The films of the pads tied to the dimensions; InputError without a stated temperature."""
+        self.require_temperature()
         extents = {lobe.extent: self.film.kernel(lobe.extent, self.slenderness) for lobe in self.lobes}
         films = [JournalKernel(extents[lobe.extent], self.clearance, self.force_scale) for lobe in self.lobes]
         places = [
@@ -175,13 +194,49 @@ class LobedBearing(FilmReaction):
         ]
         return BoundLobes(LobesKernel(films, places), self.clearance, self.lobes)
 
+    def losses(
+        self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool | None = None
+    ) -> BearingLosses | None:
+        """Return power loss, torques and oil flow; see `losses_of_pads`. None if the film law has none.
+
+        The opening of a number is the gap behind the lobe of that number, in the sense of +theta. Where
+        `full_gap` is None, it is that of the cooling, or false.
+
+        Raises
+        ------
+        InputError, FilmContactError
+            As `force`.
+        """
+        if not isinstance(self.film, LossyPadFilm):
+            return None
+        state = broadcast_state(position, velocity, speed)
+        self.bound_film.force(*state)  # raises where the journal touches
+        pads = [self._under(lobe, *state) for lobe in self.lobes]
+        return losses_of_pads(self, self.film, pads, state, full_gap=self.full_gap(full_gap))
+
+    def _under(self, lobe: Lobe, position: Array, velocity: Array, speed: Array) -> PadUnderJournal:
+        """Return a lobe and the journal on it."""
+        c, s = np.cos(lobe.middle), np.sin(lobe.middle)
+        back = np.array([[c, s], [-s, c]])
+        e = back @ (position.reshape(2, -1) / self.clearance - np.array(lobe.center)[:, None])
+        w = back @ velocity.reshape(2, -1) / self.clearance + 0.5 * speed.ravel() * np.stack([e[1], -e[0]])
+        film = self.film.kernel(lobe.extent, self.slenderness)
+        return PadUnderJournal(lobe.extent, lobe.middle, e, self.force_scale * film.force(e, w).values)
+
+    def film_at_unit_viscosity(self) -> None:
+        """Return no film for the loops in C over warm films, which know one film only."""
+
+    def heat_jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
+        """Raise InputError: the heat of pads has no slopes."""
+        raise InputError("bearing must have slopes of its heat, as a JournalBearing, got a LobedBearing")
+
     def native(self) -> NativeSpec | None:
         """Return the kernel of the C library that is this bearing; None if its film is no map.
 
         Nor has a subclass. Its parameters are the dimensions, with the clearance of the pads, and the
         viscosity; radius and length are fixed.
         """
-        if type(self) is not LobedBearing or not isinstance(self.film, PadMapFilm):
+        if type(self) is not LobedBearing or not isinstance(self.film, PadMapFilm) or self.is_warming:
             return None
         extents = list(dict.fromkeys(lobe.extent for lobe in self.lobes))
         tables = {"slenderness": np.array([self.slenderness])}
@@ -190,7 +245,7 @@ class LobedBearing(FilmReaction):
             tables |= {f"{number}.{name}": numbers for name, numbers in kernel.tables.items()}
         rows = [(lobe.middle, *lobe.center, extents.index(lobe.extent)) for lobe in self.lobes]
         lengths = {name: float(getattr(self, name)) for name in ("radius", "length", "clearance")}
-        dimensions = {**lengths, "viscosity": float(self.viscosity)}
+        dimensions = {**lengths, "viscosity": self.film_viscosity}
         return journal_spec("lobed_journal", {"lobes": np.array(rows), **tables}, dimensions, fixed=True)
 
     def portable(self) -> LobedBearing:
