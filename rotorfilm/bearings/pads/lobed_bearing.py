@@ -30,10 +30,14 @@ from ..oil import Cooling, Oil
 from ..oil.lubricant import require_lubricant
 from ..oil.warm_bearing import WarmBearing
 from ..reaction import NOMINAL_SPEED, FilmReaction, broadcast_state
+from .heat_of_pads import SPEED, PadSlopes, heat_slopes_of_pads
 from .lobe import Lobe, require_apart
 from .losses_of_pads import PadUnderJournal, losses_of_pads
 from .pad_film import PadFilm, PadMapFilm
 from .pad_losses import LossyPadFilm
+
+_WEDGE = np.array([[0.0, 1.0], [-1.0, 0.0]])
+"""-z^ x, which makes the wedge of an eccentricity."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -211,24 +215,44 @@ class LobedBearing(FilmReaction, WarmBearing):
             return None
         state = broadcast_state(position, velocity, speed)
         self.bound_film.force(*state)  # raises where the journal touches
-        pads = [self._under(lobe, *state) for lobe in self.lobes]
+        pads = [self._under(lobe, *state).pad for lobe in self.lobes]
         return losses_of_pads(self, self.film, pads, state, full_gap=self.full_gap(full_gap))
 
-    def _under(self, lobe: Lobe, position: Array, velocity: Array, speed: Array) -> PadUnderJournal:
-        """Return a lobe and the journal on it."""
-        c, s = np.cos(lobe.middle), np.sin(lobe.middle)
-        back = np.array([[c, s], [-s, c]])
-        e = back @ (position.reshape(2, -1) / self.clearance - np.array(lobe.center)[:, None])
-        w = back @ velocity.reshape(2, -1) / self.clearance + 0.5 * speed.ravel() * np.stack([e[1], -e[0]])
+    def _under(
+        self, lobe: Lobe, position: Array, velocity: Array, speed: Array, *, slopes: bool = False
+    ) -> PadSlopes:
+        """Return a lobe and the journal on it and, of one state, its slopes if asked for."""
+        c, scale, turns = self.clearance, self.force_scale, 0.5 * speed.ravel()
+        pad = PadUnderJournal(lobe.extent, lobe.middle, np.empty(0), np.empty(0))
+        back = pad.turning.T
+        e = back @ (position.reshape(2, -1) / c - np.array(lobe.center)[:, None])
+        w = back @ velocity.reshape(2, -1) / c + turns * (_WEDGE @ e)
         film = self.film.kernel(lobe.extent, self.slenderness)
-        return PadUnderJournal(lobe.extent, lobe.middle, e, self.force_scale * film.force(e, w).values)
+        pad = pad._replace(eccentricity=e, force=scale * film.force(e, w).values)
+        if not slopes:
+            return PadSlopes(pad, np.empty(0), np.empty(0))
+        none = np.zeros((2, 1))
+        de = np.hstack([back / c, np.zeros((2, 3))])
+        dw = np.hstack([turns * _WEDGE @ back / c, back / c, none]) + 0.5 * np.outer(_WEDGE @ e, SPEED)
+        by = scale * film.jacobian(e, w).values[..., 0]
+        return PadSlopes(pad, de, by[:, :2] @ de + by[:, 2:] @ dw)
 
     def film_at_unit_viscosity(self) -> None:
         """Return no film for the loops in C over warm films, which know one film only."""
 
     def heat_jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
-        """Raise InputError: the heat of pads has no slopes."""
-        raise InputError("bearing must have slopes of its heat, as a JournalBearing, got a LobedBearing")
+        """Return d(power, effective flow, side flow)/d(x, y, vx, vy, speed) at one temperature, shape (3, 5).
+
+        Parameters and errors are those of `film_heat`; InputError too if the film law has no slopes of its
+        losses.
+        """
+        _, cooling = self.cooled
+        if not isinstance(self.film, LossyPadFilm):
+            raise InputError(f"film must be one with losses for heat, as PadMapFilm, got {self.film!r}")
+        q, v, omega = broadcast_state(position, velocity, speed)
+        self.bound_film.force(q, v, omega)  # raises where the journal touches
+        pads = [self._under(lobe, q, v, omega, slopes=True) for lobe in self.lobes]
+        return heat_slopes_of_pads(self, self.film, pads, (q, v, float(omega)), cooling)
 
     def native(self) -> NativeSpec | None:
         """Return the kernel of the C library that is this bearing; None if its film is no map.

@@ -57,6 +57,12 @@ class PadUnderJournal(NamedTuple):
     eccentricity: Array
     force: Array
 
+    @property
+    def turning(self) -> Array:
+        """Matrix (2, 2) from its frame to that of the bearing."""
+        c, s = np.cos(self.middle), np.sin(self.middle)
+        return np.array([[c, -s], [s, c]])
+
 
 def losses_of_pads(
     bearing: BearingOfPads,
@@ -90,7 +96,7 @@ def losses_of_pads(
     """
     position, velocity, speed = state
     shape, omega = speed.shape, speed.ravel()
-    flows = _flows(film, bearing.slenderness, pads, 0.5 * omega)
+    flows = flows_of_pads(film, bearing.slenderness, pads, 0.5 * omega)
     shears = [
         gap_shear_of_pad(pad.eccentricity, pad.extent) if full_gap else flows[k].shear
         for k, pad in enumerate(pads)
@@ -98,23 +104,25 @@ def losses_of_pads(
     force, drag = np.zeros((2, omega.size)), np.zeros(omega.size)
     per_shear = bearing.film_viscosity * omega * bearing.radius**3 * bearing.length / bearing.clearance
     for pad, shear in zip(pads, shears, strict=True):
-        drag += per_shear * shear + 0.5 * bearing.clearance * _cross(pad.eccentricity, pad.force)
-        c, s = np.cos(pad.middle), np.sin(pad.middle)
-        force += np.stack([c * pad.force[0] - s * pad.force[1], s * pad.force[0] + c * pad.force[1]])
+        drag += per_shear * shear + 0.5 * bearing.clearance * cross(pad.eccentricity, pad.force)
+        force += pad.turning @ pad.force
     q, v = position.reshape(2, -1), velocity.reshape(2, -1)
     unit = bearing.clearance * bearing.radius * bearing.length
-    inflow, arriving = (unit * rows.reshape(-1, *shape) for rows in _openings(pads, flows, omega))
+    into, out = (np.stack([getattr(each, name) for each in flows]) for name in ("inflow", "arriving"))
+    inflow, arriving = (
+        unit * rows.reshape(-1, *shape) for rows in behind_pads(pads, into, out, omega >= 0.0)
+    )
     return BearingLosses(
         power_loss=_number(drag * omega - (force * v).sum(axis=0), shape),
         friction_torque=_number(drag, shape),
-        bush_torque=_number(drag - _cross(q, force), shape),
+        bush_torque=_number(drag - cross(q, force), shape),
         side_flow=_number((inflow - arriving).sum(axis=0), shape),
         inflow=inflow,
         arriving=arriving,
     )
 
 
-def _flows(
+def flows_of_pads(
     film: LossyPadFilm, slenderness: float, pads: Sequence[PadUnderJournal], rate: Array
 ) -> list[PadFlows]:
     """Return shear and flow of each pad, those of one extent found together."""
@@ -123,28 +131,34 @@ def _flows(
         alike = [k for k, pad in enumerate(pads) if pad.extent == extent]
         e = np.concatenate([pads[k].eccentricity for k in alike], axis=1)
         together = film.losses(extent, slenderness).at(e, np.tile(rate, len(alike)))
-        rows = (row.reshape(len(alike), -1) for row in together[:3])
-        found |= {k: PadFlows(*each) for k, each in zip(alike, zip(*rows, strict=True), strict=True)}
+        parts = [np.split(row, len(alike), axis=-1) for row in together if row is not None]
+        found |= {k: PadFlows(*(part[number] for part in parts)) for number, k in enumerate(alike)}
     return [found[k] for k in range(len(pads))]
 
 
-def _openings(
-    pads: Sequence[PadUnderJournal], flows: Sequence[PadFlows], speed: Array
+def behind_pads(
+    pads: Sequence[PadUnderJournal], into: Array, out: Array, forward: Array
 ) -> tuple[Array, Array]:
-    """Return what leaves each opening and what arrives there, (pads, n) each, of the gaps after the pads.
+    """Return what leaves each opening and what arrives there, from what enters pads and leaves their ends.
 
     The opening of a number is the gap behind the pad of that number, in the sense of +theta.
+
+    Parameters
+    ----------
+    pads : sequence of PadUnderJournal
+    into, out : ndarray, shape (pads, ...)
+    forward : ndarray of bool
+        Whether oil runs in the sense of +theta.
     """
     starts = [(pad.middle - 0.5 * pad.extent) % TURN for pad in pads]
     order = sorted(range(len(pads)), key=starts.__getitem__)
     following = np.empty(len(pads), dtype=int)
     following[order] = np.roll(order, -1)
-    into, out = (np.stack([getattr(each, name) for each in flows]) for name in ("inflow", "arriving"))
-    forward = speed >= 0.0
     return np.where(forward, into[following], into), np.where(forward, out, out[following])
 
 
-def _cross(a: Array, b: Array) -> Array:
+def cross(a: Array, b: Array) -> Array:
+    """Return the z component of a x b, of vectors (2, ...)."""
     return np.asarray(a[0] * b[1] - a[1] * b[0])
 
 

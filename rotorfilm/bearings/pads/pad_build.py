@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import NamedTuple
 
@@ -45,7 +45,8 @@ LOSS_CHECKS = 40
 TITLE = "map of the pad"
 
 
-class PadResolution(NamedTuple):
+@dataclass(frozen=True)
+class PadResolution:
     """Grid of the solver and nodes of the map.
 
     Attributes

@@ -20,7 +20,7 @@ from typing import NamedTuple, Protocol, runtime_checkable
 import numpy as np
 
 from ...model import Array
-from ..films.film_losses import gap_integral
+from ..films.film_losses import gap_integral, squared_integral
 from ..films.geometry import TURN
 from ..films.map_fit import node_eccentricities
 from ..films.map_table import stretch
@@ -180,10 +180,29 @@ def _node_shares() -> Array:
 
 def gap_shear_of_pad(eccentricity: Array, extent: float) -> Array:
     """Return Sigma of a gap that is full all along the pad, (n,), at eccentricities (2, n) in its frame."""
+    chi, first, last = _gap_ends(eccentricity, extent)
+    return gap_integral(chi, last) - gap_integral(chi, first)
+
+
+def gap_slopes_of_pad(eccentricity: Array, extent: float) -> Array:
+    """Return the derivatives of `gap_shear_of_pad` by the eccentricity, (2, n)."""
+    chi, first, last = _gap_ends(eccentricity, extent)
+    squares = squared_integral(chi, last) - squared_integral(chi, first)
+    centered = chi < NEAR**2
+    outward = (squares - gap_shear_of_pad(eccentricity, extent)) / np.where(centered, 1.0, chi)
+    outward = np.where(centered, np.sin(first) - np.sin(last), outward)
+    thick = [1.0 + chi * np.cos(end) for end in (first, last)]
+    around = (np.cos(last) - np.cos(first)) / (thick[0] * thick[1])
+    theta = np.arctan2(eccentricity[1], eccentricity[0])
+    c, s = np.cos(theta), np.sin(theta)
+    return np.stack([outward * c - around * s, outward * s + around * c])
+
+
+def _gap_ends(eccentricity: Array, extent: float) -> tuple[Array, Array, Array]:
+    """Return |e|, not quite 1, and the angles of the ends of the pad from the maximum film."""
     chi, away = np.hypot(*eccentricity), np.arctan2(-eccentricity[1], -eccentricity[0])
     chi = np.where(np.abs(chi - 1.0) > UNIT, chi, 1.0 - UNIT)
-    first, last = -0.5 * extent - away, 0.5 * extent - away
-    return gap_integral(chi, last) - gap_integral(chi, first)
+    return chi, -0.5 * extent - away, 0.5 * extent - away
 
 
 def loss_reach(theta: Array, extent: float) -> tuple[Array, Array]:
