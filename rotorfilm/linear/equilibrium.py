@@ -34,7 +34,8 @@ UNLOADED = (
 """Why a load of zero has no equilibrium."""
 
 _TOLERANCE = 1e-12
-_KELVIN = 1e-9
+_KELVIN = 1e-12
+_SAME_KELVIN = 4e-12
 _ROUNDOFF_STOP = 1e-13
 _NEWTON_STEPS = 60
 _LARGEST_S = math.log(MAXIMUM_ECCENTRICITY / (1.0 - MAXIMUM_ECCENTRICITY))
@@ -142,7 +143,7 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
         at = equilibrium(bearing.at_temperature(temperature), load, speed)
         balanced = bearing.balanced_temperature(at.position, np.zeros(2), speed)
         warmed[temperature] = at, balanced
-        return balanced - temperature
+        return balanced - temperature if abs(balanced - temperature) > _SAME_KELVIN else 0.0
 
     low = bearing.coldest()
     rise = excess(low)
