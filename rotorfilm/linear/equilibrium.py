@@ -152,9 +152,8 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
         while excess(low + rise) > 0.0:
             rise *= 2.0
         low = brentq(excess, low, low + rise, xtol=_KELVIN, rtol=8.9e-16)
-    at, _ = warmed[low]
     steps = sum(one.iterations for one, _ in warmed.values())
-    return replace(at, temperature=low, iterations=steps, reaction=bearing.at_temperature(low))
+    return replace(warmed[low][0], temperature=low, iterations=steps, reaction=bearing.at_temperature(low))
 
 
 def checked_load(load: ArrayLike) -> Array:

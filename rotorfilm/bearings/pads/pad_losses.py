@@ -142,7 +142,13 @@ class PadLossMap:
 
 @dataclass(frozen=True)
 class PadGridLosses:
-    """Shear and flow of pads of one shape from their two-dimensional film."""
+    """Shear and flow of pads of one shape from their two-dimensional film.
+
+    Attributes
+    ----------
+    film : RingKernel
+        The film of the pad.
+    """
 
     film: RingKernel
 

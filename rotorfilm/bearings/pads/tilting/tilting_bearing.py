@@ -178,7 +178,7 @@ class TiltingPadBearing(Called, TiltingPads):
         return journal_spec(
             "tilting_journal" if self.pad_inertia is None else "heavy_tilting_journal",
             {"pivots": np.array(self.pivots), "pads": np.array(numbers), **tables},
-            {**lengths, "viscosity": float(self.viscosity)},
+            {**lengths, "viscosity": self.film_viscosity},
             fixed=True,
         )
 
