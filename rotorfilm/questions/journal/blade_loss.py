@@ -18,7 +18,8 @@ from ...motion.transient.equal_steps import MarchMotion, peak
 from ...motion.transient.shaken_rotor import RestTangent, ShakenRotor, states_along
 from ...results import Coefficients
 from ...scenes.excitation_table import BladeLossTable
-from ...scenes.journal.film_rung import MAP_BOUNDS, FilmRung
+from ...scenes.journal.film_candidate import FilmCandidate
+from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.warm_rest import WarmRest
 from ..peak_rung import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
 from .field_rungs import HeatedQuestion
@@ -36,7 +37,7 @@ LINEAR_CALLS = 6
 
 
 @dataclass(frozen=True, kw_only=True)
-class BladeLossRung(PeakRung[FilmRung]):
+class BladeLossRung(PeakRung[FilmCandidate]):
     """The peak in a journal bearing.
 
     Attributes
@@ -98,7 +99,7 @@ class BladeLossRung(PeakRung[FilmRung]):
         if reach >= 0.999:
             return ErrorEstimate(math.inf, "defect", doubt="the motion leaves the clearance: not linear")
         steps, how = (abs(self.increment(found)), "order increment; ") if self.steps else (0.0, "")
-        bound = MAP_BOUNDS[0][2] if self.film.bounded and reach <= MAP_BOUNDS[0][0] else math.inf
+        bound = self.film.motion_bound(reach)
         if self.steps and SAFETY * bound < tolerance:
             return beside_bound(steps, bound, how + "verified bound of the map", {})
         own = not self.steps and SAFETY * bound < tolerance
