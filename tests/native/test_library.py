@@ -15,7 +15,7 @@ from rotorfilm.native.kernel_table import libraries
 SOURCES = sorted((Path(__file__).parents[2] / "rotorfilm" / "native").rglob("*.c"))
 COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
 LARGEST = {
-    "rotorfilm": 72_000,
+    "rotorfilm": 74_000,
     "rotorfilm_states": 60_000,
     "rotorfilm_systems": 74_000,
     "rotorfilm_bushes": 60_000,
@@ -23,7 +23,7 @@ LARGEST = {
     "rotorfilm_grid_systems": 124_000,
     "rotorfilm_heat": 82_000,
     "rotorfilm_pads": 50_000,
-    "rotorfilm_loops": 150_000,
+    "rotorfilm_loops": 172_000,
     "rotorfilm_master": 220_000,
 }
 """Bytes of each library on Linux, x86_64: what it has, and some room for other compilers."""

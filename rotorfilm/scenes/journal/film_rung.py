@@ -55,7 +55,7 @@ class FilmRung(FilmCandidate):
             for reach, position, slope in MAP_BOUNDS:
                 if eccentricity_ratio <= reach:
                     return slope if slopes else position
-        film = self.reaction.fitted_film
+        film = self.reaction.fitted_film if isinstance(self.reaction, JournalBearing) else None
         if isinstance(film, GroovedMapFilm):
             return film.built_table(self.reaction.slenderness).bound(eccentricity_ratio, slopes=slopes)
         return math.inf
