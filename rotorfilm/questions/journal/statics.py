@@ -18,8 +18,8 @@ from ...linear import coefficients, equilibrium
 from ...model import Array, JournalForce, prepared_tangent
 from ...results import Equilibrium
 from ...scenes.counted import counted_calls
-from ...scenes.journal.film_defects import corrected, one_defect
 from ...scenes.journal.film_candidate import FilmCandidate, room
+from ...scenes.journal.film_defects import corrected, one_defect
 from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.film_rungs import point_films
 from ...scenes.journal.warm_rest import WarmRest
@@ -89,9 +89,7 @@ class StaticRung(CandidateRung[FilmCandidate]):
             return distance / self.film.reaction.clearance
         if self.quantity == "minimum_film":
             return float(minimum_film(self.film.reaction, position))
-        (x, y), (load_x, load_y) = position, self.load
-        turned = math.atan2(load_x * y - load_y * x, load_x * x + load_y * y)
-        return math.copysign(1.0, self.speed) * turned
+        return attitude(position, self.load, self.speed)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the verified bound if that is enough, else the change that the richer film would make."""
@@ -142,6 +140,13 @@ class StaticRung(CandidateRung[FilmCandidate]):
         return self.film.expected(sum(done.values()))
 
 
+def attitude(position: Array, load: tuple[float, float], speed: float) -> float:
+    """Return the angle [rad] from a load [N] to a position (2,) [m], in the sense of rotation."""
+    (x, y), (load_x, load_y) = position, load
+    turned = math.atan2(load_x * y - load_y * x, load_x * x + load_y * y)
+    return math.copysign(1.0, speed) * turned
+
+
 def relative_distance(quantity: str, value: Array | float, better: Array | float, supply: float) -> float:
     """Return how far a value is from a better one, in the unit of the tolerance.
 
@@ -177,18 +182,18 @@ def static_ladder(scene: Scene, quantity: str) -> Ladder:
         If the film has no losses, where they are asked for or heat the oil; if a temperature is asked for and
         there is no oil.
     """
-    films = point_films(scene.bearing, fixed=scene.film_is_given)
-    if scene.bearing.is_warming:
+    films = point_films(scene.journal_bearing, fixed=scene.film_is_given)
+    if scene.journal_bearing.is_warming:
         return warm_static_ladder(scene, quantity, films)
     if quantity in TEMPERATURES:
         raise InputError(
             f"lubricant must give the oil of the journal for {quantity}, as a grade, got journal.viscosity "
-            f"{scene.bearing.film_viscosity:g} Pa s"
+            f"{scene.journal_bearing.film_viscosity:g} Pa s"
         )
     if quantity in LOSSES:
         films = tuple(film for film in films if has_losses(film.reaction))
         if not films:
-            name = film_name(scene.bearing.fitted_film)
+            name = film_name(scene.journal_bearing.fitted_film)
             raise InputError(f"film must be a law with losses for {quantity}, as map or reynolds, got {name}")
     return cold_static_ladder(scene, quantity, films)
 
@@ -213,7 +218,7 @@ def warm_static_ladder(scene: Scene, quantity: str, films: tuple[FilmRung, ...])
     def make(film: FilmRung) -> StaticRung:
         return StaticRung(film=film, quantity=quantity, load=scene.static_load, speed=scene.speed)
 
-    supply = scene.bearing.cooled[1].supply_temperature
+    supply = scene.journal_bearing.cooled[1].supply_temperature
     question = HeatedQuestion(
         load=scene.static_load,
         speed=scene.speed,

@@ -176,7 +176,7 @@ def orbit_ladder(scene: Scene, quantity: str) -> Ladder:
     """Return the ladder of a quantity of the synchronous orbit: linear, then nonlinear, on each film."""
     rotor = rotor_of(scene)
     films = orbit_films(scene)
-    if scene.bearing.is_warming:
+    if scene.journal_bearing.is_warming:
         return warm_orbit_ladder(scene, quantity, rotor, films)
     return cold_orbit_ladder(scene, quantity, films)
 
@@ -228,7 +228,7 @@ def warm_orbit_ladder(scene: Scene, quantity: str, rotor: RigidRotor, films: tup
 
 def orbit_films(scene: Scene) -> tuple[FilmRung, ...]:
     """Return the films worth taking round a turn: the map where there is one, else short film, grids, map."""
-    return turn_films(scene.bearing, fixed=scene.film_is_given, grids=((48, 8), (96, 8)), maps=True)
+    return turn_films(scene.journal_bearing, fixed=scene.film_is_given, grids=((48, 8), (96, 8)), maps=True)
 
 
 def _effort(rung: OrbitRung, films: Sequence[FilmCandidate]) -> float:

@@ -16,8 +16,8 @@ from ...linear import coefficients, equilibrium, whirl_threshold
 from ...model import Array
 from ...results import Coefficients, Equilibrium
 from ...scenes.counted import counted_calls
-from ...scenes.journal.film_defects import corrected
 from ...scenes.journal.film_candidate import FilmCandidate
+from ...scenes.journal.film_defects import corrected
 from ...scenes.journal.film_rungs import point_films
 from ..walk import NoAnswerError
 from .statics import film_units
