@@ -77,7 +77,7 @@ class Family:
 
 @runtime_checkable
 class FilmTable(Protocol):
-    """What the table of one bearing with a film has besides its keys, so that a scene may rest a rotor on it."""
+    """What the table of one bearing with a film has besides its keys: a rotor may rest on it."""
 
     @property
     def viscosity(self) -> float | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -79,7 +80,8 @@ class TiltingRestRung(TiltingRung):
     def _value(self, film: TiltingCandidate, position: Array, *, rich: bool = False) -> Array | float:
         bearing = film.rich if rich else film.reaction
         if self.quantity in MATRIX:
-            return np.asarray(getattr(coefficients(bearing, position, self.speed), self.quantity))
+            own = film.coefficients if rich else partial(coefficients, bearing)
+            return np.asarray(getattr(own(position, self.speed), self.quantity))
         if self.quantity == "eccentricity_ratio":
             return float(np.hypot(*position)) / bearing.clearance
         if self.quantity == "minimum_film":

@@ -12,8 +12,11 @@ from ...model import Array
 from ..journal.film_candidate import CELL_TIME, FilmCandidate
 from .dam_table import dam_film_name
 
-LEVELS = (((32, 8), 2e-3, 5e-3), ((64, 16), 2e-4, 1e-3), ((128, 32), 5e-5, 5e-4))
+LEVELS = (((32, 8), 2e-4, 5e-3), ((64, 16), 5e-5, 1e-3), ((128, 32), 5e-6, 5e-4))
 """Cells, and orders of magnitude of the error of a position, and of K and C."""
+
+FINE, FINEST = (128, 32), (256, 64)
+"""Cells of richer films."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,7 +28,7 @@ class DamCandidate(FilmCandidate):
     reaction : PressureDamBearing
         With these cells.
     rich : PressureDamBearing
-        With twice as many both ways.
+        With more.
     """
 
     reaction: PressureDamBearing
@@ -67,7 +70,8 @@ def dam_candidates(bearing: PressureDamBearing, *, fixed: bool) -> tuple[DamCand
 
 
 def _candidate(bearing: PressureDamBearing, position_prior: float, prior: float) -> DamCandidate:
-    rich = replace(bearing, cells=(2 * bearing.cells[0], 2 * bearing.cells[1]))
+    few = 4 * math.prod(bearing.cells) <= math.prod(FINE) and bearing.cells != LEVELS[1][0]
+    rich = replace(bearing, cells=FINE if few else FINEST)
     return DamCandidate(
         name=dam_film_name(bearing),
         reaction=bearing,

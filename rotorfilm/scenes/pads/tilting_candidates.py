@@ -5,8 +5,15 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from ...bearings.pads import PadFilm, PadGridFilm, PadMapFilm, TiltingPadBearing
+import numpy as np
+
+from ...bearings.pads import PadFilm, PadGridFilm, PadMapFilm, TiltingPadBearing, TiltingPads
+from ...bearings.pads.pad_table import least_film
+from ...bearings.pads.tilting.held_pads import pad_slopes, turning
+from ...model import Array
+from ...results import Coefficients
 from ..journal.film_candidate import CELL_TIME, FilmCandidate
+from ..journal.film_defects import STEP
 from .pad_films import pad_film_name
 
 GRIDS = (((48, 4), 1e-4, 1e-3), ((96, 8), 1e-5, 2e-4), ((192, 16), 1e-6, 5e-5))
@@ -42,6 +49,10 @@ class TiltingCandidate(FilmCandidate):
             return MAP_CALL
         return LOOKS * len(self.reaction.pivots) * CELL_TIME * math.prod(film.cells)
 
+    def coefficients(self, position: Array, speed: float) -> Coefficients:
+        """Return what the journal feels of the richer film at the frequency of the shaft, its slopes smooth."""
+        return self.rich.at_rest().matrices(position, speed, smooth_slopes).reduced(abs(speed))
+
     @property
     def resting(self) -> FilmCandidate:
         """The forces of both on a journal at rest, each pad in its tilt."""
@@ -53,6 +64,24 @@ class TiltingCandidate(FilmCandidate):
             position_prior=self.position_prior,
             prior=self.prior,
         )
+
+
+def smooth_slopes(bearing: TiltingPads, e: Array, w: Array) -> tuple[Array, Array]:
+    """Return dF/de and dF/dw of pads on a grid, shape (2, 2, n), the latter by differences; see `pad_slopes`.
+
+    The derivative of a film on a grid in its source jumps where a cell fills or empties; see `STEP`.
+    """
+    by_e, _ = pad_slopes(bearing, e, w)
+    R, film = turning(bearing), bearing.kernel.film
+    thin = np.sqrt(np.maximum(least_film(R @ e, bearing.extent), 0.0))
+    rate = STEP * np.minimum(1.0, 2.0 * thin) * np.hypot(*w)
+    columns = []
+    for way in np.eye(2)[:, :, None]:
+        low2, low, high, high2 = (
+            R.T @ film.force(R @ e, R @ (w + k * rate * way)).values for k in (-2, -1, 1, 2)
+        )
+        columns.append((low2 - 8.0 * low + 8.0 * high - high2) / (12.0 * rate))
+    return by_e, np.stack(columns, axis=1)
 
 
 def tilting_candidates(bearing: TiltingPadBearing, *, fixed: bool) -> tuple[TiltingCandidate, ...]:
