@@ -140,11 +140,9 @@ def tilting_rest_ladder(scene: Scene, quantity: str) -> Ladder:
         TiltingRestRung(film=film, quantity=quantity, load=scene.static_load, speed=scene.speed)
         for film in _films(scene)
     )
-    remarks = scene.film_remarks
-    if quantity in MATRIX:
-        told = f"frequency: K and C are what the journal feels at {abs(scene.speed):.6g} rad/s, once a turn"
-        remarks = (f"{told}; at another frequency the pads make others of them", *remarks)
-    return Ladder(rungs=rungs, unit=UNITS[quantity], remarks=remarks, within=ISOTHERMAL)
+    once = f"{ISOTHERMAL}, whirl of {abs(scene.speed):.6g} rad/s, once a turn"
+    within = once if quantity in MATRIX else ISOTHERMAL
+    return Ladder(rungs=rungs, unit=UNITS[quantity], remarks=scene.film_remarks, within=within)
 
 
 def tilting_whirl_ladder(scene: Scene, quantity: str) -> Ladder:

@@ -120,7 +120,7 @@ def lobed_candidates(bearing: LobedBearing, *, fixed: bool) -> tuple[LobedCandid
         fine = isinstance(film, PadGridFilm) and math.prod(film.cells) >= math.prod(FINE)
         return (_candidate(bearing, film, pad_film_name(film), FINEST if fine else FINE, 0.0, 0.0),)
     maps = _maps(bearing)
-    ready = [film for film in maps if not film.makes_map][-1:]
+    ready = [film for film in maps if not film.makes_map]
     grids = [
         _candidate(
             bearing,
@@ -131,7 +131,7 @@ def lobed_candidates(bearing: LobedBearing, *, fixed: bool) -> tuple[LobedCandid
         )
         for cells, *priors in GRIDS
     ]
-    return (*ready, *grids, *(film for film in maps if film.makes_map and not ready))
+    return (*ready, *grids, *(film for film in maps if film.makes_map))
 
 
 def few_forces(candidates: Sequence[LobedCandidate], *, fixed: bool) -> tuple[LobedCandidate, ...]:
@@ -150,13 +150,14 @@ def many_forces(candidates: Sequence[LobedCandidate], *, fixed: bool) -> tuple[L
 
 
 def _maps(bearing: LobedBearing) -> list[LobedCandidate]:
-    """Return the maps of the pads, a coarse one first; none of pads that have none."""
+    """Return the maps of the pads, a coarse one too where the fine one is to be made; or none."""
     extents = {lobe.extent for lobe in bearing.lobes}
     long_enough = SLENDERNESSES[0] <= bearing.slenderness <= SLENDERNESSES[1]
     if not long_enough or not EXTENTS[0] <= min(extents) <= max(extents) <= EXTENTS[1]:
         return []
     coarse = _candidate(bearing, COARSE_MAP, "coarse pad map", FINE, 1e-4, 1e-3)
-    return [coarse, _candidate(bearing, PadMapFilm(), "pad map", FINE, 1e-5, 5e-4)]
+    fine = _candidate(bearing, PadMapFilm(), "pad map", FINE, 1e-5, 5e-4)
+    return [coarse, fine] if fine.makes_map else [fine]
 
 
 def _candidate(
