@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import NamedTuple
 
@@ -38,7 +38,8 @@ CHECK_NODES = 9
 TITLE = "map of the pad"
 
 
-class PadResolution(NamedTuple):
+@dataclass(frozen=True)
+class PadResolution:
     """Grid of the solver and nodes of the map.
 
     Attributes
