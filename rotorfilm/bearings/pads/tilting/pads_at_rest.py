@@ -163,9 +163,7 @@ class TiltingPadsAtRest:
         places = np.concatenate([pads.tilts, pads.pivot_deflections]) if sprung else pads.tilts
         return self.bearing.moving(places)
 
-    def matrices(
-        self, position: ArrayLike, speed: float, slopes: PadSlopes = pad_slopes
-    ) -> PadMatrices:
+    def matrices(self, position: ArrayLike, speed: float, slopes: PadSlopes = pad_slopes) -> PadMatrices:
         """Return stiffness, damping and mass of journal and pads about their rest.
 
         With e = Q^T r / c + (m, q/c) of each pad they are sum B^T K_p B and sum B^T C_p B, B = [Q^T | e_t at
