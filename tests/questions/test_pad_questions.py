@@ -173,7 +173,7 @@ def test_threshold_of_a_heavy_rotor_on_hardly_loaded_pads():
     scene = asked(TILTING.replace("preload = 0.3", "preload = 0.0") + ON_MAP, "whirl_threshold", 0.05)
     scene = replace(scene, rigid_rotor=replace(scene.rigid_rotor, mass=3e4))
     answer = scene.ask()
-    finest = replace(scene.bearing, film=PadGridFilm(cells=(48, 4)))
+    finest = replace(scene.bearing, film=PadGridFilm(cells=(96, 8)))
     around = 0.9 * answer.value, 1.1 * answer.value
     found = whirl_threshold(finest, scene.static_load, 3e4, around)
     error = abs(answer.value / found.speed - 1.0)
