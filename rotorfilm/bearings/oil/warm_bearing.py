@@ -17,8 +17,8 @@ from .lubricant import film_viscosity
 from .oil import Oil
 
 
-class Warmed(Cooled, Protocol):
-    """What `WarmBearing` is mixed into: a dataclass with these fields, and losses."""
+class Lubricated(Protocol):
+    """The fields of a dataclass that say what its lubricant is."""
 
     @property
     def viscosity(self) -> float | None:
@@ -37,16 +37,20 @@ class Warmed(Cooled, Protocol):
         """What takes the heat away."""
 
     @property
+    def is_warming(self) -> bool:
+        """Whether the temperature of the film is left to the heat balance."""
+
+
+class Warmed(Cooled, Lubricated, Protocol):
+    """What `WarmBearing` is mixed into: a bearing with a lubricant, a film and losses."""
+
+    @property
     def film(self) -> Any:
         """The film law."""
 
     @property
     def film_viscosity(self) -> float:
         """Dynamic viscosity of the film [Pa s]."""
-
-    @property
-    def is_warming(self) -> bool:
-        """Whether the temperature of the film is left to the heat balance."""
 
     def full_gap(self, choice: bool | None) -> bool:
         """Return whether oil fills the ruptured zone."""
@@ -61,12 +65,12 @@ class WarmBearing:
     """The lubricant of a bearing and the heat of its film."""
 
     @property
-    def film_viscosity(self: Warmed) -> float:
+    def film_viscosity(self: Lubricated) -> float:
         """Dynamic viscosity of the film [Pa s]; that of fresh oil where its temperature is not stated."""
         return film_viscosity(self.viscosity, self.oil, self.temperature, self.cooling)
 
     @property
-    def is_warming(self: Warmed) -> bool:
+    def is_warming(self: Lubricated) -> bool:
         """Whether the temperature of the film is left to the heat balance."""
         return self.oil is not None and self.temperature is None
 
@@ -74,7 +78,7 @@ class WarmBearing:
         """Return this bearing with a film of one temperature [K]; raises InputError if it has no oil."""
         return replace(self, temperature=temperature)  # type: ignore[type-var]
 
-    def require_temperature(self: Warmed) -> None:
+    def require_temperature(self: Lubricated) -> None:
         """Raise InputError where the temperature of the film is left to the heat balance."""
         if self.is_warming:
             raise InputError(
@@ -83,7 +87,7 @@ class WarmBearing:
             )
 
     @property
-    def cooled(self: Warmed) -> tuple[Oil, Cooling]:
+    def cooled(self: Lubricated) -> tuple[Oil, Cooling]:
         """Oil and cooling; InputError if one of them is not given."""
         if self.oil is None or self.cooling is None:
             raise InputError(f"oil and cooling must be given for heat, got {self.oil!r} and {self.cooling!r}")
@@ -137,7 +141,7 @@ class WarmBearing:
         """
         return HeatedBearing(bearing=self, start_temperature=start_temperature)
 
-    def full_gap(self: Warmed, choice: bool | None) -> bool:
+    def full_gap(self: Lubricated, choice: bool | None) -> bool:
         """Return whether oil fills the ruptured zone: a choice, or where that is None that of the cooling."""
         if choice is None:
             return self.cooling is not None and self.cooling.full_gap

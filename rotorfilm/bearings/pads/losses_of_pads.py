@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import NamedTuple, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...model import Array
 from ...results import BearingLosses
@@ -137,7 +138,7 @@ def flows_of_pads(
 
 
 def behind_pads(
-    pads: Sequence[PadUnderJournal], into: Array, out: Array, forward: Array
+    pads: Sequence[PadUnderJournal], into: Array, out: Array, forward: NDArray[np.bool_]
 ) -> tuple[Array, Array]:
     """Return what leaves each opening and what arrives there, from what enters pads and leaves their ends.
 

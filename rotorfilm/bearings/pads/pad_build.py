@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import NamedTuple
@@ -187,7 +187,7 @@ def build_pad_table(
     nodes = [partial(solver.exponents, e) for e in node_places(extent, resolution).reshape(2, -1).T]
     checks = _checks(extent, slenderness, resolution.cells, states)
     columns, loss_checks = _loss_pieces(extent, slenderness, resolution.cells)
-    pieces = [nodes, checks, columns, loss_checks]
+    pieces: list[Sequence[Callable[[], Array]]] = [nodes, checks, columns, loss_checks]
     answers = iter(made_pieces([one for group in pieces for one in group], report, TITLE))
     levels, exact, losses, exact_losses = ([next(answers) for _ in group] for group in pieces)
     half = np.reshape(levels, (*counts, count_phi // 2))
@@ -215,7 +215,7 @@ def expected_time(resolution: PadResolution) -> float:
 
 def _loss_pieces(
     extent: float, slenderness: float, cells: tuple[int, int]
-) -> tuple[list[Callable[[], Array]], list[Callable[[], Array]]]:
+) -> tuple[Sequence[Callable[[], Array]], Sequence[Callable[[], Array]]]:
     """Return the pieces of work of shear and flow: at the nodes, a direction each, and for their bounds."""
     film = pad_grid(extent, slenderness, cells)
     finer = pad_grid.__wrapped__(extent, slenderness, (2 * cells[0], 2 * cells[1]))

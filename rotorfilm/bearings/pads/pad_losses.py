@@ -101,7 +101,8 @@ class PadLossMap:
         size = np.stack([np.ones_like(sense), np.abs(rate), np.abs(rate)])
         by_rate = np.stack([np.zeros_like(sense), sense * values[1], sense * values[2]])
         slopes = np.concatenate([size[:, None] * by_e, by_rate[:, None]], axis=1)
-        return PadFlows(*(size * values), slopes)
+        shear, into, out = size * values
+        return PadFlows(shear, into, out, slopes)
 
     def _forward(self, e: Array) -> tuple[Array, Array]:
         """Return shear and flows of oil that runs forward at 1/s, (3, n), and slopes by e, (3, 2, n)."""
@@ -144,10 +145,10 @@ class PadLossMap:
 class PadGridLosses:
     """Shear and flow of pads of one shape from their two-dimensional film.
 
-    Attributes
+    Parameters
     ----------
     film : RingKernel
-        The film of the pad.
+        Of such a pad in its own frame.
     """
 
     film: RingKernel

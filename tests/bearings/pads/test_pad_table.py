@@ -103,10 +103,10 @@ def test_name_in_the_cache_tells_what_decides_the_content(folder):
         (1.1, 0.5, COARSE),
         (1.100001, 0.5, COARSE),
         (1.1, 0.500001, COARSE),
-        (1.1, 0.5, replace(COARSE, cells=(16, 8))),
-        (1.1, 0.5, replace(COARSE, nodes=(6, 6, 14))),
-        (1.1, 0.5, replace(COARSE, xi_range=(-0.3, 0.91))),
-        (1.1, 0.5, replace(COARSE, reach=0.94)),
+        (1.1, 0.5, dataclasses.replace(COARSE, cells=(16, 8))),
+        (1.1, 0.5, dataclasses.replace(COARSE, nodes=(6, 6, 14))),
+        (1.1, 0.5, dataclasses.replace(COARSE, xi_range=(-0.3, 0.91))),
+        (1.1, 0.5, dataclasses.replace(COARSE, reach=0.94)),
     ]
     for shape in shapes:
         pad_table(*shape, lambda *_: None)

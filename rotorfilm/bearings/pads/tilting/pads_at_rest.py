@@ -160,7 +160,7 @@ class TiltingPadsAtRest:
         )
 
     def losses(
-        self, position: ArrayLike, velocity: ArrayLike, speed: float, *, full_gap: bool | None = None
+        self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool | None = None
     ) -> BearingLosses | None:
         """Return power loss, torques and oil flow; see `losses_of_pads`. None if the film law has none.
 
@@ -186,7 +186,7 @@ class TiltingPadsAtRest:
             PadUnderJournal(bearing.extent, middle, e[:, k : k + 1], forces[:, k : k + 1])
             for k, middle in enumerate(middles.tolist())
         ]
-        gap = bearing.full_gap(full_gap)  # type: ignore[misc]
+        gap = bearing.full_gap(full_gap)
         return losses_of_pads(bearing, bearing.film, pads, state, full_gap=gap)
 
     def state(self, position: ArrayLike, speed: float) -> Array:

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ....errors import InputError, require_finite, require_number
+from ....errors import InputError, require_finite
 from ....inputs.si_arguments import quantities
 from ....model import Array, Linearization
 from ....native.journal_spec import journal_spec
@@ -100,7 +100,7 @@ class TiltingPadBearing(Called, TiltingPads):
         self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool | None = None
     ) -> BearingLosses | None:
         """Return power loss, torques and oil flow under a journal at rest; see `TiltingPadsAtRest.losses`."""
-        return self.at_rest().losses(position, velocity, require_number("speed", speed), full_gap=full_gap)
+        return self.at_rest().losses(position, velocity, speed, full_gap=full_gap)
 
     def balanced_temperature(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> float:
         """Return the temperature at which the heat of the film balances under a journal at rest [K].
