@@ -1,13 +1,13 @@
-"""Reactions that leave the temperature of their film to the balance of its heat."""
+"""Reactions that leave something of theirs to settle: the temperature of the film, or states of their own."""
 
 from __future__ import annotations
 
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from .model import Reaction
+from .model import JournalForce, Reaction
 
 
 @runtime_checkable
@@ -57,3 +57,44 @@ def settled(reaction: Reaction, position: ArrayLike, speed: float) -> Any:
     if not (isinstance(reaction, Warming) and reaction.is_warming):
         return reaction
     return reaction.at_temperature(reaction.balanced_temperature(position, np.zeros(2), speed))
+
+
+@runtime_checkable
+class Settling(Protocol):
+    """A Reaction with states that come to rest where the journal rests, as tilting pads."""
+
+    def at_rest(self) -> AtRest:
+        """Return its force with the states at rest."""
+
+
+class AtRest(JournalForce, Protocol):
+    """A force on a journal at rest whose own states rest too."""
+
+    def settled(self, found: Any) -> Any:
+        """Return an Equilibrium of the journal with what it says of the states.
+
+        Parameters
+        ----------
+        found : Equilibrium
+        """
+
+    def coefficients(self, position: ArrayLike, speed: float, frequency: float | None = None) -> Any:
+        """Return what the journal feels where its states follow, a Coefficients.
+
+        Parameters
+        ----------
+        position : array_like, shape (2,) [m]
+        speed : float [rad/s]
+        frequency : float or None [rad/s]
+            Of the whirl; None for that of the shaft.
+        """
+
+    def modes(self, position: ArrayLike, speed: float, rotor_mass: float) -> NDArray[np.complex128]:
+        """Return the exponents of a rigid rotor with them [1/s], the least damped first.
+
+        Parameters
+        ----------
+        position : array_like, shape (2,) [m]
+        speed : float [rad/s]
+        rotor_mass : float [kg]
+        """

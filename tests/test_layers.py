@@ -58,7 +58,7 @@ PARTS = {
     "bearings/journal": [["rupture"], ["map", "splitting"], ["grooves"], ["heat"]],
     "bearings/journal/heat": [["field"]],
     "bearings/contact": [["film"], ["motion"]],
-    "bearings/pads": [["dam"]],
+    "bearings/pads": [["dam", "tilting"]],
     "rotors": [["shaft"]],
     "motion": [["compiled"], ["transient", "circular"], ["periodic"]],
     "cosim": [["schemes"], ["loops"]],
@@ -67,7 +67,8 @@ PARTS = {
     "questions": [["journal"], ["damper", "contact", "bush", "shaft"]],
     "comparisons": [["journal", "contact", "coupling"], ["limits"]],
     "charts": [["comparisons"]],
-    "native": [["layouts"]],
+    "native": [["layouts"], ["pads"]],
+    "native/pads": [],
     "readable": [],
 }
 """The same among the folders of a part."""

@@ -11,7 +11,7 @@ from ..errors import InputError, require_finite, require_number
 from ..inputs.kinds import arguments
 from ..model import JournalForce, Reaction, require_reaction
 from ..results import Coefficients
-from ..warming import settled
+from ..warming import Settling, settled
 from .equilibrium import equilibrium
 
 if TYPE_CHECKING:
@@ -19,7 +19,9 @@ if TYPE_CHECKING:
 
 
 @arguments
-def coefficients(reaction: Reaction, position: ArrayLike, speed: float) -> Coefficients:
+def coefficients(
+    reaction: Reaction, position: ArrayLike, speed: float, frequency: float | None = None
+) -> Coefficients:
     """Return K = -dF/d(position) and C = -dF/d(velocity) of a film, for a journal at rest.
 
     Parameters
@@ -31,6 +33,9 @@ def coefficients(reaction: Reaction, position: ArrayLike, speed: float) -> Coeff
         Journal center from the bearing center, an equilibrium or not.
     speed : float [rad/s]
         Angular speed about +z.
+    frequency : float or None [rad/s]
+        Of the whirl, where K and C depend on it, as on tilting pads: their result, `ReducedCoefficients`,
+        names it. None for that of the shaft, 0 for slow motion.
 
     Raises
     ------
@@ -46,6 +51,9 @@ def coefficients(reaction: Reaction, position: ArrayLike, speed: float) -> Coeff
     speed = require_number("speed", speed)
     if position.shape != (2,):
         raise InputError(f"position must have shape (2,), got shape {position.shape}")
+    if isinstance(reaction, Settling):
+        found: Coefficients = reaction.at_rest().coefficients(position, speed, frequency)
+        return found
     derivative = settled(reaction, position, speed).jacobian(position, np.zeros(2), speed)
     return Coefficients(
         stiffness=-derivative[:, :2],

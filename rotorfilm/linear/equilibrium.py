@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,7 +23,7 @@ from ..errors import (
 from ..inputs.kinds import arguments
 from ..model import Array, JournalForce, Reaction, Tangent, prepared_tangent, require_reaction
 from ..results import Equilibrium
-from ..warming import Warming
+from ..warming import Settling, Warming
 
 MAXIMUM_ECCENTRICITY = 0.9999
 """Eccentricity ratio beyond which a load counts as more than the film can carry."""
@@ -80,8 +80,7 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     Parameters
     ----------
     reaction : Reaction
-        The film; it need not be isotropic. If its temperature is left to the balance of its heat, that is
-        found with the position.
+        The film; it need not be isotropic. If its temperature is left to its heat, that is found too.
     load : array_like, shape (2,) [N]
         External static force on the journal, weight included; film force + load = 0.
     speed : float [rad/s]
@@ -90,39 +89,39 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     Returns
     -------
     Equilibrium
-        With |film force + load| <= 1e-12 |load|, or what roundoff in the film thickness allows.
+        With |film force + load| <= 1e-12 |load|, or what roundoff allows; with tilting pads a `PadEquilibrium`.
 
     Raises
     ------
     InputError
-        If an argument is not finite or has the wrong shape, or the load is zero: an unloaded journal
-        has no attitude angle.
+        If an argument is not finite or has the wrong shape, or the load is zero.
     EquilibriumError
         If the load is beyond what the film carries at eccentricity ratio 0.9999, if the film carries
         nothing (no wedge at zero speed), or if the search does not converge.
 
     Notes
     -----
-    Newton's method with the exact Jacobian in s = log(chi / (1 - chi)) and the angle phi of the position,
-    chi = |position| / clearance. The residual is (log(|F| / |load|), angle from -load to F). A film force
-    grows as a power of chi near the center and as a power of 1 - chi near the wall, so these equations
-    are nearly linear all the way.
+    Newton's method with the exact Jacobian in s = log(chi / (1 - chi)), chi = |position| / clearance, and the
+    angle phi of the position. The residual is (log(|F| / |load|), angle from -load to F). A film force grows
+    as a power of chi near the center and of 1 - chi near the wall: the equations are nearly linear.
     """
     require_reaction("reaction", reaction, JournalForce)
     load = checked_load(load)
     speed = require_number("speed", speed)
     if isinstance(reaction, Warming) and reaction.is_warming:
         return _warm(reaction, load, speed)
-    wanted_x, wanted_y = (-load).tolist()
-    room = min(relative_film(reaction, np.zeros(2)), 1.0)
-    target = _Target(prepared_tangent(reaction), reaction.clearance, speed, wanted_x, wanted_y, room)
+    at_rest = reaction.at_rest() if isinstance(reaction, Settling) else None
+    film: Any = at_rest or reaction
+    room = min(relative_film(film, np.zeros(2)), 1.0)
+    target = _Target(prepared_tangent(film), film.clearance, speed, *(-load).tolist(), room)
     with warnings.catch_warnings():
         # A state that the search only passes through is nobody's answer; that of the result is warned of.
         warnings.simplefilter("ignore", ValidityWarning)
         best = _search(target)
     if best.norm > _tolerance(best.s):
         raise EquilibriumError(_why_not(load, speed, best))
-    return _result(reaction, load, target, best)
+    found = _result(film, load, target, best)
+    return found if at_rest is None else at_rest.settled(found)
 
 
 def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+import warnings
+from collections.abc import Callable, Iterator
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
-from ..errors import EquilibriumError, InputError, require_finite, require_positive
+from ..errors import EquilibriumError, InputError, ValidityWarning, require_finite, require_positive
 from ..inputs.kinds import arguments
 from ..model import Array, JournalForce, Reaction, require_reaction
 from ..results import Coefficients, Equilibrium, WhirlThreshold
+from ..warming import Settling
 from .coefficients import coefficients
 from .critical_mass import critical_mass, damping_has_rank_one, is_stable, whirl_margin
 from .equilibrium import checked_load, equilibrium
@@ -30,7 +33,7 @@ def whirl_threshold(
     Parameters
     ----------
     reaction : Reaction
-        The film.
+        The film; of one with states that rest, as tilting pads, rotor and states are judged together.
     load : array_like, shape (2,) [N]
         External static force on the journal, weight included.
     mass : float [kg]
@@ -64,6 +67,8 @@ def whirl_threshold(
     require_positive("mass", mass)
     force = checked_load(load)
     low, high = _checked_range(speed_range, math.sqrt(math.hypot(*force) / (reaction.clearance * mass)))
+    if isinstance(reaction, Settling):
+        return _settling(reaction, force, mass, reaction.clearance, (low, high))
     before, stable = None, []
     for at in _scan(reaction, force, low, high):
         if damping_has_rank_one(at):
@@ -101,10 +106,61 @@ def _checked_range(speed_range: tuple[float, float] | None, natural: float) -> t
     return float(ends[0]), float(ends[1])
 
 
+def _settling(
+    reaction: Settling, load: Array, mass: float, clearance: float, ends: tuple[float, float]
+) -> WhirlThreshold:
+    """Return the threshold by the exponents of rotor and bearing together."""
+    onset, stable = _first_onset(
+        lambda speed: _least_damped(reaction, load, mass, speed)[0].real, _speeds(*ends)
+    )
+    if onset is None:
+        return _none(_why_none(stable, *ends))
+    exponent, rest = _least_damped(reaction, load, mass, onset)
+    return WhirlThreshold(
+        speed=onset,
+        whirl_ratio=abs(exponent.imag) / onset,
+        critical_mass=mass,
+        speed_parameter=speed_parameter(speed=onset, clearance=clearance, mass=mass, load=load),
+        equilibrium=rest,
+    )
+
+
+def _least_damped(reaction: Settling, load: Array, mass: float, speed: float) -> tuple[complex, Equilibrium]:
+    """Return the least damped exponent of rotor and bearing together [1/s], and their rest."""
+    with warnings.catch_warnings():
+        # Of the rests on the way nobody asked.
+        warnings.simplefilter("ignore", ValidityWarning)
+        at = equilibrium(cast(Reaction, reaction), load, speed)
+    return complex(reaction.at_rest().modes(at.position, speed, mass)[0]), at
+
+
+def _first_onset(growth: Callable[[float], float], speeds: Array) -> tuple[float | None, list[bool]]:
+    """Return the lowest speed at which growth turns positive, None without, and where it is stable.
+
+    Speeds that carry no load are passed over.
+    """
+    stable: list[bool] = []
+    for k, speed in enumerate(speeds.tolist()):
+        try:
+            stable.append(growth(speed) < 0.0)
+        except EquilibriumError:
+            if stable:
+                raise
+            continue
+        if stable[-2:] == [True, False]:
+            low, high = np.log(speeds[k - 1 : k + 1]).tolist()
+            return math.exp(brentq(lambda log: growth(math.exp(log)), low, high, xtol=1e-14)), stable
+    return None, stable
+
+
+def _speeds(low: float, high: float) -> Array:
+    points = max(3, 1 + math.ceil(_POINTS_PER_DECADE * math.log10(high / low)))
+    return np.geomspace(low, high, points)
+
+
 def _scan(reaction: Reaction, load: Array, low: float, high: float) -> Iterator[Coefficients]:
     """Yield the coefficients at the equilibria, from the lowest speed at which there is one."""
-    points = max(3, 1 + math.ceil(_POINTS_PER_DECADE * math.log10(high / low)))
-    speeds = np.geomspace(low, high, points).tolist()
+    speeds = _speeds(low, high).tolist()
     for speed in speeds[_first_carried(reaction, load, speeds) :]:
         at = equilibrium(reaction, load, speed)
         yield coefficients(reaction, at.position, at.speed)

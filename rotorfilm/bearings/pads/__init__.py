@@ -9,5 +9,6 @@ if TYPE_CHECKING:
     from .lobe import Lobe as Lobe, lobe_set as lobe_set
     from .lobed_bearing import LobedBearing as LobedBearing
     from .pad_film import PadFilm as PadFilm, PadGridFilm as PadGridFilm, PadMapFilm as PadMapFilm
+    from .tilting import *
 else:
     show(__name__)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...bearings.contact_place import relative_film
+from ...bearings.contact_place import WalledReaction, relative_film
 from ...errors import ConvergenceError, InputError, UndefinedDerivativeError, require_inside, require_kind
 from ...model import (
     Array,
@@ -85,6 +85,8 @@ class Coupled:
         self._split = len(rotor.states)
         # Asked once: checks against protocols are slow.
         self._film = reaction if isinstance(reaction, Dynamic) else None
+        # What has walls of its own says itself where it is touched.
+        self._walled = isinstance(reaction, WalledReaction)
         self._force = None if reaction.states else prepared_force(reaction)
 
     @property
@@ -159,7 +161,8 @@ class Coupled:
 
     def _input(self, t: float, x: Array, journal: Array) -> Array:
         """Return the rotor's input at a journal state: the film force, in the rotor's order."""
-        require_inside(journal[:2], self.reaction.clearance, f" at t = {t:.9g} s")
+        if not self._walled:
+            require_inside(journal[:2], self.reaction.clearance, f" at t = {t:.9g} s")
         self.work["film_evaluations"] += 1
         force = self._film_force(t, x, journal)
         if not np.all(np.isfinite(force)):

@@ -1,0 +1,18 @@
+"""Tilting pads: bearings, pads at rest, and the coefficients that a journal feels."""
+
+from typing import TYPE_CHECKING
+
+from ....sources import show
+
+if TYPE_CHECKING:
+    from .pad_matrices import PadMatrices as PadMatrices, ReducedCoefficients as ReducedCoefficients
+    from .pads_at_rest import (
+        PadEquilibrium as PadEquilibrium,
+        TiltedPads as TiltedPads,
+        TiltingPadsAtRest,
+    )
+    from .pivots import even_pivots as even_pivots
+    from .tilting_bearing import TiltingPadBearing as TiltingPadBearing
+    from .tilting_pads import TiltingPads as TiltingPads
+else:
+    show(__name__)

@@ -1,0 +1,1 @@
+"""Bearings of tilting pads in compiled code."""

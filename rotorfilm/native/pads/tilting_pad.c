@@ -1,0 +1,240 @@
+#include "tilting_pad.h"
+
+#include <math.h>
+
+#include "../films/map_frame.h"
+
+#define NEWTON 60
+#define SCAN 32
+#define TIP 0.995 /* of the way to trailing contact: where the scan for the tilt begins */
+#define ROUNDOFF 1e-13
+
+void rf_set_tilting_pad(rf_tilting_pad *pad, rf_film film, const void *data, double extent, double offset)
+{
+    const double back = offset * extent;
+    pad->film = film;
+    pad->data = data;
+    pad->turn[0] = cos(back - 0.5 * extent);
+    pad->turn[1] = sin(back - 0.5 * extent);
+    pad->lead[0] = cos(back);
+    pad->lead[1] = sin(back);
+    pad->trail[0] = cos(extent - back);
+    pad->trail[1] = sin(extent - back);
+    for (int k = 0; k < RF_PAD_NODES; ++k) {
+        const double angle = (k + 0.5) / RF_PAD_NODES * extent - back;
+        pad->node[k][0] = cos(angle);
+        pad->node[k][1] = sin(angle);
+    }
+}
+
+double rf_pad_least(const rf_tilting_pad *pad, const double *e)
+{
+    const double *a = pad->lead, *b = pad->trail;
+    /* Both turns are positive where e points to the arc, which is less than half a circle. */
+    if (a[0] * e[1] + a[1] * e[0] >= 0.0 && b[1] * e[0] - b[0] * e[1] >= 0.0)
+        return 1.0 - rf_length(e[0], e[1]);
+    return fmin(1.0 - a[0] * e[0] + a[1] * e[1], 1.0 - b[0] * e[0] - b[1] * e[1]);
+}
+
+/* Whether w.n <= 0 on the whole arc: then there is no film. */
+static int is_idle(const rf_tilting_pad *pad, const double *w)
+{
+    return pad->lead[0] * w[0] - pad->lead[1] * w[1] <= 0.0 && pad->trail[0] * w[0] + pad->trail[1] * w[1] <= 0.0;
+}
+
+/* From (n, t) of the pivot to the frame of the middle, or back for sense -1. */
+static void turned(const double *turn, double sense, const double *from, double *to)
+{
+    to[0] = turn[0] * from[0] - sense * turn[1] * from[1];
+    to[1] = sense * turn[1] * from[0] + turn[0] * from[1];
+}
+
+int rf_pivoted_film(const rf_tilting_pad *pad, const double *e, const double *w, double *f, double *jacobian)
+{
+    double place[2], source[2], force[2], by[8];
+    if (rf_is_broken(e, 2) || rf_is_broken(w, 2))
+        return rf_fail(RF_NOT_FINITE, f, jacobian, 8);
+    if (!(rf_pad_least(pad, e) > 0.0))
+        return rf_fail(RF_AT_WALL, f, jacobian, 8);
+    if (w[0] == 0.0 && w[1] == 0.0)
+        return rf_rest(f, jacobian);
+    if (is_idle(pad, w)) {
+        f[0] = f[1] = 0.0;
+        for (int k = 0; jacobian && k < 8; ++k)
+            jacobian[k] = 0.0;
+        return RF_OK;
+    }
+    turned(pad->turn, 1.0, e, place);
+    turned(pad->turn, 1.0, w, source);
+    const int status = pad->film(pad->data, place, source, force, jacobian ? by : NULL);
+    turned(pad->turn, -1.0, force, f);
+    for (int block = 0; jacobian && block < 4; block += 2) {
+        double rows[2][2];
+        for (int i = 0; i < 2; ++i)
+            turned(pad->turn, -1.0, by + 4 * i + block, rows[i]);
+        for (int j = 0; j < 2; ++j) {
+            const double column[2] = {rows[0][j], rows[1][j]};
+            double back[2];
+            turned(pad->turn, -1.0, column, back);
+            jacobian[block + j] = back[0];
+            jacobian[4 + block + j] = back[1];
+        }
+    }
+    return status;
+}
+
+/* The w_t of a film so narrow that its pressure is the source over H^3. */
+static double narrow_follow(const rf_tilting_pad *pad, const double *e, double w_n)
+{
+    double w_t = 0.0;
+    for (int round = 0; round < 2; ++round) {
+        double mixed = 0.0, square = 0.0;
+        for (int k = 0; k < RF_PAD_NODES; ++k) {
+            const double *n = pad->node[k];
+            const double H = 1.0 - e[0] * n[0] - e[1] * n[1], source = w_n * n[0] + w_t * n[1];
+            if (round && source <= 0.0)
+                continue;
+            mixed += n[0] * n[1] / (H * H * H);
+            square += n[1] * n[1] / (H * H * H);
+        }
+        if (square > 0.0)
+            w_t = -w_n * mixed / square;
+    }
+    return w_t;
+}
+
+int rf_pad_follow(const rf_tilting_pad *pad, const double *e, double *w, double *f, double *jacobian)
+{
+    double low = -HUGE_VAL, high = HUGE_VAL, by[8];
+    if (!(rf_pad_least(pad, e) > 0.0))
+        return rf_fail(RF_AT_WALL, f, jacobian, 8);
+    w[1] = narrow_follow(pad, e, w[0]);
+    for (int step = 0; step < NEWTON; ++step) {
+        const int status = rf_pivoted_film(pad, e, w, f, by);
+        if (status > RF_OUTSIDE)
+            return rf_fail(status, f, jacobian, 8);
+        /* The moment falls with w_t all along. */
+        *(f[1] > 0.0 ? &low : &high) = w[1];
+        double next = w[1] - f[1] / by[7];
+        if (!(next >= low && next <= high))
+            next = isfinite(low) && isfinite(high) ? 0.5 * (low + high) : w[1] + copysign(w[0] + fabs(w[1]), f[1]);
+        const int settled = f[1] == 0.0 || fabs(next - w[1]) <= ROUNDOFF * (fabs(w[1]) + w[0]);
+        if (settled) {
+            for (int k = 0; jacobian && k < 8; ++k)
+                jacobian[k] = by[k];
+            f[1] = 0.0;
+            return status;
+        }
+        w[1] = next;
+    }
+    return rf_fail(RF_STUCK, f, jacobian, 8);
+}
+
+double rf_pad_idle(const rf_tilting_pad *pad, double w_n, double wanted)
+{
+    return fmin(fmax(wanted, w_n * pad->lead[0] / pad->lead[1]), -w_n * pad->trail[0] / pad->trail[1]);
+}
+
+/* How far eta may go towards an end before something touches. */
+static double wall(const double *end, double xi)
+{
+    return xi > end[0] ? sqrt(1.0 - xi * xi) : (1.0 - xi * end[0]) / end[1];
+}
+
+/* Force and derivatives by (xi, eta) of a pad that stands still, by[2][2]. */
+static int standing(const rf_tilting_pad *pad, double xi, double eta, double sense, double *f, double *by)
+{
+    const double half = 0.5 * sense, e[2] = {xi, eta}, w[2] = {half * eta, -half * xi};
+    double J[8];
+    const int status = rf_pivoted_film(pad, e, w, f, by ? J : NULL);
+    for (int i = 0; by && i < 2; ++i) {
+        by[2 * i] = J[4 * i] - half * J[4 * i + 3];
+        by[2 * i + 1] = J[4 * i + 1] + half * J[4 * i + 2];
+    }
+    return status;
+}
+
+/* The root of the moment between two tilts, along a = sense * eta, where it is positive at low and negative at high. */
+static int refine(const rf_tilting_pad *pad, double xi, double sense, double low, double high, rf_pad_rest *rest)
+{
+    double f[2], by[4], a = 0.5 * (low + high);
+    for (int step = 0; step < NEWTON; ++step) {
+        const int status = standing(pad, xi, sense * a, sense, f, by);
+        if (status > RF_OUTSIDE)
+            return status;
+        const double moment = sense * f[1];
+        *(moment > 0.0 ? &low : &high) = a;
+        double next = a - moment / by[3];
+        if (!(next >= low && next <= high))
+            next = 0.5 * (low + high);
+        if (moment == 0.0 || fabs(next - a) <= ROUNDOFF * (1.0 + fabs(a))) {
+            rest->eta = sense * a;
+            rest->force = f[0];
+            rest->slope = by[0] - by[1] * by[2] / by[3];
+            return status;
+        }
+        a = next;
+    }
+    return RF_STUCK;
+}
+
+/* Scan down from *above to *below for the first positive moment: 1, and between both it turns its sign. Otherwise 0, and
+   between both it is largest. */
+static int scan(const rf_tilting_pad *pad, double xi, double sense, double *below, double *above, int *status)
+{
+    const double high = *above, step = (high - *below) / SCAN;
+    double best = -HUGE_VAL, f[2];
+    int at = 1, found = 0;
+    for (int k = 0; k < SCAN && !found; ++k) {
+        *status = standing(pad, xi, sense * (high - k * step), sense, f, NULL);
+        const double moment = sense * f[1];
+        if (*status > RF_OUTSIDE || (k == 0 && moment > 0.0)) {
+            *status = k == 0 && *status <= RF_OUTSIDE ? RF_AT_WALL : *status;
+            return 0;
+        }
+        found = moment > 0.0;
+        if (found || (moment > best && moment < 0.0 && k)) {
+            best = moment;
+            at = k;
+        }
+    }
+    *above = high - (at - 1) * step;
+    *below = high - (found ? at : at + 1) * step;
+    return found;
+}
+
+/* A pad whose pivot is not nearer than the center of its arc: it may be without film. */
+static int find_light(const rf_tilting_pad *pad, double xi, double sense, const double *trail, const double *lead,
+                      rf_pad_rest *rest)
+{
+    const double lowest = -TIP * wall(lead, xi), end = trail[0] > 0.0 ? xi * trail[1] / trail[0] : 2.0 * lowest;
+    double below = fmax(end, lowest), above = TIP * wall(trail, xi);
+    int status = RF_OK, found = 0;
+    for (int round = 0; round < 2 && !found && status <= RF_OUTSIDE; ++round)
+        found = scan(pad, xi, sense, &below, &above, &status);
+    if (found)
+        return refine(pad, xi, sense, below, above, rest);
+    rest->unloaded = 1;
+    rest->eta = sense * end;
+    return status <= RF_OUTSIDE && end < lowest ? RF_AT_WALL : status;
+}
+
+int rf_find_pad_rest(const rf_tilting_pad *pad, double xi, double sense, rf_pad_rest *rest)
+{
+    const double *trail = sense > 0.0 ? pad->trail : pad->lead, *lead = sense > 0.0 ? pad->lead : pad->trail;
+    const rf_pad_rest none = {0.0, 0.0, 0.0, 0};
+    *rest = none;
+    if (!(xi < 1.0))
+        return xi >= 1.0 ? RF_AT_WALL : RF_NOT_FINITE;
+    if (xi <= 0.0)
+        return find_light(pad, xi, sense, trail, lead, rest);
+    /* The source at the pivot presses the leading half: without tilt the moment is positive. */
+    const double highest = TIP * wall(trail, xi);
+    double below = 0.0, above = highest;
+    int status;
+    if (!scan(pad, xi, sense, &below, &above, &status)) {
+        below = 0.0;
+        above = highest / SCAN;
+    }
+    return status <= RF_OUTSIDE ? refine(pad, xi, sense, below, above, rest) : status;
+}
