@@ -1,0 +1,99 @@
+"""Charts of the types of bearings side by side: stiffness, damping, whirl thresholds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from itertools import cycle
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ...comparisons import BearingCoefficients, BearingThresholds
+from ...model import Array
+from ..canvas import new_axes, new_figure
+
+ENTRIES = ("xx", "xy", "yx", "yy")
+
+LINES = ("C0-", "C1-", "C2-", "C3-", "C4-", "C8-", "k--", "C5--")
+"""Color and dash of the types in turn."""
+
+RPM, GRAVITY = 30.0 / math.pi, 9.81
+
+LINEAR = 0.3
+"""Numbers of K and C below which the scale is linear."""
+
+
+def plot_bearing_coefficients(result: BearingCoefficients) -> list[Axes]:
+    """Draw K, C and the least film of all types of bearings over the Sommerfeld number, entry by entry."""
+    figure = new_figure(size=(15.0, 8.4))
+    shown = figure.subplots(2, 4, sharex=True).ravel().tolist()
+    stiffness = {one.name: one.stiffness_number.reshape(-1, 4) for one in result.types}
+    damping = {one.name: one.damping_number.reshape(-1, 4) for one in result.types}
+    for k, entry in enumerate(ENTRIES):
+        _draw(shown[k], result.sommerfeld, {name: K[:, k] for name, K in stiffness.items()})
+        shown[k].set_title(f"K{entry} c / W", fontsize=10)
+    for axes, k, entry in zip(shown[4:], (0, 1, 3), ("xx", "xy = Cyx", "yy"), strict=False):
+        _draw(axes, result.sommerfeld, {name: C[:, k] for name, C in damping.items()})
+        axes.set_title(f"C{entry} c omega / W", fontsize=10)
+    for axes in shown[:7]:
+        axes.set_yscale("symlog", linthresh=LINEAR)
+    _draw(shown[7], result.sommerfeld, {one.name: one.film_ratio for one in result.types})
+    shown[7].set_title("least film / c", fontsize=10)
+    for axes in shown[4:]:
+        axes.set_xlabel("Sommerfeld number S [1]")
+    handles, labels = shown[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=4, fontsize=9, frameon=False)
+    figure.suptitle(
+        f"Bearings of one bore, L/D = {result.slenderness:g}, load along -y\n{result.convention}\n"
+        "tilting pads at the frequency of the shaft",
+        fontsize=10,
+    )
+    return shown
+
+
+def _draw(axes: Axes, x: Array, curves: Mapping[str, Array]) -> None:
+    for (name, y), line in zip(curves.items(), cycle(LINES), strict=False):
+        axes.plot(x, y, line, label=name, linewidth=1.4)
+    axes.set_xscale("log")
+    axes.grid(visible=True, alpha=0.3)
+
+
+def plot_bearing_thresholds(result: BearingThresholds, *, axes: Axes | None = None) -> Axes:
+    """Draw the speed from which a rigid rotor whirls over the load, a line for each type of bearing.
+
+    Types that never whirl lie on the upper edge; a cross is a load that a bearing does not carry.
+
+    Parameters
+    ----------
+    result : BearingThresholds
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+    """
+    axes = axes or new_axes("", size=(9.0, 6.6))
+    low, top = (RPM * speed for speed in result.speed_range)
+    never = [one.name for one in result.types if np.isposinf(one.threshold_speed).all()]
+    for one, line in zip(result.types, cycle(LINES), strict=False):
+        at_top = np.isposinf(one.threshold_speed)
+        speed = np.where(at_top, top, RPM * one.threshold_speed)
+        label = f"{one.name}: no whirl" if at_top.all() else one.name
+        width = 1.6 + 2.0 * never.index(one.name) if at_top.all() else 1.6
+        axes.plot(result.load, speed, line, label=label, linewidth=width, clip_on=False)
+        lost = np.isnan(speed)
+        axes.plot(result.load[lost], np.full(int(lost.sum()), low), line[:-1].strip("-") + "x", clip_on=False)
+    lowest = min(RPM * float(np.nanmin(one.threshold_speed)) for one in result.types)
+    ends = tuple(result.load[[0, -1]].tolist())
+    axes.set(xscale="log", yscale="log", xlim=ends, ylim=(max(low, 0.7 * lowest), top))
+    axes.set(xlabel="load of the bearing along -y [N]", ylabel="speed from which the rotor whirls [rpm]")
+    axes.set_title(
+        f"Which bearing for a rigid rotor of {result.mass:g} kg a bearing? One journal, bore and oil, "
+        f"L/D = {result.slenderness:g}\nstable below its line; on the upper edge, {top:.3g} rpm: "
+        "no whirl at any speed searched",
+        fontsize=10,
+    )
+    if ends[0] < GRAVITY * result.mass < ends[1]:
+        axes.axvline(GRAVITY * result.mass, color="0.5", linewidth=0.8)
+        place = (GRAVITY * result.mass, 0.01)
+        axes.text(*place, " weight", transform=axes.get_xaxis_transform(), fontsize=8, color="0.4")
+    axes.legend(fontsize=8, loc="lower right")
+    return axes
