@@ -2,10 +2,11 @@
 
     python benchmarks/run_all.py [NAME ...]
 
-The outputs go to benchmarks/results/NAME.txt. A benchmark that fails keeps its old output, and the run ends
-with 1.
+The outputs go to benchmarks/results/NAME.txt, and each is printed with the lines of the run before that it
+replaces, marked by -. A benchmark that fails keeps its old output, and the run ends with 1.
 """
 
+import difflib
 import subprocess
 import sys
 from pathlib import Path
@@ -20,11 +21,23 @@ def main(names: list[str]) -> int:
     for name in names or every:
         print(f"=== {name}", flush=True)
         ran = subprocess.run([sys.executable, str(HERE / f"{name}.py")], capture_output=True, text=True)
-        print(ran.stdout if ran.returncode == 0 else ran.stderr, flush=True)
         failed += ran.returncode != 0
-        if ran.returncode == 0:
-            (HERE / "results" / f"{name}.txt").write_text(ran.stdout, encoding="utf-8")
+        if ran.returncode:
+            print(ran.stderr, flush=True)
+            continue
+        kept = HERE / "results" / f"{name}.txt"
+        print(
+            before_and_after(kept.read_text(encoding="utf-8") if kept.is_file() else "", ran.stdout),
+            flush=True,
+        )
+        kept.write_text(ran.stdout, encoding="utf-8")
     return failed
+
+
+def before_and_after(before: str, after: str) -> str:
+    """Return the lines of a run, those of the run before that they replace above them and marked by -."""
+    lines = difflib.ndiff(before.splitlines(), after.splitlines())
+    return "\n".join(line for line in lines if not line.startswith("?"))
 
 
 if __name__ == "__main__":

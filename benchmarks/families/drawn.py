@@ -28,6 +28,8 @@ class Drawn:
     reference: Callable[[Scene], Truth]
     judge: Callable[[Scene, str], float] | None = None
     """Of a rung whose value is its own error: the true error by the name of the rung."""
+    zero: float = 0.0
+    """Value above which the truth counts, as a temperature above that of the supply."""
 
     def distance(self, value: Any, truth: Any) -> float:
         """Return the error in the unit of the tolerance."""
@@ -35,7 +37,7 @@ class Drawn:
         quantity = self.data["question"]["quantity"]
         if quantity == "unbalance_phase":
             return abs(math.remainder(float(gap), 2.0 * math.pi))
-        scale = 1.0 if quantity == "attitude_angle" else float(np.max(np.abs(truth)))
+        scale = 1.0 if quantity == "attitude_angle" else float(np.max(np.abs(np.asarray(truth) - self.zero)))
         if scale == 0.0:  # a bush that does not wear
             return 0.0 if not np.any(gap) else math.inf
         return float(np.max(np.abs(gap))) / scale

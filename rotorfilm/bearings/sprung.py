@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from ..errors import require_kind, require_positive
+from ..errors import require_kind, require_positive, require_vector
 from ..inputs.si_arguments import quantities
 from ..model import (
     Array,
@@ -19,6 +20,7 @@ from ..model import (
     prepared_tangent,
 )
 from ..native.spec import HasKernel, NativeSpec
+from .contact_place import WalledReaction, minimum_film
 from .reaction import StaticReaction
 
 
@@ -59,6 +61,15 @@ class Sprung(StaticReaction):
     def largest_eccentricity_ratio(self) -> float:
         """Eccentricity ratio to which the reaction is meant."""
         return largest_eccentricity_ratio(self.reaction)
+
+    def minimum_film(self, position: ArrayLike) -> Array:
+        """Return the least film of the reaction [m], shape (...), of journals at positions (2, ...) [m]."""
+        return minimum_film(self.reaction, require_vector("position", position))
+
+    def require_film(self, position: Array) -> None:
+        """Raise FilmContactError where the journal touches; a reaction with a wall of its own does itself."""
+        if not isinstance(self.reaction, WalledReaction):
+            super().require_film(position)
 
     @property
     def nominal_force(self) -> float:

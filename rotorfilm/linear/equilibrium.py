@@ -89,7 +89,7 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     Returns
     -------
     Equilibrium
-        With |film force + load| <= 1e-12 |load|, or what roundoff allows; with tilting pads a `PadEquilibrium`.
+        With |film force + load| <= 1e-12 |load|, or what roundoff allows; of tilting pads a `PadEquilibrium`.
 
     Raises
     ------
@@ -113,7 +113,7 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     at_rest = reaction.at_rest() if isinstance(reaction, Settling) else None
     film: Any = at_rest or reaction
     room = min(relative_film(film, np.zeros(2)), 1.0)
-    target = _Target(prepared_tangent(film), film.clearance, speed, *(-load).tolist(), room)
+    target = _Target(prepared_tangent(film), film.clearance, speed, -float(load[0]), -float(load[1]), room)
     with warnings.catch_warnings():
         # A state that the search only passes through is nobody's answer; that of the result is warned of.
         warnings.simplefilter("ignore", ValidityWarning)

@@ -85,4 +85,4 @@ def kernel_texts(kernel: str) -> dict[str, str]:
 
 
 def _source(name: str) -> str:
-    return (FOLDER / "kernels" / name).read_text(encoding="utf-8")
+    return next(FOLDER.rglob(name)).read_text(encoding="utf-8")

@@ -21,7 +21,7 @@ KINDS = (
     "pressure_dam",
     "lobed_journal",
 )
-"""Kernels that may be a bearing of a system, in the order of `native/kernels/kernel_rotor_system.c`."""
+"""Kernels that may be a bearing of a system, in the order of `native/systems/mounted_tables.c`."""
 
 
 def system_kernel(

@@ -16,9 +16,12 @@ from rotorfilm.units import UNITS, si_name
 
 from .public_objects import BALL, BEARING, MADE
 
+DAMPER = next(one for one in MADE if isinstance(one, rf.PorousDamper))
+
 RESULTS = {
     "BasinScan", "Campbell", "CircularOrbit", "CoSimulation", "Coefficients", "CouplingReport",
-    "CriticalMass", "CriticalSpeed", "Equilibrium", "HeatedState", "HopfPoint", "PeriodicOrbit", "Reduction",
+    "CriticalMass", "CriticalSpeed", "Equilibrium", "HeatedState", "HopfPoint", "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients", "Reduction",
+    "TiltedPads",
     "RotorEquilibrium", "RotorModes", "RotorThreshold", "Trajectory", "WhirlThreshold",
 }  # fmt: skip
 """Made by rotorfilm, not by its users."""
@@ -26,7 +29,7 @@ RESULTS = {
 ARRAYS = {"Measurements"}
 """Of arrays, in SI."""
 
-SCALED = ARRAYS | {"BallSupport", "ContactLaw", "HeatedBearing", "MovingContact", "OwnReaction"}
+SCALED = ARRAYS | {"BallSupport", "ContactLaw", "HeatedBearing", "MovingContact", "OwnReaction", "TiltingPads"}
 """Made by functions, from scales that these know."""
 
 
@@ -142,8 +145,8 @@ def test_functions_take_what_constructors_take():
     found = rf.equilibrium(BEARING, load=["0 N", "-0.5 kN"], speed="100 rad/s")
     plain = rf.equilibrium(BEARING, (0.0, -500.0), 100.0)
     assert (found.position == plain.position).all()
-    found = rf.damper_groups(MADE[11], mass="1 kg", speed="100 rad/s")
-    assert found == rf.damper_groups(MADE[11], mass=1.0, speed=100.0)
+    found = rf.damper_groups(DAMPER, mass="1 kg", speed="100 rad/s")
+    assert found == rf.damper_groups(DAMPER, mass=1.0, speed=100.0)
 
 
 def test_quantities_of_pint_are_asked_for_si():

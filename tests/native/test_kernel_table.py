@@ -139,7 +139,7 @@ def test_a_new_kernel_is_one_file_and_one_row(tree):
 
 
 def test_every_row_has_its_file_and_every_file_its_row():
-    files = {path.stem.removeprefix("kernel_") for path in (FOLDER / "kernels").glob("kernel_*.c")}
+    files = {path.stem.removeprefix("kernel_") for path in FOLDER.rglob("kernel_*.c")}
     assert set(TABLE) == files
     assert {name for row in TABLE.values() for name in row.libraries} | {LOOPS, MASTER} == set(
         kernel_table.libraries()

@@ -8,6 +8,7 @@ from itertools import cycle
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from ...comparisons import BearingCoefficients, BearingThresholds
 from ...model import Array
@@ -20,8 +21,11 @@ LINES = ("C0-", "C1-", "C2-", "C3-", "C4-", "C8-", "k--", "C5--")
 
 RPM, GRAVITY = 30.0 / math.pi, 9.81
 
-LINEAR = 0.3
-"""Numbers of K and C below which the scale is linear."""
+CROSSED = (1, 2, 5)
+"""Panels of entries that change their sign."""
+
+LINEAR = 1.0
+"""Numbers of these entries below which their scale is linear."""
 
 
 def plot_bearing_coefficients(result: BearingCoefficients) -> list[Axes]:
@@ -36,8 +40,11 @@ def plot_bearing_coefficients(result: BearingCoefficients) -> list[Axes]:
     for axes, k, entry in zip(shown[4:], (0, 1, 3), ("xx", "xy = Cyx", "yy"), strict=False):
         _draw(axes, result.sommerfeld, {name: C[:, k] for name, C in damping.items()})
         axes.set_title(f"C{entry} c omega / W", fontsize=10)
-    for axes in shown[:7]:
-        axes.set_yscale("symlog", linthresh=LINEAR)
+    for k, axes in enumerate(shown[:7]):
+        if k in CROSSED:
+            axes.set_yscale("symlog", linthresh=LINEAR)
+        else:
+            axes.set_yscale("log")
     _draw(shown[7], result.sommerfeld, {one.name: one.film_ratio for one in result.types})
     shown[7].set_title("least film / c", fontsize=10)
     for axes in shown[4:]:
@@ -84,10 +91,14 @@ def plot_bearing_thresholds(result: BearingThresholds, *, axes: Axes | None = No
     lowest = min(RPM * float(np.nanmin(one.threshold_speed)) for one in result.types)
     ends = tuple(result.load[[0, -1]].tolist())
     axes.set(xscale="log", yscale="log", xlim=ends, ylim=(max(low, 0.7 * lowest), top))
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        axis.set_minor_formatter(NullFormatter())
     axes.set(xlabel="load of the bearing along -y [N]", ylabel="speed from which the rotor whirls [rpm]")
     axes.set_title(
         f"Which bearing for a rigid rotor of {result.mass:g} kg a bearing? One journal, bore and oil, "
-        f"L/D = {result.slenderness:g}\nstable below its line; on the upper edge, {top:.3g} rpm: "
+        f"L/D = {result.slenderness:g}\nstable below its line; on the upper edge, {top:.0f} rpm: "
         "no whirl at any speed searched",
         fontsize=10,
     )

@@ -19,7 +19,7 @@ def plot_pad_accuracy(result: PadAccuracy) -> list[Axes]:
     A filled dot is the 99th percentile of the error, an open one the median; the gray band is the distance of
     the reference from half its cells, 99 %.
     """
-    figure = new_figure(size=(12.5, 6.6))
+    figure = new_figure(size=(12.5, 6.9))
     shown = figure.subplots(1, 2, sharey=True)
     batch = [_mark(rung, rung.cost.force_time) for rung in result.rungs]
     alone = [_mark(rung, rung.cost.call_time) for rung in result.rungs]
@@ -49,7 +49,7 @@ def _lowest(rungs: Sequence[PadRung]) -> float:
 def _title(result: PadAccuracy) -> str:
     return (
         f"Films of pads at L/D = {result.slenderness:g}: error of the force of a bearing against its cost\n"
-        f"{', '.join(result.bearings)}; {result.states} random states each (seed {result.seed}), "
-        "filled 99 %, open median\n"
+        f"{', '.join(result.bearings)}\n"
+        f"{result.states} random states of each (seed {result.seed}), filled 99 %, open median\n"
         f"reference: {result.reference}; 99 % within {result.reference_high:.1e} of half its cells"
     )

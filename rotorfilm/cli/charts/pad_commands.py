@@ -12,7 +12,7 @@ from ..command import Option, Said
 from .chart_files import OUT, Folder, Slenderness, costs, print_chart, write_chart
 
 if TYPE_CHECKING:
-    from ...comparisons import TypeThresholds
+    from ...comparisons import BearingThresholds, TypeThresholds
 
 
 def bearings(
@@ -33,7 +33,7 @@ def bearings(
     shown = [0, len(whirl.load) // 2, len(whirl.load) - 1]
     headings = ("threshold [rpm] on", *(f"at {whirl.load[k]:.4g} N" for k in shown))
     rows = [(one.name, *(_speed(one, k) for k in shown)) for one in whirl.types]
-    show = partial(print_chart, headings, rows, [("convention", film.convention), *files])
+    show = partial(print_chart, headings, rows, [("convention", film.convention), *_said(whirl), *files])
     return Said({"coefficients": film, "thresholds": whirl}, show)
 
 
@@ -62,6 +62,12 @@ def pads(
     return Said(result, partial(print_chart, headings, rows, [("reference", result.reference), *files]))
 
 
+def _said(whirl: BearingThresholds) -> list[tuple[str, str]]:
+    """Return what the words mean that stand for a threshold."""
+    met = dict.fromkeys(verdict for one in whirl.types for verdict in one.verdicts)
+    return [(verdict.name.lower(), verdict.value) for verdict in met if verdict.name != "ONSET"]
+
+
 def _speed(one: TypeThresholds, k: int) -> str:
     speed = float(one.threshold_speed[k])
-    return f"{30.0 / math.pi * speed:.4g}" if math.isfinite(speed) else one.verdicts[k]
+    return f"{30.0 / math.pi * speed:.4g}" if math.isfinite(speed) else one.verdicts[k].name.lower()

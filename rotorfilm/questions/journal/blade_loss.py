@@ -160,10 +160,9 @@ def warm_blade_ladder(
     What a richer level of heat would change is taken of the linear motion.
     """
 
-    def apart(own: WarmRest, other: WarmRest) -> float:
-        rests = (make(film=films[0].frozen(one.reaction), steps=0) for one in (own, other))
-        before, after = (rung.answer(None).value for rung in rests)
-        return abs(after - before) / after
+    def value(own: WarmRest) -> float:
+        found: float = make(film=films[0].frozen(own.reaction), steps=0).answer(None).value
+        return found
 
     def stepped(steps: int, film: FilmRung) -> BladeLossRung:
         return make(film=film, steps=steps)
@@ -173,7 +172,9 @@ def warm_blade_ladder(
             load=scene.static_load,
             speed=scene.speed,
             make=partial(stepped, steps),
-            apart=apart,
+            value=value,
+            distance=lambda one, better: abs(better - one) / better,
+            moves=True,
         )
         for steps in (0, *STEPS)
     )

@@ -7,24 +7,17 @@ keeps the temperature of the rest.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
-from functools import cached_property
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 from ...answers import ErrorEstimate, Found, WorkUnit
-from ...bearings.journal import HeatedFilm, JournalBearing, LayeredTemperature, MeanTemperature
+from ...bearings.journal import JournalBearing
 from ...ladders import BaseRung, Rung
+from ...scenes.journal.field_levels import FIELD_LEVELS, REFERENCE, FieldLevel, grid_error
 from ...scenes.journal.film_rung import FilmRung
-from ...scenes.journal.warm_rest import WarmRest, bush_of, field_rest, step
-
-Apart = Callable[[WarmRest, WarmRest], float]
-"""How far the quantity of one rest is from that of another, in the unit of the tolerance."""
-
-STEP_SHARE, PEAK_SHARE = 1.3, 2.0
-"""What one step from T2 shows of the way to T3, inverted: of most quantities, and of the peak temperature."""
-
-FIELD_RUNGS = (("T2", 0, (80, 8), 0.5), ("T3", 12, (80, 8), 2.0), ("T3", 12, (160, 16), 15.0))
-"""Level, layers across the film, cells, and about how long an answer takes [s]."""
+from ...scenes.journal.heat_steps import HeatError, HeatSteps, heat_error
+from ...scenes.journal.warm_rest import WarmRest
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,23 +30,30 @@ class HeatedQuestion:
     speed : float [rad/s]
     make : callable
         Takes a film at one temperature and returns the rung that answers on it.
-    apart : callable
-        What a difference of two rests means for the quantity.
-    value : callable or None
-        The quantity of a rest; None where it takes more than a rest, which has no rungs with a field.
-    peak : bool
-        Whether it is the peak temperature.
-    least : float [1]
-        Error of T2 that a step may not see.
+    value : callable
+        The quantity of a rest, or of small motion about it.
+    distance : callable
+        Takes a value and a better one, and returns how far it is off in the unit of the tolerance.
+    moves : bool
+        Whether the quantity is one of a motion, which takes more than a rest.
     """
 
     load: tuple[float, float]
     speed: float
     make: Callable[[FilmRung], Rung]
-    apart: Apart
-    value: Callable[[WarmRest], Any] | None = None
-    peak: bool = False
-    least: float = 0.0
+    value: Callable[[WarmRest], Any]
+    distance: Callable[[Any, Any], float]
+    moves: bool = False
+
+    def apart(self, own: WarmRest, other: WarmRest) -> float:
+        """Return how far the quantity of one rest is from that of a better one."""
+        return self.distance(self.value(own), self.value(other))
+
+    def error(self, own: WarmRest, steps: HeatSteps) -> HeatError:
+        """Return how far the quantity of a rest is off by heat."""
+        start, last, before, *bases = (self.value(one) for one in (steps.own, *steps.sample))
+        coarse, fine, long = bases
+        return heat_error(self.value(own), start, (last, before, coarse, fine, long), self.distance)
 
 
 class FieldSolution(NamedTuple):
@@ -69,78 +69,55 @@ class FieldRung(BaseRung):
 
     Attributes
     ----------
-    level : str
+    level : FieldLevel
         T2 or T3.
     bearing : JournalBearing
         On its oil.
     question : HeatedQuestion
-    cells : (int, int)
-        Around and along half of the film.
-    layers : int
-        Across the film; 0 for one mean.
-    seconds : float [s]
-        About what an answer takes.
     """
 
-    level: str
+    level: FieldLevel
     bearing: JournalBearing
     question: HeatedQuestion
-    cells: tuple[int, int]
-    layers: int
-    seconds: float = field(compare=False)
 
     @property
     def name(self) -> str:
-        """Level, layers and cells."""
-        across = f" x {self.layers}" if self.layers else ""
-        return f"{self.level}, {self.cells[0]} x {self.cells[1]}{across}"
+        """Level, cells and layers."""
+        return self.level.name
 
     @property
     def unit(self) -> WorkUnit:
         """One answer."""
-        return WorkUnit(f"answers of {self.name}", ("answers", self.name), nominal=self.seconds)
+        return WorkUnit(f"answers of {self.name}", ("answers", self.name), nominal=self.level.seconds)
 
     def answer(self, before: Found | None) -> Found:
         """Return the quantity at the rest on this film."""
-        question = self.question
-        profile = LayeredTemperature(self.layers) if self.layers else MeanTemperature()
-        film = HeatedFilm(
-            bearing=self.bearing, walls=bush_of(self.bearing), cells=self.cells, profile=profile
-        )
-        own = field_rest(film, question.load, question.speed)
-        assert question.value is not None  # or it has no such rung
-        return Found(question.value(own), {self.unit: 1}, FieldSolution(self, own))
+        own = self.level.rest(self.bearing, self.question.load, self.question.speed)
+        return Found(self.question.value(own), {self.unit: 1}, FieldSolution(self, own))
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the change since cells twice as long, and of T2 what one step towards T3 shows of the way.
-
-        Heat moves upwind, of first order: the cells still lack about what they gained.
-        """
+        """Return of T2 what steps towards T3 change, of T3 what coarser grids do; see `grid_error`."""
         own, question = found.solution.own, self.question
-        coarse = self._coarser(before)
         done = {WorkUnit(f"estimates of {self.name}"): 1}
-        grid = question.apart(coarse, own)
-        method = "cells twice as long"
-        if self.layers:
-            return ErrorEstimate(grid, method, done)
-        share = PEAK_SHARE if question.peak else STEP_SHARE
-        heat = max(share * question.apart(own, step(self.bearing, own)), question.least)
-        return ErrorEstimate(grid + heat, f"{method}; heat: one solution of T3, {heat:.2g}", done)
+        if not self.level.layers:
+            steps = HeatSteps(self.bearing, own)
+            heat = question.error(own, steps)
+            return ErrorEstimate(heat.error, "steps towards T3", done, bound=heat.bound, doubt=steps.doubt)
+        error = grid_error(self.level, own, partial(self._rest, before), question.apart)
+        return ErrorEstimate(error, "cells twice as long, half the layers", done, bound=True)
 
-    def _coarser(self, before: Found | None) -> WarmRest:
-        half = replace(self, cells=(self.cells[0] // 2, self.cells[1] // 2), seconds=0.25 * self.seconds)
-        if before is not None and isinstance(before.solution, FieldSolution) and before.solution.rung == half:
+    def _rest(self, before: Found | None, level: FieldLevel) -> WarmRest:
+        """Return the rest by another level; that of a lower rung is known."""
+        rung = replace(self, level=level)
+        if before is not None and isinstance(before.solution, FieldSolution) and before.solution.rung == rung:
             return before.solution.own
-        own: WarmRest = half.answer(None).solution.own
+        own: WarmRest = rung.answer(None).solution.own
         return own
 
 
 def field_rungs(bearing: JournalBearing, question: HeatedQuestion) -> tuple[Rung, ...]:
     """Return T2 and T3, the latter on two grids."""
-    return tuple(
-        FieldRung(level=level, bearing=bearing, question=question, cells=cells, layers=layers, seconds=about)
-        for level, layers, cells, about in FIELD_RUNGS
-    )
+    return tuple(FieldRung(level=level, bearing=bearing, question=question) for level in FIELD_LEVELS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,28 +139,18 @@ class FieldFilms:
     @cached_property
     def own(self) -> WarmRest:
         """The rest."""
-        return self._rest(1)
+        return REFERENCE.rest(self.film.reaction, self.load, self.speed)
 
     @cached_property
     def half(self) -> WarmRest:
         """That on cells twice as long."""
-        return self._rest(2)
+        return REFERENCE.coarser.rest(self.film.reaction, self.load, self.speed)
 
     @cached_property
     def frozen(self) -> FilmRung:
         """The film at rest; there is no richer one."""
         film = self.film.frozen(self.own.reaction)
         return replace(film, rich=film.reaction, rich_name="itself")
-
-    def _rest(self, coarser: int) -> WarmRest:
-        _, layers, (around, along), _ = FIELD_RUNGS[1]
-        film = HeatedFilm(
-            bearing=self.film.reaction,
-            walls=bush_of(self.film.reaction),
-            cells=(around // coarser, along // coarser),
-            profile=LayeredTemperature(layers),
-        )
-        return field_rest(film, self.load, self.speed)
 
 
 class FrozenSolution(NamedTuple):
@@ -209,14 +176,13 @@ class FrozenRung(BaseRung):
     @property
     def name(self) -> str:
         """T3, and the rung of the motion."""
-        _, layers, cells, _ = FIELD_RUNGS[1]
-        named = replace(self.films.film, name=f"{cells[0]} x {cells[1]} x {layers}")
-        return f"T3, {self.question.make(named).name}"
+        named = replace(self.films.film, name=REFERENCE.grid)
+        return f"{REFERENCE.level}, {self.question.make(named).name}"
 
     @property
     def unit(self) -> WorkUnit:
         """One answer."""
-        return WorkUnit(f"answers of {self.name}", ("answers", self.name), nominal=2.0 * FIELD_RUNGS[1][3])
+        return WorkUnit(f"answers of {self.name}", ("answers", self.name), nominal=2.0 * REFERENCE.seconds)
 
     def answer(self, before: Found | None) -> Found:
         """Return the answer on the film."""
@@ -235,7 +201,8 @@ class FrozenRung(BaseRung):
         grid = self.question.apart(self.films.half, self.films.own)
         method = f"{about.method}; cells twice as long, {grid:.2g}"
         work = {WorkUnit(f"estimates of {self.name}"): 1}
-        return ErrorEstimate(about.error + grid, method, work, doubt=about.doubt)
+        bound = grid > about.error or about.bound
+        return ErrorEstimate(about.error + grid, method, work, bound=bound, doubt=about.doubt)
 
 
 def motion_rungs(film: FilmRung, questions: tuple[HeatedQuestion, ...]) -> tuple[Rung, ...]:

@@ -1,9 +1,9 @@
 """Thermal rungs of a question about a journal on an oil: T0, T1, T2 and T3.
 
 T0 has the viscosity of fresh oil, T1 one temperature in the balance of the heat, both on every film of the
-question; T2 has a temperature over the film, T3 over and across it. The error of T0 is what the balance at
-its place would change; that of T1 and T2 what one solution of the heat of T3 on their film would (`step`); it
-is added to the error of the film.
+question; T2 has a temperature over the film, T3 over and across it. The error of T1 and T2 by heat is what a
+few steps towards T3 on their film change (`HeatSteps`); that of T0 what the balance at its place would, and
+where that is little the steps from there. It is added to the error of the film.
 """
 
 from __future__ import annotations
@@ -14,13 +14,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ...answers import HEATED, ErrorEstimate, Found, Work, WorkUnit
+from ...answers import HEATED, SAFETY, ErrorEstimate, Found, Work, WorkUnit
 from ...bearings.journal import JournalBearing, film_name, has_losses
 from ...errors import InputError, RotorfilmError
 from ...ladders import BaseRung, Ladder, Rung
 from ...scenes.journal.assumed import assumed_figures
 from ...scenes.journal.film_rung import FilmRung
-from ...scenes.journal.warm_rest import WarmRest, step, uniform_rest
+from ...scenes.journal.heat_steps import HeatError, HeatSteps
+from ...scenes.journal.warm_rest import WarmRest, uniform_rest
 from .field_rungs import HeatedQuestion, field_rungs, motion_rungs
 
 if TYPE_CHECKING:
@@ -112,22 +113,23 @@ class UniformRung(BaseRung):
         solved: UniformSolution = found.solution
         own = solved.own
         about = solved.rung.estimate(solved.found, self._lower(before), tolerance)
-        bearing, question = self.film.reaction, self.question
         try:
-            if self.level is FRESH:
-                rest = own.rest.position, np.zeros(2), question.speed
-                other = uniform_rest(
-                    bearing, question.load, question.speed, bearing.balanced_temperature(*rest)
-                )
-                heat = question.apart(own, other)
-            else:
-                heat = question.apart(own, step(bearing, own))
+            heat, how, doubt = self._heat(own, tolerance)
         except RotorfilmError as error:
             return about._replace(error=math.inf, doubt=f"its error by heat is not known: {error}")
-        how = "heat: its balance" if self.level is FRESH else "heat: one solution of T3"
-        method = f"{about.method}; {how}, {heat:.2g}"
-        work = {WorkUnit(f"estimates of {self.name}"): 1}
-        return ErrorEstimate(about.error + heat, method, work, doubt=about.doubt, shared=heat)
+        return with_heat(about, heat, how, about.doubt or doubt, f"estimates of {self.name}")
+
+    def _heat(self, own: WarmRest, tolerance: float) -> tuple[HeatError, str, str]:
+        """Return the error by heat, how that is known, and why to doubt it."""
+        bearing, question = self.film.reaction, self.question
+        start = own
+        if self.level is FRESH:
+            start = uniform_rest(bearing, question.load, question.speed, balance_at(bearing, own))
+            error = question.apart(own, start)
+            if error * SAFETY >= tolerance:
+                return HeatError(error, False), "its balance", ""
+        steps = HeatSteps(bearing, start)
+        return question.error(own, steps), "steps towards T3", steps.doubt
 
     def expected(self, done: Work) -> Work:
         """Return one answer."""
@@ -135,6 +137,20 @@ class UniformRung(BaseRung):
 
 
 FRESH, BALANCED = HeatLevel("T0"), HeatLevel("T1")
+
+
+def balance_at(bearing: JournalBearing, own: WarmRest) -> float:
+    """Return the temperature at which the heat of a bearing balances at the place of a rest [K]."""
+    temperature: float = bearing.balanced_temperature(own.rest.position, np.zeros(2), own.rest.speed)
+    return temperature
+
+
+def with_heat(about: ErrorEstimate, heat: HeatError, how: str, doubt: str, work: str) -> ErrorEstimate:
+    """Return an error on a film of one temperature with that by heat, which rungs of a level share."""
+    bound = heat.bound if heat.error > about.error else about.bound
+    method = f"{about.method}; heat: {how}, {heat.error:.2g}"
+    total = about.error + heat.error
+    return ErrorEstimate(total, method, {WorkUnit(work): 1}, bound=bound, doubt=doubt, shared=heat.error)
 
 
 def warm_films(films: tuple[FilmRung, ...], bearing: JournalBearing) -> tuple[FilmRung, ...]:
@@ -192,7 +208,7 @@ def thermal_ladder(
         for film in known
         for one in questions
     )
-    fields = motion_rungs(known[0], questions[:2]) if question.value is None else field_rungs(quick, question)
+    fields = motion_rungs(known[0], questions[:2]) if question.moves else field_rungs(quick, question)
 
     def assumptions() -> tuple[str, ...]:
         own = uniform_rest(quick, question.load, question.speed)

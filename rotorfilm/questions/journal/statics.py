@@ -29,10 +29,7 @@ if TYPE_CHECKING:
 
 ANGLE, MATRIX = "attitude_angle", {"stiffness": 0, "damping": 2}
 LOSSES = {"power_loss": "W", "side_flow": "m^3/s"}
-PEAK = "maximum_temperature"
-TEMPERATURES = {"temperature": "K", PEAK: "K"}
-CANCELLED = 0.02
-"""Power, flow and temperature rise that T2 misses where a step sees warmer oil and thinner film cancel."""
+TEMPERATURES = {"temperature": "K", "maximum_temperature": "K"}
 UNITS = {
     "eccentricity_ratio": "1",
     "minimum_film": "m",
@@ -210,21 +207,16 @@ def static_ladder(scene: Scene, quantity: str) -> Ladder:
 def warm_static_ladder(scene: Scene, quantity: str, films: tuple[FilmRung, ...]) -> Ladder:
     """Return the ladder of a static quantity of a journal bearing on an oil."""
 
-    def apart(own: WarmRest, other: WarmRest) -> float:
-        pair = rest_value(quantity, own), rest_value(quantity, other)
-        return relative_distance(quantity, *pair, own.supply_temperature)
-
     def make(film: FilmRung) -> StaticRung:
         return StaticRung(film=film, quantity=quantity, load=scene.static_load, speed=scene.speed)
 
+    supply = scene.bearing.cooled[1].supply_temperature
     question = HeatedQuestion(
         load=scene.static_load,
         speed=scene.speed,
         make=make,
-        apart=apart,
         value=lambda own: rest_value(quantity, own),
-        peak=quantity == PEAK,
-        least=CANCELLED if quantity in {*LOSSES, *TEMPERATURES} else 0.0,
+        distance=lambda value, better: relative_distance(quantity, value, better, supply),
     )
     return thermal_ladder(scene, films, (question,), UNITS[quantity], fresh=quantity not in TEMPERATURES)
 

@@ -200,12 +200,20 @@ def warm_orbit_ladder(scene: Scene, quantity: str, rotor: RigidRotor, films: tup
     def rung(film: FilmRung, samples: int = 0) -> OrbitRung:
         return OrbitRung(film=film, quantity=quantity, rotor=rotor, samples=samples)
 
-    def apart(own: WarmRest, other: WarmRest) -> float:
-        values = (rung(films[0].frozen(one.reaction)).answer(None).value for one in (own, other))
-        return rung(films[0]).place.change(*values)
+    def value(own: WarmRest) -> float:
+        found: float = rung(films[0].frozen(own.reaction)).answer(None).value
+        return found
 
+    distance = rung(films[0]).place.change
     questions = tuple(
-        HeatedQuestion(load=scene.static_load, speed=scene.speed, make=partial(rung, samples=n), apart=apart)
+        HeatedQuestion(
+            load=scene.static_load,
+            speed=scene.speed,
+            make=partial(rung, samples=n),
+            value=value,
+            distance=distance,
+            moves=True,
+        )
         for n in (0, *SAMPLES)
     )
     return thermal_ladder(scene, films, questions, UNITS[quantity])

@@ -1,23 +1,28 @@
-"""At which speed a rigid rotor begins to whirl on an oil: the film as warm as its rest at each speed."""
+"""At which speed a rigid rotor begins to whirl on an oil: the film as warm as its rest at each speed.
+
+By one temperature (T0, T1) on every film, or by a temperature field (T2, T3), K and C at frozen temperature.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ...answers import HEATED, ErrorEstimate, Found, Work, WorkUnit
+from ...answers import HEATED, SAFETY, ErrorEstimate, Found, Work, WorkUnit
 from ...bearings.journal import JournalBearing
-from ...errors import RotorfilmError
-from ...ladders import Ladder
+from ...errors import ConvergenceError, RotorfilmError
+from ...ladders import BaseRung, Ladder
 from ...linear import whirl_threshold
 from ...results import Equilibrium, WhirlThreshold
 from ...scenes.journal.assumed import assumed_figures
+from ...scenes.journal.field_levels import FIELD_LEVELS, FieldLevel, grid_error
 from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.film_rungs import point_films
-from ...scenes.journal.warm_rest import step, uniform_rest
-from .heat_rungs import BALANCED, BALANCES, FRESH, HeatLevel, known_films
+from ...scenes.journal.heat_steps import HeatError, HeatSteps, heat_error
+from ...scenes.journal.warm_rest import WarmRest, uniform_rest
+from .heat_rungs import BALANCED, BALANCES, FRESH, HeatLevel, balance_at, known_films, with_heat
 from .whirl_rungs import AROUND, WhirlRung, whirl_ladder
 
 if TYPE_CHECKING:
@@ -29,6 +34,10 @@ power with which it grows with that: 3 % at 20, 10 % at 90, by unsteady solution
 
 SPEEDS = 40
 """Equilibria that a search takes about."""
+
+RESTS, NEAR, FARTHEST = 12, 3e-5, 0.2
+"""Most rests on a temperature field that a search takes, the relative change of speed at which it ends, and
+the largest one of a step."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,29 +96,27 @@ class WarmWhirlRung(WhirlRung):
         """
         at: Equilibrium = found.solution
         about = super().estimate(found, before, tolerance)
-        fresh = self.level is FRESH
+        moving = moving_heat(self.bearing, at.speed)
         try:
-            own = uniform_rest(
-                self.bearing,
-                self.load,
-                at.speed,
-                self.bearing.cooled[1].supply_temperature if fresh else None,
-            )
-            if fresh:
-                place = own.rest.position, np.zeros(2), at.speed
-                warm = self.bearing.balanced_temperature(*place)
-                other = uniform_rest(self.bearing, self.load, at.speed, warm)
-            else:
-                other = step(self.bearing, own)
-            heat = self.change(own.coefficients, other.coefficients)
+            heat, how, doubt = self._heat(at, tolerance)
         except RotorfilmError as error:
             return about._replace(error=np.inf, doubt=f"its error by heat is not known: {error}")
-        moving = moving_heat(self.bearing, at.speed)
-        how = "its balance" if fresh else "one solution of T3"
-        method = f"{about.method}; heat: {how}, {heat:.2g}; moving heat, {moving:.2g} lower"
-        work = {WorkUnit(f"estimates of {self.name}"): 1}
-        total = about.error + heat + moving
-        return ErrorEstimate(total, method, work, doubt=about.doubt, shared=heat + moving)
+        whole = HeatError(heat.error + moving, heat.bound or moving > heat.error)
+        how = f"{how}, moving heat {moving:.2g} lower"
+        return with_heat(about, whole, how, about.doubt or doubt, f"estimates of {self.name}")
+
+    def _heat(self, at: Equilibrium, tolerance: float) -> tuple[HeatError, str, str]:
+        """Return the error by heat at the threshold, how that is known, and why to doubt it."""
+        fresh = self.bearing.cooled[1].supply_temperature if self.level is FRESH else None
+        own = start = uniform_rest(self.bearing, self.load, at.speed, fresh)
+        growth = Growth(self, at.speed, self.slope(at.speed))
+        if self.level is FRESH:
+            start = uniform_rest(self.bearing, self.load, at.speed, balance_at(self.bearing, own))
+            error = growth.apart(own, start)
+            if error * SAFETY >= tolerance:
+                return HeatError(error, False), "its balance", ""
+        steps = HeatSteps(self.bearing, start)
+        return growth.error(own, steps), "steps towards T3", steps.doubt
 
     def expected(self, done: Work) -> Work:
         """Return one answer."""
@@ -121,6 +128,113 @@ class WarmWhirlRung(WhirlRung):
         speed = self._threshold(other, around).speed
         assert speed is not None  # or there is an error
         return abs(speed - found.value) / found.value
+
+
+@dataclass(frozen=True)
+class Growth:
+    """What K and C of a rest at a threshold do to its speed.
+
+    Attributes
+    ----------
+    rung : WhirlRung
+        Of the rotor.
+    speed : float [rad/s]
+    per_speed : float [1]
+        d(growth)/d speed.
+    """
+
+    rung: WhirlRung
+    speed: float
+    per_speed: float
+
+    def value(self, own: WarmRest) -> float:
+        """Return the growth rate of the whirl of a rest [1/s]."""
+        return self.rung.growth(own.coefficients)
+
+    def distance(self, value: float, better: float) -> float:
+        """Return by which share of itself the threshold is off."""
+        return abs((better - value) / self.per_speed) / self.speed
+
+    def apart(self, own: WarmRest, other: WarmRest) -> float:
+        """Return how far the threshold of one rest is from that of a better one."""
+        return self.distance(self.value(own), self.value(other))
+
+    def error(self, own: WarmRest, steps: HeatSteps) -> HeatError:
+        """Return how far the threshold of a rest is off by heat."""
+        start, last, before, *bases = (self.value(one) for one in (steps.own, *steps.sample))
+        coarse, fine, long = bases
+        return heat_error(self.value(own), start, (last, before, coarse, fine, long), self.distance)
+
+
+class FieldThreshold(NamedTuple):
+    """A rest on a temperature field at the threshold [rad/s], and what speeds do to its growth."""
+
+    own: WarmRest
+    growth: Growth
+
+
+@dataclass(frozen=True, kw_only=True)
+class FieldWhirlRung(BaseRung):
+    """The whirl threshold on a film with a temperature field, frozen as at the rest at each speed.
+
+    Attributes
+    ----------
+    level : FieldLevel
+        T2 or T3.
+    uniform : WarmWhirlRung
+        By T1, where the search starts.
+    """
+
+    level: FieldLevel
+    uniform: WarmWhirlRung
+
+    @property
+    def name(self) -> str:
+        """Level, cells and layers."""
+        return self.level.name
+
+    @property
+    def unit(self) -> WorkUnit:
+        """One answer."""
+        seconds = 4.0 * self.level.seconds
+        return WorkUnit(f"thresholds of {self.name}", ("thresholds", self.name), nominal=seconds)
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the speed at which the growth of the whirl vanishes [rad/s], by secants."""
+        rung = self.uniform
+        speed = float((rung.answer(None) if before is None else before).value)
+        slope, last = rung.slope(speed), None
+        for _ in range(RESTS):
+            own = self.level.rest(rung.bearing, rung.load, speed)
+            growth = rung.growth(own.coefficients)
+            if last is not None and abs(speed - last[0]) > 1e-3 * speed:
+                slope = (growth - last[1]) / (speed - last[0])
+            step = float(np.clip(-growth / slope, -FARTHEST * speed, FARTHEST * speed))
+            if abs(step) <= NEAR * speed:
+                return Found(speed, {self.unit: 1}, FieldThreshold(own, Growth(rung, speed, slope)))
+            last, speed = (speed, growth), speed + step
+        raise ConvergenceError(
+            f"the whirl threshold by {self.name} must be found within {RESTS} rests, and was not near "
+            f"{speed:.6g} rad/s"
+        )
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return of T2 what steps towards T3 change, of T3 coarser grids; moving heat."""
+        own, growth = found.solution
+        bearing, load = self.uniform.bearing, self.uniform.load
+        moving = moving_heat(bearing, growth.speed)
+        work = {WorkUnit(f"estimates of {self.name}"): 1}
+        if not self.level.layers:
+            steps = HeatSteps(bearing, own)
+            heat = growth.error(own, steps)
+            bound = heat.bound or moving > heat.error
+            method = f"steps towards T3, {heat.error:.2g}; moving heat, {moving:.2g} lower"
+            return ErrorEstimate(heat.error + moving, method, work, bound=bound, doubt=steps.doubt)
+        grid = grid_error(
+            self.level, own, lambda level: level.rest(bearing, load, growth.speed), growth.apart
+        )
+        method = f"cells twice as long, half the layers, {grid:.2g}; moving heat, {moving:.2g} lower"
+        return ErrorEstimate(grid + moving, method, work, bound=True)
 
 
 def moving_heat(bearing: JournalBearing, speed: float) -> float:
@@ -136,7 +250,7 @@ def moving_heat(bearing: JournalBearing, speed: float) -> float:
 
 
 def journal_whirl_ladder(scene: Scene, quantity: str) -> Ladder:
-    """Return the ladder of the whirl threshold: of an oil T0 and T1, else by one viscosity.
+    """Return the ladder of the whirl threshold: of an oil T0 to T3, else by one viscosity.
 
     Raises
     ------
@@ -147,24 +261,23 @@ def journal_whirl_ladder(scene: Scene, quantity: str) -> Ladder:
         return whirl_ladder(scene, quantity)
     mass, films = scene.rigid_rotor.mass, point_films(scene.bearing, fixed=scene.film_is_given)
     known = known_films(films)
-    rungs = []
+    uniform = {}
     for level in (FRESH, BALANCED):
         for warm in known:
             fresh = warm.at_temperature(warm.reaction.cooled[1].supply_temperature)
             film = fresh if level is FRESH else warm
-            rungs.append(
-                WarmWhirlRung(
-                    film=film, load=scene.static_load, mass=mass, level=level, bearing=warm.reaction
-                )
+            uniform[level, warm.name] = WarmWhirlRung(
+                film=film, load=scene.static_load, mass=mass, level=level, bearing=warm.reaction
             )
-    quick = next(rung for rung in rungs if rung.level is BALANCED)
+    quick = uniform[BALANCED, known[0].name]
+    fields = (FieldWhirlRung(level=level, uniform=quick) for level in FIELD_LEVELS[:2])
 
     def assumptions() -> tuple[str, ...]:
         found = quick.answer(None)
-        return assumed_figures(quick.bearing, lambda other: quick.moved(found, other), fields=False)
+        return assumed_figures(quick.bearing, lambda other: quick.moved(found, other), fields=True)
 
     return Ladder(
-        rungs=tuple(rungs),
+        rungs=(*uniform.values(), *fields),
         unit="rad/s",
         remarks=scene.film_remarks,
         within=HEATED,

@@ -77,7 +77,7 @@ class WhirlRung(CandidateRung[FilmRung]):
         own = self._matrix(cheap.stiffness, cheap.damping)
         other = self._matrix(-moved.slopes[:, :2], -moved.slopes[:, 2:])
         first_order, exact = growths(own, other)
-        slope = self._slope(at.speed)
+        slope = self.slope(at.speed)
         error = abs(exact / slope) / at.speed
         doubt = moved.doubt
         if abs(first_order - exact) > DISAGREEMENT * abs(exact):
@@ -90,10 +90,9 @@ class WhirlRung(CandidateRung[FilmRung]):
         """Return the film at one equilibrium."""
         return self.film
 
-    def change(self, own: Coefficients, other: Coefficients) -> float:
-        """Return how much other coefficients at the threshold change its speed [1], by their growth."""
-        pair = (self._matrix(one.stiffness, one.damping) for one in (own, other))
-        return abs(growths(*pair)[1] / self._slope(own.speed)) / own.speed
+    def growth(self, found: Coefficients) -> float:
+        """Return the growth rate of the least stable whirl on these coefficients [1/s]."""
+        return float(least_stable(self._matrix(found.stiffness, found.damping))[0].real)
 
     def _bound(self, at: Equilibrium) -> float:
         """Return the error [1] that the worst K and C within the verified bound would make."""
@@ -106,13 +105,13 @@ class WhirlRung(CandidateRung[FilmRung]):
         worst[2:, :2] = bound * np.abs(found.stiffness).max() / self.mass
         worst[2:, 2:] = bound * np.abs(found.damping).max() / self.mass
         _, left, right = least_stable(own)
-        return float(np.abs(left) @ worst @ np.abs(right)) / abs(self._slope(at.speed)) / at.speed
+        return float(np.abs(left) @ worst @ np.abs(right)) / abs(self.slope(at.speed)) / at.speed
 
     def _matrix(self, stiffness: Array, damping: Array) -> Array:
         zero, one = np.zeros((2, 2)), np.eye(2)
         return np.block([[zero, one], [-stiffness / self.mass, -damping / self.mass]])
 
-    def _slope(self, speed: float) -> float:
+    def slope(self, speed: float) -> float:
         """Return d Re s/d speed of the whirl of this film, by central differences."""
         growth = []
         for near in (speed * (1.0 - STEP), speed * (1.0 + STEP)):

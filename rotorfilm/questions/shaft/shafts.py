@@ -11,7 +11,7 @@ import numpy as np
 from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Work, WorkUnit, beside_bound
 from ...errors import AbsentError, InputError
 from ...ladders import BaseRung, Ladder
-from ...linear import rotor_equilibrium, rotor_modes
+from ...linear import RotorEquilibrium, rotor_equilibrium, rotor_modes
 from ...linear.rotor_system import SecondOrder, journal_rows, second_order
 from ...linear.rotor_whirl import (
     Start,
@@ -30,8 +30,9 @@ from ...results import Coefficients
 from ...rotors.shaft.shaft_models import ShaftModel, shaft_models
 from ...scenes.shaft.shaft_remarks import shaft_remarks
 from ..journal.warm_whirl import moving_heat
+from .shaft_fields import field_speeds
 from .shaft_films import ShaftFilms, coefficient_bounds, film_levels, rich_coefficients
-from .shaft_heat import heated_coefficients, shaft_assumptions, warm_physics, warm_rungs
+from .shaft_heat import at_supply, shaft_assumptions, warm_physics, warm_rungs
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
@@ -192,20 +193,39 @@ class ShaftRung(BaseRung):
         found = (whirl.at.coefficients, "") if trusted else rich_coefficients(self.films, whirl.at)
         return self._stepped(whirl, rate, *found)
 
-    def heat_error(self, found: Found) -> float:
-        """Return what one step of each film of an oil towards T3 changes the speed by [1].
+    def rest(self, found: Found) -> RotorEquilibrium:
+        """Return the rotor at rest at the first of the speeds."""
+        at: RotorEquilibrium = found.solution.whirls[0].at
+        return at
 
-        Of a threshold, with the heat that moves with the whirl.
-        """
+    def solution(self, whirl: Whirl) -> ShaftSpeed:
+        """Return one whirl as what an answer starts from."""
+        return ShaftSpeed(whirls=(whirl,), model=self.model)
+
+    def on(self, found: Found, coefficients: dict[str, Coefficients]) -> float:
+        """Return the speed [rad/s] on these K and C, for small changes."""
         whirl: Whirl = found.solution.whirls[0]
         rate = self.event.rate(value_rate(self.model.rotor.structure, whirl, self.films))
-        both = whirl.at.coefficients, heated_coefficients(self.films, whirl.at)
-        before, after = (self._stepped(whirl, rate, dict(each), "").speed for each in both)
-        moving = 0.0
-        if isinstance(self.event, Threshold):
-            bearings = (self.films.journals[name].reaction for name in self.films.on_oil)
-            moving = max(moving_heat(bearing, whirl.at.speed) for bearing in bearings)
-        return abs(after - before) / whirl.at.speed + moving
+        return self._stepped(whirl, rate, coefficients, "").speed
+
+    def distance(self, value: float, better: float) -> float:
+        """Return by which share of it a speed is off."""
+        return abs(better - value) / better
+
+    def moving(self, found: Found) -> float:
+        """Return how much heat that moves with the whirl lowers a threshold [1]."""
+        if not isinstance(self.event, Threshold):
+            return 0.0
+        bearings = (self.films.journals[name].reaction for name in self.films.on_oil)
+        return max(moving_heat(bearing, found.value) for bearing in bearings)
+
+    def mesh_error(self, found: Found) -> ErrorEstimate:
+        """Return the change in elements half as long, on the same K and C."""
+        structure = self.model.rotor.structure
+        rates = [self.event.rate(value_rate(structure, one, self.films)) for one in found.solution.whirls]
+        error, doubt = self._change(found, rates, trusted=True)
+        method = f"inverse iteration, {len(self.model.finer.elements)} elements"
+        return ErrorEstimate(error, method, doubt=doubt)
 
     def _stepped(
         self, whirl: Whirl, rate: float, coefficients: dict[str, Coefficients], doubt: str
@@ -260,19 +280,21 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
     rotor, bearings = scene.shaft.build(), scene.shaft.build_bearings()
     speeds, models = scene.shaft.speeds.build(), shaft_models(rotor)
     levels, event = film_levels(scene.shaft), EVENTS[quantity]
-    rungs = [
-        ShaftRung(event=event, model=model, films=films, speeds=speeds)
-        for films in levels
-        for model in (models if films is levels[-1] else models[:3])
-    ]
-    films = levels[0]
+
+    def rungs_on(levels: tuple[ShaftFilms, ...]) -> tuple[ShaftRung, ...]:
+        return tuple(
+            ShaftRung(event=event, model=model, films=films, speeds=speeds)
+            for films in levels
+            for model in (models if films is levels[-1] else models[:3])
+        )
+
+    films, rungs = levels[0], rungs_on(levels)
+    fresh = rungs_on(tuple(map(at_supply, levels)))
     return Ladder(
-        rungs=warm_rungs(tuple(rungs), films, ShaftRung.heat_error),
+        rungs=(*warm_rungs(fresh, rungs), *field_speeds(rungs)) if films.on_oil else rungs,
         unit="rad/s",
-        remarks=(
-            *scene.oil_remarks,
-            *shaft_remarks(rotor, bearings, scene.lubricant.properties, float(speeds[-1])),
-        ),
+        remarks=scene.oil_remarks
+        + shaft_remarks(rotor, bearings, scene.lubricant.properties, float(speeds[-1])),
         within=warm_physics(films, bearings),
-        assumptions=lambda: shaft_assumptions(films),
+        assumptions=lambda: shaft_assumptions(rungs[0]),
     )

@@ -107,7 +107,7 @@ class FilmRung:
             for reach, position, slope in MAP_BOUNDS:
                 if eccentricity_ratio <= reach:
                     return slope if slopes else position
-        film = self.reaction.fitted_film
+        film = self.reaction.fitted_film if isinstance(self.reaction, JournalBearing) else None
         if isinstance(film, GroovedMapFilm):
             return film.built_table(self.reaction.slenderness).bound(eccentricity_ratio, slopes=slopes)
         return math.inf

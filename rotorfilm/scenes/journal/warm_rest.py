@@ -1,19 +1,17 @@
-"""A journal at rest on a film that warms: by one temperature, by a field, and by one step towards the field.
+"""A journal at rest on a film that warms: by one temperature, or by a field.
 
 T0 is the viscosity of fresh oil, T1 one temperature in balance, T2 a temperature over the film, T3 one over
-and across it. A step is one solution of the heat of T3 on the film of T1 or T2: it tells how far those are
-off.
+and across it.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-import numpy as np
 from numpy.typing import ArrayLike
 
-from ...bearings.journal import BushRing, HeatedFilm, HeatedState, JournalBearing, LayeredTemperature, Walls
+from ...bearings.journal import BushRing, HeatedFilm, HeatedState, JournalBearing, Walls
 from ...bearings.oil.cooling import RING
 from ...linear import coefficients, equilibrium, heated_equilibrium
 from ...model import Reaction
@@ -21,9 +19,6 @@ from ...results import Coefficients, Equilibrium
 
 STEEL_CONDUCTIVITY = 50.0
 """Of the bush that a scene leaves open [W/(m K)]."""
-
-STEP_PROFILE, STEP_CELLS = LayeredTemperature(8), (80, 8)
-"""Layers and cells of a step; the cells are those of the rungs with a temperature field."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -105,34 +100,11 @@ def uniform_rest(
 def field_rest(film: HeatedFilm, load: ArrayLike, speed: float) -> WarmRest:
     """Return the rest on a film with a temperature field (T2, T3)."""
     found = heated_equilibrium(film, load, speed)
-    return _of_state(film.bearing, found.rest, found.state.film, found.state)
+    return rest_of_state(film.bearing, found.rest, found.state.film, found.state)
 
 
-def step(bearing: JournalBearing, before: WarmRest) -> WarmRest:
-    """Return where one solution of the heat across the film (T3) moves a rest.
-
-    The heat is that of the film before, less where its oil gets warmer (its thinning); the viscosity that
-    follows gives the film of the step, which finds its own place. Power and flow change with the place as
-    those of the film before do.
-    """
-    film = HeatedFilm(bearing=bearing, walls=bush_of(bearing), cells=STEP_CELLS, profile=STEP_PROFILE)
-    field = before.temperature if before.field is None else np.asarray(before.field)[..., None]
-    state = film.warmed_from(before.rest.position, before.rest.speed, field)
-    after = film.following(state)
-    at = equilibrium(after, before.rest.load, before.rest.speed)
-    moved = _of_state(bearing, at, after, state)
-    own = bearing.at_temperature(before.temperature)
-    here, there = (own.losses(q, np.zeros(2), at.speed) for q in (before.rest.position, at.position))
-    assert here is not None  # a balance has them
-    assert there is not None
-    return replace(
-        moved,
-        power_loss=moved.power_loss * float(there.power_loss) / float(here.power_loss),
-        side_flow=moved.side_flow * float(there.side_flow) / float(here.side_flow),
-    )
-
-
-def _of_state(bearing: JournalBearing, at: Equilibrium, film: Reaction, state: HeatedState) -> WarmRest:
+def rest_of_state(bearing: JournalBearing, at: Equilibrium, film: Reaction, state: HeatedState) -> WarmRest:
+    """Return a rest on a film whose temperature is that of a state."""
     (oil, cooling), flow = bearing.cooled, state.side_flow
     supply = cooling.supply_temperature
     carried = state.heat.leaked / (float(oil.volumetric_heat(supply)) * flow) if flow > 0.0 else math.nan

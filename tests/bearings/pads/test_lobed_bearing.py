@@ -12,6 +12,7 @@ from rotorfilm import (
     Pad,
     PadGridFilm,
     ReynoldsFilm,
+    Sprung,
     coefficients,
     equilibrium,
     lobe_set,
@@ -185,6 +186,18 @@ def test_minimum_film_is_the_least_on_the_arcs():
         film = CLEARANCE - d[0][:, None] * np.cos(theta) - d[1][:, None] * np.sin(theta)
         least = np.minimum(least, film.min(axis=1))
     assert of.minimum_film(positions) == pytest.approx(least, abs=1e-7 * CLEARANCE)
+
+
+def test_springs_beside_leave_the_wall_to_the_lobes():
+    of = bearing(lobe_set("elliptical", preload=0.5))
+    sprung, zero = Sprung(reaction=of, stiffness=1e6), np.zeros(2)
+    sideways = np.array([0.8 * CLEARANCE, 0.0])
+    assert sprung.minimum_film(sideways) == of.minimum_film(sideways)
+    assert sprung.force(sideways, zero, SPEED) == pytest.approx(
+        of.force(sideways, zero, SPEED) - 1e6 * sideways
+    )
+    with pytest.raises(FilmContactError, match="on lobe 1"):
+        sprung.force([0.0, -0.51 * CLEARANCE], zero, SPEED)
 
 
 def test_equilibrium_of_a_tight_bearing_and_of_heavy_loads():

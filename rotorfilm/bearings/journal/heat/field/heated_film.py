@@ -165,18 +165,20 @@ class HeatedFilm:
         rounds = 1 if before is None else before.rounds + 1
         return self._round(position, speed, T, empty=empty, rounds=rounds, closing=closing)
 
-    def warmed_from(self, position: ArrayLike, speed: float, temperature: ArrayLike) -> HeatedState:
+    def warmed_from(
+        self, position: ArrayLike, speed: float, temperature: ArrayLike, *, closing: bool = False
+    ) -> HeatedState:
         """Return one round that starts from a temperature of the film [K], its shape `profile.shape`, or one.
 
         Parameters
         ----------
-        position, speed
-            As in `solve`.
+        position, speed, closing
+            As in `warmed`.
         temperature : array_like [K]
             Such as that of a cheaper film; it broadcasts to the cells.
         """
         T = np.broadcast_to(temperature, self._fresh().shape).astype(float)
-        return self._round(position, speed, T)
+        return self._round(position, speed, T, closing=closing)
 
     def following(self, state: HeatedState) -> FrozenFilm:
         """Return the film of the viscosity that the oil of a state has got, as the next round takes it."""

@@ -26,7 +26,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../bushes/worn_bush.h"
+#include "worn_bush.h"
 
 #define MOST_NODES 10000
 #define FULL_TURN 6.28318530717958647692

@@ -27,7 +27,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../heat/heated_model.h"
+#include "heated_model.h"
 #include "../films/journal_model.h"
 #include "../films/map_kernel.h"
 #include "../films/short_kernel.h"

@@ -30,7 +30,7 @@
 
 #include "../solvers/dense.h"
 #include "../solvers/integrate.h"
-#include "../systems/mounted.h"
+#include "mounted.h"
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {

@@ -29,7 +29,7 @@
 #include <stdlib.h>
 
 #include "../films/groove_model.h"
-#include "../heat/heated_model.h"
+#include "heated_model.h"
 #include "../films/journal_model.h"
 
 #define CARRY_OVER 8

@@ -24,7 +24,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "../bushes/bush_contact.h"
+#include "bush_contact.h"
 
 #define HALF_PI 1.57079632679489661923
 #define TOLERANCE 1e-10 /* of the local error of W, relative to it and to a typical value */
