@@ -29,7 +29,14 @@ RESULTS = {
 ARRAYS = {"Measurements"}
 """Of arrays, in SI."""
 
-SCALED = ARRAYS | {"BallSupport", "ContactLaw", "HeatedBearing", "MovingContact", "OwnReaction", "TiltingPads"}
+SCALED = ARRAYS | {
+    "BallSupport",
+    "ContactLaw",
+    "HeatedBearing",
+    "MovingContact",
+    "OwnReaction",
+    "TiltingPads",
+}
 """Made by functions, from scales that these know."""
 
 

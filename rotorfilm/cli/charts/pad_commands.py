@@ -65,9 +65,9 @@ def pads(
 def _said(whirl: BearingThresholds) -> list[tuple[str, str]]:
     """Return what the words mean that stand for a threshold."""
     met = dict.fromkeys(verdict for one in whirl.types for verdict in one.verdicts)
-    return [(verdict.name.lower(), verdict.value) for verdict in met if verdict.name != "ONSET"]
+    return [(verdict, verdict.meaning) for verdict in met if verdict is not verdict.ONSET]
 
 
 def _speed(one: TypeThresholds, k: int) -> str:
     speed = float(one.threshold_speed[k])
-    return f"{30.0 / math.pi * speed:.4g}" if math.isfinite(speed) else one.verdicts[k].name.lower()
+    return f"{30.0 / math.pi * speed:.4g}" if math.isfinite(speed) else one.verdicts[k]

@@ -29,12 +29,25 @@ SPEEDS = (10.0, 6000.0)
 
 
 class Whirl(StrEnum):
-    """What becomes of a rotor as its speed rises."""
+    """What becomes of a rotor as its speed rises over what is searched."""
 
-    ONSET = "whirls from the threshold on"
-    NEVER = "does not whirl at any speed searched"
-    ALWAYS = "whirls at the lowest speed searched already"
-    UNCARRIED = "is not carried"
+    ONSET = "onset"
+    NEVER = "never"
+    ALWAYS = "always"
+    UNCARRIED = "not carried"
+
+    @property
+    def meaning(self) -> str:
+        """The same in words."""
+        return MEANINGS[self]
+
+
+MEANINGS = {
+    Whirl.ONSET: "the rotor whirls from the threshold on",
+    Whirl.NEVER: "the rotor does not whirl at any speed searched",
+    Whirl.ALWAYS: "the rotor whirls at the lowest speed searched already",
+    Whirl.UNCARRIED: "the bearing does not carry the load",
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,7 +104,7 @@ class BearingThresholds(Readable):
                 "bearing [-]": one.name,
                 "load [N]": load,
                 "threshold [rad/s]": speed,
-                "the rotor [-]": verdict,
+                "whirl [-]": verdict,
                 "mass [kg]": self.mass,
                 "length/diameter [1]": self.slenderness,
                 "searched from [rad/s]": self.speed_range[0],
