@@ -4,8 +4,8 @@ The ranges, with uniform (U) and log-uniform (L) numbers: radius L 10-200 mm, le
 assembled clearance/radius L 8e-4-3e-3, viscosity L 5-100 mPa s, speed L 30-600 rad/s, tolerance L 3e-4-.1,
 quantity even among those of a journal at rest.
 
-- lobes: one of the five usual sets, extent U .85-1 of the usual, preload U 0-.7, turned U 0-2 pi, either sense
-  of speed, load that of a journal at U .1-.85 of the way to contact in a direction U 0-2 pi.
+- lobes: one of the five usual sets, extent U .85-1 of the usual, preload U 0-.7, turned U 0-2 pi, either
+  sense of speed, load that of a journal at U .1-.85 of the way to contact in a direction U 0-2 pi.
 - dam: depth/clearance L .3-4, step U 90-160 deg, share U .5-.9, groove U 10-30 deg, in a third of them a
   preload U 0-.5, in a third a track of depth/clearance U .5-2 and share U .1-.4; the same load, less
   than 75 deg from -y.

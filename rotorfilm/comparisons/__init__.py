@@ -89,7 +89,7 @@ if TYPE_CHECKING:
     from .pads.type_thresholds import (
         BearingThresholds as BearingThresholds,
         TypeThresholds as TypeThresholds,
-        Whirl as Whirl,
+        WhirlOutcome as WhirlOutcome,
         bearing_thresholds as bearing_thresholds,
     )
 else:

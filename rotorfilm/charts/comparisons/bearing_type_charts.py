@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
-from ...comparisons import BearingCoefficients, BearingThresholds
+from ...comparisons import BearingCoefficients, BearingThresholds, WhirlOutcome
 from ...model import Array
 from ..canvas import new_axes, new_figure
 
@@ -79,16 +79,20 @@ def plot_bearing_thresholds(result: BearingThresholds, *, axes: Axes | None = No
     """
     axes = axes or new_axes("", size=(9.0, 6.6))
     low, top = (RPM * speed for speed in result.speed_range)
-    never = [one.name for one in result.types if np.isposinf(one.threshold_speed).all()]
+    lowest, width = top, 1.6
     for one, line in zip(result.types, cycle(LINES), strict=False):
-        at_top = np.isposinf(one.threshold_speed)
-        speed = np.where(at_top, top, RPM * one.threshold_speed)
-        label = f"{one.name}: no whirl" if at_top.all() else one.name
-        width = 1.6 + 2.0 * never.index(one.name) if at_top.all() else 1.6
-        axes.plot(result.load, speed, line, label=label, linewidth=width, clip_on=False)
-        lost = np.isnan(speed)
-        axes.plot(result.load[lost], np.full(int(lost.sum()), low), line[:-1].strip("-") + "x", clip_on=False)
-    lowest = min(RPM * float(np.nanmin(one.threshold_speed)) for one in result.types)
+        speed = RPM * np.array([np.nan if value is None else value for value in one.threshold_speed])
+        lowest = min(lowest, float(np.min(speed, initial=lowest, where=np.isfinite(speed))))
+        never, always, lost = (
+            np.array([outcome is kind for outcome in one.outcomes])
+            for kind in (WhirlOutcome.NEVER, WhirlOutcome.ALWAYS, WhirlOutcome.UNCARRIED)
+        )
+        label = f"{one.name}: no whirl" if never.all() else one.name
+        drawn = np.where(never, top, np.where(always, low, speed))
+        axes.plot(result.load, drawn, line, label=label, linewidth=width, clip_on=False)
+        axes.plot(result.load[lost], np.full(int(lost.sum()), low), f"{line.strip('-')}x", clip_on=False)
+        if never.all():  # the next one on the edge shows beside it
+            width += 2.0
     ends = tuple(result.load[[0, -1]].tolist())
     axes.set(xscale="log", yscale="log", xlim=ends, ylim=(max(low, 0.7 * lowest), top))
     for axis in (axes.xaxis, axes.yaxis):

@@ -38,8 +38,7 @@ def plot_pad_accuracy(result: PadAccuracy) -> list[Axes]:
 
 
 def _mark(rung: PadRung, cost: float) -> RungMark:
-    label = f"{rung.name}, made in {rung.making_time:.2g} s" if rung.making_time else rung.name
-    return RungMark(1e6 * cost, rung.high_error, rung.median_error, label, COLORS[rung.family])
+    return RungMark(1e6 * cost, rung.high_error, rung.median_error, rung.name, COLORS[rung.family])
 
 
 def _lowest(rungs: Sequence[PadRung]) -> float:

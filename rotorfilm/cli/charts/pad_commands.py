@@ -49,13 +49,12 @@ def pads(
 
     result = comparisons.pad_accuracy(ld, states=states, seed=seed, report=report)
     files = write_chart(out, "chart_pads", result.columns(), charts.plot_pad_accuracy(result))
-    headings = ("film", "median error", "90 % error", "99 % error", "batch", "alone", "making")
+    headings = ("film", "median error", "90 % error", "99 % error", "batch", "alone")
     rows = [
         (
             rung.name,
             *(f"{error:.2e}" for error in (rung.median_error, rung.usual_error, rung.high_error)),
             *costs(rung.cost),
-            f"{rung.making_time:.2g} s" if rung.making_time else "",
         )
         for rung in result.rungs
     ]
@@ -64,10 +63,10 @@ def pads(
 
 def _said(whirl: BearingThresholds) -> list[tuple[str, str]]:
     """Return what the words mean that stand for a threshold."""
-    met = dict.fromkeys(verdict for one in whirl.types for verdict in one.verdicts)
-    return [(verdict, verdict.meaning) for verdict in met if verdict is not verdict.ONSET]
+    met = dict.fromkeys(outcome for one in whirl.types for outcome in one.outcomes)
+    return [(outcome, outcome.meaning) for outcome in met if outcome is not outcome.ONSET]
 
 
 def _speed(one: TypeThresholds, k: int) -> str:
-    speed = float(one.threshold_speed[k])
-    return f"{30.0 / math.pi * speed:.4g}" if math.isfinite(speed) else one.verdicts[k]
+    speed = one.threshold_speed[k]
+    return one.outcomes[k] if speed is None else f"{30.0 / math.pi * speed:.4g}"

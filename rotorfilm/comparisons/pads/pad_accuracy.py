@@ -10,7 +10,6 @@ from enum import StrEnum
 import numpy as np
 
 from ...bearings.pads import PadFilm, PadGridFilm, PadMapFilm
-from ...bearings.pads.pad_build import FINE, PadResolution, expected_time
 from ...errors import InputError, ValidityWarning, require_count, require_positive
 from ...model import Array
 from ...progress import Report, part_of, silent
@@ -62,8 +61,6 @@ class PadRung(Readable):
     median_error, usual_error, high_error : float [1]
         Median, 90th and 99th percentile of |force - reference| over the force, or over 5 % of the largest at
         that place where that is more.
-    making_time : float [s]
-        Of its maps, as expected where they are on disk already; 0 of a grid.
     cost : FilmCost
         Of one pad.
     """
@@ -73,7 +70,6 @@ class PadRung(Readable):
     median_error: float
     usual_error: float
     high_error: float
-    making_time: float
     cost: FilmCost
 
 
@@ -117,7 +113,6 @@ class PadAccuracy(Readable):
                 "99 % error [1]": rung.high_error,
                 "force of a pad in a batch [s]": rung.cost.force_time,
                 "force of a pad alone, prepare() [s]": rung.cost.call_time,
-                "making of the maps [s]": rung.making_time,
                 "length/diameter [1]": self.slenderness,
                 "states of each bearing [1]": self.states,
                 "seed [-]": self.seed,
@@ -133,9 +128,9 @@ class PadAccuracy(Readable):
 
 def pad_rungs() -> tuple[ComparedPad, ...]:
     """Return the films of pads, maps from coarse to fine and then grids."""
-    coarse = PadResolution(cells=(48, 4), nodes=(8, 9, 24))
-    middle = FINE._replace(nodes=(16, 13, 64))
-    maps = [("map 8 x 9 x 24", coarse), ("map 16 x 13 x 64", middle), ("map 24 x 13 x 80", FINE)]
+    fine = PadMapFilm().resolution
+    coarse, middle = fine._replace(cells=(48, 4), nodes=(8, 9, 24)), fine._replace(nodes=(16, 13, 64))
+    maps = [(f"map {' x '.join(map(str, r.nodes))}", r) for r in (coarse, middle, fine)]
     grids = ((32, 4), (48, 8), (96, 8), (192, 16))
     return (
         *(ComparedPad(name=n, family=PadFamily.MAP, film=PadMapFilm(resolution=r)) for n, r in maps),
@@ -221,10 +216,11 @@ def _measured(rung: ComparedPad, samples: Sequence[PadSample], rounds: int, repo
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ValidityWarning)
         costs = [
-            film_costs(
-                {rung.name: replace(one.bearing, film=rung.film)}, one.states, rounds=rounds, report=report
-            )[rung.name]
+            cost
             for one in samples[:TIMED]
+            for cost in film_costs(
+                {rung.name: replace(one.bearing, film=rung.film)}, one.states, rounds=rounds, report=report
+            ).values()
         ]
     pads = sum(len(one.bearing.lobes) for one in samples[:TIMED])
     return PadRung(
@@ -233,17 +229,9 @@ def _measured(rung: ComparedPad, samples: Sequence[PadSample], rounds: int, repo
         median_error=median,
         usual_error=usual,
         high_error=high,
-        making_time=_making_time(rung.film, samples),
         cost=FilmCost(
             force_time=sum(cost.force_time for cost in costs) / pads,
             call_time=sum(cost.call_time for cost in costs) / pads,
             batch=costs[0].batch,
         ),
     )
-
-
-def _making_time(film: PadFilm, samples: Sequence[PadSample]) -> float:
-    """Return about how long the maps of all pads take on this machine [s]."""
-    if not isinstance(film, PadMapFilm):
-        return 0.0
-    return expected_time(film.resolution) * len({one.bearing.lobes[0].extent for one in samples})

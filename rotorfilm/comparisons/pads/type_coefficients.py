@@ -61,6 +61,7 @@ class BearingCoefficients(Readable):
     sommerfeld : ndarray, shape (n,) [1]
         S, over the assembled clearance.
     types : tuple of TypeCoefficients
+        Of each bearing.
     """
 
     slenderness: float

@@ -28,7 +28,7 @@ SPEEDS = (10.0, 6000.0)
 """Searched for the threshold [rad/s]: 95 to 57 000 rpm."""
 
 
-class Whirl(StrEnum):
+class WhirlOutcome(StrEnum):
     """What becomes of a rotor as its speed rises over what is searched."""
 
     ONSET = "onset"
@@ -43,10 +43,10 @@ class Whirl(StrEnum):
 
 
 MEANINGS = {
-    Whirl.ONSET: "the rotor whirls from the threshold on",
-    Whirl.NEVER: "the rotor does not whirl at any speed searched",
-    Whirl.ALWAYS: "the rotor whirls at the lowest speed searched already",
-    Whirl.UNCARRIED: "the bearing does not carry the load",
+    WhirlOutcome.ONSET: "the rotor whirls from the threshold on",
+    WhirlOutcome.NEVER: "the rotor does not whirl at any speed searched",
+    WhirlOutcome.ALWAYS: "the rotor whirls at the lowest speed searched already",
+    WhirlOutcome.UNCARRIED: "the bearing does not carry the load",
 }
 
 
@@ -57,15 +57,15 @@ class TypeThresholds(Readable):
     Attributes
     ----------
     name : str
-    threshold_speed : ndarray, shape (n,) [rad/s]
-        Infinite where there is none, the lowest speed searched where the rotor whirls there already, NaN
-        where the bearing does not carry the load.
-    verdicts : tuple of Whirl
+    threshold_speed : tuple of n floats or None [rad/s]
+        None where there is none, for the reason that the outcome says.
+    outcomes : tuple of WhirlOutcome
+        What the rotor does at each load.
     """
 
     name: str
-    threshold_speed: Array
-    verdicts: tuple[Whirl, ...]
+    threshold_speed: tuple[float | None, ...]
+    outcomes: tuple[WhirlOutcome, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,6 +83,7 @@ class BearingThresholds(Readable):
     speed_range : (float, float) [rad/s]
         Searched.
     types : tuple of TypeThresholds
+        Of each bearing.
     """
 
     slenderness: float
@@ -97,14 +98,12 @@ class BearingThresholds(Readable):
         return {heading: [row[heading] for row in rows] for heading in rows[0]}
 
     def _rows(self, one: TypeThresholds) -> Iterator[dict[str, object]]:
-        for load, speed, verdict in zip(
-            self.load.tolist(), one.threshold_speed.tolist(), one.verdicts, strict=True
-        ):
+        for load, speed, outcome in zip(self.load.tolist(), one.threshold_speed, one.outcomes, strict=True):
             yield {
                 "bearing [-]": one.name,
                 "load [N]": load,
                 "threshold [rad/s]": speed,
-                "whirl [-]": verdict,
+                "whirl [-]": outcome,
                 "mass [kg]": self.mass,
                 "length/diameter [1]": self.slenderness,
                 "searched from [rad/s]": self.speed_range[0],
@@ -162,23 +161,23 @@ def _type_thresholds(
         found = [_threshold(one.bearing, load, mass, speed_range) for load in loads.tolist()]
     return TypeThresholds(
         name=one.name,
-        threshold_speed=np.array([speed for speed, _ in found]),
-        verdicts=tuple(verdict for _, verdict in found),
+        threshold_speed=tuple(speed for speed, _ in found),
+        outcomes=tuple(outcome for _, outcome in found),
     )
 
 
 def _threshold(
     bearing: JournalForce, load: float, mass: float, speed_range: tuple[float, float]
-) -> tuple[float, Whirl]:
+) -> tuple[float | None, WhirlOutcome]:
     force = (0.0, -load)
     found = whirl_threshold(bearing, force, mass, speed_range)
     if found.speed is not None:
-        return found.speed, Whirl.ONSET
+        return found.speed, WhirlOutcome.ONSET
     try:
         stable = _stable(bearing, force, mass, speed_range[1])
     except EquilibriumError:
-        return np.nan, Whirl.UNCARRIED
-    return (np.inf, Whirl.NEVER) if stable else (speed_range[0], Whirl.ALWAYS)
+        return None, WhirlOutcome.UNCARRIED
+    return None, WhirlOutcome.NEVER if stable else WhirlOutcome.ALWAYS
 
 
 def _stable(bearing: JournalForce, load: tuple[float, float], mass: float, speed: float) -> bool:
