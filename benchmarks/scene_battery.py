@@ -1,6 +1,7 @@
 """A battery of random scenes: whether estimates are right and tolerances met, and what it costs.
 
     python benchmarks/scene_battery.py --count 200 --seed 1 --out battery.csv
+    python benchmarks/scene_battery.py --count 40 --families lobes dam tilting
     python benchmarks/scene_battery.py --family heated --count 40
 
 The ranges of a family were fixed before its estimator was tuned; the default seed was not run while anything
@@ -18,7 +19,7 @@ import math
 import sys
 import warnings
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -240,8 +241,11 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=SEED)
     parser.add_argument("--family", default="", choices=["", *FAMILIES], help="only scenes of this one")
     parser.add_argument("--out", type=Path, help="CSV of every rung tried")
+    parser.add_argument("--families", nargs="+", choices=FAMILIES, default=list(FAMILIES))
     options = parser.parse_args()
-    found = run(options.seed, options.count, lambda line: print(line, flush=True), options.family)
+    found = run(
+        options.seed, options.count, options.families, lambda line: print(line, flush=True), options.family
+    )
     print(summary(found))
     if options.out is not None:
         with options.out.open("w", newline="", encoding="utf-8") as file:

@@ -16,16 +16,27 @@ quantity even among those of a journal at rest.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from .drawn import log_uniform
+from rotorfilm import LobedBearing, PressureDamBearing, lobe_set, pressure_dam_pads
+from rotorfilm.bearings.pads import PadGridFilm
+from rotorfilm.bearings.pads.lobe import SETS as USUAL
+from rotorfilm.linear import coefficients, equilibrium
+from rotorfilm.scenes import Scene
+
+from .drawn import Drawn, Truth, log_uniform
 from .journals import POSITIONS, SLOPES
 
 SETS = ("elliptical", "three_lobe", "four_lobe", "offset_halves", "tapered_land")
 WAY = (0.1, 0.85)
 """Of a journal towards contact."""
+
+CELLS, DAM_CELLS = ((288, 24), (192, 16)), ((256, 64), (192, 48))
+"""Of the reference, and of the grid beside it whose distance is its own error at most."""
 
 LEAST_MEAN = 1e3
 """Least load over the projected area [Pa]."""
@@ -86,3 +97,104 @@ def question(random: np.random.Generator) -> dict[str, Any]:
     """Return what is asked."""
     quantity = str(random.choice([*POSITIONS, *SLOPES]))
     return {"quantity": quantity, "tolerance": log_uniform(random, 3e-4, 0.1)}
+
+
+def lobes(random: np.random.Generator) -> Drawn:
+    """Return a static question about a bearing of fixed pads."""
+    made, drawn = dimensions(random), lobed(random)
+    speed = log_uniform(random, 30.0, 600.0) * float(random.choice([-1.0, 1.0]))
+    shape = {
+        "preload": drawn["preload"],
+        "extent": USUAL[drawn["set"]].extent * drawn["share"],
+        "turned": drawn["turned"],
+    }
+    pads = lobe_set(drawn["set"], **shape)
+    bearing = LobedBearing(**made, lobes=pads, film=PadGridFilm(cells=(48, 4)))
+    load = carried(random, bearing, speed, lambda: float(random.uniform(0.0, 2.0 * math.pi)))
+    table = {**made, "preset": drawn["set"], **shape}
+    return _scene(random, "lobes", {"lobed_journal": table}, speed, load)
+
+
+def dam(random: np.random.Generator) -> Drawn:
+    """Return a static question about a pressure dam bearing."""
+    made = dimensions(random)
+    clearance = made.pop("assembled_clearance")
+    shape = dammed(random, clearance)
+    speed = log_uniform(random, 30.0, 600.0)
+    made["clearance"] = clearance
+    bearing = PressureDamBearing(**made, pads=pressure_dam_pads(**shape), cells=(32, 8))
+    while True:
+        downward = float(random.uniform(-0.5, 0.5)) * math.pi - 0.5 * math.pi
+        load = carried(random, bearing, speed, lambda angle=downward: angle)
+        if -load[1] > math.hypot(*load) * math.cos(math.radians(75.0)):
+            return _scene(random, "dam", {"pressure_dam": {**made, **shape}}, speed, load)
+
+
+def tilting(random: np.random.Generator) -> Drawn:
+    """Return a static question about a bearing of tilting pads."""
+    made, drawn = dimensions(random), tilted(random)
+    speed = log_uniform(random, 30.0, 600.0)
+    turns, c = speed / (2.0 * math.pi), made["assembled_clearance"]
+    unit = made["viscosity"] * turns * made["length"] * 2.0 * made["radius"] * (made["radius"] / c) ** 2
+    load = unit / log_uniform(random, 0.05, 2.0)
+    table = {
+        **made,
+        "pad_count": drawn["count"],
+        "loading": "between_pads" if drawn["between"] else "on_pad",
+        **{name: drawn[name] for name in ("extent", "pivot_offset", "preload")},
+    }
+    return _scene(random, "tilting", {"tilting_pad": table}, speed, (0.0, -load))
+
+
+def carried(
+    random: np.random.Generator,
+    bearing: LobedBearing | PressureDamBearing,
+    speed: float,
+    direction: Callable[[], float],
+) -> tuple[float, float]:
+    """Return the load that the film carries at a place on the way to contact, in a direction [rad]."""
+    while True:
+        angle, share = direction(), float(random.uniform(*WAY))
+        outward = np.array([math.cos(angle), math.sin(angle)])
+        near, far = 0.0, 10.0 * bearing.clearance
+        for _ in range(40):
+            middle = 0.5 * (near + far)
+            free = float(bearing.minimum_film(middle * outward)) > 0.0
+            near, far = (middle, far) if free else (near, middle)
+        force = bearing.force(share * near * outward, [0.0, 0.0], speed)
+        mean = float(np.hypot(*force)) / (2.0 * bearing.radius * bearing.length)
+        if mean > LEAST_MEAN and float(force @ outward) < 0.0:
+            return float(-force[0]), float(-force[1])
+
+
+def _scene(
+    random: np.random.Generator,
+    family: str,
+    table: dict[str, Any],
+    speed: float,
+    load: tuple[float, float],
+) -> Drawn:
+    operation = {"speed": speed, "load": list(load)}
+    data = {"schema": 1, **table, "operation": operation, "question": question(random)}
+    return Drawn(family, data, by_two_grids)
+
+
+def by_two_grids(scene: Scene) -> Truth:
+    """Return a static quantity by a grid finer than any rung, and its distance from a coarser one."""
+    assert scene.question is not None
+    quantity = scene.question.quantity
+    fine, coarse = (_value(scene, quantity, level) for level in (0, 1))
+    scale = 1.0 if quantity == "attitude_angle" else float(np.max(np.abs(fine)))
+    return Truth(fine, max(float(np.max(np.abs(fine - coarse))) / scale, 5e-6))
+
+
+def _value(scene: Scene, quantity: str, level: int) -> Any:
+    bearing = scene.bearing
+    if isinstance(bearing, PressureDamBearing):
+        bearing = replace(bearing, cells=DAM_CELLS[level])
+    else:
+        bearing = replace(bearing, film=PadGridFilm(cells=CELLS[level]))
+    at = equilibrium(bearing, scene.static_load, scene.speed)
+    if quantity in SLOPES:
+        return getattr(coefficients(bearing, at.position, scene.speed), quantity)
+    return np.asarray(getattr(at, quantity))

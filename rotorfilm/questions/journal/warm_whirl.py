@@ -257,9 +257,9 @@ def journal_whirl_ladder(scene: Scene, quantity: str) -> Ladder:
     InputError
         If the scene has no rigid rotor.
     """
-    if scene.rigid_rotor is None or not scene.bearing.is_warming:
+    if scene.rigid_rotor is None or not scene.journal_bearing.is_warming:
         return whirl_ladder(scene, quantity)
-    mass, films = scene.rigid_rotor.mass, point_films(scene.bearing, fixed=scene.film_is_given)
+    mass, films = scene.rigid_rotor.mass, point_films(scene.journal_bearing, fixed=scene.film_is_given)
     known = known_films(films)
     uniform = {}
     for level in (FRESH, BALANCED):
