@@ -3,8 +3,8 @@
     python benchmarks/published_pads.py
 
 The figures are those of Lund & Thomsen (1978) and Nicholas, Barrett & Leader (1980) as quoted in the tests of
-ROSS 3.1 (ross/tests/test_fluid_film_literature.py), and six bearings by another discretization: finite volumes
-of 128 x 16 cells a pad, extrapolated, which share no code with these films.
+ROSS 3.1 (ross/tests/test_fluid_film_literature.py), and six bearings by another discretization: finite
+volumes of 128 x 16 cells a pad, extrapolated, which share no code with these films.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""The picture of docs/pads.md: clearances, offset and orientation of bearings made of pads.
-
-    python docs/draw_pads.py
-"""
+"""The picture of docs/pads.md: clearances, offset and orientation of bearings made of pads."""
 
 from __future__ import annotations
 
@@ -59,7 +56,8 @@ def clearances(axes: Axes, lobe: Lobe) -> None:
     axes.plot(*center, "C2o", markersize=4)
     axes.plot(0.0, 0.0, "k+", markersize=8)
     axes.text(*(0.5 * (center + end) + [0.04, 0.02]), "R + c_p", color="C2", fontsize=9)
-    axes.text(center[0] - 0.08, center[1], "center of the pad,\nm c_p away", color="C2", fontsize=8, ha="right")
+    text = "center of the pad,\nm c_p away"
+    axes.text(center[0] - 0.08, center[1] - 0.2, text, color="C2", fontsize=8, ha="right")
     axes.text(0.08, -1.36, "c_b", color="C3", fontsize=10)
 
 

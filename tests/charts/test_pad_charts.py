@@ -4,7 +4,9 @@ import math
 
 import numpy as np
 import pytest
+from draw_pads import CLEARANCE, JOURNAL, arc, draw, tilting
 
+from rotorfilm import lobe_set
 from rotorfilm.charts import plot_bearing_coefficients, plot_bearing_thresholds, plot_pad_accuracy
 from rotorfilm.comparisons import (
     BearingCoefficients,
@@ -103,3 +105,11 @@ def test_films_of_pads_are_drawn_over_their_cost():
     texts = {text.get_text() for text in alone.texts}
     assert texts == {"map", "grid"}
     assert "reference: a film" in batch.figure.get_suptitle()
+
+
+def test_picture_of_the_page_shows_the_clearances_as_they_are(tmp_path):
+    for lobe in (*lobe_set("elliptical", preload=0.3), *lobe_set("offset_halves"), *tilting(True)):
+        film = np.hypot(*arc(lobe)) - JOURNAL
+        assert film.min() == pytest.approx(CLEARANCE * (1.0 - lobe.preload), abs=2e-4)
+    assert math.sin(tilting(False)[0].closest) == pytest.approx(-1.0)
+    assert draw(tmp_path / "pads.png").read_bytes().startswith(b"\x89PNG")
