@@ -1,7 +1,6 @@
 """Maps of pads as bytes and on disk."""
 
 import dataclasses
-from dataclasses import replace
 
 import numpy as np
 import pytest
