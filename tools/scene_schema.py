@@ -55,6 +55,12 @@ def table_schema(table: tables.TableType[Any], units: dict[str, str]) -> dict[st
     keys, must, either = {}, [], []
     for field in dataclasses.fields(makes):
         reader = known.get(field.name)
+        if isinstance(reader, tables.Beside):
+            types = {name: reader.type_of(name) for name in reader.names if name not in known}
+            keys |= {
+                name: {**table_schema(one, units), "description": inspect.getdoc(one).partition("\n")[0]}
+                for name, one in types.items()
+            }
         if reader is None or isinstance(reader, tables.Beside):
             continue
         one = {**shape_schema(reader, units), **said.get(field.name, {})}

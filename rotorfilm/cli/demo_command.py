@@ -49,7 +49,7 @@ def _print_running(result: DemoResult) -> None:
         return
     supply, running = (f"{T - CELSIUS:.1f} degC" for T in (warm.supply_temperature, warm.temperature))
     rows = [
-        ("oil", f"{result.answer.bearing.viscosity:.3g} Pa s", f"{warm.oil}, fed at {supply}"),
+        ("oil", f"{result.scene.journal_bearing.film_viscosity:.3g} Pa s", f"{warm.oil}, fed at {supply}"),
         ("eccentricity ratio", f"{at.eccentricity_ratio:.4g}", f"{warm.eccentricity_ratio:.4g}"),
         ("power loss", f"{losses.power_loss:.4g} W", f"{warm.power_loss:.4g} W"),
         ("temperature", supply, running),

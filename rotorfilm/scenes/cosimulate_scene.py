@@ -23,6 +23,7 @@ from ..cosim import (
     critical_macro_step,
 )
 from ..errors import ContactError, InputError
+from ..native.spec import HasKernel
 from ..progress import Report, part_of, silent
 from ..readable.result import Readable
 from ..results import Trajectory, orbit_distance
@@ -152,8 +153,8 @@ def _coupled(scene: Scene, scheme: Scheme | Auto, report: Report) -> CoSimulatio
         report(min(1.0, t / scene.duration), "coupled run")
 
     with tempfile.TemporaryDirectory() as folder:
-        native = scene.bearing.native() is not None
         rotor, film = resting_rotor(scene), scene.bearing
+        native = isinstance(film, HasKernel) and film.native() is not None
         fmus = export_scene(scene, Path(folder)) if native else None
         return cosimulate(
             rotor if fmus is None else fmus.rotor,

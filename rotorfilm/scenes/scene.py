@@ -20,7 +20,8 @@ from .bush.solve_bush import BushAnswer, solve_bush
 from .contact.contact_table import ContactTable
 from .damper.damper_table import DamperTable
 from .excitation_table import EXCITATIONS, ExcitationTable, UnbalanceTable
-from .families import FAMILIES, FilmTable, family_of, table_of
+from .families import FAMILIES, table_of
+from .film_table import FilmTable, film_table, film_tables, oil_remarks
 from .journal.solve_journal import Answer, film_answer
 from .lubricant_table import LubricantTable
 from .question_table import QuestionTable
@@ -31,6 +32,8 @@ from .shaft.shaft_table import ShaftTable, require_node, require_place
 
 BUNDLED = "friswell_5_9_6.toml"
 """The scene file that ships with the package."""
+
+NO_LOAD = "operation.load is required where there is no [rigid_rotor], got neither"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,32 +103,25 @@ class Scene:
 
     def __post_init__(self) -> None:
         self._take_oil()
-        if all(self.table(name) is None for name in FAMILIES):
+        if all(table is None for table in self.tables.values()):
             raise InputError(f"{' or '.join(FAMILIES)} is required and missing")
         if self.question is not None and self.question.at:
             require_place(self.question.at, self.question.quantity, self.shaft)
         if isinstance(self.excitation, UnbalanceTable):
             require_node("excitation.node", self.excitation.node, self.shaft)
-        films = self._film_tables
-        if len(films) > 1:
-            raise InputError(
-                f"{' and '.join(films)} must not stand in one scene: which does the rotor rest on?"
-            )
+        films = film_tables(self.tables)
         if not films:
             return
         if self.operation is None:
             raise InputError("operation is required and missing: the journal has no speed and no load")
         if self.operation.load is None and self.rigid_rotor is None:
-            raise InputError("operation.load is required where there is no [rigid_rotor], got neither")
+            raise InputError(NO_LOAD)
 
     def _take_oil(self) -> None:
         """Give the oil of `[lubricant]` to the journal bearings that state no viscosity."""
-        for name, table in self._film_tables.items():
-            on_oil = table.on(name, self.lubricant)
-            if name in self.others:
-                object.__setattr__(self, "others", {**self.others, name: on_oil})
-            else:
-                object.__setattr__(self, name, on_oil)
+        for name, table in film_tables(self.tables).items():
+            mine, one = name not in self.others, table.on(name, self.lubricant)
+            object.__setattr__(self, name if mine else "others", one if mine else {**self.others, name: one})
         if self.shaft is not None:
             object.__setattr__(self, "shaft", self.shaft.on(self.lubricant))
 
@@ -184,11 +180,10 @@ class Scene:
         What the physics of the film leaves out is in `remarks` of the answer.
         """
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
-        table, bearing = self.film_table, self.bearing  # once: making it may warn
-        load, speed = self.static_load, self.speed
-        answer = film_answer(bearing, table.echo(bearing), load=load, speed=speed, mass=mass)
-        remarks = table.remarks(bearing, self.lubricant.properties, speed, load)
-        return replace(answer, remarks=(*self.oil_remarks, *remarks))
+        bearing = self.bearing  # once: making it may warn
+        given = self.film_table.echo(bearing)
+        answer = film_answer(bearing, given, load=self.static_load, speed=self.speed, mass=mass)
+        return replace(answer, remarks=self._remarks_of(bearing))
 
     def melting(self) -> BushAnswer:
         """Return contact and critical speeds of the unworn bush; raises InputError if the scene has none."""
@@ -201,27 +196,18 @@ class Scene:
         return self.others.get(name) or getattr(self, name, None)
 
     @property
-    def film_remarks(self) -> tuple[str, ...]:
-        """What the physics of the bearing's film leaves out and should not, one line each."""
-        oil = self.lubricant.properties
-        own = self.film_table.remarks(self.bearing, oil, self.speed, self.static_load)
-        return (*self.oil_remarks, *own)
+    def tables(self) -> dict[str, Any]:
+        """The tables of all families by their names in the file, None where the scene has none."""
+        return {name: self.table(name) for name in FAMILIES}
 
     @property
-    def oil_remarks(self) -> tuple[str, ...]:
-        """That bearings have a viscosity of their own although `[lubricant]` has one, one line each."""
-        if not self.lubricant.has_viscosity:
-            return ()
-        journals: dict[str, Any] = dict(self._film_tables)
-        for k, one in enumerate(self.shaft.bearings if self.shaft is not None else ()):
-            if one.journal is not None:
-                journals[f"shaft.bearings[{k}].journal"] = one.journal
-        return tuple(
-            f"oil: {name} runs on its own viscosity of {one.viscosity:g} Pa s at all temperatures and not on "
-            f"the oil of [lubricant]; without {name}.viscosity it would"
-            for name, one in journals.items()
-            if one.viscosity is not None
-        )
+    def film_remarks(self) -> tuple[str, ...]:
+        """What the physics of the bearing's film leaves out and should not, one line each."""
+        return self._remarks_of(self.bearing)
+
+    def _remarks_of(self, bearing: Reaction) -> tuple[str, ...]:
+        own = self.film_table.remarks(bearing, self.lubricant.properties, self.speed, self.static_load)
+        return (*oil_remarks(self.tables, self.lubricant), *own)
 
     @property
     def film_is_given(self) -> bool:
@@ -231,22 +217,12 @@ class Scene:
     @property
     def has_film(self) -> bool:
         """Whether there is a bearing with a film that carries the static load."""
-        return bool(self._film_tables)
+        return bool(film_tables(self.tables))
 
     @property
     def film_table(self) -> FilmTable:
         """The table of the bearing with a film; raises InputError if the scene has none."""
-        found = next(iter(self._film_tables.values()), None)
-        if found is None:
-            given = {name: family_of(name).command for name in FAMILIES if self.table(name) is not None}
-            hints = "".join(f"; `{command}` is for [{name}]" for name, command in given.items() if command)
-            raise InputError(f"journal is required for a film, got no such table{hints}")
-        return found
-
-    @property
-    def _film_tables(self) -> dict[str, FilmTable]:
-        tables = {name: self.table(name) for name in FAMILIES}
-        return {name: table for name, table in tables.items() if isinstance(table, FilmTable)}
+        return film_table(self.tables)
 
     @property
     def speed(self) -> float:
@@ -259,7 +235,7 @@ class Scene:
         if self._operation.load is not None:
             return self._operation.load
         if self.rigid_rotor is None:
-            raise InputError("operation.load is required where there is no [rigid_rotor], got neither")
+            raise InputError(NO_LOAD)
         return 0.0, -STANDARD_GRAVITY * self.rigid_rotor.mass
 
     @property

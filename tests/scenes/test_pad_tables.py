@@ -1,4 +1,4 @@
-"""Tables of bearings made of pads: what they build, what they refuse, what a scene of them answers and exports."""
+"""Tables of bearings made of pads: what they build and refuse, what scenes of them answer and export."""
 
 import math
 import re

@@ -42,6 +42,11 @@ class _Shape(NamedTuple):
         return table_path("pad", (VERSION, source_digest(pad_build.__name__), *self))
 
 
+def is_pad_mappable(extent: float, slenderness: float) -> bool:
+    """Return whether there can be a map of pads of an extent [rad] and length/diameter."""
+    return EXTENTS[0] <= extent <= EXTENTS[1] and SLENDERNESSES[0] <= slenderness <= SLENDERNESSES[1]
+
+
 def _shape(extent: float, slenderness: float, resolution: PadResolution) -> _Shape:
     for name, value, (low, high) in (
         ("extent", extent, EXTENTS),

@@ -15,7 +15,7 @@ from ...bearings.journal import film_name, has_losses
 from ...errors import InputError
 from ...ladders import CandidateRung, Ladder
 from ...linear import coefficients, equilibrium
-from ...model import Array, JournalForce, prepared_tangent
+from ...model import Array, Reaction, prepared_tangent
 from ...results import Equilibrium
 from ...scenes.counted import counted_calls
 from ...scenes.journal.film_candidate import FilmCandidate, room
@@ -169,7 +169,7 @@ def film_units(films: Sequence[FilmCandidate], speed: float) -> dict[WorkUnit, C
     return units
 
 
-def _one_tangent(bearing: JournalForce, speed: float) -> Callable[[], object]:
+def _one_tangent(bearing: Reaction, speed: float) -> Callable[[], object]:
     return lambda: prepared_tangent(bearing)(0.3 * room(bearing), 0.4 * room(bearing), 0.0, 0.0, speed)
 
 

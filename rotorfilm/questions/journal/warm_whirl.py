@@ -51,10 +51,12 @@ class WarmWhirlRung(WhirlRung):
         T1, or T0 with the film of fresh oil at all speeds.
     bearing : JournalBearing
         On its oil, with the film of the rung.
+    film : FilmRung
     """
 
     level: HeatLevel
     bearing: JournalBearing
+    film: FilmRung
 
     @property
     def name(self) -> str:

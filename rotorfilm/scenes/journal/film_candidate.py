@@ -105,12 +105,16 @@ class FilmCandidate:
         """Return the distance [m] by which the wedge of a journal at a position (2,) [m] is measured."""
         return float(np.hypot(*position))
 
+    def bound(self, eccentricity_ratio: float, *, slopes: bool) -> float:
+        """Return the verified bound of its error at rest at an eccentricity ratio; infinite without one."""
+        return math.inf
+
     def rest_bound(self, at: Equilibrium, *, slopes: bool) -> float:
         """Return the verified bound of its error in an equilibrium; infinite without one.
 
         Of the force, relative to the load, or with `slopes` of K and C.
         """
-        return math.inf
+        return self.bound(at.eccentricity_ratio, slopes=slopes)
 
     def loss_bound(self, eccentricity_ratio: float) -> float:
         """Return the same of power loss and side flow, at an eccentricity ratio."""

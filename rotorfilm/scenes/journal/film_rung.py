@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass, replace
 
 from ...bearings.journal import ExtrapolatedFilm, GroovedMapFilm, JournalBearing, ReynoldsFilm
-from ...results import Equilibrium
 from .film_candidate import CALL_TIME, CELL_TIME, MAP_MADE as MAP_MADE, FilmCandidate
 
 MAP_BOUNDS = ((0.95, 2e-5, 1e-3), (0.999, 4e-4, math.inf))
@@ -59,10 +58,6 @@ class FilmRung(FilmCandidate):
         if isinstance(film, GroovedMapFilm):
             return film.built_table(self.reaction.slenderness).bound(eccentricity_ratio, slopes=slopes)
         return math.inf
-
-    def rest_bound(self, at: Equilibrium, *, slopes: bool) -> float:
-        """Return the verified bound of its error in an equilibrium; infinite without one."""
-        return self.bound(at.eccentricity_ratio, slopes=slopes)
 
     def loss_bound(self, eccentricity_ratio: float) -> float:
         """Return the same of power loss and side flow."""

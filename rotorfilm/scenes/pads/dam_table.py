@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated, Self
+from typing import Annotated, Any, Self
 
 from ...bearings.pads import PressureDamBearing, Recess, RecessedPad, pressure_dam_pads
 from ...errors import InputError
@@ -134,7 +134,7 @@ class DamTable:
 
     def _built(self, viscosity: float) -> PressureDamBearing:
         pads = self.pads or pressure_dam_pads(**self._of_design)
-        further = {} if self.cells is None else {"cells": self.cells}
+        further: dict[str, Any] = {} if self.cells is None else {"cells": self.cells}
         return PressureDamBearing(
             radius=self.radius,
             length=self.length,

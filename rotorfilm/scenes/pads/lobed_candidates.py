@@ -8,12 +8,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...bearings.films.map_bounds import matrix_sizes
-from ...bearings.pads import LobedBearing, PadFilm, PadGridFilm, PadMapFilm
-from ...bearings.pads.lobe import Lobe
-from ...bearings.pads.pad_bounds import DIRECTIONS, FLOOR
-from ...bearings.pads.pad_build import PadResolution
-from ...bearings.pads.pad_map import EXTENTS, SLENDERNESSES
+from ...bearings.pads import (
+    LobedBearing,
+    LobeShare,
+    PadFilm,
+    PadGridFilm,
+    PadMapFilm,
+    PadResolution,
+    is_pad_mappable,
+)
 from ...linear import coefficients
 from ...model import Array
 from ...results import Equilibrium
@@ -70,40 +73,12 @@ class LobedCandidate(FilmCandidate):
         film = self.reaction.film
         if not isinstance(film, PadMapFilm):
             return math.inf
-        shares = [_PadShare(self.reaction, film, lobe, at) for lobe in self.reaction.lobes]
+        shares = [LobeShare(self.reaction, film, lobe, at.position, at.speed) for lobe in self.reaction.lobes]
         if not slopes:
             return sum(share.force for share in shares) / math.hypot(*at.load)
         found = coefficients(self.reaction, at.position, at.speed)
         stiffness = sum(share.stiffness for share in shares) / np.abs(found.stiffness).max()
         return float(max(stiffness, sum(share.damping for share in shares) / np.abs(found.damping).max()))
-
-
-class _PadShare:
-    """What the bound of the map of one pad leaves open at rest: of its force [N], stiffness, damping.
-
-    The bounds are relative to force and matrices, or to `FLOOR` of their largest values over all directions.
-    """
-
-    def __init__(self, bearing: LobedBearing, film: PadMapFilm, lobe: Lobe, at: Equilibrium) -> None:
-        table = film.table(lobe.extent, bearing.slenderness)
-        kernel, c, half = table.kernel(), bearing.clearance, 0.5 * at.speed
-        cos, sin = math.cos(lobe.middle), math.sin(lobe.middle)
-        e = np.array([[cos, sin], [-sin, cos]]) @ (at.position / c - np.array(lobe.center))
-        w = half * np.array([e[1], -e[0]])
-        speed = float(np.hypot(*w))
-        angle = np.append(np.arctan2(w[1], w[0]), (np.arange(DIRECTIONS) + 0.5) * 2.0 * np.pi / DIRECTIONS)
-        places = np.repeat(e[:, None], angle.size, axis=1)
-        around = np.stack([np.cos(angle), np.sin(angle)])
-        forces = speed * np.hypot(*kernel.force(places, around).values)
-        # The slopes in the place are of degree one in the source, those in the source of degree zero.
-        by_e, by_w = matrix_sizes(kernel.jacobian(places, around).values) * np.array([[speed], [1.0]])
-        own, by_e, by_w = (max(each[0], FLOOR * each.max()) for each in (forces, by_e, by_w))
-        least = float(lobe.least_film(at.position / c))
-        open_force, open_slopes = (table.bound(least, slopes=each) for each in (False, True))
-        scale = bearing.force_scale
-        self.force = open_force * scale * own
-        self.stiffness = open_slopes * scale / c * (by_e + abs(half) * by_w)
-        self.damping = open_slopes * scale / c * by_w
 
 
 def lobed_candidates(bearing: LobedBearing, *, fixed: bool) -> tuple[LobedCandidate, ...]:
@@ -152,8 +127,7 @@ def many_forces(candidates: Sequence[LobedCandidate], *, fixed: bool) -> tuple[L
 def _maps(bearing: LobedBearing) -> list[LobedCandidate]:
     """Return the maps of the pads, a coarse one too where the fine one is to be made; or none."""
     extents = {lobe.extent for lobe in bearing.lobes}
-    long_enough = SLENDERNESSES[0] <= bearing.slenderness <= SLENDERNESSES[1]
-    if not long_enough or not EXTENTS[0] <= min(extents) <= max(extents) <= EXTENTS[1]:
+    if not all(is_pad_mappable(extent, bearing.slenderness) for extent in extents):
         return []
     coarse = _candidate(bearing, COARSE_MAP, "coarse pad map", FINE, 1e-4, 1e-3)
     fine = _candidate(bearing, PadMapFilm(), "pad map", FINE, 1e-5, 5e-4)

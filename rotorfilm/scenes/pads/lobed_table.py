@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Any, Self
 
-from ...bearings.pads import Lobe, LobedBearing, PadFilm, PadMapFilm, lobe_set
-from ...bearings.pads.lobe import SETS
+from ...bearings.pads import SETS, Lobe, LobedBearing, PadFilm, PadMapFilm, lobe_set
 from ...errors import InputError, SceneError, brief
 from ...progress import Report
 from ...readable.result import Readable
@@ -131,7 +130,7 @@ class LobedTable:
         return self._built(self.viscosity)
 
     def _built(self, viscosity: float) -> LobedBearing:
-        lobes = self.lobes or lobe_set(self.preset, **self._of_preset)
+        lobes = self.lobes or lobe_set(self.preset or "", **self._of_preset)
         film = self.film or PadMapFilm()
         return made_from(LobedBearing, self, viscosity=viscosity, lobes=lobes, film=film)
 

@@ -5,11 +5,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-import numpy as np
-
-from ...bearings.pads import PadFilm, PadGridFilm, PadMapFilm, TiltingPadBearing, TiltingPads
-from ...bearings.pads.pad_table import least_film
-from ...bearings.pads.tilting.held_pads import pad_slopes, turning
+from ...bearings.pads import (
+    PadFilm,
+    PadGridFilm,
+    PadMapFilm,
+    TiltingPadBearing,
+    TiltingPads,
+    differenced_slopes,
+)
 from ...model import Array
 from ...results import Coefficients
 from ..journal.film_candidate import CELL_TIME, FilmCandidate
@@ -67,21 +70,8 @@ class TiltingCandidate(FilmCandidate):
 
 
 def smooth_slopes(bearing: TiltingPads, e: Array, w: Array) -> tuple[Array, Array]:
-    """Return dF/de and dF/dw of pads on a grid, shape (2, 2, n), the latter by differences; see `pad_slopes`.
-
-    The derivative of a film on a grid in its source jumps where a cell fills or empties; see `STEP`.
-    """
-    by_e, _ = pad_slopes(bearing, e, w)
-    R, film = turning(bearing), bearing.kernel.film
-    thin = np.sqrt(np.maximum(least_film(R @ e, bearing.extent), 0.0))
-    rate = STEP * np.minimum(1.0, 2.0 * thin) * np.hypot(*w)
-    columns = []
-    for way in np.eye(2)[:, :, None]:
-        low2, low, high, high2 = (
-            R.T @ film.force(R @ e, R @ (w + k * rate * way)).values for k in (-2, -1, 1, 2)
-        )
-        columns.append((low2 - 8.0 * low + 8.0 * high - high2) / (12.0 * rate))
-    return by_e, np.stack(columns, axis=1)
+    """Return dF/de and dF/dw of pads on a grid, the latter by differences over `STEP`."""
+    return differenced_slopes(bearing, e, w, STEP)
 
 
 def tilting_candidates(bearing: TiltingPadBearing, *, fixed: bool) -> tuple[TiltingCandidate, ...]:

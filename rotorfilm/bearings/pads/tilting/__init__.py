@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from ....sources import show
 
 if TYPE_CHECKING:
+    from .held_pads import differenced_slopes
     from .pad_matrices import PadMatrices as PadMatrices, ReducedCoefficients as ReducedCoefficients
     from .pads_at_rest import (
         PadEquilibrium as PadEquilibrium,
