@@ -149,9 +149,10 @@ class FilmReaction(Feedthrough):
         return self.bound_film.jacobian(*broadcast_state(position, velocity, speed))
 
     @property
-    def film_in_c(self: _Bound) -> _Film | None:
+    def film_in_c(self) -> _Film | None:
         """The film for loops in C, if it is of the C library; None of a subclass, which may differ."""
-        return self.bound_film if "bound_film" in vars(type(self)) else None
+        film: _Film | None = self.bound_film if "bound_film" in vars(type(self)) else None
+        return film
 
     def prepare(self: _Bound) -> Force:
         """Return `force` as a function of five numbers, for loops that go state by state: `model.Force`."""

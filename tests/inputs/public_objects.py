@@ -36,10 +36,27 @@ BALL = rf.RollingBall(
 LOBED = rf.LobedBearing(
     radius=0.05, length=0.03, pad_clearance=1e-4, viscosity=0.1, lobes=rf.lobe_set("elliptical")
 )
+DAM_PADS = rf.pressure_dam_pads(depth=6e-5, end=2.5, share=0.75, preload=0.2)
 MADE = [
     BEARING,
     rf.Lobe(start=0.1, extent=1.0, preload=0.3, offset=0.6),
     LOBED,
+    DAM_PADS[0],
+    DAM_PADS[0].recess,
+    rf.PressureDamBearing(radius=0.05, length=0.04, clearance=1e-4, viscosity=0.03, pads=DAM_PADS),
+    rf.TiltingPadBearing(
+        radius=0.05,
+        length=0.04,
+        viscosity=0.03,
+        pivots=rf.even_pivots(4),
+        extent=1.2,
+        preload=0.3,
+        pad_clearance=1e-4,
+        pivot_stiffness=1e9,
+        pad_inertia=1e-3,
+        pivot_distance=0.01,
+        pad_mass=0.5,
+    ),
     dataclasses.replace(
         BEARING,
         film=rf.ReynoldsFilm(),

@@ -16,17 +16,27 @@ from rotorfilm.units import UNITS, si_name
 
 from .public_objects import BALL, BEARING, MADE
 
+DAMPER = next(one for one in MADE if isinstance(one, rf.PorousDamper))
+
 RESULTS = {
     "BasinScan", "Campbell", "CircularOrbit", "CoSimulation", "Coefficients", "CouplingReport",
-    "CriticalMass", "CriticalSpeed", "Equilibrium", "HeatedState", "HopfPoint", "PeriodicOrbit", "Reduction",
-    "RotorEquilibrium", "RotorModes", "RotorThreshold", "Trajectory", "WhirlThreshold",
+    "CriticalMass", "CriticalSpeed", "Equilibrium", "HeatedState", "HopfPoint",
+    "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients", "Reduction", "RotorEquilibrium",
+    "RotorModes", "RotorThreshold", "TiltedPads", "Trajectory", "WhirlThreshold",
 }  # fmt: skip
 """Made by rotorfilm, not by its users."""
 
 ARRAYS = {"Measurements"}
 """Of arrays, in SI."""
 
-SCALED = ARRAYS | {"BallSupport", "ContactLaw", "HeatedBearing", "MovingContact", "OwnReaction"}
+SCALED = ARRAYS | {
+    "BallSupport",
+    "ContactLaw",
+    "HeatedBearing",
+    "MovingContact",
+    "OwnReaction",
+    "TiltingPads",
+}
 """Made by functions, from scales that these know."""
 
 
@@ -142,8 +152,8 @@ def test_functions_take_what_constructors_take():
     found = rf.equilibrium(BEARING, load=["0 N", "-0.5 kN"], speed="100 rad/s")
     plain = rf.equilibrium(BEARING, (0.0, -500.0), 100.0)
     assert (found.position == plain.position).all()
-    found = rf.damper_groups(MADE[11], mass="1 kg", speed="100 rad/s")
-    assert found == rf.damper_groups(MADE[11], mass=1.0, speed=100.0)
+    found = rf.damper_groups(DAMPER, mass="1 kg", speed="100 rad/s")
+    assert found == rf.damper_groups(DAMPER, mass=1.0, speed=100.0)
 
 
 def test_quantities_of_pint_are_asked_for_si():

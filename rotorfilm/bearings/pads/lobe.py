@@ -84,7 +84,7 @@ class Lobe:
 class _Set(NamedTuple):
     """Equal lobes all round: their number, the angle of the middle of the first, and the usual shape."""
 
-    count: int
+    number: int
     first: float
     extent: float
     offset: float
@@ -144,10 +144,10 @@ def lobe_set(
     usual = SETS[name]
     arc = usual.extent if extent is None else extent
     share = usual.offset if offset is None else offset
-    step = TURN / usual.count
+    step = TURN / usual.number
     first = usual.first + turned - 0.5 * arc
     lobes = tuple(
-        Lobe(start=first + k * step, extent=arc, preload=preload, offset=share) for k in range(usual.count)
+        Lobe(start=first + k * step, extent=arc, preload=preload, offset=share) for k in range(usual.number)
     )
     require_apart(lobes)
     return lobes

@@ -16,16 +16,17 @@ from ...errors import (
     require_positive,
     require_tuple,
     require_vector,
+    warn_user,
 )
 from ...inputs.si_arguments import quantities
 from ...model import Array
-from ...native import JournalKernel
+from ...native import JournalKernel, Status
 from ...native.journal_spec import journal_spec
 from ...native.response_kernels import LobePlace, LobesKernel
 from ...native.spec import NativeSpec
 from ...results import BearingLosses
 from ...signals import Signal, force_outputs, journal_inputs
-from ..films.kernel_film import BoundKernel
+from ..films.kernel_film import BoundKernel, continued
 from ..oil import Cooling, Oil
 from ..oil.lubricant import require_lubricant
 from ..oil.warm_bearing import WarmBearing
@@ -55,15 +56,28 @@ class BoundLobes(BoundKernel):
 
     lobes: tuple[Lobe, ...]
 
+    def films(self, position: Array) -> list[float]:
+        """Return the least film on each pad [m] of a journal at a position (2,) [m]."""
+        return [self.clearance * float(lobe.least_film(position / self.clearance)) for lobe in self.lobes]
+
     def require_inside(self, position: Array) -> None:
         """Raise FilmContactError, which names the pad, where a journal at a position (2,) [m] touches."""
-        films = [self.clearance * float(lobe.least_film(position / self.clearance)) for lobe in self.lobes]
+        films = self.films(position)
         touched = int(np.argmin(films))
         if not films[touched] > 0.0:
             raise FilmContactError(
                 f"position must leave a film on every pad, got {position.tolist()} m with a film of "
                 f"{films[touched]:.6g} m on lobe {touched}, {self.lobes[touched]!r}"
             )
+
+    def report(self, status: int, x: float, y: float, vx: float, vy: float, speed: float) -> None:
+        """Raise, or warn, about a state that has this status."""
+        if status == Status.OUTSIDE:
+            films = ", ".join(f"{film:.3g}" for film in self.films(np.array([x, y])))
+            how = continued(self.kernel.film)
+            warn_user(f"least films of {films} m are beyond the map of a pad; its force is {how}")
+        else:
+            super().report(status, x, y, vx, vy, speed)
 
 
 @quantities

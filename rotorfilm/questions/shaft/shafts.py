@@ -224,9 +224,8 @@ class ShaftRung(BaseRung):
         structure = self.model.rotor.structure
         rates = [self.event.rate(value_rate(structure, one, self.films)) for one in found.solution.whirls]
         error, doubt = self._change(found, rates, trusted=True)
-        return ErrorEstimate(
-            error, f"inverse iteration, {len(self.model.finer.elements)} elements", doubt=doubt
-        )
+        method = f"inverse iteration, {len(self.model.finer.elements)} elements"
+        return ErrorEstimate(error, method, doubt=doubt)
 
     def _stepped(
         self, whirl: Whirl, rate: float, coefficients: dict[str, Coefficients], doubt: str
@@ -294,10 +293,8 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
     return Ladder(
         rungs=(*warm_rungs(fresh, rungs), *field_speeds(rungs)) if films.on_oil else rungs,
         unit="rad/s",
-        remarks=(
-            *scene.oil_remarks,
-            *shaft_remarks(rotor, bearings, scene.lubricant.properties, float(speeds[-1])),
-        ),
+        remarks=scene.oil_remarks
+        + shaft_remarks(rotor, bearings, scene.lubricant.properties, float(speeds[-1])),
         within=warm_physics(films, bearings),
         assumptions=lambda: shaft_assumptions(rungs[0]),
     )

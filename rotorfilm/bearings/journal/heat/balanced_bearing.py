@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ....errors import InputError, warn_user
 from ....model import Array, Tangent
-from ....native import Status
+from ....native import JournalKernel, Status
 from ....native.heated_kernel import BalancedBatch, BalancedKernel
 from ...films.kernel_film import BoundKernel
 from ...oil import Oil
@@ -105,7 +105,8 @@ class BalancedBearing(StaticReaction):
     def _kernel(self) -> BalancedKernel:
         found = self.bearing.film_at_unit_viscosity()
         assert found is not None  # checked in `_film`
-        oil, cooling = self.bearing.cooled
+        journal, (oil, cooling) = self._film.kernel, self.bearing.cooled
+        assert isinstance(journal, JournalKernel)  # of any bearing with losses in the C library
         numbers = {
             "radius": float(self.bearing.radius),
             "length": float(self.bearing.length),
@@ -117,7 +118,7 @@ class BalancedBearing(StaticReaction):
             "carry_over": cooling.carry_over,
             "full_gap": cooling.full_gap,
         }
-        return BalancedKernel(self._film.kernel, found[1], viscosity_table(oil), numbers)
+        return BalancedKernel(journal, found[1], viscosity_table(oil), numbers)
 
     def _report(self, status: int, temperature: float, state: Any) -> None:
         """Raise, or warn, about a state that has this status."""

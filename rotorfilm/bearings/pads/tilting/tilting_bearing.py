@@ -11,7 +11,9 @@ from numpy.typing import ArrayLike
 from ....errors import InputError, require_finite
 from ....inputs.si_arguments import quantities
 from ....model import Array, Linearization
+from ....native.journal_spec import journal_spec
 from ....native.pads.tilting_kernel import TiltingPoint
+from ....native.spec import NativeSpec
 from ....results import BearingLosses
 from ....signals import Signal, force_outputs, journal_inputs
 from ...oil.heat_balance import FilmHeat, fed_temperature
@@ -158,6 +160,27 @@ class TiltingPadBearing(Called, TiltingPads):
         found = self._at(x, u, slopes=True).slopes
         assert found is not None
         return found
+
+    def native(self) -> NativeSpec | None:
+        """Return the kernel of the C library that is this bearing; None if its film is no map.
+
+        Nor has a subclass. Its parameters are the dimensions, with the clearance of the pads, and the
+        viscosity; radius and length are fixed.
+        """
+        if type(self) is not TiltingPadBearing or not isinstance(self.film, PadMapFilm) or self.is_warming:
+            return None
+        numbers = (
+            *(self.extent, self.pivot_offset, self.preload, self.pivot_stiffness or 0.0),
+            *(self.reduced_inertia, self.pad_mass or 0.0, self.slenderness),
+        )
+        tables = self.film.table(self.extent, self.slenderness).kernel().tables
+        lengths = {name: float(getattr(self, name)) for name in ("radius", "length", "clearance")}
+        return journal_spec(
+            "tilting_journal" if self.pad_inertia is None else "heavy_tilting_journal",
+            {"pivots": np.array(self.pivots), "pads": np.array(numbers), **tables},
+            {**lengths, "viscosity": self.film_viscosity},
+            fixed=True,
+        )
 
     def portable(self) -> TiltingPadBearing:
         """Return this bearing with a film that carries the map it needs; see `model.Portable`."""
