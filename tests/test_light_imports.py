@@ -35,7 +35,7 @@ PATHS = {
         {"rich.progress"},
         OTHER_PARTS - {"cli"}
         | OTHER_FAMILIES
-        | {"cli.chart_commands", "linear.whirl", "scenes.scene", *TABLES},
+        | {"cli.charts.chart_commands", "linear.whirl", "scenes.scene", *TABLES},
     ),
 }
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from . import bushes, contacts, couplings, dampers, heated, journals, openings, shafts
+from . import bushes, contacts, couplings, dampers, heated, journals, openings, padded, shafts
 from .drawn import Drawn
 
 Draw = Callable[[np.random.Generator], Drawn]
@@ -35,6 +35,9 @@ FAMILIES: dict[str, tuple[int, Draw]] = {
     "shaft whirl": (1, shafts.shaft_whirl),
     "fed": (1, openings.fed),
     "pads": (1, openings.pads),
+    "lobes": (2, padded.lobes),
+    "dam": (1, padded.dam),
+    "tilting": (2, padded.tilting),
     "heated": (0, heated.heated),
 }
 """Weight of each family in a round of the battery, and how one scene of it is drawn; 0 of those run alone."""

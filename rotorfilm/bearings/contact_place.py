@@ -25,6 +25,13 @@ def minimum_film(reaction: JournalForce, position: Array) -> Array:
     return np.asarray(reaction.clearance - np.hypot(position[0], position[1]))
 
 
+def reach(reaction: JournalForce, positions: Array) -> float:
+    """Return how far the way of journals (2, ...) [m] goes towards contact: 1 - least film / clearance."""
+    if isinstance(reaction, WalledReaction):
+        return 1.0 - float(np.min(reaction.minimum_film(positions))) / reaction.clearance
+    return float(np.hypot(positions[0], positions[1]).max()) / reaction.clearance
+
+
 def relative_film(reaction: JournalForce, position: Array) -> float:
     """Return the least film of a journal at a position (2,) [m], in clearances."""
     if isinstance(reaction, WalledReaction):

@@ -10,6 +10,10 @@ if TYPE_CHECKING:
         plot_critical_speed as plot_critical_speed,
     )
     from .canvas import new_axes as new_axes, new_figure as new_figure, save as save
+    from .comparisons.bearing_type_charts import (
+        plot_bearing_coefficients as plot_bearing_coefficients,
+        plot_bearing_thresholds as plot_bearing_thresholds,
+    )
     from .comparisons.bush_tier_charts import (
         plot_bush_tiers as plot_bush_tiers,
         plot_shaft_flux_error as plot_shaft_flux_error,
@@ -27,6 +31,7 @@ if TYPE_CHECKING:
     from .comparisons.damper_ladder import plot_damper_accuracy as plot_damper_accuracy
     from .comparisons.heat_ladder import plot_heat_accuracy as plot_heat_accuracy
     from .comparisons.limit_charts import plot_limits as plot_limits
+    from .comparisons.pad_ladder import plot_pad_accuracy as plot_pad_accuracy
     from .comparisons.scene_ladder import RungPoint as RungPoint, plot_scene_ladder as plot_scene_ladder
     from .comparisons.whirl_verdicts import (
         plot_journal_stability as plot_journal_stability,

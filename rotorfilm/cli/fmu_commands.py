@@ -10,7 +10,6 @@ from typing import Annotated, Any
 from ..progress import Report
 from . import printing as console
 from .command import Argument, Option, Said, SceneFile
-from .solve_command import make_map
 
 FmuFile = Annotated[Path, Argument(metavar="FILE.fmu", help="FMU of FMI 2.0 or 3.0.")]
 
@@ -54,9 +53,9 @@ def build(
     from ..scenes.shaft.export_rotor import export_system
 
     loaded = Scene.load(scene)
-    whole = loaded.shaft is not None and loaded.journal is None
-    if loaded.journal is not None and loaded.damper is None:
-        make_map(loaded.bearing, report)
+    whole = loaded.shaft is not None and not loaded.has_film
+    if loaded.has_film and loaded.damper is None:
+        loaded.film_table.make_map(report)
     made = (export_system if whole else export_scene)(
         loaded,
         out,

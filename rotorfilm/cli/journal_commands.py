@@ -13,7 +13,6 @@ from ..readable.result import rows
 from ..units import whole_number
 from . import printing as console
 from .command import Argument, Option, Said
-from .solve_command import make_map
 
 if TYPE_CHECKING:
     from ..bearings.films.geometry import Groove
@@ -74,9 +73,9 @@ def coefficients(
     geometry |= {"viscosity": viscosity} if viscosity is not None else {}
     grooves = tuple(_groove(text) for text in groove or [])
     law = _film(film, order, constant, rupture, cells)
-    table = replace(read_table(JournalTable, "--", geometry), film=law, grooves=grooves)
-    bearing = table.on("--", lubricant).build()
-    make_map(bearing, report)
+    table = replace(read_table(JournalTable, "--", geometry), film=law, grooves=grooves).on("--", lubricant)
+    bearing = table.build()
+    table.make_map(report)
     force, rate = _operation(load, speed)
     at = equilibrium(bearing, force, rate)
     derivatives = film_coefficients(bearing, at.position, rate)
@@ -118,7 +117,7 @@ def groove_map(
     elif given := [name for name, value in options.items() if value]:
         raise InputError(f"{given[0]} must not be given with a scene, got {options[given[0]]!r}")
     else:
-        table = build_groove_map(Scene.load(scene).bearing, report)
+        table = build_groove_map(Scene.load(scene).journal_bearing, report)
     if out is not None:
         table.save(out)
     folder, reach = str(cache_folder()), table.largest_eccentricity_ratio

@@ -46,18 +46,20 @@ FMU_COMMANDS = {
 }
 
 CHARTS = {
-    "chart_commands.journal": "chart journal --ld 0.5 --json",
-    "chart_commands.stability": "chart stability --ld 0.5 --json",
-    "chart_commands.contact": "chart contact --cells 48 --json",
-    "chart_commands.contact_cases": "chart contact-cases --cells 40",
-    "chart_commands.contact_limits": "chart contact-limits --json",
-    "chart_commands.scene": "chart scene examples/question.toml",
-    "chart_commands.limits": "chart limits --physics journal --physics damper",
-    "chart_commands.page": "chart page --out rotorfilm-charts",
-    "chart_commands.bush": "chart bush --json",
-    "chart_commands.heat": "chart heat --out rotorfilm-charts",
-    "chart_commands.damper": "chart damper --ld 0.25 --permeability 0.001",
-    "chart_commands.cosim": "chart cosim --json",
+    "charts.chart_commands.journal": "chart journal --ld 0.5 --json",
+    "charts.chart_commands.stability": "chart stability --ld 0.5 --json",
+    "charts.pad_commands.bearings": "chart bearings --ld 0.5 --mass '250 kg'",
+    "charts.pad_commands.pads": "chart pads --ld 0.5 --json",
+    "charts.chart_commands.contact": "chart contact --cells 48 --json",
+    "charts.chart_commands.contact_cases": "chart contact-cases --cells 40",
+    "charts.chart_commands.contact_limits": "chart contact-limits --json",
+    "charts.chart_commands.scene": "chart scene examples/question.toml",
+    "charts.chart_commands.limits": "chart limits --physics journal --physics damper",
+    "charts.chart_commands.page": "chart page --out rotorfilm-charts",
+    "charts.chart_commands.bush": "chart bush --json",
+    "charts.chart_commands.heat": "chart heat --out rotorfilm-charts",
+    "charts.chart_commands.damper": "chart damper --ld 0.25 --permeability 0.001",
+    "charts.chart_commands.cosim": "chart cosim --json",
 }
 
 ALL = Group(

@@ -14,7 +14,6 @@ from .bush_command import print_bush
 from .command import Option, Said, SceneFile
 
 if TYPE_CHECKING:
-    from ..bearings.journal import JournalBearing
     from ..scenes import Scene
     from ..scenes.journal.solve_journal import Answer
 
@@ -38,10 +37,10 @@ def solve(
         return _question(scene, loaded, explain)
     if explain:
         raise InputError(f"--explain must be given with a scene that has a [question], got {str(scene)!r}")
-    if loaded.bush is not None and loaded.journal is None:
+    if loaded.bush is not None and not loaded.has_film:
         melting = loaded.melting()
         return Said(melting, partial(print_bush, melting))
-    make_map(loaded.bearing, report)
+    loaded.film_table.make_map(report)
     answer = loaded.describe()
     return Said(answer, partial(print_answer, loaded.title, answer))
 
@@ -69,16 +68,6 @@ def _question(path: Path, scene: Scene, explain: bool) -> Said:
         raise InputError(f"{path}: {error}") from None
     show = partial(print_question, scene.title, answer, explain=explain)
     return Said(answer, show, None if answer.met else answer.message)
-
-
-def make_map(bearing: JournalBearing, report: Report) -> None:
-    """Make the map of a bearing that needs one of its own, unless it lies on disk."""
-    if not (bearing.grooves or bearing.pads):
-        return
-    from ..bearings.journal import GroovedMapFilm, build_groove_map
-
-    if isinstance(bearing.fitted_film, GroovedMapFilm):
-        build_groove_map(bearing, report)
 
 
 def remark_rows(remarks: tuple[str, ...]) -> list[tuple[str, str]]:

@@ -72,5 +72,25 @@ if TYPE_CHECKING:
         failures as failures,
     )
     from .limits.limits_atlas import limits_atlas as limits_atlas
+    from .pads.bearing_types import BearingType as BearingType, bearing_types as bearing_types
+    from .pads.pad_accuracy import (
+        ComparedPad as ComparedPad,
+        PadAccuracy as PadAccuracy,
+        PadFamily as PadFamily,
+        PadRung as PadRung,
+        pad_accuracy as pad_accuracy,
+        pad_rungs as pad_rungs,
+    )
+    from .pads.type_coefficients import (
+        BearingCoefficients as BearingCoefficients,
+        TypeCoefficients as TypeCoefficients,
+        bearing_coefficients as bearing_coefficients,
+    )
+    from .pads.type_thresholds import (
+        BearingThresholds as BearingThresholds,
+        TypeThresholds as TypeThresholds,
+        WhirlOutcome as WhirlOutcome,
+        bearing_thresholds as bearing_thresholds,
+    )
 else:
     show(__name__)

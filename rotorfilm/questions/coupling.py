@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -167,7 +167,7 @@ def coupling_ladder(scene: Scene, quantity: str) -> Ladder:
         rungs=tuple(rungs),
         unit="1",
         units=_units(case),
-        remarks=() if scene.journal is None else (*_kept(case), *scene.film_remarks),
+        remarks=(*_kept(case), *scene.film_remarks) if scene.has_film else (),
         within=ISOTHERMAL,
     )
 
@@ -183,12 +183,13 @@ def _case(scene: Scene, quantity: str) -> CouplingCase:
     if scene.speed == 0.0:
         raise InputError(f"operation.speed must not be zero for {quantity}, got 0.0")
     turns = scene.cosimulation.revolutions
-    if scene.journal is None:
+    if not scene.has_film:
         assert scene.damper is not None  # the question is asked of scenes with either
         centered = scene.rigid_rotor.build(scene.speed, (0.0, 0.0))
         return CouplingCase(rotor=centered, reaction=scene.damper.support(), revolutions=turns)
-    film, load, name = scene.bearing, scene.static_load, ""
-    if not (scene.film_is_given or has_map(film)):
+    load, name = scene.static_load, ""
+    film: Any = scene.bearing
+    if scene.journal is not None and not (scene.film_is_given or has_map(film)):
         # A map of its own takes some seconds, and the coupling hardly depends on the film.
         film, name = with_film(film, ReynoldsFilm(cells=CELLS)), f"2-D {CELLS[0]} x {CELLS[1]}"
     at = equilibrium(film, load, scene.speed)

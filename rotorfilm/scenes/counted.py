@@ -7,7 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..bearings.contact_place import WalledReaction, minimum_film
 from ..bearings.reaction import StaticReaction
+from ..errors import require_vector
 from ..model import Array, Reaction, Tangent, largest_eccentricity_ratio, prepared_tangent
 
 
@@ -65,3 +67,16 @@ class Counted(StaticReaction):
             return call(x, y, vx, vy, speed)
 
         return tangent
+
+
+class CountedWall(Counted):
+    """The same of a reaction that says itself where its journal touches."""
+
+    def minimum_film(self, position: ArrayLike) -> Array:
+        """Return the least film [m], shape (...), of journals at positions (2, ...) [m]."""
+        return minimum_film(self._reaction, require_vector("position", position))
+
+
+def counted_calls(reaction: Reaction) -> Counted:
+    """Return a reaction that counts its evaluations."""
+    return (CountedWall if isinstance(reaction, WalledReaction) else Counted)(reaction)

@@ -143,7 +143,7 @@ def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
     """
     if scene.rigid_rotor is None:
         raise InputError("rigid_rotor is required for the demonstration, got no such table")
-    slenderness, rungs = scene.bearing.slenderness, demo_rungs()
+    slenderness, rungs = scene.journal_bearing.slenderness, demo_rungs()
     plain = comparison_bearing(slenderness)
     folder.mkdir(parents=True, exist_ok=True)
     report(0.0, "equilibrium, stiffness and damping, whirl threshold")
@@ -172,7 +172,7 @@ def run_demo(folder: Path, scene: Scene, report: Report = silent) -> DemoResult:
     result = DemoResult(
         scene=scene,
         answer=answer,
-        running=running_bearing(scene.bearing, scene.static_load, scene.speed),
+        running=running_bearing(scene.journal_bearing, scene.static_load, scene.speed),
         speed_parameter=speed_parameter(
             speed=scene.speed,
             clearance=scene.bearing.clearance,

@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib import import_module
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol, Self, runtime_checkable
 
 from ..errors import InputError
 from ..ladders import Ladder
-from ..model import Model
+from ..model import Model, Reaction
+from ..progress import Report
+from ..readable.result import Readable
+from .lubricant_table import Lubricant, LubricantTable
 
 FAMILIES = {
     "journal": "questions.journal.journal_family",
@@ -17,6 +20,9 @@ FAMILIES = {
     "contact": "questions.contact.contact_family",
     "shaft": "questions.shaft.shaft_family",
     "damper": "questions.damper.damper_family",
+    "lobed_journal": "questions.pads.lobed_family",
+    "pressure_dam": "questions.pads.dam_family",
+    "tilting_pad": "questions.pads.tilting_family",
 }
 """By the name of its table in a scene, the module of a family that has its record, `FAMILY`.
 
@@ -67,6 +73,43 @@ class Family:
     ladders: Mapping[str, Callable[[Any, str], Ladder]]
     models: Callable[[Any], SceneModels] | None = None
     command: str = ""
+
+
+@runtime_checkable
+class FilmTable(Protocol):
+    """What the table of one bearing with a film has besides its keys: a rotor may rest on it."""
+
+    @property
+    def viscosity(self) -> float | None:
+        """That the file gives [Pa s]; None where `[lubricant]` does."""
+
+    @property
+    def film_is_given(self) -> bool:
+        """Whether the file names the film, so that no other may answer."""
+
+    def on(self, where: str, lubricant: LubricantTable) -> Self:
+        """Return this table with the oil of the scene, unless it has its own viscosity.
+
+        Parameters
+        ----------
+        where : str
+            Its name in the file, for messages.
+        lubricant : LubricantTable
+        """
+
+    def build(self) -> Reaction:
+        """Return the bearing; raise InputError where a value breaks its rule."""
+
+    def echo(self, bearing: Any) -> tuple[Readable, str]:
+        """Return what an answer repeats of the bearing that was built, and the name of its film."""
+
+    def remarks(
+        self, bearing: Any, oil: Lubricant, speed: float, load: tuple[float, float]
+    ) -> tuple[str, ...]:
+        """Return what its physics leaves out and should not, at a speed [rad/s] and a load [N]."""
+
+    def make_map(self, report: Report) -> None:
+        """Make the map that the bearing needs, unless it lies on disk."""
 
 
 def family_of(name: str) -> Family:

@@ -12,6 +12,7 @@ from typing import Annotated, Any
 from ..answers import QuestionAnswer
 from ..bearings.journal import JournalBearing
 from ..errors import InputError, warn_user
+from ..model import Reaction
 from ..rotors.rigid import RigidRotor
 from ..units import STANDARD_GRAVITY
 from .bush.bush_table import BushTable
@@ -19,9 +20,8 @@ from .bush.solve_bush import BushAnswer, solve_bush
 from .contact.contact_table import ContactTable
 from .damper.damper_table import DamperTable
 from .excitation_table import EXCITATIONS, ExcitationTable, UnbalanceTable
-from .families import FAMILIES, family_of, table_of
-from .journal.journal_remarks import film_remarks
-from .journal.solve_journal import Answer, solve
+from .families import FAMILIES, FilmTable, family_of, table_of
+from .journal.solve_journal import Answer, film_answer
 from .lubricant_table import LubricantTable
 from .question_table import QuestionTable
 from .reading.tables import Beside, Table, Variant, read_table, text
@@ -106,7 +106,12 @@ class Scene:
             require_place(self.question.at, self.question.quantity, self.shaft)
         if isinstance(self.excitation, UnbalanceTable):
             require_node("excitation.node", self.excitation.node, self.shaft)
-        if self.journal is None:
+        films = self._film_tables
+        if len(films) > 1:
+            raise InputError(
+                f"{' and '.join(films)} must not stand in one scene: which does the rotor rest on?"
+            )
+        if not films:
             return
         if self.operation is None:
             raise InputError("operation is required and missing: the journal has no speed and no load")
@@ -115,8 +120,12 @@ class Scene:
 
     def _take_oil(self) -> None:
         """Give the oil of `[lubricant]` to the journal bearings that state no viscosity."""
-        if self.journal is not None:
-            object.__setattr__(self, "journal", self.journal.on("journal", self.lubricant))
+        for name, table in self._film_tables.items():
+            on_oil = table.on(name, self.lubricant)
+            if name in self.others:
+                object.__setattr__(self, "others", {**self.others, name: on_oil})
+            else:
+                object.__setattr__(self, name, on_oil)
         if self.shaft is not None:
             object.__setattr__(self, "shaft", self.shaft.on(self.lubricant))
 
@@ -141,7 +150,7 @@ class Scene:
         """Return the answer to the question; where none is asked `describe()`, of a bush `melting()`."""
         if self.question is not None:
             return self.ask()
-        return self.melting() if self.bush is not None and self.journal is None else self.describe()
+        return self.melting() if self.bush is not None and not self.has_film else self.describe()
 
     def ask(self) -> QuestionAnswer:
         """Return the answer to the question by the first rung that meets its tolerance.
@@ -170,14 +179,15 @@ class Scene:
         return answer
 
     def describe(self) -> Answer:
-        """Return equilibrium, coefficients and whirl threshold; see `solve_journal`.
+        """Return equilibrium, coefficients and whirl threshold of a bearing with a film; see `solve_journal`.
 
         What the physics of the film leaves out is in `remarks` of the answer.
         """
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
-        bearing = self.bearing  # once: making it may warn
-        answer = solve(bearing, load=self.static_load, speed=self.speed, mass=mass)
-        remarks = film_remarks(bearing, self.lubricant.properties, self.speed, self.static_load)
+        table, bearing = self.film_table, self.bearing  # once: making it may warn
+        load, speed = self.static_load, self.speed
+        answer = film_answer(bearing, table.echo(bearing), load=load, speed=speed, mass=mass)
+        remarks = table.remarks(bearing, self.lubricant.properties, speed, load)
         return replace(answer, remarks=(*self.oil_remarks, *remarks))
 
     def melting(self) -> BushAnswer:
@@ -192,8 +202,9 @@ class Scene:
 
     @property
     def film_remarks(self) -> tuple[str, ...]:
-        """What the physics of the journal's film leaves out and should not, one line each."""
-        own = film_remarks(self.bearing, self.lubricant.properties, self.speed, self.static_load)
+        """What the physics of the bearing's film leaves out and should not, one line each."""
+        oil = self.lubricant.properties
+        own = self.film_table.remarks(self.bearing, oil, self.speed, self.static_load)
         return (*self.oil_remarks, *own)
 
     @property
@@ -201,7 +212,7 @@ class Scene:
         """That bearings have a viscosity of their own although `[lubricant]` has one, one line each."""
         if not self.lubricant.has_viscosity:
             return ()
-        journals = {"journal": self.journal} if self.journal is not None else {}
+        journals: dict[str, Any] = dict(self._film_tables)
         for k, one in enumerate(self.shaft.bearings if self.shaft is not None else ()):
             if one.journal is not None:
                 journals[f"shaft.bearings[{k}].journal"] = one.journal
@@ -215,7 +226,27 @@ class Scene:
     @property
     def film_is_given(self) -> bool:
         """Whether the file names the film, so that no other may answer."""
-        return self.journal is not None and self.journal.film is not None
+        return self.has_film and self.film_table.film_is_given
+
+    @property
+    def has_film(self) -> bool:
+        """Whether there is a bearing with a film that carries the static load."""
+        return bool(self._film_tables)
+
+    @property
+    def film_table(self) -> FilmTable:
+        """The table of the bearing with a film; raises InputError if the scene has none."""
+        found = next(iter(self._film_tables.values()), None)
+        if found is None:
+            given = {name: family_of(name).command for name in FAMILIES if self.table(name) is not None}
+            hints = "".join(f"; `{command}` is for [{name}]" for name, command in given.items() if command)
+            raise InputError(f"journal is required for a film, got no such table{hints}")
+        return found
+
+    @property
+    def _film_tables(self) -> dict[str, FilmTable]:
+        tables = {name: self.table(name) for name in FAMILIES}
+        return {name: table for name, table in tables.items() if isinstance(table, FilmTable)}
 
     @property
     def speed(self) -> float:
@@ -232,12 +263,15 @@ class Scene:
         return 0.0, -STANDARD_GRAVITY * self.rigid_rotor.mass
 
     @property
-    def bearing(self) -> JournalBearing:
-        """The journal bearing with its film law; raises InputError if the scene has none."""
+    def bearing(self) -> Reaction:
+        """The bearing with its film law; raises InputError if the scene has none with a film."""
+        return self.film_table.build()
+
+    @property
+    def journal_bearing(self) -> JournalBearing:
+        """The bearing of `[journal]`; raises InputError if the scene has none."""
         if self.journal is None:
-            given = {name: family_of(name).command for name in FAMILIES if self.table(name) is not None}
-            hints = "".join(f"; `{command}` is for [{name}]" for name, command in given.items() if command)
-            raise InputError(f"journal is required for a film, got no such table{hints}")
+            raise InputError("journal is required, got no such table")
         return self.journal.build()
 
     @property

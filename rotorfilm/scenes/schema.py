@@ -17,8 +17,11 @@ from ..bearings.journal import JournalBearing, MapFilm
 from ..bearings.oil import Cooling, Oil
 from ..errors import InputError, require_finite, require_positive
 from ..limits import STEPS
+from ..progress import Report
+from .journal.echo import BearingData, bearing_data
 from .journal.film_tables import FILMS, GROOVE, PAD
-from .lubricant_table import LubricantTable
+from .journal.journal_remarks import film_remarks
+from .lubricant_table import Lubricant, LubricantTable
 from .reading.readers import read_load
 from .reading.shared_fields import made_from
 from .reading.tables import Quantity, TableList, Variant
@@ -75,6 +78,11 @@ class JournalTable:
             self.build()
 
     @property
+    def film_is_given(self) -> bool:
+        """Whether the file names the film, so that no other may answer."""
+        return self.film is not None
+
+    @property
     def has_lubricant(self) -> bool:
         """Whether there is a viscosity, or the oil of the scene."""
         return self.viscosity is not None or self.oil is not None
@@ -100,6 +108,24 @@ class JournalTable:
         Where the file names no film: the map if there is one, else the film in two dimensions.
         """
         return made_from(JournalBearing, self, film=self._film())
+
+    def echo(self, bearing: JournalBearing) -> tuple[BearingData, str]:
+        """Return what an answer repeats of the bearing, and the name of its film."""
+        return bearing_data(bearing), journal.film_name(bearing.fitted_film)
+
+    def remarks(
+        self, bearing: JournalBearing, oil: Lubricant, speed: float, load: tuple[float, float]
+    ) -> tuple[str, ...]:
+        """Return what its physics leaves out and should not; see `film_remarks`."""
+        return film_remarks(bearing, oil, speed, load)
+
+    def make_map(self, report: Report) -> None:
+        """Make the map of openings, where there are some and the film is one, unless it lies on disk."""
+        if not (self.grooves or self.pads):
+            return
+        bearing = self.build()
+        if isinstance(bearing.fitted_film, journal.GroovedMapFilm):
+            journal.build_groove_map(bearing, report)
 
     def _film(self) -> FilmLaw:
         if self.film is not None:

@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...bearings.contact_place import reach
 from ...linear import RotorEquilibrium, coefficients, equilibrium
 from ...linear.rotor_system import second_order, with_hysteresis
 from ...model import Array, Reaction
@@ -228,12 +229,9 @@ def propagated(
 
 
 def reach_of(orbit: Array, stations: Sequence[str], bearings: Mapping[str, Reaction]) -> float:
-    """Return the largest distance of a journal from the center of its bearing / clearance, at the samples."""
+    """Return how far the journals go towards contact at the samples; see `contact_place.reach`."""
     position = orbit @ basis(orbit.shape[1] // 2, orbit.shape[1]).values.T
-    return max(
-        float(np.hypot(*position[2 * k : 2 * k + 2]).max()) / bearings[name].clearance
-        for k, name in enumerate(stations)
-    )
+    return max(reach(bearings[name], position[2 * k : 2 * k + 2]) for k, name in enumerate(stations))
 
 
 def _by_bearing(rows: Array) -> Array:

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...answers import ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work, WorkUnit, beside_bound
+from ...bearings.contact_place import reach
 from ...errors import InputError
 from ...ladders import Ladder
 from ...linear import coefficients, equilibrium
@@ -18,7 +19,8 @@ from ...motion.transient.equal_steps import MarchMotion, peak
 from ...motion.transient.shaken_rotor import RestTangent, ShakenRotor, states_along
 from ...results import Coefficients
 from ...scenes.excitation_table import BladeLossTable
-from ...scenes.journal.film_rung import MAP_BOUNDS, FilmRung
+from ...scenes.journal.film_candidate import FilmCandidate
+from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.warm_rest import WarmRest
 from ..peak_rung import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
 from .field_rungs import HeatedQuestion
@@ -36,7 +38,7 @@ LINEAR_CALLS = 6
 
 
 @dataclass(frozen=True, kw_only=True)
-class BladeLossRung(PeakRung[FilmRung]):
+class BladeLossRung(PeakRung[FilmCandidate]):
     """The peak in a journal bearing.
 
     Attributes
@@ -94,11 +96,11 @@ class BladeLossRung(PeakRung[FilmRung]):
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the error of the steps (order increment), and of the film by its defect along the motion."""
         motion: MarchMotion = found.solution.motion
-        reach = float(np.hypot(*motion.position).max()) / self.film.reaction.clearance
-        if reach >= 0.999:
+        near = reach(self.film.reaction, motion.position)
+        if near >= 0.999:
             return ErrorEstimate(math.inf, "defect", doubt="the motion leaves the clearance: not linear")
         steps, how = (abs(self.increment(found)), "order increment; ") if self.steps else (0.0, "")
-        bound = MAP_BOUNDS[0][2] if self.film.bounded and reach <= MAP_BOUNDS[0][0] else math.inf
+        bound = self.film.motion_bound(near)
         if self.steps and SAFETY * bound < tolerance:
             return beside_bound(steps, bound, how + "verified bound of the map", {})
         own = not self.steps and SAFETY * bound < tolerance
@@ -122,23 +124,47 @@ def blade_loss_ladder(scene: Scene, quantity: str) -> Ladder:
     InputError
         If the scene loses no blade, has no rotor, or does not turn.
     """
+    calls = calls_of(lost_blade(scene))
+    films = tuple(sorted(orbit_films(scene), key=lambda film: film.time(calls)))
+    if scene.journal_bearing.is_warming:
+        return warm_blade_ladder(scene, films, partial(BladeLossRung, **blade_numbers(scene)))
+    return cold_blade_ladder(scene, films)
+
+
+def calls_of(excitation: BladeLossTable) -> int:
+    """Return how many forces most motions take."""
+    return math.ceil(3 * COMMON_STEPS * excitation.revolutions)
+
+
+def blade_numbers(scene: Scene) -> dict[str, Any]:
+    """Return what all rungs of a lost blade share.
+
+    Raises
+    ------
+    InputError
+        If the scene loses no blade, has no rotor or one with an unbalance, or does not turn.
+    """
+    rotor = scene.rotor
+    require_one_unbalance(rotor)
+    excitation = lost_blade(scene)
+    return {"load": scene.static_load, "speed": scene.speed, "mass": rotor.mass, "excitation": excitation}
+
+
+def lost_blade(scene: Scene) -> BladeLossTable:
+    """Return the blade that a scene loses; raise InputError if there is none, or nothing turns."""
     if not isinstance(scene.excitation, BladeLossTable):
         got = "none" if scene.excitation is None else f"{scene.excitation!r}"
-        raise InputError(f'excitation of kind "blade_loss" is required for {quantity}, got {got}')
+        raise InputError(f'excitation of kind "blade_loss" is required for blade_loss_peak, got {got}')
     if scene.speed == 0.0:
         raise InputError("operation.speed must not be zero for a lost blade, got 0.0")
-    calls = math.ceil(3 * COMMON_STEPS * scene.excitation.revolutions)
-    films, rotor = tuple(sorted(orbit_films(scene), key=lambda film: film.time(calls))), scene.rotor
-    require_one_unbalance(rotor)
-    make = partial(
-        BladeLossRung,
-        load=scene.static_load,
-        speed=scene.speed,
-        mass=rotor.mass,
-        excitation=scene.excitation,
-    )
-    if scene.bearing.is_warming:
-        return warm_blade_ladder(scene, films, make)
+    return scene.excitation
+
+
+def cold_blade_ladder(scene: Scene, films: Sequence[FilmCandidate]) -> Ladder:
+    """Return the ladder of the peak by films of one viscosity: linear, then nonlinear, on each."""
+    make = partial(BladeLossRung, **blade_numbers(scene))
+    calls = calls_of(lost_blade(scene))
+    films = sorted(films, key=lambda film: film.time(calls))
     rungs = [make(film=film, steps=steps) for film in films for steps in (0, *STEPS)]
     if any(film.makes_map for film in films[:-1]):
         # A linear motion takes so few forces that no map is worth it.

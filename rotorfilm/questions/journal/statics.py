@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...answers import ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work, WorkUnit
-from ...bearings.journal import JournalBearing, film_name, has_losses
+from ...bearings.contact_place import minimum_film
+from ...bearings.journal import film_name, has_losses
 from ...errors import InputError
 from ...ladders import CandidateRung, Ladder
 from ...linear import coefficients, equilibrium
-from ...model import Array, prepared_tangent
+from ...model import Array, JournalForce, prepared_tangent
 from ...results import Equilibrium
-from ...scenes.counted import Counted
+from ...scenes.counted import counted_calls
+from ...scenes.journal.film_candidate import FilmCandidate, room
 from ...scenes.journal.film_defects import corrected, one_defect
 from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.film_rungs import point_films
@@ -43,7 +45,7 @@ UNITS = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class StaticRung(CandidateRung[FilmRung]):
+class StaticRung(CandidateRung[FilmCandidate]):
     """The equilibrium by one film.
 
     Attributes
@@ -67,7 +69,7 @@ class StaticRung(CandidateRung[FilmRung]):
     def answer(self, before: Found | None) -> Found:
         """Return the quantity at the equilibrium of this film."""
         made = self.film.prepare()
-        counted = Counted(self.film.reaction)
+        counted = counted_calls(self.film.reaction)
         at = equilibrium(counted, self.load, self.speed)
         if self.quantity in MATRIX:
             found = coefficients(counted, at.position, self.speed)
@@ -76,7 +78,7 @@ class StaticRung(CandidateRung[FilmRung]):
             value = self.scalar(at.position, self.film.reaction)
         return Found(value, {self.film.tangents: counted.tangents, **made}, at)
 
-    def scalar(self, position: Array, bearing: JournalBearing) -> float:
+    def scalar(self, position: Array, bearing: Any) -> float:
         """Return a quantity that follows from the position (2,) [m] in this or the richer bearing."""
         if self.quantity in LOSSES:
             return float(getattr(bearing.losses(position, np.zeros(2), self.speed), self.quantity))
@@ -86,10 +88,8 @@ class StaticRung(CandidateRung[FilmRung]):
         if self.quantity == "eccentricity_ratio":
             return distance / self.film.reaction.clearance
         if self.quantity == "minimum_film":
-            return self.film.reaction.clearance - distance
-        (x, y), (load_x, load_y) = position, self.load
-        turned = math.atan2(load_x * y - load_y * x, load_x * x + load_y * y)
-        return math.copysign(1.0, self.speed) * turned
+            return float(minimum_film(self.film.reaction, position))
+        return attitude(position, self.load, self.speed)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the verified bound if that is enough, else the change that the richer film would make."""
@@ -105,7 +105,7 @@ class StaticRung(CandidateRung[FilmRung]):
             return self.film.loss_bound(at.eccentricity_ratio)
         if self.quantity in TEMPERATURES:
             return 2.0 * self.film.loss_bound(at.eccentricity_ratio)  # that of power/flow
-        bound = self.film.bound(at.eccentricity_ratio, slopes=slopes)
+        bound = self.film.rest_bound(at, slopes=slopes)
         if slopes or not math.isfinite(bound):
             return bound
         stiffness = coefficients(self.film.reaction, at.position, self.speed).stiffness
@@ -125,9 +125,7 @@ class StaticRung(CandidateRung[FilmRung]):
             better: Array | float = -moved.slopes[:, first : first + 2]
         else:
             better = self.scalar(moved.position, self.film.rich)
-        cooling = self.film.reaction.cooling
-        zero = 0.0 if cooling is None else cooling.supply_temperature
-        error = relative_distance(self.quantity, found.value, better, zero)
+        error = relative_distance(self.quantity, found.value, better, self.film.supply_temperature)
         twice = self.quantity in LOSSES or self.quantity in TEMPERATURES
         return ErrorEstimate(
             error,
@@ -142,6 +140,13 @@ class StaticRung(CandidateRung[FilmRung]):
         return self.film.expected(sum(done.values()))
 
 
+def attitude(position: Array, load: tuple[float, float], speed: float) -> float:
+    """Return the angle [rad] from a load [N] to a position (2,) [m], in the sense of rotation."""
+    (x, y), (load_x, load_y) = position, load
+    turned = math.atan2(load_x * y - load_y * x, load_x * x + load_y * y)
+    return math.copysign(1.0, speed) * turned
+
+
 def relative_distance(quantity: str, value: Array | float, better: Array | float, supply: float) -> float:
     """Return how far a value is from a better one, in the unit of the tolerance.
 
@@ -154,20 +159,18 @@ def relative_distance(quantity: str, value: Array | float, better: Array | float
     return gap / (1.0 if quantity == ANGLE else float(np.max(np.abs(better))))
 
 
-def film_units(films: tuple[FilmRung, ...], speed: float) -> dict[WorkUnit, Callable[[], object]]:
+def film_units(films: Sequence[FilmCandidate], speed: float) -> dict[WorkUnit, Callable[[], object]]:
     """Return one unit of work of each film, at half the clearance."""
     units: dict[WorkUnit, Callable[[], object]] = {}
     for film in films:
         units[film.tangents] = _one_tangent(film.reaction, speed)
         for smooth in (False, True):
-            units[film.defects(smooth=smooth)] = one_defect(film.rich, speed, smooth=smooth)
+            units[film.defects(smooth=smooth)] = one_defect(film, speed, smooth=smooth)
     return units
 
 
-def _one_tangent(bearing: JournalBearing, speed: float) -> Callable[[], object]:
-    return lambda: prepared_tangent(bearing)(
-        0.3 * bearing.clearance, 0.4 * bearing.clearance, 0.0, 0.0, speed
-    )
+def _one_tangent(bearing: JournalForce, speed: float) -> Callable[[], object]:
+    return lambda: prepared_tangent(bearing)(0.3 * room(bearing), 0.4 * room(bearing), 0.0, 0.0, speed)
 
 
 def static_ladder(scene: Scene, quantity: str) -> Ladder:
@@ -179,19 +182,24 @@ def static_ladder(scene: Scene, quantity: str) -> Ladder:
         If the film has no losses, where they are asked for or heat the oil; if a temperature is asked for and
         there is no oil.
     """
-    films = point_films(scene.bearing, fixed=scene.film_is_given)
-    if scene.bearing.is_warming:
+    films = point_films(scene.journal_bearing, fixed=scene.film_is_given)
+    if scene.journal_bearing.is_warming:
         return warm_static_ladder(scene, quantity, films)
     if quantity in TEMPERATURES:
         raise InputError(
             f"lubricant must give the oil of the journal for {quantity}, as a grade, got journal.viscosity "
-            f"{scene.bearing.film_viscosity:g} Pa s"
+            f"{scene.journal_bearing.film_viscosity:g} Pa s"
         )
     if quantity in LOSSES:
         films = tuple(film for film in films if has_losses(film.reaction))
         if not films:
-            name = film_name(scene.bearing.fitted_film)
+            name = film_name(scene.journal_bearing.fitted_film)
             raise InputError(f"film must be a law with losses for {quantity}, as map or reynolds, got {name}")
+    return cold_static_ladder(scene, quantity, films)
+
+
+def cold_static_ladder(scene: Scene, quantity: str, films: Sequence[FilmCandidate]) -> Ladder:
+    """Return the ladder of a static quantity by films of one viscosity."""
     rungs = tuple(
         StaticRung(film=film, quantity=quantity, load=scene.static_load, speed=scene.speed) for film in films
     )
@@ -210,7 +218,7 @@ def warm_static_ladder(scene: Scene, quantity: str, films: tuple[FilmRung, ...])
     def make(film: FilmRung) -> StaticRung:
         return StaticRung(film=film, quantity=quantity, load=scene.static_load, speed=scene.speed)
 
-    supply = scene.bearing.cooled[1].supply_temperature
+    supply = scene.journal_bearing.cooled[1].supply_temperature
     question = HeatedQuestion(
         load=scene.static_load,
         speed=scene.speed,

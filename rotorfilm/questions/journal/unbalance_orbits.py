@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
@@ -26,7 +26,8 @@ from ...motion.periodic.harmonics import resized, rms
 from ...motion.periodic.orbit_newton import driven
 from ...rotors import RigidRotor
 from ...scenes.excitation_table import UnbalanceTable
-from ...scenes.journal.film_rung import MAP_BOUNDS, FilmRung
+from ...scenes.journal.film_candidate import FilmCandidate, room
+from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.film_rungs import turn_films
 from ...scenes.journal.warm_rest import WarmRest
 from ..orbit_place import UNITS, WALL, OrbitPlace, SolvedTurn
@@ -47,7 +48,7 @@ LINEAR = 31
 
 
 @dataclass(frozen=True, kw_only=True)
-class OrbitRung(CandidateRung[FilmRung]):
+class OrbitRung(CandidateRung[FilmCandidate]):
     """The orbit on one film, linear about the equilibrium or nonlinear at so many samples.
 
     Attributes
@@ -110,7 +111,7 @@ class OrbitRung(CandidateRung[FilmRung]):
             return ErrorEstimate(math.inf, "defect", doubt="the orbit leaves the clearance: not linear")
         calls = 2 * turn.answers.samples + 1
         doubled = rotor_answers(self.rotor.structure, turn.at, (), calls)
-        bound = MAP_BOUNDS[0][2] if self.film.bounded and reach <= MAP_BOUNDS[0][0] else math.inf
+        bound = self.film.motion_bound(reach)
         if SAFETY * bound < tolerance:
             error, doubt = self._by_defect(doubled, turn, found.value, self.film.reaction)
             method, work = f"its defect at {calls} samples", {self.film.tangents: calls}
@@ -175,8 +176,14 @@ def orbit_ladder(scene: Scene, quantity: str) -> Ladder:
     """Return the ladder of a quantity of the synchronous orbit: linear, then nonlinear, on each film."""
     rotor = rotor_of(scene)
     films = orbit_films(scene)
-    if scene.bearing.is_warming:
+    if scene.journal_bearing.is_warming:
         return warm_orbit_ladder(scene, quantity, rotor, films)
+    return cold_orbit_ladder(scene, quantity, films)
+
+
+def cold_orbit_ladder(scene: Scene, quantity: str, films: Sequence[FilmCandidate]) -> Ladder:
+    """Return the ladder of an orbit by films of one viscosity: linear, then nonlinear, on each."""
+    rotor = rotor_of(scene)
     rungs = [OrbitRung(film=film, quantity=quantity, rotor=rotor, samples=0) for film in films]
     rungs += [
         OrbitRung(film=film, quantity=quantity, rotor=rotor, samples=n) for film in films for n in SAMPLES
@@ -221,10 +228,10 @@ def warm_orbit_ladder(scene: Scene, quantity: str, rotor: RigidRotor, films: tup
 
 def orbit_films(scene: Scene) -> tuple[FilmRung, ...]:
     """Return the films worth taking round a turn: the map where there is one, else short film, grids, map."""
-    return turn_films(scene.bearing, fixed=scene.film_is_given, grids=((48, 8), (96, 8)), maps=True)
+    return turn_films(scene.journal_bearing, fixed=scene.film_is_given, grids=((48, 8), (96, 8)), maps=True)
 
 
-def _effort(rung: OrbitRung, films: tuple[FilmRung, ...]) -> float:
+def _effort(rung: OrbitRung, films: Sequence[FilmCandidate]) -> float:
     """Return a measure of cost by which the rungs are ordered: films by place, each twice the one before.
 
     A map that is to be made comes after all that need none, by the time that it takes.
@@ -233,7 +240,7 @@ def _effort(rung: OrbitRung, films: tuple[FilmRung, ...]) -> float:
     return MAKING * rung.film.making + one * (6 if rung.samples == 0 else 5 * rung.samples)
 
 
-def film_batch_units(films: tuple[FilmRung, ...], speed: float) -> dict[WorkUnit, Callable[[], object]]:
+def film_batch_units(films: Sequence[FilmCandidate], speed: float) -> dict[WorkUnit, Callable[[], object]]:
     """Return one force with derivatives of each film and of its richer one."""
     units: dict[WorkUnit, Callable[[], object]] = {}
     for film in films:
@@ -243,7 +250,7 @@ def film_batch_units(films: tuple[FilmRung, ...], speed: float) -> dict[WorkUnit
 
 
 def _sampled(reaction: Reaction, speed: float) -> Callable[[], object]:
-    position, velocity = np.array([0.3, 0.4]) * reaction.clearance, np.zeros(2)
+    position, velocity = np.array([0.3, 0.4]) * room(reaction), np.zeros(2)
 
     def one() -> object:
         return reaction.force(position, velocity, speed), reaction.jacobian(position, velocity, speed)

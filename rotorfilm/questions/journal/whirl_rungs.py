@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -14,15 +15,16 @@ from ...ladders import CandidateRung, Ladder
 from ...linear import coefficients, equilibrium, whirl_threshold
 from ...model import Array
 from ...results import Coefficients, Equilibrium
-from ...scenes.counted import Counted
+from ...scenes.counted import counted_calls
+from ...scenes.journal.film_candidate import FilmCandidate
 from ...scenes.journal.film_defects import corrected
-from ...scenes.journal.film_rung import FilmRung
-from ...scenes.journal.film_rungs import is_grid, point_films
+from ...scenes.journal.film_rungs import point_films
 from ..walk import NoAnswerError
 from .statics import film_units
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
+    from ...scenes.schema import RigidRotorTable
 
 AROUND = 1.4
 """A higher rung looks for the threshold within this factor of a lower one's."""
@@ -32,7 +34,7 @@ STEP = 1e-4
 
 
 @dataclass(frozen=True, kw_only=True)
-class WhirlRung(CandidateRung[FilmRung]):
+class WhirlRung(CandidateRung[FilmCandidate]):
     """The whirl threshold by one film.
 
     Attributes
@@ -52,13 +54,14 @@ class WhirlRung(CandidateRung[FilmRung]):
     def answer(self, before: Found | None) -> Found:
         """Return the speed at which the equilibrium loses stability [rad/s]."""
         made = self.film.prepare()
-        counted = Counted(self.film.reaction)
+        counted = counted_calls(self.film.reaction)
         around = None if before is None else (before.value / AROUND, before.value * AROUND)
         threshold = whirl_threshold(counted, self.load, self.mass, around)
         if threshold.speed is None and around is not None:
             threshold = whirl_threshold(counted, self.load, self.mass)
         if threshold.speed is None:
-            kind = NoAnswerError if self.film.bounded or is_grid(self.film.reaction) else RotorfilmError
+            close = self.film.bounded or self.film.on_grid(self.film.reaction)
+            kind = NoAnswerError if close else RotorfilmError
             raise kind(f"no threshold: {threshold.reason}, by {self.name}")
         return Found(threshold.speed, {self.film.tangents: counted.tangents, **made}, threshold.equilibrium)
 
@@ -86,7 +89,7 @@ class WhirlRung(CandidateRung[FilmRung]):
         method = f"defect of {self.film.rich_name}, eigenvalue perturbation"
         return ErrorEstimate(error, method, work, bound=self.film.bounded, doubt=doubt)
 
-    def film_at(self, at: Equilibrium) -> FilmRung:
+    def film_at(self, at: Equilibrium) -> FilmCandidate:
         """Return the film at one equilibrium."""
         return self.film
 
@@ -96,7 +99,7 @@ class WhirlRung(CandidateRung[FilmRung]):
 
     def _bound(self, at: Equilibrium) -> float:
         """Return the error [1] that the worst K and C within the verified bound would make."""
-        bound = self.film.bound(at.eccentricity_ratio, slopes=True)
+        bound = self.film.rest_bound(at, slopes=True)
         if not math.isfinite(bound):
             return math.inf
         found = coefficients(self.film.reaction, at.position, at.speed)
@@ -144,6 +147,13 @@ def growths(own: Array, other: Array) -> tuple[float, float]:
     return float(shifted.real), float(exact[np.argmin(np.abs(exact - shifted))].real)
 
 
+def required_rotor(scene: Scene, quantity: str) -> RigidRotorTable:
+    """Return the table of the rigid rotor; raise InputError if the scene has none."""
+    if scene.rigid_rotor is None:
+        raise InputError(f"rigid_rotor is required for {quantity}, got no such table")
+    return scene.rigid_rotor
+
+
 def whirl_ladder(scene: Scene, quantity: str) -> Ladder:
     """Return the ladder of the whirl threshold.
 
@@ -152,10 +162,13 @@ def whirl_ladder(scene: Scene, quantity: str) -> Ladder:
     InputError
         If the scene has no rigid rotor.
     """
-    if scene.rigid_rotor is None:
-        raise InputError(f"rigid_rotor is required for {quantity}, got no such table")
-    films = point_films(scene.bearing, fixed=scene.film_is_given)
-    mass = scene.rigid_rotor.mass
+    required_rotor(scene, quantity)
+    return cold_whirl_ladder(scene, point_films(scene.journal_bearing, fixed=scene.film_is_given))
+
+
+def cold_whirl_ladder(scene: Scene, films: Sequence[FilmCandidate]) -> Ladder:
+    """Return the ladder of the whirl threshold of a scene with a rigid rotor by films of one viscosity."""
+    mass = required_rotor(scene, "whirl_threshold").mass
     return Ladder(
         rungs=tuple(WhirlRung(film=film, load=scene.static_load, mass=mass) for film in films),
         unit="rad/s",

@@ -9,12 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...answers import DISAGREEMENT
-from ...bearings.journal import JournalBearing
+from ...bearings.contact_place import minimum_film, relative_film
 from ...linear.equilibrium import MAXIMUM_ECCENTRICITY
-from ...model import Array
+from ...model import Array, JournalForce
 from ...results import Equilibrium
-from .film_rung import FilmRung
-from .film_rungs import is_grid
+from .film_candidate import FilmCandidate, room
 
 STEP = 0.05
 """Step of differences of a two-dimensional film in its source, relative to the wedge; less in a thin film.
@@ -25,23 +24,27 @@ and so is the squeeze, relative to the wedge, that moves its edge.
 """
 
 
-def tangent(bearing: JournalBearing, position: Array, speed: float, *, smooth: bool) -> tuple[Array, Array]:
+def tangent(
+    bearing: JournalForce, position: Array, speed: float, *, smooth: bool, wedge: float | None = None
+) -> tuple[Array, Array]:
     """Return force (2,) [N] at rest, and d force/d(x, y, vx, vy) (2, 4).
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : Reaction
     position : ndarray, shape (2,) [m]
     speed : float [rad/s]
     smooth : bool
-        Whether the derivatives of a film on a grid in its source are taken from differences, `STEP`.
+        Whether the derivatives in the source are taken from differences, `STEP`: of a film on a grid.
+    wedge : float [m]
+        By which the wedge is measured; None for the distance from the center.
     """
     rest = np.zeros(2)
     slopes = bearing.jacobian(position, rest, speed)[:, :4]
-    if not (smooth and is_grid(bearing)):
+    if not smooth:
         return bearing.force(position, rest, speed), slopes
-    distance = float(np.hypot(*position))
-    thin = math.sqrt(1.0 - distance / bearing.clearance)
+    distance = float(np.hypot(*position)) if wedge is None else wedge
+    thin = math.sqrt(relative_film(bearing, position))
     rate = STEP * min(1.0, 2.0 * thin) * 0.5 * abs(speed) * distance
     velocities = rate * np.concatenate([np.zeros((2, 1)), *(k * np.eye(2) for k in (-2, -1, 1, 2))], axis=1)
     force = bearing.force(np.repeat(position[:, None], 9, axis=1), velocities, np.full(9, speed))
@@ -71,7 +74,7 @@ class Corrected:
     doubt: str
 
 
-def corrected(film: FilmRung, at: Equilibrium, load: Array, *, smooth: bool) -> Corrected:
+def corrected(film: FilmCandidate, at: Equilibrium, load: Array, *, smooth: bool) -> Corrected:
     """Return the equilibrium of the richer film as far as its defect tells.
 
     With the defect d = F_rich + W at the equilibrium of the cheap film the position moves by K^-1 d; two more
@@ -91,21 +94,28 @@ def corrected(film: FilmRung, at: Equilibrium, load: Array, *, smooth: bool) -> 
         if further:
             step = np.linalg.solve(-rich[:, :2], film.rich.force(position, np.zeros(2), at.speed) + load)
         position = position + step
-        if float(np.hypot(*position)) >= MAXIMUM_ECCENTRICITY * film.reaction.clearance:
+        if float(minimum_film(film.rich, position)) <= (1.0 - MAXIMUM_ECCENTRICITY) * film.rich.clearance:
             return Corrected(position=at.position, slopes=rich, doubt="the error is larger than the gap")
-    slopes = tangent(film.rich, position, at.speed, smooth=smooth)[1] if smooth else rich
+    slopes = rich_tangent(film, position, at.speed)[1] if smooth else rich
     return Corrected(position=position, slopes=slopes, doubt=doubt)
 
 
-def one_defect(bearing: JournalBearing, speed: float, *, smooth: bool) -> Callable[[], object]:
-    """Return a call that does the work of `corrected` for one richer film."""
-    position = np.array([0.3, 0.4]) * bearing.clearance
+def rich_tangent(film: FilmCandidate, position: Array, speed: float) -> tuple[Array, Array]:
+    """Return force and slopes of the richer film, smooth where it lives on a grid."""
+    smooth = film.on_grid(film.rich)
+    return tangent(film.rich, position, speed, smooth=smooth, wedge=film.wedge(position))
+
+
+def one_defect(film: FilmCandidate, speed: float, *, smooth: bool) -> Callable[[], object]:
+    """Return a call that does the work of `corrected` for one candidate."""
+    bearing = film.rich
+    position = np.array([0.3, 0.4]) * room(bearing)
 
     def one() -> None:
         tangent(bearing, position, speed, smooth=False)
         for _ in range(2):
             bearing.force(position, np.zeros(2), speed)
         if smooth:
-            tangent(bearing, position, speed, smooth=True)
+            rich_tangent(film, position, speed)
 
     return one

@@ -108,11 +108,6 @@ def extrapolated(bearing: JournalBearing, cells: tuple[int, int]) -> JournalBear
     return with_film(bearing, ExtrapolatedFilm(film=ReynoldsFilm(cells=cells)))
 
 
-def is_grid(bearing: JournalBearing) -> bool:
-    """Return whether the film of a bearing lives on a grid in two dimensions."""
-    return isinstance(bearing.film, ReynoldsFilm | ExtrapolatedFilm)
-
-
 def _map(bearing: JournalBearing) -> FilmRung:
     rung = _rung("map", bearing, MapFilm(), (FINEST, "2-D 768 x 32 extr."), 1e-6, 1e-4, bounded=True)
     return rung if has_map(bearing) else replace(rung, making=MAP_MADE.nominal)

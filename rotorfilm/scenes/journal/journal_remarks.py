@@ -100,9 +100,9 @@ def journal_numbers(
     square of the ratio, since power/flow grows as its inverse.
     """
     R, c, mu, omega = bearing.radius, bearing.clearance, bearing.film_viscosity, abs(speed)
-    kinematic = mu / oil.density
     volumetric = oil.density * oil.heat_capacity
-    peclet = omega * c**2 * volumetric / oil.conductivity
+    numbers = film_numbers((R, bearing.length, c, mu), oil, speed, load)
+    peclet = numbers["peclet"]
     power, flow, eccentricity_ratio = film_loss(bearing, speed, load)
     conducted = mu * (omega * R) ** 2 / (8.0 * oil.conductivity)
     carried = power / (volumetric * flow) if flow else conducted
@@ -110,20 +110,40 @@ def journal_numbers(
     warming = min(carried, conducted + share * (carried - conducted))
     if peclet <= 1.0:
         warming = min(warming, conducted)
-    mean = math.hypot(*load) / (2.0 * R * bearing.length)
     return {
-        "taylor": omega * R * c / kinematic * math.sqrt(c / R),
-        "inertia": omega * c**2 / kinematic,
-        "peclet": peclet,
+        **numbers,
         "power": power,
         "side_flow": flow,
         "warming": warming,
         "unknown": float(math.isnan(warming)),
         # A bearing that is given its oil is answered as warm as it gets.
         "thinning": 0.0 if bearing.oil is not None else -math.expm1(-oil.thinning * warming),
+    }
+
+
+def film_numbers(
+    dimensions: tuple[float, float, float, float], oil: Lubricant, speed: float, load: tuple[float, float]
+) -> dict[str, float]:
+    """Return taylor, inertia, peclet, pressure, compression and tilt of `journal_numbers`.
+
+    Parameters
+    ----------
+    dimensions : (float, float, float, float) [m], [m], [m], [Pa s]
+        Radius, length, clearance and viscosity.
+    oil : Lubricant
+    speed : float [rad/s]
+    load : (float, float) [N]
+    """
+    (R, L, c, mu), omega = dimensions, abs(speed)
+    kinematic = mu / oil.density
+    mean = math.hypot(*load) / (2.0 * R * L)
+    return {
+        "taylor": omega * R * c / kinematic * math.sqrt(c / R),
+        "inertia": omega * c**2 / kinematic,
+        "peclet": omega * c**2 * oil.density * oil.heat_capacity / oil.conductivity,
         "pressure": mean / ATMOSPHERE,
         "compression": mean / oil.bulk_modulus,
-        "tilt": 2e3 * c / bearing.length,
+        "tilt": 2e3 * c / L,
     }
 
 

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 from ...bearings.journal import JournalBearing, film_name
 from ...linear import CriticalMass, coefficients, critical_mass, equilibrium, whirl_threshold
+from ...model import Reaction
 from ...readable.result import Readable
 from ...results import BearingLosses, Coefficients, Equilibrium, WhirlThreshold
-from .echo import BearingData, bearing_data
+from .echo import bearing_data
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -17,8 +18,8 @@ class Answer(Readable):
 
     Attributes
     ----------
-    bearing : BearingData
-        The bearing that was asked about.
+    bearing : Readable
+        The bearing that was asked about, of a journal `BearingData`.
     model : str
         The film law that answered.
     equilibrium : Equilibrium
@@ -34,7 +35,7 @@ class Answer(Readable):
         What the physics of the film leaves out, in dimensionless numbers; only a scene knows.
     """
 
-    bearing: BearingData
+    bearing: Readable
     model: str
     equilibrium: Equilibrium
     coefficients: Coefficients
@@ -63,11 +64,34 @@ def solve(
     EquilibriumError
         If the film cannot carry the load.
     """
+    given = bearing_data(bearing), film_name(bearing.fitted_film)
+    return film_answer(bearing, given, load=load, speed=speed, mass=mass)
+
+
+def film_answer(
+    bearing: Reaction,
+    given: tuple[Readable, str],
+    *,
+    load: tuple[float, float],
+    speed: float,
+    mass: float | None,
+) -> Answer:
+    """Answer the same about any bearing with a film.
+
+    Parameters
+    ----------
+    bearing : Reaction
+    given : (Readable, str)
+        What the answer repeats of it, and the name of its film.
+    load : (float, float) [N]
+    speed : float [rad/s]
+    mass : float or None [kg]
+    """
     at = equilibrium(bearing, load, speed)
     derivatives = coefficients(bearing, at.position, speed)
     return Answer(
-        bearing=bearing_data(bearing),
-        model=film_name(bearing.fitted_film),
+        bearing=given[0],
+        model=given[1],
         equilibrium=at,
         coefficients=derivatives,
         losses=at.losses,

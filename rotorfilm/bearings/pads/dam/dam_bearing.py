@@ -18,6 +18,7 @@ from ....errors import (
     require_kind,
     require_positive,
     require_tuple,
+    require_vector,
 )
 from ....inputs.si_arguments import quantities
 from ....model import Array, Force, Tangent
@@ -135,10 +136,14 @@ class PressureDamBearing(StaticReaction):
         """Force of a middling motion at NOMINAL_SPEED [N]."""
         return self.force_scale * NOMINAL_SPEED * min(1.0, self.slenderness**2)
 
-    def minimum_film(self, position: ArrayLike) -> float:
-        """Return the least film over all pads [m] at a position (2,) [m]; 0 or less where one is touched."""
-        x, y = np.asarray(position, dtype=float).tolist()
-        return self._film.least(x, y)[0]
+    def minimum_film(self, position: ArrayLike) -> Array:
+        """Return the least film over all pads [m], shape (...), of journals at positions (2, ...) [m].
+
+        It is not positive where one is touched.
+        """
+        at = require_vector("position", position)
+        films = [self._film.least(x, y)[0] for x, y in at.reshape(2, -1).T.tolist()]
+        return np.array(films).reshape(at.shape[1:])
 
     def require_film(self, position: Array) -> None:
         """Raise FilmContactError, with the pad, unless the journal at position (2, ...) [m] touches none.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -19,6 +20,10 @@ def turning(bearing: TiltingPads) -> Array:
     """Return the matrix (2, 2) from the frame of a pivot to that of the middle of its pad."""
     angle = (bearing.pivot_offset - 0.5) * bearing.extent
     return np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+
+
+PadSlopes = Callable[[TiltingPads, Array, Array], tuple[Array, Array]]
+"""Returns dF/de and dF/dw of pads, as `pad_slopes`."""
 
 
 def pad_slopes(bearing: TiltingPads, e: Array, w: Array) -> tuple[Array, Array]:

@@ -16,7 +16,7 @@ from ....results import BearingLosses, Equilibrium
 from ...reaction import broadcast_state
 from ..losses_of_pads import PadUnderJournal, losses_of_pads
 from ..pad_losses import LossyPadFilm
-from .held_pads import TURN, pad_slopes, turning
+from .held_pads import TURN, PadSlopes, pad_slopes, turning
 from .pad_contact import report_pads
 from .pad_matrices import PadMatrices, ReducedCoefficients
 from .pivots import directions
@@ -196,7 +196,7 @@ class TiltingPadsAtRest:
         places = np.concatenate([pads.tilts, pads.pivot_deflections]) if sprung else pads.tilts
         return self.bearing.moving(places)
 
-    def matrices(self, position: ArrayLike, speed: float) -> PadMatrices:
+    def matrices(self, position: ArrayLike, speed: float, slopes: PadSlopes = pad_slopes) -> PadMatrices:
         """Return stiffness, damping and mass of journal and pads about their rest.
 
         With e = Q^T r / c + (m, q/c) of each pad they are sum B^T K_p B and sum B^T C_p B, B = [Q^T | e_t at
@@ -216,7 +216,7 @@ class TiltingPadsAtRest:
         )
         loaded = np.flatnonzero(~pads.unloaded)
         half = 0.5 * float(speed) * TURN
-        by_e, by_w = pad_slopes(bearing, e[:, loaded], half @ e[:, loaded])
+        by_e, by_w = slopes(bearing, e[:, loaded], half @ e[:, loaded])
         n = 2 + N * (2 if sprung else 1)
         K, C, M = np.zeros((3, n, n))
         for one, k in enumerate(loaded):

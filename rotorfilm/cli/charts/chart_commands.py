@@ -3,34 +3,31 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
 from enum import StrEnum
 from functools import partial
 from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
-from ..errors import visible
-from ..limits import CHART_STATES, CONTACT_CELLS, TRANSITS
-from ..progress import Report, part_of
-from ..results import write_csv
-from . import printing as console
-from .command import Argument, Option, Said
+from ...errors import visible
+from ...limits import CHART_STATES, CONTACT_CELLS, TRANSITS
+from ...progress import Report, part_of
+from ...results import write_csv
+from .. import printing as console
+from ..command import Argument, Option, Said
+from .chart_files import (
+    DPI,
+    OUT,
+    Folder,
+    Slenderness,
+    costs,
+    milliseconds,
+    number,
+    print_chart,
+    write_chart,
+)
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-    from ..comparisons.journal.timing import FilmCost
-
-DPI = 110
-
-Slenderness = Annotated[float, Option("--ld", help="Bearing length / diameter, 0.1 to 4.")]
-Folder = Annotated[Path, Option("--out", help="Folder for PNG and CSV; made if absent.")]
 States = Annotated[int, Option(help="Random states.", min=1, max=CHART_STATES)]
-OUT = Path("rotorfilm-charts")
-
-Rows = Iterable[Sequence[str]]
-Columns = Mapping[str, Iterable[object]]
 
 
 class MotionOption(StrEnum):
@@ -49,30 +46,32 @@ def journal(
     out: Folder = OUT,
 ) -> Said:
     """Error of the force against its cost, for every journal film: chart_journal.png and .csv."""
-    from .. import charts, comparisons
+    from ... import charts, comparisons
 
     ranges = comparisons.LARGE if motion is MotionOption.LARGE else comparisons.SMALL
     result = comparisons.journal_accuracy(ld, states=states, ranges=ranges, seed=seed, report=report)
-    files = _write(out, "chart_journal", result.columns(), charts.plot_journal_accuracy(result))
+    files = write_chart(out, "chart_journal", result.columns(), charts.plot_journal_accuracy(result))
     headings = ("film", "median error", "99 % error", "batch", "alone")
     rows = [
-        (rung.name, f"{rung.median_error:.2e}", f"{rung.high_error:.2e}", *_costs(rung.cost))
+        (rung.name, f"{rung.median_error:.2e}", f"{rung.high_error:.2e}", *costs(rung.cost))
         for rung in result.rungs
     ]
     floor = ("its error, 99 %", f"{result.reference_high:.1e}")
-    return Said(result, partial(_print, headings, rows, [("reference", result.reference), floor, *files]))
+    return Said(
+        result, partial(print_chart, headings, rows, [("reference", result.reference), floor, *files])
+    )
 
 
 def stability(report: Report, ld: Slenderness = 0.5, out: Folder = OUT) -> Said:
     """Whirl threshold by every journal film, and where each fails: chart_stability.png and .csv."""
-    from .. import charts, comparisons
-    from ..charts.comparisons.whirl_verdicts import verdicts
+    from ... import charts, comparisons
+    from ...charts.comparisons.whirl_verdicts import verdicts
 
     result = comparisons.journal_stability(ld, report=report)
-    files = _write(out, "chart_stability", result.columns(), charts.plot_journal_stability(result))
+    files = write_chart(out, "chart_stability", result.columns(), charts.plot_journal_stability(result))
     headings = ("film", "off by at most", "wrong at eps", "tension, large motion", "|Cxy - Cyx| / max |C|")
     rows = [(rung.name, *(cell.text for cell in verdicts(result, rung))) for rung in result.rungs]
-    return Said(result, partial(_print, headings, rows, [("reference", result.reference), *files]))
+    return Said(result, partial(print_chart, headings, rows, [("reference", result.reference), *files]))
 
 
 def contact(
@@ -83,13 +82,13 @@ def contact(
     out: Folder = OUT,
 ) -> Said:
     """Error of a rolling ball's motion against its cost: time scheme, step, grid, reduced laws. Minutes."""
-    from .. import charts, comparisons
+    from ... import charts, comparisons
 
     result = comparisons.contact_precision(cells, report=report)
-    files = _write(out, "chart_contact", result.columns(), charts.plot_contact_precision(result))
+    files = write_chart(out, "chart_contact", result.columns(), charts.plot_contact_precision(result))
     rows = [(rung.family, rung.label, f"{rung.error:.2e}", f"{rung.cost:.3g} s") for rung in result.rungs]
     show = partial(
-        _print, ("model", "", "rms error", "cost"), rows, [("reference", result.reference), *files]
+        print_chart, ("model", "", "rms error", "cost"), rows, [("reference", result.reference), *files]
     )
     return Said(result.columns(), show)
 
@@ -106,28 +105,28 @@ def contact_cases(
     out: Folder = OUT,
 ) -> Said:
     """Compare published cases of a rolling ball, by the published scheme and converged. Some ten minutes."""
-    from .. import charts, comparisons
+    from ... import charts, comparisons
 
     result = comparisons.contact_cases(cells, tolerance, settle, report=report)
-    files = _write(out, "chart_contact_cases", result.columns(), charts.plot_contact_cases(result))
+    files = write_chart(out, "chart_contact_cases", result.columns(), charts.plot_contact_cases(result))
     files.append(("curves", str(write_csv(out / "chart_contact_curves.csv", result.series()))))
     headings = ("statement", "section", "published scheme", "same grid", "converged", "verdict")
     rows = [
         (row.text, row.section, row.published, row.same_grid, row.converged, row.verdict)
         for row in result.statements
     ]
-    return Said([row._asdict() for row in result.statements], partial(_print, headings, rows, files))
+    return Said([row._asdict() for row in result.statements], partial(print_chart, headings, rows, files))
 
 
 def contact_limits(report: Report, out: Folder = OUT) -> Said:
     """Where the published scheme of a rolling ball fails, and how it decays by itself. A minute."""
-    from .. import charts, comparisons
+    from ... import charts, comparisons
 
     result = comparisons.contact_limits(report=report)
-    files = _write(out, "chart_contact_limits", result.columns(), charts.plot_contact_limits(result))
+    files = write_chart(out, "chart_contact_limits", result.columns(), charts.plot_contact_limits(result))
     table = result.columns()
-    rows = [[_number(entry) for entry in row] for row in zip(*table.values(), strict=True)]
-    return Said(table, partial(_print, tuple(table), rows, files))
+    rows = [[number(entry) for entry in row] for row in zip(*table.values(), strict=True)]
+    return Said(table, partial(print_chart, tuple(table), rows, files))
 
 
 def scene(
@@ -136,9 +135,9 @@ def scene(
     out: Folder = OUT,
 ) -> Said:
     """Estimated error against cost of all models that could answer a scene, and the one that does."""
-    from ..charts import RungPoint, plot_scene_ladder
-    from ..questions.whole import whole_ladder
-    from ..scenes import Scene
+    from ...charts import RungPoint, plot_scene_ladder
+    from ...questions.whole import whole_ladder
+    from ...scenes import Scene
 
     loaded = Scene.load(file)
     report(0.1, "every model of the ladder")
@@ -150,12 +149,12 @@ def scene(
     ]
     title = visible(f"{loaded.title}: {result.quantity}").replace("$", r"\$")  # no mathematics
     axes = plot_scene_ladder(points, title=title, tolerance=result.tolerance)
-    files = _write(out, f"chart_{file.stem}", result.columns(), [axes])
+    files = write_chart(out, f"chart_{file.stem}", result.columns(), [axes])
     rows = [
-        (("* " if r.chosen else "  ") + r.name, _number(r.error_estimate), _milliseconds(r.cost), r.reason)
+        (("* " if r.chosen else "  ") + r.name, number(r.error_estimate), milliseconds(r.cost), r.reason)
         for r in result.rungs
     ]
-    return Said(result, partial(_print, ("model", "estimated error", "cost", "why not"), rows, files))
+    return Said(result, partial(print_chart, ("model", "estimated error", "cost", "why not"), rows, files))
 
 
 def limits(
@@ -166,20 +165,20 @@ def limits(
     out: Folder = OUT,
 ) -> Said:
     """Atlas of where methods fail: films, grids, steps, linearization, of all bearings. Ten seconds."""
-    from .. import charts, comparisons
+    from ... import charts, comparisons
 
     result = comparisons.limits_atlas(physics, report=report)
-    files = _write(out, "chart_limits", result.columns(), charts.plot_limits(result), data=result)
+    files = write_chart(out, "chart_limits", result.columns(), charts.plot_limits(result), data=result)
     rows: list[tuple[str, str]] = []
     for panel, curves in groupby(comparisons.failures(result), key=lambda one: one.panel):
         rows += [("", ""), (f"{panel.physics}: {panel.title}", ""), (f"fails from {panel.x_label}", "")]
         rows += [(f"  {one.name}", "nowhere" if one.at is None else f"{one.at:.3g}") for one in curves]
-    return Said(result, partial(_print, (), rows, files))
+    return Said(result, partial(print_chart, (), rows, files))
 
 
 def page(out: Folder = OUT) -> Said:
     """Gather all charts of a folder, and the tables behind them, in one HTML page that needs nothing else."""
-    from ..charts import write_page
+    from ...charts import write_page
 
     path = str(write_page(out))
     return Said({"page": path}, partial(console.print_rows, "", [("page", path)]))
@@ -187,36 +186,38 @@ def page(out: Folder = OUT) -> Said:
 
 def heat(report: Report, out: Folder = OUT) -> Said:
     """Films that warm: error against cost of the models of heat, where they fail, pictures. A minute."""
-    from .. import charts, comparisons
-    from ..comparisons.journal.heat_models import heated_film
+    from ... import charts, comparisons
+    from ...comparisons.journal.heat_models import heated_film
 
     result = comparisons.heat_accuracy(report=part_of(report, 0.0, 0.7))
     report(0.7, "where each model fails")
     limits = comparisons.limits_atlas(["heat"], report=part_of(report, 0.7, 0.95))
-    files = _write(out, "chart_heat", result.columns(), charts.plot_heat_accuracy(result))
-    files += _write(out, "chart_heat_limits", limits.columns(), charts.plot_limits(limits))
+    files = write_chart(out, "chart_heat", result.columns(), charts.plot_heat_accuracy(result))
+    files += write_chart(out, "chart_heat_limits", limits.columns(), charts.plot_limits(limits))
     case = comparisons.HEAT_CASES[1]
     pictures = charts.plot_heated_film(heated_film(case), title=f"Film that warms: {case.name}")
     files.append(("film", str(charts.save(pictures[0], out / "chart_heat_film.png", dpi=DPI))))
     table = result.summary()
     rows = list(zip(*table.values(), strict=True))
-    show = partial(_print, tuple(table), rows, [("reference", result.reference), *files])
+    show = partial(print_chart, tuple(table), rows, [("reference", result.reference), *files])
     return Said(result.columns(), show)
 
 
 def bush(report: Report, out: Folder = OUT) -> Said:
     """Tiers of the polymer bush: error against cost, as published too, and the closed form of its shaft."""
-    from .. import charts, comparisons
+    from ... import charts, comparisons
 
     result = comparisons.bush_tiers(report=report)
-    files = _write(out, "chart_bush", result.columns(), charts.plot_bush_tiers(result))
+    files = write_chart(out, "chart_bush", result.columns(), charts.plot_bush_tiers(result))
     shaft = write_csv(out / "chart_bush_shaft.csv", result.shaft_columns())
-    rows = [(tier.name, f"{tier.error:.1e}", _milliseconds(tier.cost)) for tier in result.tiers]
+    rows = [(tier.name, f"{tier.error:.1e}", milliseconds(tier.cost)) for tier in result.tiers]
     errors = [100.0 * row.error for row in result.shaft]
     closed = f"{min(errors):.2f} to {max(errors):.2f} % high"
     last = [("closed form of the shaft", closed), ("its table", str(shaft))]
     headings = ("tier", "error of the angle", "time of the run")
-    return Said(result, partial(_print, headings, rows, [("reference", result.reference), *files, *last]))
+    return Said(
+        result, partial(print_chart, headings, rows, [("reference", result.reference), *files, *last])
+    )
 
 
 def damper(
@@ -227,73 +228,38 @@ def damper(
     out: Folder = OUT,
 ) -> Said:
     """Error of the force against its cost, for every squeeze film: chart_damper.png, .csv and .json."""
-    from .. import charts, comparisons
+    from ... import charts, comparisons
 
     result = comparisons.damper_accuracy(ld, permeability, states=states, report=report)
-    files = _write(out, "chart_damper", result.columns(), charts.plot_damper_accuracy(result), data=result)
+    files = write_chart(
+        out, "chart_damper", result.columns(), charts.plot_damper_accuracy(result), data=result
+    )
     rows = [
         (
             f"{rung.name}, {'cavitated' if rung.cavitated else 'full'}",
             f"{rung.median_error:.2e}",
             f"{rung.high_error:.2e}",
             f"{rung.series_error:.2e}",
-            *_costs(rung.cost),
+            *costs(rung.cost),
         )
         for rung in result.rungs
     ]
     headings = ("film", "median error", "99 % error", "against the short film", "batch", "alone")
-    return Said(result, partial(_print, headings, rows, files))
+    return Said(result, partial(print_chart, headings, rows, files))
 
 
 def cosim(report: Report, out: Folder = OUT) -> Said:
     """Stability limits of the coupling schemes, and their error against film calls: takes minutes."""
-    from .. import charts, comparisons
+    from ... import charts, comparisons
 
     limits = comparisons.coupling_limits(report=part_of(report, 0.0, 0.6))
     cost = comparisons.coupling_cost(report=part_of(report, 0.6, 1.0))
-    files = _write(out, "chart_cosim_limits", limits.columns(), charts.plot_coupling_limits(limits))
-    files += _write(out, "chart_cosim_cost", cost.columns(), charts.plot_coupling_cost(cost))
+    files = write_chart(out, "chart_cosim_limits", limits.columns(), charts.plot_coupling_limits(limits))
+    files += write_chart(out, "chart_cosim_cost", cost.columns(), charts.plot_coupling_cost(cost))
     rows = [
         (row.scheme, f"{math.degrees(row.macro_angle):.3g} deg", f"{row.orbit_error:.1e}")
         for row in cost.rows
         if row.orbit_error is not None
     ]
-    show = partial(_print, ("scheme", "macro step", "orbit error / clearance"), rows, files)
+    show = partial(print_chart, ("scheme", "macro step", "orbit error / clearance"), rows, files)
     return Said({"limits": limits, "cost": cost}, show)
-
-
-def _write(
-    out: Path, name: str, columns: Columns, axes: Sequence[Axes], *, data: object = None
-) -> list[tuple[str, str]]:
-    """Write chart and table, and data as JSON if there are any; return the rows that name them."""
-    from ..charts import save
-
-    out.mkdir(parents=True, exist_ok=True)
-    files = {
-        "chart": save(axes[0], out / f"{name}.png", dpi=DPI),
-        "table": write_csv(out / f"{name}.csv", columns),
-    }
-    if data is not None:
-        files["data"] = console.write_json(out / f"{name}.json", data)
-    return [(kind, str(path)) for kind, path in files.items()]
-
-
-def _print(headings: Sequence[str], rows: Rows, files: Rows) -> None:
-    """Print a table, without headings if there are none, and files and remarks below it."""
-    if headings:
-        console.print_columns(headings, rows)
-    else:
-        console.print_rows("", rows)
-    console.print_rows("", files)
-
-
-def _number(entry: object) -> str:
-    return f"{entry:.4g}" if isinstance(entry, float) else "" if entry is None else str(entry)
-
-
-def _costs(cost: FilmCost) -> tuple[str, str]:
-    return f"{1e6 * cost.force_time:.3g} us", f"{1e6 * cost.call_time:.3g} us"
-
-
-def _milliseconds(cost: float | None) -> str:
-    return "" if cost is None else f"{1e3 * cost:.3g} ms"

@@ -1,0 +1,1 @@
+"""Bearings made of pads side by side, and the films of their pads."""

@@ -1,0 +1,1 @@
+"""Questions about bearings made of pads."""

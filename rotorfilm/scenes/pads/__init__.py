@@ -1,0 +1,1 @@
+"""Scenes of bearings made of pads: tables, candidates, remarks."""

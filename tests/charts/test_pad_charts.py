@@ -1,0 +1,115 @@
+"""Charts of bearings made of pads draw what the results say."""
+
+import math
+
+import numpy as np
+import pytest
+from draw_pads import CLEARANCE, JOURNAL, arc, draw, tilting
+
+from rotorfilm import lobe_set
+from rotorfilm.charts import plot_bearing_coefficients, plot_bearing_thresholds, plot_pad_accuracy
+from rotorfilm.comparisons import (
+    BearingCoefficients,
+    BearingThresholds,
+    PadAccuracy,
+    PadFamily,
+    PadRung,
+    TypeCoefficients,
+    TypeThresholds,
+    WhirlOutcome,
+)
+from rotorfilm.comparisons.journal.timing import FilmCost
+
+TURN = 2.0 * math.pi / 60.0
+
+
+def test_coefficients_are_drawn_entry_by_entry():
+    K = np.arange(8.0).reshape(2, 2, 2) + 1.0
+    one = TypeCoefficients(
+        name="one", stiffness_number=K, damping_number=10.0 * K, film_ratio=np.array([0.1, 0.9])
+    )
+    result = BearingCoefficients(
+        slenderness=0.5, convention="S so and so", sommerfeld=np.array([0.1, 1.0]), types=(one,)
+    )
+    shown = plot_bearing_coefficients(result)
+    drawn = [axes.get_lines()[0].get_ydata().tolist() for axes in shown]
+    assert drawn == [[1, 5], [2, 6], [3, 7], [4, 8], [10, 50], [20, 60], [40, 80], [0.1, 0.9]]
+    assert "S so and so" in shown[0].figure.get_suptitle()
+    assert [axes.get_yscale() for axes in shown] == [
+        *("log", "symlog", "symlog", "log"),
+        *("log", "symlog", "log", "linear"),
+    ]
+
+
+def test_bearings_that_never_whirl_lie_on_the_edge():
+    speeds = {"plain": [100.0, 200.0], "tilting": [None, None], "weak": [100.0, None]}
+    outcomes = {
+        "plain": (WhirlOutcome.ONSET,) * 2,
+        "tilting": (WhirlOutcome.NEVER,) * 2,
+        "weak": (WhirlOutcome.ONSET, WhirlOutcome.UNCARRIED),
+    }
+    result = BearingThresholds(
+        slenderness=0.5,
+        mass=10.0,
+        load=np.array([50.0, 500.0]),
+        speed_range=(10.0, 1000.0),
+        types=tuple(
+            TypeThresholds(
+                name=name,
+                threshold_speed=tuple(speed and speed * TURN for speed in speeds[name]),
+                outcomes=outcomes[name],
+            )
+            for name in speeds
+        ),
+    )
+    axes = plot_bearing_thresholds(result)
+    lines = {line.get_label(): line for line in axes.get_lines()}
+    top = 1000.0 / TURN
+    assert lines["plain"].get_ydata() == pytest.approx([100.0, 200.0])
+    assert lines["tilting: no whirl"].get_ydata() == pytest.approx([top, top])
+    assert axes.get_ylim()[1] == pytest.approx(top)
+    crosses = [line.get_xdata().tolist() for line in axes.get_lines() if line.get_marker() == "x"]
+    assert crosses == [[], [], [500.0]]
+    assert "no whirl at any speed searched" in axes.get_title()
+    assert plot_bearing_thresholds(result, axes=axes) is axes
+
+
+def test_films_of_pads_are_drawn_over_their_cost():
+    rungs = [
+        PadRung(
+            name=name,
+            family=family,
+            median_error=1e-4,
+            usual_error=1e-3,
+            high_error=high,
+            cost=FilmCost(force_time=cost, call_time=10.0 * cost, batch=8),
+        )
+        for name, family, high, cost in (
+            ("map", PadFamily.MAP, 4e-3, 1e-7),
+            ("grid", PadFamily.GRID, 2e-3, 1e-5),
+        )
+    ]
+    result = PadAccuracy(
+        slenderness=0.5,
+        bearings=("elliptical",),
+        states=4,
+        seed=1,
+        reference="a film",
+        reference_usual=1e-5,
+        reference_high=1e-4,
+        rungs=tuple(rungs),
+    )
+    batch, alone = plot_pad_accuracy(result)
+    filled = [line.get_data() for line in batch.get_lines() if line.get_markersize() == 7]
+    assert np.ravel(filled) == pytest.approx([0.1, 4e-3, 10.0, 2e-3])
+    texts = {text.get_text() for text in alone.texts}
+    assert texts == {"map", "grid"}
+    assert "reference: a film" in batch.figure.get_suptitle()
+
+
+def test_picture_of_the_page_shows_the_clearances_as_they_are(tmp_path):
+    for lobe in (*lobe_set("elliptical", preload=0.3), *lobe_set("offset_halves"), *tilting(True)):
+        film = np.hypot(*arc(lobe)) - JOURNAL
+        assert film.min() == pytest.approx(CLEARANCE * (1.0 - lobe.preload), abs=2e-4)
+    assert math.sin(tilting(False)[0].closest) == pytest.approx(-1.0)
+    assert draw(tmp_path / "pads.png").read_bytes().startswith(b"\x89PNG")

@@ -1,0 +1,51 @@
+"""Charts of bearings made of pads at the command line: pictures, tables, JSON."""
+
+import json
+from functools import partial
+
+import rotorfilm.comparisons as ladders
+
+
+def test_chart_of_bearings_writes_pictures_and_tables(run, tmp_path, monkeypatch):
+    few = ladders.bearing_types(0.5)[::7]
+    monkeypatch.setattr(
+        ladders,
+        "bearing_coefficients",
+        partial(ladders.bearing_coefficients, sommerfeld=[0.5, 1.0], types=few),
+    )
+    monkeypatch.setattr(
+        ladders, "bearing_thresholds", partial(ladders.bearing_thresholds, loads=[500.0, 900.0], types=few)
+    )
+    code, out, err = run("chart", "bearings", "--mass", "100 kg", "--out", tmp_path, "--json")
+    assert code == 0
+    assert "done" in err
+    result = json.loads(out)
+    assert result["thresholds"]["mass"] == 100.0
+    assert "assembled clearance" in result["coefficients"]["convention"]
+    for name in ("chart_bearings", "chart_whirl"):
+        assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+        assert len((tmp_path / f"{name}.csv").read_text(encoding="utf-8").splitlines()) == 1 + 2 * len(few)
+    code, out, _ = run("chart", "bearings", "--out", tmp_path)
+    assert code == 0
+    assert "never" in out
+    assert "does not whirl at any speed searched" in " ".join(out.split())
+    code, out, err = run("chart", "bearings", "--mass", "-1 kg", "--out", tmp_path)
+    assert (code, out) == (2, "")
+    assert "mass must be finite and positive, got -1.0" in err
+
+
+def test_chart_of_pads_writes_picture_and_table(run, tmp_path, monkeypatch):
+    grids = [rung for rung in ladders.pad_rungs() if rung.family is ladders.PadFamily.GRID][:2]
+    quick = partial(ladders.pad_accuracy, rungs=grids, cells=(64, 8), rounds=1)
+    monkeypatch.setattr(ladders, "pad_accuracy", quick)
+    options = ("--ld", "0.7", "--states", "3", "--seed", "5", "--out", tmp_path)
+    code, out, _ = run("chart", "pads", *options, "--json")
+    assert code == 0
+    result = json.loads(out)
+    assert (result["slenderness"], result["states"], result["seed"]) == (0.7, 3, 5)
+    assert (tmp_path / "chart_pads.png").read_bytes().startswith(b"\x89PNG")
+    table = (tmp_path / "chart_pads.csv").read_text(encoding="utf-8").splitlines()
+    assert len(table) == 1 + len(grids)
+    code, out, _ = run("chart", "pads", *options)
+    assert code == 0
+    assert grids[0].name in out
