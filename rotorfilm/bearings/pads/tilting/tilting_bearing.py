@@ -167,7 +167,7 @@ class TiltingPadBearing(Called, TiltingPads):
         Nor has a subclass. Its parameters are the dimensions, with the clearance of the pads, and the
         viscosity; radius and length are fixed.
         """
-        if type(self) is not TiltingPadBearing or not isinstance(self.film, PadMapFilm):
+        if type(self) is not TiltingPadBearing or not isinstance(self.film, PadMapFilm) or self.is_warming:
             return None
         numbers = (
             *(self.extent, self.pivot_offset, self.preload, self.pivot_stiffness or 0.0),

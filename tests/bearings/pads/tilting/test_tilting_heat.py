@@ -129,3 +129,4 @@ def test_what_the_heat_of_tilting_pads_refuses(five):
     with pytest.raises(InputError, match="slopes of its heat"):
         warm.heat_jacobian([0.0, 0.0], [0.0, 0.0], SPEED)
     assert warm.film_at_unit_viscosity() is None
+    assert warm.native() is None
