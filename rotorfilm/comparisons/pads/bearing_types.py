@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from numpy.typing import ArrayLike
 
@@ -17,7 +18,7 @@ from ...bearings.pads import (
     pressure_dam_pads,
 )
 from ...errors import InputError, require_finite, require_positive
-from ...model import Array, JournalForce
+from ...model import Array, Reaction
 
 RADIUS, CLEARANCE, VISCOSITY = 0.05, 1e-4, 0.02
 """Of the journal [m], of the assembled bearing [m], of the oil [Pa s]."""
@@ -38,11 +39,11 @@ class BearingType:
     Attributes
     ----------
     name : str
-    bearing : JournalForce
+    bearing : Reaction
     """
 
     name: str
-    bearing: JournalForce
+    bearing: Reaction
 
 
 def bearing_types(slenderness: float) -> tuple[BearingType, ...]:
@@ -84,7 +85,7 @@ def positive_numbers(name: str, values: ArrayLike) -> Array:
     return numbers
 
 
-def _bearings(made: dict[str, float]) -> Iterator[tuple[str, JournalForce]]:
+def _bearings(made: dict[str, Any]) -> Iterator[tuple[str, Reaction]]:
     plain = lobe_set("elliptical", preload=0.0)
     yield "two grooves", LobedBearing(**made, assembled_clearance=CLEARANCE, lobes=plain)
     yield "pressure dam", PressureDamBearing(**made, clearance=CLEARANCE, pads=pressure_dam_pads(**DAM))

@@ -12,7 +12,7 @@ import numpy as np
 from ...errors import EquilibriumError, ValidityWarning, require_positive
 from ...linear import coefficients, equilibrium, whirl_threshold
 from ...linear.critical_mass import is_stable
-from ...model import Array, JournalForce
+from ...model import Array, Reaction
 from ...progress import Report, silent
 from ...readable.result import Readable
 from ...warming import Settling
@@ -167,7 +167,7 @@ def _type_thresholds(
 
 
 def _threshold(
-    bearing: JournalForce, load: float, mass: float, speed_range: tuple[float, float]
+    bearing: Reaction, load: float, mass: float, speed_range: tuple[float, float]
 ) -> tuple[float | None, WhirlOutcome]:
     force = (0.0, -load)
     found = whirl_threshold(bearing, force, mass, speed_range)
@@ -180,7 +180,7 @@ def _threshold(
     return None, WhirlOutcome.NEVER if stable else WhirlOutcome.ALWAYS
 
 
-def _stable(bearing: JournalForce, load: tuple[float, float], mass: float, speed: float) -> bool:
+def _stable(bearing: Reaction, load: tuple[float, float], mass: float, speed: float) -> bool:
     at = equilibrium(bearing, load, speed)
     if isinstance(bearing, Settling):
         return bool(bearing.at_rest().modes(at.position, speed, mass)[0].real < 0.0)
