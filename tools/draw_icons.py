@@ -51,6 +51,20 @@ def draw_lobed_journal(axes: Axes) -> None:
     axes.add_patch(FancyArrow(-0.27, 0.18, -0.03, -0.06, head_width=0.16, head_length=0.14, color=INK, lw=0))
 
 
+def draw_tilting_journal(axes: Axes) -> None:
+    """Draw a journal on five pads, each on a pivot."""
+    axes.add_patch(Circle((0, 0), 0.95, color=STEEL))
+    axes.add_patch(Circle((0, 0), 0.82, color="white"))
+    axes.add_patch(Circle((0, 0), 0.62, color=OIL))
+    for middle in -0.5 * np.pi + 0.4 * np.pi * np.arange(5):
+        angle = middle + np.linspace(-0.48, 0.48, 20)
+        x = np.append(0.62 * np.cos(angle), 0.76 * np.cos(angle[::-1]))
+        y = np.append(0.62 * np.sin(angle), 0.76 * np.sin(angle[::-1]))
+        axes.fill(x, y, INK)
+        axes.add_patch(Circle((0.8 * np.cos(middle), 0.8 * np.sin(middle)), 0.07, color=STEEL))
+    axes.add_patch(Circle((0, 0), 0.54, facecolor="white", edgecolor=INK, lw=2))
+
+
 def draw_short_journal(axes: Axes) -> None:
     """Draw a shaft in a short bearing, from the side."""
     for y in (-0.85, 0.45):

@@ -51,10 +51,11 @@ def coefficients(
     speed = require_number("speed", speed)
     if position.shape != (2,):
         raise InputError(f"position must have shape (2,), got shape {position.shape}")
-    if isinstance(reaction, Settling):
-        found: Coefficients = reaction.at_rest().coefficients(position, speed, frequency)
+    film = settled(reaction, position, speed)
+    if isinstance(film, Settling):
+        found: Coefficients = film.at_rest().coefficients(position, speed, frequency)
         return found
-    derivative = settled(reaction, position, speed).jacobian(position, np.zeros(2), speed)
+    derivative = film.jacobian(position, np.zeros(2), speed)
     return Coefficients(
         stiffness=-derivative[:, :2],
         damping=-derivative[:, 2:4],

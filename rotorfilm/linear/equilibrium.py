@@ -34,7 +34,7 @@ UNLOADED = (
 """Why a load of zero has no equilibrium."""
 
 _TOLERANCE = 1e-12
-_KELVIN = 1e-9
+_KELVIN = 4e-12
 _ROUNDOFF_STOP = 1e-13
 _NEWTON_STEPS = 60
 _LARGEST_S = math.log(MAXIMUM_ECCENTRICITY / (1.0 - MAXIMUM_ECCENTRICITY))
@@ -136,13 +136,12 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
         return replace(at, temperature=temperature, reaction=bearing.at_temperature(temperature))
     from scipy.optimize import brentq
 
-    warmed: dict[float, tuple[Equilibrium, float]] = {}
+    warmed: dict[float, Equilibrium] = {}
 
     def excess(temperature: float) -> float:
-        at = equilibrium(bearing.at_temperature(temperature), load, speed)
-        balanced = bearing.balanced_temperature(at.position, np.zeros(2), speed)
-        warmed[temperature] = at, balanced
-        return balanced - temperature
+        warmed[temperature] = at = equilibrium(bearing.at_temperature(temperature), load, speed)
+        warmer = bearing.balanced_temperature(at.position, np.zeros(2), speed) - temperature
+        return warmer if abs(warmer) > _KELVIN else 0.0
 
     low = bearing.coldest()
     rise = excess(low)
@@ -151,9 +150,8 @@ def _warm(bearing: Warming, load: Array, speed: float) -> Equilibrium:
         while excess(low + rise) > 0.0:
             rise *= 2.0
         low = brentq(excess, low, low + rise, xtol=_KELVIN, rtol=8.9e-16)
-    at, _ = warmed[low]
-    steps = sum(one.iterations for one, _ in warmed.values())
-    return replace(at, temperature=low, iterations=steps, reaction=bearing.at_temperature(low))
+    steps = sum(one.iterations for one in warmed.values())
+    return replace(warmed[low], temperature=low, iterations=steps, reaction=bearing.at_temperature(low))
 
 
 def checked_load(load: ArrayLike) -> Array:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from ..errors import AbsentError
+from ..errors import AbsentError, ConvergenceError
 from ..model import Array, Reaction
 from ..rotors import FlexibleRotor
 from .campbell import critical_speeds
@@ -18,6 +18,10 @@ from .rotor_threshold import NEUTRAL, rotor_threshold
 
 NEAR = 1.1
 """Critical speeds up to so many times the first are followed with it."""
+
+
+SHORTEST = 1e-3
+"""Change of speed [1] below which a secant is mostly roundoff."""
 
 
 class Sighting(NamedTuple):
@@ -124,3 +128,65 @@ class Threshold:
         """Return that a whirl grows already by the other model."""
         growing = bool(np.any(other.eigenvalues.real > 0.0))
         return "with more modes another whirl grows first" if growing else ""
+
+
+class FoundSpeed(NamedTuple):
+    """A speed that was looked for.
+
+    Attributes
+    ----------
+    speed : float [rad/s]
+    slope : float
+        Of the lead over the speed there.
+    solution : object
+        What was found with the lead there.
+    """
+
+    speed: float
+    slope: float
+    solution: Any
+
+
+def secant_speed(
+    lead_at: Callable[[float], tuple[float, Any]],
+    speed: float,
+    slope: float,
+    *,
+    near: float,
+    farthest: float,
+    most: int,
+) -> FoundSpeed:
+    """Return the speed at which a lead vanishes, by secants.
+
+    Parameters
+    ----------
+    lead_at : callable
+        From a speed [rad/s] to the lead, and what else was found with it.
+    speed : float [rad/s]
+        Where the search starts.
+    slope : float
+        Of the lead over the speed there; secants take its place.
+    near : float [1]
+        Change of speed at which the search ends.
+    farthest : float [1]
+        Longest step, as a part of the speed.
+    most : int
+        Steps.
+
+    Raises
+    ------
+    ConvergenceError
+        If the search does not end.
+    """
+    last: tuple[float, float] | None = None
+    for _ in range(most):
+        lead, solution = lead_at(speed)
+        if last is not None and abs(speed - last[0]) > SHORTEST * speed:
+            slope = (lead - last[1]) / (speed - last[0])
+        step = max(-farthest * speed, min(-lead / slope, farthest * speed))
+        if abs(step) <= near * speed:
+            return FoundSpeed(speed, slope, solution)
+        last, speed = (speed, lead), speed + step
+    raise ConvergenceError(
+        f"the speed must be found within {most} steps by secants, and was not near {speed:.6g} rad/s"
+    )

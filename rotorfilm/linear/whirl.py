@@ -15,7 +15,7 @@ from ..errors import EquilibriumError, InputError, ValidityWarning, require_fini
 from ..inputs.kinds import arguments
 from ..model import Array, JournalForce, Reaction, require_reaction
 from ..results import Coefficients, Equilibrium, WhirlThreshold
-from ..warming import Settling
+from ..warming import Settling, settled
 from .coefficients import coefficients
 from .critical_mass import critical_mass, damping_has_rank_one, is_stable, whirl_margin
 from .equilibrium import checked_load, equilibrium
@@ -131,7 +131,8 @@ def _least_damped(reaction: Settling, load: Array, mass: float, speed: float) ->
         # Of the rests on the way nobody asked.
         warnings.simplefilter("ignore", ValidityWarning)
         at = equilibrium(cast(Reaction, reaction), load, speed)
-    return complex(reaction.at_rest().modes(at.position, speed, mass)[0]), at
+    film: Settling = settled(cast(Reaction, reaction), at.position, speed)
+    return complex(film.at_rest().modes(at.position, speed, mass)[0]), at
 
 
 def _first_onset(growth: Callable[[float], float], speeds: Array) -> tuple[float | None, list[bool]]:

@@ -20,9 +20,9 @@ DAMPER = next(one for one in MADE if isinstance(one, rf.PorousDamper))
 
 RESULTS = {
     "BasinScan", "Campbell", "CircularOrbit", "CoSimulation", "Coefficients", "CouplingReport",
-    "CriticalMass", "CriticalSpeed", "Equilibrium", "HeatedState", "HopfPoint", "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients", "Reduction",
-    "TiltedPads",
-    "RotorEquilibrium", "RotorModes", "RotorThreshold", "Trajectory", "WhirlThreshold",
+    "CriticalMass", "CriticalSpeed", "Equilibrium", "HeatedState", "HopfPoint",
+    "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients", "Reduction", "RotorEquilibrium",
+    "RotorModes", "RotorThreshold", "TiltedPads", "Trajectory", "WhirlThreshold",
 }  # fmt: skip
 """Made by rotorfilm, not by its users."""
 

@@ -22,9 +22,9 @@ LARGEST = {
     "rotorfilm_grids": 92_000,
     "rotorfilm_grid_systems": 124_000,
     "rotorfilm_heat": 82_000,
-    "rotorfilm_pads": 50_000,
+    "rotorfilm_pads": 74_000,
     "rotorfilm_loops": 172_000,
-    "rotorfilm_master": 220_000,
+    "rotorfilm_master": 232_000,
 }
 """Bytes of each library on Linux, x86_64: what it has, and some room for other compilers."""
 

@@ -88,12 +88,19 @@ def static_rate(eccentricity: Array, source: Array) -> Array:
 
 
 def gap_integral(chi: Array | float, angle: Array | float) -> Array:
-    """Return the integral of 1/(1 + chi cos t) from 0 to an angle of any size."""
+    """Return the integral of 1/(1 + chi cos t) from 0 to an angle of any size.
+
+    On a pad chi may be above 1: then the film between 0 and the angle must be open.
+    """
     turns = np.round(angle / (2.0 * np.pi))
     rest = 0.5 * (angle - 2.0 * np.pi * turns)
-    root = np.sqrt((1.0 - chi) * (1.0 + chi))
-    bent = np.arctan2(np.sqrt((1.0 - chi) / (1.0 + chi)) * np.sin(rest), np.cos(rest))
-    return np.asarray(2.0 / root * (bent + np.pi * turns))
+    closed = np.asarray(chi) < 1.0
+    root = np.sqrt(np.abs((1.0 - chi) * (1.0 + chi)))
+    ratio = np.sqrt(np.abs((1.0 - chi) / (1.0 + chi)))
+    bent = np.arctan2(ratio * np.sin(rest), np.cos(rest)) + np.pi * turns
+    if not closed.all():
+        bent = np.where(closed, bent, np.arctanh(np.where(closed, 0.0, ratio * np.tan(rest))))
+    return np.asarray(2.0 / root * bent)
 
 
 def squared_integral(chi: Array | float, angle: Array | float) -> Array:

@@ -9,6 +9,22 @@ from ...model import Array
 DEGREE = 5
 
 _AT_NODE = np.array([1.0, 26.0, 66.0, 26.0, 1.0]) / 120.0
+_POWERS = np.arange(6.0)[:, None]
+_BASIS = (
+    np.array(
+        [
+            [1.0, -5.0, 10.0, -10.0, 5.0, -1.0],
+            [26.0, -50.0, 20.0, 20.0, -20.0, 5.0],
+            [66.0, 0.0, -60.0, 0.0, 30.0, -10.0],
+            [26.0, 50.0, 20.0, -20.0, -20.0, 10.0],
+            [1.0, 5.0, 10.0, 10.0, 5.0, -5.0],
+            [0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+        ]
+    )
+    / 120.0
+)
+"""Polynomials of the fraction of a cell that its six B-splines are."""
+
 _SIXTH_DIFFERENCE = np.array([1.0, -6.0, 15.0, -20.0, 15.0, -6.0, 1.0])
 
 
@@ -50,18 +66,17 @@ def periodic_quintic(coefficients: Array, turns: Array) -> Array:
     count = len(coefficients)
     cell, inside = np.divmod(turns % 1.0 * count, 1.0)
     near = (cell.astype(int) + np.arange(-2, 4)[:, None]) % count
-    return np.einsum("jn,jn...->n...", _weights(inside), coefficients[near])
+    return np.einsum("jn,jn...->n...", spline_weights(inside), coefficients[near])
 
 
-def _weights(inside: Array) -> Array:
-    """Return the six B-splines of a cell at fractions of it, shape (6, n), by the recursion of de Boor."""
-    weights = np.ones((1, *inside.shape))
-    for degree in range(1, DEGREE + 1):
-        j = np.arange(degree + 1.0)[:, None]
-        rising = np.pad(weights, ((1, 0), (0, 0))) * (inside + degree - j)
-        falling = np.pad(weights, ((0, 1), (0, 0))) * (j + 1.0 - inside)
-        weights = (rising + falling) / degree
-    return weights
+def spline_weights(inside: Array) -> Array:
+    """Return the six B-splines of a cell at fractions of it, shape (6, n)."""
+    return _BASIS @ inside**_POWERS
+
+
+def spline_slopes(inside: Array) -> Array:
+    """Return the derivatives of the six B-splines of a cell by the fraction, shape (6, n)."""
+    return _BASIS[:, 1:] @ (_POWERS[1:] * inside ** _POWERS[:-1])
 
 
 def _collocation(cells: int) -> Array:

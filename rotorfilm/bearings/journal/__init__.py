@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING
 from ...sources import show
 
 if TYPE_CHECKING:
+    from ..oil.heat_balance import heat_surplus
+    from ..oil.heated_bearing import HeatedBearing as HeatedBearing
     from .arc_pressure import middle_pressure, tension
     from .bearing import JournalBearing as JournalBearing
     from .bearing_losses import bearing_losses, has_losses
@@ -26,9 +28,7 @@ if TYPE_CHECKING:
         HeldWalls as HeldWalls,
         Walls,
     )
-    from .heat.heat_balance import heat_surplus
     from .heat.heat_numbers import HeatNumbers as HeatNumbers, heat_numbers as heat_numbers
-    from .heat.heated_bearing import HeatedBearing as HeatedBearing
     from .map.map_film import MapFilm as MapFilm
     from .map.own_tables import bearing_table
     from .reynolds_film import ReynoldsFilm as ReynoldsFilm

@@ -24,7 +24,7 @@ from ..films.bound_law import BoundLaw, kinematics
 from ..films.geometry import FilmGeometry, Groove, Pad
 from ..films.law import BoundFilm, FilmLaw, FilmOptions, options
 from ..oil import Cooling, Oil
-from ..oil.lubricant import film_viscosity, require_lubricant
+from ..oil.lubricant import require_lubricant
 from ..reaction import NOMINAL_SPEED, FilmReaction
 from .fitting import film_name, fitted_film
 from .heat.warm_film import WarmFilm
@@ -132,20 +132,6 @@ class JournalBearing(FilmReaction, WarmFilm):
         return self.length / (2.0 * self.radius)
 
     @property
-    def film_viscosity(self) -> float:
-        """Dynamic viscosity of the film [Pa s]; that of fresh oil where its temperature is not stated."""
-        return film_viscosity(self.viscosity, self.oil, self.temperature, self.cooling)
-
-    @property
-    def is_warming(self) -> bool:
-        """Whether the temperature of the film is left to the heat balance."""
-        return self.oil is not None and self.temperature is None
-
-    def at_temperature(self, temperature: float) -> JournalBearing:
-        """Return this bearing with a film of one temperature [K]; raises InputError if it has no oil."""
-        return replace(self, temperature=temperature)
-
-    @property
     def force_scale(self) -> float:
         """Viscosity * length * radius^3 / clearance^2 [N s], the film's unit of force per 1/s."""
         return self.film_viscosity * self.length * self.radius**3 / self.clearance**2
@@ -201,11 +187,7 @@ class JournalBearing(FilmReaction, WarmFilm):
     @cached_property
     def bound_film(self) -> BoundFilm:
         """The film law tied to the dimensions of this bearing; InputError without a stated temperature."""
-        if self.is_warming:
-            raise InputError(
-                "temperature must be stated for a force of a bearing with oil, got None: "
-                "bearing.at_temperature(T) has one, and equilibrium(bearing, ...) tells T"
-            )
+        self.require_temperature()
         slenderness, clearance, force_scale = self.slenderness, self.clearance, self.force_scale
         in_c = self._options.bind(slenderness=slenderness, clearance=clearance, force_scale=force_scale)
         return in_c or BoundLaw(

@@ -16,18 +16,29 @@ from ...errors import (
     require_positive,
     require_tuple,
     require_vector,
+    warn_user,
 )
 from ...inputs.si_arguments import quantities
 from ...model import Array
-from ...native import JournalKernel
+from ...native import JournalKernel, Status
 from ...native.journal_spec import journal_spec
 from ...native.response_kernels import LobePlace, LobesKernel
 from ...native.spec import NativeSpec
+from ...results import BearingLosses
 from ...signals import Signal, force_outputs, journal_inputs
-from ..films.kernel_film import BoundKernel
-from ..reaction import NOMINAL_SPEED, FilmReaction
+from ..films.kernel_film import BoundKernel, continued
+from ..oil import Cooling, Oil
+from ..oil.lubricant import require_lubricant
+from ..oil.warm_bearing import WarmBearing
+from ..reaction import NOMINAL_SPEED, FilmReaction, broadcast_state
+from .heat_of_pads import SPEED, PadSlopes, heat_slopes_of_pads
 from .lobe import Lobe, require_apart
+from .losses_of_pads import PadUnderJournal, losses_of_pads
 from .pad_film import PadFilm, PadMapFilm
+from .pad_losses import LossyPadFilm
+
+_WEDGE = np.array([[0.0, 1.0], [-1.0, 0.0]])
+"""-z^ x, which makes the wedge of an eccentricity."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,9 +56,13 @@ class BoundLobes(BoundKernel):
 
     lobes: tuple[Lobe, ...]
 
+    def films(self, position: Array) -> list[float]:
+        """Return the least film on each pad [m] of a journal at a position (2,) [m]."""
+        return [self.clearance * float(lobe.least_film(position / self.clearance)) for lobe in self.lobes]
+
     def require_inside(self, position: Array) -> None:
         """Raise FilmContactError, which names the pad, where a journal at a position (2,) [m] touches."""
-        films = [self.clearance * float(lobe.least_film(position / self.clearance)) for lobe in self.lobes]
+        films = self.films(position)
         touched = int(np.argmin(films))
         if not films[touched] > 0.0:
             raise FilmContactError(
@@ -55,10 +70,19 @@ class BoundLobes(BoundKernel):
                 f"{films[touched]:.6g} m on lobe {touched}, {self.lobes[touched]!r}"
             )
 
+    def report(self, status: int, x: float, y: float, vx: float, vy: float, speed: float) -> None:
+        """Raise, or warn, about a state that has this status."""
+        if status == Status.OUTSIDE:
+            films = ", ".join(f"{film:.3g}" for film in self.films(np.array([x, y])))
+            how = continued(self.kernel.film)
+            warn_user(f"least films of {films} m are beyond the map of a pad; its force is {how}")
+        else:
+            super().report(status, x, y, vx, vy, speed)
+
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class LobedBearing(FilmReaction):
+class LobedBearing(FilmReaction, WarmBearing):
     """A journal bearing of fixed pads, such as an elliptical one: a Reaction and a static Model.
 
     x and y are Cartesian from the bearing center, rotation is about +z, the force acts on the journal. The
@@ -77,8 +101,15 @@ class LobedBearing(FilmReaction):
     assembled_clearance : float or None [m]
         Radial clearance of the largest journal that fits in, (1 - preload) c_p, as drawings and ROSS have it;
         for lobes of one preload.
-    viscosity : float [Pa s]
-        Dynamic viscosity of the lubricant.
+    viscosity : float or None [Pa s]
+        Dynamic viscosity of the lubricant, the same at all temperatures; None where `oil` is given.
+    oil : Oil or None
+        The lubricant by its viscosity over temperature, in place of `viscosity`.
+    temperature : float or None [K]
+        Of the films, where the oil is given; None leaves it to the heat balance, with `cooling`, and to
+        `equilibrium`, as that of a `JournalBearing`.
+    cooling : Cooling or None
+        What takes the heat away; needed for a heat balance only. Its carry-over is from pad to pad.
     lobes : tuple of Lobe
         The pads; `lobe_set` makes the usual sets.
     film : PadFilm
@@ -87,8 +118,9 @@ class LobedBearing(FilmReaction):
     Raises
     ------
     InputError
-        If a dimension is not finite and positive, there are not one of both clearances, it is not below the
-        radius, there is no lobe, or lobes overlap.
+        If a dimension is not finite and positive, viscosity and oil are not one of both, an oil has neither
+        temperature nor cooling, there are not one of both clearances, it is not below the radius, there is no
+        lobe, or lobes overlap.
 
     Examples
     --------
@@ -100,14 +132,18 @@ class LobedBearing(FilmReaction):
 
     radius: float
     length: float
-    viscosity: float
     lobes: tuple[Lobe, ...]
+    viscosity: float | None = None
+    oil: Oil | None = None
+    temperature: float | None = None
+    cooling: Cooling | None = None
     pad_clearance: float | None = None
     assembled_clearance: float | None = None
     film: PadFilm = field(default_factory=PadMapFilm)
 
     def __post_init__(self) -> None:
-        require_each(self, require_positive, "radius", "length", "viscosity")
+        require_each(self, require_positive, "radius", "length")
+        require_lubricant(self.viscosity, self.oil, self.temperature, self.cooling)
         require_tuple("lobes", self.lobes, Lobe)
         if not self.lobes:
             raise InputError("lobes must have one at least, got ()")
@@ -144,7 +180,7 @@ class LobedBearing(FilmReaction):
     @property
     def force_scale(self) -> float:
         """Viscosity * length * radius^3 / clearance^2 [N s], the unit of force of a pad per 1/s."""
-        return self.viscosity * self.length * self.radius**3 / self.clearance**2
+        return self.film_viscosity * self.length * self.radius**3 / self.clearance**2
 
     @property
     def inputs(self) -> tuple[Signal, ...]:
@@ -166,7 +202,8 @@ class LobedBearing(FilmReaction):
 
     @cached_property
     def bound_film(self) -> BoundLobes:
-        """The films of the pads tied to the dimensions of this bearing."""
+        """The films of the pads tied to the dimensions; InputError without a stated temperature."""
+        self.require_temperature()
         extents = {lobe.extent: self.film.kernel(lobe.extent, self.slenderness) for lobe in self.lobes}
         films = [JournalKernel(extents[lobe.extent], self.clearance, self.force_scale) for lobe in self.lobes]
         places = [
@@ -175,13 +212,69 @@ class LobedBearing(FilmReaction):
         ]
         return BoundLobes(LobesKernel(films, places), self.clearance, self.lobes)
 
+    def losses(
+        self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool | None = None
+    ) -> BearingLosses | None:
+        """Return power loss, torques and oil flow; see `losses_of_pads`. None if the film law has none.
+
+        The opening of a number is the gap behind the lobe of that number, in the sense of +theta. Where
+        `full_gap` is None, it is that of the cooling, or false.
+
+        Raises
+        ------
+        InputError, FilmContactError
+            As `force`.
+        """
+        if not isinstance(self.film, LossyPadFilm):
+            return None
+        state = broadcast_state(position, velocity, speed)
+        self.bound_film.force(*state)  # raises where the journal touches
+        pads = [self._under(lobe, *state).pad for lobe in self.lobes]
+        return losses_of_pads(self, self.film, pads, state, full_gap=self.full_gap(full_gap))
+
+    def _under(
+        self, lobe: Lobe, position: Array, velocity: Array, speed: Array, *, slopes: bool = False
+    ) -> PadSlopes:
+        """Return a lobe and the journal on it and, of one state, its slopes if asked for."""
+        c, scale, turns = self.clearance, self.force_scale, 0.5 * speed.ravel()
+        pad = PadUnderJournal(lobe.extent, lobe.middle, np.empty(0), np.empty(0))
+        back = pad.turning.T
+        e = back @ (position.reshape(2, -1) / c - np.array(lobe.center)[:, None])
+        w = back @ velocity.reshape(2, -1) / c + turns * (_WEDGE @ e)
+        film = self.film.kernel(lobe.extent, self.slenderness)
+        pad = pad._replace(eccentricity=e, force=scale * film.force(e, w).values)
+        if not slopes:
+            return PadSlopes(pad, np.empty(0), np.empty(0))
+        none = np.zeros((2, 1))
+        de = np.hstack([back / c, np.zeros((2, 3))])
+        dw = np.hstack([turns * _WEDGE @ back / c, back / c, none]) + 0.5 * np.outer(_WEDGE @ e, SPEED)
+        by = scale * film.jacobian(e, w).values[..., 0]
+        return PadSlopes(pad, de, by[:, :2] @ de + by[:, 2:] @ dw)
+
+    def film_at_unit_viscosity(self) -> None:
+        """Return no film for the loops in C over warm films, which know one film only."""
+
+    def heat_jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
+        """Return d(power, effective flow, side flow)/d(x, y, vx, vy, speed) at one temperature, shape (3, 5).
+
+        Parameters and errors are those of `film_heat`; InputError too if the film law has no slopes of its
+        losses.
+        """
+        _, cooling = self.cooled
+        if not isinstance(self.film, LossyPadFilm):
+            raise InputError(f"film must be one with losses for heat, as PadMapFilm, got {self.film!r}")
+        q, v, omega = broadcast_state(position, velocity, speed)
+        self.bound_film.force(q, v, omega)  # raises where the journal touches
+        pads = [self._under(lobe, q, v, omega, slopes=True) for lobe in self.lobes]
+        return heat_slopes_of_pads(self, self.film, pads, (q, v, float(omega)), cooling)
+
     def native(self) -> NativeSpec | None:
         """Return the kernel of the C library that is this bearing; None if its film is no map.
 
         Nor has a subclass. Its parameters are the dimensions, with the clearance of the pads, and the
         viscosity; radius and length are fixed.
         """
-        if type(self) is not LobedBearing or not isinstance(self.film, PadMapFilm):
+        if type(self) is not LobedBearing or not isinstance(self.film, PadMapFilm) or self.is_warming:
             return None
         extents = list(dict.fromkeys(lobe.extent for lobe in self.lobes))
         tables = {"slenderness": np.array([self.slenderness])}
@@ -190,7 +283,7 @@ class LobedBearing(FilmReaction):
             tables |= {f"{number}.{name}": numbers for name, numbers in kernel.tables.items()}
         rows = [(lobe.middle, *lobe.center, extents.index(lobe.extent)) for lobe in self.lobes]
         lengths = {name: float(getattr(self, name)) for name in ("radius", "length", "clearance")}
-        dimensions = {**lengths, "viscosity": float(self.viscosity)}
+        dimensions = {**lengths, "viscosity": self.film_viscosity}
         return journal_spec("lobed_journal", {"lobes": np.array(rows), **tables}, dimensions, fixed=True)
 
     def portable(self) -> LobedBearing:

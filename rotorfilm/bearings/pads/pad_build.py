@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import NamedTuple
 
@@ -19,8 +19,9 @@ from ..films.ring.ring_grids import are_counts, require_cells
 from ..films.ring.ring_kernel import RingKernel
 from ..films.ring.ring_samples import log_potential, reference
 from ..films.table_pieces import cores, made_pieces
-from .pad_bounds import STATES, PadStates, pad_bounds, pad_states
+from .pad_bounds import LOSS_STATES, STATES, PadStates, loss_states, pad_bounds, pad_states
 from .pad_grid import CELLS, pad_grid
+from .pad_losses import CELLS as LOSS_CELLS, fitted_losses, grid_losses, loss_places
 from .pad_table import PadMapTable, wall
 
 REACH = 3.0
@@ -35,10 +36,17 @@ NODE_TIME = 1.4e-7
 CHECK_NODES = 9
 """Nodes that take as long as one state of the bounds, four times the cells and derivatives."""
 
+LOSS_NODES = 6
+"""Nodes that take as long as one of shear and flow, whose film begins anew."""
+
+LOSS_CHECKS = 40
+"""The same of a state of their bounds, with four times the cells."""
+
 TITLE = "map of the pad"
 
 
-class PadResolution(NamedTuple):
+@dataclass(frozen=True)
+class PadResolution:
     """Grid of the solver and nodes of the map.
 
     Attributes
@@ -178,8 +186,11 @@ def build_pad_table(
     states = pad_states(extent, resolution.u_range, resolution.y_end)
     nodes = [partial(solver.exponents, e) for e in node_places(extent, resolution).reshape(2, -1).T]
     checks = _checks(extent, slenderness, resolution.cells, states)
-    found = made_pieces([*nodes, *checks], report, TITLE)
-    half = np.reshape(found[: len(nodes)], (*counts, count_phi // 2))
+    columns, loss_checks = _loss_pieces(extent, slenderness, resolution.cells)
+    pieces: list[Sequence[Callable[[], Array]]] = [nodes, checks, columns, loss_checks]
+    answers = iter(made_pieces([one for group in pieces for one in group], report, TITLE))
+    levels, exact, losses, exact_losses = ([next(answers) for _ in group] for group in pieces)
+    half = np.reshape(levels, (*counts, count_phi // 2))
     coefficients = np.concatenate([half[:, ::-1, ::-1], half], axis=2)
     for axis in range(3):
         coefficients = quintic_coefficients(coefficients, axis)
@@ -189,15 +200,30 @@ def build_pad_table(
         u_range=resolution.u_range,
         y_end=resolution.y_end,
         coefficients=coefficients,
+        losses=fitted_losses(np.array(losses)),
     )
-    exact = np.concatenate(found[len(nodes) :], axis=1)
-    return replace(table, bounds=pad_bounds(table, states, exact))
+    known = np.concatenate(exact, axis=1), np.concatenate(exact_losses, axis=1)
+    return replace(table, bounds=pad_bounds(table, states, *known))
 
 
 def expected_time(resolution: PadResolution) -> float:
     """Return about how long a map takes on all cores of this machine [s]."""
-    work = math.prod(resolution.nodes) / 2 + CHECK_NODES * STATES
+    losses = LOSS_NODES * (LOSS_CELLS[0] + 1) * LOSS_CELLS[1] + LOSS_CHECKS * LOSS_STATES
+    work = math.prod(resolution.nodes) / 2 + CHECK_NODES * STATES + losses
     return NODE_TIME * math.prod(resolution.cells) * work / cores()
+
+
+def _loss_pieces(
+    extent: float, slenderness: float, cells: tuple[int, int]
+) -> tuple[Sequence[Callable[[], Array]], Sequence[Callable[[], Array]]]:
+    """Return the pieces of work of shear and flow: at the nodes, a direction each, and for their bounds."""
+    film = pad_grid(extent, slenderness, cells)
+    finer = pad_grid.__wrapped__(extent, slenderness, (2 * cells[0], 2 * cells[1]))
+    places = [loss_places(extent, column) for column in range(LOSS_CELLS[1])]
+    columns = [partial(grid_losses, film, e, np.ones(e.shape[1])) for e in places]
+    e, rate = loss_states(extent)
+    parts = [slice(k, k + BATCH) for k in range(0, len(rate), BATCH)]
+    return columns, [partial(grid_losses, finer, e[:, part], rate[part]) for part in parts]
 
 
 def _checks(

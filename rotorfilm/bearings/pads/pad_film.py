@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -12,6 +13,7 @@ from ...progress import Report, silent
 from ..films.ring.ring_grids import require_cells
 from .pad_build import FINE, PadResolution
 from .pad_grid import CELLS, pad_grid
+from .pad_losses import PadGridLosses, PadLossMap
 from .pad_map import making_time, pad_table
 from .pad_table import PadMapTable
 
@@ -78,13 +80,27 @@ class PadMapFilm:
                 return table
         return pad_table(extent, slenderness, self.resolution, report)
 
+    def losses(self, extent: float, slenderness: float) -> PadLossMap:
+        """Return shear and flow of a pad at rest from its maps; see `LossyPadFilm`."""
+        return _loss_map(self, float(extent), float(slenderness))
+
     def making_time(self, extent: float, slenderness: float) -> float:
         """Return about how long making the map of a pad takes [s]; 0 where it is on disk."""
         return making_time(extent, slenderness, self.resolution)
 
     def kernel(self, extent: float, slenderness: float) -> FilmKernel:
         """Return the compiled film of a pad; see `PadFilm`."""
-        return self.table(extent, slenderness).kernel()
+        return _map_kernel(self, float(extent), float(slenderness))
+
+
+@lru_cache(maxsize=64)
+def _map_kernel(film: PadMapFilm, extent: float, slenderness: float) -> FilmKernel:
+    return film.table(extent, slenderness).kernel()
+
+
+@lru_cache(maxsize=64)
+def _loss_map(film: PadMapFilm, extent: float, slenderness: float) -> PadLossMap:
+    return film.table(extent, slenderness).loss_map()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -111,3 +127,7 @@ class PadGridFilm:
     def kernel(self, extent: float, slenderness: float) -> FilmKernel:
         """Return the compiled film of a pad; see `PadFilm`."""
         return pad_grid(extent, slenderness, self.cells)
+
+    def losses(self, extent: float, slenderness: float) -> PadGridLosses:
+        """Return shear and flow of a pad at rest; see `LossyPadFilm`."""
+        return PadGridLosses(pad_grid(extent, slenderness, self.cells))

@@ -7,10 +7,12 @@ pad,
 
 e = (xi, eta) and w at the angle phi from the middle of the pad, which covers 2 b, on uniform grids by quintic
 B-splines. The logarithm takes out how J vanishes with the source at the edge of the pad: as a fifth power.
+Beside it are shear and flow of the film (`pad_losses.py`).
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Self
 
@@ -20,12 +22,16 @@ from ...errors import InputError
 from ...model import Array
 from ...native.pad_kernels import PadMapKernel
 from ..films.table_bytes import Layout, Sizes, StoredTable, seal, unseal
+from .pad_losses import LOSSES, PadLossMap
 
 MAGIC = b"RFPADMAP"
-VERSION = 1
+VERSION = 2
 
 BANDS = 4
-"""Bands of the least film with a bound each."""
+"""Bands of the least film with bounds each."""
+
+ERRORS = 5
+"""Columns of the bounds."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -44,9 +50,12 @@ class PadMapTable(StoredTable):
         Y of the last node; the first is opposite.
     coefficients : ndarray, shape (cells_u + 5, cells_y + 5, cells_phi + 5)
         Spline coefficients of M over u, Y and phi.
-    bounds : ndarray, shape (BANDS, 3)
+    losses : ndarray, shape (3, cells over X + 5, cells over theta)
+        Spline coefficients of shear and flow at rest (`pad_losses`).
+    bounds : ndarray, shape (BANDS, ERRORS)
         Largest errors found when the map was made (`pad_bounds`): from which least film / clearance on, of
-        the force, and of K and C, relative to what is said there.
+        the force, and of K and C, relative to what is said there, of the shear at rest, and of flows at rest
+        relative to what enters a concentric pad.
 
     Raises
     ------
@@ -59,7 +68,8 @@ class PadMapTable(StoredTable):
     u_range: tuple[float, float]
     y_end: float
     coefficients: Array = field(repr=False)
-    bounds: Array = field(default_factory=lambda: np.full((BANDS, 3), np.inf), repr=False)
+    losses: Array = field(repr=False)
+    bounds: Array = field(default_factory=lambda: np.full((BANDS, ERRORS), np.inf), repr=False)
 
     def __post_init__(self) -> None:
         shape = np.shape(self.coefficients)
@@ -67,8 +77,12 @@ class PadMapTable(StoredTable):
             raise InputError(
                 f"coefficients must be finite, of shape (u, Y, phi) of 6 at least, got shape {shape}"
             )
-        if np.shape(self.bounds) != (BANDS, 3) or not np.all(self.bounds >= 0.0):
-            raise InputError(f"bounds must have shape ({BANDS}, 3) and not be negative, got {self.bounds!r}")
+        if np.shape(self.losses) != LOSSES or not np.isfinite(self.losses).all():
+            raise InputError(f"losses must be finite, of shape {LOSSES}, got shape {np.shape(self.losses)}")
+        if np.shape(self.bounds) != (BANDS, ERRORS) or not np.all(self.bounds >= 0.0):
+            raise InputError(
+                f"bounds must have shape ({BANDS}, {ERRORS}) and not be negative, got {self.bounds!r}"
+            )
         numbers = self.extent, self.slenderness, self.y_end, self.u_range[1] - self.u_range[0]
         if not all(0.0 < number < np.inf for number in numbers) or self.extent >= np.pi:
             raise InputError(
@@ -82,15 +96,28 @@ class PadMapTable(StoredTable):
 
     def bound(self, least_film: float, *, slopes: bool) -> float:
         """Return the largest error [1] of the force, or of K and C, where the least film is at least this."""
-        films, force, matrices = self.bounds.T
-        errors = (matrices if slopes else force)[films <= least_film]
+        return self._bound(least_film, 2 if slopes else 1)
+
+    def loss_bound(self, least_film: float) -> tuple[float, float]:
+        """Return the largest errors [1] of shear and flows at rest where the least film is at least this.
+
+        That of flows is relative to what enters a concentric pad, clearance radius length speed/2.
+        """
+        return self._bound(least_film, 3), self._bound(least_film, 4)
+
+    def _bound(self, least_film: float, column: int) -> float:
+        errors = self.bounds[self.bounds[:, 0] <= least_film, column]
         return float(errors[0]) if len(errors) else np.inf
+
+    def loss_map(self) -> PadLossMap:
+        """Return shear and flow of the pad under journals at rest."""
+        return PadLossMap(self.losses, self.extent)
 
     def to_bytes(self) -> bytes:
         """Return the table as little-endian bytes: header with sizes and checksum, then the numbers."""
         numbers = np.array([self.extent, self.slenderness, *self.u_range, self.y_end])
         sizes = (*self.coefficients.shape, 0)
-        return seal(MAGIC, VERSION, sizes, numbers, self.bounds, self.coefficients)
+        return seal(MAGIC, VERSION, sizes, numbers, self.bounds, self.losses, self.coefficients)
 
     @classmethod
     def from_bytes(cls, content: bytes) -> Self:
@@ -101,7 +128,7 @@ class PadMapTable(StoredTable):
         RotorfilmError
             If the content is not such a table, of another version, truncated or damaged.
         """
-        sizes, numbers, bounds, coefficients = unseal("pad table", MAGIC, VERSION, _layout, content)
+        sizes, numbers, bounds, losses, coefficients = unseal("pad table", MAGIC, VERSION, _layout, content)
         extent, slenderness, first, last, y_end = numbers.tolist()
         return cls(
             extent=extent,
@@ -109,15 +136,17 @@ class PadMapTable(StoredTable):
             u_range=(first, last),
             y_end=y_end,
             coefficients=coefficients.reshape(sizes[:3]),
-            bounds=bounds.reshape(BANDS, 3),
+            losses=losses.reshape(LOSSES),
+            bounds=bounds.reshape(BANDS, ERRORS),
         )
 
 
 def _layout(sizes: Sizes) -> Layout:
-    """Return what a table of these sizes holds: numbers, bounds, coefficients of M."""
+    """Return what a table of these sizes holds: numbers, bounds, losses, coefficients of M."""
     if min(sizes[:3]) < 1:
         return ()
-    return ("<f8", 5), ("<f8", 3 * BANDS), ("<f8", sizes[0] * sizes[1] * sizes[2])
+    counts = 5, ERRORS * BANDS, math.prod(LOSSES), math.prod(sizes[:3])
+    return tuple(("<f8", count) for count in counts)
 
 
 def wall(xi: Array | float, extent: float) -> Array:

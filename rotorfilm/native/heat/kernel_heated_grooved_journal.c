@@ -1,5 +1,5 @@
 /* Kernel "heated_grooved_journal": a journal bearing with axial openings whose film has one temperature
-   (bearings/journal/heat/heated_bearing.py).
+   (bearings/oil/heated_bearing.py).
 
    Parameters, inputs, outputs and the tables of the oil as in heated_model.h, with one more parameter, carry_over;
    tables of the film as in groove_model.h, and its losses as in groove_losses.h: loss_coefficients (2 x 3, x, theta,

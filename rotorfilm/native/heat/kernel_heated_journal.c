@@ -1,5 +1,5 @@
 /* Kernel "heated_journal": a plain journal bearing whose film has one temperature
-   (bearings/journal/heat/heated_bearing.py).
+   (bearings/oil/heated_bearing.py).
 
    Parameters, inputs, outputs and the tables of the oil as in heated_model.h. The film is the map of coefficients
    (1, x, t), center (1), reach (1), with its losses loss_coefficients (3, x, s), loss_center (3), loss_reach (1),

@@ -26,6 +26,7 @@ RF_KERNEL(damper, RF_ROTORFILM, damper)
 RF_KERNEL(grooved_journal, RF_ROTORFILM | RF_ROTORFILM_SYSTEMS | RF_ROTORFILM_GRID_SYSTEMS, grooved_journal)
 RF_KERNEL(heated_grooved_journal, RF_ROTORFILM_HEAT, grooved_journal)
 RF_KERNEL(heated_journal, RF_ROTORFILM_HEAT, journal)
+RF_KERNEL(heavy_tilting_journal, RF_ROTORFILM_PADS, tilting_journal)
 RF_KERNEL(journal, RF_ROTORFILM | RF_ROTORFILM_SYSTEMS | RF_ROTORFILM_GRID_SYSTEMS, journal)
 RF_KERNEL(linear, RF_ROTORFILM_STATES, linear)
 RF_KERNEL(lobed_journal, RF_ROTORFILM_PADS | RF_ROTORFILM_GRID_SYSTEMS, lobed_journal)
@@ -34,5 +35,6 @@ RF_KERNEL(reynolds_journal, RF_ROTORFILM_GRIDS | RF_ROTORFILM_GRID_SYSTEMS, groo
 RF_KERNEL(rigid_rotor, RF_ROTORFILM_STATES, rotor)
 RF_KERNEL(rotor_system, RF_ROTORFILM_SYSTEMS | RF_ROTORFILM_GRID_SYSTEMS, rotor_system)
 RF_KERNEL(short_journal, RF_ROTORFILM | RF_ROTORFILM_SYSTEMS | RF_ROTORFILM_GRID_SYSTEMS, short_journal)
+RF_KERNEL(tilting_journal, RF_ROTORFILM_PADS, tilting_journal)
 #undef RF_KERNEL
 #endif

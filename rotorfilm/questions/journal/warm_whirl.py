@@ -12,9 +12,10 @@ import numpy as np
 
 from ...answers import HEATED, SAFETY, ErrorEstimate, Found, Work, WorkUnit
 from ...bearings.journal import JournalBearing
-from ...errors import ConvergenceError, RotorfilmError
+from ...errors import RotorfilmError
 from ...ladders import BaseRung, Ladder
 from ...linear import whirl_threshold
+from ...linear.speed_events import secant_speed
 from ...results import Equilibrium, WhirlThreshold
 from ...scenes.journal.assumed import assumed_figures
 from ...scenes.journal.field_levels import FIELD_LEVELS, FieldLevel, grid_error
@@ -203,20 +204,13 @@ class FieldWhirlRung(BaseRung):
         """Return the speed at which the growth of the whirl vanishes [rad/s], by secants."""
         rung = self.uniform
         speed = float((rung.answer(None) if before is None else before).value)
-        slope, last = rung.slope(speed), None
-        for _ in range(RESTS):
+
+        def growth_at(speed: float) -> tuple[float, WarmRest]:
             own = self.level.rest(rung.bearing, rung.load, speed)
-            growth = rung.growth(own.coefficients)
-            if last is not None and abs(speed - last[0]) > 1e-3 * speed:
-                slope = (growth - last[1]) / (speed - last[0])
-            step = float(np.clip(-growth / slope, -FARTHEST * speed, FARTHEST * speed))
-            if abs(step) <= NEAR * speed:
-                return Found(speed, {self.unit: 1}, FieldThreshold(own, Growth(rung, speed, slope)))
-            last, speed = (speed, growth), speed + step
-        raise ConvergenceError(
-            f"the whirl threshold by {self.name} must be found within {RESTS} rests, and was not near "
-            f"{speed:.6g} rad/s"
-        )
+            return rung.growth(own.coefficients), own
+
+        at = secant_speed(growth_at, speed, rung.slope(speed), near=NEAR, farthest=FARTHEST, most=RESTS)
+        return Found(at.speed, {self.unit: 1}, FieldThreshold(at.solution, Growth(rung, at.speed, at.slope)))
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return of T2 what steps towards T3 change, of T3 coarser grids; moving heat."""

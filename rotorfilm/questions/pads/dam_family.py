@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from ...scenes.export_scene import film_models
@@ -14,8 +15,10 @@ if TYPE_CHECKING:
     from ...scenes.scene import Scene
 
 
-def _films(scene: Scene) -> tuple[DamCandidate, ...]:
-    return dam_candidates(scene.table("pressure_dam").build(), fixed=scene.film_is_given)
+def _films(scene: Scene, *, turns: bool = False) -> tuple[DamCandidate, ...]:
+    return dam_candidates(scene.table("pressure_dam").build(), fixed=scene.film_is_given, turns=turns)
 
 
-FAMILY = Family(table=DamTable, ladders=fixed_ladders(_films, _films), models=film_models)
+FAMILY = Family(
+    table=DamTable, ladders=fixed_ladders(_films, partial(_films, turns=True)), models=film_models
+)

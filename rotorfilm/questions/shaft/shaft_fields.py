@@ -7,14 +7,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import Any, NamedTuple, Protocol
 
-import numpy as np
-
 from ...answers import ErrorEstimate, Found, WorkUnit
-from ...errors import ConvergenceError
 from ...ladders import BaseRung, Rung
 from ...linear import RotorEquilibrium, rotor_equilibrium
 from ...linear.rotor_whirl import Whirl, mode_near, on_films, small_motion, value_rate
-from ...linear.speed_events import SpeedEvent
+from ...linear.speed_events import SpeedEvent, secant_speed
 from ...rotors.shaft.shaft_models import ShaftModel
 from ...scenes.journal.field_levels import FIELD_LEVELS, FieldLevel, grid_error
 from ...scenes.journal.heat_steps import HeatError
@@ -122,26 +119,22 @@ class FieldSpeedRung(BaseRung):
         rung = self.uniform
         start = before.solution if before is not None else None
         lower = before if before is not None and not isinstance(start, FieldSpeed) else None
-        whirl, last = rung.answer(lower).solution.whirls[0], None
-        structure, event, speed = rung.model.rotor.structure, rung.event, whirl.at.speed
-        rate = event.rate(value_rate(structure, whirl, rung.films))
-        for _ in range(RESTS):
+        whirl = rung.answer(lower).solution.whirls[0]
+        structure, event = rung.model.rotor.structure, rung.event
+
+        def lead_at(speed: float) -> tuple[float, FieldSpeed]:
+            nonlocal whirl
             at = rotor_equilibrium(rung.model.rotor, rung.films.reaction, speed)
             rests = field_rests(rung.films, at, self.level)
             warm = on_films(at, {**at.coefficients, **{n: one.coefficients for n, one in rests.items()}})
             system = small_motion(structure, warm, event.frequency(whirl.value, speed))
             whirl = Whirl(warm, *mode_near(system, whirl.value, whirl.right))
-            lead = event.lead(whirl.value, speed)
-            if last is not None and abs(speed - last[0]) > 1e-3 * speed:
-                rate = (lead - last[1]) / (speed - last[0])
-            step = float(np.clip(-lead / rate, -FARTHEST * speed, FARTHEST * speed))
-            if abs(step) <= NEAR * speed:
-                found = Found(speed, {}, rung.solution(whirl))
-                return Found(speed, {self.unit: 1}, FieldSpeed(found, rests))
-            last, speed = (speed, lead), speed + step
-        raise ConvergenceError(
-            f"the speed by {self.name} must be found within {RESTS} rests, and was not near {speed:.6g} rad/s"
-        )
+            found = Found(speed, {}, rung.solution(whirl))
+            return event.lead(whirl.value, speed), FieldSpeed(found, rests)
+
+        rate = event.rate(value_rate(structure, whirl, rung.films))
+        near = secant_speed(lead_at, whirl.at.speed, rate, near=NEAR, farthest=FARTHEST, most=RESTS)
+        return Found(near.speed, {self.unit: 1}, near.solution)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the error of the model of the shaft, and that of the films."""

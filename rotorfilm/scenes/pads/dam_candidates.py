@@ -55,7 +55,9 @@ class DamCandidate(FilmCandidate):
         )
 
 
-def dam_candidates(bearing: PressureDamBearing, *, fixed: bool) -> tuple[DamCandidate, ...]:
+def dam_candidates(
+    bearing: PressureDamBearing, *, fixed: bool, turns: bool = False
+) -> tuple[DamCandidate, ...]:
     """Return the cells that can answer for a bearing of pads with recesses, the fewest first.
 
     Parameters
@@ -63,15 +65,22 @@ def dam_candidates(bearing: PressureDamBearing, *, fixed: bool) -> tuple[DamCand
     bearing : PressureDamBearing
     fixed : bool
         Whether the scene names the cells.
+    turns : bool
+        Whether they are for states all round a turn, which are too many for the most cells.
     """
     if fixed:
-        return (_candidate(bearing, 0.0, 0.0),)
-    return tuple(_candidate(replace(bearing, cells=cells), *priors) for cells, *priors in LEVELS)
+        return (_candidate(bearing, FINEST, 0.0, 0.0),)
+    levels = LEVELS[:-1] if turns else LEVELS
+    return tuple(
+        _candidate(replace(bearing, cells=cells), FINE if turns or not k else FINEST, *priors)
+        for k, (cells, *priors) in enumerate(levels)
+    )
 
 
-def _candidate(bearing: PressureDamBearing, position_prior: float, prior: float) -> DamCandidate:
-    few = 4 * math.prod(bearing.cells) <= math.prod(FINE) and bearing.cells != LEVELS[1][0]
-    rich = replace(bearing, cells=FINE if few else FINEST)
+def _candidate(
+    bearing: PressureDamBearing, cells: tuple[int, int], position_prior: float, prior: float
+) -> DamCandidate:
+    rich = replace(bearing, cells=cells)
     return DamCandidate(
         name=dam_film_name(bearing),
         reaction=bearing,

@@ -50,7 +50,7 @@ class TiltingCandidate(FilmCandidate):
         return LOOKS * len(self.reaction.pivots) * CELL_TIME * math.prod(film.cells)
 
     def coefficients(self, position: Array, speed: float) -> Coefficients:
-        """Return what the journal feels of the richer film at the frequency of the shaft, its slopes smooth."""
+        """Return what the journal feels of the richer film once a turn, its slopes smooth."""
         return self.rich.at_rest().matrices(position, speed, smooth_slopes).reduced(abs(speed))
 
     @property

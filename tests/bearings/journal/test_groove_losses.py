@@ -18,7 +18,7 @@ from rotorfilm.bearings.journal.grooves.groove_losses import (
     opening_runs,
 )
 from rotorfilm.bearings.journal.grooves.openings import AlignedOpenings, aligned_openings
-from rotorfilm.bearings.journal.heat.heat_balance import balance_temperature, effective_flow
+from rotorfilm.bearings.oil.heat_balance import balance_temperature, effective_flow
 
 SPEED = 100.0 * np.pi
 COOLING = Cooling(

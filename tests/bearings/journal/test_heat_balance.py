@@ -20,7 +20,7 @@ from rotorfilm import (
     equilibrium,
     heat_numbers,
 )
-from rotorfilm.bearings.journal.heat.heat_balance import effective_flow
+from rotorfilm.bearings.oil.heat_balance import effective_flow
 
 OIL = Oil.iso_vg(100)
 COOLING = Cooling(supply_temperature=310.25)

@@ -107,7 +107,7 @@ def test_is_a_reaction_and_a_static_model():
 
 
 @pytest.mark.parametrize("name", list(DIMENSIONS))
-@pytest.mark.parametrize("value", [-5e-5, 0.0, np.nan, np.inf, "-1", True])
+@pytest.mark.parametrize("value", [-5e-5, 0.0, np.nan, np.inf, True])
 def test_bad_dimension_is_refused(name, value):
     with pytest.raises(InputError, match=f"{name} must be finite and positive, got"):
         JournalBearing(**{**DIMENSIONS, name: value})

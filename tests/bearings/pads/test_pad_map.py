@@ -1,5 +1,6 @@
 """The map of a pad against its two-dimensional film, its symmetries, its edges, and bearings made of pads."""
 
+import dataclasses
 from functools import cache
 
 import numpy as np
@@ -246,4 +247,4 @@ def test_making_a_map_says_how_long_it_takes():
 )
 def test_resolution_that_breaks_a_rule_is_refused(change, message):
     with pytest.raises(InputError, match=message):
-        COARSE._replace(**change).checked()
+        dataclasses.replace(COARSE, **change).checked()

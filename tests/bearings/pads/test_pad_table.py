@@ -44,7 +44,7 @@ def test_bytes_are_the_table(made, tmp_path):
         (lambda content: b"RFGROOVE" + content[8:], "pad table: the content does not begin with the mark"),
         (lambda content: content[:-8], "pad table: size must be"),
         (lambda content: content[:-1] + bytes([content[-1] ^ 1]), "pad table: the checksum does not fit"),
-        (lambda content: content[:8] + b"\x63" + content[9:], "pad table: version must be 1, got 99"),
+        (lambda content: content[:8] + b"\x63" + content[9:], "pad table: version must be 2, got 99"),
     ],
 )
 def test_damaged_bytes_are_refused(made, damage, message):
@@ -57,8 +57,9 @@ def test_damaged_bytes_are_refused(made, damage, message):
     [
         ({"coefficients": np.zeros((6, 5, 6))}, r"got shape \(6, 5, 6\)"),
         ({"coefficients": np.full((6, 6, 6), np.nan)}, "coefficients must be finite"),
-        ({"bounds": np.zeros((3, 3))}, r"bounds must have shape \(4, 3\)"),
-        ({"bounds": np.full((4, 3), -1.0)}, "not be negative"),
+        ({"bounds": np.zeros((3, 5))}, r"bounds must have shape \(4, 5\)"),
+        ({"bounds": np.full((4, 5), -1.0)}, "not be negative"),
+        ({"losses": np.zeros((3, 17, 12))}, r"losses must be finite, of shape \(3, 17, 72\)"),
         ({"extent": np.pi}, "extent below pi"),
         ({"slenderness": 0.0}, "must be positive"),
         ({"y_end": np.inf}, "must be positive"),
@@ -101,10 +102,10 @@ def test_name_in_the_cache_tells_what_decides_the_content(folder):
         (1.1, 0.5, COARSE),
         (1.100001, 0.5, COARSE),
         (1.1, 0.500001, COARSE),
-        (1.1, 0.5, COARSE._replace(cells=(16, 8))),
-        (1.1, 0.5, COARSE._replace(nodes=(6, 6, 14))),
-        (1.1, 0.5, COARSE._replace(xi_range=(-0.3, 0.91))),
-        (1.1, 0.5, COARSE._replace(reach=0.94)),
+        (1.1, 0.5, dataclasses.replace(COARSE, cells=(16, 8))),
+        (1.1, 0.5, dataclasses.replace(COARSE, nodes=(6, 6, 14))),
+        (1.1, 0.5, dataclasses.replace(COARSE, xi_range=(-0.3, 0.91))),
+        (1.1, 0.5, dataclasses.replace(COARSE, reach=0.94)),
     ]
     for shape in shapes:
         pad_table(*shape, lambda *_: None)

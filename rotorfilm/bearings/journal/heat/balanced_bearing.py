@@ -15,9 +15,9 @@ from ....native import JournalKernel, Status
 from ....native.heated_kernel import BalancedBatch, BalancedKernel
 from ...films.kernel_film import BoundKernel
 from ...oil import Oil
+from ...oil.cooled import Cooled
 from ...oil.viscosity_table import viscosity_table
 from ...reaction import StaticReaction, broadcast_state
-from .cooled import Cooled
 
 
 @dataclass(frozen=True, kw_only=True)

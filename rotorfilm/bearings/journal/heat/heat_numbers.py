@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ....errors import InputError, brief
 from ....inputs.kinds import arguments
-from .cooled import Cooled
+from ...oil.cooled import Cooled
 
 
 class HeatNumbers(NamedTuple):

@@ -12,8 +12,11 @@ from ....errors import InputError, require_finite, require_number, warn_user
 from ....model import Array, Tangent
 from ....native.pads.tilting_kernel import RestPoint
 from ....readable.result import Readable
-from ....results import Equilibrium
-from .held_pads import TURN, PadSlopes, pad_slopes
+from ....results import BearingLosses, Equilibrium
+from ...reaction import broadcast_state
+from ..losses_of_pads import PadUnderJournal, losses_of_pads
+from ..pad_losses import LossyPadFilm
+from .held_pads import TURN, PadSlopes, pad_slopes, turning
 from .pad_contact import report_pads
 from .pad_matrices import PadMatrices, ReducedCoefficients
 from .pivots import directions
@@ -156,6 +159,36 @@ class TiltingPadsAtRest:
             unloaded=pads["unloaded"] > 0.0,
         )
 
+    def losses(
+        self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool | None = None
+    ) -> BearingLosses | None:
+        """Return power loss, torques and oil flow; see `losses_of_pads`. None if the film law has none.
+
+        The opening of a number is the gap behind the pad of that number, in the sense of +theta. Where
+        `full_gap` is None, it is that of the cooling, or false. An unloaded pad has streamers only.
+
+        Raises
+        ------
+        InputError, FilmContactError
+            As `force`.
+        """
+        bearing = self.bearing
+        if not isinstance(bearing.film, LossyPadFilm):
+            return None
+        found = self._point(position, velocity, speed).pads
+        state = broadcast_state(position, velocity, speed)
+        R, places = turning(bearing), np.stack([found["pivot"], found["tilt"]])
+        local = np.einsum("kij,i->jk", directions(bearing.pivots), state[0])
+        e = R @ ((local + places) / bearing.clearance + np.array([[bearing.preload], [0.0]]))
+        forces = -R[:, :1] * found["load"]
+        middles = np.array(bearing.pivots) + (0.5 - bearing.pivot_offset) * bearing.extent
+        pads = [
+            PadUnderJournal(bearing.extent, middle, e[:, k : k + 1], forces[:, k : k + 1])
+            for k, middle in enumerate(middles.tolist())
+        ]
+        gap = bearing.full_gap(full_gap)
+        return losses_of_pads(bearing, bearing.film, pads, state, full_gap=gap)
+
     def state(self, position: ArrayLike, speed: float) -> Array:
         """Return the states of the bearing at rest: tilts, places of sprung pivots, rates 0."""
         pads = self.pad_states(position, speed)
@@ -163,9 +196,7 @@ class TiltingPadsAtRest:
         places = np.concatenate([pads.tilts, pads.pivot_deflections]) if sprung else pads.tilts
         return self.bearing.moving(places)
 
-    def matrices(
-        self, position: ArrayLike, speed: float, slopes: PadSlopes = pad_slopes
-    ) -> PadMatrices:
+    def matrices(self, position: ArrayLike, speed: float, slopes: PadSlopes = pad_slopes) -> PadMatrices:
         """Return stiffness, damping and mass of journal and pads about their rest.
 
         With e = Q^T r / c + (m, q/c) of each pad they are sum B^T K_p B and sum B^T C_p B, B = [Q^T | e_t at

@@ -11,8 +11,13 @@ from numpy.typing import ArrayLike
 from ....errors import InputError, require_finite
 from ....inputs.si_arguments import quantities
 from ....model import Array, Linearization
+from ....native.journal_spec import journal_spec
 from ....native.pads.tilting_kernel import TiltingPoint
+from ....native.spec import NativeSpec
+from ....results import BearingLosses
 from ....signals import Signal, force_outputs, journal_inputs
+from ...oil.heat_balance import FilmHeat, fed_temperature
+from ...oil.heated_bearing import HeatedBearing
 from ...reaction import NOMINAL_SPEED, Called, broadcast_state, input_vector
 from ..pad_film import PadMapFilm
 from .held_pads import held_force, held_jacobian
@@ -91,6 +96,39 @@ class TiltingPadBearing(Called, TiltingPads):
         """Return the force on a journal at rest, each pad in its stable tilt."""
         return TiltingPadsAtRest(self)
 
+    def losses(
+        self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool | None = None
+    ) -> BearingLosses | None:
+        """Return power loss, torques and oil flow under a journal at rest; see `TiltingPadsAtRest.losses`."""
+        return self.at_rest().losses(position, velocity, speed, full_gap=full_gap)
+
+    def balanced_temperature(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> float:
+        """Return the temperature at which the heat of the film balances under a journal at rest [K].
+
+        Parameters and errors are those of `film_heat`.
+        """
+        if self.pivot_stiffness is None:
+            return super().balanced_temperature(position, velocity, speed)
+
+        # Springs give way to the load of the pads, and with it to the viscosity.
+        def heat(temperature: float) -> FilmHeat:
+            return self.at_temperature(temperature).film_heat(position, velocity, speed)
+
+        return fed_temperature(heat, *self.cooled)
+
+    def in_time(self, start_temperature: float | None = None) -> HeatedBearing:
+        """Raise InputError: the heat of tilting pads is known at rest only."""
+        raise InputError(
+            "temperature must be stated for tilting pads in time, got None: bearing.at_temperature(T) has one"
+        )
+
+    def film_at_unit_viscosity(self) -> None:
+        """Return no film for the loops in C over warm films, which know one film only."""
+
+    def heat_jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
+        """Raise InputError: the heat of pads has no slopes."""
+        raise InputError("bearing must have slopes of its heat, as a JournalBearing, got tilting pads")
+
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the force on the journal with the pads held at their start, shape (2, ...) [N].
 
@@ -122,6 +160,27 @@ class TiltingPadBearing(Called, TiltingPads):
         found = self._at(x, u, slopes=True).slopes
         assert found is not None
         return found
+
+    def native(self) -> NativeSpec | None:
+        """Return the kernel of the C library that is this bearing; None if its film is no map.
+
+        Nor has a subclass. Its parameters are the dimensions, with the clearance of the pads, and the
+        viscosity; radius and length are fixed.
+        """
+        if type(self) is not TiltingPadBearing or not isinstance(self.film, PadMapFilm):
+            return None
+        numbers = (
+            *(self.extent, self.pivot_offset, self.preload, self.pivot_stiffness or 0.0),
+            *(self.reduced_inertia, self.pad_mass or 0.0, self.slenderness),
+        )
+        tables = self.film.table(self.extent, self.slenderness).kernel().tables
+        lengths = {name: float(getattr(self, name)) for name in ("radius", "length", "clearance")}
+        return journal_spec(
+            "tilting_journal" if self.pad_inertia is None else "heavy_tilting_journal",
+            {"pivots": np.array(self.pivots), "pads": np.array(numbers), **tables},
+            {**lengths, "viscosity": self.film_viscosity},
+            fixed=True,
+        )
 
     def portable(self) -> TiltingPadBearing:
         """Return this bearing with a film that carries the map it needs; see `model.Portable`."""

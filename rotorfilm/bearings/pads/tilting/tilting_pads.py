@@ -23,13 +23,16 @@ from ....errors import (
 from ....inputs.si_arguments import quantities
 from ....model import Array
 from ....native.pads.tilting_kernel import TiltingKernel
+from ...oil import Cooling, Oil
+from ...oil.lubricant import require_lubricant
+from ...oil.warm_bearing import WarmBearing
 from ..pad_film import PadFilm, PadMapFilm
 from .pivots import directions, gaps, reach
 
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class TiltingPads:
+class TiltingPads(WarmBearing):
     """Equal tilting pads around a journal.
 
     Clearances: c_p of a pad is its radius of curvature less that of the journal, c_b that of the assembled
@@ -42,8 +45,15 @@ class TiltingPads:
         Of the journal; or `diameter`, twice that.
     length : float [m]
         Axial length of the pads.
-    viscosity : float [Pa s]
-        Dynamic viscosity of the lubricant.
+    viscosity : float or None [Pa s]
+        Dynamic viscosity of the lubricant, the same at all temperatures; None where `oil` is given.
+    oil : Oil or None
+        The lubricant by its viscosity over temperature, in place of `viscosity`.
+    temperature : float or None [K]
+        Of the films, where the oil is given; None leaves it to the heat balance, with `cooling`, of a journal
+        at rest: `equilibrium` finds it.
+    cooling : Cooling or None
+        What takes the heat away; needed for a heat balance only. Its carry-over is from pad to pad.
     pivots : tuple of floats [rad]
         Angles of the pivots; `even_pivots` has them for a load on or between pads.
     extent : float [rad]
@@ -79,9 +89,12 @@ class TiltingPads:
 
     radius: float
     length: float
-    viscosity: float
     pivots: tuple[float, ...]
     extent: float
+    viscosity: float | None = None
+    oil: Oil | None = None
+    temperature: float | None = None
+    cooling: Cooling | None = None
     pivot_offset: float = 0.5
     preload: float = 0.0
     pad_clearance: float | None = None
@@ -94,7 +107,8 @@ class TiltingPads:
     film: PadFilm = field(default_factory=PadMapFilm)
 
     def __post_init__(self) -> None:
-        require_each(self, require_positive, "radius", "length", "viscosity", "extent")
+        require_each(self, require_positive, "radius", "length", "extent")
+        require_lubricant(self.viscosity, self.oil, self.temperature, self.cooling)
         require_each(self, require_non_negative, "pivot_distance")
         for name in ("pad_clearance", "assembled_clearance", "pivot_stiffness", "pad_inertia", "pad_mass"):
             if getattr(self, name) is not None:
@@ -169,7 +183,7 @@ class TiltingPads:
     @property
     def force_scale(self) -> float:
         """Viscosity * length * radius^3 / c_p^2 [N s], the film's unit of force per 1/s."""
-        return self.viscosity * self.length * self.radius**3 / self.clearance**2
+        return self.film_viscosity * self.length * self.radius**3 / self.clearance**2
 
     @property
     def reduced_inertia(self) -> float:
@@ -178,7 +192,8 @@ class TiltingPads:
 
     @cached_property
     def kernel(self) -> TiltingKernel:
-        """The bearing in compiled code."""
+        """The bearing in compiled code; InputError without a stated temperature."""
+        self.require_temperature()
         return TiltingKernel(
             self.film.kernel(self.extent, self.slenderness),
             self.extent,

@@ -29,11 +29,15 @@ def tilting():
             if first is None
             else tuple((first + k * 360.0 / pads) * DEGREE for k in range(pads))
         )
-        given = {"pad_clearance": 1e-4, "film": PadGridFilm(cells=cells), "pivots": angles} | further
+        given = {
+            "viscosity": 0.02,
+            "pad_clearance": 1e-4,
+            "film": PadGridFilm(cells=cells),
+            "pivots": angles,
+        } | further
         return TiltingPadBearing(
             radius=0.05,
             length=0.1 * slenderness,
-            viscosity=0.02,
             extent=extent * DEGREE,
             preload=preload,
             pivot_offset=offset,

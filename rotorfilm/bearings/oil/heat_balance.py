@@ -22,10 +22,11 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple
 
-from ....errors import ConvergenceError, InputError
-from ....model import Array
-from ....results import BearingLosses
-from ...oil import Cooling, Oil
+from ...errors import ConvergenceError, InputError
+from ...model import Array
+from ...results import BearingLosses
+from .cooling import Cooling
+from .oil import Oil
 
 _STEPS = 60
 _ROUNDOFF = 1e-14

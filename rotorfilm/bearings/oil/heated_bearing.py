@@ -1,4 +1,4 @@
-"""A journal bearing as it runs: its film has one temperature, which follows its heat balance in time."""
+"""A bearing as it runs: its film has one temperature, which follows its heat balance in time."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ....errors import InputError, require_finite
-from ....inputs.si_arguments import quantities
-from ....model import Array, Linearization
-from ....native.spec import NativeSpec
-from ....signals import Signal
-from ...oil.cooling import require_absolute
-from ...oil.viscosity_table import viscosity_table
-from ...reaction import input_vector
+from ...errors import InputError, require_finite
+from ...inputs.si_arguments import quantities
+from ...model import Array, Linearization
+from ...native.spec import NativeSpec
+from ...signals import Signal
+from ..reaction import input_vector
 from .cooled import Cooled
+from .cooling import require_absolute
 from .heat_balance import heat_surplus
 from .heated_spec import heated_spec
+from .viscosity_table import viscosity_table
 
 NOMINAL_TEMPERATURE = 300.0
 """Typical temperature [K]."""
@@ -30,7 +30,7 @@ NOMINAL_TEMPERATURE = 300.0
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class HeatedBearing:
-    """A journal bearing whose film and bush warm and cool: a Reaction with one state, the temperature.
+    """A bearing whose film and bush warm and cool: a Reaction with one state, the temperature.
 
     With the power P into the oil, the effective flow Q_e of fresh oil, and the heat capacity of bush and
     film,
@@ -43,7 +43,7 @@ class HeatedBearing:
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or LobedBearing
         With oil and cooling, its temperature left to the heat balance.
     start_temperature : float or None [K]
         Temperature at t = 0; None for that of the fresh oil.
@@ -165,7 +165,7 @@ class HeatedBearing:
         Raises
         ------
         InputError
-            As `JournalBearing.heat_jacobian`, where the film law has no slopes of its losses.
+            As `heat_jacobian` of the bearing, where the film law has no slopes of its losses.
         """
         temperature, values = self._point(x, u)
         oil, cooling = self.bearing.cooled

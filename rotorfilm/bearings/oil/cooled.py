@@ -1,4 +1,4 @@
-"""What of a journal bearing its heat follows from."""
+"""What of a bearing its heat follows from."""
 
 from __future__ import annotations
 
@@ -6,17 +6,30 @@ from typing import Any, Protocol, runtime_checkable
 
 from numpy.typing import ArrayLike
 
-from ....native.loss_kernels import LossKernel
-from ....signals import Signal
-from ...films.kernel_film import BoundKernel
-from ...oil import Cooling, Oil
-from ..bearing_losses import LossyBearing
+from ...model import Array
+from ...native.loss_kernels import LossKernel
+from ...signals import Signal
+from ..films.kernel_film import BoundKernel
+from .cooling import Cooling
 from .heat_balance import FilmHeat
+from .oil import Oil
 
 
 @runtime_checkable
-class Cooled(LossyBearing, Protocol):
-    """What a bearing with an oil and cooling offers; `JournalBearing` is one."""
+class Cooled(Protocol):
+    """What a bearing with an oil and cooling offers, as `JournalBearing` and `LobedBearing` do."""
+
+    @property
+    def radius(self) -> float:
+        """Bearing radius [m]."""
+
+    @property
+    def length(self) -> float:
+        """Axial length [m]."""
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance [m]."""
 
     @property
     def cooled(self) -> tuple[Oil, Cooling]:
@@ -35,6 +48,9 @@ class Cooled(LossyBearing, Protocol):
 
     def film_heat(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> FilmHeat:
         """Return the heat that the film makes and takes along at one state."""
+
+    def heat_jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
+        """Return d(power, effective flow, side flow)/d(x, y, vx, vy, speed) at one temperature, (3, 5)."""
 
     def film_at_unit_viscosity(self) -> tuple[BoundKernel, LossKernel] | None:
         """Return its compiled film at 1 Pa s with its losses; None if there is none."""

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ....model import Array
-from ....native.heated_kernel import OilTable
-from ....native.spec import NativeParameter, NativeSpec
+from ...model import Array
+from ...native.heated_kernel import OilTable
+from ...native.spec import NativeParameter, NativeSpec
 
 _PARAMETERS = (
     ("radius", "m", "bearing radius; fixed, as the map of the film holds for this length / diameter"),

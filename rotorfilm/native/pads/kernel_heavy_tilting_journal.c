@@ -1,0 +1,42 @@
+/* Kernel "heavy_tilting_journal": a journal bearing of equal tilting pads with inertia
+   (bearings/pads/tilting/tilting_bearing.py); parameters, states and tables as in tilting_model.h. */
+
+/* Documentation of the FMU
+
+   Model: Film force of a journal bearing of equal tilting pads with inertia; Reynolds equation with Reynolds
+   rupture over each pad, ambient pressure at its ends and sides. x and y are Cartesian from the bearing center, rotation
+   is positive about +z (from x to y), the force acts on the journal. The states are the tilts q of the pads, as
+   lengths at the film, with springs the places s of their pivots, and the rates of all of them. In the frame n, t of a
+   pivot the film knows only e and w; its force is the gradient of the potential J of a table:
+
+   Equations:
+   e = ((x, y).n/clearance + preload + s/clearance, ((x, y).t + q)/clearance)
+   w = ((vx, vy).n + ds/dt, (vx, vy).t + dq/dt)/clearance - (speed/2) z^ x e
+   inertia/distance^2 d2q/dt2 = scale dJ/dw_t,  scale = viscosity length radius^3 / clearance^2
+   mass d2s/dt2 = scale dJ/dw_n - pivot_stiffness s
+   F = scale sum (dJ/dw_n n + dJ/dw_t t)
+
+   Validity: The map is made for this extent and length / diameter: radius and length are fixed, the clearance of
+   the pads and the viscosity tunable. The equations are stiff: Co-Simulation integrates them by RODAS, of order 4,
+   L-stable, with the exact Jacobian. Beyond the map the force is extrapolated, with a warning. Friction of film and
+   pivots on the tilt is left out. Laminar, isothermal, aligned. */
+#include "../solvers/integrate.h"
+#include "tilting_model.h"
+
+static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
+{
+    return rf_create_tilting(tables, 1, sizes, why);
+}
+
+const rf_kernel_type rf_heavy_tilting_journal_type = {
+    .create = create,
+    .destroy = rf_destroy_tilting,
+    .set_parameters = rf_set_tilting,
+    .output = rf_tilting_output,
+    .jacobian = rf_tilting_derivatives,
+    .derivative = rf_tilting_derivative,
+    .method = &rf_rodas,
+    .factorize = rf_tilting_factorize,
+    .solve = rf_tilting_solve,
+    .drift = rf_tilting_drift,
+};

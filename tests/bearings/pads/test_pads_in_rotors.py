@@ -1,0 +1,76 @@
+"""Rotors on fixed pads: orbits, thresholds and transients agree with each other and with K and C."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.integrate import Radau
+
+from rotorfilm import (
+    LobedBearing,
+    PadMapFilm,
+    RigidRotor,
+    ValidityWarning,
+    coefficients,
+    equilibrium,
+    hopf_point,
+    lobe_set,
+    mount,
+    periodic_orbit,
+    simulate,
+    whirl_threshold,
+)
+from rotorfilm.bearings.pads.pad_build import PadResolution
+
+FILM = PadMapFilm(resolution=PadResolution(cells=(32, 4), nodes=(10, 9, 32)))
+BEARING = LobedBearing(
+    radius=0.05,
+    length=0.05,
+    pad_clearance=1e-4,
+    viscosity=0.02,
+    lobes=lobe_set("three_lobe", preload=0.3),
+    film=FILM,
+)
+SPEED, MASS, LOAD = 300.0, 80.0, (0.0, -900.0)
+ROTOR = RigidRotor(mass=MASS, speed=SPEED, gravity=(0.0, 0.0), static_force=LOAD)
+
+
+def test_a_small_orbit_is_that_of_the_coefficients():
+    rest = equilibrium(BEARING, LOAD, SPEED)
+    at = coefficients(BEARING, rest.position, SPEED)
+    unbalance = 1e-8 * MASS
+    rotor = replace(ROTOR, unbalance=unbalance, position=tuple(rest.position))
+    orbit = periodic_orbit(mount(rotor, {"": BEARING}))
+    dynamic = at.stiffness + 1j * SPEED * at.damping - SPEED**2 * MASS * np.eye(2)
+    linear = np.abs(np.linalg.solve(dynamic, unbalance * SPEED**2 * np.array([1.0, -1j])))
+    turn = np.linspace(0.0, orbit.period, 401)
+    found = 0.5 * np.ptp(np.reshape(orbit.position(turn), (2, -1)), axis=1)
+    assert found == pytest.approx(linear, rel=2e-3)
+
+
+def test_the_hopf_point_is_the_whirl_threshold():
+    threshold = whirl_threshold(BEARING, LOAD, MASS)
+    point = hopf_point(
+        lambda speed: mount(replace(ROTOR, speed=speed), {"": BEARING}),
+        (0.8 * threshold.speed, 1.2 * threshold.speed),
+    )
+    assert point.speed == pytest.approx(threshold.speed, rel=1e-6)
+
+
+def test_the_compiled_transient_is_that_of_scipy():
+    rotor = replace(ROTOR, unbalance=3e-3, position=(1e-5, -2e-5))
+    fast, slow = (
+        simulate(rotor, BEARING, duration=0.05, samples=101, rtol=1e-8, **method)
+        for method in ({}, {"method": Radau})
+    )
+    assert "film_evaluations" in fast.work
+    assert fast.position == pytest.approx(slow.position, abs=1e-5 * BEARING.clearance)
+
+
+def test_a_heavy_load_never_reaches_a_lobe():
+    """The film carries any load: what is left of it goes on, and no step lands in the wall."""
+    rotor = replace(ROTOR, static_force=(0.0, -2e5), mass=2e4)
+    with pytest.warns(ValidityWarning, match="beyond the map of"):
+        run = simulate(rotor, BEARING, duration=0.05, rtol=1e-6)
+    assert run.time[-1] == pytest.approx(0.05)
+    assert 0.0 < BEARING.minimum_film(run.position).min() < 0.05 * BEARING.clearance

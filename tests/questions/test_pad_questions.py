@@ -1,0 +1,257 @@
+"""Questions about bearings made of pads: answers beside films far finer, estimates beside true errors."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rotorfilm.bearings.contact_place import minimum_film
+from rotorfilm.bearings.pads import PadGridFilm, PadMapFilm, TiltingPadBearing
+from rotorfilm.errors import AbsentError, InputError
+from rotorfilm.linear import equilibrium, whirl_threshold
+from rotorfilm.questions import ladder_of
+from rotorfilm.questions.journal.statics import MATRIX, attitude, relative_distance
+from rotorfilm.scenes.journal.film_defects import tangent
+from rotorfilm.scenes.pads.lobed_candidates import COARSE_MAP, lobed_candidates
+from rotorfilm.scenes.pads.tilting_candidates import smooth_slopes
+from rotorfilm.scenes.scene import parse_scene, read_scene
+
+pytestmark = pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+
+SETS = {"elliptical": 160, "three_lobe": 100, "four_lobe": 75, "offset_halves": 160, "tapered_land": 100}
+QUANTITIES = ("eccentricity_ratio", "minimum_film", "attitude_angle", "stiffness", "damping")
+
+LOBED = """schema = 1
+[lobed_journal]
+diameter = "100 mm"
+length = "50 mm"
+assembled_clearance = "70 um"
+viscosity = "20 mPa s"
+preset = "three_lobe"
+preload = 0.5
+"""
+DAM = """schema = 1
+[pressure_dam]
+diameter = "100 mm"
+length = "50 mm"
+clearance = "70 um"
+viscosity = "20 mPa s"
+depth = "140 um"
+end = "145 deg"
+share = 0.75
+"""
+TILTING = """schema = 1
+[tilting_pad]
+diameter = "100 mm"
+length = "50 mm"
+assembled_clearance = "70 um"
+preload = 0.3
+viscosity = "20 mPa s"
+pad_count = 5
+loading = "on_pad"
+extent = "60 deg"
+"""
+RUN = """
+[operation]
+speed = "3000 rpm"
+load = "3 kN"
+[rigid_rotor]
+mass = "300 kg"
+{rotor}
+[question]
+quantity = "{quantity}"
+tolerance = {tolerance}
+{excitation}
+"""
+ON_MAP = 'film = { name = "map" }\n'
+LOST_BLADE = '[excitation]\nkind = "blade_loss"\nunbalance = 0.02\nrevolutions = 2'
+UNBALANCE = "unbalance = 0.01"
+
+
+def asked(table, quantity, tolerance, rotor="", excitation=""):
+    run = RUN.format(quantity=quantity, tolerance=tolerance, rotor=rotor, excitation=excitation)
+    return parse_scene(table + run, "pads")
+
+
+@pytest.fixture(autouse=True)
+def cache(tmp_path, monkeypatch):
+    monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path))
+    return tmp_path
+
+
+def drawn_lobes(seed):
+    """Return a scene with a usual set of lobes, loaded so that the journal is on its way to contact."""
+    random = np.random.default_rng(seed)
+    radius = float(np.exp(random.uniform(np.log(0.01), np.log(0.2))))
+    preset = str(random.choice(list(SETS)))
+    table = {
+        "radius": radius,
+        "length": 2.0 * radius * float(random.uniform(0.3, 1.2)),
+        "assembled_clearance": radius * float(random.uniform(8e-4, 3e-3)),
+        "viscosity": float(random.uniform(0.01, 0.1)),
+        "preset": preset,
+        "preload": float(random.uniform(0.0, 0.7)),
+        "extent": math.radians(SETS[preset]) * float(random.uniform(0.85, 1.0)),
+        "turned": float(random.uniform(0.0, 2.0 * math.pi)),
+    }
+    speed = float(random.uniform(30.0, 600.0)) * int(random.choice([-1, 1]))
+    data = {"schema": 1, "lobed_journal": table, "operation": {"speed": speed, "load": [1.0, 0.0]}}
+    bearing = replace(read_scene(data, "drawn").bearing, film=PadGridFilm(cells=(48, 4)))
+    angle, way = random.uniform(0.0, 2.0 * math.pi), random.uniform(0.1, 0.85)
+    towards = np.array([math.cos(angle), math.sin(angle)])
+    grid = np.linspace(0.0, 3.0, 3001)[:, None] * bearing.clearance * towards
+    wall = grid[np.argmax(minimum_film(bearing, grid.T) <= 0.0)]
+    force = bearing.force(way * wall, [0.0, 0.0], speed)
+    data["operation"]["load"] = (-force).tolist()
+    quantity = str(random.choice(QUANTITIES))
+    data["question"] = {"quantity": quantity, "tolerance": float(np.exp(random.uniform(-7.0, -2.5)))}
+    return read_scene(data, "drawn")
+
+
+def truth(scene, finest):
+    """Return the quantity of a scene at rest on a far finer film, slopes in the velocity by differences."""
+    quantity, load, speed = scene.question.quantity, scene.static_load, scene.speed
+    at = equilibrium(finest, load, speed)
+    if quantity in MATRIX and isinstance(finest, TiltingPadBearing):
+        matrices = finest.at_rest().matrices(at.position, speed, smooth_slopes)
+        return getattr(matrices.reduced(abs(speed)), quantity)
+    if quantity in MATRIX:
+        wedge = ladder_of(scene).rungs[-1].film.wedge(at.position)
+        slopes = -tangent(finest, at.position, speed, smooth=True, wedge=wedge)[1]
+        return slopes[:, MATRIX[quantity] : MATRIX[quantity] + 2]
+    if quantity == "attitude_angle":
+        return attitude(at.position, load, speed)
+    return getattr(at, quantity)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_estimates_of_lobes_are_within_a_factor_of_two_and_tolerances_met(seed):
+    scene = drawn_lobes(seed)
+    answer = scene.ask()
+    exact = truth(scene, replace(scene.bearing, film=PadGridFilm(cells=(640, 48))))
+    for report in (one for one in answer.rungs if one.error_estimate is not None):
+        error = relative_distance(answer.quantity, report.value, exact, 0.0)
+        assert report.doubtful or 0.5 < report.error_estimate / error < 2.0, report
+        assert report.verdict != "chosen" or error < answer.tolerance
+
+
+@pytest.mark.parametrize(("quantity", "tolerance"), [("minimum_film", 0.002), ("stiffness", 0.01)])
+def test_dams_are_answered_to_their_tolerance(quantity, tolerance):
+    scene = asked(DAM, quantity, tolerance)
+    answer = scene.ask()
+    error = relative_distance(
+        quantity, answer.value, truth(scene, replace(scene.bearing, cells=(320, 80))), 0
+    )
+    assert answer.met
+    assert error < tolerance
+    assert 0.5 < answer.error_estimate / error < 2.0
+
+
+@pytest.mark.parametrize(("quantity", "tolerance"), [("minimum_film", 1e-3), ("damping", 2e-3)])
+def test_tilting_pads_are_answered_to_their_tolerance(quantity, tolerance):
+    scene = asked(TILTING, quantity, tolerance)
+    answer = scene.ask()
+    finest = replace(scene.bearing, film=PadGridFilm(cells=(192, 16)))
+    error = relative_distance(quantity, answer.value, truth(scene, finest), 0.0)
+    assert answer.met
+    assert error < tolerance
+    assert 0.5 < answer.error_estimate / error < 2.0
+
+
+def test_coefficients_of_tilting_pads_name_their_frequency():
+    assert "314.159 rad/s, once a turn" in asked(TILTING, "damping", 0.01).ask().within
+
+
+def test_tilting_pads_without_a_threshold_say_so():
+    with pytest.raises(AbsentError, match=r"no threshold: stable at every speed from .* to .* rad/s, by map"):
+        asked(TILTING + ON_MAP, "whirl_threshold", 0.01).ask()
+
+
+def test_threshold_of_a_heavy_rotor_on_hardly_loaded_pads():
+    # A light pad about its middle damps a whirl far below the speed negatively.
+    scene = asked(TILTING.replace("preload = 0.3", "preload = 0.0") + ON_MAP, "whirl_threshold", 0.05)
+    scene = replace(scene, rigid_rotor=replace(scene.rigid_rotor, mass=3e4))
+    answer = scene.ask()
+    finest = replace(scene.bearing, film=PadGridFilm(cells=(96, 8)))
+    around = 0.9 * answer.value, 1.1 * answer.value
+    found = whirl_threshold(finest, scene.static_load, 3e4, around)
+    error = abs(answer.value / found.speed - 1.0)
+    assert found.whirl_ratio == pytest.approx(0.103, abs=0.005)
+    assert answer.met
+    assert error < 0.05
+    assert 0.4 < answer.error_estimate / error < 2.5
+
+
+@pytest.mark.parametrize("table", [LOBED, DAM], ids=["lobes", "dam"])
+def test_whirl_threshold_is_within_its_tolerance(table):
+    scene = asked(table, "whirl_threshold", 0.01)
+    answer, bearing = scene.ask(), scene.bearing
+    finest = replace(bearing, film=PadGridFilm(cells=(192, 16))) if table is LOBED else bearing
+    speed = whirl_threshold(finest, scene.static_load, 300.0, (0.8 * answer.value, 1.2 * answer.value)).speed
+    assert answer.met
+    assert answer.value == pytest.approx(speed, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ("quantity", "rotor", "excitation"),
+    [
+        ("unbalance_amplitude", UNBALANCE, ""),
+        ("unbalance_phase", UNBALANCE, ""),
+        ("unbalance_force", UNBALANCE, ""),
+        ("blade_loss_peak", "", LOST_BLADE),
+    ],
+)
+def test_motions_on_lobes_agree_with_the_top_of_their_ladder(quantity, rotor, excitation):
+    scene = asked(LOBED, quantity, 0.01, rotor, excitation)
+    answer = scene.ask()
+    named = LOBED + 'film = { name = "reynolds", cells = [96, 8] }\n'
+    ladder = ladder_of(asked(named, quantity, 0.01, rotor, excitation))
+    above = ladder.rungs[-2].answer(None).value
+    assert answer.met
+    assert 1e-12 < abs(answer.value / above - 1.0) < 0.01
+    assert len(ladder.rungs) in (4, 6)
+
+
+def test_static_questions_make_no_map_and_one_that_is_there_answers_within_its_bound(cache):
+    first = asked(LOBED, "eccentricity_ratio", 0.2).ask()
+    assert first.model == "2-D 48 x 4 extr."
+    assert list(cache.iterdir()) == []
+    scene = asked(LOBED, "eccentricity_ratio", 0.2)
+    lobe = scene.bearing.lobes[0]
+    PadMapFilm().table(lobe.extent, scene.bearing.slenderness)
+    answer = scene.ask()
+    assert answer.model == "pad map"
+    assert answer.rungs[0].method == "verified bound of the map"
+    finest = replace(scene.bearing, film=PadGridFilm(cells=(384, 32)))
+    error = abs(answer.value / truth(scene, finest) - 1.0)
+    assert error < answer.error_estimate < 0.2 / 1.5
+
+
+@pytest.mark.parametrize("slopes", [False, True])
+def test_bound_of_a_map_holds_at_rest(slopes):
+    scene = asked(LOBED, "stiffness", 0.1)
+    coarse = replace(scene.bearing, film=COARSE_MAP)
+    candidate = lobed_candidates(coarse, fixed=True)[0]
+    finest = candidate.rich
+    at = equilibrium(coarse, scene.static_load, scene.speed)
+    own, other = (one.jacobian(at.position, [0.0, 0.0], scene.speed)[:, :4] for one in (coarse, finest))
+    gap = float(np.hypot(*(finest.force(at.position, [0.0, 0.0], scene.speed) + at.load)))
+    error = gap / np.hypot(*at.load)
+    if slopes:
+        parts = [slice(0, 2), slice(2, 4)]
+        error = max(np.abs(own - other)[:, part].max() / np.abs(other[:, part]).max() for part in parts)
+    assert 0.0 < error < candidate.rest_bound(at, slopes=slopes) < 3.0
+
+
+def test_named_film_is_the_only_one_that_answers():
+    named = LOBED + 'film = { name = "reynolds", cells = [48, 4] }\n'
+    rungs = ladder_of(asked(named, "stiffness", 0.1)).rungs
+    assert [rung.name for rung in rungs] == ["2-D 48 x 4 extr. on each pad"]
+    assert len(ladder_of(asked(DAM + "cells = [64, 16]\n", "stiffness", 0.1)).rungs) == 1
+
+
+@pytest.mark.parametrize("table", [LOBED, DAM, TILTING])
+def test_quantities_that_films_of_pads_do_not_have_are_refused(table):
+    with pytest.raises(InputError, match=r"question.quantity must be one that this scene has"):
+        asked(table, "temperature", 0.1).ask()
