@@ -7,7 +7,8 @@
   max(|F|, 5 % of the largest force at that place). Goal: 1e-3 in 90 %, 5e-3 in 99 %.
 2 K and C of tilting pads from maps against grids of 384 x 32 cells, of the largest entry. Goal: 1e-3. Beside
   it the grids of 192 x 16 cells.
-3 CPU times: equilibrium with coefficients (goal 1 ms), force of a pad in a batch (goal .15 us), making of a map.
+3 CPU times: equilibrium with coefficients (goal 1 ms), force of a pad in a batch (goal .15 us). Making of a
+  map.
 4 Six bearings by maps, by grids and by ROSS 3.1, isoviscous with 40 x 20 elements, as `studies/ross_pads.py`
   found them.
 """

@@ -1,8 +1,8 @@
 """Tilting pads in time: a small unbalance turns the journal as the synchronous coefficients say.
 
 Five pads follow the journal with states of their own; a rotor of 250 kg runs at 3000 rpm under its weight.
-After some turns its first harmonic is that of K and C at the frequency of the shaft. K and C of slow motion are
-others.
+After some turns its first harmonic is that of K and C at the frequency of the shaft. K and C of slow motion
+are others.
 """
 
 import math
