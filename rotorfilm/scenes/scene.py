@@ -162,11 +162,8 @@ class Scene:
             If nothing is asked, or something that the scene's tables do not have.
         RotorfilmError
             If no rung has an answer.
-
-        Warns
-        -----
         ValidityWarning
-            Where the physics of all rungs leaves out what matters in this scene.
+            Where the physics of all rungs leaves out what matters in this scene: a warning.
         """
         # Found late: questions stand above scenes.
         answer = import_module("..questions", __package__).ask(self)
@@ -175,10 +172,7 @@ class Scene:
         return answer
 
     def describe(self) -> Answer:
-        """Return equilibrium, coefficients and whirl threshold of a bearing with a film; see `solve_journal`.
-
-        What the physics of the film leaves out is in `remarks` of the answer.
-        """
+        """Return equilibrium, coefficients, whirl threshold and remarks of a bearing with a film."""
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
         bearing = self.bearing  # once: making it may warn
         given = self.film_table.echo(bearing)
@@ -205,9 +199,14 @@ class Scene:
         """What the physics of the bearing's film leaves out and should not, one line each."""
         return self._remarks_of(self.bearing)
 
+    @property
+    def oil_remarks(self) -> tuple[str, ...]:
+        """That bearings have a viscosity of their own although `[lubricant]` has one, one line each."""
+        return oil_remarks(self.tables, self.lubricant)
+
     def _remarks_of(self, bearing: Reaction) -> tuple[str, ...]:
         own = self.film_table.remarks(bearing, self.lubricant.properties, self.speed, self.static_load)
-        return (*oil_remarks(self.tables, self.lubricant), *own)
+        return (*self.oil_remarks, *own)
 
     @property
     def film_is_given(self) -> bool:
