@@ -289,8 +289,7 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
             for model in (models if films is levels[-1] else models[:3])
         )
 
-    films, rungs = levels[0], rungs_on(levels)
-    fresh = rungs_on(tuple(map(at_supply, levels)))
+    films, rungs, fresh = levels[0], rungs_on(levels), rungs_on(tuple(map(at_supply, levels)))
     return Ladder(
         rungs=(*warm_rungs(fresh, rungs), *field_speeds(rungs)) if films.on_oil else rungs,
         unit="rad/s",
