@@ -21,6 +21,7 @@ from ...motion.periodic.orbit_newton import driven, newton_step
 from ...results import Coefficients
 from ...rotors.shaft.shaft_models import ShaftModel, shaft_models
 from ...scenes.excitation_table import UnbalanceTable
+from ...scenes.film_table import oil_remarks
 from ...scenes.shaft.shaft_remarks import shaft_remarks, stability_remark
 from ..orbit_place import FORCE, PHASE, UNITS, WALL, OrbitPlace, SolvedTurn
 from .shaft_fields import field_orbits
@@ -232,7 +233,7 @@ def shaft_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
         rungs=(*warm_rungs(fresh, rungs), *fields) if films.on_oil else rungs,
         unit=UNITS[quantity],
         remarks=(
-            *scene.oil_remarks,
+            *oil_remarks(scene.tables, scene.lubricant),
             *shaft_remarks(rotor, bearings, scene.lubricant.properties, scene.speed),
             *stability_remark(rotor, levels[0].reaction, scene.speed),
         ),

@@ -28,6 +28,7 @@ from ...linear.speed_events import Critical, SpeedEvent, Threshold
 from ...model import Array
 from ...results import Coefficients
 from ...rotors.shaft.shaft_models import ShaftModel, shaft_models
+from ...scenes.film_table import oil_remarks
 from ...scenes.shaft.shaft_remarks import shaft_remarks
 from ..journal.warm_whirl import moving_heat
 from .shaft_fields import field_speeds
@@ -288,12 +289,11 @@ def shaft_ladder(scene: Scene, quantity: str) -> Ladder:
             for model in (models if films is levels[-1] else models[:3])
         )
 
-    films, rungs = levels[0], rungs_on(levels)
-    fresh = rungs_on(tuple(map(at_supply, levels)))
+    films, rungs, fresh = levels[0], rungs_on(levels), rungs_on(tuple(map(at_supply, levels)))
     return Ladder(
         rungs=(*warm_rungs(fresh, rungs), *field_speeds(rungs)) if films.on_oil else rungs,
         unit="rad/s",
-        remarks=scene.oil_remarks
+        remarks=oil_remarks(scene.tables, scene.lubricant)
         + shaft_remarks(rotor, bearings, scene.lubricant.properties, float(speeds[-1])),
         within=warm_physics(films, bearings),
         assumptions=lambda: shaft_assumptions(rungs[0]),

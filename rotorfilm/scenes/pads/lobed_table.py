@@ -29,7 +29,7 @@ def read_preset(where: str, value: Any) -> str:
     """Read the name of a usual set of lobes."""
     if not isinstance(value, str) or value not in SETS:
         raise SceneError(
-            f"{where} must be one of {', '.join(SETS)}, got {brief(value)}{nearest(str(value), SETS)}"
+            f"{where} must be one of {', '.join(SETS)}, got {brief(value)}{nearest(value, SETS)}"
         )
     return value
 

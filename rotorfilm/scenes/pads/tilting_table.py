@@ -29,7 +29,7 @@ def read_loading(where: str, value: Any) -> str:
     """Read whether the load points to a pivot or between two."""
     if not isinstance(value, str) or value not in LOADINGS:
         raise SceneError(
-            f"{where} must be one of {', '.join(LOADINGS)}, got {brief(value)}{nearest(str(value), LOADINGS)}"
+            f"{where} must be one of {', '.join(LOADINGS)}, got {brief(value)}{nearest(value, LOADINGS)}"
         )
     return value
 

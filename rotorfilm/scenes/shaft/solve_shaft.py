@@ -24,6 +24,7 @@ from ...model import Array
 from ...progress import Report, silent
 from ...readable.result import Drawable
 from ..excitation_table import UnbalanceTable
+from ..film_table import oil_remarks
 from .shaft_remarks import shaft_remarks
 
 if TYPE_CHECKING:
@@ -130,7 +131,7 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
         amplitudes={} if response is None else _amplitudes(response),
         response=response,
         remarks=(
-            *scene.oil_remarks,
+            *oil_remarks(scene.tables, scene.lubricant),
             *shaft_remarks(rotor, bearings, scene.lubricant.properties, float(speeds[-1])),
         ),
     )
