@@ -151,7 +151,7 @@ class FilmReaction(Feedthrough):
     @property
     def film_in_c(self) -> _Film | None:
         """The film for loops in C, if it is of the C library; None of a subclass, which may differ."""
-        film: _Film | None = getattr(self, "bound_film") if "bound_film" in vars(type(self)) else None
+        film: _Film | None = cast(_Bound, self).bound_film if "bound_film" in vars(type(self)) else None
         return film
 
     def prepare(self: _Bound) -> Force:
