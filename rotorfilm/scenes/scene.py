@@ -199,14 +199,9 @@ class Scene:
         """What the physics of the bearing's film leaves out and should not, one line each."""
         return self._remarks_of(self.bearing)
 
-    @property
-    def oil_remarks(self) -> tuple[str, ...]:
-        """That bearings have a viscosity of their own although `[lubricant]` has one, one line each."""
-        return oil_remarks(self.tables, self.lubricant)
-
     def _remarks_of(self, bearing: Reaction) -> tuple[str, ...]:
         own = self.film_table.remarks(bearing, self.lubricant.properties, self.speed, self.static_load)
-        return (*self.oil_remarks, *own)
+        return (*oil_remarks(self.tables, self.lubricant), *own)
 
     @property
     def film_is_given(self) -> bool:
