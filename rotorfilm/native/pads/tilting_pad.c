@@ -5,6 +5,8 @@
 #include "../films/map_frame.h"
 
 #define NEWTON 60
+#define FREE 8       /* steps of Newton's method before those that do not halve what is left are replaced */
+#define HALVINGS 200
 #define SCAN 32
 #define TIP 0.995 /* of the way to trailing contact: where the scan for the tilt begins */
 #define ROUNDOFF 1e-13
@@ -154,18 +156,21 @@ static int standing(const rf_tilting_pad *pad, double xi, double eta, double sen
     return status;
 }
 
-/* The root of the moment between two tilts, along a = sense * eta, where it is positive at low and negative at high. */
+/* The root of the moment between two tilts, along a = sense * eta, where it is positive at low and negative at high.
+   Newton's method, halving where that leaves more than half of what was left: at the edge of a film the moment falls as
+   a fifth power, and Newton's steps would end before the root. */
 static int refine(const rf_tilting_pad *pad, double xi, double sense, double low, double high, rf_pad_rest *rest)
 {
     double f[2], by[4], a = 0.5 * (low + high);
-    for (int step = 0; step < NEWTON; ++step) {
+    for (int step = 0; step < HALVINGS; ++step) {
         const int status = standing(pad, xi, sense * a, sense, f, by);
         if (status > RF_OUTSIDE)
             return status;
-        const double moment = sense * f[1];
+        const double moment = sense * f[1], width = high - low;
         *(moment > 0.0 ? &low : &high) = a;
         double next = a - moment / by[3];
-        if (!(next >= low && next <= high))
+        const int near = fabs(next - a) <= ROUNDOFF * (1.0 + fabs(a));
+        if (!(next >= low && next <= high) || (!near && step >= FREE && high - low > 0.5 * width))
             next = 0.5 * (low + high);
         if (moment == 0.0 || fabs(next - a) <= ROUNDOFF * (1.0 + fabs(a))) {
             rest->eta = sense * a;

@@ -3,7 +3,8 @@
 #include "../films/map_frame.h"
 #include "tilting.h"
 
-#define MOST 60
+#define MOST 200
+#define FREE 8 /* steps of Newton's method before those that do not halve what is left are replaced */
 #define ROUNDOFF 1e-14
 
 /* The place of a pivot on a spring that balances the film, xi <= `rigid`, where it would be rigid. */
@@ -15,10 +16,11 @@ static int find_sprung(const rf_tilting *b, double rigid, double speed, double *
         const int status = rf_find_pad_rest(&b->pad, at, sense, rest);
         if (status > RF_OUTSIDE)
             return status;
-        const double excess = film * rest->force - k * (at - rigid);
+        const double excess = film * rest->force - k * (at - rigid), width = high - low;
         *(excess > 0.0 ? &low : &high) = at;
         double next = at - excess / (film * rest->slope - k);
-        if (!(next >= low && next <= high))
+        const int slow = step >= FREE && high - low > 0.5 * width && fabs(next - at) > ROUNDOFF * (1.0 + fabs(at));
+        if (!(next >= low && next <= high) || (slow && isfinite(low)))
             next = isfinite(low) ? 0.5 * (low + high) : at - 0.5;
         if (excess == 0.0 || fabs(next - at) <= ROUNDOFF * (1.0 + fabs(at))) {
             *xi = at;
