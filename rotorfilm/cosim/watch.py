@@ -33,6 +33,9 @@ CHECK = 8
 EARLY = 0.5
 """Share of the explicit limit beyond which a coupling is warned of."""
 
+NEUTRAL = 1e-9
+"""Growth and decay per macro step that are roundoff: what swings without damping neither grows nor decays."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class CouplingWatch(Readable):
@@ -222,7 +225,7 @@ class Watch:
         radius = abs(dominant_eigenvalue(loop, self._macro_step, self._scheme))
         self._radius = max(radius, self._radius or 0.0)
         itself = float(np.linalg.eigvals(loop.closed).real.max())
-        if radius > 1.0 and itself < 0.0:
+        if radius > 1.0 + NEUTRAL and itself * self._macro_step < -NEUTRAL:
             self._warn(
                 f"at t = {t:.6g} s the coupling grows by a factor of {radius:.4g} per macro step, where "
                 "rotor and film alone are stable: shorten macro_step or take scheme=SIExp3()"

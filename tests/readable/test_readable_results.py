@@ -29,12 +29,21 @@ pytest.importorskip("xarray")
 
 NO_RESULTS = {
     "what a chart is drawn from": {"HeatAccuracy", "HeatAnswer", "HeatLadder", "HeatModel"},
-    "what a caller gives": {"OperatingPoint", "DamperGroups", "Span", "Axis", "StateRange", "RungPoint"},
+    "what a caller gives": {
+        "OperatingPoint",
+        "DamperGroups",
+        "Span",
+        "Axis",
+        "StateRange",
+        "RungPoint",
+        "PadResolution",
+    },
     "a part of the machinery": {
         *("WorkUnit", "Unit", "Family", "MarchMotion", "Residual", "ModalFilms", "Corrected", "ComparedFilm"),
         *("FilmField", "RungName", "BushRun", "RossRotor", "DemoResult", "PublishedStage", "RungPoint"),
         *("SolvedTurn", "OrbitPlace", "FollowedFilm", "ShaftSpeed", "ShaftModel", "ShakenBall"),
-        *("HeatCase", "HeatRung", "RunningBearing", "WarmRest"),
+        *("HeatCase", "HeatRung", "RunningBearing", "WarmRest", "HeatSteps", "FieldLevel", "ComparedPad"),
+        *("FilmCandidate", "LobedCandidate", "DamCandidate", "TiltingCandidate", "BearingType"),
         *("RestingFilms", "DamperFilm", "FilmRung", "Limit", "Panel", "PanelCurves", "LimitAtlas"),
     },
 }
