@@ -53,7 +53,7 @@ def dense(film, e, w):
             if j + 1 < m:
                 A[here, beyond] = A[beyond, here] = -along * grid.conductance[j]
                 A[beyond, beyond] += along * grid.conductance[j]
-    return theta, A, b, np.repeat(grid.held, m), np.repeat(grid.value, m)
+    return theta, A, b, (np.arange(m) < grid.held[:, None]).ravel(), np.repeat(grid.value, m)
 
 
 def pressures(film, e, w):

@@ -9,7 +9,7 @@
 #define RF_RING_LOSSES 3
 
 /* Losses of n states, rows of n one stride apart: (RF_RING_LOSSES + 2 openings) x n, openings in the order of their
-   lines. The oil runs along the film at `rate` (n) [1/s], half the speed of a journal between walls that rest; its
+   lines, a groove all round last. The oil runs along the film at `rate` (n) [1/s], half the speed of a journal between walls that rest; its
    sign says where downstream is.
 
    Behind a film streamers keep the thickness H_r at which it ended, and what a film beside them adds on the way.
