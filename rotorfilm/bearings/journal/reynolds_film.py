@@ -47,8 +47,9 @@ class ReynoldsFilm(KernelFilm):
     Parameters
     ----------
     cells : tuple of int
-        Cells around the film and along half the length, multiples of 4 and at least 16 and 4. `solve`
-        compares with half as many.
+        Cells around the film and along half the length, multiples of 4 and at least 16 and 4, about that many
+        with openings; along half of each land beside a circumferential groove. `solve` compares with half as
+        many.
     cavitation : Cavitation
         `Complementarity()`, `HalfSommerfeld()` or `FullFilm()`.
     film_start : FilmStart
@@ -67,7 +68,8 @@ class ReynoldsFilm(KernelFilm):
     """Order of convergence of the force in the size of the cells."""
 
     order_with_supply: ClassVar[float] = 1.7
-    """The same, measured, with a supply pressure: it drops to ambient at a point, a groove's open end."""
+    """The same, measured, with a supply pressure: it drops to ambient at a point, a groove's open end, or
+    its slope has no limit, at the corner of a pocket."""
 
     cells: tuple[int, int] = (96, 8)
     cavitation: Cavitation = field(default_factory=Complementarity)
@@ -135,7 +137,11 @@ class ReynoldsFilm(KernelFilm):
 
         Second order in the size of the cells, edges of the film included. Between openings the film begins
         only where streamers or an opening bring the oil, so that it is smaller than the one that carries.
-        Openings that touch are one.
+        Openings that touch are one; a circumferential groove is the last one.
+
+        Beside openings that end within the bearing the film begins where Reynolds' equation says, and the
+        side flow is more than openings give: by 8 to 35 % with grooves of 80 % of the length, by 65 % with a
+        hole. The inflow of such openings is of first order, because of their corners.
 
         Raises
         ------

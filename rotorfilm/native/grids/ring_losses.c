@@ -154,9 +154,21 @@ static void add_flows(rf_stream *oil, size_t n, size_t openings, double *out, do
     }
 }
 
+/* Whether streamers from openings decide where a film begins. Openings that end within the bearing feed the film beyond
+   their end from the side: there it begins where Reynolds' equation says. */
+static int is_fed(const rf_grid *grid)
+{
+    int fed = 0, ends = 0;
+    for (size_t i = 0; i < grid->lines; ++i) {
+        fed |= grid->held[i] > 0;
+        ends |= grid->held[i] > 0 && (size_t)grid->held[i] < grid->nodes;
+    }
+    return fed && !ends;
+}
+
 static int solve(rf_stream *oil, rf_search *search, const double *e, const double *w)
 {
-    const int fed = openings_of(oil->grid) > 0 && search->ring->ruptured;
+    const int fed = is_fed(oil->grid) && search->ring->ruptured;
     rf_place_journal(search, e);
     rf_place_stream(oil, e);
     for (size_t q = 0; q < oil->grid->lines * oil->grid->nodes; ++q)

@@ -11,6 +11,7 @@ on the state but the angles, so a grid is made once.
 from __future__ import annotations
 
 from functools import lru_cache
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -146,28 +147,33 @@ def ring_grids(
     """
     spans = _with_cells(geometry, start)
     counts = _counts(spans, around)
-    nodes = axial_nodes(along, slenderness, _shares(geometry))
+    nodes = axial_nodes(along, slenderness, geometry)
     openings = [*geometry.openings(), *_start_line(geometry, start)]
     return tuple(_grid(geometry, openings, spans, counts // 2**k, nodes[:: 2**k]) for k in range(LEVELS))
 
 
-def axial_nodes(along: int, slenderness: float, shares: tuple[float, ...] = ()) -> Array:
-    """Return the axial nodes from the middle, 0, to the end, 1, with one at each share of half the length.
+def axial_nodes(along: int, slenderness: float, geometry: FilmGeometry) -> Array:
+    """Return the axial nodes from the middle, 0, to the end, 1, with one at each end of an opening.
 
-    There are `along` cells, or with shares about as many.
+    There are `along` cells, or with pockets about as many. They are denser at the end. Beside a groove all
+    round, `along` cells are on each half of the land, denser at the groove too.
     """
     grading = 0.5 * np.pi - (0.5 * np.pi - GRADING) * min(1.0, LONG / slenderness)
-    edges = np.array([0.0, *np.arcsin(np.sin(grading) * np.array(shares)) / grading, 1.0])
+    far = -1.0 if geometry.circumferential else 0.0
+    shares = np.array([0.0, *_shares(geometry), 1.0])
+    edges = np.arcsin(np.sin(grading) * (far + (1.0 - far) * shares)) / grading
+    cells = _cells_along(edges, round(along * (1.0 - far)))
     parts = [
-        np.linspace(first, last, cells + 1)[1:]
-        for first, last, cells in zip(edges, edges[1:], _cells_along(edges, along), strict=False)
+        np.linspace(first, last, count + 1)[1:]
+        for (first, last), count in zip(pairwise(edges), cells, strict=True)
     ]
-    nodes = np.sin(grading * np.concatenate([[0.0], *parts])) / np.sin(grading)
-    return np.asarray(nodes)
+    places = np.concatenate([[far], *parts])
+    return np.asarray((np.sin(grading * places) / np.sin(grading) - far) / (1.0 - far))
 
 
 def _cells_along(edges: Array, along: int) -> list[int]:
-    return [COARSENING * max(1, round(part * along / COARSENING)) for part in np.diff(edges)]
+    parts = np.diff(edges) / (edges[-1] - edges[0])
+    return [COARSENING * max(1, round(part * along / COARSENING)) for part in parts]
 
 
 def _shares(geometry: FilmGeometry) -> tuple[float, ...]:
