@@ -21,6 +21,9 @@ class FilmStart(Protocol):
     def turning(self) -> bool:
         """Whether the line lies at the widest gap and turns with the journal."""
 
+    def __hash__(self) -> int:
+        """Return the same for equal starts: grids are kept by it."""
+
 
 @dataclass(frozen=True)
 class FreeStart:
