@@ -139,7 +139,7 @@ def test_two_lands_are_two_bearings():
 
 
 def uniform_film(e, w, slenderness, pocket, supply, lines=144, nodes=20):
-    """Return force, side flow and net inflow of a pocket by another grid and a search over sets of nodes."""
+    """Return force and side flow of a film with a pocket by another grid and a search over sets of nodes."""
     step, high = 2.0 * np.pi / lines, 1.0 / nodes
     angle = step * np.arange(lines)
     z = high * np.arange(nodes)
@@ -177,7 +177,7 @@ def uniform_film(e, w, slenderness, pocket, supply, lines=144, nodes=20):
     force = -12.0 * sweep @ (P @ width)
     ends = 2.0 * gap(angle) * step / (slenderness**2 * high) * P[:, -1] / 2.0
     made = np.where(P[:, -1] > 0.0, 0.5 * sweep.T @ w * high, 0.0)
-    return force, float(np.sum(ends + made)), float((A @ pressure - b)[held].sum())
+    return force, float(np.sum(ends + made))
 
 
 @pytest.mark.parametrize("supply", [0.0, 0.02])
@@ -185,7 +185,7 @@ def test_film_with_a_pocket_is_that_of_another_grid(supply):
     pocket = Pocket(center=0.5 * np.pi, width=np.radians(20.0), share=0.8)
     e = np.array([0.3, -0.5])
     w = -0.5 * np.array([-e[1], e[0]])
-    force, side_flow, _ = uniform_film(e, w, 0.5, pocket, supply)
+    force, side_flow = uniform_film(e, w, 0.5, pocket, supply)
     film = ReynoldsFilm(cells=(192, 16), geometry=FilmGeometry(pockets=(pocket,), supply=supply))
     assert film.force(e, w, 0.5) == pytest.approx(force, rel=5e-3)
     assert film.losses(e, w, 0.5).side_flow == pytest.approx(side_flow, rel=0.01)
