@@ -126,7 +126,8 @@ static void cross_held(rf_stream *oil, size_t i, size_t j, double *film, double 
         const rf_section half = over_half(oil, i, after);
         const int full = j < held || rf_is_film(oil, beside * oil->grid->nodes + j);
         const double thin = after ? h : oil->brought[j], width = oil->width[j] - open_width(oil, j, held);
-        *(full ? film : streamers) += width * (!full && thin < h ? thin * half.square : half.film);
+        if (width > 0.0) /* in the opening beside a pad there may be no gap */
+            *(full ? film : streamers) += width * (!full && thin < h ? thin * half.square : half.film);
     }
     oil->brought[j] = h;
 }
