@@ -25,12 +25,11 @@ from ...native.journal_spec import journal_spec
 from ...native.response_kernels import LobePlace, LobesKernel
 from ...native.spec import NativeSpec
 from ...results import BearingLosses
-from ...signals import Signal, force_outputs, journal_inputs
 from ..films.kernel_film import BoundKernel, continued
 from ..oil import Cooling, Oil
 from ..oil.lubricant import require_lubricant
 from ..oil.warm_bearing import WarmBearing
-from ..reaction import NOMINAL_SPEED, FilmReaction, broadcast_state
+from ..reaction import FilmReaction, broadcast_state
 from .heat_of_pads import SPEED, PadSlopes, heat_slopes_of_pads
 from .lobe import Lobe, require_apart
 from .losses_of_pads import PadUnderJournal, losses_of_pads
@@ -171,26 +170,6 @@ class LobedBearing(FilmReaction, WarmBearing):
             return self.pad_clearance
         assert self.assembled_clearance is not None  # one of both is given
         return self.assembled_clearance / (1.0 - self.lobes[0].preload)
-
-    @property
-    def slenderness(self) -> float:
-        """Length / diameter [1]."""
-        return self.length / (2.0 * self.radius)
-
-    @property
-    def force_scale(self) -> float:
-        """Viscosity * length * radius^3 / clearance^2 [N s], the unit of force of a pad per 1/s."""
-        return self.film_viscosity * self.length * self.radius**3 / self.clearance**2
-
-    @property
-    def inputs(self) -> tuple[Signal, ...]:
-        """Signals x, y, vx, vy, speed."""
-        return journal_inputs(self.clearance, NOMINAL_SPEED)
-
-    @property
-    def outputs(self) -> tuple[Signal, ...]:
-        """Signals force_x, force_y: the force on the journal."""
-        return force_outputs(self.force_scale * NOMINAL_SPEED * min(1.0, self.slenderness**2))
 
     def minimum_film(self, position: ArrayLike) -> Array:
         """Return the least film on any pad [m], shape (...), of journals at positions (2, ...) [m].

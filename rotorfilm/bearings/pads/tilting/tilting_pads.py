@@ -176,16 +176,6 @@ class TiltingPads(WarmBearing):
         return 1.0 if self.pivot_stiffness is None else 2.0
 
     @property
-    def slenderness(self) -> float:
-        """Length / diameter [1]."""
-        return self.length / (2.0 * self.radius)
-
-    @property
-    def force_scale(self) -> float:
-        """Viscosity * length * radius^3 / c_p^2 [N s], the film's unit of force per 1/s."""
-        return self.film_viscosity * self.length * self.radius**3 / self.clearance**2
-
-    @property
     def reduced_inertia(self) -> float:
         """Inertia of a pad over the square of the distance from its center of rotation to the film [kg]."""
         return (self.pad_inertia or 0.0) / (self.radius + self.pivot_distance) ** 2
