@@ -12,7 +12,6 @@ from ...errors import (
     FilmContactError,
     InputError,
     require_each,
-    require_kind,
     require_positive,
     require_tuple,
     require_vector,
@@ -33,7 +32,7 @@ from ..reaction import FilmReaction, broadcast_state
 from .heat_of_pads import SPEED, PadSlopes, heat_slopes_of_pads
 from .lobe import Lobe, require_apart
 from .losses_of_pads import PadUnderJournal, losses_of_pads
-from .pad_film import PadFilm, PadMapFilm
+from .pad_film import PadFilm, PadMapFilm, require_pad_film
 from .pad_losses import LossyPadFilm
 
 _WEDGE = np.array([[0.0, 1.0], [-1.0, 0.0]])
@@ -119,7 +118,7 @@ class LobedBearing(FilmReaction, WarmBearing):
     InputError
         If a dimension is not finite and positive, viscosity and oil are not one of both, an oil has neither
         temperature nor cooling, there are not one of both clearances, it is not below the radius, there is no
-        lobe, or lobes overlap.
+        lobe, lobes overlap, or the film cannot be that of their extents and length/diameter.
 
     Examples
     --------
@@ -148,7 +147,7 @@ class LobedBearing(FilmReaction, WarmBearing):
             raise InputError("lobes must have one at least, got ()")
         require_apart(self.lobes)
         self._require_clearance()
-        require_kind("film", self.film, PadFilm, "a film law of pads, as PadMapFilm()")
+        require_pad_film(self.film, (lobe.extent for lobe in self.lobes), self.slenderness)
 
     def _require_clearance(self) -> None:
         given = {name: getattr(self, name) for name in ("pad_clearance", "assembled_clearance")}

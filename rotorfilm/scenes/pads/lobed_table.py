@@ -6,13 +6,14 @@ from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from ...bearings.pads import SETS, Lobe, LobedBearing, PadMapFilm, lobe_set
+from ...bearings.pads import SETS, Lobe, LobedBearing, lobe_set
 from ...errors import InputError, SceneError, brief
 from ..reading.readers import takes
 from ..reading.shared_fields import made_from
 from ..reading.spelling import nearest
 from ..reading.tables import Keyed, Quantity, TableList
 from .pad_data import LobedData, echo_of_pads
+from .pad_films import usual_film
 from .pad_tables import FilmedPadTable
 
 LOBE = Keyed(
@@ -71,7 +72,7 @@ class LobedTable(FilmedPadTable):
     def built(self, viscosity: float) -> LobedBearing:
         """Return the bearing with a viscosity [Pa s]."""
         lobes = self.lobes or lobe_set(self.preset or "", **self._of_preset)
-        film = self.film or PadMapFilm()
+        film = self.film or usual_film((lobe.extent for lobe in lobes), self.radius, self.length)
         return made_from(LobedBearing, self, viscosity=viscosity, lobes=lobes, film=film)
 
     def echo(self, bearing: LobedBearing) -> tuple[LobedData, str]:

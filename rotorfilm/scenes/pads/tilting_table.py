@@ -6,13 +6,14 @@ from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from ...bearings.pads import PadMapFilm, TiltingPadBearing, even_pivots
+from ...bearings.pads import TiltingPadBearing, even_pivots
 from ...errors import InputError, SceneError, brief
 from ..reading.readers import Count, takes
 from ..reading.shared_fields import made_from
 from ..reading.spelling import nearest
 from ..reading.tables import Quantity
 from .pad_data import TiltingData, echo_of_pads
+from .pad_films import usual_film
 from .pad_tables import FilmedPadTable
 
 PADS = 64
@@ -95,7 +96,7 @@ class TiltingTable(FilmedPadTable):
         pivots = self.pivots
         if self.pad_count is not None and self.loading is not None:
             pivots = even_pivots(self.pad_count, between_pads=LOADINGS[self.loading])
-        film = self.film or PadMapFilm()
+        film = self.film or usual_film([self.extent], self.radius, self.length)
         return made_from(TiltingPadBearing, self, viscosity=viscosity, pivots=pivots, film=film)
 
     def echo(self, bearing: TiltingPadBearing) -> tuple[TiltingData, str]:
