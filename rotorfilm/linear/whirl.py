@@ -68,8 +68,8 @@ def whirl_threshold(
     Warns
     -----
     ValidityWarning
-        Once, where there is no threshold and the search went beyond what the film is meant for; and where the
-        threshold lies there. Not of speeds that are only passed.
+        Once, where there is no threshold and rests that were searched are beyond what the film is meant for;
+        and of a threshold beyond it. Not of speeds that are only passed.
 
     Notes
     -----
@@ -84,7 +84,7 @@ def whirl_threshold(
     search = _settling if isinstance(reaction, Settling) else _searched
     found = search(reaction, force, mass, (low, high), passed)
     if found.speed is None and passed:
-        warn_user(f"no threshold, by a search that went beyond what the film is meant for: {passed[0]}")
+        warn_user(f"no threshold was found, but rests that were searched are in doubt: {passed[0]}")
     return found
 
 
