@@ -79,6 +79,28 @@ class Feedthrough(Called):
         return static_linearization(self.jacobian(values[:2], values[2:4], values[4]))
 
 
+class _Sized(Protocol):
+    @property
+    def clearance(self) -> float: ...
+
+    @property
+    def nominal_force(self) -> float: ...
+
+
+class JournalReaction(Feedthrough):
+    """A static Model of a journal within a `clearance`, with forces about as large as its `nominal_force`."""
+
+    @property
+    def inputs(self: _Sized) -> tuple[Signal, ...]:
+        """Signals x, y, vx, vy, speed."""
+        return journal_inputs(self.clearance, NOMINAL_SPEED)
+
+    @property
+    def outputs(self: _Sized) -> tuple[Signal, ...]:
+        """Signals force_x, force_y: the force on the journal."""
+        return force_outputs(self.nominal_force)
+
+
 class _Film(Protocol):
     """A film of one bearing in SI units, as `films.law.BoundFilm`."""
 
@@ -98,7 +120,7 @@ class _Bound(Protocol):
     def bound_film(self) -> _Film: ...
 
 
-class FilmReaction(Feedthrough):
+class FilmReaction(JournalReaction):
     """A Reaction made from its `bound_film`, which knows where the journal touches."""
 
     def force(self: _Bound, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
@@ -178,13 +200,7 @@ class FilmReaction(Feedthrough):
         return self.bound_film.jacobian(position, velocity, speed)
 
 
-class _Prepared(_Law, Protocol):
-    @property
-    def clearance(self) -> float: ...
-
-    @property
-    def nominal_force(self) -> float: ...
-
+class _Prepared(_Law, _Sized, Protocol):
     def require_film(self, position: Array) -> None: ...
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array: ...
@@ -192,7 +208,7 @@ class _Prepared(_Law, Protocol):
     def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array: ...
 
 
-class StaticReaction(Feedthrough):
+class StaticReaction(JournalReaction):
     """A Reaction made from `clearance`, `nominal_force`, `prepared_force` and `prepared_jacobian`."""
 
     @property
@@ -206,16 +222,6 @@ class StaticReaction(Feedthrough):
         By default the wall is the circle of the clearance.
         """
         require_inside(position, self.clearance)
-
-    @property
-    def inputs(self: _Prepared) -> tuple[Signal, ...]:
-        """Signals x, y, vx, vy, speed."""
-        return journal_inputs(self.clearance, NOMINAL_SPEED)
-
-    @property
-    def outputs(self: _Prepared) -> tuple[Signal, ...]:
-        """Signals force_x, force_y: the force on the journal."""
-        return force_outputs(self.nominal_force)
 
     def force(self: _Prepared, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike = 0.0) -> Array:
         """Return the force on the journal.

@@ -5,13 +5,20 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable, Iterator
-from typing import cast
+from contextlib import contextmanager
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
-from ..errors import EquilibriumError, InputError, ValidityWarning, require_finite, require_positive
+from ..errors import (
+    EquilibriumError,
+    InputError,
+    ValidityWarning,
+    require_finite,
+    require_positive,
+    warn_user,
+)
 from ..inputs.kinds import arguments
 from ..model import Array, JournalForce, Reaction, require_reaction
 from ..results import Coefficients, Equilibrium, WhirlThreshold
@@ -58,6 +65,12 @@ def whirl_threshold(
     UndefinedDerivativeError
         If the film has no derivative at an equilibrium.
 
+    Warns
+    -----
+    ValidityWarning
+        Once, where there is no threshold and rests that were searched are beyond what the film is meant for;
+        and of a threshold beyond it. Not of speeds that are only passed.
+
     Notes
     -----
     The range is scanned upwards in steps of 21 % and the first loss of stability is refined to roundoff;
@@ -67,17 +80,12 @@ def whirl_threshold(
     require_positive("mass", mass)
     force = checked_load(load)
     low, high = _checked_range(speed_range, math.sqrt(math.hypot(*force) / (reaction.clearance * mass)))
-    if isinstance(reaction, Settling):
-        return _settling(reaction, force, mass, reaction.clearance, (low, high))
-    before, stable = None, []
-    for at in _quietly(_scan(reaction, force, low, high)):
-        if damping_has_rank_one(at):
-            return _none(critical_mass(at).reason)
-        stable.append(is_stable(at, mass))
-        if before is not None and stable[-2:] == [True, False]:
-            return _refined(reaction, force, mass, (before, at))
-        before = at
-    return _none(_why_none(stable, low, high))
+    passed: list[str] = []
+    search = _settling if isinstance(reaction, Settling) else _searched
+    found = search(reaction, force, mass, (low, high), passed)
+    if found.speed is None and passed:
+        warn_user(f"no threshold was found, but rests that were searched are in doubt: {passed[0]}")
+    return found
 
 
 def speed_parameter(*, speed: float, clearance: float, mass: float, load: ArrayLike) -> float:
@@ -106,44 +114,60 @@ def _checked_range(speed_range: tuple[float, float] | None, natural: float) -> t
     return float(ends[0]), float(ends[1])
 
 
-def _quietly(rests: Iterator[Coefficients]) -> Iterator[Coefficients]:
-    """Yield rests that a search only passes through: nobody asked for them, so that none warns."""
+@contextmanager
+def _passing(passed: list[str]) -> Iterator[None]:
+    """Keep what warns of rests that a search only passes through: nobody asked for them."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", ValidityWarning)
+        yield
+    for one in caught:
+        if issubclass(one.category, ValidityWarning):
+            passed.append(str(one.message))
+        else:
+            warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)
+
+
+def _searched(
+    reaction: Reaction, load: Array, mass: float, ends: tuple[float, float], passed: list[str]
+) -> WhirlThreshold:
+    """Return the threshold by stiffness and damping at the equilibria."""
+    stable: list[bool] = []
+    before, rests = None, _scan(reaction, load, *ends)
     while True:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", ValidityWarning)
+        with _passing(passed):
             at = next(rests, None)
         if at is None:
-            return
-        yield at
+            return _none(_why_none(stable, *ends))
+        if damping_has_rank_one(at):
+            return _none(critical_mass(at).reason)
+        stable.append(is_stable(at, mass))
+        if before is not None and stable[-2:] == [True, False]:
+            return _refined(reaction, load, mass, (before, at))
+        before = at
 
 
 def _settling(
-    reaction: Settling, load: Array, mass: float, clearance: float, ends: tuple[float, float]
+    reaction: Reaction, load: Array, mass: float, ends: tuple[float, float], passed: list[str]
 ) -> WhirlThreshold:
     """Return the threshold by the exponents of rotor and bearing together."""
-    onset, stable = _first_onset(
-        lambda speed: _least_damped(reaction, load, mass, speed)[0].real, _speeds(*ends)
-    )
+
+    def least_damped(speed: float) -> tuple[complex, Equilibrium]:
+        with _passing(passed):
+            at = equilibrium(reaction, load, speed)
+        film: Settling = settled(reaction, at.position, speed)
+        return complex(film.at_rest().modes(at.position, speed, mass)[0]), at
+
+    onset, stable = _first_onset(lambda speed: least_damped(speed)[0].real, _speeds(*ends))
     if onset is None:
         return _none(_why_none(stable, *ends))
-    exponent, rest = _least_damped(reaction, load, mass, onset)
+    exponent, rest = least_damped(onset)
     return WhirlThreshold(
         speed=onset,
         whirl_ratio=abs(exponent.imag) / onset,
         critical_mass=mass,
-        speed_parameter=speed_parameter(speed=onset, clearance=clearance, mass=mass, load=load),
+        speed_parameter=speed_parameter(speed=onset, clearance=reaction.clearance, mass=mass, load=load),
         equilibrium=rest,
     )
-
-
-def _least_damped(reaction: Settling, load: Array, mass: float, speed: float) -> tuple[complex, Equilibrium]:
-    """Return the least damped exponent of rotor and bearing together [1/s], and their rest."""
-    with warnings.catch_warnings():
-        # Of the rests on the way nobody asked.
-        warnings.simplefilter("ignore", ValidityWarning)
-        at = equilibrium(cast(Reaction, reaction), load, speed)
-    film: Settling = settled(cast(Reaction, reaction), at.position, speed)
-    return complex(film.at_rest().modes(at.position, speed, mass)[0]), at
 
 
 def _first_onset(growth: Callable[[float], float], speeds: Array) -> tuple[float | None, list[bool]]:

@@ -162,8 +162,11 @@ class Scene:
             If nothing is asked, or something that the scene's tables do not have.
         RotorfilmError
             If no rung has an answer.
+
+        Warns
+        -----
         ValidityWarning
-            Where the physics of all rungs leaves out what matters in this scene: a warning.
+            Where the physics of all rungs leaves out what matters in this scene.
         """
         # Found late: questions stand above scenes.
         answer = import_module("..questions", __package__).ask(self)
@@ -172,7 +175,10 @@ class Scene:
         return answer
 
     def describe(self) -> Answer:
-        """Return equilibrium, coefficients, whirl threshold and remarks of a bearing with a film."""
+        """Return equilibrium, coefficients and whirl threshold of a bearing with a film.
+
+        What the physics of the film leaves out is in `remarks` of the answer.
+        """
         mass = None if self.rigid_rotor is None else self.rigid_rotor.mass
         bearing = self.bearing  # once: making it may warn
         given = self.film_table.echo(bearing)

@@ -70,6 +70,18 @@ def test_the_distance_from_the_limit_is_step_times_damping_over_mass(make_spring
         couple(InProcessSlave(rotor), damper, macro_step=1.0, duration=20.0)
 
 
+@pytest.mark.parametrize(("damping", "warned"), [(0.0, False), (1e-8, False), (1e-3, True)])
+def test_a_swing_without_damping_is_not_said_to_be_stable(make_spring_damper, damping, warned):
+    """Held forces make every spring grow, by k h^2/2m a step; only of one that would decay is it warned."""
+    rotor = RigidRotor(mass=1.0, speed=1.0, gravity=(0.0, 0.0), velocity=(1.0, 0.0))
+    spring, h = InProcessSlave(make_spring_damper(1.0, damping)), 0.05
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", CouplingWarning)
+        watch = couple(InProcessSlave(rotor), spring, macro_step=h, duration=20 * h).watch
+    assert watch.spectral_radius - 1.0 == pytest.approx(0.5 * h * (0.5 * h - damping), rel=0.1)
+    assert [one.startswith("at t = 0 s the coupling grows by") for one in watch.warnings] == [True] * warned
+
+
 def test_a_run_past_the_limit_is_warned_of_at_once_and_stopped():
     rotor, bearing, _ = limit_case(0.7)
     step = 1.2 * np.radians(14.75) / 157.0

@@ -1,6 +1,7 @@
 """Running FMUs in fmpy call by call, with each status and the log as they are."""
 
 import fmpy
+import numpy as np
 import pytest
 from fmpy.fmi2 import (
     FMU2Slave,
@@ -14,6 +15,8 @@ from fmpy.fmi2 import (
 
 from rotorfilm import export_fmu
 from rotorfilm.fmu.check.instance import extracted, instantiated
+
+from .journals import FORCES, INPUTS
 
 
 class Instance:
@@ -82,3 +85,24 @@ def opened(tmp_path):
     for context, instance in held:
         instance.close(terminate=False)
         context.__exit__(None, None, None)
+
+
+@pytest.fixture
+def same_as_python(opened):
+    """Return a function that compares forces of an FMU, to the last bit, and derivatives with its model's."""
+
+    def compare(model, version, exchange, states, rtol):
+        instance, reference = opened(model, version, exchange)
+        inputs, outputs = [reference[name] for name in INPUTS], [reference[name] for name in FORCES]
+        instance.initialize(inputs, states[0].tolist())
+        for number, state in enumerate(states):
+            if not exchange:
+                instance.step(1e-3 * number, 1e-3)
+            instance.set(inputs, state.tolist())
+            found = np.array(instance.get(outputs))
+            np.testing.assert_array_equal(found, model.force(state[:2], state[2:4], state[4]))
+            columns = [instance.directional(outputs, [one], [1.0]) for one in inputs]
+            expected = model.jacobian(state[:2], state[2:4], state[4])
+            np.testing.assert_allclose(np.array(columns).T, expected, rtol=rtol)
+
+    return compare

@@ -18,6 +18,8 @@ from rotorfilm import (
 from rotorfilm.bearings.pads.pad_build import PadResolution
 from rotorfilm.fmu import check_fmu
 
+from .journals import FORCES, INPUTS, motions
+
 FILM = PadMapFilm(resolution=PadResolution(cells=(32, 4), nodes=(8, 9, 24)))
 LOBED = LobedBearing(
     radius=0.05, length=0.04, pad_clearance=1e-4, viscosity=0.03, lobes=lobe_set("three_lobe"), film=FILM
@@ -34,36 +36,14 @@ MIXED = LobedBearing(
     ),
     film=FILM,
 )
-INPUTS, FORCES = ("x", "y", "vx", "vy", "speed"), ("force_x", "force_y")
 versions = pytest.mark.parametrize("version", ["2.0", "3.0"])
-
-
-def motions(count):
-    """Return rows of x, y, vx, vy, speed where every lobe has a film."""
-    rng = np.random.default_rng(7)
-    chi, angle = rng.uniform(0.0, 0.45, count), rng.uniform(-np.pi, np.pi, count)
-    position = 1e-4 * chi * np.stack([np.cos(angle), np.sin(angle)])
-    velocity, speed = 0.01 * rng.normal(size=(2, count)), 300.0 * rng.normal(size=(1, count))
-    return np.concatenate([position, velocity, speed]).T
 
 
 @versions
 @pytest.mark.parametrize("model", [LOBED, MIXED], ids=["three lobes", "mixed"])
 @pytest.mark.parametrize("exchange", [False, True], ids=["CS", "ME"])
-def test_forces_and_derivatives_are_those_of_python(version, model, exchange, opened):
-    instance, reference = opened(model, version, exchange)
-    inputs, outputs = [reference[name] for name in INPUTS], [reference[name] for name in FORCES]
-    states = motions(6)
-    instance.initialize(inputs, states[0].tolist())
-    for number, state in enumerate(states):
-        if not exchange:
-            instance.step(1e-3 * number, 1e-3)
-        instance.set(inputs, state.tolist())
-        found = np.array(instance.get(outputs))
-        np.testing.assert_array_equal(found, model.force(state[:2], state[2:4], state[4]))
-        columns = [instance.directional(outputs, [one], [1.0]) for one in inputs]
-        expected = model.jacobian(state[:2], state[2:4], state[4])
-        np.testing.assert_allclose(np.array(columns).T, expected, rtol=1e-13)
+def test_forces_and_derivatives_are_those_of_python(version, model, exchange, same_as_python):
+    same_as_python(model, version, exchange, motions(6, 0.45), rtol=1e-13)
 
 
 @versions

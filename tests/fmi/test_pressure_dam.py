@@ -10,6 +10,8 @@ from fmpy.fmi1 import FMICallException
 from rotorfilm import PressureDamBearing, RigidRotor, export_fmu, mount, pressure_dam_pads, simulate
 from rotorfilm.fmu import check_fmu
 
+from .journals import FORCES, INPUTS, motions
+
 DAM = PressureDamBearing(
     radius=0.05,
     length=0.04,
@@ -20,38 +22,15 @@ DAM = PressureDamBearing(
     ),
     cells=(16, 8),
 )
-INPUTS, FORCES = ("x", "y", "vx", "vy", "speed"), ("force_x", "force_y")
 versions = pytest.mark.parametrize("version", ["2.0", "3.0"])
-
-
-def motions(count):
-    """Return rows of x, y, vx, vy, speed within the clearance."""
-    rng = np.random.default_rng(7)
-    chi, angle = rng.uniform(0.0, 0.9, count), rng.uniform(-np.pi, np.pi, count)
-    position = 1e-4 * chi * np.stack([np.cos(angle), np.sin(angle)])
-    return np.concatenate(
-        [position, 0.01 * rng.normal(size=(2, count)), 300.0 * rng.normal(size=(1, count))]
-    ).T
 
 
 @versions
 @pytest.mark.parametrize("extrapolated", [False, True])
 @pytest.mark.parametrize("exchange", [False, True], ids=["CS", "ME"])
-def test_forces_and_derivatives_are_those_of_python(version, extrapolated, exchange, opened):
+def test_forces_and_derivatives_are_those_of_python(version, extrapolated, exchange, same_as_python):
     model = replace(DAM, extrapolated=extrapolated)
-    instance, reference = opened(model, version, exchange)
-    inputs, outputs = [reference[name] for name in INPUTS], [reference[name] for name in FORCES]
-    states = motions(6)
-    instance.initialize(inputs, states[0].tolist())
-    for number, state in enumerate(states):
-        if not exchange:
-            instance.step(1e-3 * number, 1e-3)
-        instance.set(inputs, state.tolist())
-        found = np.array(instance.get(outputs))
-        np.testing.assert_array_equal(found, model.force(state[:2], state[2:4], state[4]))
-        columns = [instance.directional(outputs, [one], [1.0]) for one in inputs]
-        expected = model.jacobian(state[:2], state[2:4], state[4])
-        np.testing.assert_allclose(np.array(columns).T, expected, rtol=1e-14)
+    same_as_python(model, version, exchange, motions(6, 0.9), rtol=1e-14)
 
 
 @versions
@@ -69,7 +48,7 @@ def test_a_pressure_dam_is_native_by_default_and_passes_all_checks(version, tmp_
 def test_all_dimensions_are_tunable(name, version, opened):
     """The recess keeps its depth in metres: another clearance makes another ratio of both."""
     instance, reference = opened(DAM, version, False)
-    state, value = motions(1)[0] * 0.5, 1.2 * getattr(DAM, name)
+    state, value = motions(1, 0.9)[0] * 0.5, 1.2 * getattr(DAM, name)
     instance.initialize([reference[one] for one in INPUTS], state.tolist())
     instance.set([reference[name]], [value])
     expected = replace(DAM, **{name: value}).force(state[:2], state[2:4], state[4])

@@ -19,13 +19,12 @@ from ...inputs.si_arguments import quantities
 from ...model import Array
 from ...native.journal_spec import journal_spec
 from ...native.spec import NativeSpec
-from ...signals import Signal, force_outputs, journal_inputs
 from ..films.bound_law import BoundLaw, kinematics
 from ..films.geometry import FeedHole, FilmGeometry, Groove, Pad
 from ..films.law import BoundFilm, FilmLaw, FilmOptions, options
 from ..oil import Cooling, Oil
 from ..oil.lubricant import require_lubricant
-from ..reaction import NOMINAL_SPEED, FilmReaction
+from ..reaction import FilmReaction
 from .fitting import film_name, fitted_film
 from .heat.warm_film import WarmFilm
 from .map.map_film import MapFilm
@@ -141,16 +140,6 @@ class JournalBearing(FilmReaction, WarmFilm):
         return film_length(self.length, self.circumferential_groove)
 
     @property
-    def slenderness(self) -> float:
-        """Length / diameter of the film [1]."""
-        return self.film_length / (2.0 * self.radius)
-
-    @property
-    def force_scale(self) -> float:
-        """Viscosity * film_length * radius^3 / clearance^2 [N s], the film's unit of force per 1/s."""
-        return self.film_viscosity * self.film_length * self.radius**3 / self.clearance**2
-
-    @property
     def pressure_scale(self) -> float:
         """12 viscosity radius^2 / clearance^2 [Pa s], the film's unit of pressure per 1/s."""
         return 12.0 * self.film_viscosity * (self.radius / self.clearance) ** 2
@@ -171,16 +160,6 @@ class JournalBearing(FilmReaction, WarmFilm):
     def fitted_film(self) -> FilmLaw:
         """The film law in this bearing's geometry."""
         return fitted_film(self.film, self.geometry)
-
-    @property
-    def inputs(self) -> tuple[Signal, ...]:
-        """Signals x, y, vx, vy, speed."""
-        return journal_inputs(self.clearance, NOMINAL_SPEED)
-
-    @property
-    def outputs(self) -> tuple[Signal, ...]:
-        """Signals force_x, force_y: the force on the journal."""
-        return force_outputs(self.force_scale * NOMINAL_SPEED * min(1.0, self.slenderness**2))
 
     def native(self) -> NativeSpec | None:
         """Return the kernel of the C library that is this bearing; None if its film has none.

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from ...errors import InputError
 from ...results import BearingLosses
+from ..film_units import FilmUnits
 from .cooled import Cooled
 from .cooling import Cooling
 from .heat_balance import FilmHeat, balance_temperature, film_heat
@@ -61,7 +62,7 @@ class Warmed(Cooled, Lubricated, Protocol):
         """Return power loss, torques and oil flow; None if the film law has none."""
 
 
-class WarmBearing:
+class WarmBearing(FilmUnits):
     """The lubricant of a bearing and the heat of its film."""
 
     @property

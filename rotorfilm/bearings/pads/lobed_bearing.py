@@ -12,7 +12,6 @@ from ...errors import (
     FilmContactError,
     InputError,
     require_each,
-    require_kind,
     require_positive,
     require_tuple,
     require_vector,
@@ -25,16 +24,15 @@ from ...native.journal_spec import journal_spec
 from ...native.response_kernels import LobePlace, LobesKernel
 from ...native.spec import NativeSpec
 from ...results import BearingLosses
-from ...signals import Signal, force_outputs, journal_inputs
 from ..films.kernel_film import BoundKernel, continued
 from ..oil import Cooling, Oil
 from ..oil.lubricant import require_lubricant
 from ..oil.warm_bearing import WarmBearing
-from ..reaction import NOMINAL_SPEED, FilmReaction, broadcast_state
+from ..reaction import FilmReaction, broadcast_state
 from .heat_of_pads import SPEED, PadSlopes, heat_slopes_of_pads
 from .lobe import Lobe, require_apart
 from .losses_of_pads import PadUnderJournal, losses_of_pads
-from .pad_film import PadFilm, PadMapFilm
+from .pad_film import PadFilm, PadMapFilm, require_pad_film
 from .pad_losses import LossyPadFilm
 
 _WEDGE = np.array([[0.0, 1.0], [-1.0, 0.0]])
@@ -120,7 +118,7 @@ class LobedBearing(FilmReaction, WarmBearing):
     InputError
         If a dimension is not finite and positive, viscosity and oil are not one of both, an oil has neither
         temperature nor cooling, there are not one of both clearances, it is not below the radius, there is no
-        lobe, or lobes overlap.
+        lobe, lobes overlap, or the film cannot be that of their extents and length/diameter.
 
     Examples
     --------
@@ -149,7 +147,7 @@ class LobedBearing(FilmReaction, WarmBearing):
             raise InputError("lobes must have one at least, got ()")
         require_apart(self.lobes)
         self._require_clearance()
-        require_kind("film", self.film, PadFilm, "a film law of pads, as PadMapFilm()")
+        require_pad_film(self.film, (lobe.extent for lobe in self.lobes), self.slenderness)
 
     def _require_clearance(self) -> None:
         given = {name: getattr(self, name) for name in ("pad_clearance", "assembled_clearance")}
@@ -171,26 +169,6 @@ class LobedBearing(FilmReaction, WarmBearing):
             return self.pad_clearance
         assert self.assembled_clearance is not None  # one of both is given
         return self.assembled_clearance / (1.0 - self.lobes[0].preload)
-
-    @property
-    def slenderness(self) -> float:
-        """Length / diameter [1]."""
-        return self.length / (2.0 * self.radius)
-
-    @property
-    def force_scale(self) -> float:
-        """Viscosity * length * radius^3 / clearance^2 [N s], the unit of force of a pad per 1/s."""
-        return self.film_viscosity * self.length * self.radius**3 / self.clearance**2
-
-    @property
-    def inputs(self) -> tuple[Signal, ...]:
-        """Signals x, y, vx, vy, speed."""
-        return journal_inputs(self.clearance, NOMINAL_SPEED)
-
-    @property
-    def outputs(self) -> tuple[Signal, ...]:
-        """Signals force_x, force_y: the force on the journal."""
-        return force_outputs(self.force_scale * NOMINAL_SPEED * min(1.0, self.slenderness**2))
 
     def minimum_film(self, position: ArrayLike) -> Array:
         """Return the least film on any pad [m], shape (...), of journals at positions (2, ...) [m].

@@ -47,13 +47,18 @@ def is_pad_mappable(extent: float, slenderness: float) -> bool:
     return EXTENTS[0] <= extent <= EXTENTS[1] and SLENDERNESSES[0] <= slenderness <= SLENDERNESSES[1]
 
 
-def _shape(extent: float, slenderness: float, resolution: PadResolution) -> _Shape:
+def require_mappable(extent: float, slenderness: float) -> None:
+    """Raise InputError unless there can be a map of pads of an extent [rad] and length/diameter."""
     for name, value, (low, high) in (
         ("extent", extent, EXTENTS),
         ("length/diameter", slenderness, SLENDERNESSES),
     ):
         if not low <= require_number(name, value) <= high:
             raise InputError(f"{name} must be {low} to {high} for a map of a pad, got {value!r}")
+
+
+def _shape(extent: float, slenderness: float, resolution: PadResolution) -> _Shape:
+    require_mappable(extent, slenderness)
     return _Shape(_rounded(extent), _rounded(slenderness), resolution.checked())
 
 

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "../films/journal_model.h"
-#include "../films/pad_kernel.h"
 #include "../solvers/dense.h"
+#include "pad_tables.h"
 #include "tilting.h"
 
 #define MOST_PADS 50
@@ -29,25 +29,6 @@ typedef struct model {
 static model *writable(const void *kernel)
 {
     return (model *)kernel;
-}
-
-static int take_map(model *m, const rf_tables *tables, rf_message *why)
-{
-    const rf_table *c = rf_find_table(tables, "coefficients", 3, why);
-    const rf_table *shape = c ? rf_find_table(tables, "shape", 1, why) : NULL;
-    if (!shape)
-        return RF_INVALID;
-    const double *n = shape->numbers;
-    for (int axis = 0; axis < 3; ++axis)
-        if (c->extent[axis] < 6 || c->extent[axis] > 10000 || shape->extent[0] != 4)
-            return rf_say(why, RF_INVALID, "the map of a pad must be 6 x 6 x 6 at least, got %u x %u x %u",
-                          (unsigned)c->extent[0], (unsigned)c->extent[1], (unsigned)c->extent[2]);
-    if (!(n[0] > 0.0 && n[0] < 3.2 && n[1] < n[2] && n[3] > 0.0))
-        return rf_say(why, RF_INVALID, "the shape of a pad must be of a map, got an extent of %.9g", n[0]);
-    m->map = (rf_pad_map){(int32_t)c->extent[0] - 5, (int32_t)c->extent[1] - 5, (int32_t)c->extent[2] - 5,
-                          n[1], n[2], n[3], 0.0, 0.0, 0.0, c->numbers};
-    rf_shape_pad(&m->map, n[0]);
-    return RF_OK;
 }
 
 static int take_pads(model *m, const rf_tables *tables, int inertia, rf_message *why)
@@ -105,7 +86,7 @@ void *rf_create_tilting(const rf_tables *tables, int inertia, rf_sizes *sizes, r
         rf_say(why, RF_MEMORY, "no memory for a journal");
         return NULL;
     }
-    if (take_map(m, tables, why) != RF_OK || take_pads(m, tables, inertia, why) != RF_OK || allocate(m, why) != RF_OK) {
+    if (rf_take_pad_map(&m->map, "", tables, why) != RF_OK || take_pads(m, tables, inertia, why) != RF_OK || allocate(m, why) != RF_OK) {
         rf_destroy_tilting(m);
         return NULL;
     }

@@ -16,12 +16,12 @@ from ...bearings.journal import JournalBearing
 from ...ladders import BaseRung, Rung
 from ...scenes.journal.field_levels import FIELD_LEVELS, REFERENCE, FieldLevel, grid_error
 from ...scenes.journal.film_rung import FilmRung
-from ...scenes.journal.heat_steps import HeatError, HeatSteps, heat_error
+from ...scenes.journal.heat_steps import HeatSteps, JudgedRest
 from ...scenes.journal.warm_rest import WarmRest
 
 
 @dataclass(frozen=True, kw_only=True)
-class HeatedQuestion:
+class HeatedQuestion(JudgedRest):
     """A question about a journal in the balance of its heat.
 
     Attributes
@@ -44,16 +44,6 @@ class HeatedQuestion:
     value: Callable[[WarmRest], Any]
     distance: Callable[[Any, Any], float]
     moves: bool = False
-
-    def apart(self, own: WarmRest, other: WarmRest) -> float:
-        """Return how far the quantity of one rest is from that of a better one."""
-        return self.distance(self.value(own), self.value(other))
-
-    def error(self, own: WarmRest, steps: HeatSteps) -> HeatError:
-        """Return how far the quantity of a rest is off by heat."""
-        start, last, before, *bases = (self.value(one) for one in (steps.own, *steps.sample))
-        coarse, fine, long = bases
-        return heat_error(self.value(own), start, (last, before, coarse, fine, long), self.distance)
 
 
 class FieldSolution(NamedTuple):

@@ -21,7 +21,7 @@ from ...scenes.journal.assumed import assumed_figures
 from ...scenes.journal.field_levels import FIELD_LEVELS, FieldLevel, grid_error
 from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.film_rungs import point_films
-from ...scenes.journal.heat_steps import HeatError, HeatSteps, heat_error
+from ...scenes.journal.heat_steps import HeatError, HeatSteps, JudgedRest
 from ...scenes.journal.warm_rest import WarmRest, uniform_rest
 from .heat_rungs import BALANCED, BALANCES, FRESH, HeatLevel, balance_at, known_films, with_heat
 from .whirl_rungs import AROUND, WhirlRung, whirl_ladder
@@ -134,7 +134,7 @@ class WarmWhirlRung(WhirlRung):
 
 
 @dataclass(frozen=True)
-class Growth:
+class Growth(JudgedRest):
     """What K and C of a rest at a threshold do to its speed.
 
     Attributes
@@ -157,16 +157,6 @@ class Growth:
     def distance(self, value: float, better: float) -> float:
         """Return by which share of itself the threshold is off."""
         return abs((better - value) / self.per_speed) / self.speed
-
-    def apart(self, own: WarmRest, other: WarmRest) -> float:
-        """Return how far the threshold of one rest is from that of a better one."""
-        return self.distance(self.value(own), self.value(other))
-
-    def error(self, own: WarmRest, steps: HeatSteps) -> HeatError:
-        """Return how far the threshold of a rest is off by heat."""
-        start, last, before, *bases = (self.value(one) for one in (steps.own, *steps.sample))
-        coarse, fine, long = bases
-        return heat_error(self.value(own), start, (last, before, coarse, fine, long), self.distance)
 
 
 class FieldThreshold(NamedTuple):

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -165,3 +165,25 @@ def heat_error(
     error = distance(own, last + ONWARD * (last - coarse))
     unsure = ONWARD * distance(coarse, last) + distance(before, last)
     return HeatError(error, False) if error >= unsure else HeatError(error + unsure, True)
+
+
+class _Judge(Protocol):
+    @property
+    def value(self) -> Callable[[WarmRest], Any]: ...
+
+    @property
+    def distance(self) -> Callable[[Any, Any], float]: ...
+
+
+class JudgedRest:
+    """What judges rests by the `value` of each, and by the `distance` of one value from a better one."""
+
+    def apart(self: _Judge, own: WarmRest, other: WarmRest) -> float:
+        """Return how far the quantity of one rest is from that of a better one."""
+        return self.distance(self.value(own), self.value(other))
+
+    def error(self: _Judge, own: WarmRest, steps: HeatSteps) -> HeatError:
+        """Return how far the quantity of a rest is off by heat."""
+        start, last, before, *bases = (self.value(one) for one in (steps.own, *steps.sample))
+        coarse, fine, long = bases
+        return heat_error(self.value(own), start, (last, before, coarse, fine, long), self.distance)

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
-from typing import Annotated, Any, Self
+from typing import Annotated, Any
 
 from ...bearings.pads import PressureDamBearing, Recess, RecessedPad, pressure_dam_pads
 from ...errors import InputError
 from ...limits import FILM_CELLS
 from ...progress import Report
-from ...readable.result import Readable
-from ..lubricant_table import Lubricant, LubricantTable
 from ..reading.readers import Counts
 from ..reading.shared_fields import made_from
 from ..reading.tables import Keyed, Quantity, Table, TableList
-from .pad_films import on_fresh_oil
-from .pad_remarks import pad_remarks
+from .pad_data import DamData
+from .pad_tables import PadTable
 
 RECESS = Keyed(
     Recess,
@@ -40,42 +39,13 @@ FURTHER = ("track_depth", "track_share", "groove", "preload")
 
 
 @dataclass(frozen=True, kw_only=True)
-class DamData(Readable):
-    """A bearing of pads with recesses as it was understood.
-
-    Attributes
-    ----------
-    radius, length, clearance : float [m]
-        The radial clearance is that of the assembled bearing.
-    slenderness : float [1]
-        Length / diameter.
-    viscosity : float [Pa s]
-    pads : tuple of RecessedPad
-        Angles in the bearing frame [rad].
-    """
-
-    radius: float
-    length: float
-    clearance: float
-    slenderness: float
-    viscosity: float
-    pads: tuple[RecessedPad, ...]
-
-
-@dataclass(frozen=True, kw_only=True)
-class DamTable:
+class DamTable(PadTable):
     """`[pressure_dam]`: a journal bearing of fixed pads with a pressure dam, a step or a relief track.
 
     Parameters
     ----------
-    radius : float [m]
-        Of the bearing; a file may give `diameter` instead.
-    length : float [m]
-        Full axial length.
     clearance : float [m]
         Radial clearance of the bearing as assembled.
-    viscosity : float or None [Pa s]
-        None where `[lubricant]` gives the oil: its viscosity as supplied.
     depth, end, share : float or None [m], [rad], [1]
         Of the dam in the upper one of the two usual pads; see `pressure_dam_pads`. Give these or `pads`.
     track_depth, track_share : float or None [m], [1]
@@ -89,10 +59,7 @@ class DamTable:
         question needs.
     """
 
-    radius: Annotated[float, Quantity("m", twice="diameter")]
-    length: Annotated[float, Quantity("m")]
     clearance: Annotated[float, Quantity("m")]
-    viscosity: Annotated[float | None, Quantity("Pa.s")] = None
     depth: Annotated[float | None, Quantity("m")] = None
     end: Annotated[float | None, Quantity("rad")] = None
     share: Annotated[float | None, Quantity("1")] = None
@@ -111,7 +78,7 @@ class DamTable:
         for name, value in given.items():
             if self.pads:
                 raise InputError(f"{name} must not be given beside pads, got {value!r}")
-        self._built(1.0 if self.viscosity is None else self.viscosity)
+        self.require_bearing()
 
     @property
     def film_is_given(self) -> bool:
@@ -123,16 +90,8 @@ class DamTable:
         given = {name: getattr(self, name) for name in (*NEEDED, *FURTHER)}
         return {name: value for name, value in given.items() if value is not None}
 
-    def on(self, where: str, lubricant: LubricantTable) -> Self:
-        """Return this table with the viscosity of the fresh oil, unless it has its own."""
-        return on_fresh_oil(self, where, lubricant)
-
-    def build(self) -> PressureDamBearing:
-        """Return the bearing; raise InputError where a value breaks its rule."""
-        assert self.viscosity is not None  # `on` gives it
-        return self._built(self.viscosity)
-
-    def _built(self, viscosity: float) -> PressureDamBearing:
+    def built(self, viscosity: float) -> PressureDamBearing:
+        """Return the bearing with a viscosity [Pa s]."""
         pads = self.pads or pressure_dam_pads(**self._of_design)
         further: dict[str, Any] = {} if self.cells is None else {"cells": self.cells}
         return PressureDamBearing(
@@ -148,11 +107,9 @@ class DamTable:
         """Return what an answer repeats of the bearing, and the name of its film."""
         return made_from(DamData, bearing, slenderness=bearing.slenderness), dam_film_name(bearing)
 
-    def remarks(
-        self, bearing: PressureDamBearing, oil: Lubricant, speed: float, load: tuple[float, float]
-    ) -> tuple[str, ...]:
-        """Return what its physics leaves out and should not."""
-        return pad_remarks(bearing, max(pad.extent for pad in bearing.pads), oil, speed, load)
+    def extents(self, bearing: PressureDamBearing) -> Collection[float]:
+        """Return the angles that pads of the bearing cover [rad]."""
+        return [pad.extent for pad in bearing.pads]
 
     def make_map(self, report: Report) -> None:
         """Do nothing: films with steps have no map."""

@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
-from typing import TypeVar
+from collections.abc import Callable, Iterable
 
-from ...bearings.pads import PadFilm, PadGridFilm, PadMapFilm
-from ...errors import InputError
-from ...progress import Report
+from ...bearings.pads import PadFilm, PadGridFilm, PadMapFilm, is_pad_mappable
 from ..journal.film_tables import CELLS
-from ..lubricant_table import LubricantTable
 from ..reading.tables import Keyed
 
 PAD_FILMS: dict[str, Callable[[], Keyed[PadFilm]]] = {
@@ -19,7 +14,12 @@ PAD_FILMS: dict[str, Callable[[], Keyed[PadFilm]]] = {
 }
 """`film = {name = "map"}`: the films of a pad by their names."""
 
-T = TypeVar("T")
+
+def usual_film(extents: Iterable[float], radius: float, length: float) -> PadFilm:
+    """Return the film of pads of these extents [rad] where the file names none: the map, else a grid."""
+    slenderness = length / (2.0 * radius) if radius else 0.0
+    mappable = all(is_pad_mappable(extent, slenderness) for extent in extents)
+    return PadMapFilm() if mappable else PadGridFilm()
 
 
 def pad_film_name(film: PadFilm) -> str:
@@ -27,34 +27,3 @@ def pad_film_name(film: PadFilm) -> str:
     if isinstance(film, PadGridFilm):
         return f"2-D {film.cells[0]} x {film.cells[1]} extr. on each pad"
     return "map of a pad"
-
-
-def on_fresh_oil(table: T, where: str, lubricant: LubricantTable) -> T:
-    """Return the table of a bearing with the viscosity of the fresh oil, unless it has its own.
-
-    Parameters
-    ----------
-    table : dataclass
-        With a `viscosity`.
-    where : str
-        Its name in the file, for messages.
-    lubricant : LubricantTable
-
-    Raises
-    ------
-    InputError
-        If neither gives a viscosity.
-    """
-    if table.viscosity is not None:  # type: ignore[attr-defined]
-        return table
-    if not lubricant.has_viscosity:
-        raise InputError(f"{where}.viscosity is required where [lubricant] gives no grade or viscosity")
-    fresh = float(lubricant.oil.viscosity(lubricant.cooling.supply_temperature))
-    return replace(table, viscosity=fresh)  # type: ignore[type-var]
-
-
-def make_pad_maps(film: PadFilm, extents: set[float], slenderness: float, report: Report) -> None:
-    """Make the maps of pads of these extents [rad], unless they lie on disk or the film is none."""
-    if isinstance(film, PadMapFilm):
-        for extent in sorted(extents):
-            film.table(extent, slenderness, report)

@@ -12,6 +12,7 @@ from ...bearings.pads import (
     TiltingPadBearing,
     TiltingPads,
     differenced_slopes,
+    is_pad_mappable,
 )
 from ...model import Array
 from ...results import Coefficients
@@ -90,6 +91,8 @@ def tilting_candidates(bearing: TiltingPadBearing, *, fixed: bool) -> tuple[Tilt
         _candidate(bearing, PadGridFilm(cells=cells), f"2-D {cells[0]} x {cells[1]} extr.", *priors)
         for cells, *priors in GRIDS
     ]
+    if not is_pad_mappable(bearing.extent, bearing.slenderness):
+        return tuple(grids)
     fine = _candidate(bearing, PadMapFilm(), "pad map", 2e-5, 1e-3)
     return tuple(grids) if fine.makes_map else (fine, *grids)
 

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
-from typing import Annotated, Any, Self
+from typing import Annotated, Any
 
-from ...bearings.pads import PadFilm, PadMapFilm, TiltingPadBearing, even_pivots
+from ...bearings.pads import TiltingPadBearing, even_pivots
 from ...errors import InputError, SceneError, brief
-from ...progress import Report
-from ...readable.result import Readable
-from ..lubricant_table import Lubricant, LubricantTable
 from ..reading.readers import Count, takes
 from ..reading.shared_fields import made_from
 from ..reading.spelling import nearest
-from ..reading.tables import Quantity, Variant
-from .pad_films import PAD_FILMS, make_pad_maps, on_fresh_oil, pad_film_name
-from .pad_remarks import pad_remarks
+from ..reading.tables import Quantity
+from .pad_data import TiltingData, echo_of_pads
+from .pad_films import usual_film
+from .pad_tables import FilmedPadTable
 
 PADS = 64
 """Most pads: each has a film of its own."""
@@ -43,59 +42,13 @@ def read_pivots(where: str, value: Any) -> tuple[float, ...]:
 
 
 @dataclass(frozen=True, kw_only=True)
-class TiltingData(Readable):
-    """A bearing of tilting pads as it was understood.
-
-    Attributes
-    ----------
-    radius, length : float [m]
-    slenderness : float [1]
-        Length / diameter.
-    pad_clearance : float [m]
-        c_p, in which the eccentricity ratio is.
-    assembled_clearance : float [m]
-        c_b, at a pivot around a centered journal.
-    preload : float [1]
-        1 - c_b/c_p.
-    viscosity : float [Pa s]
-    pivots : tuple of float [rad]
-        Angles in the bearing frame.
-    extent : float [rad]
-        Of each pad.
-    pivot_offset : float [1]
-        Share of a pad before its pivot.
-    """
-
-    radius: float
-    length: float
-    slenderness: float
-    pad_clearance: float
-    assembled_clearance: float
-    preload: float
-    viscosity: float
-    pivots: tuple[float, ...]
-    extent: float
-    pivot_offset: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class TiltingTable:
+class TiltingTable(FilmedPadTable):
     """`[tilting_pad]`: a journal bearing of equal tilting pads.
 
     Parameters
     ----------
-    radius : float [m]
-        Of the journal; a file may give `diameter` instead.
-    length : float [m]
-        Full axial length.
     extent : float [rad]
         Angle that a pad covers.
-    pad_clearance : float or None [m]
-        c_p: the radius of curvature of a pad less that of the journal. Give this or the assembled one.
-    assembled_clearance : float or None [m]
-        c_b = (1 - preload) c_p: the gap at a pivot around a centered journal.
-    viscosity : float or None [Pa s]
-        None where `[lubricant]` gives the oil: its viscosity as supplied.
     pad_count : int or None
         Number of evenly spaced pads; give this, with `loading`, or `pivots`.
     loading : str or None
@@ -114,16 +67,9 @@ class TiltingTable:
         From the film back to the center about which a pad rolls or rocks.
     pad_mass : float or None [kg]
         That moves with the pivot.
-    film : PadFilm or None
-        The film law; if the file does not say, the map of a pad, or what a question needs.
     """
 
-    radius: Annotated[float, Quantity("m", twice="diameter")]
-    length: Annotated[float, Quantity("m")]
     extent: Annotated[float, Quantity("rad")]
-    pad_clearance: Annotated[float | None, Quantity("m")] = None
-    assembled_clearance: Annotated[float | None, Quantity("m")] = None
-    viscosity: Annotated[float | None, Quantity("Pa.s")] = None
     pad_count: Annotated[int | None, Count(PADS, 2)] = None
     loading: Annotated[str | None, read_loading] = None
     pivots: Annotated[tuple[float, ...], read_pivots] = ()
@@ -133,7 +79,6 @@ class TiltingTable:
     pad_inertia: Annotated[float | None, Quantity("kg.m2")] = None
     pivot_distance: Annotated[float, Quantity("m")] = 0.0
     pad_mass: Annotated[float | None, Quantity("kg")] = None
-    film: Annotated[PadFilm | None, Variant("name", PAD_FILMS)] = None
 
     def __post_init__(self) -> None:
         if (self.pad_count is None) is (not self.pivots):
@@ -144,47 +89,20 @@ class TiltingTable:
                 f"loading must be given with pad_count, and only then, got {self.loading!r} and "
                 f"{self.pad_count!r}"
             )
-        self._built(1.0 if self.viscosity is None else self.viscosity)
+        self.require_bearing()
 
-    @property
-    def film_is_given(self) -> bool:
-        """Whether the file names the film, so that no other may answer."""
-        return self.film is not None
-
-    def on(self, where: str, lubricant: LubricantTable) -> Self:
-        """Return this table with the viscosity of the fresh oil, unless it has its own."""
-        return on_fresh_oil(self, where, lubricant)
-
-    def build(self) -> TiltingPadBearing:
-        """Return the bearing; raise InputError where a value breaks its rule."""
-        assert self.viscosity is not None  # `on` gives it
-        return self._built(self.viscosity)
-
-    def _built(self, viscosity: float) -> TiltingPadBearing:
+    def built(self, viscosity: float) -> TiltingPadBearing:
+        """Return the bearing with a viscosity [Pa s]."""
         pivots = self.pivots
         if self.pad_count is not None and self.loading is not None:
             pivots = even_pivots(self.pad_count, between_pads=LOADINGS[self.loading])
-        film = self.film or PadMapFilm()
+        film = self.film or usual_film([self.extent], self.radius, self.length)
         return made_from(TiltingPadBearing, self, viscosity=viscosity, pivots=pivots, film=film)
 
     def echo(self, bearing: TiltingPadBearing) -> tuple[TiltingData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
-        data = made_from(
-            TiltingData,
-            bearing,
-            slenderness=bearing.slenderness,
-            pad_clearance=bearing.clearance,
-            assembled_clearance=bearing.bore_clearance,
-        )
-        return data, pad_film_name(bearing.film)
+        return echo_of_pads(TiltingData, bearing, bearing.bore_clearance)
 
-    def remarks(
-        self, bearing: TiltingPadBearing, oil: Lubricant, speed: float, load: tuple[float, float]
-    ) -> tuple[str, ...]:
-        """Return what its physics leaves out and should not."""
-        return pad_remarks(bearing, bearing.extent, oil, speed, load)
-
-    def make_map(self, report: Report) -> None:
-        """Make the map of the pads, where the film is one, unless it lies on disk."""
-        bearing = self.build()
-        make_pad_maps(bearing.film, {bearing.extent}, bearing.slenderness, report)
+    def extents(self, bearing: TiltingPadBearing) -> Collection[float]:
+        """Return the angles that pads of the bearing cover [rad]."""
+        return (bearing.extent,)

@@ -113,6 +113,12 @@ def test_bad_dimension_is_refused(name, value):
         JournalBearing(**{**DIMENSIONS, name: value})
 
 
+@pytest.mark.parametrize("name", list(DIMENSIONS))
+def test_a_dimension_as_a_text_without_its_unit_is_refused(name):
+    with pytest.raises(InputError, match=rf"{name} must have its unit, as '-1 .+', got '-1'"):
+        JournalBearing(**{**DIMENSIONS, name: "-1"})
+
+
 @pytest.mark.parametrize("clearance", [0.1e-6, 2e-3])
 def test_clearance_that_no_bearing_has_is_warned_of(clearance):
     with pytest.warns(

@@ -13,6 +13,7 @@ from rotorfilm import (
     PadGridFilm,
     ReynoldsFilm,
     Sprung,
+    TiltingPadBearing,
     coefficients,
     equilibrium,
     lobe_set,
@@ -239,3 +240,24 @@ def test_bad_input_names_argument_rule_and_value():
         )
     with pytest.raises(InputError, match="pad_clearance or assembled_clearance must be given, one of both"):
         LobedBearing(radius=RADIUS, length=0.1, viscosity=VISCOSITY, lobes=lobe_set("elliptical"))
+
+
+@pytest.mark.parametrize(
+    ("extent", "length", "message"),
+    [
+        (3.12, 0.1, r"extent must be 0\.1 to 3\.1 for a map of a pad, got 3\.12"),
+        (0.05, 0.1, r"extent must be 0\.1 to 3\.1 for a map of a pad, got 0\.05"),
+        (1.0, 0.004, r"length/diameter must be 0\.05 to 20\.0 for a map of a pad, got 0\.04"),
+    ],
+)
+def test_a_shape_without_a_map_is_refused_unless_the_film_needs_none(extent, length, message):
+    one = {"radius": 0.05, "length": length, "pad_clearance": 1e-4, "viscosity": VISCOSITY}
+    lobes = (Lobe(start=0.0, extent=extent),)
+    with pytest.raises(InputError, match=message):
+        LobedBearing(**one, lobes=lobes)
+    with pytest.raises(InputError, match=message):
+        TiltingPadBearing(**one, pivots=(0.0,), extent=extent)
+    grid = PadGridFilm(cells=(16, 4))
+    bearing = LobedBearing(**one, lobes=lobes, film=grid)
+    assert np.isfinite(bearing.force([0.0, 0.0], [0.0, 0.0], SPEED)).all()
+    assert TiltingPadBearing(**one, pivots=(0.0,), extent=extent, film=grid).film == grid

@@ -1,5 +1,6 @@
 """Rotors on fixed pads: orbits, thresholds and transients agree with each other and with K and C."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -10,9 +11,12 @@ from rotorfilm import (
     LobedBearing,
     PadMapFilm,
     RigidRotor,
+    TiltingPadBearing,
     ValidityWarning,
     coefficients,
+    continue_orbits,
     equilibrium,
+    even_pivots,
     hopf_point,
     lobe_set,
     mount,
@@ -74,3 +78,63 @@ def test_a_heavy_load_never_reaches_a_lobe():
         run = simulate(rotor, BEARING, duration=0.05, rtol=1e-6)
     assert run.time[-1] == pytest.approx(0.05)
     assert 0.0 < BEARING.minimum_film(run.position).min() < 0.05 * BEARING.clearance
+
+
+def test_a_branch_over_unbalance_is_where_the_journal_settles():
+    """From small orbits, which grow in proportion, to large ones, which a run in time must come to."""
+    rest = tuple(equilibrium(BEARING, LOAD, SPEED).position)
+
+    def family(unbalance):
+        return mount(replace(ROTOR, unbalance=unbalance, position=rest), {"": BEARING})
+
+    small, large = 1e-4, 8e-3
+    curve = continue_orbits(family, periodic_orbit(family(small)), parameter=small, bounds=(small, large))
+    assert curve.stable.all()
+    assert curve.events == ()
+    assert (np.diff(curve.parameters) > 0.0).all()
+    end, orbit = curve.parameters[-1], curve.orbits[-1]
+    assert end == pytest.approx(large)
+    assert (
+        abs(orbit.amplitude / curve.orbits[0].amplitude / (large / small) - 1.0) > 0.02
+    )  # not in proportion
+    run = simulate(family(end).rotor, BEARING, duration=40 * orbit.period, samples=40 * 32 + 1, rtol=1e-9)
+    expected = np.reshape(orbit.position(run.time[-33:]), (2, -1))
+    assert run.position[:, -33:] == pytest.approx(expected, abs=1e-6 * BEARING.clearance)
+
+
+@pytest.mark.parametrize(
+    ("bearing", "doubt"),
+    [
+        (BEARING, "least films of .* are beyond the map of a pad"),
+        (
+            TiltingPadBearing(
+                radius=0.05,
+                length=0.05,
+                viscosity=0.02,
+                pivots=even_pivots(4),
+                extent=1.1,
+                preload=0.3,
+                pad_clearance=1e-4,
+                film=FILM,
+            ),
+            "are unloaded: they have no film",
+        ),
+    ],
+    ids=["lobes", "tilting"],
+)
+def test_a_search_in_vain_beyond_the_film_warns_once(bearing, doubt):
+    with pytest.warns(ValidityWarning) as said:
+        found = whirl_threshold(bearing, (0.0, -5e4), 200.0, (20.0, 5000.0))
+    assert found.reason.startswith("stable at every speed")
+    assert len(said) == 1
+    assert said[0].filename == __file__
+    begins = "no threshold was found, but rests that were searched are in doubt"
+    assert re.match(f"{begins}: .*{doubt}", str(said[0].message))
+
+
+def test_a_threshold_that_is_found_says_nothing_of_the_speeds_before():
+    """At 20 rad/s the film is beyond its map, as a rest there says."""
+    load = (0.0, -2e5)
+    with pytest.warns(ValidityWarning, match="beyond the map"):
+        equilibrium(BEARING, load, 20.0)
+    assert whirl_threshold(BEARING, load, 200.0, (20.0, 20000.0)).exists

@@ -24,9 +24,10 @@ from ....inputs.si_arguments import quantities
 from ....model import Array, Force, Tangent
 from ....native.film_kernels import Status
 from ....native.spec import NativeParameter, NativeSpec
+from ...film_units import FilmUnits
 from ...films.geometry import FilmGeometry, Pad
 from ...films.ring.ring_grids import are_counts
-from ...reaction import NOMINAL_SPEED, StaticReaction, broadcast_state
+from ...reaction import StaticReaction, broadcast_state
 from .dam_kernel import DamKernel, PadPressure, pad_places, pad_rows
 from .recessed_pad import RecessedPad
 
@@ -41,7 +42,7 @@ PARAMETERS = (
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class PressureDamBearing(StaticReaction):
+class PressureDamBearing(StaticReaction, FilmUnits):
     """A bearing of fixed pads, any of which may have a recess: pressure dam, step, relief track.
 
     x and y are Cartesian from the bearing center, rotation is about +z, the force acts on the journal.
@@ -122,19 +123,9 @@ class PressureDamBearing(StaticReaction):
         FilmGeometry(pads=tuple(Pad(start=pad.start, extent=pad.extent) for pad in self.pads))
 
     @property
-    def slenderness(self) -> float:
-        """Length / diameter [1]."""
-        return self.length / (2.0 * self.radius)
-
-    @property
-    def force_scale(self) -> float:
-        """Viscosity * length * radius^3 / clearance^2 [N s], the film's unit of force per 1/s."""
-        return self.viscosity * self.length * self.radius**3 / self.clearance**2
-
-    @property
-    def nominal_force(self) -> float:
-        """Force of a middling motion at NOMINAL_SPEED [N]."""
-        return self.force_scale * NOMINAL_SPEED * min(1.0, self.slenderness**2)
+    def film_viscosity(self) -> float:
+        """Dynamic viscosity of the film [Pa s]."""
+        return self.viscosity
 
     def minimum_film(self, position: ArrayLike) -> Array:
         """Return the least film over all pads [m], shape (...), of journals at positions (2, ...) [m].

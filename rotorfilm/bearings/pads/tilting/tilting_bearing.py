@@ -62,7 +62,7 @@ class TiltingPadBearing(Called, TiltingPads):
     @property
     def outputs(self) -> tuple[Signal, ...]:
         """Signals force_x, force_y, and load_1 .. load_N: the loads of the pivots."""
-        force = self.force_scale * NOMINAL_SPEED * min(1.0, self.slenderness**2)
+        force = self.nominal_force
         loads = (
             Signal(name=f"load_{k}", unit="N", nominal=force, description=f"load of the pivot of pad {k}")
             for k in range(1, len(self.pivots) + 1)

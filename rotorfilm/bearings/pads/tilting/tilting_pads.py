@@ -14,7 +14,6 @@ from ....errors import (
     brief,
     require_each,
     require_finite,
-    require_kind,
     require_non_negative,
     require_number,
     require_positive,
@@ -26,7 +25,7 @@ from ....native.pads.tilting_kernel import TiltingKernel
 from ...oil import Cooling, Oil
 from ...oil.lubricant import require_lubricant
 from ...oil.warm_bearing import WarmBearing
-from ..pad_film import PadFilm, PadMapFilm
+from ..pad_film import PadFilm, PadMapFilm, require_pad_film
 from .pivots import directions, gaps, reach
 
 
@@ -84,7 +83,7 @@ class TiltingPads(WarmBearing):
     Raises
     ------
     InputError
-        If a value breaks its rule.
+        If a value breaks its rule, or the film cannot be that of pads of this extent and length/diameter.
     """
 
     radius: float
@@ -128,7 +127,7 @@ class TiltingPads(WarmBearing):
         if heavy != (self.pad_mass is not None):
             rule = "with both pivot_stiffness and pad_inertia, and only then"
             raise InputError(f"pad_mass must be given {rule}, got {self.pad_mass!r}")
-        require_kind("film", self.film, PadFilm, "a film of pads such as PadMapFilm()")
+        require_pad_film(self.film, [self.extent], self.slenderness)
         self._check_pivots()
 
     def _check_pivots(self) -> None:
@@ -174,16 +173,6 @@ class TiltingPads(WarmBearing):
     @property
     def _yielding(self) -> float:
         return 1.0 if self.pivot_stiffness is None else 2.0
-
-    @property
-    def slenderness(self) -> float:
-        """Length / diameter [1]."""
-        return self.length / (2.0 * self.radius)
-
-    @property
-    def force_scale(self) -> float:
-        """Viscosity * length * radius^3 / c_p^2 [N s], the film's unit of force per 1/s."""
-        return self.film_viscosity * self.length * self.radius**3 / self.clearance**2
 
     @property
     def reduced_inertia(self) -> float:

@@ -29,7 +29,7 @@
 
 #include "../films/journal_model.h"
 #include "../films/lobes.h"
-#include "../films/pad_kernel.h"
+#include "pad_tables.h"
 
 #define MOST_LOBES 50
 #define ROUNDOFF 1e-12 /* relative, by which length/diameter may differ from that of the maps */
@@ -41,28 +41,6 @@ typedef struct model {
     rf_pad_map maps[MOST_LOBES];
     rf_lobe list[MOST_LOBES];
 } model;
-
-static int take_map(rf_pad_map *map, int number, const rf_tables *tables, rf_message *why)
-{
-    char name[32];
-    snprintf(name, sizeof name, "%d.coefficients", number);
-    const rf_table *c = rf_find_table(tables, name, 3, why);
-    snprintf(name, sizeof name, "%d.shape", number);
-    const rf_table *shape = c ? rf_find_table(tables, name, 1, why) : NULL;
-    if (!shape)
-        return RF_INVALID;
-    const uint32_t u = c->extent[0], y = c->extent[1], phi = c->extent[2];
-    const double *n = shape->numbers;
-    if (u < 6 || y < 6 || phi < 6 || u > 10000 || y > 10000 || phi > 10000 || shape->extent[0] != 4
-        || !(n[0] > 0.0 && n[0] < 3.2 && n[1] < n[2] && n[3] > 0.0))
-        return rf_say(why, RF_INVALID, "the tables of map %d must fit each other, got %u x %u x %u", number,
-                      (unsigned)u, (unsigned)y, (unsigned)phi);
-    const rf_pad_map made = {(int32_t)u - 5, (int32_t)y - 5, (int32_t)phi - 5, n[1], n[2], n[3], 0.0, 0.0, 0.0,
-                             c->numbers};
-    *map = made;
-    rf_shape_pad(map, n[0]);
-    return RF_OK;
-}
 
 static int take_tables(model *self, const rf_tables *tables, rf_message *why)
 {
@@ -85,8 +63,12 @@ static int take_tables(model *self, const rf_tables *tables, rf_message *why)
         if (!(row[3] >= 0.0 && row[3] <= made && row[3] == floor(row[3])))
             return rf_say(why, RF_INVALID, "number of a map must be 0 to %d, got %.9g", made, row[3]);
         const int number = (int)row[3];
-        if (number == made && take_map(&self->maps[made++], number, tables, why) != RF_OK)
-            return RF_INVALID;
+        if (number == made) {
+            char of[16];
+            snprintf(of, sizeof of, "%d.", number);
+            if (rf_take_pad_map(&self->maps[made++], of, tables, why) != RF_OK)
+                return RF_INVALID;
+        }
         rf_lobe *lobe = &self->list[k];
         lobe->film.film = rf_pad_film;
         lobe->film.data = &self->maps[number];

@@ -1,0 +1,118 @@
+"""What the tables of bearings made of pads share: dimensions, oil, film and maps."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass, replace
+from typing import Annotated, Any, Protocol, Self, TypeVar
+
+from ...bearings.pads import PadFilm, PadMapFilm
+from ...errors import InputError
+from ...progress import Report
+from ..lubricant_table import Lubricant, LubricantTable
+from ..reading.tables import Quantity, Variant
+from .pad_films import PAD_FILMS
+from .pad_remarks import AnyPads, pad_remarks
+
+B_co = TypeVar("B_co", bound=AnyPads, covariant=True)
+
+
+class _Table(Protocol[B_co]):
+    @property
+    def viscosity(self) -> float | None: ...
+
+    def built(self, viscosity: float) -> B_co:
+        """Return the bearing with a viscosity [Pa s]."""
+
+    def extents(self, bearing: Any) -> Collection[float]:
+        """Return the angles that pads of the bearing cover [rad]."""
+
+
+class _FilmedTable(_Table[B_co], Protocol[B_co]):
+    def build(self) -> B_co: ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class PadTable:
+    """The table of a bearing made of pads.
+
+    Parameters
+    ----------
+    radius : float [m]
+        Of the journal; a file may give `diameter` instead.
+    length : float [m]
+        Full axial length.
+    viscosity : float or None [Pa s]
+        None where `[lubricant]` gives the oil: its viscosity as supplied.
+    """
+
+    radius: Annotated[float, Quantity("m", twice="diameter")]
+    length: Annotated[float, Quantity("m")]
+    viscosity: Annotated[float | None, Quantity("Pa.s")] = None
+
+    def require_bearing(self: _Table[AnyPads]) -> None:
+        """Raise InputError where a value breaks its rule, at whatever viscosity the oil of the scene has."""
+        self.built(1.0 if self.viscosity is None else self.viscosity)
+
+    def on(self, where: str, lubricant: LubricantTable) -> Self:
+        """Return this table with the viscosity of the fresh oil, unless it has its own.
+
+        Parameters
+        ----------
+        where : str
+            Its name in the file, for messages.
+        lubricant : LubricantTable
+
+        Raises
+        ------
+        InputError
+            If neither gives a viscosity.
+        """
+        if self.viscosity is not None:
+            return self
+        if not lubricant.has_viscosity:
+            raise InputError(f"{where}.viscosity is required where [lubricant] gives no grade or viscosity")
+        fresh = float(lubricant.oil.viscosity(lubricant.cooling.supply_temperature))
+        return replace(self, viscosity=fresh)
+
+    def build(self: _Table[B_co]) -> B_co:
+        """Return the bearing; raise InputError where a value breaks its rule."""
+        assert self.viscosity is not None  # `on` gives it
+        return self.built(self.viscosity)
+
+    def remarks(
+        self: _Table[AnyPads], bearing: AnyPads, oil: Lubricant, speed: float, load: tuple[float, float]
+    ) -> tuple[str, ...]:
+        """Return what its physics leaves out and should not."""
+        return pad_remarks(bearing, max(self.extents(bearing)), oil, speed, load)
+
+
+@dataclass(frozen=True, kw_only=True)
+class FilmedPadTable(PadTable):
+    """The table of a bearing whose pads have a film of pads.
+
+    Parameters
+    ----------
+    pad_clearance : float or None [m]
+        c_p: the radius of curvature of a pad less that of the journal. Give this or the assembled one.
+    assembled_clearance : float or None [m]
+        c_b = (1 - preload) c_p: the least gap around a centered journal.
+    film : PadFilm or None
+        The film law; if the file does not say, the map of a pad, or what a question needs.
+    """
+
+    pad_clearance: Annotated[float | None, Quantity("m")] = None
+    assembled_clearance: Annotated[float | None, Quantity("m")] = None
+    film: Annotated[PadFilm | None, Variant("name", PAD_FILMS)] = None
+
+    @property
+    def film_is_given(self) -> bool:
+        """Whether the file names the film, so that no other may answer."""
+        return self.film is not None
+
+    def make_map(self: _FilmedTable[Any], report: Report) -> None:
+        """Make the maps of the pads, where the film is one, unless they lie on disk."""
+        bearing = self.build()
+        if isinstance(bearing.film, PadMapFilm):
+            for extent in sorted(set(self.extents(bearing))):
+                bearing.film.table(extent, bearing.slenderness, report)
