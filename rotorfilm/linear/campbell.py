@@ -27,14 +27,21 @@ class Campbell(Whirls, Drawable):
     ----------
     speeds : ndarray, shape (n_speeds,) [rad/s]
     eigenvalues : ndarray, shape (n_modes, n_speeds) [1/s]
-        By mode; nan where a mode does not oscillate.
+        By mode; nan where a mode does not oscillate, or is much faster than the modes that were asked for.
     direction : ndarray, shape (n_modes, n_speeds) [1]
         As in `RotorModes`; nan likewise.
+    error : float [1]
+        Largest of those of `RotorModes`.
     """
 
     speeds: Array
     eigenvalues: NDArray[np.complex128]
     direction: Array
+    error: float = 0.0
+
+
+_BEYOND = 1.5
+"""How far modes of a rotor of many elements are followed / the highest frequency."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,7 +80,7 @@ def campbell(
         Rising or falling, of either sign; so close that modes do not change beyond recognition from one to
         the next.
     highest_frequency : float [rad/s]
-        Modes that stay above it are left out.
+        Modes that stay above it are left out. If infinite, as in `rotor_modes`.
 
     Raises
     ------
@@ -83,8 +90,8 @@ def campbell(
         If there is no equilibrium at one of the speeds.
     """
     grid = speeds_in_turn(speeds)
-    points = [rotor_modes(rotor, bearings, float(speed)) for speed in grid]
-    tracks = _tracks(points, rotor.structure.mass)
+    points = [rotor_modes(rotor, bearings, float(speed), _BEYOND * highest_frequency) for speed in grid]
+    tracks = _tracks(points, rotor.assembly.mass)
     values = np.full((len(tracks), len(grid)), complex(math.nan, math.nan))
     direction = np.full((len(tracks), len(grid)), math.nan)
     for row, track in enumerate(tracks):
@@ -93,7 +100,12 @@ def campbell(
             direction[row, column] = points[column].direction[k]
     lowest = np.nanmin(np.abs(values.imag), axis=1) if len(tracks) else np.zeros(0)
     order = [k for k in np.argsort(lowest) if lowest[k] <= highest_frequency]
-    return Campbell(speeds=grid, eigenvalues=values[order], direction=direction[order])
+    return Campbell(
+        speeds=grid,
+        eigenvalues=values[order],
+        direction=direction[order],
+        error=max(point.error for point in points),
+    )
 
 
 @arguments
@@ -182,8 +194,8 @@ def _matches(before: RotorModes, after: RotorModes, mass: Array) -> dict[int, in
     """Return the mode of `before` that each mode of `after` continues, by eigenvalue and shape."""
     if not (before.eigenvalues.size and after.eigenvalues.size):
         return {}
-    product = np.abs(before.shapes.conj().T @ mass @ after.shapes) ** 2
-    sizes = [np.einsum("ik,ij,jk->k", m.shapes.conj(), mass, m.shapes).real for m in (before, after)]
+    product = np.abs(before.shapes.conj().T @ (mass @ after.shapes)) ** 2
+    sizes = [np.sum(m.shapes.conj() * (mass @ m.shapes), axis=0).real for m in (before, after)]
     likeness = product / np.outer(*sizes)
     scale = np.abs(before.eigenvalues)[:, None] + np.abs(after.eigenvalues)
     apart = np.abs(before.eigenvalues[:, None] - after.eigenvalues) / scale

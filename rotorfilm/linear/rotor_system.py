@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy import sparse
 
 from ..errors import InputError
 from ..inputs.kinds import arguments
@@ -27,7 +28,10 @@ FORCES = (*HOUSING, "ground_force_x", "ground_force_y")
 
 
 class SecondOrder(NamedTuple):
-    """mass q'' + damping q' + stiffness q = force, bearings, gyroscopic effect and all, shape (N, N) each."""
+    """mass q'' + damping q' + stiffness q = force, bearings, gyroscopic effect and all, shape (N, N) each.
+
+    Sparse arrays where those of the rotor are.
+    """
 
     mass: Array
     damping: Array
@@ -50,9 +54,17 @@ def second_order(structure: Structure, at: RotorEquilibrium) -> SecondOrder:
     stiffness = structure.stiffness + at.speed * structure.circulation
     for name, film in at.coefficients.items():
         rows = journal_rows(structure, name)
-        damping = damping + rows.T @ film.damping @ rows
-        stiffness = stiffness + rows.T @ film.stiffness @ rows
+        damping = damping + _at_journal(structure, rows, film.damping)
+        stiffness = stiffness + _at_journal(structure, rows, film.stiffness)
     return SecondOrder(structure.mass, damping, stiffness)
+
+
+def _at_journal(structure: Structure, rows: Array, film: Array) -> Any:
+    """Return what K or C of a film is in the coordinates of the rotor, sparse if its matrices are."""
+    if not sparse.issparse(structure.mass):
+        return rows.T @ film @ rows
+    few = sparse.csr_array(rows)
+    return few.T @ sparse.csr_array(film) @ few
 
 
 def with_hysteresis(structure: Structure, system: SecondOrder, frequency: float, speed: float) -> SecondOrder:
@@ -69,6 +81,11 @@ def with_hysteresis(structure: Structure, system: SecondOrder, frequency: float,
     resisting = 1j * both_planes(structure.hysteresis)
     share = 0.5 * (1.0 + np.sign(frequency - abs(speed)))
     return system._replace(stiffness=system.stiffness + (1.0 - share) * driving + share * resisting)
+
+
+def small_motion(structure: Structure, at: RotorEquilibrium, frequency: float) -> SecondOrder:
+    """Return the equations of small motion about an equilibrium, with hysteresis at a frequency [rad/s]."""
+    return with_hysteresis(structure, second_order(structure, at), frequency, at.speed)
 
 
 @arguments
@@ -147,7 +164,7 @@ def unbalance_response(
         at = rotor_equilibrium(rotor, bearings, float(speed))
         # (cos, sin) of the angle are the real parts of (1, -i) exp(i w t)
         force = speed**2 * s.unbalance @ np.array([1.0, -1.0j])
-        system = with_hysteresis(s, second_order(s, at), speed, speed)
+        system = small_motion(s, at, speed)
         motion = np.linalg.solve(system.dynamic_stiffness(speed), force)
         sense, labels = _outputs(rotor, at)
         responses.append(sense @ np.concatenate([motion, 1j * speed * motion]))
@@ -193,7 +210,7 @@ def rotor_transmissibility(
     responses, wanted = [], []
     for speed in grid:
         at = rotor_equilibrium(rotor, bearings, float(speed))
-        system = with_hysteresis(s, second_order(s, at), speed, speed)
+        system = small_motion(s, at, speed)
         motion = np.linalg.solve(system.dynamic_stiffness(speed), push.T)
         sense, labels = _outputs(rotor, at)
         wanted = [k for k, label in enumerate(labels) if label.endswith(FORCES)]

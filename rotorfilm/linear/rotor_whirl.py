@@ -16,7 +16,7 @@ from ..rotors.structure import Structure
 from .coefficients import coefficients
 from .equilibrium import equilibrium
 from .rotor_rest import RotorEquilibrium, rotor_equilibrium
-from .rotor_system import SecondOrder, journal_rows, second_order, with_hysteresis
+from .rotor_system import SecondOrder, journal_rows, second_order, small_motion
 from .speed_events import SpeedEvent
 
 STEP = 1e-3
@@ -67,11 +67,6 @@ class Whirl(NamedTuple):
     value: complex
     right: np.ndarray
     left: np.ndarray
-
-
-def small_motion(structure: Structure, at: RotorEquilibrium, frequency: float) -> SecondOrder:
-    """Return the equations of small motion about an equilibrium, with hysteresis at a frequency [rad/s]."""
-    return with_hysteresis(structure, second_order(structure, at), frequency, at.speed)
 
 
 def on_films(at: RotorEquilibrium, found: dict[str, Coefficients]) -> RotorEquilibrium:

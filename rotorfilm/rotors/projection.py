@@ -10,6 +10,9 @@ from ..model import Array
 from .sparse_chain import dense_matrix
 from .structure import NOMINAL_LENGTH, Coordinate, Readout, Structure, both_planes
 
+_DEPENDENT = 1e-6
+"""Part of a shape, by kinetic energy, below which it adds nothing to those before it."""
+
 
 def projected(full: Structure, shapes: Array) -> Structure:
     """Return the matrices of a structure that moves in shapes of one plane, the same in both (Galerkin).
@@ -71,7 +74,3 @@ def new_shapes(shapes: Array, known: Array, mass: Any) -> Array:
         if left > _DEPENDENT:
             known = np.column_stack([known, rest / left])
     return known[:, count:]
-
-
-_DEPENDENT = 1e-6
-"""Part of a shape, by kinetic energy, below which it adds nothing to those before it."""

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -134,6 +134,11 @@ class FlexibleRotor(Turning):
     def structure(self) -> Structure:
         """The matrices of the rotor, dense."""
         return dense(self.assembly)
+
+    @cached_property
+    def remembered(self) -> dict[int, Any]:
+        """What analyses have worked out of the rotor, by their own keys."""
+        return {}
 
     @cached_property
     def inputs(self) -> tuple[Signal, ...]:
