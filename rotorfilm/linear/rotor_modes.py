@@ -17,10 +17,10 @@ from ..model import Array, Reaction
 from ..readable.result import Readable
 from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure
-from .large.condensed import Condensed, models, usual_frequency
-from .large.defects import TOLERANCE, whirl_errors
+from .large.condensed import TOLERANCE, Condensed, models, usual_frequency
+from .large.defects import WholeRotor, whirl_errors
+from .large.small_motion import SecondOrder, small_motion
 from .rotor_rest import RotorEquilibrium, rest
-from .rotor_system import SecondOrder, small_motion
 
 _OSCILLATES = 1e-6
 
@@ -193,7 +193,7 @@ def _part(model: Condensed, at: RotorEquilibrium, band: _Band, reach: float) -> 
     error = 0.0
     if model.space is not None and asked:
         ends = np.linalg.solve(system.mass, left[len(system.mass) :, asked])
-        whole = small_motion(model.whole, at, band.frequency)
+        whole = WholeRotor(model.whole, at, band.frequency)
         lifted = (model.lifted(motion) for motion in (shapes[:, asked], ends))
         error = float(whirl_errors(model, whole, values[asked], *lifted).max())
     return _Part(values[order].astype(complex), shapes[:, order].astype(complex), error)

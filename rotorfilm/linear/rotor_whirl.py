@@ -15,8 +15,8 @@ from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
 from .coefficients import coefficients
 from .equilibrium import equilibrium
+from .large.small_motion import SecondOrder, journal_rows, second_order, small_motion
 from .rotor_rest import RotorEquilibrium, rotor_equilibrium
-from .rotor_system import SecondOrder, journal_rows, second_order, small_motion
 from .speed_events import SpeedEvent
 
 STEP = 1e-3

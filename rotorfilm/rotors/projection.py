@@ -10,8 +10,8 @@ from ..model import Array
 from .sparse_chain import dense_matrix
 from .structure import NOMINAL_LENGTH, Coordinate, Readout, Structure, both_planes
 
-_DEPENDENT = 1e-6
-"""Part of a shape, by kinetic energy, below which it adds nothing to those before it."""
+DEPENDENT = 1e-6
+"""Part of a shape, as the root of its kinetic energy, below which it adds nothing to those before it."""
 
 
 def projected(full: Structure, shapes: Array) -> Structure:
@@ -52,7 +52,7 @@ def mean_plane(matrix: Any) -> Any:
     return 0.5 * (matrix[:n, :n] + matrix[n:, n:])
 
 
-def new_shapes(shapes: Array, known: Array, mass: Any) -> Array:
+def new_shapes(shapes: Array, known: Array, mass: Any, least: float = DEPENDENT) -> Array:
     """Return what each shape adds, if anything, to known ones of unit mass and to the shapes before it.
 
     Parameters
@@ -61,6 +61,8 @@ def new_shapes(shapes: Array, known: Array, mass: Any) -> Array:
     known : ndarray, shape (N / 2, n)
         Of unit mass, and without mass in common.
     mass : ndarray or sparse array, shape (N / 2, N / 2)
+    least : float [1]
+        Part of a shape that must be new.
     """
     count = known.shape[1]
     for shape in shapes.T:
@@ -71,6 +73,6 @@ def new_shapes(shapes: Array, known: Array, mass: Any) -> Array:
         for _ in range(2):  # twice is enough (Kahan and Parlett)
             rest = rest - known @ (known.T @ (mass @ rest))
         left = np.sqrt(rest @ (mass @ rest))
-        if left > _DEPENDENT:
+        if left > least:
             known = np.column_stack([known, rest / left])
     return known[:, count:]

@@ -1,4 +1,4 @@
-"""Factors of sparse matrices that are banded once their unknowns are put in order, as those of a chain are."""
+"""Factors of sparse matrices that are banded when their unknowns are in order, as those of a chain."""
 
 from __future__ import annotations
 

@@ -26,6 +26,10 @@ USUAL = 10
 """Modes in each plane that are answered, unless a range of frequencies is named."""
 
 
+TOLERANCE = 1e-6
+"""Relative error, of an eigenvalue or of a response, estimated, beyond which more shapes are taken."""
+
+
 class Condensed(NamedTuple):
     """A rotor in some of its shapes.
 
@@ -49,6 +53,12 @@ class Condensed(NamedTuple):
             return motion
         x, y = np.split(motion, 2)
         return np.concatenate([self.space.shapes @ x, self.space.shapes @ y])
+
+    def seen(self, forces: np.ndarray) -> np.ndarray:
+        """Return forces, shape (N, m), as the shapes kept feel them, shape (n, m)."""
+        if self.space is None:
+            return forces
+        return np.concatenate([self.space.shapes.T @ plane for plane in np.split(forces, 2)])
 
     def answer(self, forces: np.ndarray) -> np.ndarray:
         """Return how what is left out gives way to slow forces, shape (N, m)."""

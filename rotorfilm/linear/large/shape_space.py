@@ -15,6 +15,9 @@ from .banded import BandedCholesky
 SHIFT = 0.003
 """Part of the highest frequency at which static shapes are taken: a free rotor has none at 0."""
 
+_NEW = 1e-11
+"""Part of a shape, as the root of its kinetic energy, that counts: it is stiff, and what films press on."""
+
 _FIRST_COUNT = 8
 
 
@@ -60,20 +63,23 @@ def shape_space(full: Structure, cut: float) -> ShapeSpace:
     first = solid.solve(_loads(full))
     coupled = [matrix @ first for matrix in (mass, full.gyroscopic[:n, n:], full.stiffness[:n, n:])]
     answers = np.hstack([first, solid.solve(np.hstack(coupled))])
-    return ShapeSpace(np.hstack([modes, new_shapes(answers, modes, mass)]), cut, frequencies, solid)
+    return ShapeSpace(np.hstack([modes, new_shapes(answers, modes, mass, _NEW)]), cut, frequencies, solid)
 
 
 def _loads(full: Structure) -> Array:
-    """Return what acts on the rotor in one plane: journals, housings, weight, unbalance."""
+    """Return what acts on the rotor in one plane, and the displacements that are asked for, as loads."""
     n = len(full.coordinates)
     housings = np.eye(n)[list(full.supports)]
     both = [full.journals[:, :n], full.journals[:, n:], housings]
     both += [full.weight.reshape(2, n), full.unbalance[:n].T, full.unbalance[n:].T]
+    both += [readout.row[: 2 * n].reshape(2, n) for readout in full.readouts]
     rows = np.vstack(both)
     return np.asarray(rows[np.any(rows, axis=1)].T)
 
 
-def _modes_below(mass: Any, stiffness: Any, solid: BandedCholesky, shift: float, cut: float) -> tuple[Array, Array]:
+def _modes_below(
+    mass: Any, stiffness: Any, solid: BandedCholesky, shift: float, cut: float
+) -> tuple[Array, Array]:
     """Return frequencies and shapes, of unit mass, of the modes below a frequency, with no bearings."""
     n = mass.shape[0]
     inverse = LinearOperator((n, n), matvec=solid.solve, dtype=float)
@@ -81,9 +87,7 @@ def _modes_below(mass: Any, stiffness: Any, solid: BandedCholesky, shift: float,
     count = _FIRST_COUNT
     while True:
         count = min(count, n - 2)
-        squares, modes = eigsh(
-            stiffness, count, mass, sigma=-(shift**2), which="LM", OPinv=inverse, v0=start
-        )
+        squares, modes = eigsh(stiffness, count, mass, sigma=-(shift**2), which="LM", OPinv=inverse, v0=start)
         if squares.max() > cut**2 or count == n - 2:
             rising = [k for k in np.argsort(squares) if squares[k] <= cut**2]
             return np.sqrt(np.maximum(squares[rising], 0.0)), modes[:, rising]

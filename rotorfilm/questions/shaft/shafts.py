@@ -12,7 +12,7 @@ from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Work, WorkUni
 from ...errors import AbsentError, InputError
 from ...ladders import BaseRung, Ladder
 from ...linear import RotorEquilibrium, rotor_equilibrium, rotor_modes
-from ...linear.rotor_system import SecondOrder, journal_rows, second_order
+from ...linear.large.small_motion import SecondOrder, journal_rows, second_order
 from ...linear.rotor_whirl import (
     Start,
     Whirl,
