@@ -9,14 +9,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import eigh
-from scipy.optimize import brentq, linear_sum_assignment
 
 from ..errors import InputError, require_finite
 from ..inputs.kinds import arguments
 from ..model import Array, Reaction
 from ..readable.result import Drawable, Readable
 from ..rotors import FlexibleRotor
-from .rotor_modes import RotorModes, Whirls, rotor_modes, speeds_in_turn
+from .large.crossings import Search
+from .large.likeness import matches
+from .rotor_modes import RotorModes, Whirls, directions, log_decrement, rotor_modes, speeds_in_turn
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -121,13 +122,17 @@ def critical_speeds(
     speeds : array_like, shape (n,) [rad/s]
         Rising or falling, of either sign: the range searched, and the steps in which the modes are followed.
     """
-    chart = campbell(rotor, bearings, speeds)
-    found = []
-    for values in chart.eigenvalues:
-        lead = values.imag - np.abs(chart.speeds)
-        for k in np.flatnonzero(lead[:-1] * lead[1:] <= 0.0):
-            found.append(_crossing(rotor, bearings, chart.speeds[k : k + 2], values[k : k + 2]))
-    return tuple(sorted(found, key=lambda one: one.speed))
+    grid = speeds_in_turn(speeds)
+    search = Search(rotor=rotor, bearings=bearings, highest=float(np.abs(grid).max()))
+    found = sorted(search.crossings(grid), key=lambda one: one.speed)
+    return tuple(
+        CriticalSpeed(
+            speed=one.speed,
+            log_decrement=float(log_decrement(one.value)),
+            direction=float(directions(rotor.assembly.mass, one.shape[:, None], one.speed)[0]),
+        )
+        for one in found
+    )
 
 
 @arguments
@@ -177,7 +182,7 @@ def _tracks(points: list[RotorModes], mass: Array) -> list[dict[int, int]]:
     current = list(range(len(tracks)))
     for column in range(1, len(points)):
         before, after = points[column - 1], points[column]
-        partner = _matches(before, after, mass)
+        partner = matches(before, after, mass)
         following = []
         for k in range(len(after.eigenvalues)):
             if k in partner:
@@ -188,41 +193,3 @@ def _tracks(points: list[RotorModes], mass: Array) -> list[dict[int, int]]:
             tracks[following[-1]][column] = k
         current = following
     return tracks
-
-
-def _matches(before: RotorModes, after: RotorModes, mass: Array) -> dict[int, int]:
-    """Return the mode of `before` that each mode of `after` continues, by eigenvalue and shape."""
-    if not (before.eigenvalues.size and after.eigenvalues.size):
-        return {}
-    product = np.abs(before.shapes.conj().T @ (mass @ after.shapes)) ** 2
-    sizes = [np.sum(m.shapes.conj() * (mass @ m.shapes), axis=0).real for m in (before, after)]
-    likeness = product / np.outer(*sizes)
-    scale = np.abs(before.eigenvalues)[:, None] + np.abs(after.eigenvalues)
-    apart = np.abs(before.eigenvalues[:, None] - after.eigenvalues) / scale
-    cost = apart + 0.2 * (1.0 - likeness)
-    rows, columns = linear_sum_assignment(cost)
-    return {int(c): int(r) for r, c in zip(rows, columns, strict=True) if apart[r, c] < 0.5}
-
-
-def _crossing(
-    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], ends: Array, values: NDArray[np.complex128]
-) -> CriticalSpeed:
-    """Return the critical speed between two speeds at which a mode has these eigenvalues."""
-
-    def nearest(speed: float) -> tuple[RotorModes, int]:
-        share = (speed - ends[0]) / (ends[1] - ends[0])
-        modes = rotor_modes(rotor, bearings, speed)
-        expected = (1.0 - share) * values[0] + share * values[1]
-        return modes, int(np.argmin(np.abs(modes.eigenvalues - expected)))
-
-    def lead(speed: float) -> float:
-        modes, k = nearest(speed)
-        return float(modes.frequency[k]) - abs(speed)
-
-    speed = float(brentq(lead, float(ends[0]), float(ends[1]), rtol=1e-12))
-    modes, k = nearest(speed)
-    return CriticalSpeed(
-        speed=speed,
-        log_decrement=float(modes.log_decrement[k]),
-        direction=float(modes.direction[k]),
-    )

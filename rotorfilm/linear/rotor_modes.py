@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,7 +17,7 @@ from ..model import Array, Reaction
 from ..readable.result import Readable
 from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure
-from .large.condensed import TOLERANCE, Condensed, models, usual_frequency
+from .large.condensed import TOLERANCE, WHOLE, Condensed, models, usual_frequency
 from .large.defects import WholeRotor, whirl_errors
 from .large.small_motion import SecondOrder, small_motion
 from .rotor_rest import RotorEquilibrium, rest
@@ -95,8 +95,8 @@ def rotor_modes(
     speed : float [rad/s]
         Of either sign; a rotor at rest counts as turning about +z.
     highest_frequency : float [rad/s]
-        Faster whirls are left out. If infinite, all whirls of a small rotor; of a large one those up to twice
-        the speed and the tenth frequency of the shaft without bearings.
+        Faster whirls are left out; of a large rotor those with a larger |s|. If infinite, all whirls of a
+        small rotor; of a large one up to twice the speed and the tenth frequency of the shaft on no bearings.
 
     Raises
     ------
@@ -105,8 +105,45 @@ def rotor_modes(
     EquilibriumError
         If there is no equilibrium.
     """
-    motions = motions_at(rotor, bearings, speed, highest_frequency)
-    whirls = oscillates(motions.eigenvalues) & (motions.frequency <= motions.reach)
+    return whirls_of(motions_at(rotor, bearings, speed, highest_frequency), highest_frequency)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Motions(RotorModes):
+    """The whirls at a speed, after the motions that do not oscillate, and up to which |s| the error holds.
+
+    Attributes
+    ----------
+    reach : float [1/s]
+        inf where nothing was left out.
+    """
+
+    reach: float
+
+
+def motions_at(
+    rotor: FlexibleRotor,
+    bearings: Mapping[str, Reaction],
+    speed: float,
+    highest_frequency: float = math.inf,
+    smallest: int = WHOLE,
+) -> Motions:
+    """Return the whirl modes at a speed, and before them the motions that do not oscillate.
+
+    A rotor of up to `smallest` coordinates is solved whole.
+    """
+    require_flexible(rotor)
+    if not highest_frequency > 0.0:
+        raise InputError(f"highest_frequency must be positive, got {highest_frequency!r}")
+    reach = highest_frequency if highest_frequency < math.inf else usual_frequency(rotor, speed)
+    found = (_motions(model, bearings, speed, reach) for model in models(rotor, reach, smallest))
+    return next(motions for motions in found if motions.error <= TOLERANCE)
+
+
+def whirls_of(motions: Motions, highest_frequency: float = math.inf) -> RotorModes:
+    """Return those of the motions that oscillate, as far as their error is known, to a frequency [rad/s]."""
+    whirls = oscillates(motions.eigenvalues) & (np.abs(motions.eigenvalues) <= motions.reach)
+    whirls &= motions.frequency <= highest_frequency
     return RotorModes(
         speed=motions.speed,
         eigenvalues=motions.eigenvalues[whirls],
@@ -116,47 +153,27 @@ def rotor_modes(
     )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Motions(RotorModes):
-    """The whirls at a speed, after the motions that do not oscillate, and up to where the error holds.
-
-    Attributes
-    ----------
-    reach : float [rad/s]
-    """
-
-    reach: float
-
-
-def motions_at(
-    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speed: float, highest_frequency: float = math.inf
-) -> Motions:
-    """Return the whirl modes at a speed, and before them the motions that do not oscillate."""
-    require_flexible(rotor)
-    if not highest_frequency > 0.0:
-        raise InputError(f"highest_frequency must be positive, got {highest_frequency!r}")
-    reach = highest_frequency if highest_frequency < math.inf else usual_frequency(rotor, speed)
-    found = (_motions(model, bearings, speed, reach) for model in models(rotor, reach))
-    return next(motions for motions in found if motions.error <= TOLERANCE)
-
-
 def _motions(model: Condensed, bearings: Mapping[str, Reaction], speed: float, reach: float) -> Motions:
     """Return the motions of a model of a rotor, in the coordinates of the whole."""
     at = rest(model.structure, bearings, speed)
     parts = [_part(model, at, part, reach) for part in _frequencies(model.structure, abs(speed))]
     shapes = np.hstack([part.shapes for part in parts])
-    n = len(model.structure.coordinates)
-    mass = model.structure.mass[:n, :n]
-    turned = [shapes[:n] + sign * 1j * shapes[n:] for sign in (1.0, -1.0)]
-    forward, backward = (np.einsum("ik,ij,jk->k", u.conj(), mass, u).real for u in turned)
     return Motions(
         speed=at.speed,
         eigenvalues=np.concatenate([part.values for part in parts]),
         shapes=model.lifted(shapes),
-        direction=(-1.0 if at.speed < 0.0 else 1.0) * (forward - backward) / (forward + backward),
+        direction=directions(model.structure.mass, shapes, at.speed),
         error=max(part.error for part in parts),
-        reach=reach,
+        reach=math.inf if model.space is None else reach,
     )
+
+
+def directions(mass: Any, shapes: np.ndarray, speed: float) -> Array:
+    """Return the direction of shapes (N, m) as in `RotorModes`, with their mass matrix."""
+    n = len(shapes) // 2
+    turned = [shapes[:n] + sign * 1j * shapes[n:] for sign in (1.0, -1.0)]
+    forward, backward = (np.sum(u.conj() * (mass[:n, :n] @ u), axis=0).real for u in turned)
+    return np.asarray((-1.0 if speed < 0.0 else 1.0) * (forward - backward) / (forward + backward))
 
 
 class _Band(NamedTuple):
@@ -189,7 +206,7 @@ def _part(model: Condensed, at: RotorEquilibrium, band: _Band, reach: float) -> 
     moves = _is_held(system, values, shapes)
     chosen = moves & (values.imag >= band.low) & (values.imag < band.high)
     order = np.flatnonzero(chosen)[np.argsort(values.imag[chosen])]
-    asked = [k for k in order if oscillates(values[k]) and values[k].imag <= reach]
+    asked = [k for k in order if oscillates(values[k]) and abs(values[k]) <= reach]
     error = 0.0
     if model.space is not None and asked:
         ends = np.linalg.solve(system.mass, left[len(system.mass) :, asked])

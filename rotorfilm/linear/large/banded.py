@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
-from scipy.linalg import cho_solve_banded, cholesky_banded
+from scipy.linalg import cho_solve_banded, cholesky_banded, lu_factor, lu_solve
 from scipy.linalg.lapack import dgbtrf, dgbtrs, zgbtrf, zgbtrs
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
@@ -37,10 +37,10 @@ class BandedCholesky:
 class BandedFactor:
     """The LU factor of a sparse matrix, with exchange of rows."""
 
-    def __init__(self, matrix: Any, order: Array) -> None:
-        self.order = order
-        rows, columns, values, self.width = _in_order(matrix, order)
-        band = np.zeros((3 * self.width + 1, len(order)), dtype=values.dtype)
+    def __init__(self, matrix: Any) -> None:
+        self.order = band_order(abs(matrix) + abs(matrix).T)
+        rows, columns, values, self.width = _in_order(matrix, self.order)
+        band = np.zeros((3 * self.width + 1, len(self.order)), dtype=values.dtype)
         band[2 * self.width + rows - columns, columns] = values
         factorize, self._solve = (zgbtrf, zgbtrs) if np.iscomplexobj(values) else (dgbtrf, dgbtrs)
         self.factor, self.pivots, _ = factorize(band, self.width, self.width, overwrite_ab=True)
@@ -52,6 +52,17 @@ class BandedFactor:
             self.factor, self.width, self.width, load[self.order], self.pivots, trans=2 if adjoint else 0
         )[0]
         return found
+
+
+class DenseFactor:
+    """The LU factor of a dense matrix."""
+
+    def __init__(self, matrix: np.ndarray) -> None:
+        self.factor = lu_factor(matrix, check_finite=False)
+
+    def solve(self, load: np.ndarray, adjoint: bool = False) -> np.ndarray:
+        """Return the inverse of the matrix, or of its conjugate transpose, times a load, shape (N,)."""
+        return np.asarray(lu_solve(self.factor, load, trans=2 if adjoint else 0))
 
 
 def band_order(matrix: Any) -> Array:

@@ -66,6 +66,11 @@ class Condensed(NamedTuple):
         return np.concatenate([self.space.solid.solve(plane) for plane in np.split(forces, 2)])
 
 
+def exact_structure(rotor: FlexibleRotor) -> Structure:
+    """Return all of the matrices of a rotor: dense ones of a small rotor, else as they were assembled."""
+    return rotor.assembly if len(rotor.assembly.weight) > WHOLE else rotor.structure
+
+
 def usual_frequency(rotor: FlexibleRotor, speed: float) -> float:
     """Return up to where whirls are answered unless a question says so [rad/s]: inf for a small rotor.
 
@@ -82,11 +87,14 @@ def usual_frequency(rotor: FlexibleRotor, speed: float) -> float:
     return math.inf
 
 
-def models(rotor: FlexibleRotor, frequency: float) -> Iterator[Condensed]:
-    """Yield a rotor in shapes up to a frequency [rad/s] and beyond, ever more of them; whole in the end."""
+def models(rotor: FlexibleRotor, frequency: float, smallest: int = WHOLE) -> Iterator[Condensed]:
+    """Yield a rotor in shapes up to a frequency [rad/s] and beyond, ever more of them; whole in the end.
+
+    One of up to `smallest` coordinates is whole from the start.
+    """
     full = rotor.assembly
     size = len(full.weight)
-    if size > WHOLE and frequency < math.inf:
+    if size > smallest and frequency < math.inf:
         for exponent in count(math.ceil(math.log2(MARGIN * max(frequency, 1.0)))):
             model = _remembered(rotor, exponent)
             if model is None or 2 * len(model.structure.weight) > size:
