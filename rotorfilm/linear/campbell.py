@@ -15,6 +15,8 @@ from ..inputs.kinds import arguments
 from ..model import Array, Reaction
 from ..readable.result import Drawable, Readable
 from ..rotors import FlexibleRotor
+from ..rotors.structure import Structure
+from .large.condensed import MARGIN, models, usual_frequency
 from .large.crossings import Search
 from .large.likeness import matches
 from .rotor_modes import RotorModes, Whirls, directions, log_decrement, rotor_modes, speeds_in_turn
@@ -161,12 +163,20 @@ def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 
     grid = require_finite("stiffness", stiffness)
     if grid.ndim != 1 or np.any(grid <= 0.0):
         raise InputError(f"stiffness must be a list of positive numbers, got {stiffness!r}")
-    s = rotor.structure
+    for model in models(rotor, usual_frequency(rotor, 0.0)):
+        found = _forward_speeds(model.structure, grid, count)
+        if model.space is None or np.nanmax(found, initial=0.0) <= model.space.cut / MARGIN:
+            break
+    return found
+
+
+def _forward_speeds(s: Structure, stiffness: Array, count: int) -> Array:
+    """Return the lowest undamped forward critical speeds of a rotor on equal springs, as the map has them."""
     n = len(s.coordinates)
     forward = np.vstack([np.eye(n), -1j * np.eye(n)]) * math.sqrt(0.5)
     inertia = (forward.conj().T @ (s.mass - 1j * s.gyroscopic) @ forward).real
-    result = np.full((count, len(grid)), math.nan)
-    for column, spring in enumerate(grid):
+    result = np.full((count, len(stiffness)), math.nan)
+    for column, spring in enumerate(stiffness):
         whole = s.stiffness + spring * s.journals.T @ s.journals
         held = forward.conj().T @ (0.5 * (whole + whole.T)) @ forward
         # K is positive, M - i G need not be: a thin disk has no forward critical speed of tilt

@@ -19,7 +19,7 @@ from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure
 from .large.condensed import TOLERANCE, WHOLE, Condensed, models, usual_frequency
 from .large.defects import WholeRotor, whirl_errors
-from .large.small_motion import SecondOrder, small_motion
+from .large.small_motion import small_motion
 from .rotor_rest import RotorEquilibrium, rest
 
 _OSCILLATES = 1e-6
@@ -203,26 +203,25 @@ def _part(model: Condensed, at: RotorEquilibrium, band: _Band, reach: float) -> 
     system = small_motion(model.structure, at, band.frequency)
     values, left, vectors = eig(system.state_matrix(), left=True)
     shapes = vectors[: len(system.mass)]
-    moves = _is_held(system, values, shapes)
-    chosen = moves & (values.imag >= band.low) & (values.imag < band.high)
+    whole, lifted = WholeRotor(model.whole, at, band.frequency), model.lifted(shapes)
+    chosen = _is_held(whole, values, lifted) & (values.imag >= band.low) & (values.imag < band.high)
     order = np.flatnonzero(chosen)[np.argsort(values.imag[chosen])]
     asked = [k for k in order if oscillates(values[k]) and abs(values[k]) <= reach]
     error = 0.0
     if model.space is not None and asked:
-        ends = np.linalg.solve(system.mass, left[len(system.mass) :, asked])
-        whole = WholeRotor(model.whole, at, band.frequency)
-        lifted = (model.lifted(motion) for motion in (shapes[:, asked], ends))
-        error = float(whirl_errors(model, whole, values[asked], *lifted).max())
+        ends = model.lifted(np.linalg.solve(system.mass, left[len(system.mass) :, asked]))
+        error = float(whirl_errors(model, whole, values[asked], lifted[:, asked], ends).max())
     return _Part(values[order].astype(complex), shapes[:, order].astype(complex), error)
 
 
 def _is_held(
-    system: SecondOrder, values: NDArray[np.complex128], shapes: NDArray[np.complex128]
+    whole: WholeRotor, values: NDArray[np.complex128], shapes: NDArray[np.complex128]
 ) -> NDArray[np.bool_]:
     """Return which motions something holds."""
     size = np.abs(values)
-    inertia, damping = (np.linalg.norm(m @ shapes, axis=0) for m in (system.mass, system.damping))
-    held = np.linalg.norm(np.abs(system.stiffness) @ np.abs(shapes), axis=0)
+    inertia = np.linalg.norm(whole.shaft.mass @ shapes, axis=0)
+    damping = np.linalg.norm(whole.slope(0.0, shapes), axis=0)
+    held = np.linalg.norm(whole.held(np.abs(shapes)), axis=0)
     return np.asarray(size * (size * inertia + damping) > _HELD * held)
 
 

@@ -45,6 +45,12 @@ class WholeRotor:
         shaft = (m.T @ motion) * back**2 + (c.T @ motion) * back + k.conj().T @ motion
         return np.asarray(shaft + self.rows.T @ film)
 
+    def held(self, sizes: Array) -> Array:
+        """Return the stiffness forces that may cancel in a motion of these sizes, shape (N, m)."""
+        rows = np.abs(self.rows)
+        films: Array = rows.T @ (np.abs(self.films[0]) @ (rows @ sizes))
+        return np.asarray(abs(self.shaft.stiffness) @ sizes + films)
+
     def slope(self, values: Any, motion: np.ndarray) -> np.ndarray:
         """Return L'(s) x, shape (N, m)."""
         film = self.rows.T @ (self.films[1] @ (self.rows @ motion))
