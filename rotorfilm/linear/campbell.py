@@ -125,7 +125,7 @@ def critical_speeds(
         Rising or falling, of either sign: the range searched, and the steps in which the modes are followed.
     """
     grid = speeds_in_turn(speeds)
-    search = Search(rotor=rotor, bearings=bearings, highest=float(np.abs(grid).max()))
+    search = Search(rotor=rotor, bearings=bearings, top_speed=float(np.abs(grid).max()))
     found = sorted(search.crossings(grid), key=lambda one: one.speed)
     return tuple(
         CriticalSpeed(

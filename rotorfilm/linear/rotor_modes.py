@@ -17,7 +17,7 @@ from ..model import Array, Reaction
 from ..readable.result import Readable
 from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure
-from .large.condensed import TOLERANCE, WHOLE, Condensed, models, usual_frequency
+from .large.condensed import TOLERANCE, Condensed, models, usual_frequency
 from .large.defects import WholeRotor, whirl_errors
 from .large.small_motion import small_motion
 from .rotor_rest import RotorEquilibrium, rest
@@ -60,8 +60,8 @@ class RotorModes(Whirls, Readable):
     direction : ndarray, shape (n,) [1]
         From 1, whirl in circles with the rotation, to -1, in circles against it.
     error : float [1]
-        Largest relative error of an eigenvalue, estimated, by what was left out of a rotor of many elements;
-        0 where nothing was.
+        Largest relative error of an eigenvalue by the shapes that were left out, estimated; 0 where none
+        were.
     """
 
     speed: float
@@ -83,8 +83,8 @@ def rotor_modes(
 ) -> RotorModes:
     """Return the whirl modes of a rotor on its films at a speed.
 
-    Motion that nothing holds, as that of a weightless rotor without bearings as a whole, is no whirl. A rotor
-    of more than 160 coordinates moves in as many of its shapes as the frequencies need.
+    Motion that nothing holds, as that of a weightless rotor without bearings as a whole, is no whirl. Up to a
+    frequency a rotor moves in as many of its shapes as that needs.
 
     Parameters
     ----------
@@ -95,8 +95,8 @@ def rotor_modes(
     speed : float [rad/s]
         Of either sign; a rotor at rest counts as turning about +z.
     highest_frequency : float [rad/s]
-        Faster whirls are left out; of a large rotor those with a larger |s|. If infinite, all whirls of a
-        small rotor; of a large one up to twice the speed and the tenth frequency of the shaft on no bearings.
+        Whirls with a larger |s| may be left out, faster ones are. If infinite, all whirls of a rotor of up to
+        160 coordinates; of others to twice the speed and the tenth frequency of the shaft on no bearings.
 
     Raises
     ------
@@ -114,35 +114,28 @@ class Motions(RotorModes):
 
     Attributes
     ----------
-    reach : float [1/s]
+    known_to : float [rad/s]
         inf where nothing was left out.
     """
 
-    reach: float
+    known_to: float
 
 
 def motions_at(
-    rotor: FlexibleRotor,
-    bearings: Mapping[str, Reaction],
-    speed: float,
-    highest_frequency: float = math.inf,
-    smallest: int = WHOLE,
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speed: float, highest_frequency: float = math.inf
 ) -> Motions:
-    """Return the whirl modes at a speed, and before them the motions that do not oscillate.
-
-    A rotor of up to `smallest` coordinates is solved whole.
-    """
+    """Return the whirl modes at a speed, and before them the motions that do not oscillate."""
     require_flexible(rotor)
     if not highest_frequency > 0.0:
         raise InputError(f"highest_frequency must be positive, got {highest_frequency!r}")
-    reach = highest_frequency if highest_frequency < math.inf else usual_frequency(rotor, speed)
-    found = (_motions(model, bearings, speed, reach) for model in models(rotor, reach, smallest))
+    known_to = highest_frequency if highest_frequency < math.inf else usual_frequency(rotor, speed)
+    found = (_motions(model, bearings, speed, known_to) for model in models(rotor, known_to))
     return next(motions for motions in found if motions.error <= TOLERANCE)
 
 
 def whirls_of(motions: Motions, highest_frequency: float = math.inf) -> RotorModes:
     """Return those of the motions that oscillate, as far as their error is known, to a frequency [rad/s]."""
-    whirls = oscillates(motions.eigenvalues) & (np.abs(motions.eigenvalues) <= motions.reach)
+    whirls = oscillates(motions.eigenvalues) & (np.abs(motions.eigenvalues) <= motions.known_to)
     whirls &= motions.frequency <= highest_frequency
     return RotorModes(
         speed=motions.speed,
@@ -153,10 +146,10 @@ def whirls_of(motions: Motions, highest_frequency: float = math.inf) -> RotorMod
     )
 
 
-def _motions(model: Condensed, bearings: Mapping[str, Reaction], speed: float, reach: float) -> Motions:
+def _motions(model: Condensed, bearings: Mapping[str, Reaction], speed: float, known_to: float) -> Motions:
     """Return the motions of a model of a rotor, in the coordinates of the whole."""
     at = rest(model.structure, bearings, speed)
-    parts = [_part(model, at, part, reach) for part in _frequencies(model.structure, abs(speed))]
+    parts = [_part(model, at, part, known_to) for part in _frequencies(model.structure, abs(speed))]
     shapes = np.hstack([part.shapes for part in parts])
     return Motions(
         speed=at.speed,
@@ -164,7 +157,7 @@ def _motions(model: Condensed, bearings: Mapping[str, Reaction], speed: float, r
         shapes=model.lifted(shapes),
         direction=directions(model.structure.mass, shapes, at.speed),
         error=max(part.error for part in parts),
-        reach=math.inf if model.space is None else reach,
+        known_to=math.inf if model.space is None else known_to,
     )
 
 
@@ -198,7 +191,7 @@ def _frequencies(structure: Structure, turn: float) -> tuple[_Band, ...]:
     return _Band(0.5 * turn, 0.0, turn), _Band(2.0 * turn + 1.0, turn, math.inf)
 
 
-def _part(model: Condensed, at: RotorEquilibrium, band: _Band, reach: float) -> _Part:
+def _part(model: Condensed, at: RotorEquilibrium, band: _Band, known_to: float) -> _Part:
     """Return the eigenvalues of a band; not of motion that nothing holds."""
     system = small_motion(model.structure, at, band.frequency)
     values, left, vectors = eig(system.state_matrix(), left=True)
@@ -206,7 +199,7 @@ def _part(model: Condensed, at: RotorEquilibrium, band: _Band, reach: float) -> 
     whole, lifted = WholeRotor(model.whole, at, band.frequency), model.lifted(shapes)
     chosen = _is_held(whole, values, lifted) & (values.imag >= band.low) & (values.imag < band.high)
     order = np.flatnonzero(chosen)[np.argsort(values.imag[chosen])]
-    asked = [k for k in order if oscillates(values[k]) and abs(values[k]) <= reach]
+    asked = [k for k in order if oscillates(values[k]) and abs(values[k]) <= known_to]
     error = 0.0
     if model.space is not None and asked:
         ends = model.lifted(np.linalg.solve(system.mass, left[len(system.mass) :, asked]))

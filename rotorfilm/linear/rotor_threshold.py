@@ -133,7 +133,7 @@ class _Growth(NamedTuple):
     motions: Motions
 
     @property
-    def count(self) -> int:
+    def growing(self) -> int:
         """Number of eigenvalues that grow."""
         return int(np.sum(self.rates > NEUTRAL))
 
@@ -159,7 +159,7 @@ class _Stability(NamedTuple):
 
     def growing(self, speed: float) -> int:
         """Return how many eigenvalues grow at a speed."""
-        return self.growth(speed).count
+        return self.growth(speed).growing
 
     def changes(self, speeds: Array) -> Iterator[StabilityChange]:
         """Yield the changes of a grid of speeds in its order."""
@@ -168,15 +168,15 @@ class _Stability(NamedTuple):
 
     def _between(self, low: _Growth, high: _Growth) -> Iterator[StabilityChange]:
         """Yield the changes of a step, in its order."""
-        first, last = sorted((low.count, high.count))
+        first, last = sorted((low.growing, high.growing))
         events, k = [], first
         while k < last:
             events.append(self._change(k, low, high))
             k += 2 if events[-1].whirl_frequency else 1
-        growing = low.count
+        growing = low.growing
         for event in sorted(events, key=lambda one: abs(one.speed - low.motions.speed)):
             number = 2 if event.whirl_frequency else 1
-            growing += number if high.count > low.count else -number
+            growing += number if high.growing > low.growing else -number
             yield replace(event, growing=growing)
 
     def _change(self, k: int, low: _Growth, high: _Growth) -> StabilityChange:
@@ -185,7 +185,7 @@ class _Stability(NamedTuple):
         Whirl that nothing damps or drives has roundoff of either sign, so the search is for a growth above
         it; from there, and from a speed a little further, the line through 0 is drawn.
         """
-        ends, grown = (low.motions.speed, high.motions.speed), max(low, high, key=lambda one: one.count)
+        ends, grown = (low.motions.speed, high.motions.speed), max(low, high, key=lambda one: one.growing)
         speed = float(brentq(lambda w: self.growth(w).rate(k) - NEUTRAL, *ends, rtol=1e-13))
         further = self.growth(speed + FURTHER * (grown.motions.speed - speed))
         place, rise = further.places[k], further.rate(k) - NEUTRAL

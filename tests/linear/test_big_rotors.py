@@ -345,7 +345,7 @@ def test_cross_coupling_that_comes_and_goes():
 
 @pytest.mark.closed_form
 def test_divergence_in_one_direction_ends_at_higher_speed():
-    """kxx, a parabola over the speed, is negative within 90 / sqrt(2) of 100 rad/s: no whirl, but one root."""
+    """kxx, a parabola over the speed, is negative within 90 / sqrt(2) of 100 rad/s: one root."""
     along = np.array([1e5, -1e5, 1e5])
     springs = np.array([np.diag([value, 3e5]) for value in along])
     film = TabulatedBearing(speeds=[10.0, 100.0, 190.0], stiffness=springs, damping=[300.0 * np.eye(2)] * 3)

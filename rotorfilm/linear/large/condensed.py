@@ -15,7 +15,10 @@ from ...rotors.structure import Structure
 from .shape_space import ShapeSpace, shape_space
 
 WHOLE = 160
-"""Coordinates up to which nothing is left out of a rotor."""
+"""Coordinates up to which nothing is left out of a rotor unless a range of frequencies is named."""
+
+SMALL = 60
+"""Coordinates up to which nothing is left out."""
 
 MARGIN = 2.0
 """Frequency up to which modes are kept / highest frequency of interest, at least."""
@@ -87,14 +90,11 @@ def usual_frequency(rotor: FlexibleRotor, speed: float) -> float:
     return math.inf
 
 
-def models(rotor: FlexibleRotor, frequency: float, smallest: int = WHOLE) -> Iterator[Condensed]:
-    """Yield a rotor in shapes up to a frequency [rad/s] and beyond, ever more of them; whole in the end.
-
-    One of up to `smallest` coordinates is whole from the start.
-    """
+def models(rotor: FlexibleRotor, frequency: float) -> Iterator[Condensed]:
+    """Yield a rotor in shapes up to a frequency [rad/s] and beyond, ever more of them; whole in the end."""
     full = rotor.assembly
     size = len(full.weight)
-    if size > smallest and frequency < math.inf:
+    if size > SMALL and frequency < math.inf:
         for exponent in count(math.ceil(math.log2(MARGIN * max(frequency, 1.0)))):
             model = _remembered(rotor, exponent)
             if model is None or 2 * len(model.structure.weight) > size:

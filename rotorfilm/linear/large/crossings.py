@@ -20,10 +20,7 @@ from .likeness import matches
 from .small_motion import small_motion
 
 REACH = 1.5
-"""Highest frequency to which whirls are followed / highest speed."""
-
-SMALLEST = 40
-"""Coordinates up to which the search does not reduce a rotor."""
+"""Highest frequency to which whirls are followed / top_speed speed."""
 
 HALVINGS = 4
 """How often a step is halved in which more or fewer whirls become slower than the rotation than cross it."""
@@ -66,15 +63,16 @@ class Search:
 
     Attributes
     ----------
-    rotor, bearings
+    rotor : FlexibleRotor
+    bearings : mapping of str to Reaction
         As in `rotor_modes`.
-    highest : float [rad/s]
+    top_speed : float [rad/s]
         Highest speed.
     """
 
     rotor: FlexibleRotor
     bearings: Mapping[str, Reaction]
-    highest: float
+    top_speed: float
 
     def crossings(self, speeds: Array) -> Iterator[Crossing]:
         """Yield what is found between the speeds of a grid."""
@@ -82,7 +80,7 @@ class Search:
             yield from self._between(low, high, HALVINGS)
 
     def _motions(self, speed: float) -> Motions:
-        return motions_at(self.rotor, self.bearings, speed, REACH * max(self.highest, 1.0), SMALLEST)
+        return motions_at(self.rotor, self.bearings, speed, REACH * max(self.top_speed, 1.0))
 
     def _between(self, low: Motions, high: Motions, halvings: int) -> Iterator[Crossing]:
         """Yield the crossings of a step; of its halves where they are not all that must be there."""
@@ -118,7 +116,7 @@ class Search:
     def _crossing(self, pair: _Pair) -> Crossing | None:
         """Return the crossing between two speeds by secants; None if they lead elsewhere."""
         exact = exact_structure(self.rotor)
-        small = next(models(self.rotor, REACH * max(self.highest, 1.0), SMALLEST)).structure
+        small = next(models(self.rotor, REACH * max(self.top_speed, 1.0))).structure
         slope = float(np.diff(pair.leads)[0] / np.diff(pair.speeds)[0])
         share = float(pair.leads[0] / (pair.leads[0] - pair.leads[1]))
         speed, last = float(pair.speeds[0] + share * np.diff(pair.speeds)[0]), None
