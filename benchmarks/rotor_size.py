@@ -30,7 +30,7 @@ from rotorfilm.linear.rotor_rest import rest
 from rotorfilm.rotors import Disk, ElasticMaterial, ShaftElement, ShaftRotor, Station, Unbalance
 
 SIZES = (12, 48, 201, 999)
-MOST_OF_ALL, MOST_OF_ROSS = 48, 201
+MOST_OF_ALL, MOST_OF_ROSS = 48, 48
 STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
 FILM = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())
 SPRING = LinearBearing(stiffness=1e6, damping=50.0)

@@ -29,11 +29,16 @@ def summed(size: int, parts: Iterable[tuple[Sequence[int], Array]]) -> Any:
 
 def planes(pattern: Array, matrix: Any) -> Any:
     """Return the Kronecker product of a pattern of two planes and the matrix of one, sparse if that is."""
-    if sparse.issparse(matrix):
-        return sparse.csr_array(sparse.kron(sparse.csr_array(pattern), sparse.csr_array(matrix)))
+    if is_sparse(matrix):
+        return sparse.csr_array(sparse.kron(sparse.csr_array(pattern), matrix))
     return np.asarray(np.kron(pattern, matrix), dtype=float)
 
 
 def dense_matrix(part: Any) -> Any:
     """Return a part of a structure, as an ndarray where it is a sparse array."""
-    return sparse.csr_array(part).toarray() if sparse.issparse(part) else part
+    return part.toarray() if is_sparse(part) else part
+
+
+def is_sparse(part: Any) -> bool:
+    """Return whether a part of a structure is a sparse array."""
+    return bool(sparse.issparse(part))
