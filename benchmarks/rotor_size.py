@@ -16,6 +16,8 @@ are the first eight.
 
 from __future__ import annotations
 
+import contextlib
+import io
 import time
 from collections.abc import Callable
 from typing import Any
@@ -105,7 +107,8 @@ def all_coordinates(count: int) -> float:
 def ross_times(count: int) -> list[float] | None:
     """Return the times of ROSS in the order of the columns, no threshold [s]; None without it."""
     try:
-        import ross
+        with contextlib.redirect_stdout(io.StringIO()):  # it tells of its own parts
+            import ross
     except ImportError:
         return None
     steel = ross.Material(name="steel", rho=7810.0, E=211e9, G_s=81.2e9)

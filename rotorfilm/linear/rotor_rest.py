@@ -99,7 +99,6 @@ def rotor_equilibrium(
     first loads; s then goes to 1, each step by Newton's method with the exact Jacobian.
     """
     require_flexible(rotor)
-    require_reactions("bearings", bearings)
     speed = require_number("speed", speed)
     model = next(models(rotor, usual_frequency(rotor, 0.0)))
     at = rest(model.structure, bearings, speed)
@@ -108,6 +107,7 @@ def rotor_equilibrium(
 
 def rest(structure: Structure, bearings: Mapping[str, Reaction], speed: float) -> RotorEquilibrium:
     """Return where a rotor of these matrices rests; see `rotor_equilibrium`."""
+    require_reactions("bearings", bearings)
     system = _System(structure, bearings, speed)
     q, loads = system.on_rigid_bearings()
     alone = [system.alone(k, load) for k, load in enumerate(loads.reshape(-1, 2))]

@@ -61,7 +61,7 @@ class _Pair(NamedTuple):
 class Search:
     """The search for critical speeds of a rotor on its films.
 
-    Attributes
+    Parameters
     ----------
     rotor : FlexibleRotor
     bearings : mapping of str to Reaction
