@@ -27,7 +27,7 @@ import numpy as np
 from rotorfilm.bearings.journal import JournalBearing, ShortFilm
 from rotorfilm.bearings.linear import LinearBearing
 from rotorfilm.linear import campbell, critical_speeds, rotor_modes, rotor_threshold, unbalance_response
-from rotorfilm.linear.large.small_motion import second_order
+from rotorfilm.linear.large.second_order import second_order
 from rotorfilm.linear.rotor_rest import rest
 from rotorfilm.rotors import Disk, ElasticMaterial, ShaftElement, ShaftRotor, Station, Unbalance
 

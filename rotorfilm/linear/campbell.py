@@ -17,7 +17,7 @@ from ..readable.result import Drawable, Readable
 from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
 from .large.condensed import MARGIN, models, usual_frequency
-from .large.crossings import Search
+from .large.crossings import CrossingSearch
 from .large.likeness import matches
 from .rotor_modes import RotorModes, Whirls, directions, log_decrement, rotor_modes, speeds_in_turn
 
@@ -125,7 +125,7 @@ def critical_speeds(
         Rising or falling, of either sign: the range searched, and the steps in which the modes are followed.
     """
     grid = speeds_in_turn(speeds)
-    search = Search(rotor=rotor, bearings=bearings, top_speed=float(np.abs(grid).max()))
+    search = CrossingSearch(rotor=rotor, bearings=bearings, top_speed=float(np.abs(grid).max()))
     found = sorted(search.crossings(grid), key=lambda one: one.speed)
     return tuple(
         CriticalSpeed(

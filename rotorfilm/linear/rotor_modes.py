@@ -19,7 +19,7 @@ from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure
 from .large.condensed import TOLERANCE, Condensed, models, usual_frequency
 from .large.defects import WholeRotor, whirl_errors
-from .large.small_motion import small_motion
+from .large.second_order import small_motion
 from .rotor_rest import RotorEquilibrium, rest
 
 _OSCILLATES = 1e-6

@@ -17,7 +17,7 @@ from ..rotors.structure import output_rows
 from ..signals import names
 from .closed_loop import HOUSING, checked_speeds
 from .large.driven import driven
-from .large.small_motion import journal_rows, second_order
+from .large.second_order import journal_rows, second_order
 from .linearize import control_system
 from .rotor_rest import RotorEquilibrium
 

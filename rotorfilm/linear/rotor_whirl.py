@@ -15,7 +15,7 @@ from ..rotors.structure import Structure
 from .coefficients import coefficients
 from .equilibrium import equilibrium
 from .large.inverse_iteration import CONVERGED, PATIENCE, ROUNDED, dynamics, mode_near
-from .large.small_motion import journal_rows, second_order, small_motion
+from .large.second_order import journal_rows, second_order, small_motion
 from .rotor_rest import RotorEquilibrium, rotor_equilibrium
 from .speed_events import SpeedEvent
 

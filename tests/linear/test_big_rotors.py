@@ -25,7 +25,7 @@ from rotorfilm.linear import (
 from rotorfilm.linear.large import banded, crossings
 from rotorfilm.linear.large.banded import BandedCholesky, BandedFactor
 from rotorfilm.linear.large.condensed import TOLERANCE, WHOLE, models
-from rotorfilm.linear.large.small_motion import second_order
+from rotorfilm.linear.large.second_order import second_order
 from rotorfilm.linear.rotor_rest import rest
 from rotorfilm.rotors import (
     Coupling,

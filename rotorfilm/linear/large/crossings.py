@@ -17,7 +17,7 @@ from ..rotor_rest import rest
 from .condensed import exact_structure, models
 from .inverse_iteration import PATIENCE, ROUNDED, mode_near
 from .likeness import matches
-from .small_motion import small_motion
+from .second_order import small_motion
 
 REACH = 1.5
 """Highest frequency to which whirls are followed / top_speed speed."""
@@ -58,7 +58,7 @@ class _Pair(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Search:
+class CrossingSearch:
     """The search for critical speeds of a rotor on its films.
 
     Parameters

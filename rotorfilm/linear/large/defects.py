@@ -10,7 +10,7 @@ from ...model import Array
 from ...rotors.structure import Structure
 from ..rotor_rest import RotorEquilibrium
 from .condensed import MARGIN, Condensed
-from .small_motion import SecondOrder, with_hysteresis
+from .second_order import SecondOrder, with_hysteresis
 
 _FASTER = 1.0 / (1.0 - MARGIN**-2.0)
 """How much more what is left out gives way than to slow forces, at most."""

@@ -12,7 +12,7 @@ from ...rotors import FlexibleRotor
 from ..rotor_rest import RotorEquilibrium, rest
 from .condensed import TOLERANCE, models
 from .defects import WholeRotor, response_error, seen_rows
-from .small_motion import small_motion
+from .second_order import small_motion
 
 
 def driven(

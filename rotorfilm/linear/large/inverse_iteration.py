@@ -7,7 +7,7 @@ from scipy import sparse
 
 from ...errors import ConvergenceError
 from .banded import BandedFactor, DenseFactor
-from .small_motion import SecondOrder
+from .second_order import SecondOrder
 
 CONVERGED = 1e-12
 """Relative change of an eigenvalue, or of a speed, at which an iteration ends."""

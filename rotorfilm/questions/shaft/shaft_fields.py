@@ -11,7 +11,7 @@ from ...answers import ErrorEstimate, Found, WorkUnit
 from ...ladders import BaseRung, Rung
 from ...linear import RotorEquilibrium, rotor_equilibrium
 from ...linear.large.inverse_iteration import mode_near
-from ...linear.large.small_motion import small_motion
+from ...linear.large.second_order import small_motion
 from ...linear.rotor_whirl import Whirl, on_films, value_rate
 from ...linear.speed_events import SpeedEvent, secant_speed
 from ...rotors.shaft.shaft_models import ShaftModel

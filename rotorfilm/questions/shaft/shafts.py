@@ -13,7 +13,7 @@ from ...errors import AbsentError, InputError
 from ...ladders import BaseRung, Ladder
 from ...linear import RotorEquilibrium, rotor_equilibrium, rotor_modes
 from ...linear.large.inverse_iteration import dynamics, inverse_steps, mode_near
-from ...linear.large.small_motion import SecondOrder, journal_rows, second_order, small_motion
+from ...linear.large.second_order import SecondOrder, journal_rows, second_order, small_motion
 from ...linear.rotor_whirl import Start, Whirl, on_films, value_rate, whirl_of
 from ...linear.speed_events import Critical, SpeedEvent, Threshold
 from ...model import Array
