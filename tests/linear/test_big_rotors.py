@@ -253,7 +253,7 @@ def test_a_chain_stays_banded_in_a_thousand_elements(monkeypatch):
     rotor = long_rotor(999)
     modes = rotor_modes(rotor, SPRINGS, 300.0, 400.0)
     coarse = rotor_modes(long_rotor(48), SPRINGS, 300.0, 400.0)
-    assert_allclose(modes.eigenvalues, coarse.eigenvalues, rtol=1e-4)
+    assert_allclose(modes.eigenvalues, coarse.eigenvalues, rtol=1e-7)
     assert max(widths) <= 10
     assert "structure" not in rotor.__dict__
 
