@@ -12,7 +12,7 @@ from scipy.sparse.linalg import eigs
 
 from rotorfilm.bearings.journal import JournalBearing, MapFilm
 from rotorfilm.linear import critical_speed_map, critical_speeds, rotor_equilibrium, rotor_threshold
-from rotorfilm.linear.rotor_system import second_order
+from rotorfilm.linear.large.second_order import second_order
 from rotorfilm.model import Reaction
 from rotorfilm.motion import periodic_orbit, simulate_rotor
 from rotorfilm.rotors import FlexibleRotor, FourthOrderBeam, ShaftElement, ShaftRotor, mount

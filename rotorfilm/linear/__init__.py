@@ -39,7 +39,12 @@ if TYPE_CHECKING:
         rotor_transmissibility as rotor_transmissibility,
         unbalance_response as unbalance_response,
     )
-    from .rotor_threshold import RotorThreshold as RotorThreshold, rotor_threshold as rotor_threshold
+    from .rotor_threshold import (
+        RotorThreshold as RotorThreshold,
+        StabilityChange as StabilityChange,
+        rotor_threshold as rotor_threshold,
+        stability_changes as stability_changes,
+    )
     from .whirl import speed_parameter, whirl_threshold as whirl_threshold
 else:
     show(__name__)

@@ -9,14 +9,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import eigh
-from scipy.optimize import brentq, linear_sum_assignment
 
 from ..errors import InputError, require_finite
 from ..inputs.kinds import arguments
 from ..model import Array, Reaction
 from ..readable.result import Drawable, Readable
 from ..rotors import FlexibleRotor
-from .rotor_modes import RotorModes, Whirls, rotor_modes, speeds_in_turn
+from ..rotors.structure import Structure
+from .large.condensed import MARGIN, models, usual_frequency
+from .large.crossings import CrossingSearch
+from .large.likeness import matches
+from .rotor_modes import RotorModes, Whirls, directions, log_decrement, rotor_modes, speeds_in_turn
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,14 +30,21 @@ class Campbell(Whirls, Drawable):
     ----------
     speeds : ndarray, shape (n_speeds,) [rad/s]
     eigenvalues : ndarray, shape (n_modes, n_speeds) [1/s]
-        By mode; nan where a mode does not oscillate.
+        By mode; nan where a mode does not oscillate, or is much faster than the modes that were asked for.
     direction : ndarray, shape (n_modes, n_speeds) [1]
         As in `RotorModes`; nan likewise.
+    error : float [1]
+        Largest of those of `RotorModes`.
     """
 
     speeds: Array
     eigenvalues: NDArray[np.complex128]
     direction: Array
+    error: float = 0.0
+
+
+_BEYOND = 1.5
+"""How far modes of a rotor of many elements are followed / the highest frequency."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,7 +83,7 @@ def campbell(
         Rising or falling, of either sign; so close that modes do not change beyond recognition from one to
         the next.
     highest_frequency : float [rad/s]
-        Modes that stay above it are left out.
+        Modes that stay above it are left out. If infinite, as in `rotor_modes`.
 
     Raises
     ------
@@ -83,8 +93,8 @@ def campbell(
         If there is no equilibrium at one of the speeds.
     """
     grid = speeds_in_turn(speeds)
-    points = [rotor_modes(rotor, bearings, float(speed)) for speed in grid]
-    tracks = _tracks(points, rotor.structure.mass)
+    points = [rotor_modes(rotor, bearings, float(speed), _BEYOND * highest_frequency) for speed in grid]
+    tracks = _tracks(points, rotor.assembly.mass)
     values = np.full((len(tracks), len(grid)), complex(math.nan, math.nan))
     direction = np.full((len(tracks), len(grid)), math.nan)
     for row, track in enumerate(tracks):
@@ -93,7 +103,12 @@ def campbell(
             direction[row, column] = points[column].direction[k]
     lowest = np.nanmin(np.abs(values.imag), axis=1) if len(tracks) else np.zeros(0)
     order = [k for k in np.argsort(lowest) if lowest[k] <= highest_frequency]
-    return Campbell(speeds=grid, eigenvalues=values[order], direction=direction[order])
+    return Campbell(
+        speeds=grid,
+        eigenvalues=values[order],
+        direction=direction[order],
+        error=max(point.error for point in points),
+    )
 
 
 @arguments
@@ -109,13 +124,17 @@ def critical_speeds(
     speeds : array_like, shape (n,) [rad/s]
         Rising or falling, of either sign: the range searched, and the steps in which the modes are followed.
     """
-    chart = campbell(rotor, bearings, speeds)
-    found = []
-    for values in chart.eigenvalues:
-        lead = values.imag - np.abs(chart.speeds)
-        for k in np.flatnonzero(lead[:-1] * lead[1:] <= 0.0):
-            found.append(_crossing(rotor, bearings, chart.speeds[k : k + 2], values[k : k + 2]))
-    return tuple(sorted(found, key=lambda one: one.speed))
+    grid = speeds_in_turn(speeds)
+    search = CrossingSearch(rotor=rotor, bearings=bearings, top_speed=float(np.abs(grid).max()))
+    found = sorted(search.crossings(grid), key=lambda one: one.speed)
+    return tuple(
+        CriticalSpeed(
+            speed=one.speed,
+            log_decrement=float(log_decrement(one.value)),
+            direction=float(directions(rotor.assembly.mass, one.shape[:, None], one.speed)[0]),
+        )
+        for one in found
+    )
 
 
 @arguments
@@ -144,12 +163,20 @@ def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 
     grid = require_finite("stiffness", stiffness)
     if grid.ndim != 1 or np.any(grid <= 0.0):
         raise InputError(f"stiffness must be a list of positive numbers, got {stiffness!r}")
-    s = rotor.structure
+    for model in models(rotor, usual_frequency(rotor, 0.0)):
+        found = _forward_speeds(model.structure, grid, count)
+        if model.space is None or np.nanmax(found, initial=0.0) <= model.space.cut / MARGIN:
+            break
+    return found
+
+
+def _forward_speeds(s: Structure, stiffness: Array, count: int) -> Array:
+    """Return the lowest undamped forward critical speeds of a rotor on equal springs, as the map has them."""
     n = len(s.coordinates)
     forward = np.vstack([np.eye(n), -1j * np.eye(n)]) * math.sqrt(0.5)
     inertia = (forward.conj().T @ (s.mass - 1j * s.gyroscopic) @ forward).real
-    result = np.full((count, len(grid)), math.nan)
-    for column, spring in enumerate(grid):
+    result = np.full((count, len(stiffness)), math.nan)
+    for column, spring in enumerate(stiffness):
         whole = s.stiffness + spring * s.journals.T @ s.journals
         held = forward.conj().T @ (0.5 * (whole + whole.T)) @ forward
         # K is positive, M - i G need not be: a thin disk has no forward critical speed of tilt
@@ -165,7 +192,7 @@ def _tracks(points: list[RotorModes], mass: Array) -> list[dict[int, int]]:
     current = list(range(len(tracks)))
     for column in range(1, len(points)):
         before, after = points[column - 1], points[column]
-        partner = _matches(before, after, mass)
+        partner = matches(before, after, mass)
         following = []
         for k in range(len(after.eigenvalues)):
             if k in partner:
@@ -176,41 +203,3 @@ def _tracks(points: list[RotorModes], mass: Array) -> list[dict[int, int]]:
             tracks[following[-1]][column] = k
         current = following
     return tracks
-
-
-def _matches(before: RotorModes, after: RotorModes, mass: Array) -> dict[int, int]:
-    """Return the mode of `before` that each mode of `after` continues, by eigenvalue and shape."""
-    if not (before.eigenvalues.size and after.eigenvalues.size):
-        return {}
-    product = np.abs(before.shapes.conj().T @ mass @ after.shapes) ** 2
-    sizes = [np.einsum("ik,ij,jk->k", m.shapes.conj(), mass, m.shapes).real for m in (before, after)]
-    likeness = product / np.outer(*sizes)
-    scale = np.abs(before.eigenvalues)[:, None] + np.abs(after.eigenvalues)
-    apart = np.abs(before.eigenvalues[:, None] - after.eigenvalues) / scale
-    cost = apart + 0.2 * (1.0 - likeness)
-    rows, columns = linear_sum_assignment(cost)
-    return {int(c): int(r) for r, c in zip(rows, columns, strict=True) if apart[r, c] < 0.5}
-
-
-def _crossing(
-    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], ends: Array, values: NDArray[np.complex128]
-) -> CriticalSpeed:
-    """Return the critical speed between two speeds at which a mode has these eigenvalues."""
-
-    def nearest(speed: float) -> tuple[RotorModes, int]:
-        share = (speed - ends[0]) / (ends[1] - ends[0])
-        modes = rotor_modes(rotor, bearings, speed)
-        expected = (1.0 - share) * values[0] + share * values[1]
-        return modes, int(np.argmin(np.abs(modes.eigenvalues - expected)))
-
-    def lead(speed: float) -> float:
-        modes, k = nearest(speed)
-        return float(modes.frequency[k]) - abs(speed)
-
-    speed = float(brentq(lead, float(ends[0]), float(ends[1]), rtol=1e-12))
-    modes, k = nearest(speed)
-    return CriticalSpeed(
-        speed=speed,
-        log_decrement=float(modes.log_decrement[k]),
-        direction=float(modes.direction[k]),
-    )

@@ -5,19 +5,22 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.linalg import eig
 
 from ..errors import InputError, require_finite
 from ..inputs.kinds import arguments
 from ..model import Array, Reaction
 from ..readable.result import Readable
-from ..rotors import FlexibleRotor
+from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure
-from .rotor_rest import rotor_equilibrium
-from .rotor_system import SecondOrder, second_order, with_hysteresis
+from .large.condensed import TOLERANCE, Condensed, models, usual_frequency
+from .large.defects import WholeRotor, whirl_errors
+from .large.second_order import small_motion
+from .rotor_rest import RotorEquilibrium, rest
 
 _OSCILLATES = 1e-6
 
@@ -56,12 +59,16 @@ class RotorModes(Whirls, Readable):
         Complex coordinates of the rotor.
     direction : ndarray, shape (n,) [1]
         From 1, whirl in circles with the rotation, to -1, in circles against it.
+    error : float [1]
+        Largest relative error of an eigenvalue by the shapes that were left out, estimated; 0 where none
+        were.
     """
 
     speed: float
     eigenvalues: NDArray[np.complex128]
     shapes: NDArray[np.complex128]
     direction: Array
+    error: float = 0.0
 
 
 def log_decrement(eigenvalues: ArrayLike) -> Array:
@@ -71,10 +78,13 @@ def log_decrement(eigenvalues: ArrayLike) -> Array:
 
 
 @arguments
-def rotor_modes(rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speed: float) -> RotorModes:
+def rotor_modes(
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speed: float, highest_frequency: float = math.inf
+) -> RotorModes:
     """Return the whirl modes of a rotor on its films at a speed.
 
-    Motion that nothing holds, as that of a weightless rotor without bearings as a whole, is no whirl.
+    Motion that nothing holds, as that of a weightless rotor without bearings as a whole, is no whirl. Up to a
+    frequency a rotor moves in as many of its shapes as that needs.
 
     Parameters
     ----------
@@ -84,70 +94,133 @@ def rotor_modes(rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speed: f
         By the name of the station; linearized at the equilibrium of this speed.
     speed : float [rad/s]
         Of either sign; a rotor at rest counts as turning about +z.
+    highest_frequency : float [rad/s]
+        Whirls with a larger |s| may be left out, faster ones are. If infinite, all whirls of a rotor of up to
+        160 coordinates; of others to twice the speed and the tenth frequency of the shaft on no bearings.
 
     Raises
     ------
+    InputError
+        If the highest frequency is not positive.
     EquilibriumError
         If there is no equilibrium.
     """
-    motions = motions_at(rotor, bearings, speed)
-    whirls = oscillates(motions.eigenvalues)
+    return whirls_of(motions_at(rotor, bearings, speed, highest_frequency), highest_frequency)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Motions(RotorModes):
+    """The whirls at a speed, after the motions that do not oscillate, and up to which |s| the error holds.
+
+    Attributes
+    ----------
+    known_to : float [rad/s]
+        inf where nothing was left out.
+    """
+
+    known_to: float
+
+
+def motions_at(
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speed: float, highest_frequency: float = math.inf
+) -> Motions:
+    """Return the whirl modes at a speed, and before them the motions that do not oscillate."""
+    require_flexible(rotor)
+    if not highest_frequency > 0.0:
+        raise InputError(f"highest_frequency must be positive, got {highest_frequency!r}")
+    known_to = highest_frequency if highest_frequency < math.inf else usual_frequency(rotor, speed)
+    found = (_motions(model, bearings, speed, known_to) for model in models(rotor, known_to))
+    return next(motions for motions in found if motions.error <= TOLERANCE)
+
+
+def whirls_of(motions: Motions, highest_frequency: float = math.inf) -> RotorModes:
+    """Return those of the motions that oscillate, as far as their error is known, to a frequency [rad/s]."""
+    whirls = oscillates(motions.eigenvalues) & (np.abs(motions.eigenvalues) <= motions.known_to)
+    whirls &= motions.frequency <= highest_frequency
     return RotorModes(
         speed=motions.speed,
         eigenvalues=motions.eigenvalues[whirls],
         shapes=motions.shapes[:, whirls],
         direction=motions.direction[whirls],
+        error=motions.error,
     )
 
 
-def motions_at(rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speed: float) -> RotorModes:
-    """Return the whirl modes at a speed, and before them the motions that do not oscillate."""
-    at = rotor_equilibrium(rotor, bearings, speed)
-    structure = rotor.structure
-    values, shapes = _whirls(structure, second_order(structure, at), at.speed)
-    n = len(structure.coordinates)
-    mass = structure.mass[:n, :n]
-    turned = [shapes[:n] + sign * 1j * shapes[n:] for sign in (1.0, -1.0)]
-    forward, backward = (np.einsum("ik,ij,jk->k", u.conj(), mass, u).real for u in turned)
-    sense = -1.0 if at.speed < 0.0 else 1.0
-    return RotorModes(
+def _motions(model: Condensed, bearings: Mapping[str, Reaction], speed: float, known_to: float) -> Motions:
+    """Return the motions of a model of a rotor, in the coordinates of the whole."""
+    at = rest(model.structure, bearings, speed)
+    parts = [_part(model, at, part, known_to) for part in _frequencies(model.structure, abs(speed))]
+    shapes = np.hstack([part.shapes for part in parts])
+    return Motions(
         speed=at.speed,
-        eigenvalues=values,
-        shapes=shapes,
-        direction=sense * (forward - backward) / (forward + backward),
+        eigenvalues=np.concatenate([part.values for part in parts]),
+        shapes=model.lifted(shapes),
+        direction=directions(model.structure.mass, shapes, at.speed),
+        error=max(part.error for part in parts),
+        known_to=math.inf if model.space is None else known_to,
     )
+
+
+def directions(mass: Any, shapes: np.ndarray, speed: float) -> Array:
+    """Return the direction of shapes (N, m) as in `RotorModes`, with their mass matrix."""
+    n = len(shapes) // 2
+    turned = [shapes[:n] + sign * 1j * shapes[n:] for sign in (1.0, -1.0)]
+    forward, backward = (np.sum(u.conj() * (mass[:n, :n] @ u), axis=0).real for u in turned)
+    return np.asarray((-1.0 if speed < 0.0 else 1.0) * (forward - backward) / (forward + backward))
+
+
+class _Band(NamedTuple):
+    """Frequencies low <= Im s < high that have the hysteresis of one frequency [rad/s]."""
+
+    frequency: float
+    low: float
+    high: float
+
+
+class _Part(NamedTuple):
+    """Eigenvalues of such a band, rising in frequency, their shapes, and the largest relative error."""
+
+    values: NDArray[np.complex128]
+    shapes: NDArray[np.complex128]
+    error: float
+
+
+def _frequencies(structure: Structure, turn: float) -> tuple[_Band, ...]:
+    if structure.hysteresis is None:
+        return (_Band(0.0, 0.0, math.inf),)
+    return _Band(0.5 * turn, 0.0, turn), _Band(2.0 * turn + 1.0, turn, math.inf)
+
+
+def _part(model: Condensed, at: RotorEquilibrium, band: _Band, known_to: float) -> _Part:
+    """Return the eigenvalues of a band; not of motion that nothing holds."""
+    system = small_motion(model.structure, at, band.frequency)
+    values, left, vectors = eig(system.state_matrix(), left=True)
+    shapes = vectors[: len(system.mass)]
+    whole, lifted = WholeRotor(model.whole, at, band.frequency), model.lifted(shapes)
+    chosen = _is_held(whole, values, lifted) & (values.imag >= band.low) & (values.imag < band.high)
+    order = np.flatnonzero(chosen)[np.argsort(values.imag[chosen])]
+    asked = [k for k in order if oscillates(values[k]) and abs(values[k]) <= known_to]
+    error = 0.0
+    if model.space is not None and asked:
+        ends = model.lifted(np.linalg.solve(system.mass, left[len(system.mass) :, asked]))
+        error = float(whirl_errors(model, whole, values[asked], lifted[:, asked], ends).max())
+    return _Part(values[order].astype(complex), shapes[:, order].astype(complex), error)
+
+
+def _is_held(
+    whole: WholeRotor, values: NDArray[np.complex128], shapes: NDArray[np.complex128]
+) -> NDArray[np.bool_]:
+    """Return which motions something holds."""
+    size = np.abs(values)
+    inertia = np.linalg.norm(whole.shaft.mass @ shapes, axis=0)
+    damping = np.linalg.norm(whole.slope(0.0, shapes), axis=0)
+    held = np.linalg.norm(whole.held(np.abs(shapes)), axis=0)
+    return np.asarray(size * (size * inertia + damping) > _HELD * held)
 
 
 def oscillates(values: NDArray[np.complex128]) -> NDArray[np.bool_]:
     """Return which eigenvalues are those of whirl."""
     return np.asarray(values.imag > _OSCILLATES * np.abs(values))
-
-
-def _whirls(
-    structure: Structure, system: SecondOrder, speed: float
-) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
-    """Return the eigenvalues that do not oscillate, those that do, rising, and the shapes of all."""
-    if structure.hysteresis is None:
-        return _eigen(system, 0.0, math.inf)
-    turn = abs(speed)
-    slow = _eigen(with_hysteresis(structure, system, 0.5 * turn, speed), 0.0, turn)
-    fast = _eigen(with_hysteresis(structure, system, 2.0 * turn + 1.0, speed), turn, math.inf)
-    return np.concatenate([slow[0], fast[0]]), np.hstack([slow[1], fast[1]])
-
-
-def _eigen(
-    system: SecondOrder, low: float, high: float
-) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
-    """Return eigenvalues of low <= Im s < high, rising, and shapes; not of motion that nothing holds."""
-    values, vectors = np.linalg.eig(system.state_matrix())
-    shapes = vectors[: len(system.mass)]
-    size = np.abs(values)
-    inertia, damping = (np.linalg.norm(m @ shapes, axis=0) for m in (system.mass, system.damping))
-    held = np.linalg.norm(np.abs(system.stiffness) @ np.abs(shapes), axis=0)
-    moves = size * (size * inertia + damping) > _HELD * held
-    chosen = moves & (values.imag >= low) & (values.imag < high)
-    order = np.flatnonzero(chosen)[np.argsort(values.imag[chosen])]
-    return values[order].astype(complex), shapes[:, order].astype(complex)
 
 
 def speeds_in_turn(speeds: ArrayLike) -> Array:

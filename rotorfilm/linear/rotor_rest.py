@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import cast
 
 import numpy as np
@@ -20,6 +20,7 @@ from ..rotors.structure import Structure, across_planes
 from ..warming import Warming
 from .coefficients import coefficients
 from .equilibrium import equilibrium
+from .large.condensed import models, usual_frequency
 
 TOLERANCE = 1e-10
 """Largest imbalance of forces, and misfit of displacements, relative to their scale, above roundoff."""
@@ -98,9 +99,16 @@ def rotor_equilibrium(
     first loads; s then goes to 1, each step by Newton's method with the exact Jacobian.
     """
     require_flexible(rotor)
-    require_reactions("bearings", bearings)
     speed = require_number("speed", speed)
-    system = _System(rotor.structure, bearings, speed)
+    model = next(models(rotor, usual_frequency(rotor, 0.0)))
+    at = rest(model.structure, bearings, speed)
+    return replace(at, displacement=model.lifted(at.displacement))
+
+
+def rest(structure: Structure, bearings: Mapping[str, Reaction], speed: float) -> RotorEquilibrium:
+    """Return where a rotor of these matrices rests; see `rotor_equilibrium`."""
+    require_reactions("bearings", bearings)
+    system = _System(structure, bearings, speed)
     q, loads = system.on_rigid_bearings()
     alone = [system.alone(k, load) for k, load in enumerate(loads.reshape(-1, 2))]
     p = np.ravel([position for position, _ in alone])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,62 +13,19 @@ from ..inputs.kinds import arguments
 from ..model import Array, Reaction
 from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.stations import station_name
-from ..rotors.structure import Structure, across_planes, both_planes, output_rows
+from ..rotors.structure import output_rows
 from ..signals import names
 from .closed_loop import HOUSING, checked_speeds
+from .large.driven import driven
+from .large.second_order import journal_rows, second_order
 from .linearize import control_system
-from .rotor_rest import RotorEquilibrium, rotor_equilibrium
+from .rotor_rest import RotorEquilibrium
 
 if TYPE_CHECKING:
     import control
 
 FORCES = (*HOUSING, "ground_force_x", "ground_force_y")
 """How the names of forces on housings and on the ground end."""
-
-
-class SecondOrder(NamedTuple):
-    """mass q'' + damping q' + stiffness q = force, bearings, gyroscopic effect and all, shape (N, N) each."""
-
-    mass: Array
-    damping: Array
-    stiffness: np.ndarray
-
-    def state_matrix(self) -> np.ndarray:
-        """Return A of (q, q')' = A (q, q'), shape (2 N, 2 N)."""
-        n = len(self.mass)
-        solved = np.linalg.solve(self.mass, np.hstack([self.stiffness, self.damping]))
-        return np.vstack([np.eye(n, 2 * n, n), -solved])
-
-    def dynamic_stiffness(self, frequency: float) -> np.ndarray:
-        """Return stiffness - frequency^2 mass + i frequency damping [rad/s], complex."""
-        return self.stiffness - frequency**2 * self.mass + 1j * frequency * self.damping
-
-
-def second_order(structure: Structure, at: RotorEquilibrium) -> SecondOrder:
-    """Return the equations of small motion about an equilibrium, at its speed."""
-    damping = structure.damping + at.speed * structure.gyroscopic
-    stiffness = structure.stiffness + at.speed * structure.circulation
-    for name, film in at.coefficients.items():
-        rows = journal_rows(structure, name)
-        damping = damping + rows.T @ film.damping @ rows
-        stiffness = stiffness + rows.T @ film.stiffness @ rows
-    return SecondOrder(structure.mass, damping, stiffness)
-
-
-def with_hysteresis(structure: Structure, system: SecondOrder, frequency: float, speed: float) -> SecondOrder:
-    """Return the equations at a positive frequency [rad/s], with the hysteresis of the rotating shaft.
-
-    Its stiffness is K (1 + i eta sgn(p)) where p is the frequency in the rotating shaft: frequency - speed of
-    forward circles, -(frequency + speed) of backward ones. Whirl slower than the shaft then feels the real
-    matrix -i eta K on x + i y, which drives it forward; faster whirl feels the damping i eta K; synchronous
-    whirl the mean of both, as forward circles do not bend the shaft to and fro.
-    """
-    if structure.hysteresis is None:
-        return system
-    driving = np.sign(speed) * across_planes(structure.hysteresis)
-    resisting = 1j * both_planes(structure.hysteresis)
-    share = 0.5 * (1.0 + np.sign(frequency - abs(speed)))
-    return system._replace(stiffness=system.stiffness + (1.0 - share) * driving + share * resisting)
 
 
 @arguments
@@ -138,20 +95,17 @@ def unbalance_response(
         If there is no equilibrium at one of the speeds.
     """
     require_flexible(rotor)
-    grid = checked_speeds(speeds)
-    s = rotor.structure
+    grid, s = checked_speeds(speeds), rotor.assembly
     if not s.unbalance.any():
         raise InputError("rotor must have an unbalance, got none")
     responses = []
     for speed in grid:
-        at = rotor_equilibrium(rotor, bearings, float(speed))
         # (cos, sin) of the angle are the real parts of (1, -i) exp(i w t)
-        force = speed**2 * s.unbalance @ np.array([1.0, -1.0j])
-        system = with_hysteresis(s, second_order(s, at), speed, speed)
-        motion = np.linalg.solve(system.dynamic_stiffness(speed), force)
+        force = speed**2 * s.unbalance @ np.array([[1.0], [-1.0j]])
+        at, motion = driven(rotor, bearings, float(speed), force, float(grid[-1]))
         sense, labels = _outputs(rotor, at)
-        responses.append(sense @ np.concatenate([motion, 1j * speed * motion]))
-    data = np.stack(responses, axis=-1)[:, None, :]
+        responses.append(sense @ motion)
+    data = np.stack(responses, axis=-1)
     import control
 
     return control.FrequencyResponseData(
@@ -187,17 +141,15 @@ def rotor_transmissibility(
         If there is no equilibrium at one of the speeds.
     """
     require_flexible(rotor)
-    grid, s = checked_speeds(speeds), rotor.structure
+    grid, s = checked_speeds(speeds), rotor.assembly
     # A bearing pushes its housing back; an unbalance does not.
     push = s.journals if s.housings is None else s.journals + s.housings
     responses, wanted = [], []
     for speed in grid:
-        at = rotor_equilibrium(rotor, bearings, float(speed))
-        system = with_hysteresis(s, second_order(s, at), speed, speed)
-        motion = np.linalg.solve(system.dynamic_stiffness(speed), push.T)
+        at, motion = driven(rotor, bearings, float(speed), push.T, float(grid[-1]))
         sense, labels = _outputs(rotor, at)
         wanted = [k for k, label in enumerate(labels) if label.endswith(FORCES)]
-        responses.append(sense[wanted] @ np.vstack([motion, 1j * speed * motion]))
+        responses.append(sense[wanted] @ motion)
     if not wanted:
         raise InputError(f"bearings must hold at least one of the stations {list(s.stations)}, got none")
     import control
@@ -211,15 +163,9 @@ def rotor_transmissibility(
     )
 
 
-def journal_rows(structure: Structure, name: str) -> Array:
-    """Return the displacement of a journal from its housing, shape (2, N)."""
-    k = structure.stations.index(name)
-    return structure.journals[2 * k : 2 * k + 2]
-
-
 def _outputs(rotor: FlexibleRotor, at: RotorEquilibrium) -> tuple[Array, list[str]]:
     """Return rows over (q, q') and names of all outputs."""
-    s = rotor.structure
+    s = rotor.assembly
     rows: Sequence[Array] = [output_rows(s)]
     labels = names(rotor.outputs)[:-1]
     for name, film in at.coefficients.items():

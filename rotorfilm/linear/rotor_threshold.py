@@ -1,22 +1,27 @@
-"""The speed at which small motion of a flexible rotor begins to grow."""
+"""The speeds at which small motion of a flexible rotor begins and ceases to grow."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
 from ..inputs.kinds import arguments
 from ..model import Array, Reaction
 from ..readable.result import Readable
 from ..rotors import FlexibleRotor
-from .rotor_modes import RotorModes, motions_at, oscillates, speeds_in_turn
+from .rotor_modes import Motions, motions_at, oscillates, speeds_in_turn
 
 NEUTRAL = 1e-9
 """Growth rate / frequency that is roundoff."""
+
+FURTHER = 1e-6
+"""Part of a step by which a motion is seen to grow beyond its threshold."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,6 +48,28 @@ class RotorThreshold(Readable):
     reason: str = ""
 
 
+@dataclass(frozen=True, kw_only=True)
+class StabilityChange(Readable):
+    """A speed at which a motion of a rotor begins or ceases to grow.
+
+    Attributes
+    ----------
+    speed : float [rad/s]
+    whirl_frequency : float [rad/s]
+        0 where the rotor departs to one side instead of whirling (divergence).
+    direction : float [1]
+        As in `RotorModes`.
+    growing : int [1]
+        How many eigenvalues grow beyond this speed, in the order searched: two of a whirl, one of a
+        divergence. 0 where the rotor is stable again.
+    """
+
+    speed: float
+    whirl_frequency: float
+    direction: float
+    growing: int
+
+
 @arguments
 def rotor_threshold(
     rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
@@ -61,41 +88,114 @@ def rotor_threshold(
     -----
     Whirl that grows and divergence, a real eigenvalue above zero, both end stability.
     """
+    search = _Stability(rotor, bearings)
     grid = speeds_in_turn(speeds)
-    before = float(grid[0])
-    growth = _growth(motions_at(rotor, bearings, before)).max(initial=-1.0)
-    if growth > NEUTRAL:
+    if search.growing(float(grid[0])):
         return RotorThreshold(reason="unstable at the first speed given")
-    for speed in grid[1:].tolist():
-        # whirl that nothing damps or drives has roundoff of either sign
-        level = 0.0 if growth < 0.0 else NEUTRAL
-        growth = _growth(motions_at(rotor, bearings, speed)).max(initial=-1.0)
-        if growth > NEUTRAL:
-            return _onset(rotor, bearings, (before, speed), level)
-        before = speed
-    return RotorThreshold(reason="stable at every speed given")
-
-
-def _growth(motions: RotorModes) -> Array:
-    """Return Re s / |s| of whirls; without whirl Re s / (|s| + |speed|), which divergence takes through 0."""
-    values = motions.eigenvalues
-    size = np.abs(values) + np.where(oscillates(values), 0.0, abs(motions.speed))
-    return np.asarray(values.real / size)
-
-
-def _onset(
-    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], ends: tuple[float, float], level: float
-) -> RotorThreshold:
-    """Return the threshold between two speeds, where the growth is at a level."""
-    speed = float(
-        brentq(lambda w: _growth(motions_at(rotor, bearings, w)).max(initial=-1.0) - level, *ends, rtol=1e-13)
-    )
-    motions = motions_at(rotor, bearings, speed)
-    k = int(np.argmax(_growth(motions)))
-    frequency = float(motions.frequency[k]) if oscillates(motions.eigenvalues)[k] else 0.0
+    found = next(search.changes(grid), None)
+    if found is None:
+        return RotorThreshold(reason="stable at every speed given")
     return RotorThreshold(
-        speed=speed,
-        whirl_frequency=frequency,
-        whirl_ratio=frequency / abs(speed),
-        direction=float(motions.direction[k]),
+        speed=found.speed,
+        whirl_frequency=found.whirl_frequency,
+        whirl_ratio=found.whirl_frequency / abs(found.speed),
+        direction=found.direction,
     )
+
+
+@arguments
+def stability_changes(
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
+) -> tuple[StabilityChange, ...]:
+    """Return every speed of a range at which a motion of a rotor on its films begins or ceases to grow.
+
+    Parameters
+    ----------
+    rotor, bearings
+        As in `rotor_modes`.
+    speeds : array_like, shape (n,) [rad/s]
+        Rising or falling, of either sign, searched in this order; a motion that begins and ceases to grow
+        within one step goes unseen.
+
+    Notes
+    -----
+    The eigenvalues with a positive real part are counted at each speed, and where the number changes from m
+    to n, growth number m + 1 to n, by falling growth, vanishes in between: no whirl has to be followed.
+    """
+    return tuple(_Stability(rotor, bearings).changes(speeds_in_turn(speeds)))
+
+
+class _Growth(NamedTuple):
+    """How much each eigenvalue grows, falling, and to which motion it belongs; a whirl has two."""
+
+    rates: Array
+    places: NDArray[np.intp]
+    motions: Motions
+
+    @property
+    def growing(self) -> int:
+        """Number of eigenvalues that grow."""
+        return int(np.sum(self.rates > NEUTRAL))
+
+    def rate(self, k: int) -> float:
+        """Return growth number k from the largest."""
+        return float(self.rates[k]) if k < len(self.rates) else -1.0
+
+
+class _Stability(NamedTuple):
+    """The search for changes of stability of a rotor on its films."""
+
+    rotor: FlexibleRotor
+    bearings: Mapping[str, Reaction]
+
+    def growth(self, speed: float) -> _Growth:
+        """Return Re s / |s| of whirls; of others Re s / (|s| + |speed|), which divergence takes through 0."""
+        motions = motions_at(self.rotor, self.bearings, speed)
+        values, whirls = motions.eigenvalues, oscillates(motions.eigenvalues)
+        size = np.abs(values) + np.where(whirls, 0.0, abs(motions.speed))
+        rates = values.real / size
+        places = np.repeat(np.argsort(-rates), np.where(whirls, 2, 1)[np.argsort(-rates)])
+        return _Growth(rates[places], places, motions)
+
+    def growing(self, speed: float) -> int:
+        """Return how many eigenvalues grow at a speed."""
+        return self.growth(speed).growing
+
+    def changes(self, speeds: Array) -> Iterator[StabilityChange]:
+        """Yield the changes of a grid of speeds in its order."""
+        for low, high in pairwise(self.growth(float(speed)) for speed in speeds):
+            yield from self._between(low, high)
+
+    def _between(self, low: _Growth, high: _Growth) -> Iterator[StabilityChange]:
+        """Yield the changes of a step, in its order."""
+        first, last = sorted((low.growing, high.growing))
+        events, k = [], first
+        while k < last:
+            events.append(self._change(k, low, high))
+            k += 2 if events[-1].whirl_frequency else 1
+        growing = low.growing
+        for event in sorted(events, key=lambda one: abs(one.speed - low.motions.speed)):
+            number = 2 if event.whirl_frequency else 1
+            growing += number if high.growing > low.growing else -number
+            yield replace(event, growing=growing)
+
+    def _change(self, k: int, low: _Growth, high: _Growth) -> StabilityChange:
+        """Return where growth number k vanishes between two speeds.
+
+        Whirl that nothing damps or drives has roundoff of either sign, so the search is for a growth above
+        it; from there, and from a speed a little further, the line through 0 is drawn.
+        """
+        ends, grown = (low.motions.speed, high.motions.speed), max(low, high, key=lambda one: one.growing)
+        speed = float(brentq(lambda w: self.growth(w).rate(k) - NEUTRAL, *ends, rtol=1e-13))
+        further = self.growth(speed + FURTHER * (grown.motions.speed - speed))
+        place, rise = further.places[k], further.rate(k) - NEUTRAL
+        if rise > 0.0:
+            speed -= NEUTRAL / rise * (further.motions.speed - speed)
+        motions = further.motions
+        whirls = oscillates(motions.eigenvalues)[place]
+        return StabilityChange(
+            speed=speed,
+            whirl_frequency=float(motions.frequency[place]) if whirls else 0.0,
+            direction=float(motions.direction[place]),
+            growing=0,
+        )

@@ -6,7 +6,6 @@ from dataclasses import replace
 from typing import NamedTuple, Protocol
 
 import numpy as np
-from scipy.linalg import lu_factor, lu_solve
 
 from ..errors import ConvergenceError
 from ..model import Array, Reaction
@@ -15,18 +14,13 @@ from ..rotors import FlexibleRotor
 from ..rotors.structure import Structure
 from .coefficients import coefficients
 from .equilibrium import equilibrium
+from .large.inverse_iteration import CONVERGED, PATIENCE, ROUNDED, dynamics, mode_near
+from .large.second_order import journal_rows, second_order, small_motion
 from .rotor_rest import RotorEquilibrium, rotor_equilibrium
-from .rotor_system import SecondOrder, journal_rows, second_order, with_hysteresis
 from .speed_events import SpeedEvent
 
 STEP = 1e-3
 """Relative change of speed over which K and C of films are differentiated."""
-
-CONVERGED = 1e-12
-"""Relative change of an eigenvalue, or of a speed, at which an iteration ends."""
-
-ROUNDED, _PATIENCE = 1e-9, 6
-"""The same after so many steps: roundoff of fine meshes is larger."""
 
 _STEPS = 25
 
@@ -69,64 +63,9 @@ class Whirl(NamedTuple):
     left: np.ndarray
 
 
-def small_motion(structure: Structure, at: RotorEquilibrium, frequency: float) -> SecondOrder:
-    """Return the equations of small motion about an equilibrium, with hysteresis at a frequency [rad/s]."""
-    return with_hysteresis(structure, second_order(structure, at), frequency, at.speed)
-
-
 def on_films(at: RotorEquilibrium, found: dict[str, Coefficients]) -> RotorEquilibrium:
     """Return an equilibrium with other K and C of its bearings."""
     return replace(at, coefficients=found)
-
-
-def dynamics(system: SecondOrder, value: complex) -> tuple[np.ndarray, np.ndarray]:
-    """Return L(s) and dL/ds."""
-    whole = value**2 * system.mass + value * system.damping + system.stiffness
-    return whole, 2.0 * value * system.mass + system.damping
-
-
-def inverse_steps(
-    system: SecondOrder, value: complex, right: np.ndarray, left: np.ndarray, count: int
-) -> list[tuple[complex, np.ndarray, np.ndarray]]:
-    """Return so many steps of two-sided inverse iteration at one shift: eigenvalue, right, left vector.
-
-    The eigenvalue is the shift less left* L right / (left* L' right): its error is of second order in that of
-    the vectors.
-    """
-    whole, slope = dynamics(system, value)
-    factor = lu_factor(whole, check_finite=False)
-    found = []
-    for _ in range(count):
-        right = _unit(lu_solve(factor, slope @ right))
-        left = _unit(lu_solve(factor, slope.conj().T @ left, trans=2))
-        change = (left.conj() @ whole @ right) / (left.conj() @ slope @ right)
-        found.append((complex(value - change), right, left))
-    return found
-
-
-def _unit(vector: np.ndarray) -> np.ndarray:
-    return np.asarray(vector / np.linalg.norm(vector))
-
-
-def mode_near(
-    system: SecondOrder, value: complex, load: np.ndarray
-) -> tuple[complex, np.ndarray, np.ndarray]:
-    """Return the eigenvalue next to another one whose shape is like that under a load, and its vectors.
-
-    Raises
-    ------
-    ConvergenceError
-        If the iteration does not end.
-    """
-    # On an eigenvalue itself L has no inverse.
-    shift = value * (1.0 + 1e-9)
-    found, right, left = inverse_steps(system, shift, load, load, 3)[-1]
-    for step in range(_STEPS):
-        before = found
-        found, right, left = inverse_steps(system, found * (1.0 + 1e-13), right, left, 1)[-1]
-        if abs(found - before) < (CONVERGED if step < _PATIENCE else ROUNDED) * abs(found):
-            return found, right, left
-    raise ConvergenceError(f"whirl near {value:.6g} rad/s must be found by inverse iteration, and was not")
 
 
 def value_rate(structure: Structure, whirl: Whirl, films: RotorFilms) -> complex:
@@ -172,7 +111,7 @@ def whirl_of(event: SpeedEvent, rotor: FlexibleRotor, films: RotorFilms, start: 
             return whirl, count
         value, load = whirl.value, whirl.right
         step = -lead / event.rate(value_rate(rotor.structure, whirl, films))
-        if count > _PATIENCE and abs(step) < ROUNDED * speed:
+        if count > PATIENCE and abs(step) < ROUNDED * speed:
             return whirl, count
         speed += float(np.clip(step, -0.1 * speed, 0.1 * speed))
     raise ConvergenceError(f"speed near {speed:.6g} rad/s must be found by Newton's method, and was not")

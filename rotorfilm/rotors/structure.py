@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,6 +25,7 @@ from ..model import Array, Linearization
 from ..signals import Signal, force_outputs, journal_inputs
 from ..units import STANDARD_GRAVITY
 from .profile import SpeedProfile, Turning
+from .sparse_chain import dense_matrix, planes
 from .stations import prefixed
 
 NOMINAL_LENGTH = 1e-4
@@ -54,8 +55,8 @@ class Structure(NamedTuple):
 
     Attributes
     ----------
-    mass, damping, gyroscopic, stiffness, circulation : ndarray, shape (N, N)
-        M, C, G, K, H of the module's equation, SI.
+    mass, damping, gyroscopic, stiffness, circulation : ndarray or sparse array, shape (N, N)
+        M, C, G, K, H of the module's equation, SI. A chain of elements is assembled sparse.
     stations : tuple of str
         Names of the bearing stations, empty for one without a prefix.
     journals : ndarray, shape (2 n_stations, N)
@@ -89,6 +90,11 @@ class Structure(NamedTuple):
     hysteresis: Array | None = None
 
 
+def dense(structure: Structure) -> Structure:
+    """Return a structure whose matrices are no longer sparse."""
+    return Structure(*(dense_matrix(part) for part in structure))
+
+
 class Operators(NamedTuple):
     """x' = (steady + w spin) x + push u + weight + unbalance r(t);  y = (sense x, w), r as in `Structure`."""
 
@@ -120,29 +126,39 @@ class FlexibleRotor(Turning):
         raise NotImplementedError
 
     @cached_property
-    def structure(self) -> Structure:
-        """The matrices of the rotor."""
+    def assembly(self) -> Structure:
+        """The matrices of the rotor, sparse where it is a chain of elements."""
         return self.assembled()
+
+    @cached_property
+    def structure(self) -> Structure:
+        """The matrices of the rotor, dense."""
+        return dense(self.assembly)
+
+    @cached_property
+    def remembered(self) -> dict[int, Any]:
+        """What analyses have worked out of the rotor, by their own keys."""
+        return {}
 
     @cached_property
     def inputs(self) -> tuple[Signal, ...]:
         """Signals force_x, force_y of each station: on the journal, and the opposite on its housing."""
-        weight = float(np.abs(self.structure.weight).sum()) or STANDARD_GRAVITY
+        weight = float(np.abs(self.assembly.weight).sum()) or STANDARD_GRAVITY
         return tuple(
-            prefixed(name, signal) for name in self.structure.stations for signal in force_outputs(weight)
+            prefixed(name, signal) for name in self.assembly.stations for signal in force_outputs(weight)
         )
 
     @cached_property
     def outputs(self) -> tuple[Signal, ...]:
         """Signals x, y, vx, vy of each station, journal less housing; further readouts; speed."""
         *motion, speed = journal_inputs(NOMINAL_LENGTH, self.nominal_speed)
-        journals = [prefixed(name, signal) for name in self.structure.stations for signal in motion]
-        return (*journals, *(readout.signal for readout in self.structure.readouts), speed)
+        journals = [prefixed(name, signal) for name in self.assembly.stations for signal in motion]
+        return (*journals, *(readout.signal for readout in self.assembly.readouts), speed)
 
     @cached_property
     def states(self) -> tuple[Signal, ...]:
         """The coordinates of the x-z plane, those of the y-z plane, and their rates in the same order."""
-        planes = [(axis, c) for axis in "xy" for c in self.structure.coordinates]
+        planes = [(axis, c) for axis in "xy" for c in self.assembly.coordinates]
         rates = {"m": "m/s", "rad": "rad/s"}
         still = [
             Signal(name=c.name.format(axis), unit=c.unit, nominal=c.nominal, description="displacement")
@@ -162,7 +178,7 @@ class FlexibleRotor(Turning):
     @property
     def initial_state(self) -> Array:
         """The state at t = 0, shape (2 N,)."""
-        return np.array(self.initial) if self.initial else np.zeros(2 * len(self.structure.weight))
+        return np.array(self.initial) if self.initial else np.zeros(2 * len(self.assembly.weight))
 
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return dx/dt at the time t [s] for the forces u [N] at the stations."""
@@ -234,7 +250,7 @@ def check_motion(rotor: FlexibleRotor) -> None:
     keep_pair(rotor, "gravity")
     if not isinstance(rotor.speed, SpeedProfile):
         require_number("speed", rotor.speed)
-    size = 2 * len(rotor.structure.weight)
+    size = 2 * len(rotor.assembly.weight)
     state = require_finite("initial", rotor.initial)
     if len(rotor.initial) and state.shape != (size,):
         raise InputError(f"initial must be empty or {size} numbers, got shape {state.shape}")
@@ -252,12 +268,12 @@ def keep_pair(rotor: object, name: str) -> None:
 
 def both_planes(matrix: Array) -> Array:
     """Return the matrix of one plane for both of them, shape (2 n, 2 n)."""
-    return np.asarray(np.kron(np.eye(2), matrix), dtype=float)
+    return planes(np.eye(2), matrix)
 
 
 def across_planes(matrix: Array) -> Array:
     """Return -i times the matrix of one plane acting on x + i y, shape (2 n, 2 n)."""
-    return np.asarray(np.kron(QUARTER_TURN, matrix), dtype=float)
+    return planes(QUARTER_TURN, matrix)
 
 
 def unbalance_columns(unbalance: float, angle: float) -> Array:

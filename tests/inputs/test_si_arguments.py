@@ -22,7 +22,7 @@ RESULTS = {
     "BasinScan", "Campbell", "CircularOrbit", "CoSimulation", "Coefficients", "CouplingReport",
     "CriticalMass", "CriticalSpeed", "Equilibrium", "HeatedState", "HopfPoint",
     "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients", "Reduction", "RotorEquilibrium",
-    "RotorModes", "RotorThreshold", "TiltedPads", "Trajectory", "WhirlThreshold",
+    "RotorModes", "RotorThreshold", "StabilityChange", "TiltedPads", "Trajectory", "WhirlThreshold",
 }  # fmt: skip
 """Made by rotorfilm, not by its users."""
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from ...bearings.contact_place import reach
 from ...linear import RotorEquilibrium, coefficients, equilibrium
-from ...linear.rotor_system import second_order, with_hysteresis
+from ...linear.large.second_order import second_order, with_hysteresis
 from ...model import Array, Reaction
 from ...rotors import RigidRotor
 from ...rotors.structure import Structure

@@ -10,7 +10,9 @@ from typing import Any, NamedTuple, Protocol
 from ...answers import ErrorEstimate, Found, WorkUnit
 from ...ladders import BaseRung, Rung
 from ...linear import RotorEquilibrium, rotor_equilibrium
-from ...linear.rotor_whirl import Whirl, mode_near, on_films, small_motion, value_rate
+from ...linear.large.inverse_iteration import mode_near
+from ...linear.large.second_order import small_motion
+from ...linear.rotor_whirl import Whirl, on_films, value_rate
 from ...linear.speed_events import SpeedEvent, secant_speed
 from ...rotors.shaft.shaft_models import ShaftModel
 from ...scenes.journal.field_levels import FIELD_LEVELS, FieldLevel, grid_error

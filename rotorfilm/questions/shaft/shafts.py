@@ -12,18 +12,9 @@ from ...answers import DISAGREEMENT, SAFETY, ErrorEstimate, Found, Work, WorkUni
 from ...errors import AbsentError, InputError
 from ...ladders import BaseRung, Ladder
 from ...linear import RotorEquilibrium, rotor_equilibrium, rotor_modes
-from ...linear.rotor_system import SecondOrder, journal_rows, second_order
-from ...linear.rotor_whirl import (
-    Start,
-    Whirl,
-    dynamics,
-    inverse_steps,
-    mode_near,
-    on_films,
-    small_motion,
-    value_rate,
-    whirl_of,
-)
+from ...linear.large.inverse_iteration import dynamics, inverse_steps, mode_near
+from ...linear.large.second_order import SecondOrder, journal_rows, second_order, small_motion
+from ...linear.rotor_whirl import Start, Whirl, on_films, value_rate, whirl_of
 from ...linear.speed_events import Critical, SpeedEvent, Threshold
 from ...model import Array
 from ...results import Coefficients

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
 from ...errors import InputError
 from ...model import Array
 from ...signals import Signal
+from ..sparse_chain import summed
 from ..stations import checked_stations, station_name
 from ..structure import (
     NOMINAL_LENGTH,
@@ -22,7 +24,7 @@ from ..structure import (
 )
 from .beam import Beam
 from .elements import Coupling, ShaftPiece
-from .parts import Disk, Probe, Station, TiltSpring, Unbalance
+from .parts import Disk, Probe, Station, Support, TiltSpring, Unbalance
 
 
 def assemble(
@@ -48,33 +50,22 @@ def assemble(
         *_inner_coordinates(elements, beam),
         *(Coordinate(station_name(s.name, "support_{}"), "m", NOMINAL_LENGTH) for s in stations if s.support),
     ]
-    size = len(coordinates)
-    mass, polar, stiffness, geometric, twist = _chain(elements, beam, size)
-    _add_disks(mass, polar, disks)
-    bending, damping = both_planes(stiffness), np.zeros((2 * size, 2 * size))
-    held = bending + both_planes(geometric) + across_planes(twist)
-    for spring in tilt_springs:
-        places = [2 * spring.node + 1, 2 * spring.node + 1 + size]
-        tilts = np.ix_(places, places)
-        held[tilts] += spring.stiffness
-        damping[tilts] += spring.damping
-    supported = [s for s in stations if s.support]
-    housings = _housings(stations, size)
-    for place, station in enumerate(supported, start=size - len(supported)):
-        assert station.support is not None
-        pair = np.ix_([place, place + size], [place, place + size])
-        mass[place, place] = station.support.mass
-        held[pair] += station.support.stiffness
-        damping[pair] += station.support.damping
+    size, supported = len(coordinates), [s for s in stations if s.support]
+    mass, polar, stiffness, geometric, twist = _chain(elements, disks, beam, size)
+    bending = both_planes(stiffness)
+    held, damping = _ground(tilt_springs, supported, size)
+    first, housings = size - len(supported), _housings(stations, size)
+    masses = [([first + k], np.array([s.support.mass])) for k, s in enumerate(supported) if s.support]
+    mass = both_planes(mass + summed(size, masses))
     return Structure(
-        mass=both_planes(mass),
+        mass=mass,
         damping=damping + internal_damping * bending,
         gyroscopic=across_planes(polar),
-        stiffness=held,
+        stiffness=bending + both_planes(geometric) + across_planes(twist) + held,
         circulation=internal_damping * across_planes(stiffness),
         stations=checked_stations([station.name for station in stations]),
         journals=_journals(stations, size) - housings,
-        weight=both_planes(mass) @ _translation(elements, len(supported), size, gravity),
+        weight=mass @ _translation(elements, len(supported), size, gravity),
         unbalance=_unbalance(unbalances, size),
         coordinates=tuple(coordinates),
         readouts=(
@@ -105,27 +96,33 @@ def _inner(element: ShaftPiece, beam: Beam) -> int:
     return 0 if isinstance(element, Coupling) else beam.internal
 
 
-def _chain(elements: Sequence[ShaftPiece], beam: Beam, size: int) -> Array:
-    """Return mass, polar, stiffness, geometric stiffness and twist of one plane, shape (5, size, size)."""
-    total = np.zeros((5, size, size))
+def _chain(elements: Sequence[ShaftPiece], disks: Sequence[Disk], beam: Beam, size: int) -> list[Any]:
+    """Return mass, polar, stiffness, geometric stiffness and twist of one plane, disks included."""
+    known: dict[ShaftPiece, list[Array]] = {}
+    parts: list[tuple[list[int], list[Array]]] = []
     inside = 2 * (len(elements) + 1)
     for number, element in enumerate(elements):
-        ends = list(range(2 * number, 2 * number + 4))
+        if element not in known:
+            scales = (1.0, 1.0, 1.0, element.axial_force, element.torque)
+            known[element] = [a * part for a, part in zip(scales, element.matrices(beam), strict=True)]
         inner = _inner(element, beam)
-        places = ends + list(range(inside, inside + inner))
+        parts.append(([*range(2 * number, 2 * number + 4), *range(inside, inside + inner)], known[element]))
         inside += inner
-        scales = (1.0, 1.0, 1.0, element.axial_force, element.torque)
-        for matrix, scale, part in zip(total, scales, element.matrices(beam), strict=True):
-            matrix[np.ix_(places, places)] += scale * part
-    return total
-
-
-def _add_disks(mass: Array, polar: Array, disks: Sequence[Disk]) -> None:
     for disk in disks:
-        w, theta = 2 * disk.node, 2 * disk.node + 1
-        mass[w, w] += disk.mass
-        mass[theta, theta] += disk.diametral_inertia
-        polar[theta, theta] += disk.polar_inertia
+        inertia, none = np.diag([disk.mass, disk.diametral_inertia]), np.zeros((2, 2))
+        polar = np.diag([0.0, disk.polar_inertia])
+        parts.append(([2 * disk.node, 2 * disk.node + 1], [inertia, polar, none, none, none]))
+    return [summed(size, ((places, part[k]) for places, part in parts)) for k in range(5)]
+
+
+def _ground(springs: Sequence[TiltSpring], supported: Sequence[Station], size: int) -> tuple[Any, Any]:
+    """Return stiffness and damping between the ground and what is held by it, in both planes."""
+    first = size - len(supported)
+    held: list[tuple[int, TiltSpring | Support]] = [(2 * s.node + 1, s) for s in springs]
+    held += [(first + k, s.support) for k, s in enumerate(supported) if s.support]
+    springs_at = [([place, place + size], np.asarray(part.stiffness)) for place, part in held]
+    dampers_at = [([place, place + size], np.asarray(part.damping)) for place, part in held]
+    return summed(2 * size, springs_at), summed(2 * size, dampers_at)
 
 
 def _journals(stations: Sequence[Station], size: int) -> Array:

@@ -12,18 +12,8 @@ from ...errors import InputError
 from ...inputs.si_arguments import quantities
 from ...model import Array
 from ..profile import SpeedProfile
-from ..structure import (
-    NOMINAL_LENGTH,
-    Coordinate,
-    FlexibleRotor,
-    Readout,
-    Structure,
-    both_planes,
-    check_motion,
-)
-
-_DEPENDENT = 1e-6
-"""Part of a shape, by kinetic energy, below which it adds nothing to those before it."""
+from ..projection import mean_plane, new_shapes, projected
+from ..structure import FlexibleRotor, Structure, check_motion
 
 
 @quantities
@@ -68,47 +58,20 @@ class ReducedRotor(FlexibleRotor):
 
     def assembled(self) -> Structure:
         """Return the matrices of the rotor in the reduced coordinates."""
-        full, basis = self.rotor.structure, both_planes(self.basis)
-        twice = both_planes(basis)
-
-        def project(matrix: Array) -> Array:
-            return basis.T @ matrix @ basis
-
-        return Structure(
-            mass=project(full.mass),
-            damping=project(full.damping),
-            gyroscopic=project(full.gyroscopic),
-            stiffness=project(full.stiffness),
-            circulation=project(full.circulation),
-            stations=full.stations,
-            journals=full.journals @ basis,
-            weight=basis.T @ full.weight,
-            unbalance=basis.T @ full.unbalance,
-            coordinates=tuple(
-                Coordinate(f"shape_{{}}_{k}", "m", NOMINAL_LENGTH) for k in range(self.basis.shape[1])
-            ),
-            readouts=tuple(Readout(readout.signal, readout.row @ twice) for readout in full.readouts),
-            housings=None if full.housings is None else full.housings @ basis,
-            hysteresis=None if full.hysteresis is None else self.basis.T @ full.hysteresis @ self.basis,
-        )
+        return projected(self.rotor.assembly, self.basis)
 
     @cached_property
     def basis(self) -> Array:
         """Shapes of one plane in the coordinates of the rotor, largest entry 1, shape (N / 2, n)."""
         full = self.rotor.structure
         n = len(full.coordinates)
-        mass, stiffness = _mean_plane(full.mass), _mean_plane(full.stiffness)
+        mass, stiffness = mean_plane(full.mass), mean_plane(full.stiffness)
         held = np.vstack([full.journals[::2, :n], np.eye(n)[list(full.supports)]])
         loads = np.column_stack([full.weight.reshape(2, n).T, full.unbalance[:n], full.unbalance[n:]])
         modes = _held_modes(mass, stiffness, held, self.modes)
         slow, bent = _static_shapes(stiffness, held, loads)
-        shapes = np.hstack([slow, modes, _new_shapes(bent, modes, mass)])
+        shapes = np.hstack([slow, modes, new_shapes(bent, modes, mass)])
         return shapes / np.abs(shapes).max(axis=0)
-
-
-def _mean_plane(matrix: Array) -> Array:
-    n = len(matrix) // 2
-    return 0.5 * (matrix[:n, :n] + matrix[n:, n:])
 
 
 def _held_modes(mass: Array, stiffness: Array, held: Array, count: int) -> Array:
@@ -138,19 +101,3 @@ def _static_shapes(stiffness: Array, held: Array, loads: Array) -> tuple[Array, 
     scale = np.concatenate([np.diag(stiffness) ** -0.5, np.full(stations, np.abs(stiffness).max() ** 0.5)])
     shapes = scale[:, None] * np.linalg.solve(saddle * np.outer(scale, scale), right * scale[:, None])
     return shapes[:n, :stations], shapes[:n, stations:]
-
-
-def _new_shapes(shapes: Array, modes: Array, mass: Array) -> Array:
-    """Return what each shape adds to the modes and to the shapes before it, if that is anything."""
-    known = modes
-    for shape in shapes.T:
-        size = np.sqrt(shape @ mass @ shape)
-        if size == 0.0:
-            continue
-        rest = shape / size
-        for _ in range(2):  # twice is enough (Kahan and Parlett)
-            rest = rest - known @ (known.T @ (mass @ rest))
-        left = np.sqrt(rest @ mass @ rest)
-        if left > _DEPENDENT:
-            known = np.column_stack([known, rest / left])
-    return known[:, modes.shape[1] :]

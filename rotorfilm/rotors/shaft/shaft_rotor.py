@@ -107,10 +107,10 @@ class ShaftRotor(FlexibleRotor):
     @property
     def mass(self) -> float:
         """Mass of shaft and disks, without the housings [kg]."""
-        size = len(self.structure.coordinates)
+        size = len(self.assembly.coordinates)
         shift = np.zeros(2 * size)
         shift[0 : 2 * (len(self.elements) + 1) : 2] = 1.0
-        return float(shift @ self.structure.mass @ shift)
+        return float(shift @ (self.assembly.mass @ shift))
 
     def assembled(self) -> Structure:
         """Return the matrices of the rotor."""

@@ -117,7 +117,7 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
     threshold = rotor_threshold(rotor, bearings, speeds)
     report(0.85, "unbalance response")
     turned = _with_peaks(speeds, critical)
-    response = unbalance_response(rotor, bearings, turned) if rotor.structure.unbalance.any() else None
+    response = unbalance_response(rotor, bearings, turned) if rotor.assembly.unbalance.any() else None
     report(1.0, "done")
     return RotorAnswer(
         title=scene.title,

@@ -1,0 +1,1 @@
+"""Rotors of many elements: banded matrices, and the shapes that a range of frequencies needs."""

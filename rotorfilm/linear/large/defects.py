@@ -1,0 +1,116 @@
+"""How far off motions in some of the shapes of a rotor are, by what is left of its equations."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ...model import Array
+from ...rotors.structure import Structure
+from ..rotor_rest import RotorEquilibrium
+from .condensed import MARGIN, Condensed
+from .second_order import SecondOrder, with_hysteresis
+
+_FASTER = 1.0 / (1.0 - MARGIN**-2.0)
+"""How much more what is left out gives way than to slow forces, at most."""
+
+
+class WholeRotor:
+    """The equations of small motion of all of a rotor: sparse matrices of the shaft, and its films apart."""
+
+    def __init__(self, structure: Structure, at: RotorEquilibrium, frequency: float) -> None:
+        damping = structure.damping + at.speed * structure.gyroscopic
+        stiffness = structure.stiffness + at.speed * structure.circulation
+        shaft = SecondOrder(structure.mass, damping, stiffness)
+        self.shaft = with_hysteresis(structure, shaft, frequency, at.speed)
+        self.rows = structure.journals
+        self.films = [np.zeros((len(self.rows), len(self.rows))) for _ in range(2)]
+        for name, film in at.coefficients.items():
+            pair = 2 * structure.stations.index(name) + np.arange(2)
+            for block, part in zip(self.films, (film.stiffness, film.damping), strict=True):
+                block[np.ix_(pair, pair)] = part
+
+    def forces(self, values: Any, motion: np.ndarray) -> np.ndarray:
+        """Return L(s) x, shape (N, m), of motions x at one s [1/s] or one for each."""
+        m, c, k = self.shaft
+        film = (self.films[0] + 0.0j) @ (self.rows @ motion) + self.films[1] @ (self.rows @ motion) * values
+        return np.asarray((m @ motion) * values**2 + (c @ motion) * values + k @ motion + self.rows.T @ film)
+
+    def adjoint_forces(self, values: Any, motion: np.ndarray) -> np.ndarray:
+        """Return L(s)* y, shape (N, m)."""
+        m, c, k = self.shaft
+        back, seen = np.conj(values), self.rows @ motion
+        film = self.films[0].T @ seen + self.films[1].T @ seen * back
+        shaft = (m.T @ motion) * back**2 + (c.T @ motion) * back + k.conj().T @ motion
+        return np.asarray(shaft + self.rows.T @ film)
+
+    def held(self, sizes: Array) -> Array:
+        """Return the stiffness forces that may cancel in a motion of these sizes, shape (N, m)."""
+        rows = np.abs(self.rows)
+        films: Array = rows.T @ (np.abs(self.films[0]) @ (rows @ sizes))
+        return np.asarray(abs(self.shaft.stiffness) @ sizes + films)
+
+    def slope(self, values: Any, motion: np.ndarray) -> np.ndarray:
+        """Return L'(s) x, shape (N, m)."""
+        film = self.rows.T @ (self.films[1] @ (self.rows @ motion))
+        return np.asarray((self.shaft.mass @ motion) * (2.0 * values) + self.shaft.damping @ motion + film)
+
+
+def whirl_errors(
+    model: Condensed, whole: WholeRotor, values: np.ndarray, right: np.ndarray, left: np.ndarray
+) -> Array:
+    """Return estimates of |ds / s| of eigenvalues s found in the shapes of a model, shape (m,).
+
+    With vectors x, y of the whole rotor, r = L(s) x and l = L(s)* y are the forces that the shapes do not
+    balance, and the error is -l* A r / (y* L'(s) x) to leading order, A the answer of what is left out.
+
+    Parameters
+    ----------
+    model : Condensed
+    whole : WholeRotor
+    values : ndarray, shape (m,) [1/s]
+    right, left : ndarray, shape (N, m)
+        L right = 0 and left* L = 0 in the shapes of the model.
+    """
+    unbalanced = model.answer(whole.forces(values, right))
+    slope = np.sum(left.conj() * whole.slope(values, right), axis=0)
+    change = np.sum(whole.adjoint_forces(values, left).conj() * unbalanced, axis=0) / slope
+    return np.asarray(_FASTER * np.abs(change / values))
+
+
+def seen_rows(structure: Structure) -> Array:
+    """Return the displacements at bearings and probes over the coordinates of a rotor, shape (k, N)."""
+    probes = [readout.row[None, : len(structure.weight)] for readout in structure.readouts]
+    return np.concatenate([structure.journals, *probes])
+
+
+def response_error(
+    model: Condensed,
+    whole: WholeRotor,
+    value: complex,
+    forces: np.ndarray,
+    motion: np.ndarray,
+    dual: np.ndarray,
+) -> float:
+    """Return the largest error of displacements at bearings and probes / the largest of them, estimated.
+
+    With r = f - L x and l = t - L* y, where y is the answer to unit forces t there, it is l* A r.
+
+    Parameters
+    ----------
+    model : Condensed
+    whole : WholeRotor
+    value : complex [1/s]
+        s, i times the frequency.
+    forces, motion : ndarray, shape (N, m)
+        f and x.
+    dual : ndarray, shape (N, k)
+        y, as x by the shapes of the model.
+    """
+    unbalanced = model.answer(forces - whole.forces(value, motion))
+    places = seen_rows(model.whole)
+    other = places.T - whole.adjoint_forces(value, dual)
+    felt = np.abs(places @ motion).max(initial=0.0)
+    change = np.abs(other.conj().T @ unbalanced).max(initial=0.0)
+    return float(_FASTER * change / felt) if felt else 0.0

@@ -1,0 +1,79 @@
+"""The equations of small motion of a flexible rotor about its rest, whole or in some of its shapes."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy import sparse
+
+from ...model import Array
+from ...rotors.structure import Structure, across_planes, both_planes
+from ..rotor_rest import RotorEquilibrium
+
+
+class SecondOrder(NamedTuple):
+    """mass q'' + damping q' + stiffness q = force, bearings, gyroscopic effect and all, shape (N, N) each.
+
+    Sparse arrays where those of the rotor are.
+    """
+
+    mass: Array
+    damping: Array
+    stiffness: np.ndarray
+
+    def state_matrix(self) -> np.ndarray:
+        """Return A of (q, q')' = A (q, q'), shape (2 N, 2 N)."""
+        n = len(self.mass)
+        solved = np.linalg.solve(self.mass, np.hstack([self.stiffness, self.damping]))
+        return np.vstack([np.eye(n, 2 * n, n), -solved])
+
+    def dynamic_stiffness(self, frequency: float) -> np.ndarray:
+        """Return stiffness - frequency^2 mass + i frequency damping [rad/s], complex."""
+        return self.stiffness - frequency**2 * self.mass + 1j * frequency * self.damping
+
+
+def second_order(structure: Structure, at: RotorEquilibrium) -> SecondOrder:
+    """Return the equations of small motion about an equilibrium, at its speed."""
+    damping = structure.damping + at.speed * structure.gyroscopic
+    stiffness = structure.stiffness + at.speed * structure.circulation
+    for name, film in at.coefficients.items():
+        rows = journal_rows(structure, name)
+        damping = damping + _at_journal(structure, rows, film.damping)
+        stiffness = stiffness + _at_journal(structure, rows, film.stiffness)
+    return SecondOrder(structure.mass, damping, stiffness)
+
+
+def _at_journal(structure: Structure, rows: Array, film: Array) -> Any:
+    """Return what K or C of a film is in the coordinates of the rotor, sparse if its matrices are."""
+    if not sparse.issparse(structure.mass):
+        return rows.T @ film @ rows
+    few = sparse.csr_array(rows)
+    return few.T @ sparse.csr_array(film) @ few
+
+
+def with_hysteresis(structure: Structure, system: SecondOrder, frequency: float, speed: float) -> SecondOrder:
+    """Return the equations at a positive frequency [rad/s], with the hysteresis of the rotating shaft.
+
+    Its stiffness is K (1 + i eta sgn(p)) where p is the frequency in the rotating shaft: frequency - speed of
+    forward circles, -(frequency + speed) of backward ones. Whirl slower than the shaft then feels the real
+    matrix -i eta K on x + i y, which drives it forward; faster whirl feels the damping i eta K; synchronous
+    whirl the mean of both, as forward circles do not bend the shaft to and fro.
+    """
+    if structure.hysteresis is None:
+        return system
+    driving = np.sign(speed) * across_planes(structure.hysteresis)
+    resisting = 1j * both_planes(structure.hysteresis)
+    share = 0.5 * (1.0 + np.sign(frequency - abs(speed)))
+    return system._replace(stiffness=system.stiffness + (1.0 - share) * driving + share * resisting)
+
+
+def small_motion(structure: Structure, at: RotorEquilibrium, frequency: float) -> SecondOrder:
+    """Return the equations of small motion about an equilibrium, with hysteresis at a frequency [rad/s]."""
+    return with_hysteresis(structure, second_order(structure, at), frequency, at.speed)
+
+
+def journal_rows(structure: Structure, name: str) -> Array:
+    """Return the displacement of a journal from its housing, shape (2, N)."""
+    k = structure.stations.index(name)
+    return structure.journals[2 * k : 2 * k + 2]
