@@ -43,7 +43,7 @@ class BallElement(BallDegrees, StaticReaction):
         """Return z of the shaft [m] at a position (2,) [m]: as given, or as it follows from the axial load."""
         x, y = require_finite("position", position).tolist()
         z, status = self.kernel.axial_place(x, y, 0.0, 0.0, require_number("speed", speed))
-        if status:
+        if status > Status.OUTSIDE:
             self._report(status, (x, y, 0.0, 0.0, speed))
         return z
 

@@ -7,8 +7,9 @@
 
 #define STEPS 60
 #define HALVINGS 30
-#define EXACT 1e-14   /* residual over the loads at which a balance ends */
-#define ENOUGH 1e-10  /* that roundoff may leave */
+#define EXACT 1e-14  /* residual over the loads at which a balance ends */
+#define ENOUGH 1e-11 /* below which only roundoff may keep a step from making it smaller */
+#define ROUNDOFF 1e-15 /* of the center of a ball, over the distance of the centers of curvature */
 
 /* A Hertzian contact: direction e = (sin, cos) of its angle, t = de/d(angle), and d(load e)/d(center). */
 typedef struct contact {
@@ -103,6 +104,13 @@ static void guess(const rf_ball_row *row, const double *a, double centrifugal, d
     x[1] = size > 0.0 ? length * fy / size : length * through.e[1];
 }
 
+/* A residual that may be left. */
+static double slack(const rf_ball_row *row, const balance *at)
+{
+    const double *k = at->by_x, stiffest = fabs(k[0]) + fabs(k[1]) + fabs(k[2]) + fabs(k[3]);
+    return ENOUGH * at->size + ROUNDOFF * (row->inner + row->outer) * stiffest;
+}
+
 /* Newton's method with steps that shorten until the residual falls. */
 static int find(const rf_ball_row *row, int inertia, const double *a, double speed, double *x, balance *at)
 {
@@ -111,17 +119,17 @@ static int find(const rf_ball_row *row, int inertia, const double *a, double spe
         const double norm = hypot(at->rest[0], at->rest[1]);
         double step[2];
         if (norm <= EXACT * at->size || !solve(at->by_x, at->rest, step))
-            return norm <= ENOUGH * at->size;
+            return norm <= slack(row, at);
         balance next;
         double share = 1.0;
-        int better = 0;
-        for (int halvings = 0; halvings < HALVINGS && !better; ++halvings, share *= 0.5) {
+        int better = 0, tries = norm <= slack(row, at) ? 1 : HALVINGS;
+        for (; tries > 0 && !better; --tries, share *= 0.5) {
             const double trial[2] = {x[0] + share * step[0], x[1] + share * step[1]};
             balance_at(row, inertia, a, trial, speed, &next);
             better = hypot(next.rest[0], next.rest[1]) < norm;
         }
         if (!better)
-            return norm <= ENOUGH * at->size;
+            return norm <= slack(row, at);
         share *= 2.0;
         x[0] += share * step[0];
         x[1] += share * step[1];
@@ -197,19 +205,15 @@ static int run(const rf_ball_row *row, int inertia, const double *a, double spee
     double x[2];
     memset(ball, 0, sizeof *ball);
     memset(&at, 0, sizeof at);
-    if (!is_free(row, inertia, a, speed, x, &at)) {
+    if (is_free(row, inertia, a, speed, x, &at)) {
+        at.in.load = 0.0;
+        memset(at.inertia.moment, 0, sizeof at.inertia.moment);
+    } else {
         guess(row, a, at.inertia.force[0], x);
-        if (!find(row, inertia, a, speed, x, &at))
+        if (!find(row, inertia, a, speed, x, &at) || !(at.in.load > 0.0))
             return RF_STUCK;
-        if (at.in.load > 0.0) {
-            answer(&at, speed, ball);
-            tell(row, &at, speed, ball);
-            return RF_OK;
-        }
-        is_free(row, inertia, a, speed, x, &at);
+        answer(&at, speed, ball);
     }
-    at.in.load = 0.0;
-    memset(at.inertia.moment, 0, sizeof at.inertia.moment);
     tell(row, &at, speed, ball);
     return RF_OK;
 }
@@ -221,6 +225,9 @@ int rf_ball_at(const rf_ball_row *row, int inertia, const double *a, double spee
         stand(row, a, speed, ball);
     else
         status = run(row, inertia, a, speed, ball);
+    /* An inner contact with next to no load holds no moment: then the outer race controls. */
+    if (status == RF_STUCK && inertia == RF_BALLS_INNER_CONTROL)
+        status = run(row, RF_BALLS_OUTER_CONTROL, a, speed, ball);
     if (status == RF_OK && (ball->traction > RF_MOST_TRACTION || !(fmax(ball->load[0], ball->load[1]) <= row->largest)))
         return RF_OUTSIDE;
     return status;

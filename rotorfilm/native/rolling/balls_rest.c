@@ -6,7 +6,8 @@
 
 #define N RF_BALL_DEGREES
 #define EXACT 1e-13   /* residual over the load at which a search ends */
-#define ENOUGH 1e-9   /* that roundoff may leave */
+#define ENOUGH 1e-9   /* that may be left where it does not get smaller */
+#define ROUNDOFF 4e-16 /* of a place, over the distance of the centers of curvature */
 #define MOST_STEPS 400
 #define FIRST_SPRING 1e-2
 #define LEAST_SPRING 1e-12
@@ -57,6 +58,15 @@ static double typical(const rf_balls *balls)
     return row->count * row->inner_stiffness * sqrt(1e-3 * row->inner);
 }
 
+/* A residual that roundoff of the places leaves. */
+static double noise(const rf_balls *balls, const trial *at)
+{
+    double stiffest = 0.0;
+    for (int k = 0; k < N; ++k)
+        stiffest = fmax(stiffest, -at->by[(N + 2) * k] * pow(scale(balls, k), 2.0));
+    return ROUNDOFF * (balls->rows->inner + balls->rows->outer) * stiffest;
+}
+
 int rf_balls_rest(const rf_balls *balls, const double *load, double speed, double *motion, double *by, int32_t *steps)
 {
     const double unit = typical(balls);
@@ -67,7 +77,7 @@ int rf_balls_rest(const rf_balls *balls, const double *load, double speed, doubl
     whole = sqrt(whole);
     memcpy(now.motion, motion, sizeof now.motion);
     try_motion(balls, load, speed, &now);
-    for (*steps = 1; *steps < MOST_STEPS && now.size > EXACT * whole && share < STIFFEST; ++*steps) {
+    for (*steps = 1; *steps < MOST_STEPS && now.size > EXACT * whole + noise(balls, &now) && share < STIFFEST; ++*steps) {
         const double least = fmin(share, whole > 0.0 ? now.size / whole : 1.0);
         step(balls, &now, unit * fmax(least, LEAST_SPRING), next.motion);
         try_motion(balls, load, speed, &next);
@@ -79,5 +89,5 @@ int rf_balls_rest(const rf_balls *balls, const double *load, double speed, doubl
     }
     memcpy(motion, now.motion, sizeof now.motion);
     memcpy(by, now.by, sizeof now.by);
-    return now.size <= ENOUGH * whole ? now.status : now.status > RF_OUTSIDE ? now.status : RF_STUCK;
+    return now.size <= ENOUGH * whole + 1e3 * noise(balls, &now) ? now.status : now.status > RF_OUTSIDE ? now.status : RF_STUCK;
 }
