@@ -111,7 +111,11 @@ class BallKernel:
     def at(self, motion: Array, speed: float) -> BallsAt:
         """Return wrench, slopes and balls at a motion (5,)."""
         motion = np.ascontiguousarray(motion, dtype=float)
-        wrench, slopes, each = np.empty(DEGREES), np.empty((DEGREES, DEGREES + 1)), (BallStruct * self.count)()
+        wrench, slopes, each = (
+            np.empty(DEGREES),
+            np.empty((DEGREES, DEGREES + 1)),
+            (BallStruct * self.count)(),
+        )
         places = [one.ctypes.data for one in (wrench, slopes)]
         status = loops()["rf_balls_at"](byref(self._balls), motion.ctypes.data, speed, *places, each)
         return BallsAt(wrench, slopes, np.ctypeslib.as_array(each), status)
@@ -121,9 +125,7 @@ class BallKernel:
         load, motion = np.ascontiguousarray(load, dtype=float), np.array(start, dtype=float)
         slopes, steps = np.empty((DEGREES, DEGREES + 1)), c_int32()
         places = [one.ctypes.data for one in (motion, slopes)]
-        status = loops()["rf_balls_rest"](
-            byref(self._balls), load.ctypes.data, speed, *places, byref(steps)
-        )
+        status = loops()["rf_balls_rest"](byref(self._balls), load.ctypes.data, speed, *places, byref(steps))
         return BallsRest(motion, steps.value, status)
 
 

@@ -39,6 +39,7 @@ class BallBearing(BallElement):
     balls : int
         Number of balls.
     ball_diameter, pitch_diameter : float [m]
+        Of a ball, and of the circle on which their centers lie.
     internal_clearance : float or None [m]
         Radial internal clearance as catalogs have it (ISO 5753): the whole way of one ring across the other.
         Negative for a tight fit.
@@ -47,6 +48,7 @@ class BallBearing(BallElement):
     inner_conformity, outer_conformity : float [1]
         Radius of the groove over the diameter of the ball.
     ball_material, ring_material : RollingMaterial
+        Steel by default.
     growth : float [m]
         Radial growth of the inner ring against the outer one, by fits, heat and rotation.
     law : BallLaw
@@ -119,9 +121,10 @@ class BallBearing(BallElement):
             "contact_angle", self.contact_angle
         ) < math.radians(75.0):
             raise InputError(f"contact_angle must be 0 to 75 deg, got {self.contact_angle!r} rad")
-        if self.internal_clearance is not None and not abs(
-            require_number("internal_clearance", self.internal_clearance)
-        ) < self.groove_distance:
+        if (
+            self.internal_clearance is not None
+            and not abs(require_number("internal_clearance", self.internal_clearance)) < self.groove_distance
+        ):
             raise InputError(
                 f"internal_clearance must be below the distance of the groove centers "
                 f"{self.groove_distance:.4g} m, got {self.internal_clearance!r}"

@@ -160,9 +160,7 @@ class BallDegrees(ABC):
 
     def _loads(self, at: BallsAt) -> BallLoads:
         each, (inner, outer) = at.each, self.contacts
-        turns = [
-            row[6] + 2.0 * np.pi / row[5] * np.arange(int(row[5])) for row in self.rows
-        ]
+        turns = [row[6] + 2.0 * np.pi / row[5] * np.arange(int(row[5])) for row in self.rows]
         loads = each["load"].T
         return BallLoads(
             ball_angle=np.concatenate(turns),

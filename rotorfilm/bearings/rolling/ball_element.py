@@ -131,7 +131,12 @@ class BallElement(BallDegrees, StaticReaction):
         inertia, growth = self.running
         axial = ("axial_displacement", "m", self.axial_displacement, "place of the shaft along z")
         if self.axial_load is not None:
-            axial = ("axial_load", "N", self.axial_load, "external force on the shaft along z, which gives way")
+            axial = (
+                "axial_load",
+                "N",
+                self.axial_load,
+                "external force on the shaft along z, which gives way",
+            )
         numbers = (
             ("growth", "m", growth, "radial growth of the inner rings against the outer ones"),
             axial,
@@ -147,7 +152,9 @@ class BallElement(BallDegrees, StaticReaction):
             for name, unit, value, text in numbers
         )
         law = np.array([inertia, self.axial_load is not None], dtype=float)
-        return NativeSpec(kernel="ball_bearing", parameters=parameters, tables={"rows": self.rows, "law": law})
+        return NativeSpec(
+            kernel="ball_bearing", parameters=parameters, tables={"rows": self.rows, "law": law}
+        )
 
     def _report(self, status: int, state: tuple[float, ...]) -> None:
         """Raise, or warn, about a planar state that has this status."""

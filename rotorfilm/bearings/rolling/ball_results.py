@@ -23,6 +23,7 @@ class BallLoads(Readable):
     inner_pressure, outer_pressure : ndarray, shape (balls,) [Pa]
         Largest in the contacts.
     centrifugal_force : ndarray, shape (balls,) [N]
+        Outwards.
     gyroscopic_moment : ndarray, shape (balls,) [N m]
         Negative for positive contact angles.
     orbit_speed : ndarray, shape (balls,) [rad/s]

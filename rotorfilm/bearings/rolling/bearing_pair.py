@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from ...errors import InputError, require_kind, require_number, require_positive
+from ...inputs.kinds import arguments
 from ...inputs.si_arguments import quantities
 from ...model import Array
 from .ball_bearing import BallBearing
@@ -35,22 +36,28 @@ class BearingPair(BallElement):
         carry.
     preload : float or None [N]
         Axial force with which the pair was clamped together, at rest and without growth.
-    offset : float or None [m]
+    spacer_offset : float or None [m]
         Axial approach of each row by the clamping, in place of the preload.
-    axial_displacement, axial_load, tilt, damping
-        As of a `BallBearing`.
+    axial_displacement : float [m]
+        z of the shaft, where there is no `axial_load`.
+    axial_load : float or None [N]
+        External force on the shaft along z, to which z gives way.
+    tilt : (float, float) [rad]
+        Of the shaft about +x and +y.
+    damping : float [N s/m]
+        Viscous damping beside the balls along x and y.
 
     Raises
     ------
     InputError
-        If an argument breaks its rule, or both preload and offset are given.
+        If an argument breaks its rule, or both preload and spacer_offset are given.
     """
 
     bearing: BallBearing
     distance: float
     directions: tuple[int, int]
     preload: float | None = None
-    offset: float | None = None
+    spacer_offset: float | None = None
     axial_displacement: float = 0.0
     axial_load: float | None = None
     tilt: tuple[float, float] = (0.0, 0.0)
@@ -61,16 +68,18 @@ class BearingPair(BallElement):
         require_positive("distance", self.distance)
         if not isinstance(self.directions, tuple) or self.directions not in _DIRECTIONS:
             raise InputError(f"directions must be two of 1 and -1, got {self.directions!r}")
-        given = {name: getattr(self, name) for name in ("preload", "offset")}
+        given = {name: getattr(self, name) for name in ("preload", "spacer_offset")}
         told = {name: value for name, value in given.items() if value is not None}
         if len(told) > 1:
-            raise InputError(f"preload or offset must be given, not both, got {given}")
+            raise InputError(f"preload or spacer_offset must be given, not both, got {given}")
         if self.directions[0] == self.directions[1] and told:
-            raise InputError(f"directions of a pair with {', '.join(told)} must differ, got {self.directions!r}")
+            raise InputError(
+                f"directions of a pair with {', '.join(told)} must differ, got {self.directions!r}"
+            )
         if self.preload is not None:
             require_positive("preload", self.preload)
-        if self.offset is not None:
-            require_number("offset", self.offset)
+        if self.spacer_offset is not None:
+            require_number("spacer_offset", self.spacer_offset)
         self.require_place()
 
     @property
@@ -91,8 +100,8 @@ class BearingPair(BallElement):
     @cached_property
     def approach(self) -> float:
         """Axial approach of each row by the clamping [m]."""
-        if self.offset is not None:
-            return self.offset
+        if self.spacer_offset is not None:
+            return self.spacer_offset
         if self.preload is None:
             return 0.0
         still = replace(self.bearing, growth=0.0)
@@ -121,42 +130,53 @@ class BearingPair(BallElement):
 _DIRECTIONS = {(1, -1), (-1, 1), (1, 1), (-1, -1)}
 
 
+@arguments
 def back_to_back(
-    bearing: BallBearing, *, distance: float, preload: float | None = None, offset: float | None = None
+    bearing: BallBearing, *, distance: float, preload: float | None = None, spacer_offset: float | None = None
 ) -> BearingPair:
     """Return a pair whose lines of contact meet the shaft outside of it (O arrangement), stiff against tilting.
 
     Parameters
     ----------
-    bearing, distance, preload, offset
+    bearing : BallBearing
+    distance : float [m]
+    preload : float [N], optional
+    spacer_offset : float [m], optional
         As of a `BearingPair`.
     """
     return BearingPair(
-        bearing=bearing, distance=distance, directions=(1, -1), preload=preload, offset=offset
+        bearing=bearing, distance=distance, directions=(1, -1), preload=preload, spacer_offset=spacer_offset
     )
 
 
+@arguments
 def face_to_face(
-    bearing: BallBearing, *, distance: float, preload: float | None = None, offset: float | None = None
+    bearing: BallBearing, *, distance: float, preload: float | None = None, spacer_offset: float | None = None
 ) -> BearingPair:
     """Return a pair whose lines of contact meet the shaft towards its middle (X arrangement).
 
     Parameters
     ----------
-    bearing, distance, preload, offset
+    bearing : BallBearing
+    distance : float [m]
+    preload : float [N], optional
+    spacer_offset : float [m], optional
         As of a `BearingPair`.
     """
     return BearingPair(
-        bearing=bearing, distance=distance, directions=(-1, 1), preload=preload, offset=offset
+        bearing=bearing, distance=distance, directions=(-1, 1), preload=preload, spacer_offset=spacer_offset
     )
 
 
+@arguments
 def tandem(bearing: BallBearing, *, distance: float, axial_load: float | None = None) -> BearingPair:
     """Return a pair that shares the thrust along +z.
 
     Parameters
     ----------
-    bearing, distance, axial_load
+    bearing : BallBearing
+    distance : float [m]
+    axial_load : float [N], optional
         As of a `BearingPair`.
     """
     return BearingPair(bearing=bearing, distance=distance, directions=(1, 1), axial_load=axial_load)

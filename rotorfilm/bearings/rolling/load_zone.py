@@ -71,6 +71,7 @@ def stribeck_load(*, load: float, balls: int, contact_angle: float = 0.0) -> flo
     load : float [N]
         Radial.
     balls : int
+        Number of balls.
     contact_angle : float [rad]
 
     Raises
@@ -84,9 +85,7 @@ def stribeck_load(*, load: float, balls: int, contact_angle: float = 0.0) -> flo
 
 
 @arguments
-def palmgren_stiffness(
-    *, load: float, balls: int, ball_diameter: float, contact_angle: float = 0.0
-) -> float:
+def palmgren_stiffness(*, load: float, balls: int, ball_diameter: float, contact_angle: float = 0.0) -> float:
     """Return the stiffness along a radial load [N/m], 13e6 Z^(2/3) D^(1/3) W^(1/3) cos(alpha)^(5/3) in SI.
 
     After Palmgren, for steel and no clearance; across the load it is 2/3 of this, on the average over the angle
@@ -97,6 +96,7 @@ def palmgren_stiffness(
     load : float [N]
         Radial.
     balls : int
+        Number of balls.
     ball_diameter : float [m]
     contact_angle : float [rad]
 

@@ -201,8 +201,12 @@ def test_batches_and_damping():
 def test_a_free_shaft_feels_nothing():
     assert not DEEP.wrench(np.zeros(5)).any()
     assert not DEEP.force([2e-6, -1e-6], [0.0, 0.0], 10.0).any()
-    with pytest.raises(ConvergenceError, match=r"axial_load must be one that the balls can carry, got 5\.0 N"):
-        replace(DEEP, balls=3, pitch_diameter=400e-3, axial_load=5.0, growth=-1e-3).force([0.0, 0.0], [0.0, 0.0])
+    with pytest.raises(
+        ConvergenceError, match=r"axial_load must be one that the balls can carry, got 5\.0 N"
+    ):
+        replace(DEEP, balls=3, pitch_diameter=400e-3, axial_load=5.0, growth=-1e-3).force(
+            [0.0, 0.0], [0.0, 0.0]
+        )
 
 
 @pytest.mark.closed_form

@@ -43,7 +43,7 @@ def test_preload_is_the_thrust_of_each_row():
     assert thrust(ONE, pair.approach) == pytest.approx(PRELOAD, rel=1e-12)
     assert pair.running_preload() == pytest.approx(PRELOAD, rel=1e-12)
     assert pair.wrench(np.zeros(5)) == pytest.approx(np.zeros(5), abs=1e-9)
-    same = back_to_back(ONE, distance=0.02, offset=pair.approach)
+    same = back_to_back(ONE, distance=0.02, spacer_offset=pair.approach)
     assert np.array_equal(same.rows, pair.rows)
 
 
@@ -84,10 +84,9 @@ def test_lines_of_contact_make_back_to_back_stiff_against_tilting():
     )
     assert back[:3, :3] == pytest.approx(face[:3, :3], rel=1e-10, abs=1.0)
     running = back_to_back(ONE, distance=distance, preload=PRELOAD).loads(np.zeros(5)).inner_angle[0]
-    reach = ONE.rows[0, 4] * math.tan(running)
-    # The rows push along lines of contact, which meet the shaft at these arms.
-    arms = 0.5 * distance + reach, 0.5 * distance - reach
-    assert back[3, 3] / face[3, 3] == pytest.approx((arms[0] / arms[1]) ** 2, rel=0.05)
+    # The rows push along lines of contact, which meet the shaft at this distance from the middle.
+    arm = 0.5 * distance + ONE.rows[0, 4] * math.tan(running)
+    assert back[3, 3] / back[1, 1] == pytest.approx(arm**2, rel=0.02)
     assert back[3, 3] > 5.0 * face[3, 3]
 
 
@@ -129,8 +128,10 @@ def test_a_pair_is_a_reaction_of_a_station():
 
 
 def test_errors_name_argument_rule_and_value():
-    with pytest.raises(InputError, match=r"preload or offset must be given, not both, got \{'preload': 5\.0"):
-        back_to_back(ONE, distance=0.02, preload=5.0, offset=1e-6)
+    with pytest.raises(
+        InputError, match=r"preload or spacer_offset must be given, not both, got \{'preload': 5\.0"
+    ):
+        back_to_back(ONE, distance=0.02, preload=5.0, spacer_offset=1e-6)
     with pytest.raises(InputError, match="directions of a pair with preload must differ"):
         BearingPair(bearing=ONE, distance=0.02, directions=(1, 1), preload=5.0)
     with pytest.raises(InputError, match=r"directions must be two of 1 and -1, got \(1, 2\)"):
@@ -140,4 +141,4 @@ def test_errors_name_argument_rule_and_value():
     with pytest.raises(InputError, match=r"axial_load must press the balls .* got -6\.0"):
         tandem(ONE, distance=0.02, axial_load=-6.0)
     with pytest.raises(InputError, match="the preload must press the balls to 4.2e"):
-        _ = back_to_back(ONE, distance=0.02, offset=1e-3).clearance
+        _ = back_to_back(ONE, distance=0.02, spacer_offset=1e-3).clearance

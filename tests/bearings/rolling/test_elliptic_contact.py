@@ -165,7 +165,9 @@ def test_contacts_stiffen_as_the_groove_closes():
 
 
 def test_wrong_arguments_are_named():
-    with pytest.raises(InputError, match=r"rolling_radius must not be above groove_radius 0\.001, got 0\.002"):
+    with pytest.raises(
+        InputError, match=r"rolling_radius must not be above groove_radius 0\.001, got 0\.002"
+    ):
         EllipticContact(rolling_radius=2e-3, groove_radius=1e-3, combined_modulus=1e11)
     with pytest.raises(InputError, match=r"ellipticity must be at least 1, got 0\.5"):
         elliptic_integrals(0.5)

@@ -102,9 +102,7 @@ def test_orbit_and_gyroscopic_moment_follow_from_rolling(outer):
     bearing, speed = replace(ANGULAR, law=RunningBalls(outer_control=outer)), 2000.0
     balls = bearing.rest(LOADS[0], speed).balls
     for k in range(bearing.balls):
-        orbit, spin = orbit_and_spin(
-            bearing, balls.inner_angle[k], balls.outer_angle[k], speed, outer=outer
-        )
+        orbit, spin = orbit_and_spin(bearing, balls.inner_angle[k], balls.outer_angle[k], speed, outer=outer)
         J = 0.1 * bearing.ball_mass * bearing.ball_diameter**2
         assert balls.orbit_speed[k] == pytest.approx(orbit, rel=1e-12)
         assert balls.gyroscopic_moment[k] == pytest.approx(-J * orbit * spin, rel=1e-10)
@@ -200,9 +198,7 @@ def test_sliding_and_overload_are_told():
 
 def test_ceramic_balls_press_less_on_the_outer_race():
     hybrid = replace(ANGULAR, ball_material=RollingMaterial.silicon_nitride())
-    steel, ceramic = (
-        b.rest((0.0, 0.0, 500.0, 0.0, 0.0), 20_000.0 * RPM).balls for b in (ANGULAR, hybrid)
-    )
+    steel, ceramic = (b.rest((0.0, 0.0, 500.0, 0.0, 0.0), 20_000.0 * RPM).balls for b in (ANGULAR, hybrid))
     assert ceramic.centrifugal_force[0] == pytest.approx(
         steel.centrifugal_force[0] * 3200.0 / 7800.0, rel=0.05
     )
