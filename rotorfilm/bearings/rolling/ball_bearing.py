@@ -31,8 +31,8 @@ class BallBearing(BallElement):
 
     Give the radial internal clearance of a deep groove bearing, whose rings face each other at z = 0, or the
     contact angle of an angular contact bearing, whose balls just touch at z = 0 and which carries thrust
-    along +z. Under a rotor the shaft moves along x and y; z and the tilts are held, or z gives way to an axial
-    load. `wrench`, `stiffness` and `rest` know all five degrees of freedom.
+    along +z. Under a rotor the shaft moves along x and y; the tilts are held, and z is held or gives way to an
+    axial load. `wrench`, `stiffness` and `rest` know all five degrees of freedom.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ class BallBearing(BallElement):
     Examples
     --------
     >>> bearing = BallBearing(
-    ...     balls=9, ball_diameter=9.525e-3, pitch_diameter=46e-3, internal_clearance=10e-6, inner_conformity=0.515
+    ...     balls=9, ball_diameter=9.525e-3, pitch_diameter=46e-3, internal_clearance=10e-6
     ... )
     >>> bearing.force(position=[0.0, -12e-6], velocity=[0.0, 0.0], speed=300.0).shape
     (2,)

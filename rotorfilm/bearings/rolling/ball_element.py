@@ -40,7 +40,7 @@ class BallElement(BallDegrees, StaticReaction):
         return BallKernel(self.rows, *self.running, place, self.axial_load, self.damping)
 
     def axial_place(self, position: ArrayLike = (0.0, 0.0), speed: float = 0.0) -> float:
-        """Return z of the shaft [m] at a position (2,) [m]: as given, or as it follows from the axial load."""
+        """Return z of the shaft [m] at a position (2,) [m]: given, or as it follows from the axial load."""
         x, y = require_finite("position", position).tolist()
         z, status = self.kernel.axial_place(x, y, 0.0, 0.0, require_number("speed", speed))
         if status > Status.OUTSIDE:
@@ -127,7 +127,7 @@ class BallElement(BallDegrees, StaticReaction):
         return np.array([tangent(*column)[2] for column in columns]).T.reshape(2, 5, *states.shape[1:])
 
     def native(self) -> NativeSpec:
-        """Return the kernel `ball_bearing`; growth, axial and angular place and damping are its parameters."""
+        """Return the kernel `ball_bearing`; growth, axial and angular place, damping are parameters."""
         inertia, growth = self.running
         axial = ("axial_displacement", "m", self.axial_displacement, "place of the shaft along z")
         if self.axial_load is not None:

@@ -17,7 +17,7 @@ class BallLaw(Protocol):
 
 @dataclass(frozen=True, kw_only=True)
 class StaticBalls:
-    """Balls without inertia: Hertz's contacts in line. Their force has a potential, the stiffness is symmetric.
+    """Balls without inertia: Hertz's contacts in line. Their force has a potential.
 
     For low speeds; the force does not depend on the speed.
     """

@@ -17,7 +17,7 @@ class BallLoads(Readable):
     ball_angle : ndarray, shape (balls,) [rad]
         Where the ball is, from +x towards +y.
     inner_load, outer_load : ndarray, shape (balls,) [N]
-        Of the contacts. A ball with the inner load 0 does not carry; its inertia presses it on the outer race.
+        Of the contacts. A ball with the inner load 0 does not carry; inertia presses it on the outer race.
     inner_angle, outer_angle : ndarray, shape (balls,) [rad]
         Contact angles; the inner one of a ball that does not touch is where it would.
     inner_pressure, outer_pressure : ndarray, shape (balls,) [Pa]

@@ -21,8 +21,8 @@ from .elliptic_contact import EllipticContact
 class BearingPair(BallElement):
     """Two equal ball bearings on one shaft, preloaded against each other or in line: a Reaction as one is.
 
-    `back_to_back`, `face_to_face` and `tandem` make the usual three. Displacements and moments are those of the
-    shaft half-way between the rows. What the clamping has brought together stays so, and the preload changes
+    `back_to_back`, `face_to_face` and `tandem` make the usual three. Displacements and moments are those of
+    the shaft half-way between the rows. What the clamping has brought together stays so, and the preload changes
     with speed and growth: `running_preload` tells it.
 
     Parameters
@@ -134,7 +134,7 @@ _DIRECTIONS = {(1, -1), (-1, 1), (1, 1), (-1, -1)}
 def back_to_back(
     bearing: BallBearing, *, distance: float, preload: float | None = None, spacer_offset: float | None = None
 ) -> BearingPair:
-    """Return a pair whose lines of contact meet the shaft outside of it (O arrangement), stiff against tilting.
+    """Return a pair whose lines of contact meet the shaft outside of it (O arrangement); stiff against tilts.
 
     Parameters
     ----------

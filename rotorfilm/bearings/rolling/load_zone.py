@@ -1,4 +1,4 @@
-"""How the balls share a load: integrals over the loaded zone, and the closed forms of Stribeck and Palmgren."""
+"""How the balls share a load: integrals over the loaded zone, closed forms of Stribeck and Palmgren."""
 
 from __future__ import annotations
 
@@ -88,8 +88,8 @@ def stribeck_load(*, load: float, balls: int, contact_angle: float = 0.0) -> flo
 def palmgren_stiffness(*, load: float, balls: int, ball_diameter: float, contact_angle: float = 0.0) -> float:
     """Return the stiffness along a radial load [N/m], 13e6 Z^(2/3) D^(1/3) W^(1/3) cos(alpha)^(5/3) in SI.
 
-    After Palmgren, for steel and no clearance; across the load it is 2/3 of this, on the average over the angle
-    of the cage.
+    After Palmgren, for steel and no clearance; across the load it is 2/3 of this, on the average over the
+    angle of the cage.
 
     Parameters
     ----------
