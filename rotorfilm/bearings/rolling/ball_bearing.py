@@ -31,8 +31,8 @@ class BallBearing(BallElement):
 
     Give the radial internal clearance of a deep groove bearing, whose rings face each other at z = 0, or the
     contact angle of an angular contact bearing, whose balls just touch at z = 0 and which carries thrust
-    along +z. Under a rotor the shaft moves along x and y; the tilts are held, and z is held or gives way to an
-    axial load. `wrench`, `stiffness` and `rest` know all five degrees of freedom.
+    along +z. Under a rotor the shaft moves along x and y; the tilts are held, and z is held or gives way to
+    an axial load. `wrench`, `stiffness` and `rest` know all five degrees of freedom.
 
     Parameters
     ----------

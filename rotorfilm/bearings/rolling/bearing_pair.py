@@ -22,8 +22,8 @@ class BearingPair(BallElement):
     """Two equal ball bearings on one shaft, preloaded against each other or in line: a Reaction as one is.
 
     `back_to_back`, `face_to_face` and `tandem` make the usual three. Displacements and moments are those of
-    the shaft half-way between the rows. What the clamping has brought together stays so, and the preload changes
-    with speed and growth: `running_preload` tells it.
+    the shaft half-way between the rows. What the clamping has brought together stays so, and the preload
+    changes with speed and growth: `running_preload` tells it.
 
     Parameters
     ----------

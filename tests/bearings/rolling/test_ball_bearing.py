@@ -184,7 +184,7 @@ def test_a_shaft_under_thrust_gives_way_along_its_axis(speed):
     assert slopes[:, :2] == pytest.approx(condensed[:, :2], rel=1e-9)
     assert slopes[:, 4] == pytest.approx(condensed[:, 5], rel=1e-9, abs=1e-12)
     step = 1e-9
-    moved = [held.force([*position, h, 0.0], [0.0, 0.0], speed) for h in (step, -step)]
+    moved = [held.force(position + np.array([h, 0.0]), [0.0, 0.0], speed) for h in (step, -step)]
     assert (moved[0] - moved[1]) / (2.0 * step) == pytest.approx(slopes[:, 0], rel=1e-6)
 
 
