@@ -12,6 +12,7 @@ from ...errors import (
     InputError,
     require_count,
     require_each,
+    require_finite,
     require_kind,
     require_number,
     require_positive,
@@ -51,6 +52,8 @@ class BallBearing(BallElement):
         Steel by default.
     growth : float [m]
         Radial growth of the inner ring against the outer one, by fits, heat and rotation.
+    films : (float, float) [m]
+        Oil films of the inner and the outer contact, as of `ball_films`: the contacts carry K (d + film)^1.5.
     law : BallLaw
         Whether balls have inertia: `RunningBalls()` or, for low speeds, `StaticBalls()`.
     axial_displacement : float [m]
@@ -88,6 +91,7 @@ class BallBearing(BallElement):
     ball_material: RollingMaterial = field(default_factory=RollingMaterial.steel)
     ring_material: RollingMaterial = field(default_factory=RollingMaterial.steel)
     growth: float = 0.0
+    films: tuple[float, float] = (0.0, 0.0)
     law: BallLaw = field(default_factory=RunningBalls)
     axial_displacement: float = 0.0
     axial_load: float | None = None
@@ -110,8 +114,16 @@ class BallBearing(BallElement):
         for name in ("ball_material", "ring_material"):
             require_kind(name, getattr(self, name), RollingMaterial, "a RollingMaterial")
         require_kind("law", self.law, BallLaw, "RunningBalls() or StaticBalls()")
+        self._require_films()
         self._require_one_of_both()
         self.require_place()
+
+    def _require_films(self) -> None:
+        films = require_finite("films", self.films)
+        if films.shape != (2,) or not (np.all(films >= 0.0) and np.all(films < 0.5 * self.groove_distance)):
+            raise InputError(
+                f"films must be two thicknesses far below the distance of groove centers, got {self.films!r}"
+            )
 
     def _require_one_of_both(self) -> None:
         given = {"internal_clearance": self.internal_clearance, "contact_angle": self.contact_angle}
@@ -193,8 +205,8 @@ class BallBearing(BallElement):
             "arm": 0.5 * self.pitch_diameter + reach * math.cos(angle),
             "count": self.balls,
             "turn": self.cage_angle,
-            "inner": reach,
-            "outer": (self.outer_conformity - 0.5) * self.ball_diameter,
+            "inner": reach - self.films[0],
+            "outer": (self.outer_conformity - 0.5) * self.ball_diameter - self.films[1],
             "inner_stiffness": inner.stiffness,
             "outer_stiffness": outer.stiffness,
             "ratio": self.ball_diameter / self.pitch_diameter,

@@ -35,7 +35,7 @@ class BearingPair(BallElement):
         1 or -1: along z, of the thrust on the shaft that the first row, at -distance/2, and the second one
         carry.
     preload : float or None [N]
-        Axial force with which the pair was clamped together, at rest and without growth.
+        Axial force with which the pair was clamped together, at rest, dry and without growth.
     spacer_offset : float or None [m]
         Axial approach of each row by the clamping, in place of the preload.
     axial_displacement : float [m]
@@ -104,7 +104,7 @@ class BearingPair(BallElement):
             return self.spacer_offset
         if self.preload is None:
             return 0.0
-        still = replace(self.bearing, growth=0.0)
+        still = replace(self.bearing, growth=0.0, films=(0.0, 0.0))
         return float(still.rest((0.0, 0.0, self.preload, 0.0, 0.0)).displacement[2])
 
     @property
