@@ -9,7 +9,8 @@ TASKS = {
     "Journal bearings and their films": ("bearings.journal", "bearings.films", "bearings.oil"),
     "Bearings made of pads": ("bearings.pads",),
     "Squeeze-film dampers": ("bearings.damper",),
-    "Rolling contacts and ball bearings": ("bearings.contact",),
+    "Ball bearings": ("bearings.rolling",),
+    "Lubricated rolling contacts": ("bearings.contact",),
     "Bushes that wear": ("bearings.bush",),
     "Springs, tables, bearings of your own": (
         "bearings.linear",

@@ -53,7 +53,7 @@ FURTHER = [home.split(".")[1] for home in REGISTERED.values() if home.startswith
 """Families that have only the one folder."""
 
 PARTS = {
-    "bearings": [["films"], ["oil"], ["journal"], ["damper", "contact", "bush", "pads"]],
+    "bearings": [["films"], ["oil"], ["journal"], ["damper", "contact", "bush", "pads", "rolling"]],
     "bearings/films": [["ring"]],
     "bearings/journal": [["rupture"], ["map", "splitting"], ["grooves"], ["heat"]],
     "bearings/journal/heat": [["field"]],
@@ -75,7 +75,7 @@ PARTS = {
 }
 """The same among the folders of a part."""
 
-FAMILIES = {"journal", "damper", "contact", "bush", "pads"}
+FAMILIES = {"journal", "damper", "contact", "bush", "pads", "rolling"}
 BETWEEN_FAMILIES = {
     # The film of a damper over a map is the film of a journal that does not turn.
     ("damper", "journal"),

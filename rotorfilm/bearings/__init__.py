@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from .oil import Cooling as Cooling, Oil as Oil
     from .own_reaction import OwnReaction as OwnReaction, as_reaction as as_reaction
     from .pads import *
+    from .rolling import *
     from .sprung import Sprung as Sprung
     from .tabulated import TabulatedBearing as TabulatedBearing
 else:

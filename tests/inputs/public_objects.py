@@ -36,6 +36,19 @@ BALL = rf.RollingBall(
 LOBED = rf.LobedBearing(
     radius=0.05, length=0.03, pad_clearance=1e-4, viscosity=0.1, lobes=rf.lobe_set("elliptical")
 )
+DEEP_GROOVE = rf.BallBearing(
+    balls=8,
+    ball_diameter=8e-3,
+    pitch_diameter=0.034,
+    internal_clearance=1e-5,
+    growth=1e-6,
+    axial_displacement=2e-6,
+    axial_load=100.0,
+    tilt=(1e-5, 2e-5),
+    cage_angle=0.1,
+    damping=10.0,
+)
+ANGULAR_CONTACT = rf.BallBearing(balls=8, ball_diameter=8e-3, pitch_diameter=0.034, contact_angle=0.4)
 DAM_PADS = rf.pressure_dam_pads(depth=6e-5, end=2.5, share=0.75, preload=0.2)
 MADE = [
     BEARING,
@@ -108,6 +121,21 @@ MADE = [
     SHAFT,
     rf.ReducedRotor(rotor=SHAFT, modes=2, speed=100.0, gravity=SHAFT.gravity),
     rf.OperatingPoint(t=1.0, x=(), u=(0.0,) * 5),
+    rf.RollingMaterial.steel(),
+    rf.EllipticContact(rolling_radius=3e-3, groove_radius=0.05, combined_modulus=2.2e11),
+    DEEP_GROOVE,
+    ANGULAR_CONTACT,
+    rf.back_to_back(ANGULAR_CONTACT, distance=0.02, preload=100.0),
+    rf.BearingPair(
+        bearing=ANGULAR_CONTACT,
+        distance=0.02,
+        directions=(-1, 1),
+        spacer_offset=1e-6,
+        axial_displacement=1e-7,
+        axial_load=50.0,
+        tilt=(1e-5, 2e-5),
+        damping=10.0,
+    ),
     rf.Oil.iso_vg(46),
     rf.Cooling(supply_temperature=310.0, housing_conductance=3.0),
     rf.BushRing(outer_radius=0.1),

@@ -19,8 +19,8 @@ from .public_objects import BALL, BEARING, MADE
 DAMPER = next(one for one in MADE if isinstance(one, rf.PorousDamper))
 
 RESULTS = {
-    "BasinScan", "Campbell", "CircularOrbit", "CoSimulation", "Coefficients", "CouplingReport",
-    "CriticalMass", "CriticalSpeed", "Equilibrium", "HeatedState", "HopfPoint",
+    "BallLoads", "BallRest", "BasinScan", "Campbell", "CircularOrbit", "CoSimulation", "Coefficients",
+    "CouplingReport", "CriticalMass", "CriticalSpeed", "Equilibrium", "HeatedState", "HopfPoint",
     "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients", "Reduction", "RotorEquilibrium",
     "RotorModes", "RotorThreshold", "StabilityChange", "TiltedPads", "Trajectory", "WhirlThreshold",
 }  # fmt: skip

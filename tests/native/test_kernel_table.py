@@ -159,7 +159,7 @@ def test_every_kernel_documents_itself(kernel):
 
 
 def test_what_is_not_there_is_named(monkeypatch):
-    with pytest.raises(InputError, match=r"kernel must be one of \['bush_reaction'.*got 'toy'"):
+    with pytest.raises(InputError, match=r"kernel must be one of \['ball_bearing'.*got 'toy'"):
         kernel_table.kernel_row("toy")
     part = "/* Documentation of the FMU\n\n   Model: a. */"
     monkeypatch.setattr(kernel_table, "_source", lambda name: part)

@@ -26,7 +26,9 @@ class BallSupport(Called):
     The ball at the angle theta is approached by z = gap - n . q, n = (cos theta, sin theta), q the position
     of the journal, and pushes it with -n F(z), F being the law. The balls roll in fixed places, as in a
     bearing whose cage stands still or turns slowly; what presses them from behind is rigid. Each law holds
-    for one rolling speed: the angular speed of the journal does not enter.
+    for one rolling speed: the angular speed of the journal does not enter. Take it where the dynamics of the
+    lubricated contact is the question; a bearing from a catalog, with grooves, contact angle, thrust or fast
+    balls, is a `BallBearing`.
 
     Parameters
     ----------

@@ -5,36 +5,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from ..hamrock_dowson import HamrockDowson
+
 UNLOADED_FILM = 1.8
 """Largest central film / (R sqrt(2 U)) of an elastic contact of constant viscosity, as its load vanishes."""
-
-
-class HamrockDowson(NamedTuple):
-    """The parameters of Hamrock and Dowson (1977) [1].
-
-    Attributes
-    ----------
-    U : float
-        Speed: mu0 (u1 + u2)/(2 E' R).
-    G : float
-        Material: pressure-viscosity coefficient times E'.
-    W : float
-        Load: P/(E' R^2).
-    """
-
-    U: float
-    G: float
-    W: float
-
-    @property
-    def central_film(self) -> float:
-        """Central film thickness / R of a circular contact."""
-        return 2.69 * self.U**0.67 * self.G**0.53 * self.W**-0.067 * (1.0 - 0.61 * math.exp(-0.73))
-
-    @property
-    def minimum_film(self) -> float:
-        """Smallest film thickness / R of a circular contact."""
-        return 3.63 * self.U**0.68 * self.G**0.49 * self.W**-0.073 * (1.0 - math.exp(-0.68))
 
 
 class Moes(NamedTuple):

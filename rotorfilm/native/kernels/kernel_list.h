@@ -19,6 +19,7 @@
    documentation of its FMUs; libraries that have it, of which its FMUs carry the first that has the kernels of
    its parts too; their picture, drawn by tools/draw_icons.py. */
 #ifdef RF_KERNEL
+RF_KERNEL(ball_bearing, RF_ROTORFILM_STATES, contact)
 RF_KERNEL(bush_reaction, RF_ROTORFILM_BUSHES, worn_bush)
 RF_KERNEL(bush_wear, RF_ROTORFILM_BUSHES, bush)
 RF_KERNEL(contact, RF_ROTORFILM_STATES, contact)

@@ -1,0 +1,26 @@
+"""Ball bearings by their dimensions: contacts, loads of the balls, stiffness in five degrees of freedom."""
+
+from typing import TYPE_CHECKING
+
+from ...sources import show
+
+if TYPE_CHECKING:
+    from .ball_bearing import BallBearing as BallBearing
+    from .ball_films import ball_films as ball_films
+    from .ball_law import BallLaw, RunningBalls as RunningBalls, StaticBalls as StaticBalls
+    from .ball_results import BallLoads as BallLoads, BallRest as BallRest
+    from .bearing_pair import (
+        BearingPair as BearingPair,
+        back_to_back as back_to_back,
+        face_to_face as face_to_face,
+        tandem as tandem,
+    )
+    from .elliptic_contact import EllipticContact as EllipticContact, elliptic_integrals
+    from .load_zone import (
+        load_integrals as load_integrals,
+        palmgren_stiffness as palmgren_stiffness,
+        stribeck_load as stribeck_load,
+    )
+    from .rolling_material import RollingMaterial as RollingMaterial
+else:
+    show(__name__)

@@ -1,0 +1,217 @@
+"""A ball bearing by its dimensions, deep groove or angular contact, in SI units."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from ...errors import (
+    InputError,
+    require_count,
+    require_each,
+    require_finite,
+    require_kind,
+    require_number,
+    require_positive,
+)
+from ...inputs.si_arguments import quantities
+from ...model import Array
+from .ball_element import BallElement
+from .ball_law import BallLaw, RunningBalls
+from .elliptic_contact import EllipticContact
+from .rolling_material import RollingMaterial
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class BallBearing(BallElement):
+    """A deep groove or angular contact ball bearing, its outer ring fixed: a Reaction and a static Model.
+
+    Give the radial internal clearance of a deep groove bearing, whose rings face each other at z = 0, or the
+    contact angle of an angular contact bearing, whose balls just touch at z = 0 and which carries thrust
+    along +z. Under a rotor the shaft moves along x and y; the tilts are held, and z is held or gives way to
+    an axial load. `wrench`, `stiffness` and `rest` know all five degrees of freedom.
+
+    Parameters
+    ----------
+    balls : int
+        Number of balls.
+    ball_diameter, pitch_diameter : float [m]
+        Of a ball, and of the circle on which their centers lie.
+    internal_clearance : float or None [m]
+        Radial internal clearance as catalogs have it (ISO 5753): the whole way of one ring across the other.
+        Negative for a tight fit.
+    contact_angle : float or None [rad]
+        Of the unloaded balls, in place of the clearance.
+    inner_conformity, outer_conformity : float [1]
+        Radius of the groove over the diameter of the ball.
+    ball_material, ring_material : RollingMaterial
+        Steel by default.
+    growth : float [m]
+        Radial growth of the inner ring against the outer one, by fits, heat and rotation.
+    films : (float, float) [m]
+        Oil films of the inner and the outer contact, as of `ball_films`: the contacts carry K (d + film)^1.5.
+    law : BallLaw
+        Whether balls have inertia: `RunningBalls()` or, for low speeds, `StaticBalls()`.
+    axial_displacement : float [m]
+        z of the shaft, where there is no `axial_load`.
+    axial_load : float or None [N]
+        External force on the shaft along z, to which z gives way.
+    tilt : (float, float) [rad]
+        Of the shaft about +x and +y.
+    cage_angle : float [rad]
+        Where the first ball is, from +x towards +y.
+    damping : float [N s/m]
+        Viscous damping beside the balls along x and y, as measured or assumed; dry contacts have none.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
+
+    Examples
+    --------
+    >>> bearing = BallBearing(
+    ...     balls=9, ball_diameter=9.525e-3, pitch_diameter=46e-3, internal_clearance=10e-6
+    ... )
+    >>> bearing.force(position=[0.0, -12e-6], velocity=[0.0, 0.0], speed=300.0).shape
+    (2,)
+    """
+
+    balls: int
+    ball_diameter: float
+    pitch_diameter: float
+    internal_clearance: float | None = None
+    contact_angle: float | None = None
+    inner_conformity: float = 0.52
+    outer_conformity: float = 0.52
+    ball_material: RollingMaterial = field(default_factory=RollingMaterial.steel)
+    ring_material: RollingMaterial = field(default_factory=RollingMaterial.steel)
+    growth: float = 0.0
+    films: tuple[float, float] = (0.0, 0.0)
+    law: BallLaw = field(default_factory=RunningBalls)
+    axial_displacement: float = 0.0
+    axial_load: float | None = None
+    tilt: tuple[float, float] = (0.0, 0.0)
+    cage_angle: float = 0.0
+    damping: float = 0.0
+
+    def __post_init__(self) -> None:
+        require_count("balls", self.balls, 3)
+        require_each(self, require_positive, "ball_diameter", "pitch_diameter")
+        require_each(self, require_number, "growth", "cage_angle")
+        if self.balls * self.ball_diameter > math.pi * self.pitch_diameter:
+            raise InputError(
+                f"balls must find room on the pitch circle, {math.pi * self.pitch_diameter:.4g} m, "
+                f"got {self.balls} of {self.ball_diameter!r} m"
+            )
+        for name in ("inner_conformity", "outer_conformity"):
+            if not 0.5 < require_number(name, getattr(self, name)) < 0.75:
+                raise InputError(f"{name} must be above 0.5 and below 0.75, got {getattr(self, name)!r}")
+        for name in ("ball_material", "ring_material"):
+            require_kind(name, getattr(self, name), RollingMaterial, "a RollingMaterial")
+        require_kind("law", self.law, BallLaw, "RunningBalls() or StaticBalls()")
+        self._require_films()
+        self._require_one_of_both()
+        self.require_place()
+
+    def _require_films(self) -> None:
+        films = require_finite("films", self.films)
+        if films.shape != (2,) or not (np.all(films >= 0.0) and np.all(films < 0.5 * self.groove_distance)):
+            raise InputError(
+                f"films must be two thicknesses far below the distance of groove centers, got {self.films!r}"
+            )
+
+    def _require_one_of_both(self) -> None:
+        given = {"internal_clearance": self.internal_clearance, "contact_angle": self.contact_angle}
+        if sum(value is not None for value in given.values()) != 1:
+            raise InputError(f"internal_clearance or contact_angle must be given, one of both, got {given}")
+        if self.contact_angle is not None and not 0.0 <= require_number(
+            "contact_angle", self.contact_angle
+        ) < math.radians(75.0):
+            raise InputError(f"contact_angle must be 0 to 75 deg, got {self.contact_angle!r} rad")
+        if (
+            self.internal_clearance is not None
+            and not abs(require_number("internal_clearance", self.internal_clearance)) < self.groove_distance
+        ):
+            raise InputError(
+                f"internal_clearance must be below the distance of the groove centers "
+                f"{self.groove_distance:.4g} m, got {self.internal_clearance!r}"
+            )
+
+    @property
+    def running(self) -> tuple[int, float]:
+        """Inertia of the balls, of the law, and growth of the inner ring [m]."""
+        return self.law.inertia, self.growth
+
+    @property
+    def separates(self) -> bool:
+        """Whether this is an angular contact bearing, whose rings come apart under a thrust along -z."""
+        return bool(self.contact_angle)
+
+    @property
+    def groove_distance(self) -> float:
+        """A [m], distance of the centers of curvature of both grooves at first touch."""
+        return (self.inner_conformity + self.outer_conformity - 1.0) * self.ball_diameter
+
+    @property
+    def free_contact_angle(self) -> float:
+        """Contact angle [rad] of the unloaded balls under thrust; 0 without clearance."""
+        if self.contact_angle is not None:
+            return self.contact_angle
+        assert self.internal_clearance is not None  # one of both is given
+        return math.acos(min(1.0, 1.0 - self.internal_clearance / (2.0 * self.groove_distance)))
+
+    @cached_property
+    def contacts(self) -> tuple[EllipticContact, EllipticContact]:
+        """Inner and outer contact of a ball, at the free contact angle."""
+        cosine = math.cos(self.free_contact_angle)
+        compliance = self.ball_material.compliance + self.ring_material.compliance
+        found = []
+        for side, conformity in ((1.0, self.inner_conformity), (-1.0, self.outer_conformity)):
+            race = 2.0 * cosine / (self.pitch_diameter - side * self.ball_diameter * cosine)
+            groove = (2.0 - 1.0 / conformity) / self.ball_diameter
+            found.append(
+                EllipticContact(
+                    rolling_radius=1.0 / (2.0 / self.ball_diameter + side * race),
+                    groove_radius=1.0 / groove,
+                    combined_modulus=2.0 / compliance,
+                )
+            )
+        return found[0], found[1]
+
+    @property
+    def ball_mass(self) -> float:
+        """Mass of a ball [kg]."""
+        return self.ball_material.density * math.pi / 6.0 * self.ball_diameter**3
+
+    @property
+    def rows(self) -> Array:
+        """The row of balls as the compiled kernel reads it, shape (1, columns)."""
+        angle, distance = self.free_contact_angle, self.groove_distance
+        radial = distance * math.cos(angle)
+        if self.internal_clearance is not None:
+            radial = distance - 0.5 * self.internal_clearance
+        reach = (self.inner_conformity - 0.5) * self.ball_diameter
+        inner, outer = self.contacts
+        row = {
+            "place": 0.0,
+            "direction": 1.0,
+            "axial": distance * math.sin(angle) if self.separates else 0.0,
+            "radial": radial,
+            "arm": 0.5 * self.pitch_diameter + reach * math.cos(angle),
+            "count": self.balls,
+            "turn": self.cage_angle,
+            "inner": reach - self.films[0],
+            "outer": (self.outer_conformity - 0.5) * self.ball_diameter - self.films[1],
+            "inner_stiffness": inner.stiffness,
+            "outer_stiffness": outer.stiffness,
+            "ratio": self.ball_diameter / self.pitch_diameter,
+            "diameter": self.ball_diameter,
+            "mass": self.ball_mass,
+            "largest": self.largest_load,
+        }
+        return np.array([list(row.values())])

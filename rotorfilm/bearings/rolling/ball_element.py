@@ -1,0 +1,171 @@
+"""What ball bearings and sets of them share: five degrees of freedom, and the planar reaction of a rotor."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...errors import ConvergenceError, InputError, require_finite, require_non_negative, require_number
+from ...model import Array, Force, Tangent
+from ...native import NativeParameter, NativeSpec, Status
+from ...native.ball_kernel import DEGREES, BallKernel
+from ...native.layouts.ball_structs import ROW
+from ..reaction import StaticReaction
+from .ball_degrees import MOST_PRESSURE, BallDegrees
+
+
+class BallElement(BallDegrees, StaticReaction):
+    """Rows of balls on one shaft: a Reaction for planar rotors, and force and moment in five degrees.
+
+    Its fields say how the shaft stands otherwise, and what damps it.
+    """
+
+    axial_displacement: float
+    axial_load: float | None
+    tilt: tuple[float, float]
+    damping: float
+
+    @property
+    @abstractmethod
+    def running(self) -> tuple[int, float]:
+        """Inertia of the balls, of `BallLaw`, and growth of the inner rings [m]."""
+
+    @cached_property
+    def kernel(self) -> BallKernel:
+        """The bearing in compiled code."""
+        place = (self.axial_displacement, *self.tilt)
+        return BallKernel(self.rows, *self.running, place, self.axial_load, self.damping)
+
+    def axial_place(self, position: ArrayLike = (0.0, 0.0), speed: float = 0.0) -> float:
+        """Return z of the shaft [m] at a position (2,) [m]: given, or as it follows from the axial load."""
+        x, y = require_finite("position", position).tolist()
+        z, status = self.kernel.axial_place(x, y, 0.0, 0.0, require_number("speed", speed))
+        if status > Status.OUTSIDE:
+            self._report(status, (x, y, 0.0, 0.0, speed))
+        return z
+
+    @cached_property
+    def clearance(self) -> float:
+        """Radial way [m] at which the first ball would be pressed to 4200 MPa, with z and tilts as given."""
+        row = dict(zip(ROW, self.rows[0].tolist(), strict=True))
+        z = self.axial_place()
+        axial = row["axial"] + row["direction"] * z
+        radial = row["radial"] + self.running[1]
+        length = np.hypot(axial, radial)
+        pressed = sum(contact.approach(self.largest_load) for contact in self.contacts)
+        way = float((row["inner"] + row["outer"] + pressed - length) * length / radial)
+        if not way > 0.0:
+            raise InputError(
+                f"the preload must press the balls to {MOST_PRESSURE:g} Pa at most, got an approach of "
+                f"{length - row['inner'] - row['outer']:.3g} m"
+            )
+        return way
+
+    @property
+    def nominal_force(self) -> float:
+        """Typical force [N]: a tenth of what presses the most loaded ball to 4200 MPa."""
+        row = dict(zip(ROW, self.rows[0].tolist(), strict=True))
+        return 0.1 * self.largest_load * row["count"] / 4.37
+
+    def require_place(self) -> None:
+        """Raise InputError where the fields of the shaft break a rule."""
+        require_number("axial_displacement", self.axial_displacement)
+        require_non_negative("damping", self.damping)
+        if require_finite("tilt", self.tilt).shape != (2,):
+            raise InputError(f"tilt must be two numbers, got {self.tilt!r}")
+        if self.axial_load is None:
+            return
+        along = float(self.rows[0, 1])
+        if self.separates and not along * require_number("axial_load", self.axial_load) > 0.0:
+            raise InputError(
+                f"axial_load must press the balls on their shoulders, of sign {along:+.0f}, "
+                f"got {self.axial_load!r}"
+            )
+
+    def require_film(self, position: Array) -> None:
+        """Accept every position: balls push back wherever the shaft goes."""
+
+    def prepare(self) -> Force:
+        """Return `force` as a function of five numbers, for loops that go state by state: `model.Force`."""
+
+        def force(x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
+            force_x, force_y, status = self.kernel.call(x, y, vx, vy, speed)
+            if status:
+                self._report(status, (x, y, vx, vy, speed))
+            return force_x, force_y
+
+        return force
+
+    def prepare_tangent(self) -> Tangent:
+        """Return force and derivatives as one function of five numbers: `model.Tangent`."""
+
+        def tangent(
+            x: float, y: float, vx: float, vy: float, speed: float
+        ) -> tuple[float, float, list[float]]:
+            force_x, force_y, slopes, status = self.kernel.tangent(x, y, vx, vy, speed)
+            if status:
+                self._report(status, (x, y, vx, vy, speed))
+            return force_x, force_y, slopes
+
+        return tangent
+
+    def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `force` for inner loops: float arrays of equal batch shape."""
+        force = self.prepare()
+        states = np.concatenate([position, velocity, speed[None]])
+        columns = states.reshape(DEGREES, -1).T.tolist()
+        return np.array([force(*column) for column in columns]).T.reshape(2, *states.shape[1:])
+
+    def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
+        """Return `jacobian` for inner loops: float arrays of equal batch shape."""
+        tangent = self.prepare_tangent()
+        states = np.concatenate([position, velocity, speed[None]])
+        columns = states.reshape(DEGREES, -1).T.tolist()
+        return np.array([tangent(*column)[2] for column in columns]).T.reshape(2, 5, *states.shape[1:])
+
+    def native(self) -> NativeSpec:
+        """Return the kernel `ball_bearing`; growth, axial and angular place, damping are parameters."""
+        inertia, growth = self.running
+        axial = ("axial_displacement", "m", self.axial_displacement, "place of the shaft along z")
+        if self.axial_load is not None:
+            axial = (
+                "axial_load",
+                "N",
+                self.axial_load,
+                "external force on the shaft along z, which gives way",
+            )
+        numbers = (
+            ("growth", "m", growth, "radial growth of the inner rings against the outer ones"),
+            axial,
+            ("tilt_x", "rad", self.tilt[0], "tilt of the shaft about +x"),
+            ("tilt_y", "rad", self.tilt[1], "tilt of the shaft about +y"),
+            ("cage_turn", "rad", 0.0, "angle by which the cages are turned further"),
+            ("damping", "N.s/m", self.damping, "damping beside the balls"),
+        )
+        parameters = tuple(
+            NativeParameter(
+                name=name, unit=unit, value=value, tunable=True, description=text, nominal=abs(value) or 1.0
+            )
+            for name, unit, value, text in numbers
+        )
+        law = np.array([inertia, self.axial_load is not None], dtype=float)
+        return NativeSpec(
+            kernel="ball_bearing", parameters=parameters, tables={"rows": self.rows, "law": law}
+        )
+
+    def _report(self, status: int, state: tuple[float, ...]) -> None:
+        """Raise, or warn, about a planar state that has this status."""
+        x, y, *_, speed = state
+        if status == Status.NOT_FINITE:
+            raise InputError(f"position, velocity and speed must be finite and not overflow, got {state!r}")
+        z, found = self.kernel.axial_place(*state)
+        if found == Status.STUCK and self.axial_load is not None:
+            raise ConvergenceError(
+                f"axial_load must be one that the balls can carry, got {self.axial_load!r} N at "
+                f"({x!r}, {y!r}) m and {speed!r} rad/s"
+            )
+        motion = np.array([x, y, z, *self.tilt])
+        self.explain(self.kernel.at(motion, speed), motion, speed)

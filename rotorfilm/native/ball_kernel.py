@@ -1,0 +1,133 @@
+"""Ball bearings in compiled code (`native/rolling/balls.h`), on NumPy arrays."""
+
+from __future__ import annotations
+
+from ctypes import byref, c_double, c_int32
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..model import Array
+from .layouts.ball_structs import BallJournalStruct, BallsStruct, BallStruct
+from .library import loops
+
+DEGREES = 5
+
+_Two, _Five, _Ten = c_double * 2, c_double * 5, c_double * 10
+
+
+class BallsAt(NamedTuple):
+    """Answers at a motion in five degrees.
+
+    Attributes
+    ----------
+    wrench : ndarray, shape (5,)
+        Force and moment on the shaft.
+    slopes : ndarray, shape (5, 6)
+        Their derivatives by the motion and the speed.
+    each : ndarray, shape (balls,)
+        The numbers of rf_ball, as a structured array.
+    status : int
+    """
+
+    wrench: Array
+    slopes: Array
+    each: Any
+    status: int
+
+
+class BallsRest(NamedTuple):
+    """An equilibrium.
+
+    Attributes
+    ----------
+    motion : ndarray, shape (5,)
+    evaluations : int
+        Wrenches that were computed.
+    status : int
+    """
+
+    motion: Array
+    evaluations: int
+    status: int
+
+
+class BallKernel:
+    """Rows of balls on one shaft.
+
+    Parameters
+    ----------
+    rows : ndarray, shape (rows, columns)
+        The numbers of rf_ball_row.
+    inertia : int
+        That of the balls, of ball.h.
+    growth : float [m]
+    place : (float, float, float)
+        z [m] and tilts [rad] of the planar motion.
+    thrust : float or None [N]
+        What z follows from; None where it is given.
+    damping : float [N s/m]
+    """
+
+    def __init__(
+        self,
+        rows: Array,
+        inertia: int,
+        growth: float,
+        place: tuple[float, float, float],
+        thrust: float | None,
+        damping: float,
+    ) -> None:
+        self._arguments = (rows, inertia, growth, place, thrust, damping)
+        self.rows = np.ascontiguousarray(rows, dtype=float)
+        self.count = int(self.rows[:, 5].sum())
+        self._balls = BallsStruct(self.rows.ctypes.data, len(self.rows), growth, inertia)
+        free = thrust is not None
+        self._journal = BallJournalStruct(self._balls, _three(place), thrust or 0.0, damping, free)
+        self._reference = byref(self._journal)
+        self._at = loops()["rf_ball_journal_at"]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), self._arguments
+
+    def call(self, *state: float) -> tuple[float, float, int]:
+        """Return (force_x, force_y, status) at x, y, vx, vy, speed."""
+        pair = _Two()
+        status = self._at(self._reference, _Five(*state), pair, None, None)
+        return pair[0], pair[1], status
+
+    def tangent(self, *state: float) -> tuple[float, float, list[float], int]:
+        """Return force_x, force_y, the ten entries of the Jacobian row by row, and a status."""
+        pair, ten = _Two(), _Ten()
+        status = self._at(self._reference, _Five(*state), pair, ten, None)
+        return pair[0], pair[1], ten[:], status
+
+    def axial_place(self, *state: float) -> tuple[float, int]:
+        """Return z [m] at x, y, vx, vy, speed, and a status."""
+        pair, z = _Two(), c_double()
+        status = self._at(self._reference, _Five(*state), pair, None, byref(z))
+        return z.value, status
+
+    def at(self, motion: Array, speed: float) -> BallsAt:
+        """Return wrench, slopes and balls at a motion (5,)."""
+        motion = np.ascontiguousarray(motion, dtype=float)
+        wrench, slopes, each = (
+            np.empty(DEGREES),
+            np.empty((DEGREES, DEGREES + 1)),
+            (BallStruct * self.count)(),
+        )
+        places = [one.ctypes.data for one in (wrench, slopes)]
+        status = loops()["rf_balls_at"](byref(self._balls), motion.ctypes.data, speed, *places, each)
+        return BallsAt(wrench, slopes, np.ctypeslib.as_array(each), status)
+
+    def rest(self, load: Array, speed: float, start: Array) -> BallsRest:
+        """Return the equilibrium under a load (5,) on the shaft."""
+        load, motion = np.ascontiguousarray(load, dtype=float), np.array(start, dtype=float)
+        slopes, steps = np.empty((DEGREES, DEGREES + 1)), c_int32()
+        places = [one.ctypes.data for one in (motion, slopes)]
+        status = loops()["rf_balls_rest"](byref(self._balls), load.ctypes.data, speed, *places, byref(steps))
+        return BallsRest(motion, steps.value, status)
+
+
+def _three(numbers: tuple[float, float, float]) -> Any:
+    return (c_double * 3)(*numbers)

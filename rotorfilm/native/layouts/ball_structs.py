@@ -1,0 +1,69 @@
+"""The structures of the C library for ball bearings, as ctypes reads them."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Sequence
+from ctypes import c_double, c_int32, c_size_t, c_void_p
+from typing import Any, ClassVar
+
+ROW = (
+    "place",
+    "direction",
+    "axial",
+    "radial",
+    "arm",
+    "count",
+    "turn",
+    "inner",
+    "outer",
+    "inner_stiffness",
+    "outer_stiffness",
+    "ratio",
+    "diameter",
+    "mass",
+    "largest",
+)
+"""The numbers of rf_ball_row, the columns of the table `rows`."""
+
+
+class BallRowStruct(ctypes.Structure):
+    """rf_ball_row of ball.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [(name, c_double) for name in ROW]
+
+
+class BallStruct(ctypes.Structure):
+    """rf_ball of ball.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("force", c_double * 2),
+        ("by_place", c_double * 4),
+        ("by_speed", c_double * 2),
+        ("load", c_double * 2),
+        ("angle", c_double * 2),
+        *((name, c_double) for name in ("centrifugal", "gyroscopic", "orbit", "traction")),
+    ]
+
+
+class BallsStruct(ctypes.Structure):
+    """rf_balls of balls.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("rows", c_void_p),
+        ("count", c_size_t),
+        ("growth", c_double),
+        ("inertia", c_int32),
+    ]
+
+
+class BallJournalStruct(ctypes.Structure):
+    """rf_ball_journal of balls.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("balls", BallsStruct),
+        ("place", c_double * 3),
+        ("thrust", c_double),
+        ("damping", c_double),
+        ("is_free", c_int32),
+    ]

@@ -1,0 +1,234 @@
+#include "ball.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "ball_inertia.h"
+
+#define STEPS 60
+#define HALVINGS 30
+#define EXACT 1e-14  /* residual over the loads at which a balance ends */
+#define ENOUGH 1e-11 /* below which only roundoff may keep a step from making it smaller */
+#define ROUNDOFF 1e-15 /* of the center of a ball, over the distance of the centers of curvature */
+
+/* A Hertzian contact: direction e = (sin, cos) of its angle, t = de/d(angle), and d(load e)/d(center). */
+typedef struct contact {
+    double e[2], t[2], length, load, by[4];
+} contact;
+
+static contact press(double axial, double radial, double touch, double stiffness)
+{
+    contact c;
+    c.length = hypot(axial, radial);
+    c.e[0] = c.length > 0.0 ? axial / c.length : 0.0;
+    c.e[1] = c.length > 0.0 ? radial / c.length : 1.0;
+    c.t[0] = c.e[1];
+    c.t[1] = -c.e[0];
+    const double depth = c.length - touch, root = depth > 0.0 ? sqrt(depth) : 0.0;
+    c.load = stiffness * root * root * root;
+    const double along = 1.5 * stiffness * root, across = c.length > 0.0 ? c.load / c.length : 0.0;
+    for (int i = 0; i < 2; ++i)
+        for (int j = 0; j < 2; ++j)
+            c.by[2 * i + j] = along * c.e[i] * c.e[j] + across * c.t[i] * c.t[j];
+    return c;
+}
+
+/* The balance of a ball with its center at x: residual and its derivatives by x, by a and by log(speed)/2. */
+typedef struct balance {
+    contact in, out;
+    rf_ball_inertia inertia;
+    double share[2]; /* of the gyroscopic moment in the friction at both contacts */
+    double rest[2], by_x[4], by_a[4], by_speed[2];
+    double size;
+} balance;
+
+static void balance_at(const rf_ball_row *row, int inertia, const double *a, const double *x, double speed, balance *at)
+{
+    at->in = press(a[0] - x[0], a[1] - x[1], row->inner, row->inner_stiffness);
+    at->out = press(x[0], x[1], row->outer, row->outer_stiffness);
+    const contact *in = &at->in, *out = &at->out;
+    rf_ball_inertia_at(row, inertia, in->e, out->e, speed, &at->inertia);
+    const double *fc = at->inertia.force, *m = at->inertia.moment;
+    at->share[0] = inertia == RF_BALLS_OUTER_CONTROL ? 0.0 : 1.0;
+    at->share[1] = 2.0 - at->share[0];
+    for (int i = 0; i < 2; ++i) {
+        const double lever = at->share[0] * in->t[i] - at->share[1] * out->t[i], up = (double)i;
+        const double by_in = -m[1] * lever + m[0] * at->share[0] * in->e[i] + fc[1] * up;
+        const double by_out = -m[2] * lever - m[0] * at->share[1] * out->e[i] + fc[2] * up;
+        at->by_speed[i] = fc[0] * up - m[0] * lever;
+        at->rest[i] = in->load * in->e[i] - out->load * out->e[i] + at->by_speed[i];
+        for (int j = 0; j < 2; ++j) {
+            const int k = 2 * i + j;
+            at->by_a[k] = in->by[k] + by_in * in->t[j] / in->length;
+            at->by_x[k] = by_out * out->t[j] / out->length - out->by[k] - at->by_a[k];
+        }
+    }
+    at->size = in->load + out->load + fc[0] + fabs(m[0]);
+}
+
+/* The solution of q s = -r for a 2 x 2 matrix; 0 where it is singular. */
+static int solve(const double *q, const double *r, double *s)
+{
+    const double det = q[0] * q[3] - q[1] * q[2];
+    s[0] = (q[1] * r[1] - q[3] * r[0]) / det;
+    s[1] = (q[2] * r[0] - q[0] * r[1]) / det;
+    return isfinite(s[0]) && isfinite(s[1]);
+}
+
+/* The center of a ball that rests on the outer race only; whether the inner one is then open. */
+static int is_free(const rf_ball_row *row, int inertia, const double *a, double speed, double *x, balance *at)
+{
+    const double up[2] = {0.0, 1.0};
+    double kept = 0.0;
+    x[0] = 0.0;
+    x[1] = row->outer;
+    for (int k = 0; k < STEPS && x[1] != kept; ++k) {
+        const contact in = press(a[0] - x[0], a[1] - x[1], row->inner, row->inner_stiffness);
+        rf_ball_inertia_at(row, inertia, in.e, up, speed, &at->inertia);
+        kept = x[1];
+        x[1] = row->outer + pow(at->inertia.force[0] / row->outer_stiffness, 2.0 / 3.0);
+    }
+    at->in = press(a[0] - x[0], a[1] - x[1], row->inner, row->inner_stiffness);
+    at->out = press(x[0], x[1], row->outer, row->outer_stiffness);
+    return !(at->in.length > row->inner) || a[1] <= x[1];
+}
+
+/* Where the ball would be if the static load acted through its inner contact: the outer angle is reduced. */
+static void guess(const rf_ball_row *row, const double *a, double centrifugal, double *x)
+{
+    const double per = pow(row->inner_stiffness, -2.0 / 3.0) + pow(row->outer_stiffness, -2.0 / 3.0);
+    const contact through = press(a[0], a[1], row->inner + row->outer, pow(per, -1.5));
+    const double fx = through.load * through.e[0], fy = through.load * through.e[1] + centrifugal;
+    const double size = hypot(fx, fy), length = row->outer + pow(size / row->outer_stiffness, 2.0 / 3.0);
+    x[0] = size > 0.0 ? length * fx / size : length * through.e[0];
+    x[1] = size > 0.0 ? length * fy / size : length * through.e[1];
+}
+
+/* A residual that may be left. */
+static double slack(const rf_ball_row *row, const balance *at)
+{
+    const double *k = at->by_x, stiffest = fabs(k[0]) + fabs(k[1]) + fabs(k[2]) + fabs(k[3]);
+    return ENOUGH * at->size + ROUNDOFF * (row->inner + row->outer) * stiffest;
+}
+
+/* Newton's method with steps that shorten until the residual falls. */
+static int find(const rf_ball_row *row, int inertia, const double *a, double speed, double *x, balance *at)
+{
+    balance_at(row, inertia, a, x, speed, at);
+    for (int k = 0; k < STEPS; ++k) {
+        const double norm = hypot(at->rest[0], at->rest[1]);
+        double step[2];
+        if (norm <= EXACT * at->size || !solve(at->by_x, at->rest, step))
+            return norm <= slack(row, at);
+        balance next;
+        double share = 1.0;
+        int better = 0, tries = norm <= slack(row, at) ? 1 : HALVINGS;
+        for (; tries > 0 && !better; --tries, share *= 0.5) {
+            const double trial[2] = {x[0] + share * step[0], x[1] + share * step[1]};
+            balance_at(row, inertia, a, trial, speed, &next);
+            better = hypot(next.rest[0], next.rest[1]) < norm;
+        }
+        if (!better)
+            return norm <= slack(row, at);
+        share *= 2.0;
+        x[0] += share * step[0];
+        x[1] += share * step[1];
+        *at = next;
+    }
+    return 0;
+}
+
+/* Force on the inner ring -(load e - share moment t), and its derivatives with the ball's center in balance. */
+static void answer(const balance *at, double speed, rf_ball *ball)
+{
+    const contact *in = &at->in, *out = &at->out;
+    const double s = at->share[0], *m = at->inertia.moment;
+    double inner[4], through[4], moved[6];
+    for (int i = 0; i < 2; ++i) {
+        ball->force[i] = -(in->load * in->e[i] - s * m[0] * in->t[i]);
+        for (int j = 0; j < 2; ++j) {
+            const int k = 2 * i + j;
+            inner[k] = -in->by[k] + s * (m[1] * in->t[i] - m[0] * in->e[i]) * in->t[j] / in->length;
+            through[k] = s * m[2] * in->t[i] * out->t[j] / out->length - inner[k];
+        }
+    }
+    for (int j = 0; j < 3; ++j) {
+        const double r[2] = {j < 2 ? at->by_a[j] : at->by_speed[0], j < 2 ? at->by_a[2 + j] : at->by_speed[1]};
+        double x[2];
+        solve(at->by_x, r, x);
+        moved[j] = x[0];
+        moved[3 + j] = x[1];
+    }
+    for (int i = 0; i < 2; ++i) {
+        for (int j = 0; j < 2; ++j)
+            ball->by_place[2 * i + j] = inner[2 * i + j] + through[2 * i] * moved[j] + through[2 * i + 1] * moved[3 + j];
+        const double own = s * m[0] * in->t[i] + through[2 * i] * moved[2] + through[2 * i + 1] * moved[5];
+        ball->by_speed[i] = speed != 0.0 ? 2.0 / speed * own : 0.0;
+    }
+}
+
+/* What a ball is under, besides the force on the ring. */
+static void tell(const rf_ball_row *row, const balance *at, double speed, rf_ball *ball)
+{
+    const double m = fabs(at->inertia.moment[0]);
+    ball->load[0] = at->in.load;
+    ball->load[1] = at->out.load;
+    ball->angle[0] = atan2(at->in.e[0], at->in.e[1]);
+    ball->angle[1] = atan2(at->out.e[0], at->out.e[1]);
+    ball->centrifugal = at->inertia.force[0];
+    ball->gyroscopic = at->inertia.moment[0] * row->diameter;
+    ball->orbit = at->inertia.orbit * speed;
+    const double inner = at->share[0] * m, outer = at->share[1] * m;
+    ball->traction = outer > 0.0 ? outer / at->out.load : 0.0;
+    if (inner > 0.0)
+        ball->traction = fmax(ball->traction, inner / at->in.load);
+}
+
+static void stand(const rf_ball_row *row, const double *a, double speed, rf_ball *ball)
+{
+    const double per = pow(row->inner_stiffness, -2.0 / 3.0) + pow(row->outer_stiffness, -2.0 / 3.0);
+    const contact c = press(a[0], a[1], a[1] > 0.0 ? row->inner + row->outer : HUGE_VAL, pow(per, -1.5));
+    memset(ball, 0, sizeof *ball);
+    for (int k = 0; k < 2; ++k) {
+        ball->force[k] = -c.load * c.e[k];
+        ball->load[k] = c.load;
+        ball->angle[k] = atan2(c.e[0], c.e[1]);
+    }
+    for (int k = 0; k < 4; ++k)
+        ball->by_place[k] = -c.by[k];
+    ball->orbit = 0.5 * speed * (1.0 - row->ratio * c.e[1]);
+}
+
+static int run(const rf_ball_row *row, int inertia, const double *a, double speed, rf_ball *ball)
+{
+    balance at;
+    double x[2];
+    memset(ball, 0, sizeof *ball);
+    memset(&at, 0, sizeof at);
+    if (is_free(row, inertia, a, speed, x, &at)) {
+        at.in.load = 0.0;
+        memset(at.inertia.moment, 0, sizeof at.inertia.moment);
+    } else {
+        guess(row, a, at.inertia.force[0], x);
+        if (!find(row, inertia, a, speed, x, &at) || !(at.in.load > 0.0))
+            return RF_STUCK;
+        answer(&at, speed, ball);
+    }
+    tell(row, &at, speed, ball);
+    return RF_OK;
+}
+
+int rf_ball_at(const rf_ball_row *row, int inertia, const double *a, double speed, rf_ball *ball)
+{
+    int status = RF_OK;
+    if (inertia == RF_BALLS_STATIC || speed == 0.0)
+        stand(row, a, speed, ball);
+    else
+        status = run(row, inertia, a, speed, ball);
+    /* An inner contact with next to no load holds no moment: then the outer race controls. */
+    if (status == RF_STUCK && inertia == RF_BALLS_INNER_CONTROL)
+        status = run(row, RF_BALLS_OUTER_CONTROL, a, speed, ball);
+    if (status == RF_OK && (ball->traction > RF_MOST_TRACTION || !(fmax(ball->load[0], ball->load[1]) <= row->largest)))
+        return RF_OUTSIDE;
+    return status;
+}

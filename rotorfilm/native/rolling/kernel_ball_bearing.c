@@ -1,0 +1,137 @@
+/* Kernel "ball_bearing": a shaft in ball bearings that moves along x and y.
+
+   Tables: rows (n x 15: the numbers of an rf_ball_row of ball.h, in its order), law (2: the inertia of the balls, one of
+   those of ball.h, and whether the second parameter is a thrust). Parameters: growth [m]; z [m] or the thrust [N]; tilt_x,
+   tilt_y [rad]; angle of the cage [rad], added to that of the rows; damping [N s/m]. Inputs and outputs of a reaction. */
+
+/* Documentation of the FMU
+
+   Model: Force of a ball bearing, or of a set of them on one shaft, on the shaft, whose outer rings stand. x and y are
+   Cartesian from the center of the outer rings, rotation is positive about +z, tilts are held, and z is held or follows
+   from an axial load. Each ball is in Hertzian contact with both grooves, whose centers of curvature are apart by the
+   vector a; e is the unit vector along a contact at the angle alpha, t = de/d(alpha):
+
+   Equations:
+   force = - sum over the balls of (Q_i e_i - s_i M t_i) - damping (vx, vy)
+   Q_i e_i - Q_o e_o - M (s_i t_i - s_o t_o) + F_c r = 0,  Q = K d^1.5,  d = distance - free distance, not below 0
+   F_c = mass pitch_diameter orbit^2 / 2,  M = - J orbit spin / ball_diameter,  (s_i, s_o) = (0, 2) or (1, 1)
+
+   Validity: Dry elastic contacts of rigid rings, balls that roll without sliding and spin on one race only; a ball that
+   leaves the inner race rests on the outer one. Without inertia of the balls F_c and M are zero. The cage stands at the
+   angle that is given. Beyond a contact pressure of 4200 MPa, and where the gyroscopic moment asks for a traction
+   coefficient above 0.06, there is a warning. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../kernels/kernel.h"
+#include "balls.h"
+
+#define MOST_ROWS 16u
+#define MOST_BALLS 1000.0
+
+enum { GROWTH, AXIAL, TILT_X, TILT_Y, CAGE, DAMPING, PARAMETERS };
+
+typedef struct model {
+    rf_ball_journal journal;
+    rf_ball_row rows[MOST_ROWS];
+    const double *given; /* of the table rows */
+} model;
+
+static int is_row(const double *row)
+{
+    int good = fabs(row[1]) == 1.0 && row[5] >= 1.0 && row[5] <= MOST_BALLS && row[5] == floor(row[5]);
+    for (unsigned k = 7; k < RF_BALL_COLUMNS; ++k)
+        good = good && row[k] > 0.0;
+    return good && row[11] < 1.0;
+}
+
+static int take_tables(model *self, const rf_tables *tables, rf_message *why)
+{
+    const rf_table *rows = rf_find_table(tables, "rows", 2, why);
+    const rf_table *law = rows ? rf_find_table(tables, "law", 1, why) : NULL;
+    if (!law)
+        return RF_INVALID;
+    const uint32_t count = rows->extent[0];
+    if (count < 1 || count > MOST_ROWS || rows->extent[1] != RF_BALL_COLUMNS || law->extent[0] != 2)
+        return rf_say(why, RF_INVALID, "table rows must be 1 to %u x %d, got %u x %u", MOST_ROWS, RF_BALL_COLUMNS,
+                      (unsigned)count, (unsigned)rows->extent[1]);
+    for (uint32_t k = 0; k < count; ++k)
+        if (!is_row(rows->numbers + k * RF_BALL_COLUMNS))
+            return rf_say(why, RF_INVALID, "row %u must be that of a ball bearing", (unsigned)k);
+    const double inertia = law->numbers[0];
+    if (inertia != RF_BALLS_STATIC && inertia != RF_BALLS_OUTER_CONTROL && inertia != RF_BALLS_INNER_CONTROL)
+        return rf_say(why, RF_INVALID, "inertia must be 0, 1 or 2, got %.9g", inertia);
+    self->given = rows->numbers;
+    memcpy(self->rows, rows->numbers, count * sizeof *self->rows);
+    const rf_balls balls = {self->rows, count, 0.0, (int32_t)inertia};
+    self->journal.balls = balls;
+    self->journal.is_free = law->numbers[1] != 0.0;
+    return RF_OK;
+}
+
+static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
+{
+    static const rf_sizes mine = {PARAMETERS, 5, 2, 0, 0};
+    model *self = calloc(1, sizeof *self);
+    if (!self) {
+        rf_say(why, RF_MEMORY, "no memory for a ball bearing");
+        return NULL;
+    }
+    if (take_tables(self, tables, why) != RF_OK) {
+        free(self);
+        return NULL;
+    }
+    *sizes = mine;
+    return self;
+}
+
+static int set_parameters(void *kernel, const double *p, rf_message *why)
+{
+    model *self = kernel;
+    rf_ball_journal *journal = &self->journal;
+    for (int k = 0; k < PARAMETERS; ++k)
+        if (!isfinite(p[k]))
+            return rf_say(why, RF_INVALID, "parameter %d must be finite, got %.9g", k + 1, p[k]);
+    if (p[DAMPING] < 0.0)
+        return rf_say(why, RF_INVALID, "damping must not be negative, got %.9g", p[DAMPING]);
+    journal->balls.growth = p[GROWTH];
+    *(journal->is_free ? &journal->thrust : &journal->place[0]) = p[AXIAL];
+    journal->place[1] = p[TILT_X];
+    journal->place[2] = p[TILT_Y];
+    journal->damping = p[DAMPING];
+    for (size_t k = 0; k < journal->balls.count; ++k)
+        self->rows[k].turn = self->given[k * RF_BALL_COLUMNS + 6] + p[CAGE];
+    return RF_OK;
+}
+
+static int explain(int status, const double *u, rf_message *why)
+{
+    static const char *const said[] = {
+        "", "a ball must be pressed to 4200 MPa at most and need a traction coefficient of at most 0.06", "", "",
+        "the force is not finite", "", "the balls must find a balance, and the search found none"};
+    return status == RF_OK ? RF_OK
+                           : rf_say(why, status, "%s, at x = %.9g, y = %.9g m, speed = %.9g rad/s", said[status], u[0],
+                                    u[1], u[4]);
+}
+
+static int output(const void *kernel, const rf_point *at, double *y, rf_message *why)
+{
+    const model *self = kernel;
+    return explain(rf_ball_journal_at(&self->journal, at->u, y, NULL, NULL), at->u, why);
+}
+
+static int jacobian(const void *kernel, const rf_point *at, rf_jacobian *answer, rf_message *why)
+{
+    const model *self = kernel;
+    double y[2];
+    return explain(rf_ball_journal_at(&self->journal, at->u, y, answer->D, NULL), at->u, why);
+}
+
+const rf_kernel_type rf_ball_bearing_type = {
+    .create = create,
+    .destroy = free,
+    .set_parameters = set_parameters,
+    .output = output,
+    .jacobian = jacobian,
+};

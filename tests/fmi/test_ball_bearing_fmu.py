@@ -1,0 +1,80 @@
+"""Native FMUs of ball bearings and pairs: forces and derivatives of Python, parameters, refusals."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from fmpy.fmi1 import FMICallException
+
+from rotorfilm import BallBearing, back_to_back, export_fmu
+from rotorfilm.fmu import check_fmu
+
+ONE = BallBearing(
+    balls=11,
+    ball_diameter=7.938e-3,
+    pitch_diameter=33.5e-3,
+    contact_angle=math.radians(20.0),
+    axial_load=350.0,
+    tilt=(1e-5, -2e-5),
+    damping=120.0,
+)
+DEEP = BallBearing(
+    balls=8, ball_diameter=7.938e-3, pitch_diameter=33.5e-3, internal_clearance=8e-6, cage_angle=0.3
+)
+PAIR = back_to_back(replace(ONE, axial_load=None), distance=0.02, preload=200.0)
+INPUTS, FORCES = ("x", "y", "vx", "vy", "speed"), ("force_x", "force_y")
+versions = pytest.mark.parametrize("version", ["2.0", "3.0"])
+
+
+def motions(count):
+    rng = np.random.default_rng(3)
+    return rng.uniform(-1.0, 1.0, (count, 5)) * [8e-6, 8e-6, 1e-2, 1e-2, 1500.0]
+
+
+@pytest.mark.filterwarnings("ignore:the gyroscopic moment")
+@versions
+@pytest.mark.parametrize("model", [ONE, DEEP, PAIR], ids=["thrust", "deep groove", "pair"])
+@pytest.mark.parametrize("exchange", [False, True], ids=["CS", "ME"])
+def test_forces_and_derivatives_are_those_of_python(version, model, exchange, opened):
+    instance, reference = opened(model, version, exchange)
+    inputs, outputs = [reference[name] for name in INPUTS], [reference[name] for name in FORCES]
+    states = motions(5)
+    instance.initialize(inputs, states[0].tolist())
+    for number, state in enumerate(states):
+        if not exchange:
+            instance.step(1e-3 * number, 1e-3)
+        instance.set(inputs, state.tolist())
+        expected = model.force(state[:2], state[2:4], state[4])
+        np.testing.assert_allclose(instance.get(outputs), expected, rtol=1e-12, atol=1e-9)
+        columns = [instance.directional(outputs, [one], [1.0]) for one in inputs]
+        expected = model.jacobian(state[:2], state[2:4], state[4])
+        np.testing.assert_allclose(np.array(columns).T, expected, rtol=1e-11, atol=1e-9)
+
+
+@versions
+def test_a_ball_bearing_is_native_by_default_and_passes_all_checks(version, tmp_path):
+    path = export_fmu(DEEP, tmp_path / "b.fmu", version, start={"x": 2e-6, "y": -7e-6, "speed": 300.0})
+    assert [item.check for item in check_fmu(path) if item.passed is False] == []
+
+
+@versions
+def test_parameters_are_those_of_the_bearing(version, opened):
+    instance, reference = opened(DEEP, version, False)
+    state = [2e-6, -7e-6, 1e-3, 0.0, 300.0]
+    instance.initialize([reference[one] for one in INPUTS], state)
+    names = ("growth", "axial_displacement", "tilt_x", "tilt_y", "cage_turn", "damping")
+    values = [3e-6, 2e-6, 1e-4, -2e-4, 0.5, 40.0]
+    instance.set([reference[one] for one in names], values)
+    other = replace(
+        DEEP, growth=3e-6, axial_displacement=2e-6, tilt=(1e-4, -2e-4), cage_angle=0.8, damping=40.0
+    )
+    found = instance.get([reference[one] for one in FORCES])
+    np.testing.assert_allclose(found, other.force(state[:2], state[2:4], 300.0), rtol=1e-11)
+
+
+def test_negative_damping_is_refused(opened):
+    instance, reference = opened(DEEP, "2.0", False)
+    with pytest.raises(FMICallException):
+        instance.initialize([reference["damping"]], [-1.0])
+    assert any("damping must not be negative, got -1" in line for line in instance.log)
