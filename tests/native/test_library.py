@@ -20,7 +20,7 @@ LARGEST = {
     "rotorfilm_systems": 74_000,
     "rotorfilm_bushes": 60_000,
     "rotorfilm_grids": 92_000,
-    "rotorfilm_grid_systems": 124_000,
+    "rotorfilm_grid_systems": 128_000,
     "rotorfilm_heat": 82_000,
     "rotorfilm_pads": 74_000,
     "rotorfilm_loops": 180_000,
