@@ -13,7 +13,7 @@ from rotorfilm.fmu import check_fmu
 DAM = PressureDamBearing(
     radius=0.05,
     length=0.04,
-    clearance=1e-4,
+    assembled_clearance=1e-4,
     viscosity=0.03,
     pads=pressure_dam_pads(
         depth=60e-6, end="140 deg", share=0.75, track_depth=2e-4, track_share=0.3, preload=0.2

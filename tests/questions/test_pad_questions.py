@@ -35,7 +35,7 @@ DAM = """schema = 1
 [pressure_dam]
 diameter = "100 mm"
 length = "50 mm"
-clearance = "70 um"
+assembled_clearance = "70 um"
 viscosity = "20 mPa s"
 depth = "140 um"
 end = "145 deg"

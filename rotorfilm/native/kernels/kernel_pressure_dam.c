@@ -8,9 +8,9 @@
    Model: Film force of a bearing of fixed pads, each with its own center of curvature and any with a recess
    (pressure dam, step, relief track), at ambient pressure; Reynolds equation in two dimensions by finite volumes. x
    and y are Cartesian from the bearing center, rotation is positive about +z (from x to y), the force acts on the
-   journal. The clearance is that of the bearing as assembled; a pad has clearance/(1 - preload) = c_p. With d the
-   position from the pad's center of curvature, e = d/c_p, the source w = (vx, vy)/c_p - (speed/2) z^ x e, n = (cos
-   theta, sin theta) and the depth D of the recess over c_p:
+   journal. The clearance c_p is that of a pad: its radius of curvature less that of the journal. With d the
+   position from the pad's center of curvature, e = d/c_p, the source w = (vx, vy)/c_p - (speed/2) z^ x e, n =
+   (cos theta, sin theta) and the depth D of the recess over c_p:
 
    Equations:
    (H^3 P_theta)_theta + (length/diameter)^-2 H^3 P_zz = -w.n + (speed/2) D_theta,  H = 1 - e.n + D

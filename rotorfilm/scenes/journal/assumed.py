@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from typing import Any, Protocol
 
 from ...bearings.journal import BushRing, JournalBearing
 from ...bearings.oil import Cooling, Oil
@@ -18,19 +19,36 @@ SPREAD = 0.05
 CARRIED = (0.7, 0.9)
 """Shares of the oil arriving at an opening that go on, as they are found in use."""
 
+
+class OiledBearing(Protocol):
+    """A bearing on an oil: a `JournalBearing`, or one made of pads, which has openings between them."""
+
+    @property
+    def radius(self) -> float:
+        """Of the journal [m]."""
+
+    @property
+    def length(self) -> float:
+        """Axial length [m]."""
+
+    @property
+    def cooled(self) -> tuple[Oil, Cooling]:
+        """Oil and cooling."""
+
+
 WARM, HOT = 40.0 + CELSIUS, 100.0 + CELSIUS
 
 HOUSING = "a steel one of twice the radius, cooled by 80 W/(m2 K)"
 
 
 def assumed_figures(
-    bearing: JournalBearing, moved: Callable[[JournalBearing], float], *, fields: bool
+    bearing: OiledBearing, moved: Callable[[Any], float], *, fields: bool
 ) -> tuple[str, ...]:
     """Return which figures of a bearing on an oil are assumed, and how much each moves the answer.
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : OiledBearing
     moved : callable
         How far the answer of another bearing is off, by T1, in the unit of the tolerance.
     fields : bool
@@ -51,19 +69,20 @@ def assumed_figures(
     return tuple(lines)
 
 
-def assumed_names(bearing: JournalBearing) -> tuple[str, ...]:
+def assumed_names(bearing: OiledBearing) -> tuple[str, ...]:
     """Return which figures of a bearing on an oil are assumed."""
     return tuple(text for text, _ in _varied(bearing))
 
 
-def _varied(bearing: JournalBearing) -> Iterator[tuple[str, list[JournalBearing]]]:
+def _varied(bearing: OiledBearing) -> Iterator[tuple[str, list[Any]]]:
     """Yield each assumption, and the bearings that it might be as well."""
     oil, cooling = bearing.cooled
     default = Cooling(supply_temperature=cooling.supply_temperature)
 
     for text in oil.assumed:
         yield text, [replace(bearing, oil=thinner_when_hot(oil))]
-    if bearing.geometry.openings() and cooling.carry_over == default.carry_over:
+    open_around = not isinstance(bearing, JournalBearing) or bearing.geometry.openings()
+    if open_around and cooling.carry_over == default.carry_over:
         low, high = CARRIED
         text = f"carry_over of the grooves: {cooling.carry_over:g}, in use are {low:g} to {high:g}"
         yield text, [replace(bearing, cooling=replace(cooling, carry_over=one)) for one in CARRIED]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, Self
 
 from ...bearings.pads import PressureDamBearing, Recess, RecessedPad, pressure_dam_pads
+from ...bearings.oil import Cooling, Oil
 from ...errors import InputError
 from ...limits import FILM_CELLS
 from ...progress import Report
@@ -14,7 +15,7 @@ from ..lubricant_table import Lubricant, LubricantTable
 from ..reading.readers import Counts
 from ..reading.shared_fields import made_from
 from ..reading.tables import Keyed, Quantity, Table, TableList
-from .pad_films import on_fresh_oil
+from .pad_films import on_oil
 from .pad_remarks import pad_remarks
 
 RECESS = Keyed(
@@ -45,19 +46,24 @@ class DamData(Readable):
 
     Attributes
     ----------
-    radius, length, clearance : float [m]
-        The radial clearance is that of the assembled bearing.
+    radius, length : float [m]
     slenderness : float [1]
         Length / diameter.
+    pad_clearance : float [m]
+        c_p, in which the eccentricity ratio is.
+    assembled_clearance : float [m]
+        c_b, of the largest journal that fits in.
     viscosity : float [Pa s]
+        Of the films, or of fresh oil where the temperature follows from the balance of their heat.
     pads : tuple of RecessedPad
         Angles in the bearing frame [rad].
     """
 
     radius: float
     length: float
-    clearance: float
     slenderness: float
+    pad_clearance: float
+    assembled_clearance: float
     viscosity: float
     pads: tuple[RecessedPad, ...]
 
@@ -72,10 +78,18 @@ class DamTable:
         Of the bearing; a file may give `diameter` instead.
     length : float [m]
         Full axial length.
-    clearance : float [m]
-        Radial clearance of the bearing as assembled.
+    pad_clearance : float or None [m]
+        c_p: the radius of curvature of a pad less that of the journal. Give this or the assembled one.
+    assembled_clearance : float or None [m]
+        c_b = (1 - preload) c_p: the least film of a centered journal.
     viscosity : float or None [Pa s]
-        None where `[lubricant]` gives the oil: its viscosity as supplied.
+        None where `[lubricant]` gives the oil.
+    oil : Oil or None
+        Of `[lubricant]`, where there is no viscosity.
+    cooling : Cooling or None
+        Of `[lubricant]`, with the oil.
+    temperature : float or None [K]
+        Of the films, where a question keeps it; None for that of the balance of their heat.
     depth, end, share : float or None [m], [rad], [1]
         Of the dam in the upper one of the two usual pads; see `pressure_dam_pads`. Give these or `pads`.
     track_depth, track_share : float or None [m], [1]
@@ -91,8 +105,12 @@ class DamTable:
 
     radius: Annotated[float, Quantity("m", twice="diameter")]
     length: Annotated[float, Quantity("m")]
-    clearance: Annotated[float, Quantity("m")]
+    pad_clearance: Annotated[float | None, Quantity("m")] = None
+    assembled_clearance: Annotated[float | None, Quantity("m")] = None
     viscosity: Annotated[float | None, Quantity("Pa.s")] = None
+    oil: Oil | None = None
+    cooling: Cooling | None = None
+    temperature: float | None = None
     depth: Annotated[float | None, Quantity("m")] = None
     end: Annotated[float | None, Quantity("rad")] = None
     share: Annotated[float | None, Quantity("1")] = None
@@ -111,7 +129,8 @@ class DamTable:
         for name, value in given.items():
             if self.pads:
                 raise InputError(f"{name} must not be given beside pads, got {value!r}")
-        self._built(1.0 if self.viscosity is None else self.viscosity)
+        # Without a viscosity there is no lubricant before `on` has given the oil.
+        self._built(1.0 if self.viscosity is None and self.oil is None else self.viscosity)
 
     @property
     def film_is_given(self) -> bool:
@@ -124,29 +143,39 @@ class DamTable:
         return {name: value for name, value in given.items() if value is not None}
 
     def on(self, where: str, lubricant: LubricantTable) -> Self:
-        """Return this table with the viscosity of the fresh oil, unless it has its own."""
-        return on_fresh_oil(self, where, lubricant)
+        """Return this table with the oil of the scene, unless it has its own viscosity."""
+        return on_oil(self, where, lubricant)
 
     def build(self) -> PressureDamBearing:
         """Return the bearing; raise InputError where a value breaks its rule."""
-        assert self.viscosity is not None  # `on` gives it
         return self._built(self.viscosity)
 
-    def _built(self, viscosity: float) -> PressureDamBearing:
+    def _built(self, viscosity: float | None) -> PressureDamBearing:
         pads = self.pads or pressure_dam_pads(**self._of_design)
         further: dict[str, Any] = {} if self.cells is None else {"cells": self.cells}
+        known = {name: getattr(self, name) for name in ("oil", "cooling", "temperature")}
         return PressureDamBearing(
             radius=self.radius,
             length=self.length,
-            clearance=self.clearance,
+            pad_clearance=self.pad_clearance,
+            assembled_clearance=self.assembled_clearance,
             viscosity=viscosity,
             pads=pads,
+            **known,
             **further,
         )
 
     def echo(self, bearing: PressureDamBearing) -> tuple[DamData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
-        return made_from(DamData, bearing, slenderness=bearing.slenderness), dam_film_name(bearing)
+        data = made_from(
+            DamData,
+            bearing,
+            slenderness=bearing.slenderness,
+            viscosity=bearing.film_viscosity,
+            pad_clearance=bearing.clearance,
+            assembled_clearance=float(bearing.minimum_film((0.0, 0.0))),
+        )
+        return data, dam_film_name(bearing)
 
     def remarks(
         self, bearing: PressureDamBearing, oil: Lubricant, speed: float, load: tuple[float, float]

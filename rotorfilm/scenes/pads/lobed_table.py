@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, Self
 
 from ...bearings.pads import SETS, Lobe, LobedBearing, PadFilm, PadMapFilm, lobe_set
+from ...bearings.oil import Cooling, Oil
 from ...errors import InputError, SceneError, brief
 from ...progress import Report
 from ...readable.result import Readable
@@ -14,7 +15,7 @@ from ..reading.readers import takes
 from ..reading.shared_fields import made_from
 from ..reading.spelling import nearest
 from ..reading.tables import Keyed, Quantity, TableList, Variant
-from .pad_films import PAD_FILMS, make_pad_maps, on_fresh_oil, pad_film_name
+from .pad_films import PAD_FILMS, make_pad_maps, on_oil, pad_film_name
 from .pad_remarks import pad_remarks
 
 LOBE = Keyed(
@@ -48,6 +49,7 @@ class LobedData(Readable):
     assembled_clearance : float [m]
         c_b, of the largest journal that fits in.
     viscosity : float [Pa s]
+        Of the films, or of fresh oil where the temperature follows from the balance of their heat.
     lobes : tuple of Lobe
         Angles in the bearing frame [rad].
     """
@@ -76,7 +78,13 @@ class LobedTable:
     assembled_clearance : float or None [m]
         c_b = (1 - preload) c_p: radial clearance of the largest journal that fits in.
     viscosity : float or None [Pa s]
-        None where `[lubricant]` gives the oil: its viscosity as supplied.
+        None where `[lubricant]` gives the oil.
+    oil : Oil or None
+        Of `[lubricant]`, where there is no viscosity.
+    cooling : Cooling or None
+        Of `[lubricant]`, with the oil.
+    temperature : float or None [K]
+        Of the films, where a question keeps it; None for that of the balance of their heat.
     preset : str or None
         One of the usual sets of `lobe_set`; give this or `lobes`.
     preload, extent, offset, turned : float or None [1], [rad], [1], [rad]
@@ -93,6 +101,9 @@ class LobedTable:
     pad_clearance: Annotated[float | None, Quantity("m")] = None
     assembled_clearance: Annotated[float | None, Quantity("m")] = None
     viscosity: Annotated[float | None, Quantity("Pa.s")] = None
+    oil: Oil | None = None
+    cooling: Cooling | None = None
+    temperature: float | None = None
     preset: Annotated[str | None, read_preset] = None
     preload: Annotated[float | None, Quantity("1")] = None
     extent: Annotated[float | None, Quantity("rad")] = None
@@ -108,7 +119,8 @@ class LobedTable:
         for name, value in self._of_preset.items():
             if self.lobes:
                 raise InputError(f"{name} must stand in each of lobes, or beside a preset, got {value!r}")
-        self._built(1.0 if self.viscosity is None else self.viscosity)
+        # Without a viscosity there is no lubricant before `on` has given the oil.
+        self._built(1.0 if self.viscosity is None and self.oil is None else self.viscosity)
 
     @property
     def film_is_given(self) -> bool:
@@ -121,15 +133,14 @@ class LobedTable:
         return {name: value for name, value in given.items() if value is not None}
 
     def on(self, where: str, lubricant: LubricantTable) -> Self:
-        """Return this table with the viscosity of the fresh oil, unless it has its own."""
-        return on_fresh_oil(self, where, lubricant)
+        """Return this table with the oil of the scene, unless it has its own viscosity."""
+        return on_oil(self, where, lubricant)
 
     def build(self) -> LobedBearing:
         """Return the bearing; raise InputError where a value breaks its rule."""
-        assert self.viscosity is not None  # `on` gives it
         return self._built(self.viscosity)
 
-    def _built(self, viscosity: float) -> LobedBearing:
+    def _built(self, viscosity: float | None) -> LobedBearing:
         lobes = self.lobes or lobe_set(self.preset or "", **self._of_preset)
         film = self.film or PadMapFilm()
         return made_from(LobedBearing, self, viscosity=viscosity, lobes=lobes, film=film)
@@ -140,6 +151,7 @@ class LobedTable:
             LobedData,
             bearing,
             slenderness=bearing.slenderness,
+            viscosity=bearing.film_viscosity,
             pad_clearance=bearing.clearance,
             assembled_clearance=float(bearing.minimum_film((0.0, 0.0))),
         )

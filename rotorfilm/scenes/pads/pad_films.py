@@ -29,13 +29,13 @@ def pad_film_name(film: PadFilm) -> str:
     return "map of a pad"
 
 
-def on_fresh_oil(table: T, where: str, lubricant: LubricantTable) -> T:
-    """Return the table of a bearing with the viscosity of the fresh oil, unless it has its own.
+def on_oil(table: T, where: str, lubricant: LubricantTable) -> T:
+    """Return the table of a bearing with the oil of the scene, unless it has a viscosity or an oil.
 
     Parameters
     ----------
     table : dataclass
-        With a `viscosity`.
+        With `viscosity`, `oil` and `cooling`.
     where : str
         Its name in the file, for messages.
     lubricant : LubricantTable
@@ -45,12 +45,11 @@ def on_fresh_oil(table: T, where: str, lubricant: LubricantTable) -> T:
     InputError
         If neither gives a viscosity.
     """
-    if table.viscosity is not None:  # type: ignore[attr-defined]
+    if table.viscosity is not None or table.oil is not None:  # type: ignore[attr-defined]
         return table
     if not lubricant.has_viscosity:
         raise InputError(f"{where}.viscosity is required where [lubricant] gives no grade or viscosity")
-    fresh = float(lubricant.oil.viscosity(lubricant.cooling.supply_temperature))
-    return replace(table, viscosity=fresh)  # type: ignore[type-var]
+    return replace(table, oil=lubricant.oil, cooling=lubricant.cooling)  # type: ignore[type-var]
 
 
 def make_pad_maps(film: PadFilm, extents: set[float], slenderness: float, report: Report) -> None:

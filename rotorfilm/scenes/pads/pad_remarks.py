@@ -37,7 +37,7 @@ def pad_numbers(
         heat capacity c^2), or between cold walls viscosity U^2/(8 conductivity), the lesser one.
         thinning : relative loss of viscosity by that.
     """
-    R, c, mu, omega = bearing.radius, room(bearing), _viscosity(bearing), abs(speed)
+    R, c, mu, omega = bearing.radius, room(bearing), bearing.film_viscosity, abs(speed)
     carried = 2.0 * mu * omega * R**2 * extent / (oil.density * oil.heat_capacity * c**2)
     conducted = mu * (omega * R) ** 2 / (8.0 * oil.conductivity)
     warming = min(carried, conducted)
@@ -55,7 +55,3 @@ def pad_remarks(
     """Return what is left out and should not be, one line each; the arguments are of `pad_numbers`."""
     return said(PAD_REMARKS, pad_numbers(bearing, extent, oil, speed, load))
 
-
-def _viscosity(bearing: AnyPads) -> float:
-    """Return the viscosity of the film, or of fresh oil where its temperature is open [Pa s]."""
-    return bearing.viscosity if isinstance(bearing, PressureDamBearing) else bearing.film_viscosity

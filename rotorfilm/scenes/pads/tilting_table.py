@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, Self
 
 from ...bearings.pads import PadFilm, PadMapFilm, TiltingPadBearing, even_pivots
+from ...bearings.oil import Cooling, Oil
 from ...errors import InputError, SceneError, brief
 from ...progress import Report
 from ...readable.result import Readable
@@ -14,7 +15,7 @@ from ..reading.readers import Count, takes
 from ..reading.shared_fields import made_from
 from ..reading.spelling import nearest
 from ..reading.tables import Quantity, Variant
-from .pad_films import PAD_FILMS, make_pad_maps, on_fresh_oil, pad_film_name
+from .pad_films import PAD_FILMS, make_pad_maps, on_oil, pad_film_name
 from .pad_remarks import pad_remarks
 
 PADS = 64
@@ -58,6 +59,7 @@ class TiltingData(Readable):
     preload : float [1]
         1 - c_b/c_p.
     viscosity : float [Pa s]
+        Of the films, or of fresh oil where the temperature follows from the balance of their heat.
     pivots : tuple of float [rad]
         Angles in the bearing frame.
     extent : float [rad]
@@ -95,7 +97,13 @@ class TiltingTable:
     assembled_clearance : float or None [m]
         c_b = (1 - preload) c_p: the gap at a pivot around a centered journal.
     viscosity : float or None [Pa s]
-        None where `[lubricant]` gives the oil: its viscosity as supplied.
+        None where `[lubricant]` gives the oil.
+    oil : Oil or None
+        Of `[lubricant]`, where there is no viscosity.
+    cooling : Cooling or None
+        Of `[lubricant]`, with the oil.
+    temperature : float or None [K]
+        Of the films, where a question keeps it; None for that of the balance of their heat.
     pad_count : int or None
         Number of evenly spaced pads; give this, with `loading`, or `pivots`.
     loading : str or None
@@ -124,6 +132,9 @@ class TiltingTable:
     pad_clearance: Annotated[float | None, Quantity("m")] = None
     assembled_clearance: Annotated[float | None, Quantity("m")] = None
     viscosity: Annotated[float | None, Quantity("Pa.s")] = None
+    oil: Oil | None = None
+    cooling: Cooling | None = None
+    temperature: float | None = None
     pad_count: Annotated[int | None, Count(PADS, 2)] = None
     loading: Annotated[str | None, read_loading] = None
     pivots: Annotated[tuple[float, ...], read_pivots] = ()
@@ -144,7 +155,8 @@ class TiltingTable:
                 f"loading must be given with pad_count, and only then, got {self.loading!r} and "
                 f"{self.pad_count!r}"
             )
-        self._built(1.0 if self.viscosity is None else self.viscosity)
+        # Without a viscosity there is no lubricant before `on` has given the oil.
+        self._built(1.0 if self.viscosity is None and self.oil is None else self.viscosity)
 
     @property
     def film_is_given(self) -> bool:
@@ -152,15 +164,14 @@ class TiltingTable:
         return self.film is not None
 
     def on(self, where: str, lubricant: LubricantTable) -> Self:
-        """Return this table with the viscosity of the fresh oil, unless it has its own."""
-        return on_fresh_oil(self, where, lubricant)
+        """Return this table with the oil of the scene, unless it has its own viscosity."""
+        return on_oil(self, where, lubricant)
 
     def build(self) -> TiltingPadBearing:
         """Return the bearing; raise InputError where a value breaks its rule."""
-        assert self.viscosity is not None  # `on` gives it
         return self._built(self.viscosity)
 
-    def _built(self, viscosity: float) -> TiltingPadBearing:
+    def _built(self, viscosity: float | None) -> TiltingPadBearing:
         pivots = self.pivots
         if self.pad_count is not None and self.loading is not None:
             pivots = even_pivots(self.pad_count, between_pads=LOADINGS[self.loading])
@@ -173,6 +184,7 @@ class TiltingTable:
             TiltingData,
             bearing,
             slenderness=bearing.slenderness,
+            viscosity=bearing.film_viscosity,
             pad_clearance=bearing.clearance,
             assembled_clearance=bearing.bore_clearance,
         )
