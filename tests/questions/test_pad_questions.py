@@ -11,7 +11,7 @@ from rotorfilm.bearings.pads import PadGridFilm, PadMapFilm, TiltingPadBearing
 from rotorfilm.errors import AbsentError, InputError
 from rotorfilm.linear import equilibrium, whirl_threshold
 from rotorfilm.questions import ladder_of
-from rotorfilm.questions.journal.statics import MATRIX, attitude, relative_distance
+from rotorfilm.questions.journal.statics import LOSSES, MATRIX, attitude, relative_distance
 from rotorfilm.scenes.journal.film_defects import tangent
 from rotorfilm.scenes.pads.lobed_candidates import COARSE_MAP, lobed_candidates
 from rotorfilm.scenes.pads.tilting_candidates import smooth_slopes
@@ -64,6 +64,7 @@ quantity = "{quantity}"
 tolerance = {tolerance}
 {excitation}
 """
+OIL = '[lubricant]\ngrade = 46\nsupply_temperature = "45 degC"\n'
 ON_MAP = 'film = { name = "map" }\n'
 LOST_BLADE = '[excitation]\nkind = "blade_loss"\nunbalance = 0.02\nrevolutions = 2'
 UNBALANCE = "unbalance = 0.01"
@@ -122,6 +123,8 @@ def truth(scene, finest):
         return slopes[:, MATRIX[quantity] : MATRIX[quantity] + 2]
     if quantity == "attitude_angle":
         return attitude(at.position, load, speed)
+    if quantity in LOSSES:
+        return getattr(at.losses, quantity)
     return getattr(at, quantity)
 
 
@@ -254,4 +257,65 @@ def test_named_film_is_the_only_one_that_answers():
 @pytest.mark.parametrize("table", [LOBED, DAM, TILTING])
 def test_quantities_that_films_of_pads_do_not_have_are_refused(table):
     with pytest.raises(InputError, match=r"question.quantity must be one that this scene has"):
+        asked(table, "maximum_temperature", 0.1).ask()
+    with pytest.raises(InputError, match=r"lubricant must give the oil of the pads for temperature, .* 0.02"):
         asked(table, "temperature", 0.1).ask()
+
+
+FINEST = {LOBED: {"film": PadGridFilm(cells=(192, 16))}, DAM: {"cells": (160, 40)}}
+FINEST[TILTING] = {"film": PadGridFilm(cells=(96, 8))}
+TABLES = pytest.mark.parametrize("table", FINEST, ids=["lobes", "dam", "tilting"])
+
+
+@TABLES
+@pytest.mark.parametrize("quantity", ["power_loss", "side_flow"])
+def test_losses_are_answered_to_their_tolerance(table, quantity):
+    scene = asked(table, quantity, 0.02)
+    answer = scene.ask()
+    error = abs(answer.value / truth(scene, replace(scene.bearing, **FINEST[table])) - 1.0)
+    assert answer.met
+    assert error < min(0.02, 2.5 * answer.error_estimate + 1e-3)
+
+
+def on_oil(table):
+    return table.replace('viscosity = "20 mPa s"\n', "")
+
+
+@TABLES
+@pytest.mark.parametrize("quantity", ["temperature", "power_loss"])
+def test_pads_on_an_oil_are_as_warm_as_their_balance(table, quantity):
+    scene = asked(on_oil(table), quantity, 0.02, excitation=OIL)
+    answer = scene.ask()
+    finest = replace(scene.bearing, **FINEST[table])
+    at = equilibrium(finest, scene.static_load, scene.speed)
+    exact = at.temperature if quantity == "temperature" else at.losses.power_loss
+    supply = finest.cooling.supply_temperature
+    assert answer.met
+    assert answer.model.startswith("T1, 2-D")
+    assert 1e-9 < relative_distance(quantity, answer.value, exact, supply) < 0.02
+    assert at.temperature > supply + 5.0
+    assert any(line.startswith("carry_over") for line in answer.assumptions)
+    fresh = [report for report in answer.rungs if report.name.startswith("T0")]
+    assert bool(fresh) == (quantity == "power_loss")
+    if fresh:
+        cold = finest.at_temperature(supply)
+        error = abs(equilibrium(cold, scene.static_load, scene.speed).losses.power_loss / exact - 1.0)
+        assert fresh[0].error_estimate == pytest.approx(error, rel=0.3)
+
+
+def test_threshold_on_an_oil_is_that_of_films_as_warm_as_their_rest():
+    scene = asked(on_oil(LOBED), "whirl_threshold", 0.5, excitation=OIL)
+    answer, warm = scene.ask(), replace(scene.bearing, film=PadGridFilm(cells=(48, 4)))
+    at = equilibrium(warm, scene.static_load, answer.value)
+    around = 0.9 * answer.value, 1.1 * answer.value
+    kept = whirl_threshold(warm.at_temperature(at.temperature), scene.static_load, 300.0, around)
+    assert answer.value == pytest.approx(kept.speed, rel=1e-3)
+
+
+def test_motions_on_an_oil_keep_the_temperature_of_the_rest():
+    scene = asked(on_oil(LOBED), "unbalance_amplitude", 0.2, UNBALANCE, OIL)
+    film = ladder_of(scene).rungs[0].film.reaction
+    warm = replace(scene.bearing, film=PadGridFilm(cells=(96, 8)))
+    at = equilibrium(warm, scene.static_load, scene.speed)
+    assert film.temperature == pytest.approx(at.temperature, abs=0.1)
+    assert scene.ask().met

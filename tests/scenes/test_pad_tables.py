@@ -86,10 +86,13 @@ def test_tilting_pads_by_their_number_or_their_pivots():
 
 
 @pytest.mark.parametrize("table", [LOBES + 'preset = "three_lobe"\n', DAM + STEP.partition(OIL)[2], FIVE])
-def test_viscosity_without_one_is_that_of_the_fresh_oil(table):
+def test_without_a_viscosity_the_films_are_on_the_oil_in_balance(table):
     lubricant = '[lubricant]\ngrade = 46\nsupply_temperature = "40 degC"\n'
     scene = scene_of(table.replace(OIL, "") + GRID * ("lobed" in table), RUN + lubricant)
-    assert scene.bearing.viscosity == pytest.approx(46e-6 * scene.lubricant.properties.density, rel=1e-3)
+    fresh = 46e-6 * scene.lubricant.properties.density
+    assert scene.bearing.film_viscosity == pytest.approx(fresh, rel=1e-3)
+    assert scene.bearing.is_warming
+    assert not any("warms" in remark for remark in scene.film_remarks)
 
 
 @pytest.mark.parametrize(

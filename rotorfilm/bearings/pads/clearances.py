@@ -55,4 +55,6 @@ class PadClearance:
         if self.pad_clearance is None and len(preloads) > 1:
             raise InputError(f"pads must have one preload for an assembled_clearance, got {preloads}")
         if self.clearance >= self.radius:
-            raise InputError(f"pad clearance must be below the radius {self.radius!r}, got {self.clearance!r}")
+            raise InputError(
+                f"pad clearance must be below the radius {self.radius!r}, got {self.clearance!r}"
+            )

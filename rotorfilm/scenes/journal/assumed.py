@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import Any, Protocol
+from typing import Any
 
 from ...bearings.journal import BushRing, JournalBearing
 from ...bearings.oil import Cooling, Oil
@@ -19,36 +19,17 @@ SPREAD = 0.05
 CARRIED = (0.7, 0.9)
 """Shares of the oil arriving at an opening that go on, as they are found in use."""
 
-
-class OiledBearing(Protocol):
-    """A bearing on an oil: a `JournalBearing`, or one made of pads, which has openings between them."""
-
-    @property
-    def radius(self) -> float:
-        """Of the journal [m]."""
-
-    @property
-    def length(self) -> float:
-        """Axial length [m]."""
-
-    @property
-    def cooled(self) -> tuple[Oil, Cooling]:
-        """Oil and cooling."""
-
-
 WARM, HOT = 40.0 + CELSIUS, 100.0 + CELSIUS
 
 HOUSING = "a steel one of twice the radius, cooled by 80 W/(m2 K)"
 
 
-def assumed_figures(
-    bearing: OiledBearing, moved: Callable[[Any], float], *, fields: bool
-) -> tuple[str, ...]:
+def assumed_figures(bearing: Any, moved: Callable[[Any], float], *, fields: bool) -> tuple[str, ...]:
     """Return which figures of a bearing on an oil are assumed, and how much each moves the answer.
 
     Parameters
     ----------
-    bearing : OiledBearing
+    bearing : JournalBearing, or one made of pads
     moved : callable
         How far the answer of another bearing is off, by T1, in the unit of the tolerance.
     fields : bool
@@ -69,12 +50,12 @@ def assumed_figures(
     return tuple(lines)
 
 
-def assumed_names(bearing: OiledBearing) -> tuple[str, ...]:
+def assumed_names(bearing: Any) -> tuple[str, ...]:
     """Return which figures of a bearing on an oil are assumed."""
     return tuple(text for text, _ in _varied(bearing))
 
 
-def _varied(bearing: OiledBearing) -> Iterator[tuple[str, list[Any]]]:
+def _varied(bearing: Any) -> Iterator[tuple[str, list[Any]]]:
     """Yield each assumption, and the bearings that it might be as well."""
     oil, cooling = bearing.cooled
     default = Cooling(supply_temperature=cooling.supply_temperature)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Any, Self
 
-from ...bearings.pads import PressureDamBearing, Recess, RecessedPad, pressure_dam_pads
 from ...bearings.oil import Cooling, Oil
+from ...bearings.pads import PressureDamBearing, Recess, RecessedPad, pressure_dam_pads
 from ...errors import InputError
 from ...limits import FILM_CELLS
 from ...progress import Report

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Any, Self
 
-from ...bearings.pads import SETS, Lobe, LobedBearing, PadFilm, PadMapFilm, lobe_set
 from ...bearings.oil import Cooling, Oil
+from ...bearings.pads import SETS, Lobe, LobedBearing, PadFilm, PadMapFilm, lobe_set
 from ...errors import InputError, SceneError, brief
 from ...progress import Report
 from ...readable.result import Readable

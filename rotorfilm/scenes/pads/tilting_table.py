@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Any, Self
 
-from ...bearings.pads import PadFilm, PadMapFilm, TiltingPadBearing, even_pivots
 from ...bearings.oil import Cooling, Oil
+from ...bearings.pads import PadFilm, PadMapFilm, TiltingPadBearing, even_pivots
 from ...errors import InputError, SceneError, brief
 from ...progress import Report
 from ...readable.result import Readable

@@ -39,7 +39,9 @@ def test_pads_without_a_recess_lose_what_lobes_lose(speed, full_gap):
     others = LobedBearing(**BORE, viscosity=0.03, lobes=lobes, film=PadGridFilm(cells=(128, 16)))
     ours = dam(tuple(RecessedPad(**arc) for arc in arcs), (128, 16))
     for velocity in (STILL, [2e-3, -1e-3]):
-        one, other = (each.losses([2e-5, -4e-5], velocity, speed, full_gap=full_gap) for each in (ours, others))
+        one, other = (
+            each.losses([2e-5, -4e-5], velocity, speed, full_gap=full_gap) for each in (ours, others)
+        )
         for name in NAMES:
             np.testing.assert_allclose(getattr(one, name), getattr(other, name), rtol=4e-3)
 
@@ -85,7 +87,7 @@ def test_power_and_side_flow_are_those_of_the_pressure(recess):
 
 
 def test_streamers_keep_their_thickness_over_a_step():
-    """A pad that opens all along: oil of the thickness at its edge, Sigma = H_1 int dt/H^2 in the recess too."""
+    """A pad that opens all along: oil of the thickness at its edge, Sigma = H_1 int dt/H^2."""
     pad = RecessedPad(start=-0.5, extent=1.0, recess=Recess(depth=5e-5, start=0.1, end=0.5))
     bearing = dam((pad,), (128, 8))
     position = 1e-4 * np.array([-0.3, -1.2])

@@ -87,7 +87,12 @@ def test_plain_pads_are_the_film_on_a_ring():
     """The ring grid crowds its lines elsewhere and shares no code of its cells: equal within the errors."""
     arcs = tuple(Pad(start=pad.start, extent=pad.extent) for pad in PLAIN)
     ring = JournalBearing(
-        radius=0.05, length=0.05, clearance=1e-4, viscosity=0.03, pads=arcs, film=ReynoldsFilm(cells=(256, 16))
+        radius=0.05,
+        length=0.05,
+        clearance=1e-4,
+        viscosity=0.03,
+        pads=arcs,
+        film=ReynoldsFilm(cells=(256, 16)),
     )
     ours = bearing(PLAIN, (128, 16), extrapolated=False)
     position, velocity, speed = states(30, 0.8)
