@@ -10,7 +10,9 @@ import numpy as np
 from ...scenes.export_scene import film_models
 from ...scenes.families import Family, SceneModels
 from ...scenes.pads.tilting_table import TiltingTable
+from ..orbit_place import UNITS as ORBITS
 from .fixed_ladders import PAD_STATICS
+from .tilting_orbits import tilting_orbit_ladder
 from .tilting_rungs import tilting_rest_ladder, tilting_whirl_ladder
 from .warm_pads import settled_scene
 
@@ -31,6 +33,10 @@ def tilting_models(scene: Scene) -> SceneModels:
 
 FAMILY = Family(
     table=TiltingTable,
-    ladders={**dict.fromkeys(PAD_STATICS, tilting_rest_ladder), "whirl_threshold": tilting_whirl_ladder},
+    ladders={
+        **dict.fromkeys(PAD_STATICS, tilting_rest_ladder),
+        **dict.fromkeys(ORBITS, tilting_orbit_ladder),
+        "whirl_threshold": tilting_whirl_ladder,
+    },
     models=tilting_models,
 )
