@@ -9,9 +9,11 @@ import pytest
 from rotorfilm.bearings.contact_place import minimum_film
 from rotorfilm.bearings.pads import PadGridFilm, PadMapFilm, TiltingPadBearing
 from rotorfilm.errors import AbsentError, InputError
-from rotorfilm.linear import equilibrium, whirl_threshold
+from rotorfilm.linear import coefficients, equilibrium, whirl_threshold
+from rotorfilm.motion.transient.simulate import simulate
 from rotorfilm.questions import ladder_of
 from rotorfilm.questions.journal.statics import LOSSES, MATRIX, attitude, relative_distance
+from rotorfilm.questions.journal.unbalance_orbits import rotor_of
 from rotorfilm.scenes.journal.film_defects import tangent
 from rotorfilm.scenes.pads.lobed_candidates import COARSE_MAP, lobed_candidates
 from rotorfilm.scenes.pads.tilting_candidates import smooth_slopes
@@ -319,3 +321,47 @@ def test_motions_on_an_oil_keep_the_temperature_of_the_rest():
     at = equilibrium(warm, scene.static_load, scene.speed)
     assert film.temperature == pytest.approx(at.temperature, abs=0.1)
     assert scene.ask().met
+
+
+def test_small_orbits_on_tilting_pads_are_those_of_synchronous_coefficients():
+    scene = asked(TILTING, "unbalance_amplitude", 0.01, "unbalance = 1e-6")
+    answer, bearing = scene.ask(), replace(scene.bearing, film=PadGridFilm(cells=(96, 8)))
+    at = equilibrium(bearing, scene.static_load, scene.speed)
+    found = coefficients(bearing, at.position, scene.speed)
+    dynamic = found.stiffness + 1j * scene.speed * found.damping - scene.speed**2 * 300.0 * np.eye(2)
+    x, y = np.linalg.solve(dynamic, 1e-6 * scene.speed**2 * np.array([1.0, -1j]))
+    circles = 0.5 * (abs(x + 1j * y) + abs(x - 1j * y))
+    assert answer.model.startswith("linear")
+    assert answer.value == pytest.approx(circles, rel=0.01)
+    assert answer.error_estimate < 0.01 / 1.5
+
+
+def test_orbits_on_tilting_pads_are_those_in_time():
+    table = TILTING.replace("pad_count = 5", "pad_count = 4").replace("on_pad", "between_pads")
+    scene = asked(
+        table + 'film = { name = "reynolds", cells = [48, 4] }\n', "unbalance_amplitude", 1e-3, UNBALANCE
+    )
+    ladder = ladder_of(scene)
+    linear, orbit = (ladder.rungs[k].answer(None) for k in (0, 2))
+    bearing = ladder.rungs[0].film.reaction
+    at = equilibrium(bearing, scene.static_load, scene.speed)
+    start = tuple(bearing.at_rest().state(at.position, scene.speed).tolist())
+    rotor = replace(rotor_of(scene), position=tuple(at.position))
+    turn = 2.0 * math.pi / scene.speed
+    run = simulate(rotor, replace(bearing, start=start), duration=12.0 * turn, samples=12 * 64 + 1, rtol=1e-6)
+    last = run.position[:, -64:]
+    wave = last @ np.exp(-1j * scene.speed * run.time[-64:]) / 32.0
+    exact = 0.5 * (abs(wave[0] + 1j * wave[1]) + abs(wave[0] - 1j * wave[1]))
+    assert orbit.value == pytest.approx(exact, rel=1e-3)
+    assert abs(linear.value / exact - 1.0) > 5e-3
+    about = ladder.rungs[0].estimate(linear, None, 1e-3)
+    assert 0.4 < about.error / abs(linear.value / exact - 1.0) < 2.5
+
+
+def test_phase_and_force_of_an_orbit_on_tilting_pads():
+    found = {q: asked(TILTING, q, 0.05, UNBALANCE).ask() for q in ("unbalance_phase", "unbalance_force")}
+    assert all(answer.met for answer in found.values())
+    amplitude = asked(TILTING, "unbalance_amplitude", 0.05, UNBALANCE).ask().value
+    inertia = 300.0 * 314.159265**2 * amplitude
+    assert found["unbalance_force"].value == pytest.approx(inertia, rel=1.1 * 0.01 * 314.159265**2 / inertia)
+    assert -math.pi < found["unbalance_phase"].value < 0.0

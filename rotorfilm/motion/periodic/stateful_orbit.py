@@ -4,7 +4,8 @@ At n samples of a turn the series of n - 1 harmonics and less stands for positio
 
     m q'' = F(x, q, q') + load + unbalance,   x' = f(x, q, q'),
 
-by Newton's method with the exact derivatives of the bearing; its first step from the rest is the linear orbit.
+by Newton's method with the exact derivatives of the bearing. Its first step from the rest is the linear
+orbit.
 """
 
 from __future__ import annotations

@@ -7,7 +7,9 @@ import pytest
 from scipy.integrate import Radau
 
 from rotorfilm import (
+    FilmContactError,
     LobedBearing,
+    PadGridFilm,
     PadMapFilm,
     RigidRotor,
     ValidityWarning,
@@ -21,6 +23,7 @@ from rotorfilm import (
     whirl_threshold,
 )
 from rotorfilm.bearings.pads.pad_build import PadResolution
+from rotorfilm.motion.transient.equal_steps import march
 
 FILM = PadMapFilm(resolution=PadResolution(cells=(32, 4), nodes=(10, 9, 32)))
 BEARING = LobedBearing(
@@ -74,3 +77,30 @@ def test_a_heavy_load_never_reaches_a_lobe():
         run = simulate(rotor, BEARING, duration=0.05, rtol=1e-6)
     assert run.time[-1] == pytest.approx(0.05)
     assert 0.0 < BEARING.minimum_film(run.position).min() < 0.05 * BEARING.clearance
+
+
+@pytest.mark.parametrize("preload", [0.0, 0.6])
+def test_a_rotor_shaken_up_to_a_lobe_is_told_by_the_lobe(preload):
+    """The wall is that of the pads, of clearance 1e-4 m: nearer with preload, and in the gaps beyond it."""
+    lobes = lobe_set("three_lobe", preload=preload)
+    bearing = replace(BEARING, lobes=lobes, film=PadGridFilm(cells=(48, 4)))
+    rest = equilibrium(bearing, LOAD, SPEED).position
+
+    def shaken(pull, count=24):
+        return march(bearing, MASS, SPEED, lambda t: (LOAD[0] + pull, LOAD[1]), rest, 2e-4, count)[0]
+
+    with pytest.raises(FilmContactError, match="got to the wall"):
+        shaken(1e12, 2)
+    motion = shaken(2e5)
+    films = bearing.minimum_film(motion.position)
+    assert 0.0 < films.min() < 0.1 * bearing.minimum_film(np.zeros(2))
+    exact = simulate(
+        replace(ROTOR, static_force=(LOAD[0] + 2e5, LOAD[1]), position=tuple(rest)),
+        bearing,
+        duration=24 * 2e-4,
+        samples=25,
+        rtol=1e-8,
+        method=Radau,
+    )
+    late = np.abs(motion.position - exact.position)[:, 12:]
+    assert late.max() < 3e-3 * bearing.clearance
