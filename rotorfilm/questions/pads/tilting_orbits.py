@@ -102,7 +102,7 @@ class TiltingOrbitRung(CandidateRung[TiltingCandidate]):
             return ErrorEstimate(math.inf, "defect", doubt="the orbit leaves the clearance: not linear")
         better = rich.turn(places + first + second)
         error = wave_change(self.quantity, found.value, self._value(better))
-        left = float(np.linalg.norm(second[:2]) / max(np.linalg.norm(first[:2]), 1e-300))
+        left = float(np.linalg.norm(second[:2])) / max(float(np.linalg.norm(first[:2])), 1e-300)
         doubt = f"a second step is {left:.0%} of the first: not linear" if left > DISAGREEMENT else ""
         method = f"defect of {self.film.rich_name}, {samples} samples"
         return ErrorEstimate(error, method, {self.points: samples}, doubt=doubt)

@@ -55,14 +55,15 @@ def settled_scene(scene: Scene) -> Scene:
     """Return a scene whose films keep the temperature that they have with the journal at rest."""
     if not is_warm(scene):
         return scene
-    at = equilibrium(quick_pads(scene.bearing), scene.static_load, scene.speed)
+    bearing: Any = scene.bearing
+    at = equilibrium(quick_pads(bearing), scene.static_load, scene.speed)
     name = next(name for name, table in scene.others.items() if table is scene.film_table)
     kept: Any = replace(scene.film_table, temperature=at.temperature)  # type: ignore[type-var]
     return replace(scene, others={**scene.others, name: kept})
 
 
 def warm_static_ladder(
-    scene: Scene, quantity: str, films: Sequence[FilmCandidate], make: Callable[[FilmCandidate], Rung]
+    scene: Scene, quantity: str, films: Sequence[FilmCandidate], make: Callable[[Any], Rung]
 ) -> Ladder:
     """Return the ladder of a static quantity on an oil.
 

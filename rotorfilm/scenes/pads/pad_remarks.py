@@ -92,6 +92,6 @@ def _warmed(bearing: AnyPads, speed: float, load: tuple[float, float]) -> AnyPad
         try:
             at = equilibrium(quick_pads(bearing), load, speed)
         except RotorfilmError:
-            return bearing.at_temperature(bearing.coldest())
+            return bearing.at_temperature(bearing.cooled[1].coldest)
     assert at.temperature is not None  # of films that warm
     return bearing.at_temperature(at.temperature)
