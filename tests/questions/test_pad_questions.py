@@ -264,7 +264,7 @@ def test_quantities_that_films_of_pads_do_not_have_are_refused(table):
         asked(table, "temperature", 0.1).ask()
 
 
-FINEST = {LOBED: {"film": PadGridFilm(cells=(192, 16))}, DAM: {"cells": (160, 40)}}
+FINEST = {LOBED: {"film": PadGridFilm(cells=(192, 16))}, DAM: {"cells": (96, 24)}}
 FINEST[TILTING] = {"film": PadGridFilm(cells=(96, 8))}
 TABLES = pytest.mark.parametrize("table", FINEST, ids=["lobes", "dam", "tilting"])
 
@@ -272,11 +272,11 @@ TABLES = pytest.mark.parametrize("table", FINEST, ids=["lobes", "dam", "tilting"
 @TABLES
 @pytest.mark.parametrize("quantity", ["power_loss", "side_flow"])
 def test_losses_are_answered_to_their_tolerance(table, quantity):
-    scene = asked(table, quantity, 0.02)
+    scene = asked(table, quantity, 0.05)
     answer = scene.ask()
     error = abs(answer.value / truth(scene, replace(scene.bearing, **FINEST[table])) - 1.0)
     assert answer.met
-    assert error < min(0.02, 2.5 * answer.error_estimate + 1e-3)
+    assert error < min(0.05, 2.5 * answer.error_estimate + 1e-3)
 
 
 def on_oil(table):
@@ -286,7 +286,7 @@ def on_oil(table):
 @TABLES
 @pytest.mark.parametrize("quantity", ["temperature", "power_loss"])
 def test_pads_on_an_oil_are_as_warm_as_their_balance(table, quantity):
-    scene = asked(on_oil(table), quantity, 0.02, excitation=OIL)
+    scene = asked(on_oil(table), quantity, 0.05, excitation=OIL)
     answer = scene.ask()
     finest = replace(scene.bearing, **FINEST[table])
     at = equilibrium(finest, scene.static_load, scene.speed)
@@ -294,7 +294,7 @@ def test_pads_on_an_oil_are_as_warm_as_their_balance(table, quantity):
     supply = finest.cooling.supply_temperature
     assert answer.met
     assert answer.model.startswith("T1, 2-D")
-    assert 1e-9 < relative_distance(quantity, answer.value, exact, supply) < 0.02
+    assert 1e-9 < relative_distance(quantity, answer.value, exact, supply) < 0.05
     assert at.temperature > supply + 5.0
     assert any(line.startswith("carry_over") for line in answer.assumptions)
     fresh = [report for report in answer.rungs if report.name.startswith("T0")]
