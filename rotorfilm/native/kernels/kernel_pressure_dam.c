@@ -117,10 +117,8 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     model *self = kernel;
     if (rf_scale_journal(&self->journal, p, why) != RF_OK)
         return RF_INVALID;
-    for (size_t k = 0; k < self->bearing.count; ++k)
-        if (p[2] >= p[0] * (1.0 - self->pads[k].preload))
-            return rf_say(why, RF_INVALID, "clearance / (1 - preload) must be below the radius %.9g, got %.9g", p[0],
-                          p[2] / (1.0 - self->pads[k].preload));
+    if (p[2] >= p[0])
+        return rf_say(why, RF_INVALID, "pad clearance must be below the radius %.9g, got %.9g", p[0], p[2]);
     self->bearing.radius = p[0];
     self->bearing.length = p[1];
     self->bearing.clearance = p[2];
