@@ -165,7 +165,7 @@ def nicholas() -> Gap:
         bearing = PressureDamBearing(
             diameter=25.4e-3,
             length=25.4e-3,
-            clearance=clearance * MIL,
+            pad_clearance=clearance * MIL,
             viscosity=7.60e-6 * 6894.757,
             pads=pressure_dam_pads(depth=depth * MIL, end=math.radians(end), share=0.75),
         )

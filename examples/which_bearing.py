@@ -27,7 +27,7 @@ bearings = {
     name: LobedBearing(**BORE, assembled_clearance="0.1 mm", lobes=lobes) for name, lobes in SETS.items()
 }
 bearings["pressure dam"] = PressureDamBearing(
-    **BORE, clearance="0.1 mm", pads=pressure_dam_pads(depth="0.2 mm", end="145 deg", share=0.75)
+    **BORE, assembled_clearance="0.1 mm", pads=pressure_dam_pads(depth="0.2 mm", end="145 deg", share=0.75)
 )
 bearings["tilting pads"] = TiltingPadBearing(
     **BORE, assembled_clearance="0.1 mm", preload=0.3, extent="60 deg", pivots=even_pivots(5)

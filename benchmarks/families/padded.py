@@ -118,10 +118,8 @@ def lobes(random: np.random.Generator) -> Drawn:
 def dam(random: np.random.Generator) -> Drawn:
     """Return a static question about a pressure dam bearing."""
     made = dimensions(random)
-    clearance = made.pop("assembled_clearance")
-    shape = dammed(random, clearance)
+    shape = dammed(random, made["assembled_clearance"])
     speed = log_uniform(random, 30.0, 600.0)
-    made["clearance"] = clearance
     bearing = PressureDamBearing(**made, pads=pressure_dam_pads(**shape), cells=(32, 8))
     while True:
         downward = float(random.uniform(-0.5, 0.5)) * math.pi - 0.5 * math.pi

@@ -68,7 +68,7 @@ def coefficients(
     from ..scenes.reading.tables import read_table
     from ..scenes.schema import JournalTable
 
-    lubricant = _lubricant(viscosity, oil, supply_temperature)
+    lubricant = lubricant_of(viscosity, oil, supply_temperature)
     geometry = {"radius": radius, "length": length, "clearance": clearance}
     geometry |= {"viscosity": viscosity} if viscosity is not None else {}
     grooves = tuple(_groove(text) for text in groove or [])
@@ -76,7 +76,7 @@ def coefficients(
     table = replace(read_table(JournalTable, "--", geometry), film=law, grooves=grooves).on("--", lubricant)
     bearing = table.build()
     table.make_map(report)
-    force, rate = _operation(load, speed)
+    force, rate = operation_of(load, speed)
     at = equilibrium(bearing, force, rate)
     derivatives = film_coefficients(bearing, at.position, rate)
     data, name = bearing_data(bearing), film_name(bearing.fitted_film)
@@ -154,7 +154,7 @@ def _map_of_options(
     return film.built_table(slenderness, report)
 
 
-def _lubricant(viscosity: str | None, oil: str | None, supply_temperature: str | None) -> LubricantTable:
+def lubricant_of(viscosity: str | None, oil: str | None, supply_temperature: str | None) -> LubricantTable:
     """Return the oil of a grade; without one a mineral oil for the remarks, beside the viscosity."""
     from ..scenes.lubricant_table import LubricantTable, read_grade
     from ..scenes.reading.tables import Quantity
@@ -207,7 +207,7 @@ def _groove(text: str) -> Groove:
     return Groove(center=center, width=width)
 
 
-def _operation(load: str, speed: str) -> tuple[tuple[float, float], float]:
+def operation_of(load: str, speed: str) -> tuple[tuple[float, float], float]:
     """Return the load [N] and the speed [rad/s]."""
     from ..scenes.reading.tables import read_table
     from ..scenes.schema import OperationTable

@@ -20,6 +20,10 @@ COMMANDS = {
     "solve_command.schema": "schema --out scene.schema.json",
     "journal_commands.coefficients": 'coefficients --radius "50 mm" --length "30 mm" --clearance "0.1 mm" '
     '--viscosity "0.1 Pa s" --load "525 N" --speed "1500 rpm"',
+    "pad_coefficients_command.pad_coefficients": "pad-coefficients --type tilting_pad --pads 5 "
+    '--load-between --radius "50 mm" --length "50 mm" --assembled-clearance "70 um" --preload 0.3 '
+    '--extent "60 deg" '
+    '--viscosity "20 mPa s" --load "3 kN" --speed "3000 rpm"',
     "journal_commands.groove_map": 'groove-map --slenderness 0.5 --groove "90 deg, 20 deg" '
     '--groove "270 deg, 20 deg"',
     "bush_command.bush": 'bush --load "3750 N" --speed "9 rad/s" --set f0=0.12',

@@ -37,6 +37,7 @@ _TOLERANCE = 1e-12
 _KELVIN = 4e-12
 _ROUNDOFF_STOP = 1e-13
 _NEWTON_STEPS = 60
+_NEUTRAL = 1e-11
 _LARGEST_S = math.log(MAXIMUM_ECCENTRICITY / (1.0 - MAXIMUM_ECCENTRICITY))
 _LARGEST_MOVE = (6.0, 1.0)
 _FIRST_ANGLE = math.pi / 3.0
@@ -51,6 +52,7 @@ class _Target(NamedTuple):
     x: float
     y: float
     room: float
+    lead: float  # of the first trial, from the load on
 
     @property
     def size(self) -> float:
@@ -113,7 +115,9 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     at_rest = reaction.at_rest() if isinstance(reaction, Settling) else None
     film: Any = at_rest or reaction
     room = min(relative_film(film, np.zeros(2)), 1.0)
-    target = _Target(prepared_tangent(film), film.clearance, speed, -float(load[0]), -float(load[1]), room)
+    lead = 0.0 if at_rest else math.copysign(_FIRST_ANGLE, speed)  # pads that follow take no journal aside
+    x, y = -float(load[0]), -float(load[1])
+    target = _Target(prepared_tangent(film), film.clearance, speed, x, y, room, lead)
     with warnings.catch_warnings():
         # A state that the search only passes through is nobody's answer; that of the result is warned of.
         warnings.simplefilter("ignore", ValidityWarning)
@@ -172,21 +176,18 @@ def checked_load(load: ArrayLike) -> Array:
 def _search(target: _Target) -> _Point:
     """Return the first converged point, or the best of all starts."""
     points = []
-    for s, phi in _starts(math.atan2(-target.y, -target.x), target.speed, target.room):
+    for s, phi in _starts(target):
         points.append(_newton(target, s, phi))
         if points[-1].norm <= _tolerance(points[-1].s):
             return points[-1]
     return min(points, key=lambda point: point.norm)
 
 
-def _starts(along_load: float, speed: float, room: float) -> list[tuple[float, float]]:
-    """Return starting points (s, phi); an isotropic film needs the first only.
-
-    The first is half of the way to the wall, of which `room` is left at the center, in clearances.
-    """
-    sense, half = math.copysign(1.0, speed), math.log(room / (2.0 - room))
+def _starts(target: _Target) -> list[tuple[float, float]]:
+    """Return starting points (s, phi); the first, half of the way to the wall, is enough for most films."""
+    along_load, half = math.atan2(-target.y, -target.x), math.log(target.room / (2.0 - target.room))
     turns = [k * math.pi / 3.0 for k in range(6)]
-    first = (half, along_load + sense * _FIRST_ANGLE)
+    first = (half, along_load + target.lead)
     return [first, *((s, along_load + turn) for s in (half - 2.0, half + 2.0) for turn in turns)]
 
 
@@ -194,12 +195,12 @@ def _newton(target: _Target, s: float, phi: float) -> _Point:
     point = _point(target, s, phi, 0)
     while point.steps < _NEWTON_STEPS and _ROUNDOFF_STOP < point.norm < math.inf:
         a, b, c, d = point.matrix
-        det = a * d - b * c
-        if abs(det) < 1e-14:
-            break
-        step_s = (b * point.angle - d * point.ratio) / det
-        step_phi = (c * point.ratio - a * point.angle) / det
-        improved = _damped(target, point, step_s, step_phi)
+        det, size = a * d - b * c, a * a + b * b + c * c + d * d or 1.0
+        step_s, step_phi = b * point.angle - d * point.ratio, c * point.ratio - a * point.angle
+        if abs(det) < _NEUTRAL * size:  # nothing holds the journal in one direction: the shortest step
+            det, step_s = -size, a * point.ratio + c * point.angle
+            step_phi = b * point.ratio + d * point.angle
+        improved = _damped(target, point, step_s / det, step_phi / det)
         if improved is None:
             break
         point = improved

@@ -69,6 +69,7 @@ _LOOPS: dict[str, list[Any]] = {
     "rf_recess_batch": [c_void_p, c_size_t, *[c_void_p] * 4],
     "rf_recess_field": [c_void_p, c_size_t, c_void_p, c_void_p],
     "rf_recess_least": [c_void_p] * 3,
+    "rf_recess_losses": [c_void_p] * 3,
     "rf_balanced_at": [c_void_p] * 5,
     "rf_heat_at": [c_void_p] * 4,
     "rf_groove_flows": [c_void_p, c_size_t, *[c_void_p] * 3],

@@ -62,12 +62,9 @@ class OrbitPlace:
 
     def value(self, answers: RotorAnswers, orbit: Array) -> float:
         """Return the quantity of an orbit, from its first harmonic."""
-        waves = [circles(self._wave(answers, orbit, name)) for name in self.places]
-        if self.quantity == PHASE:
-            with_it, against = waves[0]
-            turn = np.angle(with_it) if answers.speed > 0.0 else np.angle(against)
-            return math.remainder(float(turn) - self.reference, 2.0 * math.pi)
-        return max(abs(with_it) + abs(against) for with_it, against in waves)
+        places = self.places[:1] if self.quantity == PHASE else self.places
+        waves = (self._wave(answers, orbit, name) for name in places)
+        return max(wave_value(self.quantity, wave, answers.speed, self.reference) for wave in waves)
 
     def _wave(self, answers: RotorAnswers, orbit: Array, name: str) -> Complex:
         if name in self.probes:
@@ -101,6 +98,20 @@ class OrbitPlace:
 
     def change(self, before: float, after: float) -> float:
         """Return the relative distance of two values; of phases in radians."""
-        if self.quantity == PHASE:
-            return abs(math.remainder(after - before, 2.0 * math.pi))
-        return abs(after - before) / abs(after)
+        return wave_change(self.quantity, before, after)
+
+
+def wave_value(quantity: str, wave: Complex, speed: float, reference: float) -> float:
+    """Return the quantity of a first harmonic (2,) at a signed speed; a phase from a reference [rad] on."""
+    with_it, against = circles(wave)
+    if quantity != PHASE:
+        return float(abs(with_it) + abs(against))
+    turn = np.angle(with_it) if speed > 0.0 else np.angle(against)
+    return math.remainder(float(turn) - reference, 2.0 * math.pi)
+
+
+def wave_change(quantity: str, before: float, after: float) -> float:
+    """Return the relative distance of two values; of phases in radians."""
+    if quantity == PHASE:
+        return abs(math.remainder(after - before, 2.0 * math.pi))
+    return abs(after - before) / abs(after)

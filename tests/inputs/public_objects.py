@@ -56,7 +56,7 @@ MADE = [
     LOBED,
     DAM_PADS[0],
     DAM_PADS[0].recess,
-    rf.PressureDamBearing(radius=0.05, length=0.04, clearance=1e-4, viscosity=0.03, pads=DAM_PADS),
+    rf.PressureDamBearing(radius=0.05, length=0.04, pad_clearance=1e-4, viscosity=0.03, pads=DAM_PADS),
     rf.TiltingPadBearing(
         radius=0.05,
         length=0.04,

@@ -56,7 +56,7 @@ def dam_bearing():
     """Return a pressure dam with a relief track, on grids as small as may be."""
     pads = pressure_dam_pads(depth=1e-4, end=2.3, share=0.7, track_depth=1e-4, preload=0.3)
     return PressureDamBearing(
-        radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, pads=pads, cells=(16, 8)
+        radius=0.05, length=0.03, assembled_clearance=1e-4, viscosity=0.1, pads=pads, cells=(16, 8)
     )
 
 

@@ -9,9 +9,11 @@ import pytest
 from rotorfilm.bearings.contact_place import minimum_film
 from rotorfilm.bearings.pads import PadGridFilm, PadMapFilm, TiltingPadBearing
 from rotorfilm.errors import AbsentError, InputError
-from rotorfilm.linear import equilibrium, whirl_threshold
+from rotorfilm.linear import coefficients, equilibrium, whirl_threshold
+from rotorfilm.motion.transient.simulate import simulate
 from rotorfilm.questions import ladder_of
-from rotorfilm.questions.journal.statics import MATRIX, attitude, relative_distance
+from rotorfilm.questions.journal.statics import LOSSES, MATRIX, attitude, relative_distance
+from rotorfilm.questions.journal.unbalance_orbits import rotor_of
 from rotorfilm.scenes.journal.film_defects import tangent
 from rotorfilm.scenes.pads.lobed_candidates import COARSE_MAP, lobed_candidates
 from rotorfilm.scenes.pads.tilting_candidates import smooth_slopes
@@ -35,7 +37,7 @@ DAM = """schema = 1
 [pressure_dam]
 diameter = "100 mm"
 length = "50 mm"
-clearance = "70 um"
+assembled_clearance = "70 um"
 viscosity = "20 mPa s"
 depth = "140 um"
 end = "145 deg"
@@ -64,6 +66,7 @@ quantity = "{quantity}"
 tolerance = {tolerance}
 {excitation}
 """
+OIL = '[lubricant]\ngrade = 46\nsupply_temperature = "45 degC"\n'
 ON_MAP = 'film = { name = "map" }\n'
 LOST_BLADE = '[excitation]\nkind = "blade_loss"\nunbalance = 0.02\nrevolutions = 2'
 UNBALANCE = "unbalance = 0.01"
@@ -122,6 +125,8 @@ def truth(scene, finest):
         return slopes[:, MATRIX[quantity] : MATRIX[quantity] + 2]
     if quantity == "attitude_angle":
         return attitude(at.position, load, speed)
+    if quantity in LOSSES:
+        return getattr(at.losses, quantity)
     return getattr(at, quantity)
 
 
@@ -254,4 +259,109 @@ def test_named_film_is_the_only_one_that_answers():
 @pytest.mark.parametrize("table", [LOBED, DAM, TILTING])
 def test_quantities_that_films_of_pads_do_not_have_are_refused(table):
     with pytest.raises(InputError, match=r"question.quantity must be one that this scene has"):
+        asked(table, "maximum_temperature", 0.1).ask()
+    with pytest.raises(InputError, match=r"lubricant must give the oil of the pads for temperature, .* 0.02"):
         asked(table, "temperature", 0.1).ask()
+
+
+FINEST = {LOBED: {"film": PadGridFilm(cells=(192, 16))}, DAM: {"cells": (96, 24)}}
+FINEST[TILTING] = {"film": PadGridFilm(cells=(96, 8))}
+TABLES = pytest.mark.parametrize("table", FINEST, ids=["lobes", "dam", "tilting"])
+
+
+@TABLES
+@pytest.mark.parametrize("quantity", ["power_loss", "side_flow"])
+def test_losses_are_answered_to_their_tolerance(table, quantity):
+    scene = asked(table, quantity, 0.05)
+    answer = scene.ask()
+    error = abs(answer.value / truth(scene, replace(scene.bearing, **FINEST[table])) - 1.0)
+    assert answer.met
+    assert error < min(0.05, 2.5 * answer.error_estimate + 1e-3)
+
+
+def on_oil(table):
+    return table.replace('viscosity = "20 mPa s"\n', "")
+
+
+@TABLES
+@pytest.mark.parametrize("quantity", ["temperature", "power_loss"])
+def test_pads_on_an_oil_are_as_warm_as_their_balance(table, quantity):
+    scene = asked(on_oil(table), quantity, 0.05, excitation=OIL)
+    answer = scene.ask()
+    finest = replace(scene.bearing, **FINEST[table])
+    at = equilibrium(finest, scene.static_load, scene.speed)
+    exact = at.temperature if quantity == "temperature" else at.losses.power_loss
+    supply = finest.cooling.supply_temperature
+    assert answer.met
+    assert answer.model.startswith("T1, 2-D")
+    assert 1e-9 < relative_distance(quantity, answer.value, exact, supply) < 0.05
+    assert at.temperature > supply + 5.0
+    assert any(line.startswith("carry_over") for line in answer.assumptions)
+    fresh = [report for report in answer.rungs if report.name.startswith("T0")]
+    assert bool(fresh) == (quantity == "power_loss")
+    if fresh:
+        cold = finest.at_temperature(supply)
+        error = abs(equilibrium(cold, scene.static_load, scene.speed).losses.power_loss / exact - 1.0)
+        assert fresh[0].error_estimate == pytest.approx(error, rel=0.3)
+
+
+def test_threshold_on_an_oil_is_that_of_films_as_warm_as_their_rest():
+    scene = asked(on_oil(LOBED), "whirl_threshold", 0.5, excitation=OIL)
+    answer, warm = scene.ask(), replace(scene.bearing, film=PadGridFilm(cells=(48, 4)))
+    at = equilibrium(warm, scene.static_load, answer.value)
+    around = 0.9 * answer.value, 1.1 * answer.value
+    kept = whirl_threshold(warm.at_temperature(at.temperature), scene.static_load, 300.0, around)
+    assert answer.value == pytest.approx(kept.speed, rel=1e-3)
+
+
+def test_motions_on_an_oil_keep_the_temperature_of_the_rest():
+    scene = asked(on_oil(LOBED), "unbalance_amplitude", 0.2, UNBALANCE, OIL)
+    film = ladder_of(scene).rungs[0].film.reaction
+    warm = replace(scene.bearing, film=PadGridFilm(cells=(96, 8)))
+    at = equilibrium(warm, scene.static_load, scene.speed)
+    assert film.temperature == pytest.approx(at.temperature, abs=0.1)
+    assert scene.ask().met
+
+
+def test_small_orbits_on_tilting_pads_are_those_of_synchronous_coefficients():
+    scene = asked(TILTING, "unbalance_amplitude", 0.01, "unbalance = 1e-6")
+    answer, bearing = scene.ask(), replace(scene.bearing, film=PadGridFilm(cells=(96, 8)))
+    at = equilibrium(bearing, scene.static_load, scene.speed)
+    found = coefficients(bearing, at.position, scene.speed)
+    dynamic = found.stiffness + 1j * scene.speed * found.damping - scene.speed**2 * 300.0 * np.eye(2)
+    x, y = np.linalg.solve(dynamic, 1e-6 * scene.speed**2 * np.array([1.0, -1j]))
+    circles = 0.5 * (abs(x + 1j * y) + abs(x - 1j * y))
+    assert answer.model.startswith("linear")
+    assert answer.value == pytest.approx(circles, rel=0.01)
+    assert answer.error_estimate < 0.01 / 1.5
+
+
+def test_orbits_on_tilting_pads_are_those_in_time():
+    table = TILTING.replace("pad_count = 5", "pad_count = 4").replace("on_pad", "between_pads")
+    scene = asked(
+        table + 'film = { name = "reynolds", cells = [48, 4] }\n', "unbalance_amplitude", 1e-3, UNBALANCE
+    )
+    ladder = ladder_of(scene)
+    linear, orbit = (ladder.rungs[k].answer(None) for k in (0, 2))
+    bearing = ladder.rungs[0].film.reaction
+    at = equilibrium(bearing, scene.static_load, scene.speed)
+    start = tuple(bearing.at_rest().state(at.position, scene.speed).tolist())
+    rotor = replace(rotor_of(scene), position=tuple(at.position))
+    turn = 2.0 * math.pi / scene.speed
+    run = simulate(rotor, replace(bearing, start=start), duration=12.0 * turn, samples=12 * 64 + 1, rtol=1e-6)
+    last = run.position[:, -64:]
+    wave = last @ np.exp(-1j * scene.speed * run.time[-64:]) / 32.0
+    exact = 0.5 * (abs(wave[0] + 1j * wave[1]) + abs(wave[0] - 1j * wave[1]))
+    assert orbit.value == pytest.approx(exact, rel=1e-3)
+    assert abs(linear.value / exact - 1.0) > 5e-3
+    about = ladder.rungs[0].estimate(linear, None, 1e-3)
+    assert 0.4 < about.error / abs(linear.value / exact - 1.0) < 2.5
+
+
+def test_phase_and_force_of_an_orbit_on_tilting_pads():
+    found = {q: asked(TILTING, q, 0.05, UNBALANCE).ask() for q in ("unbalance_phase", "unbalance_force")}
+    assert all(answer.met for answer in found.values())
+    amplitude = asked(TILTING, "unbalance_amplitude", 0.05, UNBALANCE).ask().value
+    inertia = 300.0 * 314.159265**2 * amplitude
+    assert found["unbalance_force"].value == pytest.approx(inertia, rel=1.1 * 0.01 * 314.159265**2 / inertia)
+    assert -math.pi < found["unbalance_phase"].value < 0.0

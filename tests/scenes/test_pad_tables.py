@@ -32,7 +32,7 @@ OIL = "viscosity = 0.02\n"
 GRID = 'film = { name = "reynolds", cells = [48, 4] }\n'
 RUN = '[operation]\nspeed = "3000 rpm"\nload = "3 kN"\n[rigid_rotor]\nmass = "300 kg"\n'
 LOBES = f'schema = 1\n[lobed_journal]\n{DIMENSIONS}assembled_clearance = "70 um"\n'
-DAM = f'schema = 1\n[pressure_dam]\n{DIMENSIONS}clearance = "70 um"\n'
+DAM = f'schema = 1\n[pressure_dam]\n{DIMENSIONS}assembled_clearance = "70 um"\n'
 TILTING = f'schema = 1\n[tilting_pad]\n{DIMENSIONS}assembled_clearance = "70 um"\nextent = "60 deg"\n'
 ELLIPTICAL = LOBES + OIL + 'preset = "elliptical"\n'
 STEP = DAM + OIL + 'depth = "140 um"\nend = "145 deg"\nshare = "75 %"\n'
@@ -66,7 +66,7 @@ def test_a_dam_is_that_of_its_design_or_of_its_pads():
     pads = pressure_dam_pads(
         "140 um", "145 deg", 0.75, track_depth=5e-5, track_share=0.3, groove=math.radians(15.0)
     )
-    known = {"radius": 0.05, "length": 0.05, "clearance": 7e-5, "viscosity": 0.02}
+    known = {"radius": 0.05, "length": 0.05, "assembled_clearance": 7e-5, "viscosity": 0.02}
     assert made == PressureDamBearing(**known, pads=pads)
     one = "pads = [{ start = 0, extent = 3, recess = { depth = 1e-4, end = 2, share = 0.5 } }]\n"
     made = scene_of(DAM + OIL + one + "cells = [32, 8]\n").bearing
@@ -86,10 +86,13 @@ def test_tilting_pads_by_their_number_or_their_pivots():
 
 
 @pytest.mark.parametrize("table", [LOBES + 'preset = "three_lobe"\n', DAM + STEP.partition(OIL)[2], FIVE])
-def test_viscosity_without_one_is_that_of_the_fresh_oil(table):
+def test_without_a_viscosity_the_films_are_on_the_oil_in_balance(table):
     lubricant = '[lubricant]\ngrade = 46\nsupply_temperature = "40 degC"\n'
     scene = scene_of(table.replace(OIL, "") + GRID * ("lobed" in table), RUN + lubricant)
-    assert scene.bearing.viscosity == pytest.approx(46e-6 * scene.lubricant.properties.density, rel=1e-3)
+    fresh = 46e-6 * scene.lubricant.properties.density
+    assert scene.bearing.film_viscosity == pytest.approx(fresh, rel=1e-3)
+    assert scene.bearing.is_warming
+    assert not any("warms" in remark for remark in scene.film_remarks)
 
 
 @pytest.mark.parametrize(

@@ -29,6 +29,7 @@ from ..oil import Cooling, Oil
 from ..oil.lubricant import require_lubricant
 from ..oil.warm_bearing import WarmBearing
 from ..reaction import FilmReaction, broadcast_state
+from .clearances import PadClearance
 from .heat_of_pads import SPEED, PadSlopes, heat_slopes_of_pads
 from .lobe import Lobe, require_apart
 from .losses_of_pads import PadUnderJournal, losses_of_pads
@@ -80,7 +81,7 @@ class BoundLobes(BoundKernel):
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class LobedBearing(FilmReaction, WarmBearing):
+class LobedBearing(PadClearance, FilmReaction, WarmBearing):
     """A journal bearing of fixed pads, such as an elliptical one: a Reaction and a static Model.
 
     x and y are Cartesian from the bearing center, rotation is about +z, the force acts on the journal. The
@@ -146,29 +147,13 @@ class LobedBearing(FilmReaction, WarmBearing):
         if not self.lobes:
             raise InputError("lobes must have one at least, got ()")
         require_apart(self.lobes)
-        self._require_clearance()
+        self.require_clearance()
         require_pad_film(self.film, (lobe.extent for lobe in self.lobes), self.slenderness)
 
-    def _require_clearance(self) -> None:
-        given = {name: getattr(self, name) for name in ("pad_clearance", "assembled_clearance")}
-        told = {name: value for name, value in given.items() if value is not None}
-        if len(told) != 1:
-            raise InputError(f"pad_clearance or assembled_clearance must be given, one of both, got {given}")
-        for name, value in told.items():
-            require_positive(name, value)
-        preloads = sorted({lobe.preload for lobe in self.lobes})
-        if self.pad_clearance is None and len(preloads) > 1:
-            raise InputError(f"lobes must have one preload for an assembled_clearance, got {preloads}")
-        if self.clearance >= self.radius:
-            raise InputError(f"clearance must be below the radius {self.radius!r}, got {self.clearance!r}")
-
     @property
-    def clearance(self) -> float:
-        """Radial clearance c_p of a pad [m], the unit of eccentricity ratios."""
-        if self.pad_clearance is not None:
-            return self.pad_clearance
-        assert self.assembled_clearance is not None  # one of both is given
-        return self.assembled_clearance / (1.0 - self.lobes[0].preload)
+    def preloads(self) -> tuple[float, ...]:
+        """Preload of each lobe [1]."""
+        return tuple(lobe.preload for lobe in self.lobes)
 
     def minimum_film(self, position: ArrayLike) -> Array:
         """Return the least film on any pad [m], shape (...), of journals at positions (2, ...) [m].

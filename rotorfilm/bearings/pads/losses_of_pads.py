@@ -59,10 +59,42 @@ class PadUnderJournal(NamedTuple):
     force: Array
 
     @property
+    def start(self) -> float:
+        """Angle of its first end [rad]."""
+        return self.middle - 0.5 * self.extent
+
+    @property
     def turning(self) -> Array:
         """Matrix (2, 2) from its frame to that of the bearing."""
         c, s = np.cos(self.middle), np.sin(self.middle)
         return np.array([[c, -s], [s, c]])
+
+
+class Placed(Protocol):
+    """A pad by its place."""
+
+    @property
+    def start(self) -> float:
+        """Angle of its first end [rad]."""
+
+
+class BearingFlow(NamedTuple):
+    """What the films of all pads do at n states.
+
+    Attributes
+    ----------
+    drag : ndarray, shape (n,) [N m]
+        Torque on the journal.
+    force : ndarray, shape (2, n) [N]
+        On the journal.
+    into, out : ndarray, shape (pads, n) [1/s]
+        Oil that enters the film of each pad, and what comes to the opening behind it, in units of c_p R L.
+    """
+
+    drag: Array
+    force: Array
+    into: Array
+    out: Array
 
 
 def losses_of_pads(
@@ -95,8 +127,7 @@ def losses_of_pads(
     -sum F_k . W_k, is exact in any motion. Sigma and the flows are those of a journal at rest in that place,
     which is what an equilibrium asks for; in motion oil that runs along at half the speed is taken for them.
     """
-    position, velocity, speed = state
-    shape, omega = speed.shape, speed.ravel()
+    omega = state[2].ravel()
     flows = flows_of_pads(film, bearing.slenderness, pads, 0.5 * omega)
     shears = [
         gap_shear_of_pad(pad.eccentricity, pad.extent) if full_gap else flows[k].shear
@@ -107,9 +138,19 @@ def losses_of_pads(
     for pad, shear in zip(pads, shears, strict=True):
         drag += per_shear * shear + 0.5 * bearing.clearance * cross(pad.eccentricity, pad.force)
         force += pad.turning @ pad.force
+    into, out = (np.stack([getattr(each, name) for each in flows]) for name in ("inflow", "arriving"))
+    return collected_losses(bearing, pads, BearingFlow(drag, force, into, out), state)
+
+
+def collected_losses(
+    bearing: BearingOfPads, pads: Sequence[Placed], flow: BearingFlow, state: tuple[Array, Array, Array]
+) -> BearingLosses:
+    """Return the losses of a bearing from what the films of its pads do; see `losses_of_pads`."""
+    position, velocity, speed = state
+    shape, omega = speed.shape, speed.ravel()
+    drag, force, into, out = flow
     q, v = position.reshape(2, -1), velocity.reshape(2, -1)
     unit = bearing.clearance * bearing.radius * bearing.length
-    into, out = (np.stack([getattr(each, name) for each in flows]) for name in ("inflow", "arriving"))
     inflow, arriving = (
         unit * rows.reshape(-1, *shape) for rows in behind_pads(pads, into, out, omega >= 0.0)
     )
@@ -138,7 +179,7 @@ def flows_of_pads(
 
 
 def behind_pads(
-    pads: Sequence[PadUnderJournal], into: Array, out: Array, forward: NDArray[np.bool_]
+    pads: Sequence[Placed], into: Array, out: Array, forward: NDArray[np.bool_]
 ) -> tuple[Array, Array]:
     """Return what leaves each opening and what arrives there, from what enters pads and leaves their ends.
 
@@ -146,12 +187,12 @@ def behind_pads(
 
     Parameters
     ----------
-    pads : sequence of PadUnderJournal
+    pads : sequence of Placed
     into, out : ndarray, shape (pads, ...)
     forward : ndarray of bool
         Whether oil runs in the sense of +theta.
     """
-    starts = [(pad.middle - 0.5 * pad.extent) % TURN for pad in pads]
+    starts = [pad.start % TURN for pad in pads]
     order = sorted(range(len(pads)), key=starts.__getitem__)
     following = np.empty(len(pads), dtype=int)
     following[order] = np.roll(order, -1)

@@ -88,7 +88,10 @@ def positive_numbers(name: str, values: ArrayLike) -> Array:
 def _bearings(made: dict[str, Any]) -> Iterator[tuple[str, Reaction]]:
     plain = lobe_set("elliptical", preload=0.0)
     yield "two grooves", LobedBearing(**made, assembled_clearance=CLEARANCE, lobes=plain)
-    yield "pressure dam", PressureDamBearing(**made, clearance=CLEARANCE, pads=pressure_dam_pads(**DAM))
+    yield (
+        "pressure dam",
+        PressureDamBearing(**made, assembled_clearance=CLEARANCE, pads=pressure_dam_pads(**DAM)),
+    )
     for name in ("elliptical", "offset_halves", "three_lobe", "four_lobe"):
         lobes = lobe_set(name, preload=PRELOAD)
         shown = name.replace("_", " ")

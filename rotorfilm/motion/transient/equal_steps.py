@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...bearings.contact_place import WalledReaction
 from ...errors import ConvergenceError, FilmContactError, RotorfilmError, UndefinedDerivativeError
 from ...model import Array, Reaction
 from ...native import Status
@@ -37,6 +38,9 @@ class MarchMotion:
 Pull = Callable[[float], tuple[float, float]]
 """External force (x, y) [N] at a time [s]."""
 
+FAR = 10.0
+"""Beyond any place where pads are touched, which say so themselves, in clearances."""
+
 
 def march(
     reaction: Reaction, mass: float, speed: float, pull: Pull, rest: Array, step: float, count: int
@@ -57,7 +61,8 @@ def march(
     pulls[0] += np.asarray(reaction.force(rest, np.zeros(2), speed))
     motion = np.zeros((count + 1, 4))
     motion[0, :2] = rest
-    rotor = ShakenStruct(call.address, call.data, mass, speed, reaction.clearance, step)
+    wall = (FAR if isinstance(reaction, WalledReaction) else 1.0) * reaction.clearance
+    rotor = ShakenStruct(call.address, call.data, mass, speed, wall, step)
     status = loops()["rf_follow_shaken"](byref(rotor), count, pulls.ctypes.data, motion.ctypes.data)
     raise_foreign([call])
     if rotor.left_map:

@@ -1,7 +1,7 @@
 /* Bearings of fixed pads with recesses: Reynolds' equation in two dimensions on the arc of each pad.
 
-   Every pad has its own center of curvature and clearance c_p = clearance/(1 - preload). With d the position of the
-   journal from that center, e = d/c_p, D the depth of the recess over c_p, w = velocity/c_p - (speed/2) z^ x e,
+   Every pad has its own center of curvature, and all have the clearance c_p. With d the position of the journal from
+   that center, e = d/c_p, D the depth of the recess over c_p, w = velocity/c_p - (speed/2) z^ x e,
    H = 1 - e.n + D and n = (cos theta, sin theta), z from the middle, 0, to the end, 1, of the bearing,
 
        (H^3 P_theta)_theta + (L/D)^-2 H^3 P_zz = -w.n + (speed/2) D_theta,    p = 12 viscosity (R/c_p)^2 P,
@@ -31,7 +31,7 @@ typedef struct rf_recess_pad {
 typedef struct rf_recess {
     const rf_recess_pad *pads;
     size_t count;
-    double radius, length, clearance, viscosity; /* of the bearing; least clearance if centered */
+    double radius, length, clearance, viscosity; /* of the bearing; the clearance of a pad */
     int32_t extrapolated; /* whether the force is f + (f - f2)/3 of the grid and one with half its cells */
 } rf_recess;
 

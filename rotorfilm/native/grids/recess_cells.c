@@ -53,7 +53,7 @@ void rf_place_plate(rf_plate *at, const rf_recess *bearing, const rf_recess_pad 
     memset(at, 0, sizeof *at);
     at->pad = pad;
     at->slenderness = bearing->length / (2.0 * bearing->radius);
-    at->own = bearing->clearance / (1.0 - pad->preload);
+    at->own = bearing->clearance;
     at->rate = 0.5 * state[4];
     at->depth = pad->depth / at->own;
     at->e[0] = state[0] / at->own + pad->preload * cos(pad->anchor);
@@ -260,6 +260,12 @@ int rf_solve_plate(rf_plate *at, int level, int differentiated)
     if (level == 1)
         memcpy(at->known, at->full, all);
     return status;
+}
+
+double rf_plate_on_steps(const rf_plate *at)
+{
+    static const double still[2] = {0.0, 0.0};
+    return 12.0 * against(at, at->pressure, still, 1.0);
 }
 
 /* A P = b(w, rate) and F_k = -12 N_k.P with N_k = b(unit k, 0), so with V_k = A^-1 N_k a change of b makes

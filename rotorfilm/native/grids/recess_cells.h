@@ -11,7 +11,7 @@
 typedef struct rf_plate {
     const rf_recess_pad *pad;
     double slenderness;               /* length / diameter */
-    double own;                       /* clearance [m] of the pad */
+    double own;                       /* clearance c_p [m] of the pad */
     double e[2], w[2], rate, depth;   /* from its center of curvature; half the speed; the depth over `own` */
     rf_stencil stencil;
     double *around, *along, *source, *pressure, *answers; /* lines x nodes; of the answers two */
@@ -44,5 +44,8 @@ int rf_solve_plate(rf_plate *plate, int level, int differentiated);
 
 /* Force f[2] of that film and, unless NULL, derivatives by[2][RF_PLATE_COLUMNS], in the units of films/film.h. */
 void rf_take_plate(const rf_plate *plate, double *f, double *by);
+
+/* What pressure does on the steps per rate: 12 P.b(0, 1), in the same units. */
+double rf_plate_on_steps(const rf_plate *plate);
 
 #endif

@@ -8,9 +8,9 @@
    Model: Film force of a bearing of fixed pads, each with its own center of curvature and any with a recess
    (pressure dam, step, relief track), at ambient pressure; Reynolds equation in two dimensions by finite volumes. x
    and y are Cartesian from the bearing center, rotation is positive about +z (from x to y), the force acts on the
-   journal. The clearance is that of the bearing as assembled; a pad has clearance/(1 - preload) = c_p. With d the
-   position from the pad's center of curvature, e = d/c_p, the source w = (vx, vy)/c_p - (speed/2) z^ x e, n = (cos
-   theta, sin theta) and the depth D of the recess over c_p:
+   journal. The clearance c_p is that of a pad: its radius of curvature less that of the journal. With d the
+   position from the pad's center of curvature, e = d/c_p, the source w = (vx, vy)/c_p - (speed/2) z^ x e, n =
+   (cos theta, sin theta) and the depth D of the recess over c_p:
 
    Equations:
    (H^3 P_theta)_theta + (length/diameter)^-2 H^3 P_zz = -w.n + (speed/2) D_theta,  H = 1 - e.n + D
@@ -117,10 +117,8 @@ static int set_parameters(void *kernel, const double *p, rf_message *why)
     model *self = kernel;
     if (rf_scale_journal(&self->journal, p, why) != RF_OK)
         return RF_INVALID;
-    for (size_t k = 0; k < self->bearing.count; ++k)
-        if (p[2] >= p[0] * (1.0 - self->pads[k].preload))
-            return rf_say(why, RF_INVALID, "clearance / (1 - preload) must be below the radius %.9g, got %.9g", p[0],
-                          p[2] / (1.0 - self->pads[k].preload));
+    if (p[2] >= p[0])
+        return rf_say(why, RF_INVALID, "pad clearance must be below the radius %.9g, got %.9g", p[0], p[2]);
     self->bearing.radius = p[0];
     self->bearing.length = p[1];
     self->bearing.clearance = p[2];

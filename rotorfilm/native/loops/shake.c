@@ -23,9 +23,17 @@ static void set_rates(const rf_shaken *rotor, const point *from, point *to)
     }
 }
 
+/* A film that is not inside of a circle says itself where it is touched: half of the way back to where it was not. */
+static void turn_back(const double *free, point *to, double *change)
+{
+    *change = HUGE_VAL;
+    for (int i = 0; i < 2; ++i)
+        to->q[i] = 0.5 * (free[i] + to->q[i]);
+}
+
 /* Newton's step at the end of a time step, less the part of it that would leave less than a tenth of the gap;
-   its length before that in *change. */
-static int correct(rf_shaken *rotor, const point *from, const double *pull, point *to, double *change)
+   its length before that in *change. Where the last one led onto a pad it is cut, `free` is where it began. */
+static int correct(rf_shaken *rotor, const point *from, const double *pull, double *free, point *to, double *change)
 {
     const double dt = rotor->step, k1 = 2.0 / dt, k2 = 4.0 / (dt * dt), m = rotor->mass;
     double f[2], D[10];
@@ -33,8 +41,12 @@ static int correct(rf_shaken *rotor, const point *from, const double *pull, poin
     const double state[5] = {to->q[0], to->q[1], to->v[0], to->v[1], rotor->speed};
     const int status = rotor->film(rotor->of, state, f, D);
     rotor->calls += 1;
+    if (status == RF_AT_WALL)
+        turn_back(free, to, change);
     if (status > RF_OUTSIDE)
         return status;
+    free[0] = to->q[0];
+    free[1] = to->q[1];
     rotor->left_map |= status == RF_OUTSIDE;
     const double rx = f[0] + pull[0] - m * to->a[0], ry = f[1] + pull[1] - m * to->a[1];
     const double a = m * k2 - D[0] - k1 * D[2], b = -D[1] - k1 * D[3];
@@ -62,9 +74,15 @@ static int step(rf_shaken *rotor, const point *from, const double *pull, point *
     if (hypot(to->q[0], to->q[1]) > 0.5 * (rotor->clearance + hypot(from->q[0], from->q[1])))
         for (int i = 0; i < 2; ++i)
             to->q[i] = from->q[i];
+    double free[2] = {from->q[0], from->q[1]};
+    int touched = 0;
     for (int n = 0; n < NEWTON_STEPS; ++n) {
-        double change;
-        const int status = correct(rotor, from, pull, to, &change);
+        double change = 0.0;
+        const int status = correct(rotor, from, pull, free, to, &change);
+        if (status == RF_AT_WALL && isinf(change)) {
+            touched = 1;
+            continue;
+        }
         if (status != RF_OK)
             return status;
         if (change < TOLERANCE * rotor->clearance) {
@@ -72,7 +90,7 @@ static int step(rf_shaken *rotor, const point *from, const double *pull, point *
             return RF_OK;
         }
     }
-    return hypot(to->q[0], to->q[1]) > NEAR * rotor->clearance ? RF_AT_WALL : RF_STUCK;
+    return touched || hypot(to->q[0], to->q[1]) > NEAR * rotor->clearance ? RF_AT_WALL : RF_STUCK;
 }
 
 int rf_follow_shaken(rf_shaken *rotor, int64_t count, const double *pulls, double *motion)

@@ -40,7 +40,7 @@ class HeatedQuestion(JudgedRest):
 
     load: tuple[float, float]
     speed: float
-    make: Callable[[FilmRung], Rung]
+    make: Callable[[Any], Rung]
     value: Callable[[WarmRest], Any]
     distance: Callable[[Any, Any], float]
     moves: bool = False

@@ -19,6 +19,7 @@ from ...bearings.journal import JournalBearing, film_name, has_losses
 from ...errors import InputError, RotorfilmError
 from ...ladders import BaseRung, Ladder, Rung
 from ...scenes.journal.assumed import assumed_figures
+from ...scenes.journal.film_candidate import FilmCandidate
 from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.heat_steps import HeatError, HeatSteps
 from ...scenes.journal.warm_rest import WarmRest, uniform_rest
@@ -26,6 +27,9 @@ from .field_rungs import HeatedQuestion, field_rungs, motion_rungs
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
+
+BALANCE = "its balance"
+"""How the error by heat of fresh oil is known."""
 
 BALANCES = 60
 """Forces with derivatives that an equilibrium in the balance of its heat takes about."""
@@ -59,13 +63,13 @@ class UniformRung(BaseRung):
     Attributes
     ----------
     level : HeatLevel
-    film : FilmRung
+    film : FilmCandidate
         Of the bearing on its oil.
     question : HeatedQuestion
     """
 
     level: HeatLevel
-    film: FilmRung
+    film: FilmCandidate
     question: HeatedQuestion
 
     @property
@@ -114,20 +118,25 @@ class UniformRung(BaseRung):
         own = solved.own
         about = solved.rung.estimate(solved.found, self._lower(before), tolerance)
         try:
-            heat, how, doubt = self._heat(own, tolerance)
+            heat, how, doubt = self.heat(own, tolerance)
         except RotorfilmError as error:
             return about._replace(error=math.inf, doubt=f"its error by heat is not known: {error}")
         return with_heat(about, heat, how, about.doubt or doubt, f"estimates of {self.name}")
 
-    def _heat(self, own: WarmRest, tolerance: float) -> tuple[HeatError, str, str]:
+    def balanced(self, own: WarmRest) -> WarmRest:
+        """Return the rest on the film in the balance of its heat, of T1 its own."""
+        if self.level is BALANCED:
+            return own
+        bearing, question = self.film.reaction, self.question
+        return uniform_rest(bearing, question.load, question.speed, balance_at(bearing, own))
+
+    def heat(self, own: WarmRest, tolerance: float) -> tuple[HeatError, str, str]:
         """Return the error by heat, how that is known, and why to doubt it."""
         bearing, question = self.film.reaction, self.question
-        start = own
-        if self.level is FRESH:
-            start = uniform_rest(bearing, question.load, question.speed, balance_at(bearing, own))
-            error = question.apart(own, start)
-            if error * SAFETY >= tolerance:
-                return HeatError(error, False), "its balance", ""
+        start = self.balanced(own)
+        error = question.apart(own, start)
+        if error * SAFETY >= tolerance:
+            return HeatError(error, False), BALANCE, ""
         steps = HeatSteps(bearing, start)
         return question.error(own, steps), "steps towards T3", steps.doubt
 

@@ -6,12 +6,11 @@ By one temperature (T0, T1) on every film, or by a temperature field (T2, T3), K
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from ...answers import HEATED, SAFETY, ErrorEstimate, Found, Work, WorkUnit
-from ...bearings.journal import JournalBearing
 from ...errors import RotorfilmError
 from ...ladders import BaseRung, Ladder
 from ...linear import whirl_threshold
@@ -19,11 +18,11 @@ from ...linear.speed_events import secant_speed
 from ...results import Equilibrium, WhirlThreshold
 from ...scenes.journal.assumed import assumed_figures
 from ...scenes.journal.field_levels import FIELD_LEVELS, FieldLevel, grid_error
-from ...scenes.journal.film_rung import FilmRung
+from ...scenes.journal.film_candidate import FilmCandidate
 from ...scenes.journal.film_rungs import point_films
 from ...scenes.journal.heat_steps import HeatError, HeatSteps, JudgedRest
 from ...scenes.journal.warm_rest import WarmRest, uniform_rest
-from .heat_rungs import BALANCED, BALANCES, FRESH, HeatLevel, balance_at, known_films, with_heat
+from .heat_rungs import BALANCE, BALANCED, BALANCES, FRESH, HeatLevel, balance_at, known_films, with_heat
 from .whirl_rungs import AROUND, WhirlRung, whirl_ladder
 
 if TYPE_CHECKING:
@@ -49,14 +48,14 @@ class WarmWhirlRung(WhirlRung):
     ----------
     level : HeatLevel
         T1, or T0 with the film of fresh oil at all speeds.
-    bearing : JournalBearing
+    bearing : JournalBearing, or one of pads
         On its oil, with the film of the rung.
-    film : FilmRung
+    film : FilmCandidate
     """
 
     level: HeatLevel
-    bearing: JournalBearing
-    film: FilmRung
+    bearing: Any
+    film: FilmCandidate
 
     @property
     def name(self) -> str:
@@ -80,7 +79,7 @@ class WarmWhirlRung(WhirlRung):
         threshold = self._threshold(self.film.reaction, around)
         return Found(threshold.speed, {self.unit: 1}, threshold.equilibrium)
 
-    def _threshold(self, bearing: JournalBearing, around: tuple[float, float] | None) -> WhirlThreshold:
+    def _threshold(self, bearing: Any, around: tuple[float, float] | None) -> WhirlThreshold:
         threshold = whirl_threshold(bearing, self.load, self.mass, around)
         if threshold.speed is None and around is not None:
             threshold = whirl_threshold(bearing, self.load, self.mass)
@@ -88,7 +87,7 @@ class WarmWhirlRung(WhirlRung):
             raise RotorfilmError(f"no threshold: {threshold.reason}, by {self.name}")
         return threshold
 
-    def film_at(self, at: Equilibrium) -> FilmRung:
+    def film_at(self, at: Equilibrium) -> FilmCandidate:
         """Return the film at the temperature of one equilibrium."""
         return self.film if at.temperature is None else self.film.at_temperature(at.temperature)
 
@@ -101,31 +100,35 @@ class WarmWhirlRung(WhirlRung):
         about = super().estimate(found, before, tolerance)
         moving = moving_heat(self.bearing, at.speed)
         try:
-            heat, how, doubt = self._heat(at, tolerance)
+            heat, how, doubt = self.heat(at, tolerance)
         except RotorfilmError as error:
             return about._replace(error=np.inf, doubt=f"its error by heat is not known: {error}")
         whole = HeatError(heat.error + moving, heat.bound or moving > heat.error)
         how = f"{how}, moving heat {moving:.2g} lower"
         return with_heat(about, whole, how, about.doubt or doubt, f"estimates of {self.name}")
 
-    def _heat(self, at: Equilibrium, tolerance: float) -> tuple[HeatError, str, str]:
+    def heat(self, at: Equilibrium, tolerance: float) -> tuple[HeatError, str, str]:
         """Return the error by heat at the threshold, how that is known, and why to doubt it."""
-        fresh = self.bearing.cooled[1].supply_temperature if self.level is FRESH else None
-        own = start = uniform_rest(self.bearing, self.load, at.speed, fresh)
-        growth = Growth(self, at.speed, self.slope(at.speed))
-        if self.level is FRESH:
-            start = uniform_rest(self.bearing, self.load, at.speed, balance_at(self.bearing, own))
-            error = growth.apart(own, start)
-            if error * SAFETY >= tolerance:
-                return HeatError(error, False), "its balance", ""
+        growth, own, start = self.rests(at)
+        error = growth.apart(own, start)
+        if error * SAFETY >= tolerance:
+            return HeatError(error, False), BALANCE, ""
         steps = HeatSteps(self.bearing, start)
         return growth.error(own, steps), "steps towards T3", steps.doubt
+
+    def rests(self, at: Equilibrium) -> tuple[Growth, WarmRest, WarmRest]:
+        """Return growth and rest at a threshold, and the rest in the balance of its heat, of T1 the same."""
+        fresh = self.bearing.cooled[1].supply_temperature if self.level is FRESH else None
+        own = start = uniform_rest(self.bearing, self.load, at.speed, fresh)
+        if self.level is FRESH:
+            start = uniform_rest(self.bearing, self.load, at.speed, balance_at(self.bearing, own))
+        return Growth(self, at.speed, self.slope(at.speed)), own, start
 
     def expected(self, done: Work) -> Work:
         """Return one answer."""
         return {self.unit: 1}
 
-    def moved(self, found: Found, other: JournalBearing) -> float:
+    def moved(self, found: Found, other: Any) -> float:
         """Return the relative change of the threshold with another bearing, by this film."""
         around = found.value / AROUND, found.value * AROUND
         speed = self._threshold(other, around).speed
@@ -223,7 +226,7 @@ class FieldWhirlRung(BaseRung):
         return ErrorEstimate(grid + moving, method, work, bound=True)
 
 
-def moving_heat(bearing: JournalBearing, speed: float) -> float:
+def moving_heat(bearing: Any, speed: float) -> float:
     """Return the share by which heat that moves with the whirl lowers a threshold [1] at a speed [rad/s].
 
     Oil runs at half the speed, and in forward half-speed whirl with the pattern of the film; conduction to

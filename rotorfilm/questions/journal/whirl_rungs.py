@@ -99,7 +99,7 @@ class WhirlRung(CandidateRung[FilmCandidate]):
 
     def _bound(self, at: Equilibrium) -> float:
         """Return the error [1] that the worst K and C within the verified bound would make."""
-        bound = self.film.rest_bound(at, slopes=True)
+        bound = self.film_at(at).rest_bound(at, slopes=True)
         if not math.isfinite(bound):
             return math.inf
         found = coefficients(self.film.reaction, at.position, at.speed)

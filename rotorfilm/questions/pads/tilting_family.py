@@ -10,15 +10,19 @@ import numpy as np
 from ...scenes.export_scene import film_models
 from ...scenes.families import Family, SceneModels
 from ...scenes.pads.tilting_table import TiltingTable
-from .fixed_ladders import AT_REST
+from ..orbit_place import UNITS as ORBITS
+from .fixed_ladders import PAD_STATICS
+from .tilting_orbits import tilting_orbit_ladder
 from .tilting_rungs import tilting_rest_ladder, tilting_whirl_ladder
+from .warm_pads import settled_scene
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
 
 
 def tilting_models(scene: Scene) -> SceneModels:
-    """Return the tilting pads of a scene and its rotor, all at rest."""
+    """Return the tilting pads of a scene and its rotor, all at rest, the films as warm as there."""
+    scene = settled_scene(scene)
     models = film_models(scene)
     bearing = scene.table("tilting_pad").build()
     rest = np.array([models.start["x"], models.start["y"]])
@@ -29,6 +33,10 @@ def tilting_models(scene: Scene) -> SceneModels:
 
 FAMILY = Family(
     table=TiltingTable,
-    ladders={**dict.fromkeys(AT_REST, tilting_rest_ladder), "whirl_threshold": tilting_whirl_ladder},
+    ladders={
+        **dict.fromkeys(PAD_STATICS, tilting_rest_ladder),
+        **dict.fromkeys(ORBITS, tilting_orbit_ladder),
+        "whirl_threshold": tilting_whirl_ladder,
+    },
     models=tilting_models,
 )

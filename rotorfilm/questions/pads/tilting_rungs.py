@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -16,9 +16,12 @@ from ...model import Array
 from ...results import Equilibrium
 from ...scenes.journal.film_defects import corrected
 from ...scenes.pads.tilting_candidates import TiltingCandidate, tilting_candidates
-from ..journal.statics import MATRIX, UNITS, attitude, relative_distance
+from ...warming import settled
+from ..journal.statics import LOSSES, MATRIX, TEMPERATURES, UNITS, attitude, relative_distance
 from ..journal.whirl_rungs import AROUND, STEP, required_rotor
 from ..walk import NoAnswerError
+from .fixed_ladders import refuse_temperature
+from .warm_pads import ONE_TEMPERATURE, is_warm, warm_static_ladder
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
@@ -70,7 +73,8 @@ class TiltingRestRung(TiltingRung):
     @property
     def prior(self) -> float:
         """Order of magnitude of the film's error."""
-        return self.film.prior if self.quantity in MATRIX else self.film.position_prior
+        positions = self.quantity not in {**MATRIX, **LOSSES, **TEMPERATURES}
+        return self.film.position_prior if positions else self.film.prior
 
     def answer(self, before: Found | None) -> Found:
         """Return the quantity at the equilibrium of this film."""
@@ -82,6 +86,10 @@ class TiltingRestRung(TiltingRung):
         if self.quantity in MATRIX:
             own = film.coefficients if rich else partial(coefficients, bearing)
             return np.asarray(getattr(own(position, self.speed), self.quantity))
+        if self.quantity in LOSSES:
+            return float(getattr(bearing.losses(position, np.zeros(2), self.speed), self.quantity))
+        if self.quantity in TEMPERATURES:
+            return bearing.balanced_temperature(position, np.zeros(2), self.speed)
         if self.quantity == "eccentricity_ratio":
             return float(np.hypot(*position)) / bearing.clearance
         if self.quantity == "minimum_film":
@@ -92,7 +100,7 @@ class TiltingRestRung(TiltingRung):
         """Return the change that the richer film makes, at its own equilibrium as far as its defect tells."""
         position, doubt = self.corrected_rest(found.solution)
         better = self._value(self.film, position, rich=True)
-        error = relative_distance(self.quantity, found.value, better, 0.0)
+        error = relative_distance(self.quantity, found.value, better, self.film.supply_temperature)
         method = f"defect of {self.film.rich_name}"
         return ErrorEstimate(error, method, {self.estimates: 1}, doubt=doubt)
 
@@ -121,8 +129,9 @@ class TiltingWhirlRung(TiltingRung):
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the change of speed that undoes the growth by the richer film at its own equilibrium."""
         at: Equilibrium = found.solution
-        position, doubt = self.corrected_rest(at)
-        growth = float(self.film.rich.at_rest().modes(position, at.speed, self.mass)[0].real)
+        film = self.film if at.temperature is None else self.film.at_temperature(at.temperature)
+        position, doubt = replace(self, film=film).corrected_rest(at)
+        growth = float(film.rich.at_rest().modes(position, at.speed, self.mass)[0].real)
         low, high = (self._growth(at.speed * (1.0 + sign * STEP)) for sign in (-1.0, 1.0))
         slope = (high - low) / (2.0 * STEP * at.speed)
         error = abs(growth / slope) / at.speed if slope else math.inf
@@ -131,18 +140,26 @@ class TiltingWhirlRung(TiltingRung):
 
     def _growth(self, speed: float) -> float:
         at = equilibrium(self.film.reaction, self.load, speed)
-        return float(self.film.reaction.at_rest().modes(at.position, speed, self.mass)[0].real)
+        film = settled(self.film.reaction, at.position, speed)
+        return float(film.at_rest().modes(at.position, speed, self.mass)[0].real)
 
 
 def tilting_rest_ladder(scene: Scene, quantity: str) -> Ladder:
     """Return the ladder of a static quantity, or of K or C, of tilting pads."""
-    rungs = tuple(
-        TiltingRestRung(film=film, quantity=quantity, load=scene.static_load, speed=scene.speed)
-        for film in _films(scene)
-    )
-    once = f"{ISOTHERMAL}, whirl of {abs(scene.speed):.6g} rad/s, once a turn"
-    within = once if quantity in MATRIX else ISOTHERMAL
-    return Ladder(rungs=rungs, unit=UNITS[quantity], remarks=scene.film_remarks, within=within)
+
+    def make(film: TiltingCandidate) -> TiltingRestRung:
+        return TiltingRestRung(film=film, quantity=quantity, load=scene.static_load, speed=scene.speed)
+
+    films = _films(scene)
+    if is_warm(scene):
+        ladder = warm_static_ladder(scene, quantity, films, make)
+    else:
+        refuse_temperature(scene, quantity)
+        rungs = tuple(make(film) for film in films)
+        ladder = Ladder(rungs=rungs, unit=UNITS[quantity], remarks=scene.film_remarks, within=ISOTHERMAL)
+    if quantity not in MATRIX:
+        return ladder
+    return replace(ladder, within=f"{ladder.within}, whirl of {abs(scene.speed):.6g} rad/s, once a turn")
 
 
 def tilting_whirl_ladder(scene: Scene, quantity: str) -> Ladder:
@@ -158,7 +175,8 @@ def tilting_whirl_ladder(scene: Scene, quantity: str) -> Ladder:
         TiltingWhirlRung(film=film, quantity=quantity, load=scene.static_load, mass=mass)
         for film in _films(scene)
     )
-    return Ladder(rungs=rungs, unit="rad/s", remarks=scene.film_remarks, within=ISOTHERMAL)
+    within = ONE_TEMPERATURE if is_warm(scene) else ISOTHERMAL
+    return Ladder(rungs=rungs, unit="rad/s", remarks=scene.film_remarks, within=within)
 
 
 def _films(scene: Scene) -> tuple[TiltingCandidate, ...]:

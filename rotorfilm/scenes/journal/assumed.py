@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from typing import Any
 
 from ...bearings.journal import BushRing, JournalBearing
 from ...bearings.oil import Cooling, Oil
@@ -23,14 +24,12 @@ WARM, HOT = 40.0 + CELSIUS, 100.0 + CELSIUS
 HOUSING = "a steel one of twice the radius, cooled by 80 W/(m2 K)"
 
 
-def assumed_figures(
-    bearing: JournalBearing, moved: Callable[[JournalBearing], float], *, fields: bool
-) -> tuple[str, ...]:
+def assumed_figures(bearing: Any, moved: Callable[[Any], float], *, fields: bool) -> tuple[str, ...]:
     """Return which figures of a bearing on an oil are assumed, and how much each moves the answer.
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing, or one made of pads
     moved : callable
         How far the answer of another bearing is off, by T1, in the unit of the tolerance.
     fields : bool
@@ -51,19 +50,20 @@ def assumed_figures(
     return tuple(lines)
 
 
-def assumed_names(bearing: JournalBearing) -> tuple[str, ...]:
+def assumed_names(bearing: Any) -> tuple[str, ...]:
     """Return which figures of a bearing on an oil are assumed."""
     return tuple(text for text, _ in _varied(bearing))
 
 
-def _varied(bearing: JournalBearing) -> Iterator[tuple[str, list[JournalBearing]]]:
+def _varied(bearing: Any) -> Iterator[tuple[str, list[Any]]]:
     """Yield each assumption, and the bearings that it might be as well."""
     oil, cooling = bearing.cooled
     default = Cooling(supply_temperature=cooling.supply_temperature)
 
     for text in oil.assumed:
         yield text, [replace(bearing, oil=thinner_when_hot(oil))]
-    if bearing.geometry.openings() and cooling.carry_over == default.carry_over:
+    open_around = not isinstance(bearing, JournalBearing) or bearing.geometry.openings()
+    if open_around and cooling.carry_over == default.carry_over:
         low, high = CARRIED
         text = f"carry_over of the grooves: {cooling.carry_over:g}, in use are {low:g} to {high:g}"
         yield text, [replace(bearing, cooling=replace(cooling, carry_over=one)) for one in CARRIED]

@@ -62,6 +62,11 @@ class FilmCandidate:
         """The work of making its map."""
         return WorkUnit(MAP_MADE.name, ("map", self.reaction), nominal=self.making)
 
+    def at_temperature(self, temperature: float) -> Self:
+        """Return the candidate with films of an oil at one temperature [K]."""
+        own, rich = (one.at_temperature(temperature) for one in (self.reaction, self.rich))
+        return replace(self, reaction=own, rich=rich)
+
     def frozen(self, film: Reaction) -> Self:
         """Return the candidate with the bearing replaced by a film that keeps its temperature."""
         return replace(self, reaction=film, bounded=False, making=0.0)
@@ -127,7 +132,8 @@ class FilmCandidate:
     @property
     def supply_temperature(self) -> float:
         """Of the fresh oil [K]; 0 without one."""
-        return 0.0
+        cooling = getattr(self.reaction, "cooling", None)
+        return 0.0 if cooling is None else float(cooling.supply_temperature)
 
 
 def room(bearing: JournalForce) -> float:

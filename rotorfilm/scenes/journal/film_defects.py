@@ -23,6 +23,9 @@ a difference over many such jumps does not. The pressure at the wall is as wide 
 and so is the squeeze, relative to the wedge, that moves its edge.
 """
 
+NEUTRAL = 1e-9
+"""Stiffness in one direction over that in the other below which it is none: where one tilting pad carries."""
+
 
 def tangent(
     bearing: JournalForce, position: Array, speed: float, *, smooth: bool, wedge: float | None = None
@@ -84,7 +87,7 @@ def corrected(film: FilmCandidate, at: Equilibrium, load: Array, *, smooth: bool
     """
     force, rich = tangent(film.rich, at.position, at.speed, smooth=False)
     cheap = film.reaction.jacobian(at.position, np.zeros(2), at.speed)[:, :4]
-    step, other = (np.linalg.solve(-slopes[:, :2], force + load) for slopes in (rich, cheap))
+    step, other = (_step(slopes, force + load) for slopes in (rich, cheap))
     doubt = ""
     gap, longest = float(np.hypot(*(step - other))), float(max(np.hypot(*step), np.hypot(*other)))
     if gap > DISAGREEMENT * longest:
@@ -92,12 +95,17 @@ def corrected(film: FilmCandidate, at: Equilibrium, load: Array, *, smooth: bool
     position = at.position
     for further in range(3):
         if further:
-            step = np.linalg.solve(-rich[:, :2], film.rich.force(position, np.zeros(2), at.speed) + load)
+            step = _step(rich, film.rich.force(position, np.zeros(2), at.speed) + load)
         position = position + step
         if float(minimum_film(film.rich, position)) <= (1.0 - MAXIMUM_ECCENTRICITY) * film.rich.clearance:
             return Corrected(position=at.position, slopes=rich, doubt="the error is larger than the gap")
     slopes = rich_tangent(film, position, at.speed)[1] if smooth else rich
     return Corrected(position=position, slopes=slopes, doubt=doubt)
+
+
+def _step(slopes: Array, force: Array) -> Array:
+    """Return by how much a force (2,) [N] moves the journal, least where nothing holds it in a direction."""
+    return np.asarray(np.linalg.lstsq(-slopes[:, :2], force, rcond=NEUTRAL)[0])
 
 
 def rich_tangent(film: FilmCandidate, position: Array, speed: float) -> tuple[Array, Array]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from ...bearings.journal import ExtrapolatedFilm, GroovedMapFilm, JournalBearing, ReynoldsFilm
 from .film_candidate import CALL_TIME, CELL_TIME, MAP_MADE as MAP_MADE, FilmCandidate
@@ -31,11 +31,6 @@ class FilmRung(FilmCandidate):
 
     reaction: JournalBearing
     rich: JournalBearing
-
-    def at_temperature(self, temperature: float) -> FilmRung:
-        """Return the rung with films of an oil at one temperature [K]."""
-        own, rich = (one.at_temperature(temperature) for one in (self.reaction, self.rich))
-        return replace(self, reaction=own, rich=rich)
 
     @property
     def call_time(self) -> float:
@@ -67,12 +62,6 @@ class FilmRung(FilmCandidate):
     def motion_bound(self, reach: float) -> float:
         """Return the verified bound of K and C in motions as far as a distance / clearance, or infinity."""
         return MAP_BOUNDS[0][2] if self.bounded and reach <= MAP_BOUNDS[0][0] else math.inf
-
-    @property
-    def supply_temperature(self) -> float:
-        """Of the fresh oil [K]; 0 without one."""
-        cooling = self.reaction.cooling
-        return 0.0 if cooling is None else cooling.supply_temperature
 
 
 def is_grid(bearing: JournalBearing) -> bool:

@@ -45,14 +45,8 @@ class DamCandidate(FilmCandidate):
 
     def wedge(self, position: Array) -> float:
         """Return the distance [m] from the farthest center of curvature."""
-        bearing = self.reaction
-        away = [pad.preload / (1.0 - pad.preload) * bearing.clearance for pad in bearing.pads]
-        return float(
-            max(
-                np.hypot(position[0] + far * math.cos(pad.closest), position[1] + far * math.sin(pad.closest))
-                for far, pad in zip(away, bearing.pads, strict=True)
-            )
-        )
+        c, pads = self.reaction.clearance, self.reaction.pads
+        return float(max(np.hypot(*(position - c * np.array(pad.center))) for pad in pads))
 
 
 def dam_candidates(

@@ -11,9 +11,8 @@ from ...errors import InputError
 from ...limits import FILM_CELLS
 from ...progress import Report
 from ..reading.readers import Counts
-from ..reading.shared_fields import made_from
 from ..reading.tables import Keyed, Quantity, Table, TableList
-from .pad_data import DamData
+from .pad_data import DamData, echo_of_pads
 from .pad_tables import PadTable
 
 RECESS = Keyed(
@@ -44,8 +43,6 @@ class DamTable(PadTable):
 
     Parameters
     ----------
-    clearance : float [m]
-        Radial clearance of the bearing as assembled.
     depth, end, share : float or None [m], [rad], [1]
         Of the dam in the upper one of the two usual pads; see `pressure_dam_pads`. Give these or `pads`.
     track_depth, track_share : float or None [m], [1]
@@ -59,7 +56,6 @@ class DamTable(PadTable):
         question needs.
     """
 
-    clearance: Annotated[float, Quantity("m")]
     depth: Annotated[float | None, Quantity("m")] = None
     end: Annotated[float | None, Quantity("rad")] = None
     share: Annotated[float | None, Quantity("1")] = None
@@ -90,22 +86,26 @@ class DamTable(PadTable):
         given = {name: getattr(self, name) for name in (*NEEDED, *FURTHER)}
         return {name: value for name, value in given.items() if value is not None}
 
-    def built(self, viscosity: float) -> PressureDamBearing:
-        """Return the bearing with a viscosity [Pa s]."""
+    def built(self, viscosity: float | None) -> PressureDamBearing:
+        """Return the bearing with a viscosity [Pa s], or on its oil."""
         pads = self.pads or pressure_dam_pads(**self._of_design)
         further: dict[str, Any] = {} if self.cells is None else {"cells": self.cells}
+        known = {name: getattr(self, name) for name in ("oil", "cooling", "temperature")}
         return PressureDamBearing(
             radius=self.radius,
             length=self.length,
-            clearance=self.clearance,
+            pad_clearance=self.pad_clearance,
+            assembled_clearance=self.assembled_clearance,
             viscosity=viscosity,
             pads=pads,
+            **known,
             **further,
         )
 
     def echo(self, bearing: PressureDamBearing) -> tuple[DamData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
-        return made_from(DamData, bearing, slenderness=bearing.slenderness), dam_film_name(bearing)
+        found = echo_of_pads(DamData, bearing, float(bearing.minimum_film((0.0, 0.0))))
+        return found, dam_film_name(bearing)
 
     def extents(self, bearing: PressureDamBearing) -> Collection[float]:
         """Return the angles that pads of the bearing cover [rad]."""

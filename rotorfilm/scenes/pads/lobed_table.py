@@ -13,7 +13,7 @@ from ..reading.shared_fields import made_from
 from ..reading.spelling import nearest
 from ..reading.tables import Keyed, Quantity, TableList
 from .pad_data import LobedData, echo_of_pads
-from .pad_films import usual_film
+from .pad_films import pad_film_name, usual_film
 from .pad_tables import FilmedPadTable
 
 LOBE = Keyed(
@@ -69,15 +69,17 @@ class LobedTable(FilmedPadTable):
         given = {name: getattr(self, name) for name in ("preload", "extent", "offset", "turned")}
         return {name: value for name, value in given.items() if value is not None}
 
-    def built(self, viscosity: float) -> LobedBearing:
-        """Return the bearing with a viscosity [Pa s]."""
+    def built(self, viscosity: float | None) -> LobedBearing:
+        """Return the bearing with a viscosity [Pa s], or on its oil."""
         lobes = self.lobes or lobe_set(self.preset or "", **self._of_preset)
         film = self.film or usual_film((lobe.extent for lobe in lobes), self.radius, self.length)
         return made_from(LobedBearing, self, viscosity=viscosity, lobes=lobes, film=film)
 
     def echo(self, bearing: LobedBearing) -> tuple[LobedData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
-        return echo_of_pads(LobedData, bearing, float(bearing.minimum_film((0.0, 0.0))))
+        return echo_of_pads(LobedData, bearing, float(bearing.minimum_film((0.0, 0.0)))), pad_film_name(
+            bearing.film
+        )
 
     def extents(self, bearing: LobedBearing) -> Collection[float]:
         """Return the angles that pads of the bearing cover [rad]."""

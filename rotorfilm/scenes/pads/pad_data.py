@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from ...bearings.pads import Lobe, RecessedPad
 from ...readable.result import Readable
 from ..reading.shared_fields import made_from
-from .pad_films import pad_film_name
+from .pad_remarks import AnyPads
 
 D = TypeVar("D", bound=Readable)
 
@@ -22,33 +22,24 @@ class PadData(Readable):
     radius, length : float [m]
     slenderness : float [1]
         Length / diameter.
+    pad_clearance : float [m]
+        c_p, in which the eccentricity ratio is.
+    assembled_clearance : float [m]
+        c_b, at the closest place of a centered journal.
     viscosity : float [Pa s]
+        Of the films, or of fresh oil where the temperature follows from the balance of their heat.
     """
 
     radius: float
     length: float
     slenderness: float
+    pad_clearance: float
+    assembled_clearance: float
     viscosity: float
 
 
 @dataclass(frozen=True, kw_only=True)
-class FilmedPadData(PadData):
-    """A bearing whose pads have a film of pads, as it was understood.
-
-    Attributes
-    ----------
-    pad_clearance : float [m]
-        c_p, in which the eccentricity ratio is.
-    assembled_clearance : float [m]
-        c_b, at the closest place of a centered journal.
-    """
-
-    pad_clearance: float
-    assembled_clearance: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class LobedData(FilmedPadData):
+class LobedData(PadData):
     """A bearing of fixed pads as it was understood.
 
     Attributes
@@ -61,7 +52,7 @@ class LobedData(FilmedPadData):
 
 
 @dataclass(frozen=True, kw_only=True)
-class TiltingData(FilmedPadData):
+class TiltingData(PadData):
     """A bearing of tilting pads as it was understood.
 
     Attributes
@@ -88,25 +79,28 @@ class DamData(PadData):
 
     Attributes
     ----------
-    clearance : float [m]
-        Radial clearance of the bearing as assembled.
     pads : tuple of RecessedPad
         Angles in the bearing frame [rad].
     """
 
-    clearance: float
     pads: tuple[RecessedPad, ...]
 
 
-def echo_of_pads(kind: type[D], bearing: Any, assembled_clearance: float) -> tuple[D, str]:
-    """Return what an answer repeats of a bearing with a film of pads, and the name of that.
+def echo_of_pads(kind: type[D], bearing: AnyPads, assembled_clearance: float) -> D:
+    """Return what an answer repeats of a bearing made of pads.
 
     Parameters
     ----------
     kind : type
-        LobedData or TiltingData.
-    bearing : LobedBearing or TiltingPadBearing
+        LobedData, TiltingData or DamData.
+    bearing : LobedBearing, TiltingPadBearing or PressureDamBearing
     assembled_clearance : float [m]
     """
-    lengths = {"pad_clearance": bearing.clearance, "assembled_clearance": assembled_clearance}
-    return made_from(kind, bearing, slenderness=bearing.slenderness, **lengths), pad_film_name(bearing.film)
+    return made_from(
+        kind,
+        bearing,
+        slenderness=bearing.slenderness,
+        viscosity=bearing.film_viscosity,
+        pad_clearance=bearing.clearance,
+        assembled_clearance=assembled_clearance,
+    )

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import math
+import warnings
+from dataclasses import replace
 
-from ...bearings.pads import LobedBearing, PressureDamBearing, TiltingPadBearing
+from ...bearings.pads import LobedBearing, PadGridFilm, PadMapFilm, PressureDamBearing, TiltingPadBearing
+from ...errors import RotorfilmError, ValidityWarning
+from ...linear import equilibrium
 from ..journal.film_candidate import room
 from ..journal.journal_remarks import NOTABLE, REMARKS, film_numbers
 from ..lubricant_table import Lubricant
@@ -20,6 +24,9 @@ PAD_REMARKS = (
     *(remark for remark in REMARKS if remark.number not in ("thinning", "unknown")),
 )
 """What the physics of films on pads leaves out, by the numbers of `pad_numbers`."""
+
+CELLS, DAM_CELLS = (48, 4), (32, 8)
+"""Of films whose temperature is wanted in no time."""
 
 AnyPads = LobedBearing | PressureDamBearing | TiltingPadBearing
 
@@ -52,5 +59,39 @@ def pad_numbers(
 def pad_remarks(
     bearing: AnyPads, extent: float, oil: Lubricant, speed: float, load: tuple[float, float]
 ) -> tuple[str, ...]:
-    """Return what is left out and should not be, one line each; the arguments are of `pad_numbers`."""
-    return said(PAD_REMARKS, pad_numbers(bearing, extent, oil, speed, load))
+    """Return what is left out and should not be, one line each; the arguments are of `pad_numbers`.
+
+    Of films on an oil it is said at their temperature, and that they warm is not left out.
+    """
+    remarks: tuple[Remark, ...] = PAD_REMARKS
+    if bearing.oil is not None:
+        remarks = tuple(remark for remark in PAD_REMARKS if remark.number != "thinning")
+        bearing = _warmed(bearing, speed, load)
+    return said(remarks, pad_numbers(bearing, extent, oil, speed, load))
+
+
+def quick_pads(bearing: AnyPads) -> AnyPads:
+    """Return a bearing with its own films, or on coarse grids where those would take long."""
+    if isinstance(bearing, PressureDamBearing):
+        return replace(bearing, cells=DAM_CELLS)
+    film = bearing.film
+    extents = (
+        [bearing.extent] if isinstance(bearing, TiltingPadBearing) else [p.extent for p in bearing.lobes]
+    )
+    if isinstance(film, PadMapFilm) and not any(film.making_time(x, bearing.slenderness) for x in extents):
+        return bearing
+    return replace(bearing, film=PadGridFilm(cells=CELLS))
+
+
+def _warmed(bearing: AnyPads, speed: float, load: tuple[float, float]) -> AnyPads:
+    """Return a bearing at the temperature of its balance, or of fresh oil where it has no rest."""
+    if not bearing.is_warming:
+        return bearing
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ValidityWarning)
+        try:
+            at = equilibrium(quick_pads(bearing), load, speed)
+        except RotorfilmError:
+            return bearing.at_temperature(bearing.cooled[1].coldest)
+    assert at.temperature is not None  # of films that warm
+    return bearing.at_temperature(at.temperature)

@@ -6,6 +6,7 @@ from collections.abc import Collection
 from dataclasses import dataclass, replace
 from typing import Annotated, Any, Protocol, Self, TypeVar
 
+from ...bearings.oil import Cooling, Oil
 from ...bearings.pads import PadFilm, PadMapFilm
 from ...errors import InputError
 from ...progress import Report
@@ -21,8 +22,11 @@ class _Table(Protocol[B_co]):
     @property
     def viscosity(self) -> float | None: ...
 
-    def built(self, viscosity: float) -> B_co:
-        """Return the bearing with a viscosity [Pa s]."""
+    @property
+    def oil(self) -> Oil | None: ...
+
+    def built(self, viscosity: float | None) -> B_co:
+        """Return the bearing with a viscosity [Pa s], or on its oil."""
 
     def extents(self, bearing: Any) -> Collection[float]:
         """Return the angles that pads of the bearing cover [rad]."""
@@ -42,20 +46,35 @@ class PadTable:
         Of the journal; a file may give `diameter` instead.
     length : float [m]
         Full axial length.
+    pad_clearance : float or None [m]
+        c_p: the radius of curvature of a pad less that of the journal. Give this or the assembled one.
+    assembled_clearance : float or None [m]
+        c_b = (1 - preload) c_p: the least gap around a centered journal.
     viscosity : float or None [Pa s]
-        None where `[lubricant]` gives the oil: its viscosity as supplied.
+        None where `[lubricant]` gives the oil.
+    oil : Oil or None
+        Of `[lubricant]`, where there is no viscosity.
+    cooling : Cooling or None
+        Of `[lubricant]`, with the oil.
+    temperature : float or None [K]
+        Of the films, where a question keeps it; None for that of the balance of their heat.
     """
 
     radius: Annotated[float, Quantity("m", twice="diameter")]
     length: Annotated[float, Quantity("m")]
+    pad_clearance: Annotated[float | None, Quantity("m")] = None
+    assembled_clearance: Annotated[float | None, Quantity("m")] = None
     viscosity: Annotated[float | None, Quantity("Pa.s")] = None
+    oil: Oil | None = None
+    cooling: Cooling | None = None
+    temperature: float | None = None
 
     def require_bearing(self: _Table[AnyPads]) -> None:
         """Raise InputError where a value breaks its rule, at whatever viscosity the oil of the scene has."""
-        self.built(1.0 if self.viscosity is None else self.viscosity)
+        self.built(1.0 if self.viscosity is None and self.oil is None else self.viscosity)
 
     def on(self, where: str, lubricant: LubricantTable) -> Self:
-        """Return this table with the viscosity of the fresh oil, unless it has its own.
+        """Return this table with the oil of the scene, unless it has a viscosity or an oil.
 
         Parameters
         ----------
@@ -68,16 +87,14 @@ class PadTable:
         InputError
             If neither gives a viscosity.
         """
-        if self.viscosity is not None:
+        if self.viscosity is not None or self.oil is not None:
             return self
         if not lubricant.has_viscosity:
             raise InputError(f"{where}.viscosity is required where [lubricant] gives no grade or viscosity")
-        fresh = float(lubricant.oil.viscosity(lubricant.cooling.supply_temperature))
-        return replace(self, viscosity=fresh)
+        return replace(self, oil=lubricant.oil, cooling=lubricant.cooling)
 
     def build(self: _Table[B_co]) -> B_co:
         """Return the bearing; raise InputError where a value breaks its rule."""
-        assert self.viscosity is not None  # `on` gives it
         return self.built(self.viscosity)
 
     def remarks(
@@ -93,16 +110,10 @@ class FilmedPadTable(PadTable):
 
     Parameters
     ----------
-    pad_clearance : float or None [m]
-        c_p: the radius of curvature of a pad less that of the journal. Give this or the assembled one.
-    assembled_clearance : float or None [m]
-        c_b = (1 - preload) c_p: the least gap around a centered journal.
     film : PadFilm or None
         The film law; if the file does not say, the map of a pad, or what a question needs.
     """
 
-    pad_clearance: Annotated[float | None, Quantity("m")] = None
-    assembled_clearance: Annotated[float | None, Quantity("m")] = None
     film: Annotated[PadFilm | None, Variant("name", PAD_FILMS)] = None
 
     @property

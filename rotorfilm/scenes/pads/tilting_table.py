@@ -13,7 +13,7 @@ from ..reading.shared_fields import made_from
 from ..reading.spelling import nearest
 from ..reading.tables import Quantity
 from .pad_data import TiltingData, echo_of_pads
-from .pad_films import usual_film
+from .pad_films import pad_film_name, usual_film
 from .pad_tables import FilmedPadTable
 
 PADS = 64
@@ -91,8 +91,8 @@ class TiltingTable(FilmedPadTable):
             )
         self.require_bearing()
 
-    def built(self, viscosity: float) -> TiltingPadBearing:
-        """Return the bearing with a viscosity [Pa s]."""
+    def built(self, viscosity: float | None) -> TiltingPadBearing:
+        """Return the bearing with a viscosity [Pa s], or on its oil."""
         pivots = self.pivots
         if self.pad_count is not None and self.loading is not None:
             pivots = even_pivots(self.pad_count, between_pads=LOADINGS[self.loading])
@@ -101,7 +101,7 @@ class TiltingTable(FilmedPadTable):
 
     def echo(self, bearing: TiltingPadBearing) -> tuple[TiltingData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
-        return echo_of_pads(TiltingData, bearing, bearing.bore_clearance)
+        return echo_of_pads(TiltingData, bearing, bearing.bore_clearance), pad_film_name(bearing.film)
 
     def extents(self, bearing: TiltingPadBearing) -> Collection[float]:
         """Return the angles that pads of the bearing cover [rad]."""

@@ -8,7 +8,9 @@ import pytest
 from scipy.integrate import Radau
 
 from rotorfilm import (
+    FilmContactError,
     LobedBearing,
+    PadGridFilm,
     PadMapFilm,
     RigidRotor,
     TiltingPadBearing,
@@ -25,6 +27,7 @@ from rotorfilm import (
     whirl_threshold,
 )
 from rotorfilm.bearings.pads.pad_build import PadResolution
+from rotorfilm.motion.transient.equal_steps import march
 
 FILM = PadMapFilm(resolution=PadResolution(cells=(32, 4), nodes=(10, 9, 32)))
 BEARING = LobedBearing(
@@ -138,3 +141,30 @@ def test_a_threshold_that_is_found_says_nothing_of_the_speeds_before():
     with pytest.warns(ValidityWarning, match="beyond the map"):
         equilibrium(BEARING, load, 20.0)
     assert whirl_threshold(BEARING, load, 200.0, (20.0, 20000.0)).exists
+
+
+@pytest.mark.parametrize("preload", [0.0, 0.6])
+def test_a_rotor_shaken_up_to_a_lobe_is_told_by_the_lobe(preload):
+    """The wall is that of the pads, of clearance 1e-4 m: nearer with preload, and in the gaps beyond it."""
+    lobes = lobe_set("three_lobe", preload=preload)
+    bearing = replace(BEARING, lobes=lobes, film=PadGridFilm(cells=(48, 4)))
+    rest = equilibrium(bearing, LOAD, SPEED).position
+
+    def shaken(pull, count=24):
+        return march(bearing, MASS, SPEED, lambda t: (LOAD[0] + pull, LOAD[1]), rest, 2e-4, count)[0]
+
+    with pytest.raises(FilmContactError, match="got to the wall"):
+        shaken(1e12, 2)
+    motion = shaken(2e5)
+    films = bearing.minimum_film(motion.position)
+    assert 0.0 < films.min() < 0.1 * bearing.minimum_film(np.zeros(2))
+    exact = simulate(
+        replace(ROTOR, static_force=(LOAD[0] + 2e5, LOAD[1]), position=tuple(rest)),
+        bearing,
+        duration=24 * 2e-4,
+        samples=25,
+        rtol=1e-8,
+        method=Radau,
+    )
+    late = np.abs(motion.position - exact.position)[:, 12:]
+    assert late.max() < 3e-3 * bearing.clearance

@@ -27,7 +27,7 @@ from rotorfilm import (
     simulate,
 )
 
-DIMENSIONS = {"radius": 0.05, "length": 0.05, "clearance": 1e-4, "viscosity": 0.03}
+DIMENSIONS = {"radius": 0.05, "length": 0.05, "assembled_clearance": 1e-4, "viscosity": 0.03}
 POSITION, VELOCITY, SPEED = np.array([2e-5, -6e-5]), np.array([1e-3, -2e-3]), 300.0
 STATE = (POSITION, VELOCITY, SPEED)
 DAM = pressure_dam_pads(depth=60e-6, end="130 deg", share=0.75)
@@ -75,11 +75,10 @@ def test_step_that_falls_behind_the_recess_makes_no_pressure_when_turned_round()
 @pytest.mark.parametrize("preload", [0.0, 0.4])
 def test_recess_all_over_a_pad_is_a_pad_of_more_clearance(preload):
     """Without a step the depth adds to the pad clearance, with the center of curvature where it was."""
-    extent, depth, c = 2.0, 3e-5, 1e-4
+    extent, depth, own = 2.0, 3e-5, 1e-4 / (1.0 - preload)
     pad = RecessedPad(start=0.3, extent=extent, preload=preload, recess=Recess(depth=depth, end=0.3 + extent))
-    own = c / (1.0 - preload)
     wider = RecessedPad(start=0.3, extent=extent, preload=preload * own / (own + depth))
-    wide = replace(bearing((wider,)), clearance=c + depth)
+    wide = replace(bearing((wider,)), assembled_clearance=None, pad_clearance=own + depth)
     np.testing.assert_allclose(wide.force(*STATE), bearing((pad,)).force(*STATE), rtol=1e-12)
     np.testing.assert_allclose(wide.jacobian(*STATE), bearing((pad,)).jacobian(*STATE), rtol=1e-11, atol=1e-9)
 
@@ -87,7 +86,14 @@ def test_recess_all_over_a_pad_is_a_pad_of_more_clearance(preload):
 def test_plain_pads_are_the_film_on_a_ring():
     """The ring grid crowds its lines elsewhere and shares no code of its cells: equal within the errors."""
     arcs = tuple(Pad(start=pad.start, extent=pad.extent) for pad in PLAIN)
-    ring = JournalBearing(**DIMENSIONS, pads=arcs, film=ReynoldsFilm(cells=(256, 16)))
+    ring = JournalBearing(
+        radius=0.05,
+        length=0.05,
+        clearance=1e-4,
+        viscosity=0.03,
+        pads=arcs,
+        film=ReynoldsFilm(cells=(256, 16)),
+    )
     ours = bearing(PLAIN, (128, 16), extrapolated=False)
     position, velocity, speed = states(30, 0.8)
     force = ring.force(position, velocity, speed)
@@ -144,7 +150,8 @@ def test_mirror_image():
         return replace(pad, start=start, offset=1.0 - pad.offset, recess=recess if pad.recess else None)
 
     pads = (replace(DAM[0], preload=0.3, offset=0.7), DAM[1])
-    there, here = bearing(tuple(map(mirrored, pads))), bearing(pads)
+    one = replace(bearing(DAM), assembled_clearance=None, pad_clearance=1.5e-4)
+    there, here = replace(one, pads=tuple(map(mirrored, pads))), replace(one, pads=pads)
     position, velocity, speed = states(10)
     turn = np.array([[-1.0], [1.0]])
     np.testing.assert_allclose(
@@ -257,7 +264,7 @@ def test_small_periodic_orbit_is_that_of_the_coefficients():
             r"cells must be two multiples of 4, at least \(16, 8\), got \(30, 8\)",
         ),
         ({"bearing": {"pads": ()}}, r"pads must be one at least, got \(\)"),
-        ({"bearing": {"clearance": 0.06}}, "must be below the radius 0.05, got clearance 0.06"),
+        ({"bearing": {"assembled_clearance": 0.06}}, "pad clearance must be below the radius 0.05, got 0.06"),
         ({"bearing": {"viscosity": 0.0}}, "viscosity must be finite and positive, got 0.0"),
     ],
 )

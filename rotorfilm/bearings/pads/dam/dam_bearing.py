@@ -1,40 +1,26 @@
-"""The pressure dam bearing in SI units: pads with recesses, validation, and the film on their grids."""
+"""The pressure dam bearing in SI units: the film on the grids of its pads, its losses and its heat."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ....errors import (
-    ConvergenceError,
-    FilmContactError,
-    InputError,
-    UndefinedDerivativeError,
-    require_each,
-    require_kind,
-    require_positive,
-    require_tuple,
-    require_vector,
-)
+from ....errors import InputError
 from ....inputs.si_arguments import quantities
 from ....model import Array, Force, Tangent
-from ....native.film_kernels import Status
 from ....native.spec import NativeParameter, NativeSpec
-from ...film_units import FilmUnits
-from ...films.geometry import FilmGeometry, Pad
-from ...films.ring.ring_grids import are_counts
+from ....results import BearingLosses
 from ...reaction import StaticReaction, broadcast_state
-from .dam_kernel import DamKernel, PadPressure, pad_places, pad_rows
-from .recessed_pad import RecessedPad
+from ..losses_of_pads import BearingFlow, collected_losses, cross
+from .dam_kernel import DamKernel, PadPressure, pad_places
+from .recessed_pads import RecessedPads
 
 PARAMETERS = (
     ("radius", "m", "bearing radius"),
     ("length", "m", "axial length"),
-    ("clearance", "m", "least radial clearance of a centered journal"),
+    ("clearance", "m", "radial clearance of a pad"),
     ("viscosity", "Pa.s", "dynamic viscosity"),
 )
 """Names, units and meanings of what a simulator may set in the compiled bearing."""
@@ -42,36 +28,14 @@ PARAMETERS = (
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class PressureDamBearing(StaticReaction, FilmUnits):
+class PressureDamBearing(RecessedPads, StaticReaction):
     """A bearing of fixed pads, any of which may have a recess: pressure dam, step, relief track.
 
     x and y are Cartesian from the bearing center, rotation is about +z, the force acts on the journal.
     Angles are absolute, from +x towards +y. The film is two-dimensional, on a grid of its own for each pad,
     with ambient pressure, 0, at all edges of the pads and where it ruptures.
 
-    Parameters
-    ----------
-    radius : float [m]
-        Bearing radius; or `diameter`, twice that.
-    length : float [m]
-        Axial length of the pads.
-    clearance : float [m]
-        Radial clearance of the bearing as assembled: the least film of a centered journal. A pad with a
-        preload is made with the larger pad clearance, clearance / (1 - preload).
-    viscosity : float [Pa s]
-        Dynamic viscosity of the lubricant.
-    pads : tuple of RecessedPad
-        See `pressure_dam_pads` for the usual two.
-    cells : tuple of int
-        Cells around each pad and along half the length, multiples of 4 and at least 16 and 8; on both sides
-        of the edges of a recess about as many as its part of them, at least 4.
-    extrapolated : bool
-        Whether the force is extrapolated from these cells and half as many, by a third of the difference.
-
-    Raises
-    ------
-    InputError
-        If a value breaks its rule, the clearance is not below the radius, or pads overlap.
+    Its parameters are those of `RecessedPads`.
 
     Notes
     -----
@@ -92,96 +56,43 @@ class PressureDamBearing(StaticReaction, FilmUnits):
     >>> from rotorfilm import PressureDamBearing, pressure_dam_pads
     >>> pads = pressure_dam_pads(depth="61 um", end="145 deg", share=0.75)
     >>> bearing = PressureDamBearing(
-    ...     diameter="25.4 mm", length="25.4 mm", clearance="55.9 um", viscosity=0.0524, pads=pads
+    ...     diameter="25.4 mm", length="25.4 mm", pad_clearance="55.9 um", viscosity=0.0524, pads=pads
     ... )
     >>> bearing.force(position=[0.0, -1e-5], velocity=[0.0, 0.0], speed=837.8).shape
     (2,)
     """
 
-    radius: float
-    length: float
-    clearance: float
-    viscosity: float
-    pads: tuple[RecessedPad, ...]
-    cells: tuple[int, int] = (64, 16)
-    extrapolated: bool = True
-
-    def __post_init__(self) -> None:
-        require_each(self, require_positive, "radius", "length", "clearance", "viscosity")
-        require_tuple("pads", self.pads, RecessedPad)
-        require_kind("extrapolated", self.extrapolated, bool, "True or False")
-        if not self.pads:
-            raise InputError(f"pads must be one at least, got {self.pads!r}")
-        if not are_counts(self.cells, (16, 8), (4, 4)):
-            raise InputError(f"cells must be two multiples of 4, at least (16, 8), got {self.cells!r}")
-        for pad in self.pads:
-            if self.clearance >= self.radius * (1.0 - pad.preload):
-                raise InputError(
-                    f"clearance / (1 - preload) must be below the radius {self.radius!r}, "
-                    f"got clearance {self.clearance!r} and preload {pad.preload!r}"
-                )
-        FilmGeometry(pads=tuple(Pad(start=pad.start, extent=pad.extent) for pad in self.pads))
-
-    @property
-    def film_viscosity(self) -> float:
-        """Dynamic viscosity of the film [Pa s]."""
-        return self.viscosity
-
-    def minimum_film(self, position: ArrayLike) -> Array:
-        """Return the least film over all pads [m], shape (...), of journals at positions (2, ...) [m].
-
-        It is not positive where one is touched.
-        """
-        at = require_vector("position", position)
-        films = [self._film.least(x, y)[0] for x, y in at.reshape(2, -1).T.tolist()]
-        return np.array(films).reshape(at.shape[1:])
-
-    def require_film(self, position: Array) -> None:
-        """Raise FilmContactError, with the pad, unless the journal at position (2, ...) [m] touches none.
-
-        Inside the circle of the clearance it never does, outside it need not.
-        """
-        flat = position.reshape(2, -1)
-        for x, y in flat[:, ~(np.hypot(*flat) < self.clearance)].T.tolist():
-            least, touched = self._film.least(x, y)
-            if not least > 0.0:
-                pad = self.pads[touched]
-                raise FilmContactError(
-                    f"position must keep the journal off pads[{touched}], {math.degrees(pad.start):.6g} to "
-                    f"{math.degrees(pad.end):.6g} deg, got ({x!r}, {y!r}) m with a film of {least:.6g} m"
-                )
-
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape."""
-        return self._answers(self._film, position, velocity, speed, False).reshape(position.shape)
+        return self._answers(self.kernel, position, velocity, speed, False).reshape(position.shape)
 
     def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `jacobian` for inner loops: float arrays of equal batch shape."""
-        found = self._answers(self._film, position, velocity, speed, True)
+        found = self._answers(self.kernel, position, velocity, speed, True)
         return found.reshape(2, 5, *position.shape[1:])
 
     def prepare(self) -> Force:
         """Return the force as a function of five numbers; see `StaticReaction.prepare`."""
-        film = self._film
+        film = self.kernel
 
         def call(x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
             force_x, force_y, status = film.call(x, y, vx, vy, speed)
             if status:
-                self._report(status, (x, y, vx, vy, speed))
+                self.report(status, (x, y, vx, vy, speed))
             return force_x, force_y
 
         return call
 
     def prepare_tangent(self) -> Tangent:
         """Return force and derivatives as one function of five numbers; see `model.TangentReaction`."""
-        film = self._film
+        film = self.kernel
 
         def tangent(
             x: float, y: float, vx: float, vy: float, speed: float
         ) -> tuple[float, float, list[float]]:
             force_x, force_y, derivatives, status = film.tangent(x, y, vx, vy, speed)
             if status:
-                self._report(status, (x, y, vx, vy, speed))
+                self.report(status, (x, y, vx, vy, speed))
             return force_x, force_y, derivatives
 
         return tangent
@@ -198,10 +109,7 @@ class PressureDamBearing(StaticReaction, FilmUnits):
         """
         state = broadcast_state(position, velocity, speed)
         self.require_film(state[0])
-        plain, richer = (
-            self._answers(DamKernel(self._rows, self._dimensions, both), *state, False)
-            for both in (False, True)
-        )
+        plain, richer = (self._answers(self.kernel_on(both), *state, False) for both in (False, True))
         return np.hypot(*(richer - plain)).reshape(state[2].shape)
 
     def pressure(self, pad: int, position: ArrayLike, velocity: ArrayLike, speed: float) -> PadPressure:
@@ -209,42 +117,79 @@ class PressureDamBearing(StaticReaction, FilmUnits):
         q, v, omega = broadcast_state(position, velocity, speed)
         self.require_film(q)
         state = (*q.tolist(), *v.tolist(), float(omega))
-        found, status = self._film.pressure(pad, np.array(state))
+        found, status = self.kernel.pressure(pad, np.array(state))
         if status:
-            self._report(status, state)
+            self.report(status, state)
         theta, axial = pad_places(self.pads[pad], self.cells)
         return PadPressure(theta, axial, np.pad(found, ((0, 1), (0, 1))))
 
+    def losses(
+        self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike, *, full_gap: bool | None = None
+    ) -> BearingLosses:
+        """Return power loss, torques and oil flow, by the film on these cells.
+
+        The opening of a number is the gap behind the pad of that number, in the sense of +theta. Where
+        `full_gap` is None, it is that of the cooling, or false. Flow in recesses is laminar, as the film.
+
+        Raises
+        ------
+        InputError, FilmContactError
+            As `force`.
+
+        Notes
+        -----
+        As `losses_of_pads`; pressure on the steps adds c_p D p/2 to the torque, integrated along their edges.
+        A film begins only where streamers bring what it takes; its force is that of the film without this.
+        """
+        q, v, omega = broadcast_state(position, velocity, speed)
+        self.require_film(q)
+        states = np.concatenate([np.reshape(part, (-1, omega.size)) for part in (q, v, omega)])
+        rows = np.stack([self._losses_at(state) for state in states.T], axis=-1)
+        force, (steps, streamers, gap), flows = rows[:, :2], rows.swapaxes(0, 1)[2:5], rows[:, 5:]
+        turning, scale, c = states[4], self.force_scale, self.clearance
+        centers = np.array([pad.center for pad in self.pads])
+        e = states[:2] / c - centers[:, :, None]
+        pressed = np.stack([cross(*pair) for pair in zip(e, force, strict=True)]) + steps
+        shear = (gap if self.full_gap(full_gap) else streamers) * turning
+        flow = BearingFlow(
+            drag=scale * c * (shear + 0.5 * pressed).sum(axis=0),
+            force=scale * force.sum(axis=0),
+            into=flows[:, 0],
+            out=flows[:, 1],
+        )
+        return collected_losses(self, self.pads, flow, (q, v, omega))
+
+    def _losses_at(self, state: Array) -> Array:
+        found, status = self.kernel.losses(state)
+        if status:
+            self.report(status, state.tolist())
+        return found
+
+    def film_at_unit_viscosity(self) -> None:
+        """Return no film for the loops in C over warm films, which know one film only."""
+
+    def heat_jacobian(self, position: ArrayLike, velocity: ArrayLike, speed: float) -> Array:
+        """Raise InputError: the heat of pads with recesses has no slopes."""
+        raise InputError("bearing must have slopes of its heat, as a LobedBearing, got pads with recesses")
+
     def native(self) -> NativeSpec | None:
         """Return the kernel of the C library that is this bearing; a subclass has none."""
-        if type(self) is not PressureDamBearing:
+        if type(self) is not PressureDamBearing or self.is_warming:
             return None
         parameters = tuple(
             NativeParameter(
                 name=name,
                 unit=unit,
-                value=self._dimensions[name],
+                value=value,
                 tunable=True,
                 minimum=0.0,
-                nominal=self._dimensions[name],
+                nominal=value,
                 description=text,
             )
-            for name, unit, text in PARAMETERS
+            for (name, unit, text), value in zip(PARAMETERS, self.kernel.dimensions, strict=True)
         )
-        tables = {"pads": self._rows, "extrapolated": np.array([float(self.extrapolated)])}
+        tables = {"pads": self.rows, "extrapolated": np.array([float(self.extrapolated)])}
         return NativeSpec(kernel="pressure_dam", parameters=parameters, tables=tables)
-
-    @cached_property
-    def _rows(self) -> Array:
-        return pad_rows(self.pads, self.cells)
-
-    @cached_property
-    def _dimensions(self) -> dict[str, float]:
-        return {name: float(getattr(self, name)) for name, _, _ in PARAMETERS}
-
-    @cached_property
-    def _film(self) -> DamKernel:
-        return DamKernel(self._rows, self._dimensions, self.extrapolated)
 
     def _answers(
         self, film: DamKernel, position: Array, velocity: Array, speed: Array, differentiated: bool
@@ -252,21 +197,5 @@ class PressureDamBearing(StaticReaction, FilmUnits):
         states = np.concatenate([np.reshape(part, (-1, speed.size)) for part in (position, velocity, speed)])
         batch = film.batch(states, differentiated=differentiated)
         if batch.status:
-            self._report(batch.status, states[:, batch.first].tolist())
+            self.report(batch.status, states[:, batch.first].tolist())
         return batch.values
-
-    def _report(self, status: int, state: tuple[float, ...] | list[float]) -> None:
-        """Raise what the status of a state x, y, vx, vy, speed says."""
-        x, y, vx, vy, speed = state
-        said = f"got ({x!r}, {y!r}) m, ({vx!r}, {vy!r}) m/s and {speed!r} rad/s"
-        if status == Status.UNDEFINED:
-            raise UndefinedDerivativeError(
-                "velocity and speed must drive the film of every pad where a derivative is asked for, " + said
-            )
-        if status == Status.AT_WALL:
-            self.require_film(np.array([x, y]))
-        if status == Status.NOT_FINITE:
-            raise InputError(f"position, velocity and speed must be finite and not overflow, {said}")
-        if status == Status.NO_MEMORY:
-            raise MemoryError("no memory for the film of a pad")
-        raise ConvergenceError(f"the search for the ruptured zone of a pad must end, and did not: {said}")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from ctypes import addressof, byref, c_double, c_size_t
 from typing import Any, NamedTuple
 
@@ -16,6 +16,9 @@ from .recessed_pad import RecessedPad
 
 COLUMNS = 13
 """Of a pad in the table of the kernel: the numbers of rf_recess_pad, in its order."""
+
+LOSSES = 7
+"""Of a pad: its force (2), steps, both shears, what enters it and what comes to its end."""
 
 _Two, _Five, _Ten = c_double * 2, c_double * 5, c_double * 10
 
@@ -100,17 +103,17 @@ class DamKernel:
     ----------
     rows : ndarray, shape (pads, COLUMNS)
         Of `pad_rows`.
-    dimensions : mapping of str to float
-        Radius, length, clearance [m] and viscosity [Pa s].
+    dimensions : sequence of float
+        Radius, length, clearance of a pad [m] and viscosity [Pa s].
     extrapolated : bool
         Whether forces are extrapolated from these cells and half as many.
     """
 
-    def __init__(self, rows: Array, dimensions: Mapping[str, float], extrapolated: bool) -> None:
-        self._arguments = (rows, dict(dimensions), extrapolated)
+    def __init__(self, rows: Array, dimensions: Sequence[float], extrapolated: bool) -> None:
+        self._arguments = (rows, list(dimensions), extrapolated)
+        self.dimensions = tuple(dimensions)
         self._pads = (RecessPadStruct * len(rows))(*map(_pad_struct, rows))
-        numbers = [dimensions[name] for name in ("radius", "length", "clearance", "viscosity")]
-        self.struct = RecessStruct(addressof(self._pads), len(rows), *numbers, extrapolated)
+        self.struct = RecessStruct(addressof(self._pads), len(rows), *dimensions, extrapolated)
         self._reference = byref(self.struct)
         self._at = loops()["rf_recess_at"]
 
@@ -144,6 +147,12 @@ class DamKernel:
         field, given = np.zeros((sum(around), sum(along))), np.ascontiguousarray(state, dtype=float)
         status = loops()["rf_recess_field"](self._reference, pad, given.ctypes.data, field.ctypes.data)
         return field, status
+
+    def losses(self, state: Array) -> tuple[Array, int]:
+        """Return a row of `rf_recess_losses` for each pad at a state (5,), and a status."""
+        rows, given = np.zeros((len(self._pads), LOSSES)), np.ascontiguousarray(state, dtype=float)
+        status = loops()["rf_recess_losses"](self._reference, given.ctypes.data, rows.ctypes.data)
+        return rows, status
 
     def least(self, x: float, y: float) -> tuple[float, int]:
         """Return the least film [m] at a position [m], and the pad that has it."""

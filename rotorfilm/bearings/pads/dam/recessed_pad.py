@@ -52,8 +52,8 @@ class Recess:
 class RecessedPad:
     """A fixed pad: an arc of the wall with its own center of curvature; ambient pressure, 0, at its ends.
 
-    Its radius of curvature is that of the journal and the pad clearance, clearance / (1 - preload), with the
-    (assembled) clearance of the bearing: where a centered journal is closest, it leaves that.
+    Its radius of curvature is that of the journal and the pad clearance. Where a centered journal is closest,
+    it leaves the assembled clearance, (1 - preload) times that of the pad.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ class RecessedPad:
     extent : float [rad]
         Angle covered, 0 < extent < 2 pi.
     preload : float [1]
-        1 - (assembled) clearance / pad clearance, 0 <= preload < 1; 0 is a pad about the bearing center.
+        1 - assembled clearance / pad clearance, 0 <= preload < 1; 0 is a pad about the bearing center.
     offset : float [1]
         Where a centered journal is closest, as part of the extent from the start, 0 to 1: 0.5 in the middle,
         1 at the end, where the film converges all along.
@@ -103,6 +103,11 @@ class RecessedPad:
     def closest(self) -> float:
         """Angle at which a centered journal is closest [rad]."""
         return self.start + self.offset * self.extent
+
+    @property
+    def center(self) -> tuple[float, float]:
+        """Its center of curvature from that of the bearing, in pad clearances."""
+        return -self.preload * math.cos(self.closest), -self.preload * math.sin(self.closest)
 
     @property
     def edges(self) -> tuple[float, float, float, float]:

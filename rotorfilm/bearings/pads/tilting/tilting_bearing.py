@@ -149,15 +149,15 @@ class TiltingPadBearing(Called, TiltingPads):
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return forces and pivot loads, shape (2 + N,) [N], at the state x and u = (x, y, vx, vy, speed)."""
-        return self._at(x, u).outputs
+        return self.evaluated(x, u).outputs
 
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return the rates of the states, shape (n_states,)."""
-        return self._at(x, u).rates
+        return self.evaluated(x, u).rates
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives at the state x and u = (x, y, vx, vy, speed)."""
-        found = self._at(x, u, slopes=True).slopes
+        found = self.evaluated(x, u, slopes=True).slopes
         assert found is not None
         return found
 
@@ -193,7 +193,8 @@ class TiltingPadBearing(Called, TiltingPads):
     def _tilts(self) -> Array:
         return self.initial_state[: len(self.pivots)]
 
-    def _at(self, x: ArrayLike, u: ArrayLike, *, slopes: bool = False) -> TiltingPoint:
+    def evaluated(self, x: ArrayLike, u: ArrayLike, *, slopes: bool = False) -> TiltingPoint:
+        """Return rates and outputs, and if asked for their derivatives, at the state x and the input u."""
         state, values = require_finite("x", x), input_vector(u)
         if state.shape != (self.kernel.states,):
             raise InputError(f"x must have shape ({self.kernel.states},), got shape {state.shape}")

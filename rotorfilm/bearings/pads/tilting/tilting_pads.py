@@ -25,13 +25,14 @@ from ....native.pads.tilting_kernel import TiltingKernel
 from ...oil import Cooling, Oil
 from ...oil.lubricant import require_lubricant
 from ...oil.warm_bearing import WarmBearing
+from ..clearances import PadClearance
 from ..pad_film import PadFilm, PadMapFilm, require_pad_film
 from .pivots import directions, gaps, reach
 
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class TiltingPads(WarmBearing):
+class TiltingPads(PadClearance, WarmBearing):
     """Equal tilting pads around a journal.
 
     Clearances: c_p of a pad is its radius of curvature less that of the journal, c_b that of the assembled
@@ -109,7 +110,7 @@ class TiltingPads(WarmBearing):
         require_each(self, require_positive, "radius", "length", "extent")
         require_lubricant(self.viscosity, self.oil, self.temperature, self.cooling)
         require_each(self, require_non_negative, "pivot_distance")
-        for name in ("pad_clearance", "assembled_clearance", "pivot_stiffness", "pad_inertia", "pad_mass"):
+        for name in ("pivot_stiffness", "pad_inertia", "pad_mass"):
             if getattr(self, name) is not None:
                 require_positive(name, getattr(self, name))
         if self.extent >= math.pi:
@@ -118,11 +119,7 @@ class TiltingPads(WarmBearing):
             raise InputError(f"pivot_offset must be within 0 and 1, got {self.pivot_offset!r}")
         if require_number("preload", self.preload) >= 1.0:
             raise InputError(f"preload must be below 1, got {self.preload!r}")
-        if (self.pad_clearance is None) == (self.assembled_clearance is None):
-            given = f"{self.pad_clearance!r} and {self.assembled_clearance!r}"
-            raise InputError(f"pad_clearance and assembled_clearance must be given one of both, got {given}")
-        if self.clearance >= self.radius:
-            raise InputError(f"pad clearance must be below the radius, got {self.clearance!r}")
+        self.require_clearance()
         heavy = self.pivot_stiffness is not None and self.pad_inertia is not None
         if heavy != (self.pad_mass is not None):
             rule = "with both pivot_stiffness and pad_inertia, and only then"
@@ -142,11 +139,9 @@ class TiltingPads(WarmBearing):
         object.__setattr__(self, "start", tuple(start.tolist()))
 
     @property
-    def clearance(self) -> float:
-        """Clearance c_p of a pad [m], the unit of eccentricity ratios."""
-        if self.pad_clearance is not None:
-            return self.pad_clearance
-        return float(self.assembled_clearance or math.nan) / (1.0 - self.preload)
+    def preloads(self) -> tuple[float]:
+        """The preload of all pads [1]."""
+        return (self.preload,)
 
     @property
     def bore_clearance(self) -> float:

@@ -311,3 +311,23 @@ def test_contact_names_the_pad(tilting):
 def test_what_breaks_a_rule_is_named(tilting, change, message):
     with pytest.raises(InputError, match=message):
         replace(tilting(4, 0.7, 75.0, 0.5), **change)
+
+
+@pytest.mark.filterwarnings("ignore::rotorfilm.errors.ValidityWarning")
+def test_a_journal_that_one_pad_carries_rests_on_its_axis():
+    """Nothing holds it across: the other two pads have no film, and of all places it takes the nearest."""
+    bearing = TiltingPadBearing(
+        radius=0.045,
+        length=0.037,
+        assembled_clearance=6e-5,
+        viscosity=0.048,
+        pivots=even_pivots(3),
+        extent=1.75,
+        pivot_offset=0.572,
+        preload=0.009,
+        film=PadGridFilm(cells=(48, 4)),
+    )
+    at = equilibrium(bearing, (0.0, -9400.0), 280.0)
+    assert at.pads.unloaded.tolist() == [False, True, True]
+    assert at.pads.pad_loads[0] == pytest.approx(9400.0, rel=1e-9)
+    assert abs(at.position[0]) < 1e-12 * 6e-5

@@ -1,0 +1,147 @@
+"""Questions about the orbit that an unbalance makes on tilting pads: linear and nonlinear, pads in time."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ...answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Work, WorkUnit
+from ...bearings.pads import TiltingPadBearing
+from ...errors import FilmContactError
+from ...ladders import CandidateRung, Ladder
+from ...linear import equilibrium
+from ...model import Array
+from ...motion.periodic.harmonics import basis, first_wave
+from ...motion.periodic.stateful_orbit import StatefulTurn, TurnEquations, resampled
+from ...rotors import RigidRotor
+from ...scenes.pads.tilting_candidates import TiltingCandidate, tilting_candidates
+from ..journal.unbalance_orbits import SAMPLES, rotor_of
+from ..orbit_place import FORCE, UNITS, wave_change, wave_value
+from .warm_pads import settled_scene
+
+if TYPE_CHECKING:
+    from ...scenes.scene import Scene
+
+LINEAR = 15
+"""Samples over a turn of a linear orbit."""
+
+NEWTON = 6
+"""Newton steps that an orbit takes about."""
+
+
+class SolvedPads(NamedTuple):
+    """An orbit on tilting pads, as its estimate and a higher rung start from it."""
+
+    turn: StatefulTurn
+    film: TiltingCandidate
+
+
+@dataclass(frozen=True, kw_only=True)
+class TiltingOrbitRung(CandidateRung[TiltingCandidate]):
+    """The orbit on one film, linear about the rest or nonlinear at so many samples.
+
+    Attributes
+    ----------
+    quantity : str
+        A key of `UNITS`.
+    rotor : RigidRotor
+    samples : int
+        Over a turn; 0 for the linear orbit.
+    """
+
+    quantity: str
+    rotor: RigidRotor
+    samples: int
+
+    @property
+    def name(self) -> str:
+        """Linear, or the number of samples, and the film."""
+        how = f"nonlinear, {self.samples} samples" if self.samples else "linear"
+        return f"{how}, {self.film.name}"
+
+    @property
+    def prior(self) -> float:
+        """Order of magnitude of the film's error."""
+        return 0.3 * self.film.prior
+
+    @property
+    def refines(self) -> tuple[object, ...]:
+        """The film, where there are samples."""
+        return (self.film,) if self.samples else ()
+
+    @property
+    def points(self) -> WorkUnit:
+        """The pads at one state and time, with derivatives."""
+        nominal = self.film.time(1)
+        return WorkUnit(f"states of {self.film.name}", ("states", self.film), nominal=nominal)
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the quantity of the orbit, from that of a lower rung if there is one."""
+        bearing = self.film.reaction
+        if not self.samples:
+            turn, count = self._equations(bearing, LINEAR).linear(self._rest(bearing)), LINEAR
+        else:
+            start = self._rest(bearing)[:, None] if before is None else before.solution.turn.places
+            turn, count = self._equations(bearing, self.samples).orbit(start), NEWTON * self.samples
+        return Found(self._value(turn), {self.points: count}, SolvedPads(turn, self.film))
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the change by two steps with the richer film, at twice the samples, by this one's slopes."""
+        places = found.solution.turn.places
+        samples = 2 * places.shape[1] + 1
+        places = resampled(places, samples)
+        own, rich = (self._equations(one, samples) for one in (self.film.reaction, self.film.rich))
+        try:
+            matrix = own.matrix(own.residual(places, slopes=True)[1])
+            first = rich.step(matrix, rich.residual(places)[0])
+            second = rich.step(matrix, rich.residual(places + first)[0])
+        except FilmContactError:
+            return ErrorEstimate(math.inf, "defect", doubt="the orbit leaves the clearance: not linear")
+        better = rich.turn(places + first + second)
+        error = wave_change(self.quantity, found.value, self._value(better))
+        left = float(np.linalg.norm(second[:2])) / max(float(np.linalg.norm(first[:2])), 1e-300)
+        doubt = f"a second step is {left:.0%} of the first: not linear" if left > DISAGREEMENT else ""
+        method = f"defect of {self.film.rich_name}, {samples} samples"
+        return ErrorEstimate(error, method, {self.points: samples}, doubt=doubt)
+
+    def expected(self, done: Work) -> Work:
+        """Return some Newton steps at these samples."""
+        return {self.points: NEWTON * self.samples if self.samples else LINEAR}
+
+    def _equations(self, bearing: TiltingPadBearing, samples: int) -> TurnEquations:
+        return TurnEquations(self.rotor, bearing.evaluated, bearing.clearance, samples)
+
+    def _rest(self, bearing: TiltingPadBearing) -> Array:
+        speed = self.rotor.profile.speeds[0]
+        position = equilibrium(bearing, self.rotor.static_force, speed).position
+        return np.concatenate([position, bearing.at_rest().state(position, speed)])
+
+    def _value(self, turn: StatefulTurn) -> float:
+        rows = turn.force if self.quantity == FORCE else turn.places[:2]
+        samples = rows.shape[1]
+        wave = first_wave(rows @ basis(samples // 2, samples).back.T)
+        return wave_value(self.quantity, wave, self.rotor.profile.speeds[0], self.rotor.unbalance_angle)
+
+
+def tilting_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
+    """Return the ladder of an orbit on tilting pads: linear, then nonlinear, on each film.
+
+    On an oil the films keep the temperature of the rest.
+
+    Raises
+    ------
+    InputError
+        As `rotor_of`.
+    """
+    settled = settled_scene(scene)
+    films = tilting_candidates(settled.table("tilting_pad").build(), fixed=settled.film_is_given)
+    rotor = rotor_of(settled)
+    rungs = [
+        TiltingOrbitRung(film=film, quantity=quantity, rotor=rotor, samples=n)
+        for film in films
+        for n in (0, *SAMPLES)
+    ]
+    return Ladder(rungs=tuple(rungs), unit=UNITS[quantity], remarks=scene.film_remarks, within=ISOTHERMAL)
