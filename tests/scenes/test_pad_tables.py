@@ -132,7 +132,9 @@ def test_a_bearing_needs_an_operation():
         parse_scene(STEP, "case.toml")
 
 
-@pytest.mark.parametrize("table", [ELLIPTICAL + GRID, STEP + "cells = [32, 8]\n", FIVE + GRID.replace("48", "16")])
+@pytest.mark.parametrize(
+    "table", [ELLIPTICAL + GRID, STEP + "cells = [32, 8]\n", FIVE + GRID.replace("48", "16")]
+)
 def test_a_scene_that_asks_nothing_is_described(table):
     scene = scene_of(table)
     answer = scene.solve()
@@ -177,3 +179,18 @@ def test_bearing_and_rotor_become_fmus_that_start_at_rest(tmp_path, monkeypatch,
     assert len(tilts) == states
     if states:
         np.testing.assert_allclose(tilts, at.pads.tilts, rtol=1e-9)
+
+
+@pytest.mark.parametrize("table", [ELLIPTICAL, FIVE])
+def test_pads_without_a_map_are_answered_on_grids(table):
+    """A bearing of L/D .04, which no map of a pad has."""
+    question = '[question]\nquantity = "eccentricity_ratio"\ntolerance = 0.2\n'
+    scene = scene_of(
+        table.replace('length = "50 mm"', 'length = "4 mm"'), RUN.replace("3 kN", "10 N") + question
+    )
+    assert isinstance(scene.bearing.film, PadGridFilm)
+    answer = scene.ask()
+    assert answer.met
+    assert answer.model.startswith("2-D")
+    with pytest.raises(SceneError, match="length/diameter must be 0.05 to 20.0 for a map of a pad"):
+        scene_of(table.replace('length = "50 mm"', 'length = "4 mm"') + 'film = { name = "map" }\n')
