@@ -2,13 +2,15 @@
 
 import json
 import math
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import pytest
 
 import rotorfilm.comparisons as ladders
-from rotorfilm import TiltingPadBearing, coefficients, equilibrium, even_pivots
+from rotorfilm import PadGridFilm, TiltingPadBearing, coefficients, equilibrium, even_pivots
+from rotorfilm.comparisons.pads.pad_samples import compared_bearings
 
 
 def test_chart_of_bearings_writes_pictures_and_tables(run, tmp_path, monkeypatch):
@@ -39,10 +41,17 @@ def test_chart_of_bearings_writes_pictures_and_tables(run, tmp_path, monkeypatch
     assert "mass must be finite and positive, got -1.0" in err
 
 
+def without_maps(slenderness):
+    """Return the bearings that are compared with films that need no map."""
+    film = PadGridFilm(cells=(32, 4))
+    return {name: replace(one, film=film) for name, one in compared_bearings(slenderness).items()}
+
+
 def test_chart_of_pads_writes_picture_and_table(run, tmp_path, monkeypatch):
     grids = [rung for rung in ladders.pad_rungs() if rung.family is ladders.PadFamily.GRID][:2]
     quick = partial(ladders.pad_accuracy, rungs=grids, cells=(64, 8), rounds=1)
     monkeypatch.setattr(ladders, "pad_accuracy", quick)
+    monkeypatch.setattr("rotorfilm.comparisons.pads.pad_accuracy.compared_bearings", without_maps)
     options = ("--ld", "0.7", "--states", "3", "--seed", "5", "--out", tmp_path)
     code, out, _ = run("chart", "pads", *options, "--json")
     assert code == 0

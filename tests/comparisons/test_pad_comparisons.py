@@ -120,7 +120,7 @@ def test_errors_of_grids_fall_with_their_cells(tmp_path):
 
 def test_reference_has_no_error_of_itself():
     same = ComparedPad(name="same", family=PadFamily.GRID, film=PadGridFilm(cells=(64, 8)))
-    found = pad_accuracy(1.0, states=3, rungs=[same], cells=(64, 8), rounds=1)
+    found = pad_accuracy(0.5, states=3, rungs=[same], cells=(64, 8), rounds=1)
     assert found.rungs[0].high_error == 0.0
     assert found.reference_high > 0.0
 

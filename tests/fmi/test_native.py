@@ -264,7 +264,7 @@ def test_an_fmu_can_be_compiled_from_its_own_sources(version, tmp_path):
     command = [
         os.environ.get("CC", "cc"),
         "-std=c99",
-        "-O2",
+        "-O0",
         "-shared",
         "-fPIC",
         "-fvisibility=hidden",

@@ -30,7 +30,7 @@ from rotorfilm.native import GrooveMapKernel
 from rotorfilm.native.resource import FILE_NAME
 from rotorfilm.rotors import mount
 
-OPTIONS = ["-g", "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-DRF_MOST_STEPS=1000"]
+OPTIONS = ["-g1", "-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-DRF_MOST_STEPS=1000"]
 """Sanitizers, and few steps of an integration: one of extreme numbers takes as many as it may."""
 
 

@@ -4,13 +4,14 @@ import math
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import scene_battery
 from families import FAMILIES
 
-from rotorfilm.bearings.journal import MapFilm
+from rotorfilm.bearings.journal import JournalBearing, MapFilm
 from rotorfilm.bearings.journal.map.potential import potential
 from rotorfilm.bearings.tabulated import TabulatedBearing
 from rotorfilm.errors import AbsentError, InputError, SceneError
@@ -33,6 +34,7 @@ from rotorfilm.linear.speed_events import Critical, Threshold
 from rotorfilm.motion import periodic_orbit
 from rotorfilm.motion.periodic.driven_rotor import rest_position, rotor_answers
 from rotorfilm.questions import ladder_of
+from rotorfilm.questions.shaft.shaft_fields import field_rests
 from rotorfilm.questions.shaft.shaft_films import REST_BOUNDS, coefficient_bounds, film_levels
 from rotorfilm.rotors import JeffcottRotor, mount
 from rotorfilm.rotors.shaft.shaft_models import ShaftModel, shaft_models, split
@@ -509,3 +511,18 @@ def test_an_error_is_at_most_about_right_where_a_map_is_most_of_it():
     assert linear.estimate(found, None, 0.5).bound
     assert not linear.estimate(found, None, 1e-4).bound
     assert fine.estimate(finer, found, 1e-4).bound
+
+
+def test_equal_bearings_under_equal_loads_have_one_temperature_field():
+    """As of a symmetric rotor, whose loads differ by roundoff; another load or bearing has its own."""
+    asked = []
+    level = SimpleNamespace(rest=lambda *of: asked.append(of) or len(asked))
+    one, other = (JournalBearing(radius=0.05, length=L, clearance=1e-4, viscosity=0.02) for L in (0.05, 0.06))
+    bearings = {"a": one, "b": replace(one), "c": other, "d": one}
+    loads = {"a": (0.0, -1e3), "b": (1e-10, -1e3 * (1.0 + 1e-14)), "c": (0.0, -1e3), "d": (1e-3, -1e3)}
+    films = SimpleNamespace(
+        on_oil=list(bearings), journals={name: SimpleNamespace(reaction=of) for name, of in bearings.items()}
+    )
+    found = field_rests(films, SimpleNamespace(loads=loads, speed=300.0), level)
+    assert found == {"a": 1, "b": 1, "c": 2, "d": 3}
+    assert asked == [(bearings[name], loads[name], 300.0) for name in "acd"]

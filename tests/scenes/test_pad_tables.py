@@ -22,6 +22,7 @@ from rotorfilm.errors import SceneError
 from rotorfilm.fmu import describe_fmu
 from rotorfilm.linear import coefficients, equilibrium
 from rotorfilm.scenes.export_scene import export_scene
+from rotorfilm.scenes.pads import lobed_table, tilting_table
 from rotorfilm.scenes.pads.pad_remarks import pad_numbers
 from rotorfilm.scenes.scene import parse_scene
 
@@ -134,7 +135,9 @@ def test_a_bearing_needs_an_operation():
         parse_scene(STEP, "case.toml")
 
 
-@pytest.mark.parametrize("table", [ELLIPTICAL + GRID, STEP + "cells = [32, 8]\n", FIVE + GRID])
+@pytest.mark.parametrize(
+    "table", [ELLIPTICAL + GRID, STEP + "cells = [32, 8]\n", FIVE + GRID.replace("48", "16")]
+)
 def test_a_scene_that_asks_nothing_is_described(table):
     scene = scene_of(table)
     answer = scene.solve()
@@ -165,9 +168,9 @@ def test_warming_is_that_of_a_pad_that_keeps_its_heat():
     ("table", "states"), [(ELLIPTICAL, 0), (STEP, 0), (FIVE, 5)], ids=["lobes", "dam", "tilting"]
 )
 def test_bearing_and_rotor_become_fmus_that_start_at_rest(tmp_path, monkeypatch, table, states):
-    monkeypatch.setattr(
-        PadMapFilm, "resolution", PadResolution(cells=(16, 4), nodes=(8, 7, 16)), raising=False
-    )
+    coarse = PadMapFilm(resolution=PadResolution(cells=(16, 4), nodes=(8, 7, 16)))
+    for home in (lobed_table, tilting_table):
+        monkeypatch.setattr(home, "usual_film", lambda *_: coarse)
     monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path / "cache"))
     scene = scene_of(table)
     made = export_scene(scene, tmp_path)
@@ -179,3 +182,18 @@ def test_bearing_and_rotor_become_fmus_that_start_at_rest(tmp_path, monkeypatch,
     assert len(tilts) == states
     if states:
         np.testing.assert_allclose(tilts, at.pads.tilts, rtol=1e-9)
+
+
+@pytest.mark.parametrize("table", [ELLIPTICAL, FIVE])
+def test_pads_without_a_map_are_answered_on_grids(table):
+    """A bearing of L/D .04, which no map of a pad has."""
+    question = '[question]\nquantity = "eccentricity_ratio"\ntolerance = 0.2\n'
+    scene = scene_of(
+        table.replace('length = "50 mm"', 'length = "4 mm"'), RUN.replace("3 kN", "10 N") + question
+    )
+    assert isinstance(scene.bearing.film, PadGridFilm)
+    answer = scene.ask()
+    assert answer.met
+    assert answer.model.startswith("2-D")
+    with pytest.raises(SceneError, match="length/diameter must be 0.05 to 20.0 for a map of a pad"):
+        scene_of(table.replace('length = "50 mm"', 'length = "4 mm"') + 'film = { name = "map" }\n')

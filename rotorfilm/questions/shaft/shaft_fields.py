@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import Any, NamedTuple, Protocol
 
+import numpy as np
+
 from ...answers import ErrorEstimate, Found, WorkUnit
 from ...ladders import BaseRung, Rung
 from ...linear import RotorEquilibrium, rotor_equilibrium
@@ -24,6 +26,9 @@ from .shaft_heat import HeatedShaft, HeatFound, frozen_at, steps_error, value_on
 NONLINEAR = 3
 """Nonlinear rungs of an orbit."""
 
+ROUNDOFF = 1e-9
+"""Of loads, relative to them."""
+
 RESTS, NEAR, FARTHEST = 12, 3e-5, 0.1
 """Most speeds that a search takes, the relative change at which it ends, and the largest one of a step."""
 
@@ -31,11 +36,20 @@ RESTS, NEAR, FARTHEST = 12, 3e-5, 0.1
 def field_rests(films: ShaftFilms, at: RotorEquilibrium, level: FieldLevel) -> dict[str, WarmRest]:
     """Return the rest in each film of an oil with a temperature field, under the loads of a rest by T1.
 
-    In two bearings those follow from statics.
+    In two bearings those follow from statics. Equal bearings under loads that are equal to roundoff, as of a
+    symmetric rotor, have one rest.
     """
-    return {
-        name: level.rest(films.journals[name].reaction, at.loads[name], at.speed) for name in films.on_oil
-    }
+    rests: dict[str, WarmRest] = {}
+    for name in films.on_oil:
+        bearing, load = films.journals[name].reaction, at.loads[name]
+        equal = (
+            rest
+            for other, rest in rests.items()
+            if films.journals[other].reaction == bearing
+            and np.allclose(at.loads[other], load, rtol=0.0, atol=ROUNDOFF * np.hypot(*load))
+        )
+        rests[name] = next(equal, None) or level.rest(bearing, load, at.speed)
+    return rests
 
 
 def field_error(rung: HeatedShaft, found: Found, rests: dict[str, WarmRest], level: FieldLevel) -> HeatFound:
