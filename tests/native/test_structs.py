@@ -8,13 +8,21 @@ import subprocess
 import pytest
 
 from rotorfilm.native import pad_kernels
-from rotorfilm.native.layouts import heat_structs, master_structs, pad_structs, structs
+from rotorfilm.native.layouts import conserved_structs, heat_structs, master_structs, pad_structs, structs
 from rotorfilm.native.library import FOLDER
 from rotorfilm.native.pads import tilting_kernel
 
 KINDS = {
     name: kind
-    for module in (structs, heat_structs, master_structs, pad_kernels, pad_structs, tilting_kernel)
+    for module in (
+        structs,
+        conserved_structs,
+        heat_structs,
+        master_structs,
+        pad_kernels,
+        pad_structs,
+        tilting_kernel,
+    )
     for name, kind in inspect.getmembers(module, inspect.isclass)
     if issubclass(kind, ctypes.Structure) and kind is not ctypes.Structure
 }
