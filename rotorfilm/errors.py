@@ -144,10 +144,11 @@ def _lacking(cls: type, protocol: type) -> tuple[str, ...]:
     return tuple(name for name in dir(protocol) if not name.startswith("_") and not hasattr(cls, name))
 
 
-def require_tuple(name: str, values: object, kind: type) -> None:
-    """Raise InputError unless `values` is a tuple of instances of a class."""
-    if not isinstance(values, tuple) or not all(isinstance(value, kind) for value in values):
-        raise InputError(f"{name} must be a tuple of {kind.__name__}, got {values!r}")
+def require_tuple(name: str, values: object, *kinds: type) -> None:
+    """Raise InputError unless `values` is a tuple of instances of some classes."""
+    if not isinstance(values, tuple) or not all(isinstance(value, kinds) for value in values):
+        names = " or ".join(kind.__name__ for kind in kinds)
+        raise InputError(f"{name} must be a tuple of {names}, got {values!r}")
 
 
 def require_finite(name: str, value: ArrayLike) -> NDArray[np.float64]:

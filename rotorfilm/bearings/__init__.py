@@ -14,7 +14,7 @@ if TYPE_CHECKING:
         FullFilm as FullFilm,
         HalfSommerfeld as HalfSommerfeld,
     )
-    from .films.geometry import FilmGeometry, Groove as Groove, Pad as Pad
+    from .films.geometry import FeedHole as FeedHole, FilmGeometry, Groove as Groove, Pad as Pad
     from .films.law import FilmLaw as FilmLaw
     from .films.map_fit import fit_map_table, tabulate_film
     from .films.map_table import MapTable as MapTable

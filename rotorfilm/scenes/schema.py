@@ -130,7 +130,7 @@ class JournalTable:
     def _film(self) -> FilmLaw:
         if self.film is not None:
             return self.film
-        geometry = made_from(FilmGeometry, self)
+        geometry = FilmGeometry(pads=self.pads, grooves=self.grooves)
         if geometry.plain:
             return MapFilm()
         low, high = journal.GroovedMapFilm().slenderness_range

@@ -75,8 +75,11 @@ def plain_losses(kernel: LossKernel, eccentricity: Array, source: Array) -> Film
 def gap_shear(eccentricity: Array, geometry: FilmGeometry) -> Array:
     """Return Sigma of a gap that is full all round but for the openings, at eccentricities (2, ...)."""
     chi, away = np.hypot(*eccentricity), np.arctan2(-eccentricity[1], -eccentricity[0])
-    films = [span for span in geometry.spans() if span.held is None]
-    parts = [gap_integral(chi, span.end - away) - gap_integral(chi, span.start - away) for span in films]
+    parts = [
+        span.film * (gap_integral(chi, span.end - away) - gap_integral(chi, span.start - away))
+        for span in geometry.spans()
+        if span.film > 0.0
+    ]
     return np.asarray(np.sum(parts, axis=0))
 
 

@@ -1,11 +1,11 @@
-"""The bearing's geometry as a film sees it: pads, axial grooves and supply, all dimensionless."""
+"""The bearing's geometry: pads, grooves and feed holes, and the openings of a film, dimensionless."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 
-from ...errors import InputError, require_finite, require_non_negative
+from ...errors import InputError, require_finite, require_non_negative, require_positive
 from ...inputs.si_arguments import quantities
 
 TURN = 2.0 * math.pi
@@ -22,16 +22,73 @@ class Groove:
         Angle of its middle in the bearing frame, from +x towards +y.
     width : float [rad]
         Angle covered, 0 (a line) <= width < 2 pi.
+    length : float or None [m]
+        Along the axis, in the middle of the bearing; None for a groove that is open at both ends of it.
     """
 
     center: float
     width: float = 0.0
+    length: float | None = None
 
     def __post_init__(self) -> None:
         require_finite("center", self.center)
         require_non_negative("width", self.width)
         if self.width >= TURN:
             raise InputError(f"width must be below 2 pi, got {self.width!r}")
+        if self.length is not None:
+            require_positive("length", self.length)
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class FeedHole:
+    """A round hole in the wall at mid-length, filled with lubricant at the supply pressure.
+
+    The film sees it as the square of the same area.
+
+    Parameters
+    ----------
+    center : float [rad]
+        Angle of its middle in the bearing frame, from +x towards +y.
+    diameter : float [m]
+        Of a round hole.
+    """
+
+    center: float
+    diameter: float
+
+    def __post_init__(self) -> None:
+        require_finite("center", self.center)
+        require_positive("diameter", self.diameter)
+
+    @property
+    def side(self) -> float:
+        """Side of the square of the same area [m]."""
+        return 0.5 * math.sqrt(math.pi) * self.diameter
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pocket:
+    """An opening that ends within the bearing, in the middle of its length.
+
+    Parameters
+    ----------
+    center : float [rad]
+        Angle of its middle in the bearing frame, from +x towards +y.
+    width : float [rad]
+        Angle covered, 0 (a line) <= width < 2 pi.
+    share : float [1]
+        Of the bearing's length that it covers, 0 < share < 1.
+    """
+
+    center: float
+    width: float
+    share: float
+
+    def __post_init__(self) -> None:
+        Groove(center=self.center, width=self.width)
+        if not 0.0 < self.share < 1.0:
+            raise InputError(f"share must be above 0 and below 1, got {self.share!r}")
 
 
 @quantities
@@ -68,21 +125,29 @@ class Span:
     start, extent : float [rad]
     held : float | None [1/s]
         Pressure p c^2/(12 viscosity R^2) of an opening; None for film.
+    share : float [1]
+        Of the bearing's length that an opening covers; beside it there is film.
     """
 
     start: float
     extent: float
     held: float | None = None
+    share: float = 1.0
 
     @property
     def end(self) -> float:
         """Angle of the second edge [rad]."""
         return self.start + self.extent
 
+    @property
+    def film(self) -> float:
+        """Share of the bearing's length that is film."""
+        return 1.0 if self.held is None else 1.0 - self.share
+
 
 @dataclass(frozen=True, kw_only=True)
 class FilmGeometry:
-    """Pads, grooves and supply of a bearing.
+    """Pads, openings and supply of a bearing.
 
     Parameters
     ----------
@@ -91,45 +156,71 @@ class FilmGeometry:
     pads : tuple of Pad
         Where there is a bearing wall; empty for the full circumference.
     supply : float [1/s]
-        Supply pressure of the grooves as p c^2/(12 viscosity R^2), not negative.
+        Supply pressure of the openings as p c^2/(12 viscosity R^2), not negative.
+    pockets : tuple of Pocket
+        Openings that end within the bearing; they may not touch each other, a groove or an end of a pad.
+    circumferential : bool
+        Whether a groove all round holds the line at mid-length at the supply pressure.
 
     Raises
     ------
     InputError
-        If openings overlap, the supply is negative, or there is a supply without a groove.
+        If openings overlap, a groove has a length, the supply is negative, or there is a supply without an
+        opening.
     """
 
     grooves: tuple[Groove, ...] = ()
     pads: tuple[Pad, ...] = ()
     supply: float = 0.0
+    pockets: tuple[Pocket, ...] = ()
+    circumferential: bool = False
 
     def __post_init__(self) -> None:
         require_non_negative("supply", self.supply)
-        if self.supply > 0.0 and not self.grooves:
+        if self.supply > 0.0 and not self.fed:
             raise InputError(f"supply must be 0 without grooves, got {self.supply!r}")
+        for groove in self.grooves:
+            if groove.length is not None:
+                raise InputError(
+                    f"grooves must be without length, those with one are pockets, got {groove!r}"
+                )
         if self.pads and math.fsum(pad.extent for pad in self.pads) > TURN * (1.0 + 1e-12):
             raise InputError(f"pads must not overlap, got {self.pads!r}")
         self.openings()
 
     @property
     def plain(self) -> bool:
-        """Whether the film runs all round without an opening."""
-        return not self.openings()
+        """Whether the film runs all round and from end to end without an opening."""
+        return not (self.circumferential or self.openings())
+
+    @property
+    def fed(self) -> bool:
+        """Whether there is an opening that a supply feeds."""
+        return bool(self.grooves or self.pockets or self.circumferential)
+
+    def require_whole_length(self, film: str) -> None:
+        """Raise InputError, naming the film that cannot, where an opening ends within the length."""
+        if self.pockets or self.circumferential:
+            found = [*self.pockets, *["a circumferential groove"] * self.circumferential]
+            raise InputError(
+                f"openings must run over the whole length for {film}, got {found}; take ReynoldsFilm"
+            )
 
     def openings(self) -> tuple[Span, ...]:
-        """Return grooves and gaps between pads in the order of their start, in [0, 2 pi)."""
-        grooves = [Span((g.center - 0.5 * g.width) % TURN, g.width, self.supply) for g in self.grooves]
+        """Return grooves, pockets and gaps between pads in the order of their start, in [0, 2 pi)."""
+        fed = [(g, 1.0) for g in self.grooves] + [(p, p.share) for p in self.pockets]
+        grooves = [Span((g.center - 0.5 * g.width) % TURN, g.width, self.supply, share) for g, share in fed]
         spans = sorted([*grooves, *_gaps(self.pads)], key=lambda span: span.start)
         for first, second in zip(spans, [*spans[1:], *spans[:1]], strict=True):
             room = (second.start - first.start) % TURN if len(spans) > 1 else TURN
-            if first.extent > room * (1.0 + 1e-12) or (len(spans) > 1 and room == 0.0):
-                raise InputError(
-                    f"grooves and gaps between pads must not overlap, got {first!r} and {second!r}"
-                )
+            _require_apart(first, second, room)
         return tuple(spans)
 
     def spans(self) -> tuple[Span, ...]:
-        """Return openings and the films between them, all round from the first opening."""
+        """Return openings and the films between them, all round from the first opening.
+
+        Beside an opening with a share there is film too.
+        """
         openings = self.openings()
         if not openings:
             return (Span(0.0, TURN),)
@@ -138,6 +229,16 @@ class FilmGeometry:
             room = (second.start - first.start) % TURN or TURN
             pieces += [first, Span(first.end, room - first.extent)]
         return tuple(piece for piece in pieces if piece.held is not None or piece.extent > 0.0)
+
+
+def _require_apart(first: Span, second: Span, room: float) -> None:
+    """Raise InputError unless two openings, their starts `room` [rad] apart, do not overlap."""
+    if first.extent > room * (1.0 + 1e-12) or (second is not first and room == 0.0):
+        raise InputError(f"grooves and gaps between pads must not overlap, got {first!r} and {second!r}")
+    if min(first.share, second.share) < 1.0 and first.extent >= room * (1.0 - 1e-9):
+        raise InputError(
+            f"an opening that ends within the bearing must not touch another, got {first!r} and {second!r}"
+        )
 
 
 def _gaps(pads: tuple[Pad, ...]) -> list[Span]:

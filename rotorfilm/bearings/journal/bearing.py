@@ -21,7 +21,7 @@ from ...native.journal_spec import journal_spec
 from ...native.spec import NativeSpec
 from ...signals import Signal, force_outputs, journal_inputs
 from ..films.bound_law import BoundLaw, kinematics
-from ..films.geometry import FilmGeometry, Groove, Pad
+from ..films.geometry import FeedHole, FilmGeometry, Groove, Pad
 from ..films.law import BoundFilm, FilmLaw, FilmOptions, options
 from ..oil import Cooling, Oil
 from ..oil.lubricant import require_lubricant
@@ -30,6 +30,7 @@ from .fitting import film_name, fitted_film
 from .heat.warm_film import WarmFilm
 from .map.map_film import MapFilm
 from .odd_dimensions import warn_of_odd_dimensions
+from .openings_in_bearing import film_geometry, film_length
 
 
 @quantities
@@ -62,17 +63,22 @@ class JournalBearing(FilmReaction, WarmFilm):
         too. Exchangeable by `dataclasses.replace`.
     pads : tuple of Pad
         Where there is a bearing wall, angles in the bearing frame [rad]; empty for the full circumference.
-    grooves : tuple of Groove
-        Axial grooves over the whole length, angles in the bearing frame [rad].
+    grooves : tuple of Groove or FeedHole
+        Axial grooves, over the whole length or in its middle, and feed holes; angles in the bearing frame
+        [rad].
     supply_pressure : float [Pa]
-        Gauge pressure in the grooves; ambient pressure is 0.
+        Gauge pressure in grooves and holes; ambient pressure is 0.
+    circumferential_groove : float or None [m]
+        Width along the axis of a groove all round at mid-length, at the supply pressure: the film is that of
+        the two lands beside it. None for none.
 
     Raises
     ------
     InputError
         If a dimension is not finite and positive, viscosity and oil are not one of both, an oil has neither
-        temperature nor cooling, the clearance is not below the radius, openings overlap, there is a supply
-        without a groove, or the film cannot represent length/diameter, pads or grooves.
+        temperature nor cooling, the clearance is not below the radius, openings overlap or are longer than
+        the bearing, there is a supply without an opening, or the film cannot represent length/diameter, pads
+        or openings.
 
     Warns
     -----
@@ -96,8 +102,9 @@ class JournalBearing(FilmReaction, WarmFilm):
     cooling: Cooling | None = None
     film: FilmLaw = field(default_factory=MapFilm)
     pads: tuple[Pad, ...] = ()
-    grooves: tuple[Groove, ...] = ()
+    grooves: tuple[Groove | FeedHole, ...] = ()
     supply_pressure: float = 0.0
+    circumferential_groove: float | None = None
 
     def __post_init__(self) -> None:
         require_each(self, require_positive, "radius", "length", "clearance")
@@ -107,8 +114,10 @@ class JournalBearing(FilmReaction, WarmFilm):
         require_kind("film", self.film, FilmLaw, "a film law with force and jacobian")
         require_non_negative("supply_pressure", self.supply_pressure)
         require_tuple("pads", self.pads, Pad)
-        require_tuple("grooves", self.grooves, Groove)
-        if self.supply_pressure > 0.0 and not self.grooves:
+        require_tuple("grooves", self.grooves, Groove, FeedHole)
+        if self.circumferential_groove is not None:
+            require_non_negative("circumferential_groove", self.circumferential_groove)
+        if self.supply_pressure > 0.0 and not self.grooves and self.circumferential_groove is None:
             raise InputError(f"supply_pressure must be 0 without grooves, got {self.supply_pressure!r}")
         # Fitted here so that a geometry that is beyond the film is refused at once.
         low, high = self._options.slenderness_range
@@ -117,8 +126,8 @@ class JournalBearing(FilmReaction, WarmFilm):
                 f"length / diameter must be {low:g} to {high:g} for {type(self.fitted_film).__name__}, "
                 f"got {self.slenderness:.6g}"
             )
-        limit = self._options.slenderness_limit
-        warn_of_odd_dimensions(self.radius, self.length, self.clearance, film_name(self.fitted_film), limit)
+        film, limit = film_name(self.fitted_film), self._options.slenderness_limit
+        warn_of_odd_dimensions(self.radius, self.film_length, self.clearance, film, limit)
 
     def __repr__(self) -> str:
         """As of a dataclass, but with the film that the bearing really uses."""
@@ -127,14 +136,19 @@ class JournalBearing(FilmReaction, WarmFilm):
         return f"{type(self).__name__}({', '.join(f'{name}={value}' for name, value in values.items())})"
 
     @property
+    def film_length(self) -> float:
+        """Axial length that is film [m]: without that of a circumferential groove."""
+        return film_length(self.length, self.circumferential_groove)
+
+    @property
     def slenderness(self) -> float:
-        """Length / diameter [1]."""
-        return self.length / (2.0 * self.radius)
+        """Length / diameter of the film [1]."""
+        return self.film_length / (2.0 * self.radius)
 
     @property
     def force_scale(self) -> float:
-        """Viscosity * length * radius^3 / clearance^2 [N s], the film's unit of force per 1/s."""
-        return self.film_viscosity * self.length * self.radius**3 / self.clearance**2
+        """Viscosity * film_length * radius^3 / clearance^2 [N s], the film's unit of force per 1/s."""
+        return self.film_viscosity * self.film_length * self.radius**3 / self.clearance**2
 
     @property
     def pressure_scale(self) -> float:
@@ -143,9 +157,15 @@ class JournalBearing(FilmReaction, WarmFilm):
 
     @cached_property
     def geometry(self) -> FilmGeometry:
-        """Pads, grooves and supply in the film's units."""
-        supply = self.supply_pressure / self.pressure_scale
-        return FilmGeometry(grooves=self.grooves, pads=self.pads, supply=supply)
+        """Pads, openings and supply in the film's units."""
+        return film_geometry(
+            self.grooves,
+            self.pads,
+            self.supply_pressure / self.pressure_scale,
+            radius=self.radius,
+            length=self.length,
+            circumferential_groove=self.circumferential_groove,
+        )
 
     @cached_property
     def fitted_film(self) -> FilmLaw:
@@ -166,7 +186,8 @@ class JournalBearing(FilmReaction, WarmFilm):
         """Return the kernel of the C library that is this bearing; None if its film has none.
 
         Nor has a subclass. Its parameters are the dimensions and the viscosity; radius and length may change
-        as long as length / diameter stays within the table of the film, and are fixed with openings.
+        as long as length / diameter stays within the table of the film, and are fixed with openings. The
+        length is that of the film, `film_length`.
         """
         found = self._options.native(self.slenderness) if type(self) is JournalBearing else None
         if found is None:
@@ -174,8 +195,12 @@ class JournalBearing(FilmReaction, WarmFilm):
         kernel, tables = found
         if self.supply_pressure > 0.0:
             tables = {**tables, "pressure_unit": np.array([self.pressure_scale])}
-        lengths = {name: float(getattr(self, name)) for name in ("radius", "length", "clearance")}
-        dimensions = {**lengths, "viscosity": self.film_viscosity}
+        dimensions = {
+            "radius": float(self.radius),
+            "length": float(self.film_length),
+            "clearance": float(self.clearance),
+            "viscosity": self.film_viscosity,
+        }
         return journal_spec(kernel, tables, dimensions, fixed=not self.geometry.plain)
 
     def portable(self) -> JournalBearing:

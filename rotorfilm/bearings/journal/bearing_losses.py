@@ -22,8 +22,8 @@ class LossyBearing(Protocol):
         """Bearing radius [m]."""
 
     @property
-    def length(self) -> float:
-        """Axial length [m]."""
+    def film_length(self) -> float:
+        """Axial length that is film [m]."""
 
     @property
     def clearance(self) -> float:
@@ -97,9 +97,10 @@ def bearing_losses(
         return None
     force = bearing.force(position, velocity, speed)
     shear = found.shear_gap if full_gap else found.shear
-    drag = bearing.film_viscosity * speed * bearing.radius**3 * bearing.length / bearing.clearance * shear
+    per_shear = bearing.film_viscosity * bearing.radius**3 * bearing.film_length / bearing.clearance
+    drag = per_shear * speed * shear
     half = 0.5 * (position[0] * force[1] - position[1] * force[0])
-    flow = bearing.clearance * bearing.radius * bearing.length
+    flow = bearing.clearance * bearing.radius * bearing.film_length
     inflow, arriving = flow * found.inflow, flow * found.arriving
     supplied = bearing.supply_pressure * (_supplied(bearing, inflow - arriving)).sum(axis=0)
     power = (drag + half) * speed - (force * velocity).sum(axis=0) + supplied

@@ -143,7 +143,7 @@ def _with_field(state: FilmState, bearing: JournalBearing, field: FilmField) -> 
         force_extrapolated=bearing.force_scale * field.force_extrapolated,
         force_error=bearing.force_scale * field.force_error,
         angle=field.angle % (2.0 * np.pi),
-        axial=0.5 * bearing.length * field.axial,
+        axial=0.5 * (bearing.length - bearing.film_length * (1.0 - field.axial)),
         pressure=pressure,
         thickness=bearing.clearance * field.thickness,
         maximum_pressure=float(np.max(pressure)),

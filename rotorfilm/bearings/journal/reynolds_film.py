@@ -73,6 +73,7 @@ class ReynoldsFilm(KernelFilm):
         require_cells(self.cells)
         require_kind("cavitation", self.cavitation, Cavitation, "such as Complementarity()")
         require_kind("geometry", self.geometry, FilmGeometry, "a FilmGeometry")
+        self.geometry.require_whole_length("ReynoldsFilm")
 
     def fitted(self, geometry: FilmGeometry) -> ReynoldsFilm:
         """Return this film in a bearing of the given geometry."""

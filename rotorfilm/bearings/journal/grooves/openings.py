@@ -70,6 +70,7 @@ def require_mappable(geometry: FilmGeometry) -> None:
             "viscosity radius^2/clearance^2: with a supply the force is not homogeneous in the velocity; "
             "take ReynoldsFilm"
         )
+    geometry.require_whole_length("a map of the film")
     if geometry.plain:
         raise InputError("a map with openings needs grooves or pads, got a plain bearing; take MapFilm")
     widest = max(opening.extent for opening in geometry.openings())

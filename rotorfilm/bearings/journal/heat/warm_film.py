@@ -60,7 +60,7 @@ class WarmFilm(WarmBearing):
         """Return the compiled film at 1 Pa s and its losses; None if the film law has not both, or is fed."""
         law = options(self.fitted_film, FilmOptions)
         losses = law.loss_kernel(self.slenderness)
-        scale = self.length * self.radius**3 / self.clearance**2
+        scale = self.film_length * self.radius**3 / self.clearance**2
         film = law.bind(slenderness=self.slenderness, clearance=self.clearance, force_scale=scale)
         found = losses is not None and isinstance(film, BoundKernel) and self.supply_pressure == 0.0
         return (film, losses) if found else None  # type: ignore[return-value]

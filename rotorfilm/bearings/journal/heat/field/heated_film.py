@@ -106,6 +106,7 @@ class HeatedFilm:
     def __post_init__(self) -> None:
         require_kind("bearing", self.bearing, JournalBearing, "a JournalBearing with oil and cooling")
         oil_and_cooling(self.bearing)
+        self.bearing.geometry.require_whole_length("HeatedFilm")
         require_kind("walls", self.walls, Walls, "walls such as BushRing(...) or AdiabaticWalls()")
         require_kind("profile", self.profile, FilmProfile, "a profile such as MeanTemperature()")
         require_cells(self.cells)
