@@ -198,14 +198,14 @@ static int search_by_newton(rf_oil_solver *solver, uint8_t *full, double *pressu
         for (size_t q = 0; q < all; ++q)
             if (is_free(solver, q))
                 most = fmax(most, set_tangent(solver, q, unit, pressure, theta));
+        for (size_t q = 0; q < all; ++q)
+            full[q] = (uint8_t)(pressure[q] / unit > 1.0 - theta[q]);
+        if (round > 0 && most < SOLVED)
+            return RF_OK;
         const int status = step(solver, pressure, theta);
         if (status != RF_OK)
             return status;
         ++solver->work.newton;
-        for (size_t q = 0; q < all; ++q)
-            full[q] = (uint8_t)(pressure[q] / unit > 1.0 - theta[q]);
-        if (most < SOLVED)
-            return RF_OK;
     }
     return RF_STUCK;
 }

@@ -40,18 +40,18 @@ class Supply(NamedTuple):
         Whether an opening is not held but gets a flow.
     flow : ndarray, shape (openings,) [1/s]
         That flow, over clearance, radius and length.
-    end : float [1/s]
-        Pressure at the ends of the bearing.
-    center : float [1/s]
-        Pressure of a groove all round at mid-length.
+    end_pressure : float [1/s]
+        At the ends of the bearing.
+    center_pressure : float [1/s]
+        Of a groove all round at mid-length.
     """
 
     pressure: Array
     content: Array
     fed: np.ndarray
     flow: Array
-    end: float
-    center: float = 0.0
+    end_pressure: float
+    center_pressure: float = 0.0
 
 
 class Storage(NamedTuple):
@@ -224,8 +224,8 @@ class ConservedFilm:
             width=cells.width,
             conductance=conductance,
             center=cells.center,
-            center_pressure=supply.center,
-            end_pressure=supply.end,
+            center_pressure=supply.center_pressure,
+            end_pressure=supply.end_pressure,
             old=None if storage is None else storage.held * area,
             opening=cells.opening,
             fed=supply.fed,
@@ -240,7 +240,7 @@ class ConservedFilm:
 
     def force(self, state: ConservedState) -> Array:
         """Return the force on the journal over viscosity length radius^3/clearance^2, shape (2,) [1/s]."""
-        return -12.0 * np.tensordot(self.weights, state.solution.pressure - self.supply.end, 2)
+        return -12.0 * np.tensordot(self.weights, state.solution.pressure - self.supply.end_pressure, 2)
 
     def flows(self, state: ConservedState) -> OilFlows:
         """Return the flows into and out of the film."""

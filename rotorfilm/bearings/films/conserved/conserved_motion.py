@@ -55,6 +55,15 @@ def slow_motion(film: ConservedFilm, state: ConservedState) -> SlowMotion:
     return SlowMotion(_stiffness(film, state, still).real, _stiffness(film, state, slow).real)
 
 
+def speed_slope(film: ConservedFilm, state: ConservedState) -> Array:
+    """Return d force / d speed of a steady film, shape (2,)."""
+    still, solution = np.zeros(state.gap.line.shape), state.solution
+    carried = state.equations._replace(wedge=0.5 * state.gap.face, around=still, along=still, store=still)
+    moved = oil_outflow(carried, solution.pressure, solution.theta)
+    change = oil_response(state.equations, solution.full, np.zeros(moved.shape), -moved[None])[0].real
+    return -12.0 * np.tensordot(film.weights, np.where(solution.full, change, 0.0), 2)
+
+
 def _slopes(film: ConservedFilm, state: ConservedState) -> tuple[Array, Array]:
     """Return d outflow / d(e_x, e_y), of the steady flow and what s multiplies, shape (2, N, M) each."""
     cells, gap, solution = film.cells, state.gap, state.solution
