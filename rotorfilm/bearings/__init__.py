@@ -15,6 +15,12 @@ if TYPE_CHECKING:
         FullFilm as FullFilm,
         HalfSommerfeld as HalfSommerfeld,
     )
+    from .films.film_start import (
+        FilmStart,
+        FreeStart as FreeStart,
+        HeldLine as HeldLine,
+        WidestGap as WidestGap,
+    )
     from .films.geometry import FeedHole as FeedHole, FilmGeometry, Groove as Groove, Pad as Pad
     from .films.law import FilmLaw as FilmLaw
     from .films.map_fit import fit_map_table, tabulate_film

@@ -11,15 +11,15 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated
 
 from ..bearings import journal
-from ..bearings.films.geometry import FilmGeometry, Groove, Pad
+from ..bearings.films.geometry import FeedHole, Groove, Pad
 from ..bearings.films.law import FilmLaw
 from ..bearings.journal import JournalBearing, MapFilm
 from ..bearings.oil import Cooling, Oil
-from ..errors import InputError, require_finite, require_positive
+from ..errors import InputError, require_each, require_finite, require_positive
 from ..limits import STEPS
 from ..progress import Report
 from .journal.echo import BearingData, bearing_data
-from .journal.film_tables import FILMS, GROOVE, PAD
+from .journal.film_tables import FEED_HOLE, FILMS, GROOVE, PAD
 from .journal.journal_remarks import film_remarks
 from .lubricant_table import Lubricant, LubricantTable
 from .reading.readers import read_load
@@ -56,9 +56,13 @@ class JournalTable:
     pads : tuple of Pad
         Where there is a bearing wall; empty for the full circumference.
     grooves : tuple of Groove
-        Axial grooves over the whole length.
+        Axial grooves, over the whole length or in its middle.
     supply_pressure : float [Pa]
-        Gauge pressure in the grooves.
+        Gauge pressure in grooves and holes.
+    feed_holes : tuple of FeedHole
+        Round holes at mid-length.
+    circumferential_groove : float or None [m]
+        Axial width of a groove all round at mid-length; None for none.
     """
 
     radius: Annotated[float, Quantity("m", twice="diameter")]
@@ -71,6 +75,8 @@ class JournalTable:
     pads: Annotated[tuple[Pad, ...], TableList(PAD)] = ()
     grooves: Annotated[tuple[Groove, ...], TableList(GROOVE)] = ()
     supply_pressure: Annotated[float, Quantity("Pa")] = 0.0
+    feed_holes: Annotated[tuple[FeedHole, ...], TableList(FEED_HOLE)] = ()
+    circumferential_groove: Annotated[float | None, Quantity("m")] = None
 
     def __post_init__(self) -> None:
         # Without a viscosity there is no bearing before `on` has given the oil.
@@ -107,7 +113,7 @@ class JournalTable:
 
         Where the file names no film: the map if there is one, else the film in two dimensions.
         """
-        return made_from(JournalBearing, self, film=self._film())
+        return made_from(JournalBearing, self, film=self._film(), grooves=self._openings)
 
     def echo(self, bearing: JournalBearing) -> tuple[BearingData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
@@ -127,10 +133,22 @@ class JournalTable:
         if isinstance(bearing.fitted_film, journal.GroovedMapFilm):
             journal.build_groove_map(bearing, report)
 
+    @property
+    def _openings(self) -> tuple[Groove | FeedHole, ...]:
+        return (*self.grooves, *self.feed_holes)
+
     def _film(self) -> FilmLaw:
         if self.film is not None:
             return self.film
-        geometry = FilmGeometry(pads=self.pads, grooves=self.grooves)
+        require_each(self, require_positive, "radius", "length")
+        geometry = journal.film_geometry(
+            self._openings,
+            self.pads,
+            0.0,
+            radius=self.radius,
+            length=self.length,
+            circumferential_groove=self.circumferential_groove,
+        )
         if geometry.plain:
             return MapFilm()
         low, high = journal.GroovedMapFilm().slenderness_range

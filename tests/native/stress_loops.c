@@ -75,6 +75,7 @@ static void read_ring(const char *path, rf_ring *ring)
     ring->ruptured = next_number(file) != 0.0;
     ring->clipped = next_number(file) != 0.0;
     ring->pinned = next_number(file) != 0.0;
+    ring->turning = next_number(file) != 0.0;
     ring->extrapolated = next_number(file) != 0.0;
     ring->spans = (int32_t)next_number(file);
     ring->pad = ring->spans == 2 && uniform() < 0.5;
@@ -92,10 +93,10 @@ static void read_ring(const char *path, rf_ring *ring)
         grid->width = numbers_of(file, grid->nodes);
         grid->conductance = numbers_of(file, grid->nodes);
         int32_t *spans = malloc(grid->lines * sizeof *spans);
-        uint8_t *is_held = malloc(grid->lines);
+        int32_t *is_held = malloc(grid->lines * sizeof *is_held);
         for (size_t k = 0; spans && is_held && k < grid->lines; ++k) {
             spans[k] = (int32_t)span[k];
-            is_held[k] = held[k] != 0.0;
+            is_held[k] = (int32_t)held[k];
         }
         grid->span = spans;
         grid->held = is_held;

@@ -5,16 +5,21 @@ import pytest
 from fmpy import simulate_fmu
 from scipy.optimize import nnls
 
-from rotorfilm import ExtrapolatedFilm, Groove, JournalBearing, ReynoldsFilm, export_fmu
+from rotorfilm import ExtrapolatedFilm, FeedHole, Groove, JournalBearing, ReynoldsFilm, export_fmu
 from rotorfilm.bearings.films.cavitation import Complementarity, FullFilm, HalfSommerfeld
-from rotorfilm.bearings.films.geometry import FilmGeometry
+from rotorfilm.bearings.films.film_start import FreeStart, HeldLine, WidestGap
+from rotorfilm.bearings.films.geometry import FilmGeometry, Pocket
 from rotorfilm.bearings.films.ring.ring_kernel import RingKernel
 
 GROOVES = (Groove(center=0.3, width=0.35), Groove(center=3.4, width=0.0))
+POCKETS = (Pocket(center=0.3, width=0.35, share=0.7), Pocket(center=2.4, width=0.0, share=0.3))
 GEOMETRIES = {
     "plain": FilmGeometry(),
     "grooves": FilmGeometry(grooves=GROOVES),
     "supply": FilmGeometry(grooves=GROOVES, supply=20.0),
+    "pockets": FilmGeometry(pockets=POCKETS, supply=20.0),
+    "circumferential": FilmGeometry(circumferential=True, supply=20.0),
+    "all": FilmGeometry(grooves=GROOVES, pockets=POCKETS[1:], circumferential=True, supply=20.0),
 }
 SLENDERNESS = 0.7
 
@@ -24,16 +29,18 @@ def angles(spans, grid, place, e):
     a = complex(*e) / (1.0 + (1.0 - e @ e) ** 0.35)
     circle = lambda s: (np.exp(1j * s) + a) / (1.0 + np.conj(a) * np.exp(1j * s))  # noqa: E731
     start, end = spans.start, spans.start + spans.extent
+    if spans.turning:
+        start, end = np.angle([-complex(*e)]), np.angle([-complex(*e)]) + 2.0 * np.pi
     if spans.pinned:
         back = [(np.exp(1j * t) - a) / (1.0 - np.conj(a) * np.exp(1j * t)) for t in (start, end)]
         start = np.angle(back[0])
-        end = start + (np.angle(back[1]) - start) % (2.0 * np.pi)
+        end = start + ((np.angle(back[1]) - start) % (2.0 * np.pi) if len(start) > 1 else 2.0 * np.pi)
     s = start[grid.span] + (end - start)[grid.span] * place
     return np.angle(circle(s)) % (2.0 * np.pi)
 
 
 def dense(film, e, w):
-    """Return angles, A, right-hand side and the lines held, of the finest grid, without a sparse trick."""
+    """Return angles, A, right-hand side and the nodes held, of the finest grid, without a sparse trick."""
     spans, grids = film.grids(SLENDERNESS)
     grid = grids[0]
     theta, face = (angles(spans, grid, place, e) for place in (grid.line, grid.face))
@@ -53,7 +60,8 @@ def dense(film, e, w):
             if j + 1 < m:
                 A[here, beyond] = A[beyond, here] = -along * grid.conductance[j]
                 A[beyond, beyond] += along * grid.conductance[j]
-    return theta, A, b, np.repeat(grid.held, m), np.repeat(grid.value, m)
+    held = (np.arange(m) < grid.held[:, None]).ravel()
+    return theta, A, b, held, np.repeat(grid.value, m) * held
 
 
 def pressures(film, e, w):
@@ -75,7 +83,15 @@ def pressures(film, e, w):
     "cavitation", [Complementarity(), HalfSommerfeld(), FullFilm()], ids=lambda kind: type(kind).__name__
 )
 def test_pressure_is_that_of_a_dense_solution(cavitation, name):
-    film = ReynoldsFilm(cells=(24, 4), cavitation=cavitation, geometry=GEOMETRIES[name])
+    compare_with_dense(ReynoldsFilm(cells=(24, 4), cavitation=cavitation, geometry=GEOMETRIES[name]))
+
+
+@pytest.mark.parametrize("start", [WidestGap(), HeldLine(line=0.4)])
+def test_pressure_of_a_film_that_starts_at_a_line(start):
+    compare_with_dense(ReynoldsFilm(cells=(24, 4), film_start=start))
+
+
+def compare_with_dense(film):
     for e, w in (((0.3, -0.6), (40.0, 9.0)), ((-0.88, 0.1), (-3.0, 30.0)), ((0.0, 0.0), (0.0, -5.0))):
         theta, pressure = pressures(film, np.array(e), np.array(w))
         solved = film.solve(np.array(e), np.array(w), SLENDERNESS)
@@ -104,6 +120,28 @@ def test_the_fmu_has_the_forces_of_the_bearing(tmp_path, version, supply, film):
     force = thick.force((3e-5, -4e-5), (1e-3, 0.0), 200.0)
     told = [result[f"b.force_{axis}"][-1] for axis in "xy"]
     assert told == pytest.approx(force.tolist(), rel=1e-13)
+
+
+SHORT = (Groove(center=0.3, width=0.35, length=0.04), FeedHole(center=2.0, diameter=6e-3))
+
+
+@pytest.mark.parametrize(
+    ("start", "openings"),
+    [
+        (FreeStart(), {"grooves": SHORT, "circumferential_groove": 0.002, "supply_pressure": 2e5}),
+        (WidestGap(), {}),
+        (HeldLine(line=0.4), {}),
+    ],
+)
+def test_the_fmu_has_the_openings_and_the_start_of_the_film(tmp_path, start, openings):
+    film = ReynoldsFilm(cells=(48, 8), film_start=start)
+    b = JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.02, film=film, **openings)
+    path = tmp_path / "film.fmu"
+    export_fmu(b, path, "3.0", component="b")
+    start_values = {"b.x": 3e-5, "b.y": -4e-5, "b.vx": 1e-3, "b.vy": 0.0, "b.speed": 200.0}
+    result = simulate_fmu(str(path), stop_time=1e-3, step_size=1e-3, start_values=start_values)
+    told = [result[f"b.force_{axis}"][-1] for axis in "xy"]
+    assert told == pytest.approx(b.force((3e-5, -4e-5), (1e-3, 0.0), 200.0).tolist(), rel=1e-12)
 
 
 def test_work_of_a_potential():

@@ -207,7 +207,7 @@ def test_no_misuse_and_no_damaged_file_breaks_a_film_on_a_grid(made, unzipped, s
 def ring_numbers(film, slenderness, extrapolated):
     """Yield the numbers of a ring in the order of stress_loops.c."""
     spans, grids = film.grids(slenderness)
-    flags = film.cavitation.searched, film.cavitation.clipped, spans.pinned, extrapolated
+    flags = film.cavitation.searched, film.cavitation.clipped, spans.pinned, spans.turning, extrapolated
     yield from (slenderness, *flags, len(spans.start), *spans.start, *spans.extent)
     for grid in grids:
         yield from (len(grid.span), len(grid.width), *grid.span, *grid.line, *grid.face)

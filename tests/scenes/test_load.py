@@ -5,7 +5,8 @@ import math
 import pytest
 
 from rotorfilm.bearings.films.cavitation import FullFilm, HalfSommerfeld
-from rotorfilm.bearings.films.geometry import Groove, Pad
+from rotorfilm.bearings.films.film_start import FreeStart, HeldLine, WidestGap
+from rotorfilm.bearings.films.geometry import FeedHole, Groove, Pad
 from rotorfilm.bearings.journal import (
     ComplementarityArc,
     FixedArc,
@@ -143,6 +144,42 @@ def test_grooves_at_ambient_pressure_take_the_map():
     assert isinstance(parse(GOOD.replace("[operation]", default)).bearing.fitted_film, GroovedMapFilm)
 
 
+SHORT_OPENINGS = """supply_pressure = "2 bar"
+grooves = [{ center = "90 deg", width = "20 deg", length = "20 mm" }]
+feed_holes = [{ center = "270 deg", diameter = "5 mm" }]
+circumferential_groove = "2 mm"
+[operation]"""
+
+
+def test_openings_of_finite_length_arrive_in_si_and_take_two_dimensions():
+    bearing = parse(GOOD.replace("[operation]", SHORT_OPENINGS)).bearing
+    assert bearing.grooves == (
+        Groove(center=math.radians(90.0), width=math.radians(20.0), length=0.02),
+        FeedHole(center=math.radians(270.0), diameter=0.005),
+    )
+    assert bearing.circumferential_groove == pytest.approx(0.002)
+    assert bearing.film == ReynoldsFilm()
+
+
+def test_a_named_map_refuses_openings_of_finite_length():
+    lines = SHORT_OPENINGS.replace("[operation]", 'film = { name = "map" }\n[operation]')
+    with pytest.raises(SceneError, match="take ReynoldsFilm"):
+        parse(GOOD.replace("[operation]", lines))
+
+
+@pytest.mark.parametrize(
+    ("start", "made"),
+    [
+        ('{ kind = "free" }', FreeStart()),
+        ('{ kind = "widest_gap" }', WidestGap()),
+        ('{ kind = "line", line = "90 deg" }', HeldLine(line=math.radians(90.0))),
+    ],
+)
+def test_start_of_the_film_has_its_keys(start, made):
+    film = f'film = {{ name = "reynolds", film_start = {start} }}'
+    assert parse(GOOD.replace("[operation]", f"{film}\n[operation]")).bearing.film.film_start == made
+
+
 def test_map_of_grooves_takes_its_keys():
     keys = "cells = [64, 8], nodes = [8, 48, 32], largest_eccentricity_ratio = 0.9"
     film = f'film = {{ name = "grooved_map", {keys} }}'
@@ -185,6 +222,38 @@ def test_pads_arrive_in_si():
         ),
         ("grooves = [{ center = 0, width = -1 }]", r"grooves\[0\].width must be .*, got -1.0"),
         ("pads = [{ start = 0, extent = 7 }]", r"pads\[0\].extent must be in \(0, 2 pi\], got 7.0"),
+        (
+            "grooves = [{ center = 0, lenght = 1 }]",
+            r"grooves\[0\].lenght is no known key; .*; did you mean 'length'\?",
+        ),
+        (
+            'grooves = [{ center = 0, length = "90 deg" }]',
+            r"grooves\[0\].length: quantity must be measured in m",
+        ),
+        (
+            'grooves = [{ center = 0, length = "1 m" }]',
+            "grooves must be at most as long as the bearing",
+        ),
+        ("grooves = [{ center = 0, length = nan }]", r"grooves\[0\].length"),
+        ("feed_holes = [{ center = 0 }]", r"feed_holes\[0\].diameter is required and missing"),
+        (
+            "feed_holes = [{ center = 0, diameter = 0 }]",
+            r"feed_holes\[0\].diameter must be .* positive, got 0",
+        ),
+        (
+            "feed_hole = [{ center = 0, diameter = 0 }]",
+            "feed_hole is no known key; .*; did you mean 'feed_holes'",
+        ),
+        ('circumferential_groove = "1 m"', "circumferential_groove must be from 0 to below the length"),
+        ('circumferential_groove = "-1 mm"', "circumferential_groove must be"),
+        (
+            'film = { name = "reynolds", film_start = { kind = "widest" } }',
+            r"film.film_start.kind must be one of \['free', 'line', 'widest_gap'\]",
+        ),
+        (
+            'film = { name = "reynolds", film_start = { kind = "free" } }\ncircumferential_groove = "1 m"',
+            "circumferential_groove must be from 0",
+        ),
         ('supply_pressure = "1 MPa"', r"supply_pressure must be 0 without grooves, got 1000000.0"),
         ('supply_pressure = "1 mm"', "supply_pressure: quantity must be measured in Pa"),
         (
@@ -239,7 +308,8 @@ def test_file_is_read(tmp_path):
             "clearance",
             "clearence",
             r"case.toml: journal.clearence is no known key; known here: radius, diameter, length, clearance, "
-            r"viscosity, film, pads, grooves, supply_pressure; did you mean 'clearance'\?",
+            r"viscosity, film, pads, grooves, supply_pressure, feed_holes, circumferential_groove; "
+            r"did you mean 'clearance'\?",
         ),
         ("[journal]", "[jurnal]", r"case.toml: jurnal is no known key; .*; did you mean 'journal'\?"),
         ('clearance = "0.1 mm"', "", "case.toml: journal.clearance is required and missing"),

@@ -30,7 +30,7 @@ class FilmField:
     side_flow : float [1/s]
         Flow out of both ends / (clearance radius length).
     shear : float [1]
-        Integral of 1/thickness over the angles that hold film.
+        Integral of 1/thickness over what holds film, along the angle and the length.
     """
 
     force: Array

@@ -201,7 +201,7 @@ class JournalBearing(FilmReaction, WarmFilm):
             "clearance": float(self.clearance),
             "viscosity": self.film_viscosity,
         }
-        return journal_spec(kernel, tables, dimensions, fixed=not self.geometry.plain)
+        return journal_spec(kernel, tables, dimensions, fixed=bool(tables) and "range" not in tables)
 
     def portable(self) -> JournalBearing:
         """Return this bearing with a film that carries the table it needs; see `model.Portable`."""

@@ -82,7 +82,7 @@ def _sized(opening: Opening, radius: float, length: float) -> tuple[float, float
         return opening.center, opening.side / radius, opening.side
     along = length if opening.length is None else opening.length
     if along > length * (1.0 + ROUNDOFF):
-        raise InputError(f"length of a groove must be at most that of the bearing, {length!r}, got {along!r}")
+        raise InputError(f"grooves must be at most as long as the bearing, {length!r} m, got {along!r}")
     return opening.center, opening.width, along
 
 

@@ -10,16 +10,17 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...errors import require_kind
+from ...errors import InputError, require_kind
 from ...model import Array
 from ..films.cavitation import Cavitation, Complementarity
 from ..films.film_field import FilmField
 from ..films.film_losses import FilmLosses, gap_shear, static_rate
+from ..films.film_start import FilmStart, FreeStart
 from ..films.geometry import FilmGeometry
 from ..films.kernel_film import KernelFilm
 from ..films.law import require_film
 from ..films.ring.ring_field import film_field
-from ..films.ring.ring_grids import LONG, Grid, Spans, require_cells, ring_grids, ring_spans
+from ..films.ring.ring_grids import FREE, LONG, Grid, Spans, require_cells, ring_grids, ring_spans
 from ..films.ring.ring_kernel import ORDER, RingKernel, richardson
 
 
@@ -32,7 +33,7 @@ class ReynoldsFilm(KernelFilm):
 
         (H^3 P_theta)_theta + (L/D)^-2 H^3 P_zz = -w.n,    F = -12 integral of P n over theta and 0 < z < 1,
 
-    with P = 0 at the ends of the bearing, the supply in the grooves, and P >= 0 for `Complementarity`. The
+    with P = 0 at the ends of the bearing, the supply in the openings, and P >= 0 for `Complementarity`. The
     derivatives are those of the linearized (perturbed) Reynolds equation on the same cells, the ruptured
     zone and the lines at their place: exact in the source, and of second order, as the force, in the
     eccentricity. The damping matrix is symmetric and positive semidefinite.
@@ -46,10 +47,14 @@ class ReynoldsFilm(KernelFilm):
     Parameters
     ----------
     cells : tuple of int
-        Cells around the film and along half the length, multiples of 4 and at least 16 and 4. `solve`
-        compares with half as many.
+        Cells around the film and along half the length, multiples of 4 and at least 16 and 4, about that many
+        with openings; along half of each land beside a circumferential groove. `solve` compares with half as
+        many.
     cavitation : Cavitation
         `Complementarity()`, `HalfSommerfeld()` or `FullFilm()`.
+    film_start : FilmStart
+        Where the film of a bearing without openings or pads starts: `FreeStart()`, wherever pressure can be;
+        `WidestGap()`, opposite to the journal; or `HeldLine(line=...)`, at an angle of the bearing.
     geometry : FilmGeometry
         Set by `fitted`, from the geometry of the bearing.
 
@@ -63,17 +68,24 @@ class ReynoldsFilm(KernelFilm):
     """Order of convergence of the force in the size of the cells."""
 
     order_with_supply: ClassVar[float] = 1.7
-    """The same, measured, with a supply pressure: it drops to ambient at a point, a groove's open end."""
+    """The same, measured, with a supply pressure: it drops to ambient at a point, a groove's open end, or
+    its slope has no limit, at the corner of a pocket."""
 
     cells: tuple[int, int] = (96, 8)
     cavitation: Cavitation = field(default_factory=Complementarity)
+    film_start: FilmStart = field(default_factory=FreeStart)
     geometry: FilmGeometry = field(default_factory=FilmGeometry)
 
     def __post_init__(self) -> None:
         require_cells(self.cells)
         require_kind("cavitation", self.cavitation, Cavitation, "such as Complementarity()")
         require_kind("geometry", self.geometry, FilmGeometry, "a FilmGeometry")
-        self.geometry.require_whole_length("ReynoldsFilm")
+        require_kind("film_start", self.film_start, FilmStart, "such as FreeStart()")
+        if self.film_start != FREE and not self.geometry.plain:
+            raise InputError(
+                "film_start must be FreeStart() in a bearing with openings or pads, where the film starts at "
+                f"these, got {self.film_start!r}"
+            )
 
     def fitted(self, geometry: FilmGeometry) -> ReynoldsFilm:
         """Return this film in a bearing of the given geometry."""
@@ -118,14 +130,18 @@ class ReynoldsFilm(KernelFilm):
         e, w = np.asarray(eccentricity, dtype=float), np.asarray(source, dtype=float)
         fine, coarse = self.force_pair(e, w, slenderness)
         extrapolated = richardson(fine, coarse, self.order)
-        return film_field(self._kernel(slenderness), e, w, slenderness, fine, extrapolated)
+        return film_field(self._kernel(slenderness), e, w, fine, extrapolated)
 
     def losses(self, e: Array, w: Array, slenderness: float, rate: Array | None = None) -> FilmLosses:
         """Return shear and flow, without slopes; see `FilmOptions`.
 
         Second order in the size of the cells, edges of the film included. Between openings the film begins
         only where streamers or an opening bring the oil, so that it is smaller than the one that carries.
-        Openings that touch are one.
+        Openings that touch are one; a circumferential groove is the last one.
+
+        Beside openings that end within the bearing the film begins where Reynolds' equation says, and the
+        side flow is more than openings give: by 8 to 35 % with grooves of 80 % of the length, by 65 % with a
+        hole. The inflow of such openings is of first order, because of their corners.
 
         Raises
         ------
@@ -137,13 +153,15 @@ class ReynoldsFilm(KernelFilm):
         static = static_rate(*flat)
         along = static if rate is None or self.geometry.plain else np.broadcast_to(rate, shape).ravel()
         film, streamers, flow, *openings = self._kernel(slenderness).losses(*flat, along)
-        inflow, arriving = np.array(openings).reshape(2, -1, *shape)
+        # Nothing flows out of the line at which a film starts, if it starts at one.
+        inflow, arriving = np.array(openings).reshape(2, -1, *shape)[:, self.film_start != FREE :]
         film, streamers, flow = (each.reshape(shape) for each in (film, streamers, flow))
         return FilmLosses(film, streamers, gap_shear(e, self.geometry), flow, inflow, arriving)
 
     def grids(self, slenderness: float) -> tuple[Spans, tuple[Grid, ...]]:
         """Return the edges and the grids, finest first, for a length/diameter."""
-        return ring_spans(self.geometry), ring_grids(self.geometry, *self.cells, max(slenderness, LONG))
+        grids = ring_grids(self.geometry, *self.cells, max(slenderness, LONG), self.film_start)
+        return ring_spans(self.geometry, self.film_start), grids
 
     def native(self, slenderness: float) -> tuple[str, Mapping[str, Array]]:
         """Return the kernel and its tables; see `law.FilmOptions.native`."""
@@ -153,9 +171,9 @@ class ReynoldsFilm(KernelFilm):
             lines = [grid.span, grid.line, grid.face, grid.held, grid.value]
             tables[f"lines{level}"] = np.stack([np.asarray(row, dtype=float) for row in lines])
             tables[f"nodes{level}"] = np.stack([grid.width, grid.conductance])
-        flags = [self.cavitation.searched, self.cavitation.clipped, spans.pinned, False]
+        flags = [self.cavitation.searched, self.cavitation.clipped, spans.pinned, spans.turning, False]
         tables["ring"] = np.array([slenderness, *flags], dtype=float)
-        if self.geometry.plain:
+        if self.geometry.plain and not spans.pinned:
             # The nodes along a film that is not long are those of any other.
             tables["range"] = np.array([0.0, LONG] if slenderness <= LONG else [slenderness, slenderness])
         return "reynolds_journal", tables

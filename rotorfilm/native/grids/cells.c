@@ -30,10 +30,11 @@ static void set_angles(const rf_ring *ring, const rf_grid *grid, const double a[
 {
     int32_t last = -1;
     double start = 0.0, size = 0.0;
+    const double widest = atan2(-a[1], -a[0]); /* which the map of the circle leaves at its place */
     for (size_t i = 0; i < grid->lines; ++i) {
         const int32_t k = grid->span[i];
         if (k != last) {
-            start = ring->start[k];
+            start = ring->turning ? widest : ring->start[k];
             size = ring->extent[k];
             if (ring->pinned) { /* the s that maps to theta is theta - 2 arg(1 - conj(a) exp(i theta)) */
                 const double end = start + size;

@@ -90,6 +90,21 @@ static void extrapolate(size_t n, double *fine, const double *coarse)
         fine[k] += (fine[k] - coarse[k]) / 3.0;
 }
 
+/* Make d f/de with the lines held that of lines which turn with the journal: at right angles to e the film turns as a
+   whole, f(R e, R w) = R f(e, w). */
+static void turn_lines(const rf_ring *ring, const double *e, const double *w, const double *f, double *jacobian)
+{
+    const double chi = rf_length(e[0], e[1]), unit[2] = {chi > 0.0 ? e[0] / chi : 1.0, chi > 0.0 ? e[1] / chi : 0.0};
+    const double along[2] = {-unit[1], unit[0]}, turned[2] = {-f[1], f[0]};
+    for (size_t k = 0; k < 2 && ring->turning; ++k) {
+        double *row = jacobian + 4 * k;
+        const double by_angle = turned[k] + row[2] * w[1] - row[3] * w[0];
+        const double more = by_angle / fmax(chi, CENTER) - row[0] * along[0] - row[1] * along[1];
+        row[0] += more * along[0];
+        row[1] += more * along[1];
+    }
+}
+
 static int film_of(rf_search *search, const double *e, const double *w, double *f, double *jacobian)
 {
     const int extrapolated = search->ring->extrapolated != 0;
@@ -107,6 +122,8 @@ static int film_of(rf_search *search, const double *e, const double *w, double *
         extrapolate(2, f, coarse);
     if (extrapolated && jacobian)
         extrapolate(8, jacobian, by);
+    if (jacobian)
+        turn_lines(search->ring, e, w, f, jacobian);
     return RF_OK;
 }
 
@@ -136,7 +153,7 @@ int rf_ring_film(const void *data, const double *e, const double *w, double *f, 
     const int judged = rf_judge_state(ring, e, w);
     if (judged != RF_OK)
         return rf_fail(judged, f, jacobian, 8);
-    const int resting = is_at_rest(ring, w), centered = rf_length(e[0], e[1]) <= CENTER && !ring->pinned;
+    const int resting = is_at_rest(ring, w), centered = rf_length(e[0], e[1]) <= CENTER && !ring->pinned && !ring->turning;
     if (resting && !(jacobian && centered))
         return rf_rest(f, jacobian);
     rf_search search;
@@ -171,6 +188,8 @@ int rf_ring_pair(const rf_ring *ring, size_t n, const double *e, const double *w
             fine[k * n + i] = f[0][k];
             coarse[k * n + i] = f[1][k];
         }
+        if (jacobian && status == RF_OK)
+            turn_lines(ring, here, source, f[0], slopes);
         for (size_t k = 0; k < 8 && jacobian && status == RF_OK; ++k)
             jacobian[k * n + i] = slopes[k];
     }

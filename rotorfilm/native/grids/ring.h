@@ -4,7 +4,8 @@
    z from the middle, 0, to the end, 1, of the bearing, and p = 12 viscosity (R/c)^2 P. Its lines lie at
    exp(i theta) = (t + a)/(1 + conj(a) t), t = exp(i s), uniform in s on every span between two edges: a
    Moebius map of the circle that crowds them at the minimum film, a = e/(1 + (1 - |e|^2)^.35). Edges stay on
-   lines, and the lines follow e; the derivatives hold them.
+   lines, and the lines follow e; the derivatives hold them. Nodes in openings are held at a pressure: an opening lies
+   in the middle of the bearing, or is as long, and ends at a node.
 
    A ring is a bore that the journal touches at |e| = 1, or one pad, which it touches where H = 0 on its arc, so
    that |e| may be above 1. On a pad the lines crowd at its own minimum film, as if that were a bore's. */
@@ -22,8 +23,8 @@ typedef struct rf_grid {
     size_t lines, nodes;
     const int32_t *span;       /* N: that a line and the face after it belong to */
     const double *line, *face; /* N: their places as fractions of the span */
-    const double *value;       /* N: pressure of lines that are held [1/s] */
-    const uint8_t *held;       /* N: whether they are */
+    const double *value;       /* N: pressure of nodes that are held [1/s] */
+    const int32_t *held;       /* N: how many nodes of a line are, from the middle of the bearing */
     const double *width;       /* M: of the cells along half the length; without the half cell at its end */
     const double *conductance; /* M: 1/distance to the next node towards the end */
 } rf_grid;
@@ -36,6 +37,7 @@ typedef struct rf_ring {
     double slenderness;           /* length / diameter */
     int32_t spans;
     int32_t pinned;  /* whether there are edges: they keep their angles while the lines move */
+    int32_t turning; /* whether line 0 lies at the widest gap, opposite to e, and turns with it */
     int32_t ruptured; /* whether the film is where P > 0, and P >= 0 elsewhere */
     int32_t clipped;  /* whether a full film's negative pressures are dropped */
     int32_t extrapolated; /* whether the force is f + (f - f2)/3 of the finest grid and the next (Richardson) */

@@ -18,7 +18,7 @@ double rf_flow_out_of_ends(const rf_search *search, const rf_grid *grid)
         const size_t at = i * grid->nodes + last;
         const double inward = search->cells[0].along[i] * grid->conductance[last] * search->pressure[at];
         const double made = search->source[at] / grid->width[last] * rest;
-        if (search->pressure[at] > 0.0 && !grid->held[i])
+        if (search->pressure[at] > 0.0 && (size_t)grid->held[i] <= last)
             flow += fmax(inward + made, 0.0);
     }
     return flow;
@@ -33,10 +33,7 @@ static void add_shear(rf_stream *oil, double *film, double *streamers)
         *film = *streamers = 0.0;
         size_t i = 0;
         for (size_t k = 0; k < oil->grid->lines; ++k, i = rf_next_line(oil, i, 1))
-            if (oil->grid->held[i])
-                rf_cross_line(oil, i, film, streamers);
-            else
-                rf_cross_cells(oil, i, film, streamers);
+            rf_cross_cells(oil, i, film, streamers);
     }
 }
 
@@ -53,12 +50,12 @@ static int shut_starts(rf_stream *oil, rf_search *search)
         const double in = oil->face[rf_next_face(oil, i, 0)].thickness, out = oil->face[rf_next_face(oil, i, 1)].thickness;
         for (size_t j = 0; j < nodes; ++j) {
             const size_t at = i * nodes + j;
-            if (oil->grid->held[i]) {
+            if (j < rf_held(oil, i)) {
                 oil->brought[j] = oil->line[i].thickness;
             } else if (rf_is_film(oil, at)) {
                 const double taken = oil->rate * in * oil->grid->width[j] + rf_drawn(oil, i, j, 0);
                 const double come = oil->rate * oil->brought[j] * oil->grid->width[j];
-                if (k >= oil->grid->lines && !oil->grid->held[last] && !rf_is_film(oil, last * nodes + j)
+                if (k >= oil->grid->lines && j >= rf_held(oil, last) && !rf_is_film(oil, last * nodes + j)
                     && taken > come * (1.0 + EXCESS)) {
                     search->shut[at] = 1;
                     shut = 1;
@@ -80,7 +77,7 @@ static void cross_edge(const rf_stream *oil, size_t i, int after, double *out, d
 {
     const size_t nodes = oil->grid->nodes, beside = rf_next_line(oil, i, after);
     const double face = oil->face[rf_next_face(oil, i, after)].thickness;
-    for (size_t j = 0; j < nodes; ++j) {
+    for (size_t j = rf_held(oil, beside); j < rf_held(oil, i); ++j) {
         const int film = rf_is_film(oil, beside * nodes + j);
         const double h = film ? face : after ? oil->line[i].thickness : fmin(oil->brought[j], face);
         const double run = oil->rate * h * oil->width[j], pressed = -rf_drawn(oil, i, j, after);
@@ -89,43 +86,89 @@ static void cross_edge(const rf_stream *oil, size_t i, int after, double *out, d
     }
 }
 
-/* The flows of the openings, in the order of their lines: `out` and `in` (openings) n apart. */
+/* The same through the end of an opening within the bearing. */
+static void cross_end(const rf_stream *oil, size_t i, double *out, double *in)
+{
+    const size_t held = rf_held(oil, i), nodes = oil->grid->nodes;
+    if (held == 0 || held == nodes)
+        return;
+    const double *p = oil->search->pressure + i * nodes + held;
+    const double flow = oil->search->cells[0].along[i] * oil->grid->conductance[held - 1] * (p[-1] - p[0]);
+    *(flow > 0.0 ? out : in) += fabs(flow);
+}
+
+/* Nodes that are held on every line: 1 with a groove all round, else 0. */
+static int32_t held_all_round(const rf_grid *grid)
+{
+    int32_t least = grid->held[0];
+    for (size_t i = 1; i < grid->lines; ++i)
+        least = grid->held[i] < least ? grid->held[i] : least;
+    return least;
+}
+
+/* Openings begin where more nodes are held than all round. */
+static int begins(const rf_grid *grid, size_t i, int32_t all_round)
+{
+    return grid->held[i] > all_round && grid->held[i > 0 ? i - 1 : grid->lines - 1] <= all_round;
+}
+
+static size_t openings_of(const rf_grid *grid)
+{
+    const int32_t all_round = held_all_round(grid);
+    size_t count = all_round > 0;
+    for (size_t i = 0; i < grid->lines; ++i)
+        count += (size_t)begins(grid, i, all_round);
+    return count;
+}
+
+/* The place of the opening at line i: in the order of their lines, the groove all round last. */
+static size_t opening_at(const rf_grid *grid, size_t i, size_t openings)
+{
+    const int32_t all_round = held_all_round(grid);
+    const size_t runs = openings - (all_round > 0);
+    size_t opening = 0; /* the first one begins with line 0 */
+    for (size_t q = 1; q <= i; ++q)
+        opening += (size_t)begins(grid, q, all_round);
+    if (grid->held[i] <= all_round)
+        return openings - 1;
+    return opening % runs; /* the last one may end where the first begins */
+}
+
+/* The flows of the openings: `out` and `in` (openings) n apart. */
 static void add_flows(rf_stream *oil, size_t n, size_t openings, double *out, double *in)
 {
-    const size_t nodes = oil->grid->nodes, lines = oil->grid->lines;
+    const size_t lines = oil->grid->lines;
     for (size_t k = 0; k < openings; ++k)
         out[k * n] = in[k * n] = 0.0;
     /* The thickness that arrives at each line is known after a turn. */
     size_t i = 0;
     for (size_t k = 0; k < 2 * lines; ++k, i = rf_next_line(oil, i, 1)) {
         double ignored = 0.0, also = 0.0;
-        if (!oil->grid->held[i]) {
-            rf_cross_cells(oil, i, &ignored, &also);
-            continue;
+        if (k >= lines && rf_held(oil, i) > 0) {
+            const size_t at = n * opening_at(oil->grid, i, openings);
+            cross_edge(oil, i, 0, &out[at], &in[at]);
+            cross_edge(oil, i, 1, &out[at], &in[at]);
+            cross_end(oil, i, &out[at], &in[at]);
         }
-        size_t opening = 0; /* the first one begins with line 0 */
-        for (size_t q = 1; q <= i; ++q)
-            opening += oil->grid->held[q] && !oil->grid->held[q - 1];
-        opening %= openings; /* the last one may end where the first begins */
-        for (int after = 0; after < 2 && k >= lines; ++after)
-            if (!rf_opens(oil, i, after))
-                cross_edge(oil, i, after, &out[opening * n], &in[opening * n]);
-        for (size_t j = 0; j < nodes; ++j)
-            oil->brought[j] = oil->line[i].thickness;
+        rf_cross_cells(oil, i, &ignored, &also);
     }
 }
 
-static size_t openings_of(const rf_grid *grid)
+/* Whether streamers from openings decide where a film begins. Openings that end within the bearing feed the film beyond
+   their end from the side: there it begins where Reynolds' equation says. */
+static int is_fed(const rf_grid *grid)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < grid->lines; ++i)
-        count += grid->held[i] && !grid->held[i > 0 ? i - 1 : grid->lines - 1];
-    return count;
+    int fed = 0, ends = 0;
+    for (size_t i = 0; i < grid->lines; ++i) {
+        fed |= grid->held[i] > 0;
+        ends |= grid->held[i] > 0 && (size_t)grid->held[i] < grid->nodes;
+    }
+    return fed && !ends;
 }
 
 static int solve(rf_stream *oil, rf_search *search, const double *e, const double *w)
 {
-    const int fed = openings_of(oil->grid) > 0 && search->ring->ruptured;
+    const int fed = is_fed(oil->grid) && search->ring->ruptured;
     rf_place_journal(search, e);
     rf_place_stream(oil, e);
     for (size_t q = 0; q < oil->grid->lines * oil->grid->nodes; ++q)

@@ -9,12 +9,13 @@
 #define RF_RING_LOSSES 3
 
 /* Losses of n states, rows of n one stride apart: (RF_RING_LOSSES + 2 openings) x n, openings in the order of their
-   lines. The oil runs along the film at `rate` (n) [1/s], half the speed of a journal between walls that rest; its
+   lines, a groove all round last. The oil runs along the film at `rate` (n) [1/s], half the speed of a journal between walls that rest; its
    sign says where downstream is.
 
    Behind a film streamers keep the thickness H_r at which it ended, and what a film beside them adds on the way.
    Behind an opening they have that of its downstream edge. A film between openings begins only where they bring what it
-   takes: nodes where it would begin from nothing are shut, one line after the other. */
+   takes: nodes where it would begin from nothing are shut, one line after the other. Beside openings that
+   end within the bearing it begins where Reynolds' equation says. */
 RF_EXPORT_LOOP int rf_ring_losses(const rf_ring *ring, size_t n, const double *e, const double *w, const double *rate,
                              double *losses, size_t *first);
 

@@ -55,9 +55,12 @@ void rf_place_journal(rf_search *search, const double *e)
 static void guess_free(rf_search *search, const rf_grid *grid)
 {
     const size_t nodes = grid->nodes;
-    for (size_t i = 0; i < grid->lines; ++i)
-        memset(search->free + i * nodes,
-               !grid->held[i] && (!search->ring->ruptured || search->source[i * nodes] > 0.0), nodes);
+    for (size_t i = 0; i < grid->lines; ++i) {
+        const size_t held = (size_t)grid->held[i];
+        memset(search->free + i * nodes, 0, held);
+        memset(search->free + i * nodes + held, !search->ring->ruptured || search->source[i * nodes] > 0.0,
+               nodes - held);
+    }
 }
 
 /* Begin with all nodes that see a free one of the next coarser grid. */
@@ -71,7 +74,7 @@ static void refine_free(rf_search *search, const rf_grid *grid)
         for (size_t j = 0; j < nodes; ++j) {
             const size_t near = j / 2, far = (j + 1) / 2 < few ? (j + 1) / 2 : few - 1;
             search->free[i * nodes + j] =
-                !grid->held[i] && (left[near] || right[near] || left[far] || right[far]);
+                j >= (size_t)grid->held[i] && (left[near] || right[near] || left[far] || right[far]);
         }
     }
 }
@@ -167,7 +170,7 @@ static int move_edge(rf_search *search, const rf_grid *grid, const double *outfl
     int changed = 0;
     for (size_t i = 0; i < grid->lines; ++i) {
         search->moved[i] = 0;
-        for (size_t j = 0; j < grid->nodes && !grid->held[i]; ++j) {
+        for (size_t j = (size_t)grid->held[i]; j < grid->nodes; ++j) {
             const size_t at = i * grid->nodes + j;
             const int keep = grid == search->ring->grids && search->shut[at] ? 0
                              : search->free[at] ? search->pressure[at] > 0.0
@@ -191,7 +194,7 @@ static int search_from_here(rf_search *search, int level)
     for (int set = 0; set < MOST_SETS; ++set) {
         for (size_t i = 0; i < grid->lines; ++i)
             for (size_t j = 0; j < nodes; ++j)
-                pressure[i * nodes + j] = grid->value[i];
+                pressure[i * nodes + j] = j < (size_t)grid->held[i] ? grid->value[i] : 0.0;
         rf_set_flow(grid, cells->around, cells->along, pressure, flow);
         for (size_t q = 0; q < all; ++q)
             flow[q] = search->source[q] - flow[q];

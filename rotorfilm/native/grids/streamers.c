@@ -53,6 +53,11 @@ size_t rf_next_face(const rf_stream *oil, size_t i, int after)
     return (after != 0) != oil->backward ? i : before(oil, i);
 }
 
+size_t rf_held(const rf_stream *oil, size_t i)
+{
+    return (size_t)oil->grid->held[i];
+}
+
 int rf_is_film(const rf_stream *oil, size_t at)
 {
     return oil->search->ring->clipped ? oil->search->pressure[at] > 0.0 : oil->search->free[at];
@@ -104,42 +109,49 @@ static rf_section over_half(const rf_stream *oil, size_t i, int after)
     return (after != 0) != oil->backward ? over(oil, line, face) : over(oil, face, line);
 }
 
-int rf_opens(const rf_stream *oil, size_t i, int after)
+/* Width of row j that is an opening, where the first `held` nodes of a line are: up to the last of them. */
+static double open_width(const rf_stream *oil, size_t j, size_t held)
 {
-    return oil->grid->held[rf_next_line(oil, i, after)] && oil->grid->held[i];
+    const int inside = j + 1 == held && held < oil->grid->nodes;
+    return j < held ? oil->width[j] - (inside ? 0.5 / oil->grid->conductance[j] : 0.0) : 0.0;
 }
 
-void rf_cross_line(rf_stream *oil, size_t i, double *film, double *streamers)
+/* What a node in an opening or at its edge adds: the parts of its cell that are no opening, behind it full of oil. */
+static void cross_held(rf_stream *oil, size_t i, size_t j, double *film, double *streamers)
 {
     const double h = oil->line[i].thickness;
-    for (size_t j = 0; j < oil->grid->nodes; ++j) {
-        for (int after = 0; after < 2; ++after) {
-            const rf_section half = over_half(oil, i, after);
-            const int full = rf_is_film(oil, rf_next_line(oil, i, after) * oil->grid->nodes + j);
-            const double thin = after ? h : oil->brought[j];
-            if (!rf_opens(oil, i, after))
-                *(full ? film : streamers) += oil->width[j] * (!full && thin < h ? thin * half.square : half.film);
-        }
-        oil->brought[j] = h;
+    for (int after = 0; after < 2; ++after) {
+        const size_t beside = rf_next_line(oil, i, after), its = rf_held(oil, beside), own = rf_held(oil, i);
+        const size_t held = its < own ? its : own;
+        const rf_section half = over_half(oil, i, after);
+        const int full = j < held || rf_is_film(oil, beside * oil->grid->nodes + j);
+        const double thin = after ? h : oil->brought[j], width = oil->width[j] - open_width(oil, j, held);
+        if (width > 0.0) /* in the opening beside a pad there may be no gap */
+            *(full ? film : streamers) += width * (!full && thin < h ? thin * half.square : half.film);
     }
+    oil->brought[j] = h;
+}
+
+static void cross_free(rf_stream *oil, size_t i, size_t j, double *film, double *streamers)
+{
+    const rf_section cell = over(oil, &oil->face[before(oil, i)], &oil->face[i]);
+    const double in = oil->face[rf_next_face(oil, i, 0)].thickness, out = oil->face[rf_next_face(oil, i, 1)].thickness;
+    double share[3] = {1.0, 0.0, 0.0};
+    if (rf_is_film(oil, i * oil->grid->nodes + j)) {
+        oil->brought[j] = out;
+    } else {
+        rf_reach(oil, i, j, share);
+        oil->brought[j] += (share[0] + share[2]) * (out - in);
+    }
+    const double full = share[0] + share[1] + share[2], h = oil->line[i].thickness, thin = oil->brought[j];
+    *film += oil->width[j] * full * cell.film;
+    *streamers += oil->width[j] * (1.0 - full) * (thin < h ? thin * cell.square : cell.film);
 }
 
 void rf_cross_cells(rf_stream *oil, size_t i, double *film, double *streamers)
 {
-    const rf_section cell = over(oil, &oil->face[before(oil, i)], &oil->face[i]);
-    const double in = oil->face[rf_next_face(oil, i, 0)].thickness, out = oil->face[rf_next_face(oil, i, 1)].thickness;
-    for (size_t j = 0; j < oil->grid->nodes; ++j) {
-        double share[3] = {1.0, 0.0, 0.0};
-        if (rf_is_film(oil, i * oil->grid->nodes + j)) {
-            oil->brought[j] = out;
-        } else {
-            rf_reach(oil, i, j, share);
-            oil->brought[j] += (share[0] + share[2]) * (out - in);
-        }
-        const double full = share[0] + share[1] + share[2], h = oil->line[i].thickness, thin = oil->brought[j];
-        *film += oil->width[j] * full * cell.film;
-        *streamers += oil->width[j] * (1.0 - full) * (thin < h ? thin * cell.square : cell.film);
-    }
+    for (size_t j = 0; j < oil->grid->nodes; ++j)
+        (j < rf_held(oil, i) ? cross_held : cross_free)(oil, i, j, film, streamers);
 }
 
 int rf_open_stream(rf_stream *oil, const rf_search *search)

@@ -27,16 +27,14 @@ void rf_place_stream(rf_stream *oil, const double *e);
 size_t rf_next_line(const rf_stream *oil, size_t i, int after);
 /* The face between a line and the one that the oil meets after or before it. */
 size_t rf_next_face(const rf_stream *oil, size_t i, int after);
+/* How many nodes of a line are held, from the middle of the bearing. */
+size_t rf_held(const rf_stream *oil, size_t i);
 int rf_is_film(const rf_stream *oil, size_t at);
 /* The pressure flow through the face after or before a node, towards it. */
 double rf_drawn(const rf_stream *oil, size_t i, size_t j, int after);
 /* Shares of an empty cell that the film reaches into: from upstream, from downstream and from the side. Where its
    source takes away what flows in, the film has its edge. */
 void rf_reach(const rf_stream *oil, size_t i, size_t j, double share[3]);
-/* Whether the gap between a line and the one after or before it is an opening. */
-int rf_opens(const rf_stream *oil, size_t i, int after);
-/* What a held line adds: the halves of its cell that are no opening, behind it full of oil. */
-void rf_cross_line(rf_stream *oil, size_t i, double *film, double *streamers);
 /* Follow the oil over the cells of a line, and add their shear. */
 void rf_cross_cells(rf_stream *oil, size_t i, double *film, double *streamers);
 int rf_open_stream(rf_stream *oil, const rf_search *search);

@@ -1,14 +1,14 @@
 /* Kernel "reynolds_journal": a journal bearing under the two-dimensional film on a grid.
 
-   Parameters, inputs and outputs as in journal_model.h. Tables: ring (5: length/diameter, ruptured, clipped,
-   pinned, extrapolated), spans (2 x K: start, extent [rad]) and for k = 0, 1, 2, the finest first,
+   Parameters, inputs and outputs as in journal_model.h. Tables: ring (6: length/diameter, ruptured, clipped,
+   pinned, turning, extrapolated), spans (2 x K: start, extent [rad]) and for k = 0, 1, 2, the finest first,
    lines<k> (5 x N: span, line, face, held, value) and nodes<k> (2 x M: width, conductance); ring.h says what
    they are. With a supply pressure also pressure_unit (1: 12 viscosity (radius/clearance)^2 of the values). */
 
 /* Documentation of the FMU
 
-   Model: Film force of a cylindrical journal bearing of finite length, plain or with axial grooves or pads, at
-   ambient or supply pressure; Reynolds equation in two dimensions by finite volumes. x and y are Cartesian from
+   Model: Film force of a cylindrical journal bearing of finite length, plain or with pads, axial grooves, feed holes
+   or a circumferential groove, at ambient or supply pressure; Reynolds equation in two dimensions by finite volumes. x and y are Cartesian from
    the bearing center, rotation is positive about +z (from x to y), the force acts on the journal. With the
    eccentricity e = (x, y)/clearance and the source w = (vx, vy)/clearance - (speed/2) z^ x e:
 
@@ -64,12 +64,12 @@ static int take_grid(model *self, const rf_tables *tables, int level, int32_t **
                       (unsigned)n, (unsigned)m);
     const double *of = lines->numbers, *span = of, *held = of + 3 * n;
     int32_t *spans = *whole;
-    uint8_t *is_held = (uint8_t *)(spans + n);
+    int32_t *is_held = spans + n;
     for (uint32_t i = 0; i < n; ++i) {
-        if (!is_count(span[i], self->ring.spans) || !is_count(held[i], 2.0))
+        if (!is_count(span[i], self->ring.spans) || !is_count(held[i], m + 1.0))
             return rf_say(why, RF_INVALID, "line %u of a film must be of a span, got %.9g", (unsigned)i, span[i]);
         spans[i] = (int32_t)span[i];
-        is_held[i] = (uint8_t)held[i];
+        is_held[i] = (int32_t)held[i];
         (*value)[i] = of[4 * n + i];
     }
     for (uint32_t j = 0; j < 2 * m; ++j)
@@ -80,7 +80,7 @@ static int take_grid(model *self, const rf_tables *tables, int level, int32_t **
     self->ring.grids[level] = grid;
     self->value[level] = *value;
     self->supply[level] = of + 4 * n;
-    *whole = spans + n + (n + 3) / 4;
+    *whole = is_held + n;
     *value += n;
     return RF_OK;
 }
@@ -110,15 +110,16 @@ static int take_tables(model *self, const rf_tables *tables, rf_message *why)
         return RF_INVALID;
     const double *n = ring->numbers;
     const uint32_t count = spans->extent[1];
-    if (ring->extent[0] != 5 || spans->extent[0] != 2 || count < 1 || count > 1000
+    if (ring->extent[0] != 6 || spans->extent[0] != 2 || count < 1 || count > 1000
         || !(n[0] > 0.0 && is_count(n[1], 2.0) && is_count(n[2], 2.0) && is_count(n[3], 2.0)
-             && is_count(n[4], 2.0)))
+             && is_count(n[4], 2.0) && is_count(n[5], 2.0)))
         return rf_say(why, RF_INVALID, "table ring must be of a film, got length/diameter %.9g", n[0]);
     self->slenderness = self->ring.slenderness = n[0];
     self->ring.ruptured = n[1] != 0.0;
     self->ring.clipped = n[2] != 0.0;
     self->ring.pinned = n[3] != 0.0;
-    self->ring.extrapolated = n[4] != 0.0;
+    self->ring.turning = n[4] != 0.0;
+    self->ring.extrapolated = n[5] != 0.0;
     self->ring.spans = (int32_t)count;
     self->ring.start = spans->numbers;
     self->ring.extent = spans->numbers + count;
@@ -126,7 +127,7 @@ static int take_tables(model *self, const rf_tables *tables, rf_message *why)
         return rf_say(why, RF_INVALID, "table lines0 must be 5 x %u at most, got %u x %u", MOST_LINES,
                       (unsigned)lines->extent[0], (unsigned)lines->extent[1]);
     const size_t most = 2 * (size_t)lines->extent[1];
-    double *value = self->memory = malloc(most * (sizeof *value + sizeof(int32_t) + 1) + 16 * RF_LEVELS);
+    double *value = self->memory = malloc(most * (sizeof *value + 2 * sizeof(int32_t)));
     if (!value)
         return rf_say(why, RF_MEMORY, "no memory for a journal");
     int32_t *whole = (int32_t *)(value + most);

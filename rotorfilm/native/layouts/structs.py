@@ -111,6 +111,7 @@ class RingStruct(ctypes.Structure):
         ("slenderness", c_double),
         ("spans", c_int32),
         ("pinned", c_int32),
+        ("turning", c_int32),
         ("ruptured", c_int32),
         ("clipped", c_int32),
         ("extrapolated", c_int32),

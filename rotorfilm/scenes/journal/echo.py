@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...bearings.films.geometry import Groove, Pad
+from ...bearings.films.geometry import FeedHole, Groove, Pad
 from ...bearings.journal import JournalBearing
 from ...readable.result import Readable
 from ..reading.shared_fields import made_from
@@ -18,15 +18,17 @@ class BearingData(Readable):
     ----------
     radius, length, clearance : float [m]
     slenderness : float [1]
-        Length / diameter.
+        Length / diameter of the film.
     viscosity : float [Pa s]
         Of the film, or of fresh oil where the temperature follows from the balance of its heat.
     pads : tuple of Pad
         Empty for the full circumference; angles in the bearing frame [rad].
-    grooves : tuple of Groove
+    grooves : tuple of Groove or FeedHole
         Angles in the bearing frame [rad].
     supply_pressure : float [Pa]
-        Gauge pressure in the grooves.
+        Gauge pressure in grooves and holes.
+    circumferential_groove : float or None [m]
+        Axial width of a groove all round; None for none.
     """
 
     radius: float
@@ -35,8 +37,9 @@ class BearingData(Readable):
     clearance: float
     viscosity: float
     pads: tuple[Pad, ...]
-    grooves: tuple[Groove, ...]
+    grooves: tuple[Groove | FeedHole, ...]
     supply_pressure: float
+    circumferential_groove: float | None = None
 
 
 def bearing_data(bearing: JournalBearing) -> BearingData:

@@ -38,7 +38,7 @@ def film_rungs(bearing: JournalBearing, *, fixed: bool) -> tuple[FilmRung, ...]:
     fixed : bool
         Whether the scene names the film of the bearing, so that no other may answer.
     """
-    plain, tabulated = not (bearing.grooves or bearing.pads), has_map(bearing)
+    plain, tabulated = bearing.geometry.plain, has_map(bearing)
     if fixed:
         rungs = _named(bearing, tabulated)
     elif tabulated:

@@ -7,7 +7,8 @@ from typing import Any
 
 from ...bearings import journal
 from ...bearings.films.cavitation import Complementarity, FullFilm, HalfSommerfeld
-from ...bearings.films.geometry import Groove, Pad
+from ...bearings.films.film_start import FreeStart, HeldLine, WidestGap
+from ...bearings.films.geometry import FeedHole, Groove, Pad
 from ...bearings.films.law import FilmLaw
 from ...errors import SceneError, brief
 from ...limits import FILM_CELLS, FUNCTIONS, MAP_NODES
@@ -47,6 +48,13 @@ CAVITATIONS: dict[str, Keyed] = {
 }
 """What the two-dimensional film does in tension, by name."""
 
+STARTS: dict[str, Keyed] = {
+    "free": Keyed(FreeStart),
+    "widest_gap": Keyed(WidestGap),
+    "line": Keyed(HeldLine, {"line": Quantity("rad")}),
+}
+"""Where the two-dimensional film of a bearing without openings starts, by name."""
+
 FILMS: dict[str, Callable[[], Keyed[FilmLaw]]] = {
     # With grooves or several pads at ambient pressure that is `grooved_map` with its defaults.
     "map": lambda: Keyed(journal.MapFilm),
@@ -55,7 +63,12 @@ FILMS: dict[str, Callable[[], Keyed[FilmLaw]]] = {
         {"cells": CELLS, "nodes": NODES, "largest_eccentricity_ratio": Quantity("1")},
     ),
     "reynolds": lambda: Keyed(
-        journal.ReynoldsFilm, {"cells": CELLS, "cavitation": Variant("kind", CAVITATIONS)}
+        journal.ReynoldsFilm,
+        {
+            "cells": CELLS,
+            "cavitation": Variant("kind", CAVITATIONS),
+            "film_start": Variant("kind", STARTS),
+        },
     ),
     "short": lambda: Keyed(journal.ShortFilm),
     "splitting": lambda: Keyed(
@@ -69,5 +82,8 @@ FILMS: dict[str, Callable[[], Keyed[FilmLaw]]] = {
 PAD = Keyed(Pad, {"start": Quantity("rad"), "extent": Quantity("rad")})
 """`pads = [{start, extent}]`: a fixed pad."""
 
-GROOVE = Keyed(Groove, {"center": Quantity("rad"), "width": Quantity("rad")})
-"""`grooves = [{center, width}]`: an axial groove."""
+GROOVE = Keyed(Groove, {"center": Quantity("rad"), "width": Quantity("rad"), "length": Quantity("m")})
+"""`grooves = [{center, width, length}]`: an axial groove."""
+
+FEED_HOLE = Keyed(FeedHole, {"center": Quantity("rad"), "diameter": Quantity("m")})
+"""`feed_holes = [{center, diameter}]`: a round hole at mid-length."""

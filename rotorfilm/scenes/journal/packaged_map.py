@@ -11,4 +11,4 @@ TABLE_RANGE = (0.1, 4.0)
 def has_map(bearing: JournalBearing) -> bool:
     """Return whether the map that comes with the package holds a bearing."""
     low, high = TABLE_RANGE
-    return not (bearing.grooves or bearing.pads) and low <= bearing.slenderness <= high
+    return bearing.geometry.plain and low <= bearing.slenderness <= high

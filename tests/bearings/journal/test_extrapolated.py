@@ -48,7 +48,7 @@ def test_a_bearing_on_it_is_a_kernel():
     bearing = JournalBearing(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.1, film=film)
     spec = bearing.native()
     assert spec.kernel == "reynolds_journal"
-    assert spec.tables["ring"].tolist() == [0.5, 1.0, 0.0, 0.0, 1.0]
+    assert spec.tables["ring"].tolist() == [0.5, 1.0, 0.0, 0.0, 0.0, 1.0]
 
 
 def test_grooves_reach_both_grids():

@@ -9,13 +9,19 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from rotorfilm.bearings.films.cavitation import Complementarity, FullFilm, HalfSommerfeld
-from rotorfilm.bearings.films.geometry import FilmGeometry, Groove, Pad
+from rotorfilm.bearings.films.film_start import FreeStart, WidestGap
+from rotorfilm.bearings.films.geometry import FilmGeometry, Groove, Pad, Pocket
 from rotorfilm.bearings.films.law import FilmLaw
 from rotorfilm.bearings.journal import FixedArc, MapFilm, ReynoldsFilm, ShortFilm, SpectralArcFilm
 from rotorfilm.errors import FilmContactError, InputError, UndefinedDerivativeError
 
 HALF_TURN = np.array([[0.0, -1.0], [1.0, 0.0]])
 GROOVES = FilmGeometry(grooves=(Groove(center=0.4, width=0.3), Groove(center=-2.2)), supply=0.1)
+POCKETS = FilmGeometry(
+    pockets=(Pocket(center=0.4, width=0.3, share=0.6), Pocket(center=-2.2, width=0.0, share=0.3)),
+    supply=0.1,
+)
+ALL_ROUND = FilmGeometry(circumferential=True, supply=0.1)
 PADS = FilmGeometry(pads=tuple(Pad(start=s, extent=1.8) for s in (0.1, 2.2, 4.3)))
 FILMS = {
     "ruptured": ReynoldsFilm(cells=(48, 4)),
@@ -24,6 +30,9 @@ FILMS = {
     "ruptured, grooves": ReynoldsFilm(cells=(48, 4), geometry=GROOVES),
     "full, grooves": ReynoldsFilm(cells=(48, 4), cavitation=FullFilm(), geometry=GROOVES),
     "ruptured, pads": ReynoldsFilm(cells=(48, 4), geometry=PADS),
+    "ruptured, pockets": ReynoldsFilm(cells=(48, 4), geometry=POCKETS),
+    "ruptured, circumferential": ReynoldsFilm(cells=(48, 4), geometry=ALL_ROUND),
+    "ruptured, widest gap": ReynoldsFilm(cells=(48, 4), film_start=WidestGap()),
 }
 films = pytest.mark.parametrize("film", FILMS.values(), ids=FILMS.keys())
 PLAIN = [FILMS[name] for name in ("ruptured", "half", "full")]
@@ -206,8 +215,12 @@ def test_derivatives_in_the_eccentricity_converge_to_differences_of_the_force(fi
             slopes.append((low2 - 8.0 * low + 8.0 * high - high2) / (12.0 * h))
         scale = np.abs(jacobian).max(axis=(0, 1))
         errors[cells] = np.median(np.abs(jacobian - np.stack(slopes, axis=1)).max(axis=(0, 1)) / scale)
-    assert errors[96, 8] < 1e-2
-    assert errors[192, 16] < 3e-3
+    # Edges of the film that begin at a line, or at a corner, jump more.
+    bound = (
+        1.0 if film.film_start == FreeStart() and film.geometry in (FilmGeometry(), GROOVES, PADS) else 2.0
+    )
+    assert errors[96, 8] < bound * 1e-2
+    assert errors[192, 16] < bound * 3e-3
 
 
 @pytest.mark.convergence

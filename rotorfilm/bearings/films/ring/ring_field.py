@@ -6,13 +6,10 @@ import numpy as np
 
 from ....model import Array
 from ..film_field import FilmField
-from .ring_grids import axial_nodes
 from .ring_kernel import RingField, RingKernel
 
 
-def film_field(
-    kernel: RingKernel, e: Array, w: Array, slenderness: float, force: Array, extrapolated: Array
-) -> FilmField:
+def film_field(kernel: RingKernel, e: Array, w: Array, force: Array, extrapolated: Array) -> FilmField:
     """Return the solution of one state, of these forces; see `ReynoldsFilm.solve`."""
     solved = kernel.field(e, w)
     return FilmField(
@@ -20,7 +17,7 @@ def film_field(
         force_extrapolated=extrapolated,
         force_error=float(np.hypot(*(extrapolated - force))),
         angle=solved.theta,
-        axial=axial_nodes(solved.pressure.shape[1], slenderness),
+        axial=kernel.grids[0].nodes,
         thickness=_thickness(e, solved.theta),
         pressure=np.pad(solved.pressure, ((0, 0), (0, 1))),
         side_flow=solved.side_flow,

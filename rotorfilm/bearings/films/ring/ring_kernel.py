@@ -95,6 +95,7 @@ class RingKernel(FilmKernel):
             slenderness,
             len(spans.start),
             spans.pinned,
+            spans.turning,
             cavitation.searched,
             cavitation.clipped,
             extrapolated,
@@ -108,7 +109,7 @@ class RingKernel(FilmKernel):
             len(grid.width),
             self._place(grid.span, np.int32),
             *map(self._place, floats),
-            self._place(grid.held, np.uint8),
+            self._place(grid.held, np.int32),
             self._place(grid.width),
             self._place(grid.conductance),
         )
@@ -151,12 +152,10 @@ class RingKernel(FilmKernel):
         """Return the losses of states (2, n), (3 + 2 openings, n), the oil running along at `rate` (n) [1/s].
 
         They are the shear integrals of film and streamers, the side flow, the flow that leaves each opening
-        and what arrives at each; openings that touch are one.
+        and what arrives at each; openings that touch are one, and a groove all round is the last.
         """
         e, w, along = _float(eccentricity), _float(source), _float(rate)
-        held, first = self.grids[0].held, c_size_t()
-        openings = np.count_nonzero(held & ~np.roll(held, 1))
-        losses = np.empty((3 + 2 * openings, e.shape[1]))
+        losses, first = np.empty((3 + 2 * self.grids[0].openings, e.shape[1])), c_size_t()
         places = [numbers.ctypes.data for numbers in (e, w, along, losses)]
         status = loops()["rf_ring_losses"](byref(self.struct), e.shape[1], *places, byref(first))
         if status:

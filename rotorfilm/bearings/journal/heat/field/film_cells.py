@@ -78,11 +78,12 @@ def film_cells(spans: Spans, grid: Grid, slenderness: float, eccentricity: Array
     distance = float(eccentricity @ eccentricity)
     a = complex(eccentricity[0], eccentricity[1]) / (1.0 + (1.0 - distance) ** CROWDING)
     theta, face = _angles(spans, grid.span, grid.line, a), _angles(spans, grid.span, grid.face, a)
-    after_held, before_held = grid.held & ~np.roll(grid.held, 1), np.roll(grid.held, -1)
-    start = np.where(np.roll(grid.held, 1), np.roll(theta, 1), np.roll(face, 1))
+    held = grid.held > 0
+    after_held, before_held = held & ~np.roll(held, 1), np.roll(held, -1)
+    start = np.where(np.roll(held, 1), np.roll(theta, 1), np.roll(face, 1))
     end = np.where(before_held, np.roll(theta, -1), face)
-    opening = np.where(grid.held, np.cumsum(after_held) - 1, -1)
-    if grid.held[0] and grid.held[-1] and not grid.held.all() and not grid.film[-1]:
+    opening = np.where(held, np.cumsum(after_held) - 1, -1)
+    if held[0] and held[-1] and not held.all() and grid.film[-1] == 0.0:
         opening[opening == opening.max()] = opening[0]
     return FilmCells(
         theta=theta,
@@ -92,7 +93,7 @@ def film_cells(spans: Spans, grid: Grid, slenderness: float, eccentricity: Array
         gap=(np.roll(theta, -1) - theta) % (2.0 * np.pi),
         width=np.append(grid.width, 1.0 - grid.width.sum()),
         conductance=grid.conductance,
-        held=grid.held,
+        held=held,
         value=grid.value,
         opening=opening,
         slenderness=slenderness,
