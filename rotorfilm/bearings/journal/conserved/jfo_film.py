@@ -21,7 +21,6 @@ from ....errors import (
 )
 from ....inputs.si_arguments import quantities
 from ....model import Array, Tangent
-from ....results import Coefficients
 from ...at_frequency import ReducedCoefficients
 from ...films.conserved.conserved_cells import conserved_cells, require_conserved_cells
 from ...films.conserved.conserved_film import ConservedFilm, ConservedState, circular_gap
@@ -78,12 +77,12 @@ class JFOFilm:
 
     Examples
     --------
-    >>> from rotorfilm import Groove
+    >>> from rotorfilm import Groove, ReynoldsFilm
     >>> top = Groove(center="90 deg", width="20 deg", length="40 mm")
     >>> size = dict(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.02)
-    >>> film = JFOFilm(bearing=JournalBearing(**size, grooves=(top,), supply_pressure=2e5))
-    >>> state = film.solve(position=[30e-6, -50e-6], speed=314.2)
-    >>> state.oil_content.shape
+    >>> bearing = JournalBearing(**size, grooves=(top,), supply_pressure=2e5, film=ReynoldsFilm())
+    >>> film = JFOFilm(bearing=bearing)
+    >>> film.solve(position=[30e-6, -50e-6], speed=314.2).oil_content.shape
     (144, 10)
     """
 
@@ -171,8 +170,7 @@ class JFOFilm:
             As in `solve`.
         """
         q, state = self._steady(position, speed)
-        slow = slow_motion(self.film, state)
-        return self._coefficients(q, speed, slow.stiffness, slow.damping, 0.0)
+        return self._coefficients(q, speed, *self._slow(state), 0.0)
 
     def coefficients(
         self, position: ArrayLike, speed: float, frequency: float | None = None
@@ -232,9 +230,12 @@ class JFOFilm:
     def _per_length(self) -> float:
         return self.bearing.force_scale / self.clearance
 
+    def _slow(self, state: ConservedState) -> tuple[Array, Array]:
+        stiffness, damping = slow_motion(self.film, state)
+        return self._per_length * stiffness, self._per_length * damping
+
     def _jacobian(self, state: ConservedState) -> Array:
-        slow = slow_motion(self.film, state)
-        by_motion = -self._per_length * np.hstack([slow.stiffness, slow.damping])
+        by_motion = -np.hstack(self._slow(state))
         return np.column_stack([by_motion, self.bearing.force_scale * speed_slope(self.film, state)])
 
     def _coefficients(
