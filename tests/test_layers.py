@@ -54,8 +54,8 @@ FURTHER = [home.split(".")[1] for home in REGISTERED.values() if home.startswith
 
 PARTS = {
     "bearings": [["films"], ["oil"], ["journal"], ["damper", "contact", "bush", "pads", "rolling"]],
-    "bearings/films": [["ring"]],
-    "bearings/journal": [["rupture"], ["map", "splitting"], ["grooves"], ["heat"]],
+    "bearings/films": [["ring", "conserved"]],
+    "bearings/journal": [["rupture"], ["map", "splitting"], ["grooves"], ["heat"], ["conserved"]],
     "bearings/journal/heat": [["field"]],
     "bearings/contact": [["film"], ["motion"]],
     "bearings/pads": [["dam", "tilting"]],

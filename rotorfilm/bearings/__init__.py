@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from ..sources import show
 
 if TYPE_CHECKING:
+    from .at_frequency import ReducedCoefficients as ReducedCoefficients
     from .bush import *
     from .contact import *
     from .damper import *

@@ -65,6 +65,9 @@ _LOOPS: dict[str, list[Any]] = {
     "rf_ball_journal_at": [c_void_p] * 5,
     "rf_balls_at": [c_void_p, c_void_p, c_double, *[c_void_p] * 3],
     "rf_balls_rest": [c_void_p, c_void_p, c_double, *[c_void_p] * 3],
+    "rf_oil_outflow": [c_void_p] * 4,
+    "rf_oil_film": [c_void_p, c_int, c_int, *[c_void_p] * 4],
+    "rf_oil_response": [*[c_void_p] * 4, c_size_t, c_void_p, c_void_p],
     "rf_recess_at": [c_void_p] * 4,
     "rf_recess_batch": [c_void_p, c_size_t, *[c_void_p] * 4],
     "rf_recess_field": [c_void_p, c_size_t, c_void_p, c_void_p],
@@ -118,6 +121,7 @@ def loops() -> dict[str, Any]:
     """
     found = _typed(ctypes.CDLL, LOOPS, _LOOPS)
     found["rf_recess_least"].restype = c_double
+    found["rf_oil_outflow"].restype = None
     return found
 
 

@@ -8,7 +8,14 @@ import subprocess
 import pytest
 
 from rotorfilm.native import pad_kernels
-from rotorfilm.native.layouts import ball_structs, heat_structs, master_structs, pad_structs, structs
+from rotorfilm.native.layouts import (
+    ball_structs,
+    conserved_structs,
+    heat_structs,
+    master_structs,
+    pad_structs,
+    structs,
+)
 from rotorfilm.native.library import FOLDER
 from rotorfilm.native.pads import tilting_kernel
 
@@ -17,6 +24,7 @@ KINDS = {
     for module in (
         structs,
         ball_structs,
+        conserved_structs,
         heat_structs,
         master_structs,
         pad_kernels,

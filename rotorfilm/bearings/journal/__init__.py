@@ -11,6 +11,8 @@ if TYPE_CHECKING:
     from .bearing import JournalBearing as JournalBearing
     from .bearing_losses import bearing_losses, has_losses
     from .build_groove_map import build_groove_map as build_groove_map
+    from .conserved.jfo_film import JFOFilm as JFOFilm
+    from .conserved.jfo_state import JFOState as JFOState
     from .extrapolated_film import ExtrapolatedFilm as ExtrapolatedFilm
     from .film_state import FilmState, film_state as film_state
     from .fitting import film_name

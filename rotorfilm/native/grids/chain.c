@@ -4,13 +4,7 @@
 #include <string.h>
 
 #include "clones.h"
-
-/* y -= a x */
-static inline void subtract(size_t n, double a, const double *restrict x, double *restrict y)
-{
-    for (size_t k = 0; k < n; ++k)
-        y[k] -= a * x[k];
-}
+#include "vectors.h"
 
 static inline size_t unknowns(const rf_chain *chain)
 {
@@ -44,7 +38,7 @@ static void factorize_band(rf_chain *chain)
             }
             for (size_t k = p < start ? start - p : 1; k <= reach; ++k)
                 if (column[k] != 0.0)
-                    subtract(reach + 1 - k, column[k], column + k, column + k * stride);
+                    rf_subtract(reach + 1 - k, column[k], column + k, column + k * stride);
         }
     }
 }
@@ -61,10 +55,10 @@ static void factorize_border(rf_chain *chain)
             row[j] *= column[0];
         for (size_t k = 1; k <= below(chain, p); ++k)
             if (column[k] != 0.0)
-                subtract(half, column[k], row, row + k * half);
+                rf_subtract(half, column[k], row, row + k * half);
         for (size_t j = 0; j < half; ++j)
             if (row[j] != 0.0)
-                subtract(j + 1, row[j], row, chain->corner + j * half);
+                rf_subtract(j + 1, row[j], row, chain->corner + j * half);
     }
 }
 
@@ -103,22 +97,9 @@ static void forward(const rf_chain *chain, double *x)
             const double *column = chain->band + p * stride;
             x[p] *= column[0];
             if (x[p] != 0.0)
-                subtract(below(chain, p), x[p], column + 1, x + p + 1);
+                rf_subtract(below(chain, p), x[p], column + 1, x + p + 1);
         }
     }
-}
-
-/* Four sums side by side, whatever the machine adds at once. */
-static inline double product(size_t n, const double *restrict x, const double *restrict y)
-{
-    double sums[4] = {0.0, 0.0, 0.0, 0.0};
-    size_t k = 0;
-    for (; k + 4 <= n; k += 4)
-        for (size_t m = 0; m < 4; ++m)
-            sums[m] += x[k + m] * y[k + m];
-    for (size_t m = 0; k + m < n; ++m)
-        sums[m] += x[k + m] * y[k + m];
-    return (sums[0] + sums[2]) + (sums[1] + sums[3]);
 }
 
 RF_CLONES
@@ -130,7 +111,7 @@ static void backward(const rf_chain *chain, double *x)
             continue;
         for (size_t p = (line + 1) * half; p-- > line * half;) {
             const double *column = chain->band + p * stride;
-            x[p] = (x[p] - product(below(chain, p), column + 1, x + p + 1)) * column[0];
+            x[p] = (x[p] - rf_product(below(chain, p), column + 1, x + p + 1)) * column[0];
         }
     }
 }
@@ -141,18 +122,18 @@ static void solve_border(const rf_chain *chain, double *x, double *last)
     const size_t half = chain->half;
     for (size_t p = 0; p < unknowns(chain); ++p)
         if (x[p] != 0.0)
-            subtract(half, x[p], chain->border + p * half, last);
+            rf_subtract(half, x[p], chain->border + p * half, last);
     for (size_t j = 0; j < half; ++j) {
         const double *row = chain->corner + j * half;
-        last[j] = (last[j] - product(j, row, last)) * row[j];
+        last[j] = (last[j] - rf_product(j, row, last)) * row[j];
     }
     for (size_t j = half; j-- > 0;) {
         const double *row = chain->corner + j * half;
         last[j] *= row[j];
-        subtract(j, last[j], row, last);
+        rf_subtract(j, last[j], row, last);
     }
     for (size_t p = 0; p < unknowns(chain); ++p)
-        x[p] -= product(half, chain->border + p * half, last);
+        x[p] -= rf_product(half, chain->border + p * half, last);
 }
 
 void rf_solve_chain(const rf_chain *chain, double *x, double *last)

@@ -6,7 +6,7 @@ from ....sources import show
 
 if TYPE_CHECKING:
     from .held_pads import differenced_slopes
-    from .pad_matrices import PadMatrices as PadMatrices, ReducedCoefficients as ReducedCoefficients
+    from .pad_matrices import PadMatrices as PadMatrices
     from .pads_at_rest import (
         PadEquilibrium as PadEquilibrium,
         TiltedPads as TiltedPads,

@@ -10,26 +10,7 @@ from numpy.typing import NDArray
 from ....errors import InputError, require_number
 from ....model import Array
 from ....readable.result import Readable
-from ....results import Coefficients
-
-
-@dataclass(frozen=True, kw_only=True)
-class ReducedCoefficients(Coefficients):
-    """Stiffness and damping that a journal feels on pads that follow it, at one frequency.
-
-    The force on a journal that moves as exp(s t), s = growth_rate + i frequency, is -(K + s C) q. At another
-    frequency K and C are others.
-
-    Attributes
-    ----------
-    frequency : float [rad/s]
-        At which the journal whirls; `speed` for synchronous coefficients, 0 for those of slow motion.
-    growth_rate : float [1/s]
-        Of the motion; 0 for a steady one.
-    """
-
-    frequency: float
-    growth_rate: float = 0.0
+from ...at_frequency import ReducedCoefficients
 
 
 @dataclass(frozen=True, kw_only=True)

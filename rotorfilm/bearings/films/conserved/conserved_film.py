@@ -1,0 +1,271 @@
+"""The film that conserves its oil where it ruptures (Jakobsson, Floberg and Olsson), dimensionless."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from ....model import Array
+from .conserved_cells import FILM, ConservedCells
+from .oil_kernel import OilCells, OilSolution, oil_outflow, solve_oil
+
+
+class Gap(NamedTuple):
+    """The gap of a film over the clearance, at the lines and at the faces after them.
+
+    Attributes
+    ----------
+    line, face, cube : ndarray, shape (N,)
+        At a line; at a face what carries the oil, and the cube of what conducts it.
+    """
+
+    line: Array
+    face: Array
+    cube: Array
+
+
+class Supply(NamedTuple):
+    """Where oil comes from; pressures p c^2/(12 viscosity R^2) count from that of the cavity.
+
+    Attributes
+    ----------
+    pressure : ndarray, shape (openings,) [1/s]
+        In openings that are held.
+    content : ndarray, shape (openings,) [1]
+        Share of the gap that is oil there.
+    fed : ndarray of bool, shape (openings,)
+        Whether an opening is not held but gets a flow.
+    flow : ndarray, shape (openings,) [1/s]
+        That flow, over clearance, radius and length.
+    end_pressure : float [1/s]
+        At the ends of the bearing.
+    center_pressure : float [1/s]
+        Of a groove all round at mid-length.
+    """
+
+    pressure: Array
+    content: Array
+    fed: np.ndarray
+    flow: Array
+    end_pressure: float
+    center_pressure: float = 0.0
+
+
+class Storage(NamedTuple):
+    """A time step: d(theta H)/dt = rate theta H - held.
+
+    Attributes
+    ----------
+    rate : float [1/s]
+    held : ndarray, shape (N, M) [1/s]
+    """
+
+    rate: float
+    held: Array
+
+
+def step_storage(dt: float, now: Array, before: Array | None = None) -> Storage:
+    """Return the storage of a step of length dt [s] from theta H: Euler's, or BDF2 with the one before."""
+    if before is None:
+        return Storage(1.0 / dt, now / dt)
+    return Storage(1.5 / dt, (4.0 * now - before) / (2.0 * dt))
+
+
+class ConservedState(NamedTuple):
+    """A film that conserves its oil.
+
+    Attributes
+    ----------
+    gap : Gap
+    rate : float [1/s]
+        Half the speed, with which the oil is carried.
+    equations : OilCells
+    solution : OilSolution
+    """
+
+    gap: Gap
+    rate: float
+    equations: OilCells
+    solution: OilSolution
+
+    @property
+    def content(self) -> Array:
+        """theta H of every cell, shape (N, M): what the next step starts from."""
+        return self.solution.theta * self.gap.line[:, None]
+
+
+class OilFlows(NamedTuple):
+    """Flows of a film over clearance, radius and length.
+
+    Attributes
+    ----------
+    out, drawn_in : float [1/s]
+        Through both ends, of lines where it leaves and of those where it enters.
+    inflow : ndarray, shape (openings,) [1/s]
+        From each opening, last that from a groove all round.
+    defect : float [1/s]
+        Oil that the cells of the film make or lose, all taken as positive.
+    """
+
+    out: float
+    drawn_in: float
+    inflow: Array
+    defect: float
+
+
+def circular_gap(cells: ConservedCells, eccentricity: Array) -> Gap:
+    """Return the gap H = 1 - e.n around a journal, eccentricity of shape (2,)."""
+    line, face = (1.0 - eccentricity @ direction(at) for at in (cells.angle, cells.face))
+    return Gap(line, face, face**3)
+
+
+def direction(angle: Array) -> Array:
+    """Return n = (cos, sin), shape (2, ...)."""
+    return np.array([np.cos(angle), np.sin(angle)])
+
+
+@dataclass(frozen=True, eq=False)
+class ConservedFilm:
+    """The film on given cells with a given supply; a step in time is the same call with a storage.
+
+    With H the gap, theta the share of it that is oil, P >= 0 from the pressure of the cavity,
+
+        d(theta H)/dt + rate (theta H)_xi = (H^3 P_xi)_xi + (L/D)^-2 H^3 P_zz,   P (1 - theta) = 0,
+
+    by finite volumes: at faces the gap there and the theta of the cell upstream, so that the wedge is of
+    second order. A steady film has no storage. A step of length dt from the state `last` is
+
+        film.solve(gap, rate, storage=step_storage(dt, last.content), guess=last.solution.full)
+
+    with `step_storage(dt, last.content, before.content)` of second order: nothing else tells the velocity.
+
+    Parameters
+    ----------
+    cells : ConservedCells
+    slenderness : float [1]
+        Length / diameter.
+    supply : Supply
+    """
+
+    cells: ConservedCells
+    slenderness: float
+    supply: Supply
+
+    @cached_property
+    def coarser(self) -> ConservedFilm | None:
+        """The film on half the cells both ways, from which a search without a guess starts."""
+        cells = self.cells.coarser()
+        return None if cells is None else ConservedFilm(cells, self.slenderness, self.supply)
+
+    @cached_property
+    def _grid(self) -> tuple[Array, Array, Array, np.ndarray, np.ndarray]:
+        """Extents, areas, conductances, and pressure and theta with the values of held openings."""
+        cells, supply = self.cells, self.supply
+        pressure, theta = np.zeros(cells.opening.shape), np.ones(cells.opening.shape)
+        held = (cells.opening != FILM) & ~np.append(supply.fed, True)[cells.opening]
+        pressure[held] = supply.pressure[cells.opening[held]]
+        theta[held] = supply.content[cells.opening[held]]
+        return cells.extent, cells.area, cells.conductance, pressure, theta
+
+    def solve(
+        self,
+        gap: Gap,
+        rate: float,
+        *,
+        storage: Storage | None = None,
+        guess: np.ndarray | None = None,
+        by_newton: bool = False,
+    ) -> ConservedState:
+        """Return the film in a gap.
+
+        Parameters
+        ----------
+        gap : Gap
+        rate : float [1/s]
+            Half the speed, of either sign.
+        storage : Storage, optional
+            Of a step; None for the steady film.
+        guess : ndarray, shape (N, M), optional
+            Cells that may be full.
+        by_newton : bool
+            Whether to search without sets, by the method of the fallback.
+
+        Raises
+        ------
+        ConvergenceError
+            If the film has no supply, so that it empties, or the search does not end.
+        """
+        equations = self.equations(gap, rate, storage)
+        if guess is None and storage is None and not by_newton:
+            guess = self._guess(gap, rate)
+        found = solve_oil(equations, *self._grid[3:], guess, by_newton=by_newton)
+        return ConservedState(gap, rate, equations, found)
+
+    def _guess(self, gap: Gap, rate: float) -> np.ndarray | None:
+        """Return where the film on half the cells is full."""
+        if self.coarser is None:
+            return None
+        between = Gap(gap.line[::2], gap.line[1::2], gap.line[1::2] ** 3)
+        full = self.coarser.solve(between, rate).solution.full
+        return np.repeat(np.repeat(full, 2, axis=0), 2, axis=1)
+
+    def equations(self, gap: Gap, rate: float, storage: Storage | None = None) -> OilCells:
+        """Return the equations of the film in a gap."""
+        cells, supply = self.cells, self.supply
+        extent, area, conductance = self._grid[:3]
+        return OilCells(
+            wedge=rate * gap.face,
+            around=gap.cube / cells.spacing,
+            along=gap.line**3 * extent / self.slenderness**2,
+            store=(0.0 if storage is None else storage.rate) * gap.line * extent,
+            width=cells.width,
+            conductance=conductance,
+            center=cells.center,
+            center_pressure=supply.center_pressure,
+            end_pressure=supply.end_pressure,
+            old=None if storage is None else storage.held * area,
+            opening=cells.opening,
+            fed=supply.fed,
+            flow=supply.flow,
+            backward=rate < 0.0,
+        )
+
+    @cached_property
+    def weights(self) -> Array:
+        """Integrals of n over the cells, shape (2, N, M)."""
+        return direction(self.cells.angle)[:, :, None] * self._grid[1]
+
+    def force(self, state: ConservedState) -> Array:
+        """Return the force on the journal over viscosity length radius^3/clearance^2, shape (2,) [1/s]."""
+        return -12.0 * np.tensordot(self.weights, state.solution.pressure - self.supply.end_pressure, 2)
+
+    def flows(self, state: ConservedState) -> OilFlows:
+        """Return the flows into and out of the film."""
+        cells, equations, P = self.cells, state.equations, state.solution.pressure
+        outflow = oil_outflow(equations, P, state.solution.theta)
+        ends = equations.along * equations.conductance[:, -1] * (P[:, -1] - equations.end_pressure)
+        film = cells.opening == FILM
+        inflow = np.bincount(cells.opening[~film], outflow[~film], len(equations.flow))
+        if cells.grooved:
+            drop = equations.center_pressure - P[:, 0]
+            inflow = np.append(inflow, np.sum(equations.along * equations.center * drop))
+        return OilFlows(
+            out=float(np.maximum(ends, 0.0).sum()),
+            drawn_in=float(np.maximum(-ends, 0.0).sum()),
+            inflow=inflow,
+            defect=float(np.abs(outflow[film]).sum()),
+        )
+
+    def shear(self, state: ConservedState) -> float:
+        """Return the torque against the journal over viscosity length radius^3/clearance [1/s].
+
+        Shear of oil where there is some, in strips across the whole gap, without the openings.
+        """
+        P, theta, gap = state.solution.pressure, state.solution.theta, state.gap
+        film = np.where(self.cells.opening == FILM, theta, 0.0) * self._grid[1]
+        drag = 2.0 * state.rate * np.sum(film / gap.line[:, None])
+        rise = (np.roll(P, -1, axis=0) - P) @ self.cells.width
+        return float(drag + 6.0 * gap.face @ rise)

@@ -1,0 +1,94 @@
+"""Small motions of a journal in a film that conserves its oil: exact derivatives with the cavity at its place."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....model import Array
+from .conserved_film import ConservedFilm, ConservedState, Gap, direction
+from .oil_kernel import oil_outflow, oil_response
+
+Complex = NDArray[np.complex128]
+
+
+class SlowMotion(NamedTuple):
+    """Stiffness and damping in motions slow against the time that oil takes to cross the cavity.
+
+    Attributes
+    ----------
+    stiffness, damping : ndarray, shape (2, 2)
+        Of the dimensionless force over the eccentricity, K(0) [1/s] and dK/ds(0) [1].
+    """
+
+    stiffness: Array
+    damping: Array
+
+
+def dynamic_stiffness(film: ConservedFilm, state: ConservedState, s: complex) -> Complex:
+    """Return K(s) of a steady film: dF = -K de for de e^(s t), shape (2, 2) [1/s].
+
+    The storage of the cavity is (exp(2 s dxi/speed) - 1) speed/(2 dxi) in place of s, which carries waves of
+    oil through it at their exact phase; K(0) is that of equilibria.
+    """
+    moved, held = _slopes(film, state)
+    change = oil_response(state.equations, state.solution.full, _waves(film, state, s), -(moved + s * held))
+    return _stiffness(film, state, change)
+
+
+def step_stiffness(film: ConservedFilm, state: ConservedState) -> Array:
+    """Return K of a step in time: dF = -K de, the oil of the last step given, shape (2, 2) [1/s]."""
+    moved, _ = _slopes(film, state)
+    none = np.zeros(film.cells.opening.shape)
+    return _stiffness(film, state, oil_response(state.equations, state.solution.full, none, -moved)).real
+
+
+def slow_motion(film: ConservedFilm, state: ConservedState) -> SlowMotion:
+    """Return K(0) and dK/ds(0) of a steady film."""
+    moved, held = _slopes(film, state)
+    none, full = np.zeros(film.cells.opening.shape), state.solution.full
+    still = oil_response(state.equations, full, none, -moved)
+    room = np.where(full, 0.0, state.gap.line[:, None] * film.cells.area)
+    slow = oil_response(state.equations, full, none, -(held + room * still))
+    return SlowMotion(_stiffness(film, state, still).real, _stiffness(film, state, slow).real)
+
+
+def speed_slope(film: ConservedFilm, state: ConservedState) -> Array:
+    """Return d force / d speed of a steady film, shape (2,)."""
+    still, solution = np.zeros(state.gap.line.shape), state.solution
+    carried = state.equations._replace(wedge=0.5 * state.gap.face, around=still, along=still, store=still)
+    moved = oil_outflow(carried, solution.pressure, solution.theta)
+    change = oil_response(state.equations, solution.full, np.zeros(moved.shape), -moved[None])[0].real
+    return -12.0 * np.tensordot(film.weights, np.where(solution.full, change, 0.0), 2)
+
+
+def _slopes(film: ConservedFilm, state: ConservedState) -> tuple[Array, Array]:
+    """Return d outflow / d(e_x, e_y), of the steady flow and what s multiplies, shape (2, N, M) each."""
+    cells, gap, solution = film.cells, state.gap, state.solution
+    by_line, by_face = -direction(cells.angle), -direction(cells.face)
+    moved = []
+    for line, face in zip(by_line, by_face, strict=True):
+        slope = Gap(line, face, 3.0 * gap.face**2 * face)
+        turned = film.equations(slope, state.rate)._replace(
+            along=3.0 * gap.line**2 * line * cells.extent / film.slenderness**2,
+            store=state.equations.store / gap.line * line,
+        )
+        moved.append(oil_outflow(turned, solution.pressure, solution.theta))
+    held = solution.theta * cells.area * by_line[:, :, None]
+    return np.array(moved), held
+
+
+def _waves(film: ConservedFilm, state: ConservedState, s: complex) -> Complex:
+    """Return the storage of theta where the cells are not full."""
+    cells, speed = film.cells, 2.0 * abs(state.rate)
+    dxi = cells.extent
+    rate = np.full(dxi.shape, s) if speed == 0.0 else np.expm1(2.0 * s * dxi / speed) * speed / (2.0 * dxi)
+    return np.asarray(np.where(state.solution.full, 0.0, (rate * state.gap.line)[:, None] * cells.area), dtype=complex)
+
+
+def _stiffness(film: ConservedFilm, state: ConservedState, change: Complex | Array) -> Complex:
+    """Return 12 integral of n dP for the changes (2, N, M) by e_x and e_y."""
+    pressure = np.where(state.solution.full, change, 0.0)
+    return np.asarray(12.0 * np.tensordot(film.weights, pressure, ((1, 2), (1, 2))), dtype=complex)

@@ -1,0 +1,1 @@
+"""A journal bearing whose film conserves its oil, with real supply."""

@@ -1,0 +1,175 @@
+#include "border_band.h"
+
+#include <math.h>
+
+#include "../grids/clones.h"
+#include "../grids/vectors.h"
+#include "../status.h"
+
+/* Pieces of a row, or of a vector, in both parts; no imaginary one where all is real. */
+typedef struct rf_piece {
+    double *real, *imaginary;
+} rf_piece;
+
+static inline rf_piece piece(double *real, double *imaginary, size_t at)
+{
+    const rf_piece part = {real + at, imaginary ? imaginary + at : NULL};
+    return part;
+}
+
+static inline rf_piece in_row(const rf_border_band *band, size_t row, size_t at)
+{
+    return piece(band->rows, band->imaginary_rows, row * rf_band_stride(band) + at);
+}
+
+static inline rf_piece in_last(const rf_border_band *band, size_t row, size_t at)
+{
+    return piece(band->last, band->imaginary_last, row * (band->size + band->border) + at);
+}
+
+static inline size_t below(const rf_border_band *band, size_t p)
+{
+    const size_t left = band->size - 1 - p;
+    return left < band->half ? left : band->half;
+}
+
+void rf_add_to_band(rf_border_band *band, size_t row, size_t column, double real, double imaginary)
+{
+    const size_t far = column < band->size ? band->half + column - row : band->half + 1 + band->half + column - band->size;
+    const rf_piece entry = row < band->size ? in_row(band, row, far) : in_last(band, row - band->size, column);
+    entry.real[0] += real;
+    if (entry.imaginary)
+        entry.imaginary[0] += imaginary;
+}
+
+/* Divide an entry by the pivot; whether anything is left of it. */
+static inline int scale(rf_piece entry, rf_piece pivot)
+{
+    if (!pivot.imaginary) {
+        entry.real[0] *= pivot.real[0];
+        return entry.real[0] != 0.0;
+    }
+    const double real = entry.real[0], imaginary = entry.imaginary[0];
+    entry.real[0] = real * pivot.real[0] - imaginary * pivot.imaginary[0];
+    entry.imaginary[0] = real * pivot.imaginary[0] + imaginary * pivot.real[0];
+    return entry.real[0] != 0.0 || entry.imaginary[0] != 0.0;
+}
+
+/* y -= a x */
+static inline void take(size_t n, rf_piece a, rf_piece x, rf_piece y)
+{
+    rf_subtract(n, a.real[0], x.real, y.real);
+    if (!a.imaginary)
+        return;
+    rf_subtract(n, -a.imaginary[0], x.imaginary, y.real);
+    rf_subtract(n, a.real[0], x.imaginary, y.imaginary);
+    rf_subtract(n, a.imaginary[0], x.real, y.imaginary);
+}
+
+/* Replace a pivot by its inverse; whether it has one. */
+static int invert(rf_piece pivot)
+{
+    const double imaginary = pivot.imaginary ? pivot.imaginary[0] : 0.0;
+    const double square = pivot.real[0] * pivot.real[0] + imaginary * imaginary;
+    if (!(square > 0.0 && isfinite(square)))
+        return 0;
+    pivot.real[0] /= square;
+    if (pivot.imaginary)
+        pivot.imaginary[0] = -imaginary / square;
+    return 1;
+}
+
+RF_CLONES
+static int factorize_rows(rf_border_band *band)
+{
+    const size_t half = band->half, border = band->border;
+    for (size_t p = 0; p < band->size; ++p) {
+        const rf_piece pivot = in_row(band, p, half), after = in_row(band, p, half + 1);
+        const rf_piece beside = in_row(band, p, 2 * half + 1);
+        const size_t reach = below(band, p);
+        if (!invert(pivot))
+            return RF_STUCK;
+        for (size_t d = 1; d <= reach; ++d) {
+            const rf_piece factor = in_row(band, p + d, half - d);
+            if (!scale(factor, pivot))
+                continue;
+            take(reach, factor, after, in_row(band, p + d, half - d + 1));
+            take(border, factor, beside, in_row(band, p + d, 2 * half + 1));
+        }
+        for (size_t b = 0; b < border; ++b) {
+            const rf_piece factor = in_last(band, b, p);
+            if (!scale(factor, pivot))
+                continue;
+            take(reach, factor, after, in_last(band, b, p + 1));
+            take(border, factor, beside, in_last(band, b, band->size));
+        }
+    }
+    return RF_OK;
+}
+
+static int factorize_corner(rf_border_band *band)
+{
+    const size_t size = band->size, border = band->border;
+    for (size_t p = 0; p < border; ++p) {
+        const rf_piece pivot = in_last(band, p, size + p);
+        if (!invert(pivot))
+            return RF_STUCK;
+        for (size_t b = p + 1; b < border; ++b)
+            if (scale(in_last(band, b, size + p), pivot))
+                take(border - 1 - p, in_last(band, b, size + p), in_last(band, p, size + p + 1),
+                     in_last(band, b, size + p + 1));
+    }
+    return RF_OK;
+}
+
+int rf_factorize_band(rf_border_band *band)
+{
+    const int status = factorize_rows(band);
+    return status == RF_OK ? factorize_corner(band) : status;
+}
+
+/* y -= row.x */
+static inline void take_product(size_t n, rf_piece row, rf_piece x, rf_piece y)
+{
+    y.real[0] -= rf_product(n, row.real, x.real);
+    if (!y.imaginary)
+        return;
+    y.real[0] += rf_product(n, row.imaginary, x.imaginary);
+    y.imaginary[0] -= rf_product(n, row.real, x.imaginary) + rf_product(n, row.imaginary, x.real);
+}
+
+RF_CLONES
+static void forward(const rf_border_band *band, double *real, double *imaginary)
+{
+    const size_t half = band->half, size = band->size;
+    for (size_t p = 1; p < size; ++p) {
+        const size_t reach = p < half ? p : half;
+        take_product(reach, in_row(band, p, half - reach), piece(real, imaginary, p - reach),
+                     piece(real, imaginary, p));
+    }
+    for (size_t b = 0; b < band->border; ++b)
+        take_product(size + b, in_last(band, b, 0), piece(real, imaginary, 0), piece(real, imaginary, size + b));
+}
+
+RF_CLONES
+static void backward(const rf_border_band *band, double *real, double *imaginary)
+{
+    const size_t half = band->half, size = band->size, border = band->border;
+    for (size_t b = border; b-- > 0;) {
+        const rf_piece x = piece(real, imaginary, size + b);
+        take_product(border - 1 - b, in_last(band, b, size + b + 1), piece(real, imaginary, size + b + 1), x);
+        scale(x, in_last(band, b, size + b));
+    }
+    for (size_t p = size; p-- > 0;) {
+        const rf_piece x = piece(real, imaginary, p);
+        take_product(below(band, p), in_row(band, p, half + 1), piece(real, imaginary, p + 1), x);
+        take_product(border, in_row(band, p, 2 * half + 1), piece(real, imaginary, size), x);
+        scale(x, in_row(band, p, half));
+    }
+}
+
+void rf_solve_band(const rf_border_band *band, double *real, double *imaginary)
+{
+    forward(band, real, imaginary);
+    backward(band, real, imaginary);
+}

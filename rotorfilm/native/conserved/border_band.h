@@ -1,0 +1,37 @@
+/* A matrix of a band and a border that are not symmetric, factorized without pivoting, real or complex.
+
+   Its columns are diagonally dominant, which is what allows to go without. The unknowns of the band couple to
+   those within `half` of them, those of the border, numbered after them, to all. */
+#ifndef ROTORFILM_BORDER_BAND_H
+#define ROTORFILM_BORDER_BAND_H
+
+#include <stddef.h>
+
+typedef struct rf_border_band {
+    size_t size, half, border;
+    double *rows; /* size x rf_band_stride: columns from `half` before the diagonal to `half` after it, the border */
+    double *last; /* border x (size + border): the rows of the border */
+    double *imaginary_rows, *imaginary_last; /* NULL in a real matrix */
+} rf_border_band;
+
+static inline size_t rf_band_stride(const rf_border_band *band)
+{
+    return 2 * band->half + 1 + band->border;
+}
+
+/* Numbers of the rows and of the border together. */
+static inline size_t rf_band_numbers(const rf_border_band *band)
+{
+    return band->size * rf_band_stride(band) + band->border * (band->size + band->border);
+}
+
+/* Add to an entry. */
+void rf_add_to_band(rf_border_band *band, size_t row, size_t column, double real, double imaginary);
+
+/* Replace the matrix by its factors; RF_OK, or RF_STUCK where it is singular. */
+int rf_factorize_band(rf_border_band *band);
+
+/* Replace a right-hand side, of size + border, by the solution; `imaginary` is NULL for a real matrix. */
+void rf_solve_band(const rf_border_band *band, double *real, double *imaginary);
+
+#endif

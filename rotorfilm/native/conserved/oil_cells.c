@@ -1,0 +1,156 @@
+#include "oil_cells.h"
+
+#include <math.h>
+#include <string.h>
+
+static size_t after(const rf_oil_cells *cells, size_t i)
+{
+    return i + 1 < cells->lines ? i + 1 : 0;
+}
+
+static double carried(const rf_oil_cells *cells, size_t i, size_t j, const double *theta)
+{
+    const size_t up = cells->backward ? after(cells, i) : i;
+    return cells->wedge[i] * cells->width[j] * theta[up * cells->nodes + j];
+}
+
+void rf_oil_outflow(const rf_oil_cells *cells, const double *pressure, const double *theta, double *outflow)
+{
+    const size_t nodes = cells->nodes, lines = cells->lines;
+    for (size_t q = 0; q < lines * nodes; ++q)
+        outflow[q] = cells->store[q / nodes] * cells->width[q % nodes] * theta[q] - (cells->old ? cells->old[q] : 0.0);
+    for (size_t i = 0; i < lines; ++i) {
+        const double *p = pressure + i * nodes, *c = cells->conductance + i * nodes, along = cells->along[i];
+        double *out = outflow + i * nodes, *next = outflow + after(cells, i) * nodes;
+        for (size_t j = 0; j < nodes; ++j) {
+            const double fall = p[j] - pressure[after(cells, i) * nodes + j];
+            const double flow = carried(cells, i, j, theta) + cells->around[i] * cells->width[j] * fall;
+            const double outward = along * c[j] * (p[j] - (j + 1 < nodes ? p[j + 1] : cells->end_pressure));
+            out[j] += flow + outward;
+            next[j] -= flow;
+            if (j + 1 < nodes)
+                out[j + 1] -= outward;
+        }
+        out[0] += along * cells->center * (p[0] - cells->center_pressure);
+    }
+}
+
+static size_t film_cells_of(const rf_oil_cells *cells, size_t i)
+{
+    size_t count = 0;
+    for (size_t j = 0; j < cells->nodes; ++j)
+        count += cells->opening[i * cells->nodes + j] == RF_FILM_CELL;
+    return count;
+}
+
+static size_t line_to_cut(const rf_oil_cells *cells)
+{
+    size_t best = 0, fewest = cells->nodes + 1;
+    for (size_t i = 0; i < cells->lines; ++i) {
+        const size_t count = film_cells_of(cells, i);
+        if (count < fewest) {
+            best = i;
+            fewest = count;
+        }
+    }
+    return best;
+}
+
+void rf_place_oil(const rf_oil_cells *cells, rf_oil_places *places, rf_border_band *band)
+{
+    const size_t nodes = cells->nodes, all = cells->lines * nodes;
+    const size_t cut = line_to_cut(cells), first = (cut + 1) * nodes;
+    size_t beside = film_cells_of(cells, cut), border = 0;
+    places->cut = cut;
+    band->size = all - nodes;
+    band->half = nodes;
+    for (size_t q = 0; q < all; ++q) {
+        const int32_t opening = cells->opening[q];
+        if (opening == RF_FILM_CELL)
+            places->place[q] =
+                (int32_t)(q / nodes == cut ? band->size + border++ : (q >= first ? q - first : q + all - first));
+        else if (cells->fed[opening])
+            places->place[q] = (int32_t)(band->size + beside + (size_t)opening);
+        else
+            places->place[q] = -1;
+    }
+    for (size_t k = 0; k < cells->openings; ++k)
+        if (cells->fed[k])
+            beside = border + cells->openings;
+    band->border = beside;
+}
+
+/* What a matrix is made of. */
+typedef struct rf_oil_parts {
+    const rf_oil_cells *cells;
+    const int32_t *place;
+    rf_border_band *band;
+} rf_oil_parts;
+
+static inline void add(const rf_oil_parts *parts, size_t row, size_t column, double value)
+{
+    const int32_t at = parts->place[row], of = parts->place[column];
+    if (at >= 0 && of >= 0)
+        rf_add_to_band(parts->band, (size_t)at, (size_t)of, value, 0.0);
+}
+
+/* What leaves one cell for another, in proportion to the unknown of the first. */
+static inline void add_flow(const rf_oil_parts *parts, size_t from, size_t to, double value)
+{
+    if (value == 0.0)
+        return;
+    add(parts, from, from, value);
+    add(parts, to, from, -value);
+}
+
+static void add_line(const rf_oil_parts *parts, size_t i, const double *by_pressure, const double *by_theta)
+{
+    const rf_oil_cells *cells = parts->cells;
+    const size_t nodes = cells->nodes;
+    for (size_t j = 0; j < nodes; ++j) {
+        const size_t here = i * nodes + j, beyond = after(cells, i) * nodes + j;
+        const size_t up = cells->backward ? beyond : here, down = cells->backward ? here : beyond;
+        const double around = cells->around[i] * cells->width[j], along = cells->along[i] * cells->conductance[here];
+        add_flow(parts, here, beyond, by_pressure[here] * around);
+        add_flow(parts, beyond, here, by_pressure[beyond] * around);
+        add_flow(parts, up, down, by_theta[up] * fabs(cells->wedge[i]) * cells->width[j]);
+        if (j + 1 < nodes) {
+            add_flow(parts, here, here + 1, by_pressure[here] * along);
+            add_flow(parts, here + 1, here, by_pressure[here + 1] * along);
+        } else {
+            add(parts, here, here, by_pressure[here] * along);
+        }
+        add(parts, here, here, by_theta[here] * cells->store[i] * cells->width[j]);
+    }
+    add(parts, i * nodes, i * nodes, by_pressure[i * nodes] * cells->along[i] * cells->center);
+}
+
+/* Rows that stand for no cell: those of held cells in the band, and of openings that are held. */
+static void fill_empty_rows(const rf_oil_parts *parts, size_t cut)
+{
+    const rf_oil_cells *cells = parts->cells;
+    const size_t nodes = cells->nodes, all = cells->lines * nodes, first = (cut + 1) * nodes;
+    for (size_t p = 0; p < parts->band->size; ++p)
+        if (cells->opening[(p + first) % all] != RF_FILM_CELL)
+            rf_add_to_band(parts->band, p, p, 1.0, 0.0);
+    for (size_t b = film_cells_of(cells, cut); b < parts->band->border; ++b)
+        if (!cells->fed[b - film_cells_of(cells, cut)])
+            rf_add_to_band(parts->band, parts->band->size + b, parts->band->size + b, 1.0, 0.0);
+}
+
+void rf_set_oil_matrix(const rf_oil_cells *cells, const rf_oil_places *places, const double *by_pressure,
+                       const double *by_theta, const double *real, const double *imaginary, rf_border_band *band)
+{
+    const rf_oil_parts parts = {cells, places->place, band};
+    const size_t numbers = rf_band_numbers(band);
+    memset(band->rows, 0, numbers * sizeof(double));
+    if (band->imaginary_rows)
+        memset(band->imaginary_rows, 0, numbers * sizeof(double));
+    for (size_t i = 0; i < cells->lines; ++i)
+        add_line(&parts, i, by_pressure, by_theta);
+    for (size_t q = 0; real && q < cells->lines * cells->nodes; ++q)
+        if (places->place[q] >= 0)
+            rf_add_to_band(band, (size_t)places->place[q], (size_t)places->place[q], by_theta[q] * real[q],
+                           imaginary ? by_theta[q] * imaginary[q] : 0.0);
+    fill_empty_rows(&parts, places->cut);
+}

@@ -1,0 +1,60 @@
+/* Conservation of oil in the cells of a film, full or not, on a ring of lines.
+
+   On each of N lines there are M cells along half the length. With the pressure P from that of the cavity and theta,
+   the share of the gap that is oil, the flow out of a cell is
+
+       transport  wedge theta of the cell upstream, at the faces before and after the line,
+       pressure   around and along, in proportion to the fall of P, to the next cells and to the ends,
+       storage    store theta - old
+
+   which is nothing where P, theta solve the film: P >= 0, theta <= 1, P (1 - theta) = 0. Factors of a line are to be
+   multiplied by those of a cell along it. Lines between which nothing flows cut the ring open. */
+#ifndef ROTORFILM_OIL_CELLS_H
+#define ROTORFILM_OIL_CELLS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "../export.h"
+#include "border_band.h"
+
+#define RF_FILM_CELL (-1)
+
+typedef struct rf_oil_cells {
+    size_t lines, nodes;
+    const double *wedge;       /* N: oil that a full gap carries over the face after a line */
+    const double *around;      /* N: conductance of that face */
+    const double *along;       /* N: conductance of a line's cells along the length */
+    const double *store;       /* N: that theta holds back */
+    const double *width;       /* M: of the cells along the length */
+    const double *conductance; /* N x M: 1/distance to the next node of the line, the last to the end */
+    double center;             /* 1/distance from the first node to a groove at mid-length, 0 without one */
+    double center_pressure, end_pressure;
+    const double *old;        /* N x M: what storage has, or NULL */
+    const int32_t *opening;   /* N x M: of which opening a cell is part; RF_FILM_CELL */
+    const uint8_t *fed;       /* of the openings: whether it is one cell with a given flow, not held */
+    const double *flow;       /* of the openings: that flow */
+    size_t openings;
+    int32_t backward; /* whether the oil is carried against the order of the lines */
+} rf_oil_cells;
+
+/* Where each cell stands in the matrix: in the band from the line after the cut on, in its border (the cells of
+   the line of the cut, then the openings with a given flow), or nowhere where it is held. */
+typedef struct rf_oil_places {
+    size_t cut;
+    int32_t *place; /* N x M; -1 nowhere */
+} rf_oil_places;
+
+/* Flow out of every cell, N x M. */
+RF_EXPORT_LOOP void rf_oil_outflow(const rf_oil_cells *cells, const double *pressure, const double *theta,
+                                   double *outflow);
+
+/* Set the places, and the sizes of the matrix. */
+void rf_place_oil(const rf_oil_cells *cells, rf_oil_places *places, rf_border_band *band);
+
+/* d outflow / d x with dP = by_pressure dx and dtheta = by_theta dx; further storage of theta in both parts, or NULL
+   twice. */
+void rf_set_oil_matrix(const rf_oil_cells *cells, const rf_oil_places *places, const double *by_pressure,
+                       const double *by_theta, const double *real, const double *imaginary, rf_border_band *band);
+
+#endif

@@ -1,0 +1,32 @@
+/* The film that conserves its oil, by an active set or by Newton's method for Fischer's and Burmeister's function.
+
+   A cell is full, with theta = 1 and P unknown, or not, with P = 0 and theta unknown. The active set moves cells
+   whose P or 1 - theta has become negative until none does. Newton's method (Woloszynski, Podsiadlo & Stachowiak
+   2015) has P + psi = sqrt(P^2 + psi^2), psi = 1 - theta, in every cell and no sets; it takes over where the sets
+   would go round in a circle. */
+#ifndef ROTORFILM_OIL_SEARCH_H
+#define ROTORFILM_OIL_SEARCH_H
+
+#include "oil_cells.h"
+
+enum { RF_BY_SETS = 0, RF_BY_NEWTON = 1 };
+
+/* What a search took. */
+typedef struct rf_oil_work {
+    int64_t solutions; /* linear systems */
+    int64_t newton;    /* those of Newton's method */
+} rf_oil_work;
+
+/* Set P and theta, which come with their values in openings that are held. `full` is the guess of the cells that
+   are full if `guessed`, and then tells them; `method` is RF_BY_SETS, or RF_BY_NEWTON to begin with that.
+   RF_STUCK, RF_MEMORY. */
+RF_EXPORT_LOOP int rf_oil_film(const rf_oil_cells *cells, int method, int guessed, uint8_t *full, double *pressure,
+                               double *theta, rf_oil_work *work);
+
+/* Replace `count` right-hand sides (count x N x M, both parts) by the changes of P where the cells are full and of
+   theta where not that make the flow out of the cells change so; theta has further storage (N x M, both parts).
+   `right_imaginary` and `imaginary` NULL: all is real. RF_STUCK, RF_MEMORY. */
+RF_EXPORT_LOOP int rf_oil_response(const rf_oil_cells *cells, const uint8_t *full, const double *storage,
+                                   const double *imaginary, size_t count, double *right, double *right_imaginary);
+
+#endif
