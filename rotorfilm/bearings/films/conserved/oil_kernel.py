@@ -92,7 +92,12 @@ def oil_outflow(cells: OilCells, pressure: Array, theta: Array) -> Array:
 
 
 def solve_oil(
-    cells: OilCells, pressure: Array, theta: Array, guess: np.ndarray | None = None, *, by_newton: bool = False
+    cells: OilCells,
+    pressure: Array,
+    theta: Array,
+    guess: np.ndarray | None = None,
+    *,
+    by_newton: bool = False,
 ) -> OilSolution:
     """Return the film with P >= 0, theta <= 1 and P (1 - theta) = 0.
 
@@ -122,7 +127,10 @@ def solve_oil(
 
 
 def oil_response(
-    cells: OilCells, full: np.ndarray, storage: NDArray[np.complex128] | Array, right: NDArray[np.complex128] | Array
+    cells: OilCells,
+    full: np.ndarray,
+    storage: NDArray[np.complex128] | Array,
+    right: NDArray[np.complex128] | Array,
 ) -> NDArray[np.complex128] | Array:
     """Return the changes of P in full cells and of theta elsewhere that change the outflow so, sets frozen.
 
@@ -154,7 +162,10 @@ def _struct(cells: OilCells) -> tuple[OilCellsStruct, list[np.ndarray]]:
     lines, nodes = cells.opening.shape
     kept = [_float(row) for row in cells[:6]]
     old = None if cells.old is None else _float(cells.old)
-    sets = [np.ascontiguousarray(cells.opening, dtype=np.int32), np.ascontiguousarray(cells.fed, dtype=np.uint8)]
+    sets = [
+        np.ascontiguousarray(cells.opening, dtype=np.int32),
+        np.ascontiguousarray(cells.fed, dtype=np.uint8),
+    ]
     flow = _float(cells.flow)
     struct = OilCellsStruct(
         *(lines, nodes, *(row.ctypes.data for row in kept)),

@@ -39,7 +39,9 @@ def test_a_start_at_the_widest_gap_is_that_of_reynolds_rupture(eps, film_of):
     reynolds = ReynoldsFilm(cells=(288, 24), geometry=WIDEST)
     e = np.array([eps, 0.0])
     expected = reynolds.extrapolated(e, np.array([0.0, -0.5 * eps]), 1.0)[0]
-    forces = [film.force(solved(film, e)) for film in (film_of(WIDEST, (n, n // 12), 1.0) for n in (144, 288))]
+    forces = [
+        film.force(solved(film, e)) for film in (film_of(WIDEST, (n, n // 12), 1.0) for n in (144, 288))
+    ]
     extrapolated = forces[1] + (forces[1] - forces[0]) / 3.0
     np.testing.assert_allclose(extrapolated, expected, atol=3e-4 * np.hypot(*expected))
 

@@ -73,7 +73,9 @@ def test_stiffness_of_a_step_is_that_of_its_rate(case, request):
     np.testing.assert_allclose(step.solution.pressure, state.solution.pressure, atol=1e-12)
     K = step_stiffness(film, step)
     np.testing.assert_allclose(K, dynamic_stiffness(film, state, 1.5 / dt, as_stepped=True).real, rtol=1e-10)
-    expected = differences(lambda e: film.force(moved(film, e, storage=storage, guess=step.solution.full)), 1e-7)
+    expected = differences(
+        lambda e: film.force(moved(film, e, storage=storage, guess=step.solution.full)), 1e-7
+    )
     np.testing.assert_allclose(K, expected, atol=1e-7 * np.abs(expected).max())
 
 
