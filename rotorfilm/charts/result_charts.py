@@ -13,9 +13,9 @@ from ..answers import QuestionAnswer
 from ..bearings.contact import ContactRun
 from ..bearings.journal import FilmState, JFOState
 from ..errors import InputError
+from ..model import Array
 from ..readable.quantities import label_of
 from ..readable.result import Drawable
-from ..model import Array
 from ..results import Trajectory
 from .canvas import new_axes, new_figure
 from .comparisons.scene_ladder import RungPoint, plot_scene_ladder

@@ -1,4 +1,4 @@
-"""Small motions of a journal in a film that conserves its oil: exact derivatives with the cavity at its place."""
+"""Small motions of a journal in a film that conserves its oil: exact derivatives, the cavity at its place."""
 
 from __future__ import annotations
 
@@ -30,7 +30,9 @@ class SlowMotion(NamedTuple):
 def dynamic_stiffness(
     film: ConservedFilm, state: ConservedState, s: complex, *, as_stepped: bool = False
 ) -> Complex:
-    """Return K(s) of a steady film: dF = -K de for de e^(s t), shape (2, 2) [1/s]; K(0) is that of equilibria.
+    """Return K(s) of a steady film: dF = -K de for de e^(s t), shape (2, 2) [1/s].
+
+    K(0) is that of equilibria.
 
     Parameters
     ----------
@@ -38,9 +40,9 @@ def dynamic_stiffness(
     state : ConservedState
     s : complex [1/s]
     as_stepped : bool
-        Whether oil waves cross the cavity as in short steps in time on these cells, which blur them. By default
-        the storage of the cavity has (exp(2 s dxi/speed) - 1) speed/(2 dxi) in place of s, where cells resolve
-        the wave: they keep their exact phase.
+        Whether waves of oil cross the cavity as in short steps in time on these cells, which blur them. By
+        default they keep their phase: the storage of the cavity has (exp(2 s dxi/speed) - 1) speed/(2 dxi) in
+        place of s, where the cells resolve the wave.
     """
     moved, held = _slopes(film, state)
     rate = np.full(film.cells.extent.shape, complex(s)) if as_stepped else _wave_rate(film, state, s)

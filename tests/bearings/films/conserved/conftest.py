@@ -21,7 +21,7 @@ def supply():
 
 @pytest.fixture(scope="session")
 def film_of(supply):
-    """Return a function that makes the film of a geometry, its ends at a pressure above that of the cavity."""
+    """Return a function that makes the film of a geometry; `end` is the pressure at its ends."""
 
     def make(geometry, cells=(72, 6), slenderness=0.5, end=0.0):
         pressures = [end + (span.held or 0.0) for span in geometry.openings()]

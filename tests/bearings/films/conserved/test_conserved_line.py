@@ -23,7 +23,7 @@ def open_line(places):
 
 
 class Slider:
-    """Fowell et al. (2007), as in E. Hansen's study: lengths in 10 mm, gaps in um, U = 1 m/s, mu = .01 Pa s."""
+    """Fowell et al. (2007), as in E. Hansen's study: lengths in 10 mm, gaps in um, U = 1 m/s."""
 
     unit = 12.0 * 0.01 * (0.01 / 1e-6) ** 2  # Pa s
 

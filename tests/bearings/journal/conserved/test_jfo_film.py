@@ -89,10 +89,10 @@ def test_a_submerged_bearing_at_high_pressure_is_full():
     assert abs(fx) < 1e-6 * expected
     assert fy == pytest.approx(expected, rel=2e-3)
     K = film.slow_coefficients([0.0, 0.0], omega)
-    np.testing.assert_allclose(K.stiffness[0, 0], 0.0, atol=1e-6 * K.stiffness[1, 0])
+    np.testing.assert_allclose(K.stiffness[0, 0], 0.0, atol=1e-6 * abs(K.stiffness[1, 0]))
     # K and C of a centered full film: C = 2 K_xy/speed.
     np.testing.assert_allclose(
-        K.damping, 2.0 / omega * abs(K.stiffness[0, 1]) * np.eye(2), atol=1e-6 * K.damping.max()
+        K.damping, 2.0 / omega * abs(K.stiffness[0, 1]) * np.eye(2), rtol=1e-3, atol=1e-6 * K.damping.max()
     )
 
 
