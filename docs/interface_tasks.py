@@ -24,6 +24,7 @@ TASKS = {
         "linear.heated_equilibrium",
         "linear.rotor_rest",
         "results.Coefficients",
+        "bearings.at_frequency",
         "results.Equilibrium",
     ),
     "Stability, critical speeds, Campbell diagrams": (

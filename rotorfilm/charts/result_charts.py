@@ -11,8 +11,9 @@ from matplotlib.figure import Figure
 
 from ..answers import QuestionAnswer
 from ..bearings.contact import ContactRun
-from ..bearings.journal import FilmState
+from ..bearings.journal import FilmState, JFOState
 from ..errors import InputError
+from ..model import Array
 from ..readable.quantities import label_of
 from ..readable.result import Drawable
 from ..results import Trajectory
@@ -79,12 +80,14 @@ def plot_trajectory(run: Trajectory, *, axes: Sequence[Axes] | None = None) -> t
     return beside, below
 
 
-def plot_film(state: FilmState, *, axes: Axes | None = None) -> Axes:
+def plot_film(state: FilmState | JFOState, *, axes: Axes | None = None) -> Axes:
     """Draw the pressure [MPa] of a film, unwrapped: the angle in the bearing, and from end to end.
+
+    Of a film that conserves its oil there is a line too around what is not full.
 
     Parameters
     ----------
-    state : FilmState
+    state : FilmState or JFOState
     axes : Axes, optional
         Where to draw; a new figure by default.
     """
@@ -92,12 +95,19 @@ def plot_film(state: FilmState, *, axes: Axes | None = None) -> Axes:
         raise InputError("state must have a pressure field, as that of a ReynoldsFilm, got one without")
     axes = axes or new_axes("Pressure of the film")
     order = np.argsort(state.angle)
-    ends = np.concatenate([-state.axial[:0:-1], state.axial])
-    field = np.hstack([state.pressure[order, :0:-1], state.pressure[order]]) * 1e-6
-    shown = axes.pcolormesh(np.degrees(state.angle[order]), 1e3 * ends, field.T, shading="nearest")
+    first = 1 if state.axial[0] == 0.0 else 0
+    ends = np.concatenate([-state.axial[first:][::-1], state.axial])
+
+    def both_halves(numbers: Array) -> Array:
+        return np.hstack([numbers[order, first:][:, ::-1], numbers[order]]).T
+
+    places = np.degrees(state.angle[order]), 1e3 * ends
+    shown = axes.pcolormesh(*places, 1e-6 * both_halves(state.pressure), shading="nearest")
     figure = axes.get_figure()
     assert isinstance(figure, Figure)
     figure.colorbar(shown, ax=axes, label="pressure [MPa]")
+    if isinstance(state, JFOState) and state.oil_content.min() < 1.0:
+        axes.contour(*places, both_halves(state.oil_content), levels=[0.999], colors="white", linewidths=1.0)
     axes.set(xlabel="angle from +x towards +y [deg]", ylabel="axial [mm]")
     return axes
 
@@ -158,6 +168,7 @@ PICTURES: dict[str, Callable[..., Any]] = {
         result.trajectory.time, result.eccentricity_ratio, result.force, axes=axes
     ),
     "FilmState": plot_film,
+    "JFOState": plot_film,
     "ContactRun": plot_contact_run,
     "QuestionAnswer": plot_question,
 }

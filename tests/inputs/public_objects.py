@@ -7,6 +7,7 @@ import numpy as np
 import rotorfilm as rf
 
 BEARING = rf.JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
+SHORT_GROOVE = rf.Groove(center=1.0, width=0.2, length=0.01)
 BUSH = rf.f4k20_bush()
 STEEL = rf.ElasticMaterial(young_modulus=2.06e11, shear_modulus=8e10, density=7850.0)
 PIECE = rf.ShaftElement(
@@ -52,6 +53,11 @@ ANGULAR_CONTACT = rf.BallBearing(balls=8, ball_diameter=8e-3, pitch_diameter=0.0
 DAM_PADS = rf.pressure_dam_pads(depth=6e-5, end=2.5, share=0.75, preload=0.2)
 MADE = [
     BEARING,
+    rf.JFOFilm(
+        bearing=dataclasses.replace(BEARING, film=rf.ReynoldsFilm(), grooves=(SHORT_GROOVE,)),
+        supply_flow=2e-6,
+        cavitation_pressure=-5e4,
+    ),
     rf.Lobe(start=0.1, extent=1.0, preload=0.3, offset=0.6),
     LOBED,
     DAM_PADS[0],
@@ -76,7 +82,7 @@ MADE = [
         grooves=(rf.Groove(center=0.0, width=0.2),),
         supply_pressure=1e5,
     ),
-    rf.Groove(center=1.0, width=0.2, length=0.01),
+    SHORT_GROOVE,
     rf.FeedHole(center=1.0, diameter=0.004),
     rf.HeldLine(line=0.5),
     rf.Pad(start=1.0, extent=0.5),

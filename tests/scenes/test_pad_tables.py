@@ -195,5 +195,5 @@ def test_pads_without_a_map_are_answered_on_grids(table):
     answer = scene.ask()
     assert answer.met
     assert answer.model.startswith("2-D")
-    with pytest.raises(SceneError, match="length/diameter must be 0.05 to 20.0 for a map of a pad"):
+    with pytest.raises(SceneError, match=r"length/diameter must be 0\.05 to 20\.0 for a map of a pad"):
         scene_of(table.replace('length = "50 mm"', 'length = "4 mm"') + 'film = { name = "map" }\n')

@@ -79,7 +79,7 @@ static int invert(rf_piece pivot)
     return 1;
 }
 
-RF_CLONES
+RF_CLONES_OF_LOOPS
 static int factorize_rows(rf_border_band *band)
 {
     const size_t half = band->half, border = band->border;
@@ -138,7 +138,6 @@ static inline void take_product(size_t n, rf_piece row, rf_piece x, rf_piece y)
     y.imaginary[0] -= rf_product(n, row.real, x.imaginary) + rf_product(n, row.imaginary, x.real);
 }
 
-RF_CLONES
 static void forward(const rf_border_band *band, double *real, double *imaginary)
 {
     const size_t half = band->half, size = band->size;
@@ -151,7 +150,6 @@ static void forward(const rf_border_band *band, double *real, double *imaginary)
         take_product(size + b, in_last(band, b, 0), piece(real, imaginary, 0), piece(real, imaginary, size + b));
 }
 
-RF_CLONES
 static void backward(const rf_border_band *band, double *real, double *imaginary)
 {
     const size_t half = band->half, size = band->size, border = band->border;

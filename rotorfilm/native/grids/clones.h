@@ -22,4 +22,11 @@
 #define RF_CLONES
 #endif
 
+/* The same of what only the library of loops has. */
+#if !defined(RF_SUBSET) || RF_SUBSET == RF_ROTORFILM_LOOPS
+#define RF_CLONES_OF_LOOPS RF_CLONES
+#else
+#define RF_CLONES_OF_LOOPS
+#endif
+
 #endif

@@ -93,7 +93,7 @@ class ConservedState(NamedTuple):
 
     @property
     def content(self) -> Array:
-        """theta H of every cell, shape (N, M): what the next step starts from."""
+        """Oil theta H of every cell, shape (N, M): what the next step starts from."""
         return self.solution.theta * self.gap.line[:, None]
 
 
@@ -255,7 +255,7 @@ class ConservedFilm:
         return OilFlows(
             out=float(np.maximum(ends, 0.0).sum()),
             drawn_in=float(np.maximum(-ends, 0.0).sum()),
-            inflow=inflow,
+            inflow=np.asarray(inflow, dtype=float),
             defect=float(np.abs(outflow[film]).sum()),
         )
 

@@ -1,4 +1,4 @@
-"""Small motions of a journal in a film that conserves its oil: exact derivatives with the cavity at its place."""
+"""Small motions of a journal in a film that conserves its oil: exact derivatives, the cavity at its place."""
 
 from __future__ import annotations
 
@@ -27,14 +27,27 @@ class SlowMotion(NamedTuple):
     damping: Array
 
 
-def dynamic_stiffness(film: ConservedFilm, state: ConservedState, s: complex) -> Complex:
+def dynamic_stiffness(
+    film: ConservedFilm, state: ConservedState, s: complex, *, as_stepped: bool = False
+) -> Complex:
     """Return K(s) of a steady film: dF = -K de for de e^(s t), shape (2, 2) [1/s].
 
-    The storage of the cavity is (exp(2 s dxi/speed) - 1) speed/(2 dxi) in place of s, which carries waves of
-    oil through it at their exact phase; K(0) is that of equilibria.
+    K(0) is that of equilibria.
+
+    Parameters
+    ----------
+    film : ConservedFilm
+    state : ConservedState
+    s : complex [1/s]
+    as_stepped : bool
+        Whether waves of oil cross the cavity as in short steps in time on these cells, which blur them. By
+        default they keep their phase: the storage of the cavity has (exp(2 s dxi/speed) - 1) speed/(2 dxi) in
+        place of s, where the cells resolve the wave.
     """
     moved, held = _slopes(film, state)
-    change = oil_response(state.equations, state.solution.full, _waves(film, state, s), -(moved + s * held))
+    rate = np.full(film.cells.extent.shape, complex(s)) if as_stepped else _wave_rate(film, state, s)
+    room = np.where(state.solution.full, 0.0, (rate * state.gap.line)[:, None] * film.cells.area)
+    change = oil_response(state.equations, state.solution.full, room, -(moved + s * held))
     return _stiffness(film, state, change)
 
 
@@ -80,12 +93,13 @@ def _slopes(film: ConservedFilm, state: ConservedState) -> tuple[Array, Array]:
     return np.array(moved), held
 
 
-def _waves(film: ConservedFilm, state: ConservedState, s: complex) -> Complex:
-    """Return the storage of theta where the cells are not full."""
-    cells, speed = film.cells, 2.0 * abs(state.rate)
-    dxi = cells.extent
-    rate = np.full(dxi.shape, s) if speed == 0.0 else np.expm1(2.0 * s * dxi / speed) * speed / (2.0 * dxi)
-    return np.asarray(np.where(state.solution.full, 0.0, (rate * state.gap.line)[:, None] * cells.area), dtype=complex)
+def _wave_rate(film: ConservedFilm, state: ConservedState, s: complex) -> Complex:
+    """Return what stands for s in the storage of the cavity, shape (N,)."""
+    speed = 2.0 * abs(state.rate)
+    turn = 2.0 * s * film.cells.extent
+    resolved = np.abs(turn) <= speed
+    phase = np.where(resolved, turn, 0.0) / (speed or 1.0)
+    return np.asarray(s * np.where(phase == 0.0, 1.0, np.expm1(phase) / np.where(phase == 0.0, 1.0, phase)))
 
 
 def _stiffness(film: ConservedFilm, state: ConservedState, change: Complex | Array) -> Complex:

@@ -92,7 +92,12 @@ def oil_outflow(cells: OilCells, pressure: Array, theta: Array) -> Array:
 
 
 def solve_oil(
-    cells: OilCells, pressure: Array, theta: Array, guess: np.ndarray | None = None, *, by_newton: bool = False
+    cells: OilCells,
+    pressure: Array,
+    theta: Array,
+    guess: np.ndarray | None = None,
+    *,
+    by_newton: bool = False,
 ) -> OilSolution:
     """Return the film with P >= 0, theta <= 1 and P (1 - theta) = 0.
 
@@ -122,7 +127,10 @@ def solve_oil(
 
 
 def oil_response(
-    cells: OilCells, full: np.ndarray, storage: NDArray[np.complex128] | Array, right: NDArray[np.complex128] | Array
+    cells: OilCells,
+    full: np.ndarray,
+    storage: NDArray[np.complex128] | Array,
+    right: NDArray[np.complex128] | Array,
 ) -> NDArray[np.complex128] | Array:
     """Return the changes of P in full cells and of theta elsewhere that change the outflow so, sets frozen.
 
@@ -136,33 +144,40 @@ def oil_response(
         Changes of the outflow, of the same kind.
     """
     struct, kept = _struct(cells)
-    is_complex = np.iscomplexobj(storage)
-    parts = [np.ascontiguousarray(part.real, dtype=float) for part in (storage, right)]
-    others = [np.ascontiguousarray(part.imag, dtype=float) for part in (storage, right) if is_complex]
-    parts[1], others[1:] = parts[1].copy(), [other.copy() for other in others[1:]]
     sets = np.ascontiguousarray(full, dtype=np.uint8)
-    real, imaginary = [p.ctypes.data for p in parts], [p.ctypes.data for p in others] or [None, None]
-    places = sets.ctypes.data, real[0], imaginary[0], len(right), real[1], imaginary[1]
+    real = _float(storage.real), np.array(right.real, dtype=float, order="C")
+    others = (_float(storage.imag), np.array(right.imag, dtype=float, order="C"))
+    imaginary = [part.ctypes.data if np.iscomplexobj(storage) else None for part in others]
+    places = (
+        sets.ctypes.data,
+        real[0].ctypes.data,
+        imaginary[0],
+        len(right),
+        real[1].ctypes.data,
+        imaginary[1],
+    )
     status = loops()["rf_oil_response"](byref(struct), *places)
     del kept
     _report(status)
-    return parts[1] + 1j * others[1] if is_complex else parts[1]
+    return real[1] + 1j * others[1] if np.iscomplexobj(storage) else real[1]
 
 
 def _struct(cells: OilCells) -> tuple[OilCellsStruct, list[np.ndarray]]:
     """Return what C reads, and the arrays that it must outlive."""
     lines, nodes = cells.opening.shape
-    kept = [_float(row) for row in cells[:6]]
-    old = None if cells.old is None else _float(cells.old)
-    sets = [np.ascontiguousarray(cells.opening, dtype=np.int32), np.ascontiguousarray(cells.fed, dtype=np.uint8)]
-    flow = _float(cells.flow)
+    kept: list[np.ndarray] = [_float(row) for row in (*cells[:6], cells.flow)]
+    kept += [
+        np.ascontiguousarray(cells.opening, dtype=np.int32),
+        np.ascontiguousarray(cells.fed, dtype=np.uint8),
+    ]
+    *factors, flow, opening, fed = [row.ctypes.data for row in kept]
+    if cells.old is not None:
+        kept.append(_float(cells.old))
+    old = None if cells.old is None else kept[-1].ctypes.data
     struct = OilCellsStruct(
-        *(lines, nodes, *(row.ctypes.data for row in kept)),
-        *cells[6:9],
-        *(None if old is None else old.ctypes.data, *(row.ctypes.data for row in sets), flow.ctypes.data),
-        *(len(flow), cells.backward),
+        *(lines, nodes, *factors, *cells[6:9], old, opening, fed, flow, len(cells.flow), cells.backward)
     )
-    return struct, [*kept, *sets, flow, *([] if old is None else [old])]
+    return struct, kept
 
 
 def _float(numbers: Array) -> Array:

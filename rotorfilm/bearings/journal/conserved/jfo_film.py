@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ....errors import (
-    ConvergenceError,
     InputError,
     require_finite,
     require_inside,
@@ -50,9 +49,9 @@ class JFOFilm:
     Parameters
     ----------
     bearing : JournalBearing
-        With what feeds it: grooves of a length, feed holes, a circumferential groove, or grooves over the whole
-        length at ambient pressure. Gaps between pads are full of oil at ambient pressure. Its own film law has
-        no part.
+        With what feeds it: grooves of a length, feed holes, a circumferential groove, or grooves over the
+        whole length at ambient pressure. Gaps between pads are full of oil at ambient pressure. Its own film
+        law has no part.
     cells : tuple of int
         Lines around the film and cells along half the length, about; even numbers.
     supply_flow : float or None [m3/s]
@@ -147,7 +146,7 @@ class JFOFilm:
         return found
 
     def complex_stiffness(self, position: ArrayLike, speed: float, s: complex) -> NDArray[np.complex128]:
-        """Return K(s), shape (2, 2) [N/m]: the force on a journal that moves as q e^(s t) about a position is -K q.
+        """Return K(s), shape (2, 2) [N/m]: -K q e^(s t) is the change of the force when the journal moves so.
 
         Parameters
         ----------

@@ -9,8 +9,8 @@ from ...films.conserved.conserved_film import Supply
 from ..bearing import JournalBearing
 
 REMEDY = (
-    "a groove or a feed hole (grooves=(Groove(...),) of the bearing), or ends in an oil bath with a cavity below "
-    "ambient (submerged=True, cavitation_pressure=-1e5)"
+    "a groove or a feed hole (grooves=(Groove(...),) of the bearing), or ends in an oil bath with a cavity "
+    "below ambient (submerged=True, cavitation_pressure=-1e5)"
 )
 
 
@@ -28,7 +28,8 @@ def oil_supply(
     end = -cavitation_pressure / bearing.pressure_scale
     if not (openings or geometry.circumferential or (submerged and end > 0.0)):
         raise InputError(
-            f"bearing must have a supply, without which a film that conserves its oil runs dry: {REMEDY}, got none"
+            "bearing must have a supply, without which a film that conserves its oil runs dry: "
+            f"{REMEDY}, got none"
         )
     _require_no_open_groove(bearing, supply_flow)
     count, flow = len(openings), 0.0
@@ -49,8 +50,9 @@ def _require_no_open_groove(bearing: JournalBearing, supply_flow: float | None) 
     """Raise InputError for a groove open at both ends of the bearing that is to have a pressure."""
     if bearing.geometry.grooves and (bearing.supply_pressure > 0.0 or supply_flow is not None):
         raise InputError(
-            "grooves with a supply must end within the bearing, or their flow has no limit: give them a length, "
-            f"as Groove(center=..., width=..., length={0.8 * bearing.length:g}), got {bearing.geometry.grooves[0]!r}"
+            "grooves with a supply must end within the bearing, or their flow has no limit: give them a "
+            f"length, as Groove(center=..., width=..., length={0.8 * bearing.length:g}), "
+            f"got {bearing.geometry.grooves[0]!r}"
         )
 
 
@@ -58,7 +60,8 @@ def _require_closed(bearing: JournalBearing) -> None:
     """Raise InputError unless every opening is one that can be given a flow."""
     if bearing.pads or not bearing.geometry.pockets or bearing.geometry.circumferential:
         raise InputError(
-            "supply_flow must be None but for a bearing all of whose openings are grooves of a length or feed holes"
+            "supply_flow must be None unless all openings of the bearing are grooves of a length or feed "
+            f"holes, got {bearing!r}"
         )
     if bearing.supply_pressure > 0.0:
         raise InputError(
