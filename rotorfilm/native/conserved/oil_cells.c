@@ -85,13 +85,20 @@ typedef struct rf_oil_parts {
     const rf_oil_cells *cells;
     const int32_t *place;
     rf_border_band *band;
+    int32_t size;
+    size_t stride;
 } rf_oil_parts;
 
 static inline void add(const rf_oil_parts *parts, size_t row, size_t column, double value)
 {
     const int32_t at = parts->place[row], of = parts->place[column];
-    if (at >= 0 && of >= 0)
-        rf_add_to_band(parts->band, (size_t)at, (size_t)of, value, 0.0);
+    rf_border_band *band = parts->band;
+    if (at < 0 || of < 0)
+        return;
+    if (at < parts->size && of < parts->size)
+        band->rows[(size_t)at * parts->stride + band->half + (size_t)of - (size_t)at] += value;
+    else
+        rf_add_to_band(band, (size_t)at, (size_t)of, value, 0.0);
 }
 
 /* What leaves one cell for another, in proportion to the unknown of the first. */
@@ -141,7 +148,7 @@ static void fill_empty_rows(const rf_oil_parts *parts, size_t cut)
 void rf_set_oil_matrix(const rf_oil_cells *cells, const rf_oil_places *places, const double *by_pressure,
                        const double *by_theta, const double *real, const double *imaginary, rf_border_band *band)
 {
-    const rf_oil_parts parts = {cells, places->place, band};
+    const rf_oil_parts parts = {cells, places->place, band, (int32_t)band->size, rf_band_stride(band)};
     const size_t numbers = rf_band_numbers(band);
     memset(band->rows, 0, numbers * sizeof(double));
     if (band->imaginary_rows)
