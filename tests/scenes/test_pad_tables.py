@@ -10,19 +10,18 @@ from rotorfilm.bearings.pads import (
     Lobe,
     LobedBearing,
     PadGridFilm,
-    PadMapFilm,
     PressureDamBearing,
     TiltingPadBearing,
     even_pivots,
     lobe_set,
     pressure_dam_pads,
 )
-from rotorfilm.bearings.pads.pad_build import PadResolution
 from rotorfilm.errors import SceneError
 from rotorfilm.fmu import describe_fmu
 from rotorfilm.linear import coefficients, equilibrium
 from rotorfilm.scenes.export_scene import export_scene
 from rotorfilm.scenes.pads import lobed_table, tilting_table
+from rotorfilm.scenes.pads.lobed_candidates import COARSE_MAP
 from rotorfilm.scenes.pads.pad_remarks import pad_numbers
 from rotorfilm.scenes.scene import parse_scene
 
@@ -165,9 +164,8 @@ def test_warming_is_that_of_a_pad_that_keeps_its_heat():
     ("table", "states"), [(ELLIPTICAL, 0), (STEP, 0), (FIVE, 5)], ids=["lobes", "dam", "tilting"]
 )
 def test_bearing_and_rotor_become_fmus_that_start_at_rest(tmp_path, monkeypatch, table, states):
-    coarse = PadMapFilm(resolution=PadResolution(cells=(32, 4), nodes=(8, 9, 24)))
     for home in (lobed_table, tilting_table):
-        monkeypatch.setattr(home, "usual_film", lambda *_: coarse)
+        monkeypatch.setattr(home, "usual_film", lambda *_: COARSE_MAP)
     monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path / "cache"))
     scene = scene_of(table)
     made = export_scene(scene, tmp_path)
