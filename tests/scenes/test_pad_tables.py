@@ -10,19 +10,18 @@ from rotorfilm.bearings.pads import (
     Lobe,
     LobedBearing,
     PadGridFilm,
-    PadMapFilm,
     PressureDamBearing,
     TiltingPadBearing,
     even_pivots,
     lobe_set,
     pressure_dam_pads,
 )
-from rotorfilm.bearings.pads.pad_build import PadResolution
 from rotorfilm.errors import SceneError
 from rotorfilm.fmu import describe_fmu
 from rotorfilm.linear import coefficients, equilibrium
 from rotorfilm.scenes.export_scene import export_scene
 from rotorfilm.scenes.pads import lobed_table, tilting_table
+from rotorfilm.scenes.pads.lobed_candidates import COARSE_MAP
 from rotorfilm.scenes.pads.pad_remarks import pad_numbers
 from rotorfilm.scenes.scene import parse_scene
 
@@ -168,9 +167,8 @@ def test_warming_is_that_of_a_pad_that_keeps_its_heat():
     ("table", "states"), [(ELLIPTICAL, 0), (STEP, 0), (FIVE, 5)], ids=["lobes", "dam", "tilting"]
 )
 def test_bearing_and_rotor_become_fmus_that_start_at_rest(tmp_path, monkeypatch, table, states):
-    coarse = PadMapFilm(resolution=PadResolution(cells=(16, 4), nodes=(8, 7, 16)))
     for home in (lobed_table, tilting_table):
-        monkeypatch.setattr(home, "usual_film", lambda *_: coarse)
+        monkeypatch.setattr(home, "usual_film", lambda *_: COARSE_MAP)
     monkeypatch.setenv("ROTORFILM_CACHE", str(tmp_path / "cache"))
     scene = scene_of(table)
     made = export_scene(scene, tmp_path)
@@ -188,12 +186,11 @@ def test_bearing_and_rotor_become_fmus_that_start_at_rest(tmp_path, monkeypatch,
 def test_pads_without_a_map_are_answered_on_grids(table):
     """A bearing of L/D .04, which no map of a pad has."""
     question = '[question]\nquantity = "eccentricity_ratio"\ntolerance = 0.2\n'
-    scene = scene_of(
-        table.replace('length = "50 mm"', 'length = "4 mm"'), RUN.replace("3 kN", "10 N") + question
-    )
+    short = table.replace('length = "50 mm"', 'length = "4 mm"')
+    scene = scene_of(short, RUN.replace("3 kN", "10 N") + question)
     assert isinstance(scene.bearing.film, PadGridFilm)
     answer = scene.ask()
     assert answer.met
     assert answer.model.startswith("2-D")
     with pytest.raises(SceneError, match=r"length/diameter must be 0\.05 to 20\.0 for a map of a pad"):
-        scene_of(table.replace('length = "50 mm"', 'length = "4 mm"') + 'film = { name = "map" }\n')
+        scene_of(short + 'film = { name = "map" }\n')

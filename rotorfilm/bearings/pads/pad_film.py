@@ -121,12 +121,13 @@ def _loss_map(film: PadMapFilm, extent: float, slenderness: float) -> PadLossMap
 class PadGridFilm:
     """The two-dimensional film of a pad: Reynolds' equation by finite volumes, extrapolated from two grids.
 
+    Its errors are measured as those of `PadMapFilm`.
+
     Parameters
     ----------
     cells : (int, int)
         Cells along the pad and along half its length: multiples of 4, at least 16 and 4. The force is
-        extrapolated from these and half as many; that of 96 x 8 is within 1e-3 in 99 of 100 states, in the
-        measure of `PadMapFilm`.
+        extrapolated from these and half as many; that of 96 x 8 is within 1e-3 in 99 of 100 states.
 
     Raises
     ------
