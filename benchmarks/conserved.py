@@ -3,10 +3,11 @@
     python benchmarks/conserved.py
 
 1 Nine bearings at given load by JFOFilm on 144 x 10 cells: eccentricity ratio, attitude angle, side flow over
-  clearance radius length speed, torque, stiffness and damping at half the speed over load/clearance. Below each, by
-  how much Reynolds rupture with the same openings differs.
-2 200 random bearings on 144 x 10 cells by the active set and by Newton's method: largest difference of pressure
-  over the largest, of the oil content, the balance of mass over the side flow, and the solutions they take.
+  clearance radius length speed, torque, stiffness and damping at half the speed over load/clearance. Below
+  each, by how much Reynolds rupture with the same openings differs.
+2 200 random bearings on 144 x 10 cells by the active set and by Newton's method: largest difference of
+  pressure over the largest, of the oil content, the balance of mass over the side flow, and the solutions that
+  they take.
 3 CPU time of a state over that of ReynoldsFilm with the same openings on 144 x 12 cells, of stiffness and
   damping, and of an equilibrium.
 """
@@ -29,7 +30,7 @@ from rotorfilm import (
     coefficients,
     equilibrium,
 )
-from rotorfilm.bearings.films.conserved.conserved_film import circular_gap, Gap
+from rotorfilm.bearings.films.conserved.conserved_film import circular_gap
 
 RADIUS, CLEARANCE, VISCOSITY, SPEED = 0.05, 1e-4, 0.02, 314.0
 BAR = 0.0053 * SPEED * 12.0 * VISCOSITY * (RADIUS / CLEARANCE) ** 2
@@ -178,8 +179,8 @@ def costs() -> None:
         motion = cpu(lambda q=q, film=film: film.complex_stiffness(q, SPEED, 0.5j * SPEED)) - conserved
         whole = cpu(lambda film=film, load=load: equilibrium(film, load, SPEED), 3)
         print(
-            f"{name:42}: {conserved:.2f} ms, {conserved / reynolds:.2f} of Reynolds; K(s) {motion:.2f} ms more; "
-            f"equilibrium {whole:.1f} ms"
+            f"{name:42}: {conserved:.2f} ms, {conserved / reynolds:.2f} of Reynolds; "
+            f"K(s) {motion:.2f} ms more; equilibrium {whole:.1f} ms"
         )
 
 
