@@ -79,8 +79,7 @@ static int invert(rf_piece pivot)
     return 1;
 }
 
-RF_CLONES_OF_LOOPS
-static int factorize_rows(rf_border_band *band)
+static inline int factorize_rows(const rf_border_band *band)
 {
     const size_t half = band->half, border = band->border;
     for (size_t p = 0; p < band->size; ++p) {
@@ -107,7 +106,15 @@ static int factorize_rows(rf_border_band *band)
     return RF_OK;
 }
 
-static int factorize_corner(rf_border_band *band)
+/* The same, but the compiler knows that all is real. */
+RF_CLONES_OF_LOOPS
+static int factorize_real_rows(const rf_border_band *band)
+{
+    const rf_border_band real = {band->size, band->half, band->border, band->rows, band->last, NULL, NULL};
+    return factorize_rows(&real);
+}
+
+static int factorize_corner(const rf_border_band *band)
 {
     const size_t size = band->size, border = band->border;
     for (size_t p = 0; p < border; ++p) {
@@ -124,7 +131,7 @@ static int factorize_corner(rf_border_band *band)
 
 int rf_factorize_band(rf_border_band *band)
 {
-    const int status = factorize_rows(band);
+    const int status = band->imaginary_rows ? factorize_rows(band) : factorize_real_rows(band);
     return status == RF_OK ? factorize_corner(band) : status;
 }
 
@@ -138,7 +145,7 @@ static inline void take_product(size_t n, rf_piece row, rf_piece x, rf_piece y)
     y.imaginary[0] -= rf_product(n, row.real, x.imaginary) + rf_product(n, row.imaginary, x.real);
 }
 
-static void forward(const rf_border_band *band, double *real, double *imaginary)
+static inline void forward(const rf_border_band *band, double *real, double *imaginary)
 {
     const size_t half = band->half, size = band->size;
     for (size_t p = 1; p < size; ++p) {
@@ -150,7 +157,7 @@ static void forward(const rf_border_band *band, double *real, double *imaginary)
         take_product(size + b, in_last(band, b, 0), piece(real, imaginary, 0), piece(real, imaginary, size + b));
 }
 
-static void backward(const rf_border_band *band, double *real, double *imaginary)
+static inline void backward(const rf_border_band *band, double *real, double *imaginary)
 {
     const size_t half = band->half, size = band->size, border = band->border;
     for (size_t b = border; b-- > 0;) {
@@ -166,8 +173,20 @@ static void backward(const rf_border_band *band, double *real, double *imaginary
     }
 }
 
+RF_CLONES_OF_LOOPS
+static void solve_real(const rf_border_band *band, double *x)
+{
+    const rf_border_band real = {band->size, band->half, band->border, band->rows, band->last, NULL, NULL};
+    forward(&real, x, NULL);
+    backward(&real, x, NULL);
+}
+
 void rf_solve_band(const rf_border_band *band, double *real, double *imaginary)
 {
+    if (!imaginary) {
+        solve_real(band, real);
+        return;
+    }
     forward(band, real, imaginary);
     backward(band, real, imaginary);
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../status.h"
+#include "coarser_oil.h"
 
 #define MORE 60      /* solutions of a search beyond one for each line, by which an edge moves at least */
 #define NOISE 1e-13  /* of the largest pressure, or of theta: no reason to move a cell */
@@ -209,13 +210,29 @@ static int search_by_newton(rf_oil_solver *solver, uint8_t *full, double *pressu
     return RF_STUCK;
 }
 
+/* Full where the film on half the cells is; RF_UNDEFINED without such cells, or such a film. */
+static int guess_from_coarser(const rf_oil_cells *cells, uint8_t *full, const double *pressure, const double *theta)
+{
+    rf_coarser_oil coarser;
+    rf_oil_work work;
+    if (!rf_has_coarser_oil(cells))
+        return RF_UNDEFINED;
+    int status = rf_open_coarser_oil(&coarser, cells, pressure, theta);
+    if (status == RF_OK)
+        status = rf_oil_film(&coarser.cells, RF_BY_SETS, 0, coarser.full, coarser.pressure, coarser.theta, &work);
+    if (status == RF_OK)
+        rf_refine_full(&coarser, full);
+    rf_close_coarser_oil(&coarser);
+    return status == RF_OK ? RF_OK : RF_UNDEFINED;
+}
+
 int rf_oil_film(const rf_oil_cells *cells, int method, int guessed, uint8_t *full, double *pressure, double *theta,
                 rf_oil_work *work)
 {
     rf_oil_solver solver;
     int status = open_solver(&solver, cells, 0);
     if (status == RF_OK) {
-        if (!guessed)
+        if (!guessed && (method == RF_BY_NEWTON || guess_from_coarser(cells, full, pressure, theta) != RF_OK))
             guess_sets(&solver, full, pressure, theta);
         status = method == RF_BY_SETS ? search_sets(&solver, full, pressure, theta) : RF_STUCK;
         if (status == RF_STUCK) {

@@ -78,15 +78,6 @@ class ConservedCells(NamedTuple):
         """1/distance from the first cell to a groove at mid-length; 0 without one."""
         return 2.0 / float(self.width[0]) if self.grooved else 0.0
 
-    def coarser(self) -> ConservedCells | None:
-        """Return the cells with every second line and pairs along; None where they do not go into pairs."""
-        lines, nodes = self.opening.shape
-        if lines % 2 or nodes % 2 or lines < 16:
-            return None
-        pairs = self.width.reshape(-1, 2).sum(axis=1)
-        spacing = self.spacing.reshape(-1, 2).sum(axis=1)
-        return ConservedCells(self.angle[::2], spacing, pairs, self.opening[::2, ::2], self.grooved)
-
 
 def require_conserved_cells(cells: object) -> None:
     """Raise InputError unless these are possible cells around the film and along half the length."""

@@ -155,12 +155,6 @@ class ConservedFilm:
     supply: Supply
 
     @cached_property
-    def coarser(self) -> ConservedFilm | None:
-        """The film on half the cells both ways, from which a search without a guess starts."""
-        cells = self.cells.coarser()
-        return None if cells is None else ConservedFilm(cells, self.slenderness, self.supply)
-
-    @cached_property
     def _grid(self) -> tuple[Array, Array, Array, np.ndarray, np.ndarray]:
         """Extents, areas, conductances, and pressure and theta with the values of held openings."""
         cells, supply = self.cells, self.supply
@@ -189,7 +183,7 @@ class ConservedFilm:
         storage : Storage, optional
             Of a step; None for the steady film.
         guess : ndarray, shape (N, M), optional
-            Cells that may be full.
+            Cells that may be full; by default those of the film on half the cells.
         by_newton : bool
             Whether to search without sets, by the method of the fallback.
 
@@ -199,18 +193,8 @@ class ConservedFilm:
             If the film has no supply, so that it empties, or the search does not end.
         """
         equations = self.equations(gap, rate, storage)
-        if guess is None and storage is None and not by_newton:
-            guess = self._guess(gap, rate)
         found = solve_oil(equations, *self._grid[3:], guess, by_newton=by_newton)
         return ConservedState(gap, rate, equations, found)
-
-    def _guess(self, gap: Gap, rate: float) -> np.ndarray | None:
-        """Return where the film on half the cells is full."""
-        if self.coarser is None:
-            return None
-        between = Gap(gap.line[::2], gap.line[1::2], gap.line[1::2] ** 3)
-        full = self.coarser.solve(between, rate).solution.full
-        return np.repeat(np.repeat(full, 2, axis=0), 2, axis=1)
 
     def equations(self, gap: Gap, rate: float, storage: Storage | None = None) -> OilCells:
         """Return the equations of the film in a gap."""

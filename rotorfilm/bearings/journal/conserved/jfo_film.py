@@ -14,8 +14,8 @@ from ....errors import (
     require_finite,
     require_inside,
     require_kind,
-    require_non_negative,
     require_number,
+    require_positive,
     warn_user,
 )
 from ....inputs.si_arguments import quantities
@@ -98,7 +98,7 @@ class JFOFilm:
         require_kind("bearing", self.bearing, JournalBearing, "a JournalBearing")
         require_conserved_cells(self.cells)
         if self.supply_flow is not None:
-            require_non_negative("supply_flow", self.supply_flow)
+            require_positive("supply_flow", self.supply_flow)
         if not require_number("cavitation_pressure", self.cavitation_pressure) <= 0.0:
             raise InputError(f"cavitation_pressure must not be above 0, got {self.cavitation_pressure!r}")
         self.bearing.require_temperature()

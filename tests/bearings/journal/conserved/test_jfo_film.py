@@ -191,7 +191,7 @@ def test_bearings_that_it_refuses(given, message):
     [
         ({"cells": (143, 10)}, "cells must be two even numbers"),
         ({"cavitation_pressure": 1.0}, "cavitation_pressure must not be above 0, got 1.0"),
-        ({"supply_flow": -1.0}, "supply_flow must be finite and not negative"),
+        ({"supply_flow": 0.0}, "supply_flow must be finite and positive"),
         ({"supply_flow": 1e-6, "bearing": bearing(supply_pressure=1e5)}, "supply_pressure must be 0 where"),
         ({"supply_flow": 1e-6, "bearing": bearing(grooves=(Groove(center=0.0),))}, "must end within"),
         ({"bearing": bearing(grooves=()), "submerged": True}, "must have a supply"),

@@ -1,0 +1,96 @@
+#include "coarser_oil.h"
+
+#include <stdlib.h>
+
+#include "../status.h"
+
+#define FEWEST_LINES 16
+
+int rf_has_coarser_oil(const rf_oil_cells *fine)
+{
+    return fine->lines % 2 == 0 && fine->nodes % 2 == 0 && fine->lines >= FEWEST_LINES;
+}
+
+/* Of a line and half of those beside it, their numbers one stride apart. */
+static double around_line(const rf_oil_cells *fine, const double *numbers, size_t i, size_t stride)
+{
+    const size_t before = i > 0 ? i - 1 : fine->lines - 1;
+    return numbers[i * stride] + 0.5 * (numbers[before * stride] + numbers[(i + 1) * stride]);
+}
+
+static double in_series(const double *c, size_t j, size_t nodes)
+{
+    const double within = 1.0 / c[j] + 0.5 / c[j - 1];
+    return 1.0 / (j + 1 < nodes ? within + 0.5 / c[j + 1] : within);
+}
+
+static void set_lines(const rf_oil_cells *fine, double *wedge, double *around, double *along, double *store)
+{
+    for (size_t i = 0; i < fine->lines; i += 2) {
+        const double both = fine->around[i] + fine->around[i + 1];
+        *wedge++ = 0.5 * (fine->wedge[i] + fine->wedge[i + 1]);
+        *around++ = both > 0.0 ? fine->around[i] * fine->around[i + 1] / both : 0.0;
+        *along++ = around_line(fine, fine->along, i, 1);
+        *store++ = around_line(fine, fine->store, i, 1);
+    }
+}
+
+static void set_cells(const rf_oil_cells *fine, double *conductance, double *old, int32_t *opening)
+{
+    const size_t nodes = fine->nodes;
+    for (size_t i = 0; i < fine->lines; i += 2)
+        for (size_t j = 0; j < nodes; j += 2) {
+            *conductance++ = in_series(fine->conductance + i * nodes, j + 1, nodes);
+            *opening++ = fine->opening[i * nodes + j];
+            if (fine->old)
+                *old++ = around_line(fine, fine->old + j, i, nodes) + around_line(fine, fine->old + j + 1, i, nodes);
+        }
+}
+
+int rf_open_coarser_oil(rf_coarser_oil *coarser, const rf_oil_cells *fine, const double *pressure,
+                        const double *theta)
+{
+    const size_t n = fine->lines / 2, m = fine->nodes / 2, all = n * m;
+    double *lines = malloc((4 * n + m + 4 * all) * sizeof(double) + all * (sizeof(int32_t) + 1));
+    coarser->memory = lines;
+    if (!lines)
+        return RF_MEMORY;
+    double *width = lines + 4 * n, *conductance = width + m, *old = conductance + all;
+    coarser->pressure = old + all;
+    coarser->theta = coarser->pressure + all;
+    int32_t *opening = (int32_t *)(coarser->theta + all);
+    coarser->full = (uint8_t *)(opening + all);
+    set_lines(fine, lines, lines + n, lines + 2 * n, lines + 3 * n);
+    set_cells(fine, conductance, old, opening);
+    for (size_t j = 0; j < m; ++j)
+        width[j] = fine->width[2 * j] + fine->width[2 * j + 1];
+    for (size_t q = 0; q < all; ++q) {
+        coarser->pressure[q] = pressure[2 * (q / m) * fine->nodes + 2 * (q % m)];
+        coarser->theta[q] = theta[2 * (q / m) * fine->nodes + 2 * (q % m)];
+    }
+    coarser->cells = *fine;
+    coarser->cells.lines = n;
+    coarser->cells.nodes = m;
+    coarser->cells.wedge = lines;
+    coarser->cells.around = lines + n;
+    coarser->cells.along = lines + 2 * n;
+    coarser->cells.store = lines + 3 * n;
+    coarser->cells.width = width;
+    coarser->cells.conductance = conductance;
+    coarser->cells.center = fine->center > 0.0 ? 1.0 / (1.0 / fine->center + 0.5 / fine->conductance[0]) : 0.0;
+    coarser->cells.old = fine->old ? old : NULL;
+    coarser->cells.opening = opening;
+    return RF_OK;
+}
+
+void rf_close_coarser_oil(rf_coarser_oil *coarser)
+{
+    free(coarser->memory);
+}
+
+void rf_refine_full(const rf_coarser_oil *coarser, uint8_t *full)
+{
+    const size_t m = coarser->cells.nodes, nodes = 2 * m;
+    for (size_t q = 0; q < 2 * coarser->cells.lines * nodes; ++q)
+        full[q] = coarser->full[q / nodes / 2 * m + q % nodes / 2];
+}
