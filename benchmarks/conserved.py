@@ -6,8 +6,7 @@
   clearance radius length speed, torque, stiffness and damping at half the speed over load/clearance. Below
   each, by how much Reynolds rupture with the same openings differs.
 2 200 random bearings on 144 x 10 cells by the active set and by Newton's method: largest difference of
-  pressure over the largest, of the oil content, the balance of mass over the side flow, and the solutions that
-  they take.
+  pressure over the largest, of the oil content, the balance of mass over the side flow, and the solutions.
 3 CPU time of a state over that of ReynoldsFilm with the same openings on 144 x 12 cells, of stiffness and
   damping, and of an equilibrium.
 """
