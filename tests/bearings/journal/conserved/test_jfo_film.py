@@ -217,7 +217,11 @@ def test_ends_in_air_that_draw_in_are_told():
     film = JFOFilm(bearing=bearing(grooves=(TOP,)), cells=(72, 6), cavitation_pressure=-5e4)
     with pytest.warns(ValidityWarning, match="submerged must be True"):
         film.solve(HERE, omega)
-    dataclasses.replace(film, submerged=True).solve(HERE, omega)
+    state = dataclasses.replace(film, submerged=True).solve(HERE, omega)
+    assert state.pressure.min() == -5e4
+    assert state.drawn_in > 0.01 * state.side_flow
+    assert state.inflow.sum() + state.drawn_in == pytest.approx(state.side_flow, rel=1e-10)
+    np.testing.assert_array_equal(state.pressure[state.oil_content < 1.0], -5e4)
 
 
 @pytest.mark.parametrize("speed", [0.0, 1e-3, -314.0, 1e5])
