@@ -149,10 +149,11 @@ def searches() -> None:
             abs(flows.inflow.sum() + flows.drawn_in - flows.out) / flows.out,
         )
         worst = np.maximum(worst, found)
-        solutions.append((one.solution.solutions, other.solution.newton))
+        solutions.append((one.solution.solutions, one.solution.newton, other.solution.newton))
     print("\n200 random bearings: largest difference of pressure, oil content; mass out of balance")
     print("  ".join(f"{value:.1e}" for value in worst))
-    for name, counts in zip(("sets, on the finest cells", "Newton"), np.array(solutions).T, strict=True):
+    names = "sets, on the finest cells", "Newton where sets fail", "Newton"
+    for name, counts in zip(names, np.array(solutions).T, strict=True):
         print(f"solutions by {name}: median {np.median(counts):.0f}, most {counts.max()}")
 
 

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Annotated
 from ..bearings import journal
 from ..bearings.films.geometry import FeedHole, Groove, Pad
 from ..bearings.films.law import FilmLaw
-from ..bearings.journal import JournalBearing, MapFilm
+from ..bearings.journal import JournalBearing
 from ..bearings.oil import Cooling, Oil
-from ..errors import InputError, require_each, require_finite, require_positive
+from ..errors import InputError, require_finite, require_positive
 from ..limits import STEPS
 from ..progress import Report
 from .journal.echo import BearingData, bearing_data
@@ -109,11 +109,8 @@ class JournalTable:
         return replace(self, oil=lubricant.oil, cooling=lubricant.cooling)
 
     def build(self) -> JournalBearing:
-        """Return the bearing; raise InputError where a value breaks its rule.
-
-        Where the file names no film: the map if there is one, else the film in two dimensions.
-        """
-        return made_from(JournalBearing, self, film=self._film(), grooves=self._openings)
+        """Return the bearing; raise InputError where a value breaks its rule."""
+        return made_from(JournalBearing, self, grooves=(*self.grooves, *self.feed_holes))
 
     def echo(self, bearing: JournalBearing) -> tuple[BearingData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
@@ -132,29 +129,6 @@ class JournalTable:
         bearing = self.build()
         if isinstance(bearing.fitted_film, journal.GroovedMapFilm):
             journal.build_groove_map(bearing, report)
-
-    @property
-    def _openings(self) -> tuple[Groove | FeedHole, ...]:
-        return (*self.grooves, *self.feed_holes)
-
-    def _film(self) -> FilmLaw:
-        if self.film is not None:
-            return self.film
-        require_each(self, require_positive, "radius", "length")
-        geometry = journal.film_geometry(
-            self._openings,
-            self.pads,
-            0.0,
-            radius=self.radius,
-            length=self.length,
-            circumferential_groove=self.circumferential_groove,
-        )
-        if geometry.plain:
-            return MapFilm()
-        low, high = journal.GroovedMapFilm().slenderness_range
-        mapped = journal.is_mappable(geometry) and not (self.grooves and self.supply_pressure)
-        long_enough = low <= 0.5 * self.length / self.radius <= high
-        return MapFilm() if mapped and long_enough else journal.ReynoldsFilm()
 
 
 @dataclass(frozen=True, kw_only=True)

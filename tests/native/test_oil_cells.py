@@ -96,6 +96,28 @@ def test_a_guess_does_not_change_the_film():
     np.testing.assert_array_equal(cold.pressure, other.pressure)
 
 
+def test_sets_have_time_to_move_along_the_bearing():
+    # Oil pressed in at mid-length fills one half-empty cell after the other of a line, one with each set.
+    lines, nodes = 4, 90
+    still, one = np.zeros(lines), np.ones(lines)
+    cells = cells_of(1, supplied=False)._replace(
+        wedge=still,
+        around=still,
+        along=one,
+        store=one,
+        width=np.full(nodes, 1.0 / nodes),
+        conductance=np.full((lines, nodes), 1.0 * nodes),
+        center=2.0 * nodes,
+        center_pressure=10.0,
+        old=np.full((lines, nodes), 0.5 / nodes),
+        opening=np.full((lines, nodes), -1, dtype=np.int32),
+    )
+    empty = np.zeros((lines, nodes))
+    found = solve_oil(cells, empty, empty, empty)
+    assert found.full.all()
+    assert (found.solutions, found.newton) == (nodes + 1, 0)
+
+
 def test_transport_without_a_supply_is_refused():
     cells = cells_of(1, supplied=False)
     cells = cells._replace(along=np.zeros(N), wedge=np.ones(N))

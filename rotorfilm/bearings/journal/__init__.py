@@ -33,7 +33,6 @@ if TYPE_CHECKING:
     from .heat.heat_numbers import HeatNumbers as HeatNumbers, heat_numbers as heat_numbers
     from .map.map_film import MapFilm as MapFilm
     from .map.own_tables import bearing_table
-    from .openings_in_bearing import film_geometry
     from .reynolds_film import ReynoldsFilm as ReynoldsFilm
     from .rupture.complementarity_arc import ComplementarityArc as ComplementarityArc
     from .rupture.reynolds_arc import ReynoldsArc as ReynoldsArc

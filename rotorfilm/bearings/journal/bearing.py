@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
 import numpy as np
@@ -25,9 +25,8 @@ from ..films.law import BoundFilm, FilmLaw, FilmOptions, options
 from ..oil import Cooling, Oil
 from ..oil.lubricant import require_lubricant
 from ..reaction import FilmReaction
-from .fitting import film_name, fitted_film
+from .fitting import film_name, fitted_film, usual_film
 from .heat.warm_film import WarmFilm
-from .map.map_film import MapFilm
 from .odd_dimensions import warn_of_odd_dimensions
 from .openings_in_bearing import film_geometry, film_length
 
@@ -58,8 +57,9 @@ class JournalBearing(FilmReaction, WarmFilm):
     cooling : Cooling or None
         What takes the heat away; needed for a heat balance only.
     film : FilmLaw
-        The film law, by default `MapFilm()`: Reynolds rupture, with grooves and pads at ambient pressure
-        too. Exchangeable by `dataclasses.replace`.
+        The film law. By default `MapFilm()`: Reynolds rupture, with grooves and pads at ambient pressure
+        too; and `ReynoldsFilm()` in a bearing of which there is no map, as with a supply pressure.
+        Exchangeable by `dataclasses.replace`.
     pads : tuple of Pad
         Where there is a bearing wall, angles in the bearing frame [rad]; empty for the full circumference.
     grooves : tuple of Groove or FeedHole
@@ -99,7 +99,7 @@ class JournalBearing(FilmReaction, WarmFilm):
     oil: Oil | None = None
     temperature: float | None = None
     cooling: Cooling | None = None
-    film: FilmLaw = field(default_factory=MapFilm)
+    film: FilmLaw = None  # type: ignore[assignment]  # never None in a bearing
     pads: tuple[Pad, ...] = ()
     grooves: tuple[Groove | FeedHole, ...] = ()
     supply_pressure: float = 0.0
@@ -110,7 +110,6 @@ class JournalBearing(FilmReaction, WarmFilm):
         require_lubricant(self.viscosity, self.oil, self.temperature, self.cooling)
         if self.clearance >= self.radius:
             raise InputError(f"clearance must be below the radius {self.radius!r}, got {self.clearance!r}")
-        require_kind("film", self.film, FilmLaw, "a film law with force and jacobian")
         require_non_negative("supply_pressure", self.supply_pressure)
         require_tuple("pads", self.pads, Pad)
         require_tuple("grooves", self.grooves, Groove, FeedHole)
@@ -118,6 +117,9 @@ class JournalBearing(FilmReaction, WarmFilm):
             require_non_negative("circumferential_groove", self.circumferential_groove)
         if self.supply_pressure > 0.0 and not self.grooves and self.circumferential_groove is None:
             raise InputError(f"supply_pressure must be 0 without grooves, got {self.supply_pressure!r}")
+        if self.film is None:
+            object.__setattr__(self, "film", usual_film(self.geometry, self.slenderness))
+        require_kind("film", self.film, FilmLaw, "a film law with force and jacobian")
         # Fitted here so that a geometry that is beyond the film is refused at once.
         low, high = self._options.slenderness_range
         if not low * (1.0 - 1e-12) <= self.slenderness <= high * (1.0 + 1e-12):

@@ -1,4 +1,4 @@
-"""Which film law a bearing really has: the one that is given, in the bearing's geometry."""
+"""Which film law a bearing really has: the one that is given, or the usual one, in the bearing's geometry."""
 
 from __future__ import annotations
 
@@ -21,6 +21,18 @@ def film_name(film: FilmLaw) -> str:
     values = {f.name: getattr(film, f.name) for f in dataclasses.fields(film) if f.repr}
     shown = [f"{key}={value!r}" for key, value in values.items() if value is not None and key != _GEOMETRY]
     return f"{name}({', '.join(shown)})"
+
+
+def usual_film(geometry: FilmGeometry, slenderness: float) -> FilmLaw:
+    """Return the film of a bearing that names none: the map where there is one, else in two dimensions."""
+    if geometry.plain:
+        return MapFilm()
+    from .grooves.grooved_film import GroovedMapFilm
+    from .grooves.openings import is_mappable
+    from .reynolds_film import ReynoldsFilm
+
+    low, high = GroovedMapFilm().slenderness_range
+    return MapFilm() if is_mappable(geometry) and low <= slenderness <= high else ReynoldsFilm()
 
 
 def fitted_film(film: FilmLaw, geometry: FilmGeometry) -> FilmLaw:

@@ -74,10 +74,11 @@ def film_geometry(
 def _sized(opening: Opening, radius: float, length: float) -> tuple[float, float, float]:
     """Return center and width [rad] of an opening, and its length [m]."""
     if isinstance(opening, FeedHole):
-        if opening.side >= length:
+        largest = min(length * opening.diameter / opening.side, 2.0 * radius)
+        if opening.diameter >= largest:
             raise InputError(
-                "diameter of a feed hole must be below that of a circle of the length squared, "
-                f"{opening.diameter * length / opening.side:.6g} m, got {opening.diameter!r}"
+                f"diameter of a feed hole must be below {largest:.6g} m, that of the bearing or of the "
+                f"circle whose square is as long, got {opening.diameter!r}"
             )
         return opening.center, opening.side / radius, opening.side
     along = length if opening.length is None else opening.length

@@ -7,7 +7,7 @@
 #include "../status.h"
 #include "coarser_oil.h"
 
-#define MORE 60      /* solutions of a search beyond one for each line, by which an edge moves at least */
+#define MORE 60      /* solutions of a search beyond one for each line and node, by which an edge moves at least */
 #define NOISE 1e-13  /* of the largest pressure, or of theta: no reason to move a cell */
 #define SOLVED 1e-10 /* of Fischer's and Burmeister's function, from where the sets are right */
 
@@ -20,6 +20,11 @@ typedef struct rf_oil_solver {
     rf_oil_work work;
     void *memory;
 } rf_oil_solver;
+
+static size_t most_rounds(const rf_oil_cells *cells)
+{
+    return cells->lines + cells->nodes + MORE;
+}
 
 static size_t cells_of(const rf_oil_solver *solver)
 {
@@ -145,7 +150,7 @@ static void set_sets(rf_oil_solver *solver, const uint8_t *full, double *pressur
 
 static int search_sets(rf_oil_solver *solver, uint8_t *full, double *pressure, double *theta)
 {
-    for (size_t set = 0; set < solver->cells->lines + MORE; ++set) {
+    for (size_t set = 0; set < most_rounds(solver->cells); ++set) {
         set_sets(solver, full, pressure, theta);
         const int status = step(solver, pressure, theta);
         if (status != RF_OK)
@@ -192,7 +197,7 @@ static int search_by_newton(rf_oil_solver *solver, uint8_t *full, double *pressu
             pressure[q] = fmax(-solver->flow[q], 0.0) / (of_faces * solver->cells->width[q % solver->cells->nodes]);
     }
     const double unit = fmax(largest(all, pressure), 1e-300);
-    for (size_t round = 0; round < solver->cells->lines + MORE; ++round) {
+    for (size_t round = 0; round < most_rounds(solver->cells); ++round) {
         double most = 0.0;
         memset(solver->by_pressure, 0, 2 * all * sizeof(double));
         for (size_t q = 0; q < all; ++q)

@@ -18,8 +18,8 @@ typedef struct rf_oil_work {
 } rf_oil_work;
 
 /* Set P and theta, which come with their values in openings that are held. `full` is the guess of the cells that
-   are full if `guessed`, else they are those of the film on half the cells; it then tells them. `method` is RF_BY_SETS, or RF_BY_NEWTON to begin with that.
-   RF_STUCK, RF_MEMORY. */
+   are full if `guessed`, else they are those of the film on half the cells; it then tells them. `method` is
+   RF_BY_SETS, or RF_BY_NEWTON to begin with that. RF_STUCK, RF_MEMORY. */
 RF_EXPORT_LOOP int rf_oil_film(const rf_oil_cells *cells, int method, int guessed, uint8_t *full, double *pressure,
                                double *theta, rf_oil_work *work);
 

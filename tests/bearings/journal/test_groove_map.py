@@ -388,7 +388,7 @@ def test_geometry_beyond_the_map_is_refused_at_once(film, geometry, message):
 def test_slenderness_beyond_the_map_is_refused_at_once(slenderness):
     changed = DIMENSIONS | {"length": 0.1 * slenderness}
     with pytest.raises(InputError, match=r"length / diameter must be 0\.05 to 20 for GroovedMapFilm, got"):
-        JournalBearing(**changed, grooves=(Groove(center=0.0, width=0.3),))
+        JournalBearing(**changed, grooves=(Groove(center=0.0, width=0.3),), film=MapFilm())
 
 
 @pytest.mark.parametrize(

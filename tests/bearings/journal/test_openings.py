@@ -34,7 +34,7 @@ HOLE, SHORT = FeedHole(center=1.2, diameter=8e-3), Groove(center=-2.0, width=0.3
 
 
 def bearing(cells=(96, 8), **given):
-    return JournalBearing(**SIZES, film=ReynoldsFilm(cells=cells), **given)
+    return JournalBearing(**{**SIZES, **given}, film=ReynoldsFilm(cells=cells))
 
 
 def test_openings_become_pockets_of_their_share():
@@ -59,7 +59,11 @@ def test_openings_become_pockets_of_their_share():
         ),
         (
             {"grooves": (FeedHole(center=0.0, diameter=0.07),)},
-            r"diameter of a feed hole must be below .* got",
+            r"diameter of a feed hole must be below 0\.0677\d+ m, .* got",
+        ),
+        (
+            {"grooves": (FeedHole(center=0.0, diameter=0.1),), "length": 0.2},
+            r"diameter of a feed hole must be below 0\.1 m, that of the bearing",
         ),
         ({"grooves": (HOLE, Groove(center=1.25, width=0.1))}, "must not overlap"),
         (
@@ -92,6 +96,22 @@ def test_films_that_cannot_say_which_can(given):
     warm = {**SIZES, "viscosity": None, "oil": Oil.iso_vg(46), "cooling": Cooling(supply_temperature=320.0)}
     with pytest.raises(InputError, match="whole length for HeatedFilm"):
         HeatedFilm(bearing=JournalBearing(**warm, film=ReynoldsFilm(), **given))
+
+
+@pytest.mark.parametrize(
+    ("given", "film"),
+    [
+        ({"grooves": (SHORT,)}, ReynoldsFilm()),
+        ({"circumferential_groove": 0.01}, ReynoldsFilm()),
+        ({"grooves": (Groove(center=0.0, width=0.2),), "supply_pressure": 1e5}, ReynoldsFilm()),
+        ({"pads": (Pad(start=0.0, extent=2.0),)}, ReynoldsFilm()),
+        ({"grooves": (Groove(center=0.0, width=0.2),), "length": 0.004}, ReynoldsFilm()),
+        ({"grooves": (Groove(center=0.0, width=0.2),)}, MapFilm()),
+        ({"length": 0.004}, MapFilm()),
+    ],
+)
+def test_without_a_name_the_film_is_the_map_where_there_is_one(given, film):
+    assert JournalBearing(**{**SIZES, **given}).film == film
 
 
 @pytest.mark.parametrize(

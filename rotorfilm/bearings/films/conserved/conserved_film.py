@@ -12,6 +12,9 @@ from ....model import Array
 from .conserved_cells import FILM, ConservedCells
 from .oil_kernel import OilCells, OilSolution, oil_outflow, solve_oil
 
+ROUNDOFF = 1e-12
+"""Of the pressure at the ends of the bearing, that of the film beside them: nothing flows there."""
+
 
 class Gap(NamedTuple):
     """The gap of a film over the clearance, at the lines and at the faces after them.
@@ -33,9 +36,7 @@ class Supply(NamedTuple):
     Attributes
     ----------
     pressure : ndarray, shape (openings,) [1/s]
-        In openings that are held.
-    content : ndarray, shape (openings,) [1]
-        Share of the gap that is oil there.
+        In openings that are held, which are full.
     fed : ndarray of bool, shape (openings,)
         Whether an opening is not held but gets a flow.
     flow : ndarray, shape (openings,) [1/s]
@@ -47,7 +48,6 @@ class Supply(NamedTuple):
     """
 
     pressure: Array
-    content: Array
     fed: np.ndarray
     flow: Array
     end_pressure: float
@@ -161,7 +161,6 @@ class ConservedFilm:
         pressure, theta = np.zeros(cells.opening.shape), np.ones(cells.opening.shape)
         held = (cells.opening != FILM) & ~np.append(supply.fed, True)[cells.opening]
         pressure[held] = supply.pressure[cells.opening[held]]
-        theta[held] = supply.content[cells.opening[held]]
         return cells.extent, cells.area, cells.conductance, pressure, theta
 
     def solve(
@@ -230,7 +229,9 @@ class ConservedFilm:
         """Return the flows into and out of the film."""
         cells, equations, P = self.cells, state.equations, state.solution.pressure
         outflow = oil_outflow(equations, P, state.solution.theta)
-        ends = equations.along * equations.conductance[:, -1] * (P[:, -1] - equations.end_pressure)
+        fall = P[:, -1] - equations.end_pressure
+        fall[np.abs(fall) <= ROUNDOFF * equations.end_pressure] = 0.0
+        ends = equations.along * equations.conductance[:, -1] * fall
         film = cells.opening == FILM
         inflow = np.bincount(cells.opening[~film], outflow[~film], len(equations.flow))
         if cells.grooved:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar
+from numbers import Number
+from typing import Any, ClassVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -44,7 +45,7 @@ class JFOFilm:
     damping depend on its frequency. `equilibrium` and `coefficients` take it as they take any bearing.
 
     Lines stay in the bearing, uniform between the edges of openings. 144 x 10 cells are within .7 % of the
-    force to eccentricity ratio .9, in one to three ms.
+    force to eccentricity ratio .9, in about one ms.
 
     Parameters
     ----------
@@ -76,10 +77,10 @@ class JFOFilm:
 
     Examples
     --------
-    >>> from rotorfilm import Groove, ReynoldsFilm
+    >>> from rotorfilm import Groove
     >>> top = Groove(center="90 deg", width="20 deg", length="40 mm")
     >>> size = dict(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.02)
-    >>> bearing = JournalBearing(**size, grooves=(top,), supply_pressure=2e5, film=ReynoldsFilm())
+    >>> bearing = JournalBearing(**size, grooves=(top,), supply_pressure=2e5)
     >>> film = JFOFilm(bearing=bearing)
     >>> film.solve(position=[30e-6, -50e-6], speed=314.2).oil_content.shape
     (144, 10)
@@ -101,6 +102,7 @@ class JFOFilm:
             require_positive("supply_flow", self.supply_flow)
         if not require_number("cavitation_pressure", self.cavitation_pressure) <= 0.0:
             raise InputError(f"cavitation_pressure must not be above 0, got {self.cavitation_pressure!r}")
+        require_kind("submerged", self.submerged, bool, "True or False")
         self.bearing.require_temperature()
         oil_supply(self.bearing, self.supply_flow, self.cavitation_pressure, self.submerged)
 
@@ -155,6 +157,8 @@ class JFOFilm:
         s : complex [1/s]
             Growth rate + i frequency.
         """
+        if not isinstance(s, Number) or not np.isfinite(s):
+            raise InputError(f"s must be a finite number, got {s!r}")
         _, state = self._steady(position, speed)
         return self._per_length * dynamic_stiffness(self.film, state, complex(s))
 
@@ -175,7 +179,8 @@ class JFOFilm:
         self, position: ArrayLike, speed: float, frequency: float | None = None
     ) -> ReducedCoefficients:
         """Return Re K(i frequency) and Im K(i frequency)/frequency; see `linear.coefficients`."""
-        nu = abs(float(speed)) if frequency is None else require_number("frequency", frequency)
+        own = abs(require_number("speed", speed))
+        nu = own if frequency is None else require_number("frequency", frequency)
         if nu == 0.0:
             return self.slow_coefficients(position, speed)
         K = self.complex_stiffness(position, speed, 1j * nu)
@@ -253,7 +258,7 @@ class JFOFilm:
     ) -> tuple[Array, ConservedState]:
         if np.any(require_finite("velocity", velocity)):
             raise InputError(f"velocity must be (0, 0) for a film that remembers, got {velocity!r}")
-        return self._steady(position, float(require_finite("speed", speed)))
+        return self._steady(position, cast(float, np.asarray(speed)[()]))
 
     def _steady(self, position: ArrayLike, speed: float) -> tuple[Array, ConservedState]:
         q, omega = require_finite("position", position), require_number("speed", speed)

@@ -10,20 +10,15 @@ from ....model import Array
 from ....readable.result import Drawable
 from ...films.conserved.conserved_film import ConservedFilm, ConservedState
 from ..bearing import JournalBearing
+from ..film_at_rest import FilmAtRest
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class JFOState(Drawable):
+class JFOState(FilmAtRest, Drawable):
     """A film that conserves its oil, for a journal at rest; N lines with M cells on each.
 
     Attributes
     ----------
-    position : ndarray, shape (2,) [m]
-    speed : float [rad/s]
-    force : ndarray, shape (2,) [N]
-        On the journal.
-    angle : ndarray, shape (N,) [rad]
-        Lines, in the bearing frame from +x towards +y.
     axial : ndarray, shape (M,) [m]
         Middles of the cells, from the middle of the bearing to its end; the film is symmetric.
     pressure : ndarray, shape (N, M) [Pa]
@@ -50,10 +45,6 @@ class JFOState(Drawable):
         Those of the fallback, which is used where the search by sets goes round in a circle.
     """
 
-    position: Array
-    speed: float
-    force: Array
-    angle: Array
     axial: Array
     pressure: Array
     oil_content: Array

@@ -32,13 +32,13 @@ def oil_supply(
             f"{REMEDY}, got none"
         )
     _require_no_open_groove(bearing, supply_flow)
+    _require_no_open_gap(bearing)
     count, flow = len(openings), 0.0
     if supply_flow is not None:
         _require_closed(bearing)
         flow = supply_flow / (bearing.clearance * bearing.radius * bearing.film_length)
     return Supply(
         pressure=np.array([end + (span.held or 0.0) for span in openings]),
-        content=np.ones(count),
         fed=np.full(count, supply_flow is not None),
         flow=np.full(count, flow),
         end_pressure=end,
@@ -53,6 +53,20 @@ def _require_no_open_groove(bearing: JournalBearing, supply_flow: float | None) 
             "grooves with a supply must end within the bearing, or their flow has no limit: give them a "
             f"length, as Groove(center=..., width=..., length={0.8 * bearing.length:g}), "
             f"got {bearing.geometry.grooves[0]!r}"
+        )
+
+
+def _require_no_open_gap(bearing: JournalBearing) -> None:
+    """Raise InputError for a circumferential groove under pressure that opens into gaps between pads."""
+    geometry = bearing.geometry
+    if (
+        geometry.circumferential
+        and geometry.supply > 0.0
+        and any(s.share == 1.0 for s in geometry.openings())
+    ):
+        raise InputError(
+            "pads must have no gaps beside a circumferential_groove with a supply_pressure, which would flow "
+            f"into them without limit, got {bearing.pads!r}"
         )
 
 

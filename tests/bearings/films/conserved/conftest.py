@@ -14,7 +14,7 @@ def supply():
     def make(pressures, end=0.0, center=0.0):
         n = len(pressures)
         held = np.array(pressures, dtype=float)
-        return Supply(held, np.ones(n), np.zeros(n, dtype=bool), np.zeros(n), end, center)
+        return Supply(held, np.zeros(n, dtype=bool), np.zeros(n), end, center)
 
     return make
 

@@ -18,6 +18,8 @@ from rotorfilm import (
 )
 from rotorfilm.errors import FilmContactError, InputError, ValidityWarning
 
+from ..butenschoen import BUTENSCHOEN
+
 R, c, mu, omega = 0.05, 1e-4, 0.02, 314.0
 SIZES = {"radius": R, "length": 0.05, "clearance": c, "viscosity": mu, "film": ReynoldsFilm()}
 TOP = Groove(center=np.pi / 2, width=np.radians(20.0), length=0.04)
@@ -34,21 +36,10 @@ def fed():
     return JFOFilm(bearing=bearing(supply_pressure=2e5), cells=(72, 6))
 
 
-BUTENSCHOEN = [
-    (1.0, 0.1, 0.1196, 79.410, 0.1603),
-    (1.0, 0.3, 0.4091, 68.264, 0.4765),
-    (1.0, 0.5, 0.8903, 56.705, 0.7852),
-    (1.0, 0.7, 2.0432, 43.859, 1.0888),
-    (0.25, 0.1, 0.0098, 82.481, 0.0492),
-    (0.25, 0.5, 0.0888, 54.069, 0.2460),
-    (0.25, 0.9, 2.1595, 21.790, 0.4436),
-]
-
-
 @pytest.mark.literature
 @pytest.mark.parametrize(("slenderness", "eps", "load", "attitude", "flow"), BUTENSCHOEN)
 def test_butenschoen(slenderness, eps, load, attitude, flow):
-    # Butenschoen (1976), whose film starts at the widest gap: there a line groove at ambient pressure.
+    # Where the film starts, at the widest gap, there is a line groove at ambient pressure.
     line = bearing(grooves=(Groove(center=np.pi),), length=2.0 * slenderness * R)
     unit = 2.0 * line.force_scale * omega
     found = []
@@ -58,8 +49,10 @@ def test_butenschoen(slenderness, eps, load, attitude, flow):
         found.append((np.hypot(fx, fy) / unit, -np.degrees(np.arctan2(-fy, -fx))))
     So, angle = np.array(found[1]) + (np.array(found[1]) - found[0]) / 3.0
     rounding = 0.5e-4 / load
-    assert load == pytest.approx(So, rel=1.3e-3 + rounding)
-    assert attitude == pytest.approx(angle, abs=0.05)
+    # Converged, .26 % lie between this film and the table at L/D 1, eccentricity ratio .9.
+    assert load == pytest.approx(So, rel=(2.7e-3 if load > 5.0 else 1.3e-3) + rounding)
+    assert attitude == pytest.approx(angle, abs=0.02)
+    assert found[0][0] == pytest.approx(So, rel=7e-3)
     assert state.side_flow / (R**2 * c * omega) == pytest.approx(flow, rel=5e-3)
 
 
@@ -94,6 +87,19 @@ def test_a_submerged_bearing_at_high_pressure_is_full():
     np.testing.assert_allclose(
         K.damping, 2.0 / omega * abs(K.stiffness[0, 1]) * np.eye(2), rtol=1e-3, atol=1e-6 * K.damping.max()
     )
+
+
+@pytest.mark.closed_form
+def test_friction_of_a_full_film():
+    # The shear of a gap 1 + eps cos(xi), and half the moment of the force: the pressure falls along the gap.
+    plain, eps = bearing(grooves=()), 0.6
+    film = JFOFilm(bearing=plain, cells=(144, 10), cavitation_pressure=-1e9, submerged=True)
+    state = film.solve([0.0, -eps * c], omega)
+    petroff = 2.0 * np.pi * mu * omega * R**3 * plain.length / c / np.sqrt(1.0 - eps**2)
+    moment = 0.5 * eps * c * state.force[0]
+    assert state.friction_torque == pytest.approx(petroff + moment, rel=2e-3)
+    assert moment > 0.05 * petroff
+    assert state.power_loss == pytest.approx(omega * state.friction_torque)
 
 
 def test_equilibrium_by_newton(fed):
@@ -179,6 +185,15 @@ def test_a_result_is_printed_and_drawn(fed):
             {"grooves": (Groove(center=0.0),), "supply_pressure": 1e5},
             "must end within the bearing.*length=0.04",
         ),
+        (
+            {
+                "grooves": (),
+                "pads": (Pad(start=0.2, extent=6.0),),
+                "circumferential_groove": 5e-3,
+                "supply_pressure": 1e5,
+            },
+            "pads must have no gaps beside a circumferential_groove with a supply_pressure",
+        ),
     ],
 )
 def test_bearings_that_it_refuses(given, message):
@@ -190,6 +205,7 @@ def test_bearings_that_it_refuses(given, message):
     ("given", "message"),
     [
         ({"cells": (143, 10)}, "cells must be two even numbers"),
+        ({"submerged": "no"}, "submerged must be True or False, got 'no'"),
         ({"cavitation_pressure": 1.0}, "cavitation_pressure must not be above 0, got 1.0"),
         ({"supply_flow": 0.0}, "supply_flow must be finite and positive"),
         ({"supply_flow": 1e-6, "bearing": bearing(supply_pressure=1e5)}, "supply_pressure must be 0 where"),
@@ -211,6 +227,13 @@ def test_states_that_it_refuses(fed):
         fed.solve([np.nan, 0.0], omega)
     with pytest.raises(InputError, match=r"position must have shape \(2,\)"):
         fed.solve([0.0, 0.0, 0.0], omega)
+    with pytest.raises(InputError, match="speed must be a single finite number"):
+        fed.force(HERE, [0.0, 0.0], [omega, omega])
+    with pytest.raises(InputError, match="speed must be a single finite number, got 'fast'"):
+        fed.coefficients(HERE, "fast")
+    for s in (np.nan, 1j * np.inf, "1"):
+        with pytest.raises(InputError, match="s must be a finite number, got"):
+            fed.complex_stiffness(HERE, omega, s)
 
 
 def test_ends_in_air_that_draw_in_are_told():
@@ -222,6 +245,11 @@ def test_ends_in_air_that_draw_in_are_told():
     assert state.drawn_in > 0.01 * state.side_flow
     assert state.inflow.sum() + state.drawn_in == pytest.approx(state.side_flow, rel=1e-10)
     np.testing.assert_array_equal(state.pressure[state.oil_content < 1.0], -5e4)
+
+
+def test_nothing_flows_through_the_ends_of_a_film_that_rests():
+    state = JFOFilm(bearing=bearing(), cells=(72, 6), cavitation_pressure=-1e5).solve(HERE, 0.0)
+    assert state.side_flow == state.drawn_in == 0.0
 
 
 @pytest.mark.parametrize("speed", [0.0, 1e-3, -314.0, 1e5])

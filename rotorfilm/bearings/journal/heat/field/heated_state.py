@@ -12,6 +12,7 @@ from .....model import Array
 from .....readable.result import Readable
 from ....oil import Cooling, Oil
 from ...bearing import JournalBearing
+from ...film_at_rest import FilmAtRest
 from .film_flow import FilmFlow
 from .frozen_film import FilmSolution, FrozenFilm
 from .heat_equations import HeatSolution
@@ -46,17 +47,11 @@ class HeatAccount(Readable):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class HeatedState(Readable):
+class HeatedState(FilmAtRest):
     """A film with its temperature, for a journal at rest; N lines with M + 1 nodes on each.
 
     Attributes
     ----------
-    position : ndarray, shape (2,) [m]
-    speed : float [rad/s]
-    force : ndarray, shape (2,) [N]
-        On the journal.
-    angle : ndarray, shape (N,) [rad]
-        Lines, in the bearing frame from +x towards +y.
     axial : ndarray, shape (M + 1,) [m]
         Nodes from the middle of the bearing to its end; the film is symmetric.
     pressure : ndarray, shape (N, M + 1) [Pa]
@@ -86,10 +81,6 @@ class HeatedState(Readable):
         Solutions of film and heat in turn until here.
     """
 
-    position: Array
-    speed: float
-    force: Array
-    angle: Array
     axial: Array
     pressure: Array
     filled: Array
