@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import eigh
 
-from ..errors import InputError, require_finite
+from ..errors import InputError, require_count, require_finite
 from ..inputs.kinds import arguments
 from ..model import Array, Reaction
 from ..readable.result import Drawable, Readable
@@ -19,7 +19,15 @@ from ..rotors.structure import Structure
 from .large.condensed import MARGIN, models, usual_frequency
 from .large.crossings import CrossingSearch
 from .large.likeness import matches
-from .rotor_modes import RotorModes, Whirls, directions, log_decrement, rotor_modes, speeds_in_turn
+from .rotor_modes import (
+    RotorModes,
+    Whirls,
+    directions,
+    log_decrement,
+    require_range,
+    rotor_modes,
+    speeds_in_turn,
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,12 +43,15 @@ class Campbell(Whirls, Drawable):
         As in `RotorModes`; nan likewise.
     error : float [1]
         Largest of those of `RotorModes`.
+    highest_frequency : float [rad/s]
+        Modes that stay above it are left out; inf where none is.
     """
 
     speeds: Array
     eigenvalues: NDArray[np.complex128]
     direction: Array
     error: float = 0.0
+    highest_frequency: float = math.inf
 
 
 _BEYOND = 1.5
@@ -83,16 +94,18 @@ def campbell(
         Rising or falling, of either sign; so close that modes do not change beyond recognition from one to
         the next.
     highest_frequency : float [rad/s]
-        Modes that stay above it are left out. If infinite, as in `rotor_modes`.
+        Modes that stay above it are left out. If infinite, as in `rotor_modes`, so that a shaft of more than
+        19 elements has only its lower modes; `Campbell.highest_frequency` tells it.
 
     Raises
     ------
     InputError
-        If the speeds break their rule.
+        If an argument breaks its rule.
     EquilibriumError
         If there is no equilibrium at one of the speeds.
     """
     grid = speeds_in_turn(speeds)
+    require_range(highest_frequency)
     points = [rotor_modes(rotor, bearings, float(speed), _BEYOND * highest_frequency) for speed in grid]
     tracks = _tracks(points, rotor.assembly.mass)
     values = np.full((len(tracks), len(grid)), complex(math.nan, math.nan))
@@ -108,6 +121,7 @@ def campbell(
         eigenvalues=values[order],
         direction=direction[order],
         error=max(point.error for point in points),
+        highest_frequency=min(highest_frequency, *(point.highest_frequency for point in points)),
     )
 
 
@@ -123,6 +137,28 @@ def critical_speeds(
         As in `rotor_modes`.
     speeds : array_like, shape (n,) [rad/s]
         Rising or falling, of either sign: the range searched, and the steps in which the modes are followed.
+
+    Raises
+    ------
+    InputError
+        If the speeds break their rule.
+    EquilibriumError
+        If there is no equilibrium at one of the speeds, or between them.
+    ConvergenceError
+        If a whirl becomes slower or faster than the rotation in a step, and the speed at which is not found.
+
+    Warns
+    -----
+    ValidityWarning
+        Of an interval in which critical speeds may be missed: a whirl that is slower than the rotation at one
+        end, and decays or grows more slowly than it turns, continues none at the other; or two whirls led to
+        one critical speed.
+
+    Notes
+    -----
+    The whirls slower than the rotation are counted at each speed. A step in which their number changes by
+    more or less than the crossings found is halved, up to four times. That is a check and no proof: a whirl
+    that crosses twice in a step, or two that cross in opposite senses and are confused, go unseen.
     """
     grid = speeds_in_turn(speeds)
     search = CrossingSearch(rotor=rotor, bearings=bearings, top_speed=float(np.abs(grid).max()))
@@ -146,7 +182,7 @@ def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 
     rotor : FlexibleRotor
         Every station gets the same bearing; damping of rotor and supports is left out.
     stiffness : array_like, shape (n,) [N/m]
-        Positive.
+        Positive; beyond some 1e15 N/m roundoff takes digits of a rotor of many elements.
     count : int
         Number of critical speeds of forward whirl, from the lowest.
 
@@ -155,11 +191,17 @@ def critical_speed_map(rotor: FlexibleRotor, stiffness: ArrayLike, count: int = 
     ndarray, shape (count, n) [rad/s]
         nan where the rotor has fewer.
 
+    Raises
+    ------
+    InputError
+        If a stiffness is not positive, or the count no integer from 1 on.
+
     Notes
     -----
     Synchronous motion has K q = w^2 (M - i G) q with Hermitian matrices, whatever the speed; forward whirl
     of an isotropic rotor is q = (u, -i u), where -i G of both planes is the polar inertia.
     """
+    require_count("count", count)
     grid = require_finite("stiffness", stiffness)
     if grid.ndim != 1 or np.any(grid <= 0.0):
         raise InputError(f"stiffness must be a list of positive numbers, got {stiffness!r}")

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import eig
 
-from ..errors import InputError, require_finite
+from ..errors import InputError, require_finite, require_number, require_positive
 from ..inputs.kinds import arguments
 from ..model import Array, Reaction
 from ..readable.result import Readable
@@ -62,6 +62,8 @@ class RotorModes(Whirls, Readable):
     error : float [1]
         Largest relative error of an eigenvalue by the shapes that were left out, estimated; 0 where none
         were.
+    highest_frequency : float [rad/s]
+        Up to which |s| the whirls are told; inf where all are.
     """
 
     speed: float
@@ -69,6 +71,7 @@ class RotorModes(Whirls, Readable):
     shapes: NDArray[np.complex128]
     direction: Array
     error: float = 0.0
+    highest_frequency: float = math.inf
 
 
 def log_decrement(eigenvalues: ArrayLike) -> Array:
@@ -96,29 +99,21 @@ def rotor_modes(
         Of either sign; a rotor at rest counts as turning about +z.
     highest_frequency : float [rad/s]
         Whirls with a larger |s| may be left out, faster ones are. If infinite, all whirls of a rotor of up to
-        160 coordinates; of others to twice the speed and the tenth frequency of the shaft on no bearings.
+        160 coordinates (19 default elements); of others those up to the larger of twice the speed and
+        the tenth frequency in a plane of the shaft on no bearings. `RotorModes.highest_frequency` tells it.
 
     Raises
     ------
     InputError
-        If the highest frequency is not positive.
+        If the speed is not finite, or the highest frequency not positive.
     EquilibriumError
         If there is no equilibrium.
     """
     return whirls_of(motions_at(rotor, bearings, speed, highest_frequency), highest_frequency)
 
 
-@dataclass(frozen=True, kw_only=True)
 class Motions(RotorModes):
-    """The whirls at a speed, after the motions that do not oscillate, and up to which |s| the error holds.
-
-    Attributes
-    ----------
-    known_to : float [rad/s]
-        inf where nothing was left out.
-    """
-
-    known_to: float
+    """The whirls at a speed, those beyond `highest_frequency` too, after motions that do not oscillate."""
 
 
 def motions_at(
@@ -126,16 +121,22 @@ def motions_at(
 ) -> Motions:
     """Return the whirl modes at a speed, and before them the motions that do not oscillate."""
     require_flexible(rotor)
-    if not highest_frequency > 0.0:
-        raise InputError(f"highest_frequency must be positive, got {highest_frequency!r}")
+    speed = require_number("speed", speed)
+    require_range(highest_frequency)
     known_to = highest_frequency if highest_frequency < math.inf else usual_frequency(rotor, speed)
     found = (_motions(model, bearings, speed, known_to) for model in models(rotor, known_to))
     return next(motions for motions in found if motions.error <= TOLERANCE)
 
 
+def require_range(highest_frequency: float) -> None:
+    """Raise InputError unless a highest frequency [rad/s] is positive; it may be infinite."""
+    if highest_frequency != math.inf:
+        require_positive("highest_frequency", highest_frequency)
+
+
 def whirls_of(motions: Motions, highest_frequency: float = math.inf) -> RotorModes:
     """Return those of the motions that oscillate, as far as their error is known, to a frequency [rad/s]."""
-    whirls = oscillates(motions.eigenvalues) & (np.abs(motions.eigenvalues) <= motions.known_to)
+    whirls = oscillates(motions.eigenvalues) & (np.abs(motions.eigenvalues) <= motions.highest_frequency)
     whirls &= motions.frequency <= highest_frequency
     return RotorModes(
         speed=motions.speed,
@@ -143,6 +144,7 @@ def whirls_of(motions: Motions, highest_frequency: float = math.inf) -> RotorMod
         shapes=motions.shapes[:, whirls],
         direction=motions.direction[whirls],
         error=motions.error,
+        highest_frequency=min(highest_frequency, motions.highest_frequency),
     )
 
 
@@ -157,7 +159,7 @@ def _motions(model: Condensed, bearings: Mapping[str, Reaction], speed: float, k
         shapes=model.lifted(shapes),
         direction=directions(model.structure.mass, shapes, at.speed),
         error=max(part.error for part in parts),
-        known_to=math.inf if model.space is None else known_to,
+        highest_frequency=math.inf if model.space is None else known_to,
     )
 
 

@@ -87,6 +87,11 @@ def rotor_threshold(
     Notes
     -----
     Whirl that grows and divergence, a real eigenvalue above zero, both end stability.
+
+    A rotor of more than 160 coordinates moves in few of its shapes, as in `rotor_modes`: its eigenvalues s
+    are off by up to 1e-6 |s|, as estimated, to the frequency named there; of faster motions nothing is
+    estimated. The speed is off by that over the slope of Re s over the speed, which the result does not tell:
+    where growth hardly changes with the speed it may be far off.
     """
     search = _Stability(rotor, bearings)
     grid = speeds_in_turn(speeds)
@@ -120,7 +125,8 @@ def stability_changes(
     Notes
     -----
     The eigenvalues with a positive real part are counted at each speed, and where the number changes from m
-    to n, growth number m + 1 to n, by falling growth, vanishes in between: no whirl has to be followed.
+    to n, growth number m + 1 to n, by falling growth, vanishes in between: no whirl has to be followed. The
+    speeds have the error of `rotor_threshold`.
     """
     return tuple(_Stability(rotor, bearings).changes(speeds_in_turn(speeds)))
 

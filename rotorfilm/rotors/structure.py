@@ -284,7 +284,8 @@ def unbalance_columns(unbalance: float, angle: float) -> Array:
 
 def displacements(name: str, places: tuple[int, int], size: int) -> tuple[Readout, ...]:
     """Return the readouts name_x, name_y of the coordinates at two places among `size`."""
-    rows = np.eye(size, 2 * size)
+    rows = np.zeros((len(places), 2 * size))
+    rows[range(len(places)), places] = 1.0
     return tuple(
         Readout(
             Signal(
@@ -293,7 +294,7 @@ def displacements(name: str, places: tuple[int, int], size: int) -> tuple[Readou
                 nominal=NOMINAL_LENGTH,
                 description=f"displacement of {name} along {axis}",
             ),
-            rows[place],
+            row,
         )
-        for axis, place in zip("xy", places, strict=True)
+        for axis, row in zip("xy", rows, strict=True)
     )

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 from scipy.linalg import cho_solve_banded, cholesky_banded, lu_factor, lu_solve
-from scipy.linalg.lapack import dgbtrf, dgbtrs, zgbtrf, zgbtrs
+from scipy.linalg.lapack import zgbtrf, zgbtrs
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from ...model import Array
@@ -35,20 +35,19 @@ class BandedCholesky:
 
 
 class BandedFactor:
-    """The LU factor of a sparse matrix, with exchange of rows."""
+    """The LU factor of a complex sparse matrix, with exchange of rows."""
 
     def __init__(self, matrix: Any) -> None:
         self.order = band_order(abs(matrix) + abs(matrix).T)
         rows, columns, values, self.width = _in_order(matrix, self.order)
-        band = np.zeros((3 * self.width + 1, len(self.order)), dtype=values.dtype)
+        band = np.zeros((3 * self.width + 1, len(self.order)), dtype=complex)
         band[2 * self.width + rows - columns, columns] = values
-        factorize, self._solve = (zgbtrf, zgbtrs) if np.iscomplexobj(values) else (dgbtrf, dgbtrs)
-        self.factor, self.pivots, _ = factorize(band, self.width, self.width, overwrite_ab=True)
+        self.factor, self.pivots, _ = zgbtrf(band, self.width, self.width, overwrite_ab=True)
 
     def solve(self, load: np.ndarray, adjoint: bool = False) -> np.ndarray:
         """Return the inverse of the matrix, or of its conjugate transpose, times a load, shape (N,)."""
         found = np.empty_like(self.factor[0])
-        found[self.order] = self._solve(
+        found[self.order] = zgbtrs(
             self.factor, self.width, self.width, load[self.order], self.pivots, trans=2 if adjoint else 0
         )[0]
         return found

@@ -20,6 +20,9 @@ WHOLE = 160
 SMALL = 60
 """Coordinates up to which nothing is left out."""
 
+ANY = 1e15
+"""Frequency [rad/s] from which on all motions are asked for."""
+
 MARGIN = 2.0
 """Frequency up to which modes are kept / highest frequency of interest, at least."""
 
@@ -27,7 +30,6 @@ _FIRST = 6
 
 USUAL = 10
 """Modes in each plane that are answered, unless a range of frequencies is named."""
-
 
 TOLERANCE = 1e-6
 """Relative error, of an eigenvalue or of a response, estimated, beyond which more shapes are taken."""
@@ -94,7 +96,7 @@ def models(rotor: FlexibleRotor, frequency: float) -> Iterator[Condensed]:
     """Yield a rotor in shapes up to a frequency [rad/s] and beyond, ever more of them; whole in the end."""
     full = rotor.assembly
     size = len(full.weight)
-    if size > SMALL and frequency < math.inf:
+    if size > SMALL and frequency < ANY:
         for exponent in count(math.ceil(math.log2(MARGIN * max(frequency, 1.0)))):
             model = _remembered(rotor, exponent)
             if model is None or 2 * len(model.structure.weight) > size:

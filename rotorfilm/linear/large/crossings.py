@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...errors import ConvergenceError
+from ...errors import ConvergenceError, warn_user
 from ...model import Array, Reaction
 from ...rotors import FlexibleRotor
 from ..rotor_modes import Motions, motions_at, whirls_of
@@ -23,7 +23,10 @@ REACH = 1.5
 """Highest frequency to which whirls are followed / top_speed speed."""
 
 HALVINGS = 4
-"""How often a step is halved in which more or fewer whirls become slower than the rotation than cross it."""
+"""How often a step is halved in which more or fewer whirls become slower than the rotation than cross it.
+
+What is left then is warned of, unless motions that begin or cease to swing explain it.
+"""
 
 NEAR = 1e-11
 """Difference of frequency and speed, as a part of the speed, at which a crossing is found."""
@@ -87,8 +90,9 @@ class CrossingSearch:
         pairs = self._pairs(low, high)
         found = [self._crossing(pair) for pair in pairs]
         net = sum(pair.slows for pair in pairs if np.all(_swings(pair.values)))
-        whole = net == _slower(high) - _slower(low) and None not in found
-        if halvings and not (whole and _differ([one for one in found if one])):
+        differ = _differ([one for one in found if one])
+        whole = net == int(_slower(high).sum()) - int(_slower(low).sum()) and None not in found
+        if halvings and not (whole and differ):
             middle = self._motions(0.5 * (low.speed + high.speed))
             yield from self._between(low, middle, halvings - 1)
             yield from self._between(middle, high, halvings - 1)
@@ -97,7 +101,22 @@ class CrossingSearch:
                 f"critical speed between {low.speed:.6g} and {high.speed:.6g} rad/s must be found, was not"
             )
         else:
+            if not differ or (not whole and self._loses(low, high)):
+                warn_user(
+                    f"critical speeds between {low.speed:.6g} and {high.speed:.6g} rad/s may be missed: what "
+                    "is found there does not explain which whirls are slower than the rotation; take closer "
+                    "speeds"
+                )
             yield from (one for one in found if one)
+
+    def _loses(self, low: Motions, high: Motions) -> bool:
+        """Return whether a swinging whirl slower than the rotation at one speed is nothing at the other.
+
+        A motion that begins or ceases to swing changes their number too, and misses no critical speed.
+        """
+        partner = matches(low, high, self.rotor.assembly.mass)
+        before, after = np.flatnonzero(_slower(low)), np.flatnonzero(_slower(high))
+        return not (set(before.tolist()) <= set(partner.values()) and set(after.tolist()) <= set(partner))
 
     def _pairs(self, low: Motions, high: Motions) -> list[_Pair]:
         """Return the whirls that are faster than the rotation at one of two speeds only."""
@@ -139,10 +158,9 @@ class CrossingSearch:
         return None
 
 
-def _slower(motions: Motions) -> int:
-    """Return how many whirls that swing are slower than the rotation."""
-    swinging = motions.eigenvalues[_swings(motions.eigenvalues)]
-    return int(np.sum(swinging.imag < abs(motions.speed)))
+def _slower(motions: Motions) -> np.ndarray:
+    """Return which motions are whirls that swing and are slower than the rotation."""
+    return np.asarray(_swings(motions.eigenvalues) & (motions.frequency < abs(motions.speed)))
 
 
 def _swings(values: np.ndarray) -> np.ndarray:

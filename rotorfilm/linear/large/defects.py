@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ from ...model import Array
 from ...rotors.structure import Structure
 from ..rotor_rest import RotorEquilibrium
 from .condensed import MARGIN, Condensed
-from .second_order import SecondOrder, with_hysteresis
+from .second_order import small_motion
 
 _FASTER = 1.0 / (1.0 - MARGIN**-2.0)
 """How much more what is left out gives way than to slow forces, at most."""
@@ -20,10 +21,7 @@ class WholeRotor:
     """The equations of small motion of all of a rotor: sparse matrices of the shaft, and its films apart."""
 
     def __init__(self, structure: Structure, at: RotorEquilibrium, frequency: float) -> None:
-        damping = structure.damping + at.speed * structure.gyroscopic
-        stiffness = structure.stiffness + at.speed * structure.circulation
-        shaft = SecondOrder(structure.mass, damping, stiffness)
-        self.shaft = with_hysteresis(structure, shaft, frequency, at.speed)
+        self.shaft = small_motion(structure, replace(at, coefficients={}), frequency)
         self.rows = structure.journals
         self.films = [np.zeros((len(self.rows), len(self.rows))) for _ in range(2)]
         for name, film in at.coefficients.items():
@@ -80,9 +78,14 @@ def whirl_errors(
 
 
 def seen_rows(structure: Structure) -> Array:
-    """Return the displacements at bearings and probes over the coordinates of a rotor, shape (k, N)."""
-    probes = [readout.row[None, : len(structure.weight)] for readout in structure.readouts]
-    return np.concatenate([structure.journals, *probes])
+    """Return the displacements at bearings and probes over the coordinates of a rotor, shape (k, N).
+
+    Forces on the ground follow from the displacements of housings.
+    """
+    n = len(structure.weight)
+    probes = [readout.row[None, :n] for readout in structure.readouts if readout.signal.unit == "m"]
+    housings = [] if structure.housings is None else [structure.housings]
+    return np.concatenate([structure.journals, *housings, *probes])
 
 
 def response_error(

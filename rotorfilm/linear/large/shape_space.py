@@ -32,8 +32,6 @@ class ShapeSpace(NamedTuple):
         All modes below this frequency are among them [rad/s].
     frequencies : ndarray, shape (k,)
         Of these modes, rising [rad/s].
-    frequencies : ndarray, shape (k,)
-        Of these modes, rising [rad/s].
     solid : BandedCholesky
         K + shift^2 M in one plane.
     """
