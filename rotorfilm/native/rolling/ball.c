@@ -77,8 +77,8 @@ static int solve(const double *q, const double *r, double *s)
     return isfinite(s[0]) && isfinite(s[1]);
 }
 
-/* The center of a ball that rests on the outer race only; whether the inner one is then open. Beside a center of curvature
-   that has come below that of the ball it is so where the rings are far apart. */
+/* The center of a ball that rests on the outer race only; whether the inner one is then open. Steep contacts are pressed
+   with the center of curvature of the inner groove below that of the ball, but not where the grooves are far apart. */
 static int is_free(const rf_ball_row *row, int inertia, const double *a, double speed, double *x, balance *at)
 {
     const double up[2] = {0.0, 1.0};
