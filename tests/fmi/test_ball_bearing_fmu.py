@@ -78,3 +78,10 @@ def test_negative_damping_is_refused(opened):
     with pytest.raises(FMICallException):
         instance.initialize([reference["damping"]], [-1.0])
     assert any("damping must not be negative, got -1" in line for line in instance.log)
+
+
+def test_an_overload_is_told(opened):
+    instance, reference = opened(DEEP, "2.0", False)
+    instance.initialize([reference[one] for one in INPUTS], [0.0, -2e-4, 0.0, 0.0, 300.0])
+    assert instance.get([reference["force_y"]])[0] > 1e4
+    assert any("pressed to 4200 MPa at most" in line for line in instance.log)

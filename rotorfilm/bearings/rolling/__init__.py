@@ -7,7 +7,7 @@ from ...sources import show
 if TYPE_CHECKING:
     from .ball_bearing import BallBearing as BallBearing
     from .ball_films import ball_films as ball_films
-    from .ball_law import BallLaw, RunningBalls as RunningBalls, StaticBalls as StaticBalls
+    from .ball_law import RunningBalls as RunningBalls, StaticBalls as StaticBalls
     from .ball_results import BallLoads as BallLoads, BallRest as BallRest
     from .bearing_pair import (
         BearingPair as BearingPair,

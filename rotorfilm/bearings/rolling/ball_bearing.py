@@ -19,6 +19,7 @@ from ...errors import (
 )
 from ...inputs.si_arguments import quantities
 from ...model import Array
+from ...native.layouts.ball_structs import ROW
 from .ball_element import BallElement
 from .ball_law import BallLaw, RunningBalls
 from .elliptic_contact import EllipticContact
@@ -103,9 +104,10 @@ class BallBearing(BallElement):
         require_count("balls", self.balls, 3)
         require_each(self, require_positive, "ball_diameter", "pitch_diameter")
         require_each(self, require_number, "growth", "cage_angle")
-        if self.balls * self.ball_diameter > math.pi * self.pitch_diameter:
+        room = self.pitch_diameter * math.sin(math.pi / self.balls)
+        if self.ball_diameter > room:
             raise InputError(
-                f"balls must find room on the pitch circle, {math.pi * self.pitch_diameter:.4g} m, "
+                f"balls must find room on the pitch circle, {room:.4g} m each, "
                 f"got {self.balls} of {self.ball_diameter!r} m"
             )
         for name in ("inner_conformity", "outer_conformity"):
@@ -120,9 +122,10 @@ class BallBearing(BallElement):
 
     def _require_films(self) -> None:
         films = require_finite("films", self.films)
-        if films.shape != (2,) or not (np.all(films >= 0.0) and np.all(films < 0.5 * self.groove_distance)):
+        if films.shape != (2,) or not (np.all(films >= 0.0) and np.all(films < 0.5 * np.array(self.reaches))):
             raise InputError(
-                f"films must be two thicknesses far below the distance of groove centers, got {self.films!r}"
+                f"films must be two thicknesses far below the distances of the center of a ball from those "
+                f"of the grooves, {self.reaches!r} m, got {self.films!r}"
             )
 
     def _require_one_of_both(self) -> None:
@@ -153,9 +156,15 @@ class BallBearing(BallElement):
         return bool(self.contact_angle)
 
     @property
+    def reaches(self) -> tuple[float, float]:
+        """Distances [m] of the center of a ball from those of inner and outer groove at first touch."""
+        D = self.ball_diameter
+        return (self.inner_conformity - 0.5) * D, (self.outer_conformity - 0.5) * D
+
+    @property
     def groove_distance(self) -> float:
         """A [m], distance of the centers of curvature of both grooves at first touch."""
-        return (self.inner_conformity + self.outer_conformity - 1.0) * self.ball_diameter
+        return sum(self.reaches)
 
     @property
     def free_contact_angle(self) -> float:
@@ -195,8 +204,7 @@ class BallBearing(BallElement):
         radial = distance * math.cos(angle)
         if self.internal_clearance is not None:
             radial = distance - 0.5 * self.internal_clearance
-        reach = (self.inner_conformity - 0.5) * self.ball_diameter
-        inner, outer = self.contacts
+        (reach, outer_reach), (inner, outer) = self.reaches, self.contacts
         row = {
             "place": 0.0,
             "direction": 1.0,
@@ -206,7 +214,7 @@ class BallBearing(BallElement):
             "count": self.balls,
             "turn": self.cage_angle,
             "inner": reach - self.films[0],
-            "outer": (self.outer_conformity - 0.5) * self.ball_diameter - self.films[1],
+            "outer": outer_reach - self.films[1],
             "inner_stiffness": inner.stiffness,
             "outer_stiffness": outer.stiffness,
             "ratio": self.ball_diameter / self.pitch_diameter,
@@ -214,4 +222,4 @@ class BallBearing(BallElement):
             "mass": self.ball_mass,
             "largest": self.largest_load,
         }
-        return np.array([list(row.values())])
+        return np.array([[row[name] for name in ROW]])

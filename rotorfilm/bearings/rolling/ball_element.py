@@ -9,15 +9,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...errors import ConvergenceError, InputError, require_finite, require_non_negative, require_number
-from ...model import Array, Force, Tangent
+from ...model import Array
 from ...native import NativeParameter, NativeSpec, Status
 from ...native.ball_kernel import DEGREES, BallKernel
 from ...native.layouts.ball_structs import ROW
-from ..reaction import StaticReaction
+from ..kernel_reaction import KernelReaction
 from .ball_degrees import MOST_PRESSURE, BallDegrees
 
 
-class BallElement(BallDegrees, StaticReaction):
+class BallElement(BallDegrees, KernelReaction):
     """Rows of balls on one shaft: a Reaction for planar rotors, and force and moment in five degrees.
 
     Its fields say how the shaft stands otherwise, and what damps it.
@@ -41,34 +41,35 @@ class BallElement(BallDegrees, StaticReaction):
 
     def axial_place(self, position: ArrayLike = (0.0, 0.0), speed: float = 0.0) -> float:
         """Return z of the shaft [m] at a position (2,) [m]: given, or as it follows from the axial load."""
-        x, y = require_finite("position", position).tolist()
+        place = require_finite("position", position)
+        if place.shape != (2,):
+            raise InputError(f"position must have shape (2,), got shape {place.shape}")
+        x, y = place.tolist()
         z, status = self.kernel.axial_place(x, y, 0.0, 0.0, require_number("speed", speed))
         if status > Status.OUTSIDE:
-            self._report(status, (x, y, 0.0, 0.0, speed))
+            self.report(status, (x, y, 0.0, 0.0, speed))
         return z
 
     @cached_property
     def clearance(self) -> float:
-        """Radial way [m] at which the first ball would be pressed to 4200 MPa, with z and tilts as given."""
-        row = dict(zip(ROW, self.rows[0].tolist(), strict=True))
-        z = self.axial_place()
-        axial = row["axial"] + row["direction"] * z
-        radial = row["radial"] + self.running[1]
-        length = np.hypot(axial, radial)
-        pressed = sum(contact.approach(self.largest_load) for contact in self.contacts)
-        way = float((row["inner"] + row["outer"] + pressed - length) * length / radial)
+        """Radial way [m] on which a ball is first pressed to 4200 MPa: at rest, upright, with z as given."""
+        columns = dict(zip(ROW, self.rows.T, strict=True))
+        axial = columns["axial"] + columns["direction"] * self.axial_place()
+        radial = columns["radial"] + self.running[1]
+        touch = columns["inner"] + columns["outer"]
+        pressed = touch + sum(contact.approach(self.largest_load) for contact in self.contacts)
+        way = float(np.min(np.sqrt(np.maximum(pressed**2 - axial**2, 0.0)) - radial))
         if not way > 0.0:
             raise InputError(
                 f"the preload must press the balls to {MOST_PRESSURE:g} Pa at most, got an approach of "
-                f"{length - row['inner'] - row['outer']:.3g} m"
+                f"{np.max(np.hypot(axial, radial) - touch):.3g} m"
             )
         return way
 
     @property
     def nominal_force(self) -> float:
         """Typical force [N]: a tenth of what presses the most loaded ball to 4200 MPa."""
-        row = dict(zip(ROW, self.rows[0].tolist(), strict=True))
-        return 0.1 * self.largest_load * row["count"] / 4.37
+        return 0.1 * self.largest_load * float(self.rows[0, ROW.index("count")]) / 4.37
 
     def require_place(self) -> None:
         """Raise InputError where the fields of the shaft break a rule."""
@@ -78,8 +79,8 @@ class BallElement(BallDegrees, StaticReaction):
             raise InputError(f"tilt must be two numbers, got {self.tilt!r}")
         if self.axial_load is None:
             return
-        along = float(self.rows[0, 1])
-        if self.separates and not along * require_number("axial_load", self.axial_load) > 0.0:
+        load, along = require_number("axial_load", self.axial_load), float(self.rows[0, 1])
+        if self.separates and not along * load > 0.0:
             raise InputError(
                 f"axial_load must press the balls on their shoulders, of sign {along:+.0f}, "
                 f"got {self.axial_load!r}"
@@ -87,30 +88,6 @@ class BallElement(BallDegrees, StaticReaction):
 
     def require_film(self, position: Array) -> None:
         """Accept every position: balls push back wherever the shaft goes."""
-
-    def prepare(self) -> Force:
-        """Return `force` as a function of five numbers, for loops that go state by state: `model.Force`."""
-
-        def force(x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
-            force_x, force_y, status = self.kernel.call(x, y, vx, vy, speed)
-            if status:
-                self._report(status, (x, y, vx, vy, speed))
-            return force_x, force_y
-
-        return force
-
-    def prepare_tangent(self) -> Tangent:
-        """Return force and derivatives as one function of five numbers: `model.Tangent`."""
-
-        def tangent(
-            x: float, y: float, vx: float, vy: float, speed: float
-        ) -> tuple[float, float, list[float]]:
-            force_x, force_y, slopes, status = self.kernel.tangent(x, y, vx, vy, speed)
-            if status:
-                self._report(status, (x, y, vx, vy, speed))
-            return force_x, force_y, slopes
-
-        return tangent
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape."""
@@ -156,7 +133,7 @@ class BallElement(BallDegrees, StaticReaction):
             kernel="ball_bearing", parameters=parameters, tables={"rows": self.rows, "law": law}
         )
 
-    def _report(self, status: int, state: tuple[float, ...]) -> None:
+    def report(self, status: int, state: tuple[float, ...]) -> None:
         """Raise, or warn, about a planar state that has this status."""
         x, y, *_, speed = state
         if status == Status.NOT_FINITE:

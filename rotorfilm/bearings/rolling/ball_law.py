@@ -3,16 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol, runtime_checkable
-
-
-@runtime_checkable
-class BallLaw(Protocol):
-    """How the balls of a bearing move."""
-
-    @property
-    def inertia(self) -> int:
-        """What the compiled kernel is told of it, of `ball.h`."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,7 +14,7 @@ class StaticBalls:
 
     @property
     def inertia(self) -> int:
-        """As of a `BallLaw`."""
+        """What the compiled kernel is told of it, of `ball.h`."""
         return 0
 
 
@@ -47,5 +37,8 @@ class RunningBalls:
 
     @property
     def inertia(self) -> int:
-        """As of a `BallLaw`."""
+        """What the compiled kernel is told of it, of `ball.h`."""
         return 1 if self.outer_control else 2
+
+
+BallLaw = StaticBalls | RunningBalls

@@ -67,7 +67,7 @@ class BearingPair(BallElement):
         require_kind("bearing", self.bearing, BallBearing, "a BallBearing")
         require_positive("distance", self.distance)
         if not isinstance(self.directions, tuple) or self.directions not in _DIRECTIONS:
-            raise InputError(f"directions must be two of 1 and -1, got {self.directions!r}")
+            raise InputError(f"directions must be a tuple of two of 1 and -1, got {self.directions!r}")
         given = {name: getattr(self, name) for name in ("preload", "spacer_offset")}
         told = {name: value for name, value in given.items() if value is not None}
         if len(told) > 1:
@@ -157,15 +157,11 @@ def face_to_face(
 
     Parameters
     ----------
-    bearing : BallBearing
-    distance : float [m]
-    preload : float [N], optional
-    spacer_offset : float [m], optional
-        As of a `BearingPair`.
+    bearing, distance, preload, spacer_offset
+        As of `back_to_back`.
     """
-    return BearingPair(
-        bearing=bearing, distance=distance, directions=(-1, 1), preload=preload, spacer_offset=spacer_offset
-    )
+    opposite = back_to_back(bearing, distance=distance, preload=preload, spacer_offset=spacer_offset)
+    return replace(opposite, directions=(-1, 1))
 
 
 @arguments

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
-from ...errors import InputError, require_each, require_positive
+from ...errors import InputError, require_each, require_non_negative, require_positive
 from ...inputs.si_arguments import quantities
 
 
@@ -126,6 +126,7 @@ class EllipticContact:
 
     def half_axes(self, load: float) -> tuple[float, float]:
         """Return the longer and the shorter half-axis [m] under a load [N]."""
+        require_non_negative("load", load)
         kappa, second = self.ellipticity, self.integrals.second
         cube = 6.0 * second * load * self.radius / (math.pi * kappa * self.combined_modulus)
         return kappa * cube ** (1.0 / 3.0), cube ** (1.0 / 3.0)
@@ -137,10 +138,12 @@ class EllipticContact:
 
     def approach(self, load: float) -> float:
         """Return the approach of both bodies [m] under a load [N]."""
+        require_non_negative("load", load)
         return float((load / self.stiffness) ** (2.0 / 3.0))
 
     def load_at(self, pressure: float) -> float:
         """Return the load [N] under which the largest pressure [Pa] is this."""
+        require_non_negative("pressure", pressure)
         return (pressure / self.pressure(1.0)) ** 3
 
 

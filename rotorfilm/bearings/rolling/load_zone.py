@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...errors import require_count, require_positive
+from ...errors import InputError, require_count, require_number, require_positive
 from ...inputs.kinds import arguments
 
 HALF_ZONE = 0.5
@@ -77,11 +77,11 @@ def stribeck_load(*, load: float, balls: int, contact_angle: float = 0.0) -> flo
     Raises
     ------
     InputError
-        If the load is not finite and positive, or there is no ball.
+        If the load is not finite and positive, there is no ball, or the angle is not below 90 deg.
     """
     require_positive("load", load)
     require_count("balls", balls)
-    return load / (load_integrals(HALF_ZONE).radial * balls * math.cos(contact_angle))
+    return load / (load_integrals(HALF_ZONE).radial * balls * _cosine(contact_angle))
 
 
 @arguments
@@ -103,10 +103,16 @@ def palmgren_stiffness(*, load: float, balls: int, ball_diameter: float, contact
     Raises
     ------
     InputError
-        If load or diameter are not finite and positive, or there is no ball.
+        If load or diameter are not finite and positive, there is no ball, or the angle is not below 90 deg.
     """
     require_positive("load", load)
     require_count("balls", balls)
     require_positive("ball_diameter", ball_diameter)
     scale = float((balls**2 * ball_diameter * load) ** (1.0 / 3.0))
-    return STIFFNESS_CONSTANT * scale * math.cos(contact_angle) ** (5.0 / 3.0)
+    return float(STIFFNESS_CONSTANT * scale * _cosine(contact_angle) ** (5.0 / 3.0))
+
+
+def _cosine(contact_angle: float) -> float:
+    if not 0.0 <= require_number("contact_angle", contact_angle) < 0.5 * math.pi:
+        raise InputError(f"contact_angle must be at least 0 and below 90 deg, got {contact_angle!r} rad")
+    return math.cos(contact_angle)

@@ -58,8 +58,9 @@ static void destroy(void *kernel)
     free(self);
 }
 
-static int take_tables(model *self, const rf_tables *tables, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
 {
+    model *self = kernel;
     const rf_table *motion = rf_find_table(tables, "motion", 2, why),
                    *push = motion ? rf_find_table(tables, "push", 2, why) : NULL,
                    *law = push ? rf_find_table(tables, "law", 1, why) : NULL;
@@ -82,15 +83,9 @@ static int take_tables(model *self, const rf_tables *tables, rf_message *why)
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    model *self = calloc(1, sizeof *self);
-    if (!self) {
-        rf_say(why, RF_MEMORY, "no memory for a contact");
+    model *self = rf_make_kernel(sizeof *self, take_tables, destroy, tables, why);
+    if (!self)
         return NULL;
-    }
-    if (take_tables(self, tables, why) != RF_OK) {
-        destroy(self);
-        return NULL;
-    }
     const rf_sizes mine = {1, self->inputs, self->outputs, self->states, 2 * self->contacts};
     *sizes = mine;
     return self;

@@ -36,8 +36,9 @@ typedef struct model {
     double stiffness;
 } model;
 
-static int take_tables(model *self, const rf_tables *tables, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
 {
+    model *self = kernel;
     const rf_table *c = rf_find_table(tables, "coefficients", 2, why);
     const rf_table *center = c ? rf_find_table(tables, "center", 1, why) : NULL;
     const rf_table *reach = center ? rf_find_table(tables, "reach", 1, why) : NULL;
@@ -58,15 +59,9 @@ static int take_tables(model *self, const rf_tables *tables, rf_message *why)
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    model *self = calloc(1, sizeof *self);
-    if (!self) {
-        rf_say(why, RF_MEMORY, "no memory for a damper");
+    model *self = rf_make_kernel(sizeof *self, take_tables, free, tables, why);
+    if (!self)
         return NULL;
-    }
-    if (take_tables(self, tables, why) != RF_OK) {
-        free(self);
-        return NULL;
-    }
     self->journal.film = rf_map_film;
     self->journal.data = &self->map;
     self->journal.error = rf_map_error(&self->map);

@@ -43,8 +43,9 @@ static void destroy(void *kernel)
     free(self);
 }
 
-static int take_tables(model *self, const rf_tables *tables, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
 {
+    model *self = kernel;
     const rf_table *c = rf_find_table(tables, "coefficients", 3, why);
     const rf_table *center = c ? rf_find_table(tables, "center", 1, why) : NULL;
     const rf_table *range = center ? rf_find_table(tables, "range", 1, why) : NULL;
@@ -75,15 +76,9 @@ static int take_tables(model *self, const rf_tables *tables, rf_message *why)
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    model *self = calloc(1, sizeof *self);
-    if (!self) {
-        rf_say(why, RF_MEMORY, "no memory for a journal");
+    model *self = rf_make_kernel(sizeof *self, take_tables, destroy, tables, why);
+    if (!self)
         return NULL;
-    }
-    if (take_tables(self, tables, why) != RF_OK) {
-        destroy(self);
-        return NULL;
-    }
     const size_t count = (size_t)(self->table.cells_x + 5) * (size_t)(self->table.cells_t + 5);
     self->slice = malloc(count * sizeof *self->slice);
     self->spare = malloc(count * sizeof *self->spare);

@@ -35,8 +35,9 @@ static void destroy(void *kernel)
     free(self);
 }
 
-static int take_tables(model *self, const rf_tables *tables, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
 {
+    model *self = kernel;
     const rf_table *A = rf_find_table(tables, "A", 2, why),
                    *B = A ? rf_find_table(tables, "B", 2, why) : NULL;
     const rf_table *C = B ? rf_find_table(tables, "C", 2, why) : NULL,
@@ -55,15 +56,9 @@ static int take_tables(model *self, const rf_tables *tables, rf_message *why)
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    model *self = calloc(1, sizeof *self);
-    if (!self) {
-        rf_say(why, RF_MEMORY, "no memory for a state space");
+    model *self = rf_make_kernel(sizeof *self, take_tables, destroy, tables, why);
+    if (!self)
         return NULL;
-    }
-    if (take_tables(self, tables, why) != RF_OK) {
-        free(self);
-        return NULL;
-    }
     const size_t size = self->n + self->m;
     self->transition = malloc((size * size + self->n + rf_exponential_work(size) + 1) * sizeof(double));
     if (!self->transition) {

@@ -67,8 +67,9 @@ static int take_pad(const double *row, rf_recess_pad *pad)
            && nodes <= MOST_NODES && fits_edges(pad);
 }
 
-static int take_tables(model *self, const rf_tables *tables, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
 {
+    model *self = kernel;
     const rf_table *pads = rf_find_table(tables, "pads", 2, why);
     const rf_table *extrapolated = pads ? rf_find_table(tables, "extrapolated", 1, why) : NULL;
     if (!extrapolated)
@@ -99,15 +100,9 @@ static void destroy(void *kernel)
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    model *self = calloc(1, sizeof *self);
-    if (!self) {
-        rf_say(why, RF_MEMORY, "no memory for a bearing");
+    model *self = rf_make_kernel(sizeof *self, take_tables, destroy, tables, why);
+    if (!self)
         return NULL;
-    }
-    if (take_tables(self, tables, why) != RF_OK) {
-        destroy(self);
-        return NULL;
-    }
     *sizes = RF_JOURNAL_SIZES;
     return self;
 }

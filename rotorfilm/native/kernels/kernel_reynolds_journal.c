@@ -101,8 +101,9 @@ static int take_unit(model *self, const rf_tables *tables, rf_message *why)
     return RF_OK;
 }
 
-static int take_tables(model *self, const rf_tables *tables, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
 {
+    model *self = kernel;
     const rf_table *ring = rf_find_table(tables, "ring", 1, why);
     const rf_table *spans = ring ? rf_find_table(tables, "spans", 2, why) : NULL;
     const rf_table *lines = spans ? rf_find_table(tables, "lines0", 2, why) : NULL;
@@ -145,15 +146,9 @@ static void destroy(void *kernel)
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    model *self = calloc(1, sizeof *self);
-    if (!self) {
-        rf_say(why, RF_MEMORY, "no memory for a journal");
+    model *self = rf_make_kernel(sizeof *self, take_tables, destroy, tables, why);
+    if (!self)
         return NULL;
-    }
-    if (take_tables(self, tables, why) != RF_OK) {
-        destroy(self);
-        return NULL;
-    }
     self->journal.film = rf_ring_film;
     self->journal.data = &self->ring;
     *sizes = RF_JOURNAL_SIZES;

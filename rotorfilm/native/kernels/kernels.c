@@ -2,6 +2,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #ifndef RF_SUBSET
@@ -30,6 +31,19 @@ const rf_table *rf_find_table(const rf_tables *tables, const char *name, uint32_
         return NULL;
     }
     rf_say(why, RF_INVALID, "tables must contain %s, got %zu others", name, tables->count);
+    return NULL;
+}
+
+void *rf_make_kernel(size_t bytes, int (*take)(void *kernel, const rf_tables *tables, rf_message *why),
+                     void (*destroy)(void *kernel), const rf_tables *tables, rf_message *why)
+{
+    void *kernel = calloc(1, bytes);
+    if (!kernel)
+        rf_say(why, RF_MEMORY, "no memory for a kernel");
+    else if (take(kernel, tables, why) == RF_OK)
+        return kernel;
+    else
+        destroy(kernel);
     return NULL;
 }
 

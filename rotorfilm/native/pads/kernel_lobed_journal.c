@@ -42,8 +42,9 @@ typedef struct model {
     rf_lobe list[MOST_LOBES];
 } model;
 
-static int take_tables(model *self, const rf_tables *tables, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
 {
+    model *self = kernel;
     const rf_table *places = rf_find_table(tables, "lobes", 2, why);
     const rf_table *slenderness = places ? rf_find_table(tables, "slenderness", 1, why) : NULL;
     if (!slenderness)
@@ -80,15 +81,9 @@ static int take_tables(model *self, const rf_tables *tables, rf_message *why)
 
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
-    model *self = calloc(1, sizeof *self);
-    if (!self) {
-        rf_say(why, RF_MEMORY, "no memory for a journal");
+    model *self = rf_make_kernel(sizeof *self, take_tables, free, tables, why);
+    if (!self)
         return NULL;
-    }
-    if (take_tables(self, tables, why) != RF_OK) {
-        free(self);
-        return NULL;
-    }
     *sizes = RF_JOURNAL_SIZES;
     return self;
 }

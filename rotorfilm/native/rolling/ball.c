@@ -10,6 +10,8 @@
 #define EXACT 1e-14  /* residual over the loads at which a balance ends */
 #define ENOUGH 1e-11 /* below which only roundoff may keep a step from making it smaller */
 #define ROUNDOFF 1e-15 /* of the center of a ball, over the distance of the centers of curvature */
+#define STILL 1e-13    /* a centrifugal approach, over the same, below which a ball is taken as static */
+#define FAR 0.9        /* distance of the centers of curvature over that at touch, below which the rings are far apart */
 
 /* A Hertzian contact: direction e = (sin, cos) of its angle, t = de/d(angle), and d(load e)/d(center). */
 typedef struct contact {
@@ -75,7 +77,8 @@ static int solve(const double *q, const double *r, double *s)
     return isfinite(s[0]) && isfinite(s[1]);
 }
 
-/* The center of a ball that rests on the outer race only; whether the inner one is then open. */
+/* The center of a ball that rests on the outer race only; whether the inner one is then open. Steep contacts are pressed
+   with the center of curvature of the inner groove below that of the ball, but not where the grooves are far apart. */
 static int is_free(const rf_ball_row *row, int inertia, const double *a, double speed, double *x, balance *at)
 {
     const double up[2] = {0.0, 1.0};
@@ -83,14 +86,15 @@ static int is_free(const rf_ball_row *row, int inertia, const double *a, double 
     x[0] = 0.0;
     x[1] = row->outer;
     for (int k = 0; k < STEPS && x[1] != kept; ++k) {
-        const contact in = press(a[0] - x[0], a[1] - x[1], row->inner, row->inner_stiffness);
+        const contact in = press(a[0] - x[0], fmax(a[1] - x[1], 0.0), row->inner, row->inner_stiffness);
         rf_ball_inertia_at(row, inertia, in.e, up, speed, &at->inertia);
         kept = x[1];
         x[1] = row->outer + pow(at->inertia.force[0] / row->outer_stiffness, 2.0 / 3.0);
     }
     at->in = press(a[0] - x[0], a[1] - x[1], row->inner, row->inner_stiffness);
     at->out = press(x[0], x[1], row->outer, row->outer_stiffness);
-    return !(at->in.length > row->inner) || a[1] <= x[1];
+    const int is_far = hypot(a[0], a[1]) < FAR * (row->inner + row->outer);
+    return !(at->in.length > row->inner) || a[1] <= (is_far ? x[1] : 0.0);
 }
 
 /* Where the ball would be if the static load acted through its inner contact: the outer angle is reduced. */
@@ -218,10 +222,17 @@ static int run(const rf_ball_row *row, int inertia, const double *a, double spee
     return RF_OK;
 }
 
+/* Whether the centrifugal force moves a ball by less than what roundoff of its place may do. */
+static int is_slow(const rf_ball_row *row, double speed)
+{
+    const double force = 0.5 * row->mass * row->diameter / row->ratio * speed * speed;
+    return force <= row->outer_stiffness * pow(STILL * (row->inner + row->outer), 1.5);
+}
+
 int rf_ball_at(const rf_ball_row *row, int inertia, const double *a, double speed, rf_ball *ball)
 {
     int status = RF_OK;
-    if (inertia == RF_BALLS_STATIC || speed == 0.0)
+    if (inertia == RF_BALLS_STATIC || is_slow(row, speed))
         stand(row, a, speed, ball);
     else
         status = run(row, inertia, a, speed, ball);

@@ -78,14 +78,14 @@ int rf_balls_rest(const rf_balls *balls, const double *load, double speed, doubl
     memcpy(now.motion, motion, sizeof now.motion);
     try_motion(balls, load, speed, &now);
     for (*steps = 1; *steps < MOST_STEPS && now.size > EXACT * whole + noise(balls, &now) && share < STIFFEST; ++*steps) {
-        const double least = fmin(share, whole > 0.0 ? now.size / whole : 1.0);
-        step(balls, &now, unit * fmax(least, LEAST_SPRING), next.motion);
+        step(balls, &now, unit * share, next.motion);
         try_motion(balls, load, speed, &next);
         /* Where nothing touches, the residual does not change. */
-        const int better = next.size <= now.size && memcmp(next.motion, now.motion, sizeof now.motion) != 0;
-        share = better ? fmax(0.1 * share, LEAST_SPRING) : 8.0 * least;
-        if (better)
+        if (next.size <= now.size && memcmp(next.motion, now.motion, sizeof now.motion) != 0) {
             now = next;
+            share = fmax(fmin(0.1 * share, whole > 0.0 ? now.size / whole : 1.0), LEAST_SPRING);
+        } else
+            share *= 8.0;
     }
     memcpy(motion, now.motion, sizeof now.motion);
     memcpy(by, now.by, sizeof now.by);

@@ -46,8 +46,9 @@ static int is_row(const double *row)
     return good && row[11] < 1.0;
 }
 
-static int take_tables(model *self, const rf_tables *tables, rf_message *why)
+static int take_tables(void *kernel, const rf_tables *tables, rf_message *why)
 {
+    model *self = kernel;
     const rf_table *rows = rf_find_table(tables, "rows", 2, why);
     const rf_table *law = rows ? rf_find_table(tables, "law", 1, why) : NULL;
     if (!law)
@@ -73,15 +74,9 @@ static int take_tables(model *self, const rf_tables *tables, rf_message *why)
 static void *create(const rf_tables *tables, rf_sizes *sizes, rf_message *why)
 {
     static const rf_sizes mine = {PARAMETERS, 5, 2, 0, 0};
-    model *self = calloc(1, sizeof *self);
-    if (!self) {
-        rf_say(why, RF_MEMORY, "no memory for a ball bearing");
+    model *self = rf_make_kernel(sizeof *self, take_tables, free, tables, why);
+    if (!self)
         return NULL;
-    }
-    if (take_tables(self, tables, why) != RF_OK) {
-        free(self);
-        return NULL;
-    }
     *sizes = mine;
     return self;
 }

@@ -17,6 +17,7 @@ from rotorfilm import (
     StaticBalls,
     coefficients,
     equilibrium,
+    face_to_face,
     palmgren_stiffness,
     simulate,
 )
@@ -29,6 +30,7 @@ TIGHT = replace(DEEP, internal_clearance=0.0)
 ANGULAR = BallBearing(
     balls=10, ball_diameter=7.938e-3, pitch_diameter=33.5e-3, contact_angle=math.radians(25.0)
 )
+LOW = replace(ANGULAR, law=StaticBalls(), cage_angle=-math.pi / 2.0)
 STEEL = RollingMaterial(young_modulus=210e9, poisson_ratio=0.3, density=7800.0)
 PUBLISHED = BallBearing(
     balls=7,
@@ -221,10 +223,26 @@ def test_a_rigid_rotor_swings_at_the_frequency_of_the_stiffness():
 
 
 @pytest.mark.closed_form
-def test_the_clearance_is_where_a_ball_is_pressed_to_4200_mpa():
-    bearing = replace(TIGHT, cage_angle=-math.pi / 2.0)
-    balls = bearing.loads((0.0, -bearing.clearance * (1.0 - 1e-9), 0.0, 0.0, 0.0))
+@pytest.mark.parametrize(
+    "bearing",
+    [
+        replace(TIGHT, cage_angle=-math.pi / 2.0),
+        replace(LOW, axial_displacement=1e-5, growth=2e-6),
+        replace(face_to_face(LOW, distance=0.02, preload=50.0), axial_load=90.0),
+    ],
+    ids=["deep groove", "angular contact", "loaded pair"],
+)
+def test_the_clearance_is_where_a_ball_is_pressed_to_4200_mpa(bearing):
+    balls = bearing.loads((0.0, -bearing.clearance * (1.0 - 1e-9), bearing.axial_place(), 0.0, 0.0))
     assert max(balls.inner_pressure.max(), balls.outer_pressure.max()) == pytest.approx(4.2e9, rel=1e-6)
+
+
+@pytest.mark.closed_form
+def test_stiffness_across_a_load_depends_on_where_the_balls_are():
+    """Of an independent code, 8 balls and 100 N: a ball under the load, and two beside it."""
+    for angle, ratio in ((0.0, 0.457), (math.pi / 8.0, 0.734)):
+        K = replace(TIGHT, cage_angle=angle).rest(100.0 * DOWN).stiffness
+        assert K[0, 0] / K[1, 1] == pytest.approx(ratio, abs=1e-3)
 
 
 def test_errors_name_argument_rule_and_value():
@@ -232,6 +250,14 @@ def test_errors_name_argument_rule_and_value():
         BallBearing(balls=8, ball_diameter=8e-3, pitch_diameter=33.5e-3)
     with pytest.raises(InputError, match="balls must find room on the pitch circle"):
         replace(DEEP, balls=20)
+    with pytest.raises(InputError, match=r"balls must find room on the pitch circle, 0\.02901 m each"):
+        replace(DEEP, balls=3, ball_diameter=32e-3)
+    with pytest.raises(InputError, match="axial_load must be a single finite number, got nan"):
+        replace(DEEP, axial_load=math.nan)
+    with pytest.raises(InputError, match=r"law must be RunningBalls\(\) or StaticBalls\(\), got"):
+        replace(DEEP, law=7)
+    with pytest.raises(InputError, match=r"position must have shape \(2,\), got shape \(2, 3\)"):
+        DEEP.axial_place(np.zeros((2, 3)))
     with pytest.raises(InputError, match=r"inner_conformity must be above 0\.5 and below 0\.75, got 0\.5"):
         replace(DEEP, inner_conformity=0.5)
     with pytest.raises(InputError, match=r"contact_angle must be 0 to 75 deg, got 1\.5 rad"):

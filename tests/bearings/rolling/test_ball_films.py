@@ -56,5 +56,7 @@ def test_films_are_those_of_the_formula_and_go_with_its_powers():
 def test_errors_name_argument_rule_and_value():
     with pytest.raises(InputError, match=r"films must be two thicknesses .*, got \(-1e-07, 0\.0\)"):
         replace(DEEP, films=(-1e-7, 0.0))
+    with pytest.raises(InputError, match=r"films must be two thicknesses .*, got \(1e-05, 0\.0\)"):
+        replace(DEEP, inner_conformity=0.501, films=(1e-5, 0.0))
     with pytest.raises(InputError, match="load must be finite and positive, got 0"):
         ball_films(DEEP, load=0.0, speed=100.0, **OIL)

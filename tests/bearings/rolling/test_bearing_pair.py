@@ -134,7 +134,7 @@ def test_errors_name_argument_rule_and_value():
         back_to_back(ONE, distance=0.02, preload=5.0, spacer_offset=1e-6)
     with pytest.raises(InputError, match="directions of a pair with preload must differ"):
         BearingPair(bearing=ONE, distance=0.02, directions=(1, 1), preload=5.0)
-    with pytest.raises(InputError, match=r"directions must be two of 1 and -1, got \(1, 2\)"):
+    with pytest.raises(InputError, match=r"directions must be a tuple of two of 1 and -1, got \(1, 2\)"):
         BearingPair(bearing=ONE, distance=0.02, directions=(1, 2))
     with pytest.raises(InputError, match="preload must be finite and positive, got 0"):
         back_to_back(ONE, distance=0.02, preload=0.0)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.optimize import root
 
-from rotorfilm import BallBearing, RollingMaterial, RunningBalls, StaticBalls
+from rotorfilm import BallBearing, ConvergenceError, RollingMaterial, RunningBalls, StaticBalls
 
 RPM = np.pi / 30.0
 ANGULAR = BallBearing(
@@ -73,6 +73,14 @@ def equations(unknown, bearing, load, speed, outer):
     return np.concatenate([total, np.ravel(rest)])
 
 
+def unknowns(bearing, found):
+    """Return the unknowns of `equations`: displacement, and centers of balls from their loads."""
+    lo = (bearing.outer_conformity - 0.5) * bearing.ball_diameter
+    lo = lo + (found.balls.outer_load / bearing.contacts[1].stiffness) ** (2.0 / 3.0)
+    centers = lo[:, None] * np.stack(_sine(found.balls.outer_angle), axis=1)
+    return np.concatenate([found.displacement, centers.ravel()])
+
+
 @pytest.mark.filterwarnings("ignore:the gyroscopic moment")
 @pytest.mark.closed_form
 @pytest.mark.parametrize("outer", [True, False])
@@ -82,18 +90,46 @@ def test_equilibrium_is_that_of_all_equations_at_once(load, rpm, outer):
     bearing, speed = replace(ANGULAR, law=RunningBalls(outer_control=outer)), rpm * RPM
     found = bearing.rest(load, speed)
     # From a disturbed state, so that the solution is SciPy's own.
-    balls = found.balls
-    lo = (bearing.outer_conformity - 0.5) * bearing.ball_diameter
-    lo = lo + (balls.outer_load / bearing.contacts[1].stiffness) ** (2.0 / 3.0)
-    centers = np.stack([lo * np.sin(balls.outer_angle), lo * np.cos(balls.outer_angle)], axis=1)
-    start = np.concatenate([found.displacement, centers.ravel()]) * 1.003
-    scale = np.concatenate([[1e-5] * 3, [1e-3] * 2, [1e-5] * centers.size])
+    start = unknowns(bearing, found) * 1.003
+    scale = np.concatenate([[1e-5] * 3, [1e-3] * 2, [1e-5] * (start.size - 5)])
     wanted = root(
         lambda v: equations(v * scale, bearing, load, speed, outer), start / scale, tol=1e-14, method="hybr"
     )
     u = wanted.x * scale
     assert np.abs(equations(u, bearing, load, speed, outer)).max() < 1e-9
     assert found.displacement == pytest.approx(u[:5], rel=1e-9, abs=1e-15)
+
+
+@pytest.mark.filterwarnings("ignore:the gyroscopic moment")
+@pytest.mark.closed_form
+@pytest.mark.parametrize("outer", [True, False])
+@pytest.mark.parametrize("degrees", [60.0, 74.0])
+def test_steep_contacts_carry_as_the_equations_say(degrees, outer):
+    """The center of curvature of the inner groove is then below that of the ball."""
+    law = RunningBalls(outer_control=outer)
+    bearing, load = replace(ANGULAR, contact_angle=np.radians(degrees), law=law), (30.0, 0.0, 900.0, 0.0, 1.0)
+    for speed in (1.0, 400.0):
+        found = bearing.rest(load, speed)
+        assert np.abs(equations(unknowns(bearing, found), bearing, load, speed, outer)).max() < 1e-6
+    assert found.balls.carrying == bearing.balls
+
+
+@pytest.mark.closed_form
+def test_next_to_no_speed_is_none():
+    """Of either sign, with balls that are open, on their way to the shoulder, or pressed."""
+    still = replace(ANGULAR, law=StaticBalls())
+    for u in ((0.0, 0.0, -2e-5, 0.0, 0.0), (1e-6, 0.0, 0.0, 0.0, 0.0), (5e-6, -1e-5, 1e-5, 2e-4, 1e-4)):
+        for speed in (1e-200, -1e-12, 1e-9, 1e-6):
+            assert ANGULAR.wrench(u, speed) == pytest.approx(still.wrench(u), rel=1e-9, abs=1e-12)
+
+
+def test_a_ball_that_is_lost_and_absurd_speeds_are_told():
+    with pytest.warns(match="a ball carries"):
+        lost = DEEP.loads((1e-3, 0.0, 0.0, 0.0, 0.0), 100.0)
+    assert np.isfinite(lost.centrifugal_force).all()
+    assert lost.outer_load[lost.inner_load == 0.0] == pytest.approx(lost.centrifugal_force.max())
+    with pytest.raises(ConvergenceError, match="every ball must find a balance"):
+        DEEP.wrench((1e-6, 0.0, 0.0, 0.0, 0.0), 1e6)
 
 
 @pytest.mark.closed_form
@@ -185,6 +221,11 @@ def test_the_steps_of_the_ladder_are_of_the_size_that_is_told():
     assert slow.stiffness[2, 2] / still.stiffness[2, 2] == pytest.approx(0.968, abs=1e-3)
     assert fast.stiffness[2, 2] / still.stiffness[2, 2] == pytest.approx(0.33, abs=5e-3)
     assert fast.balls.traction.max() == pytest.approx(0.053, abs=5e-4)
+    inner_control = replace(ANGULAR, law=RunningBalls(outer_control=False))
+    with pytest.warns(match=r"traction coefficient of 0\.114"):
+        other = inner_control.rest((0.0, 0.0, 500.0, 0.0, 0.0), 30_000.0 * RPM).balls
+    assert other.centrifugal_force / fast.balls.centrifugal_force == pytest.approx(0.85, abs=1e-3)
+    assert np.degrees(fast.balls.inner_angle - other.inner_angle) == pytest.approx(2.1, abs=0.05)
     light = axial(100.0, 10_000.0).stiffness[2, 2] / axial(100.0, 0.0).stiffness[2, 2]
     assert light == pytest.approx(0.35, abs=5e-3)
 

@@ -9,10 +9,11 @@ from numpy.typing import ArrayLike
 
 from ....errors import InputError
 from ....inputs.si_arguments import quantities
-from ....model import Array, Force, Tangent
+from ....model import Array
 from ....native.spec import NativeParameter, NativeSpec
 from ....results import BearingLosses
-from ...reaction import StaticReaction, broadcast_state
+from ...kernel_reaction import KernelReaction
+from ...reaction import broadcast_state
 from ..losses_of_pads import BearingFlow, collected_losses, cross
 from .dam_kernel import DamKernel, PadPressure, pad_places
 from .recessed_pads import RecessedPads
@@ -28,7 +29,7 @@ PARAMETERS = (
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class PressureDamBearing(RecessedPads, StaticReaction):
+class PressureDamBearing(RecessedPads, KernelReaction):
     """A bearing of fixed pads, any of which may have a recess: pressure dam, step, relief track.
 
     x and y are Cartesian from the bearing center, rotation is about +z, the force acts on the journal.
@@ -70,32 +71,6 @@ class PressureDamBearing(RecessedPads, StaticReaction):
         """Return `jacobian` for inner loops: float arrays of equal batch shape."""
         found = self._answers(self.kernel, position, velocity, speed, True)
         return found.reshape(2, 5, *position.shape[1:])
-
-    def prepare(self) -> Force:
-        """Return the force as a function of five numbers; see `StaticReaction.prepare`."""
-        film = self.kernel
-
-        def call(x: float, y: float, vx: float, vy: float, speed: float) -> tuple[float, float]:
-            force_x, force_y, status = film.call(x, y, vx, vy, speed)
-            if status:
-                self.report(status, (x, y, vx, vy, speed))
-            return force_x, force_y
-
-        return call
-
-    def prepare_tangent(self) -> Tangent:
-        """Return force and derivatives as one function of five numbers; see `model.TangentReaction`."""
-        film = self.kernel
-
-        def tangent(
-            x: float, y: float, vx: float, vy: float, speed: float
-        ) -> tuple[float, float, list[float]]:
-            force_x, force_y, derivatives, status = film.tangent(x, y, vx, vy, speed)
-            if status:
-                self.report(status, (x, y, vx, vy, speed))
-            return force_x, force_y, derivatives
-
-        return tangent
 
     def force_error(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the estimate of the error of the force of these cells, not extrapolated [N], shape (...).
