@@ -14,6 +14,7 @@ from scipy.optimize import brentq
 from ..errors import (
     EquilibriumError,
     InputError,
+    UnloadedPadWarning,
     ValidityWarning,
     require_finite,
     require_positive,
@@ -69,7 +70,7 @@ def whirl_threshold(
     -----
     ValidityWarning
         Once, where there is no threshold and rests that were searched are beyond what the film is meant for;
-        and of a threshold beyond it. Not of speeds that are only passed.
+        and of a threshold beyond it. Not of speeds that are only passed, nor of unloaded pads there.
 
     Notes
     -----
@@ -119,6 +120,7 @@ def _passing(passed: list[str]) -> Iterator[None]:
     """Keep what warns of rests that a search only passes through: nobody asked for them."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", ValidityWarning)
+        warnings.simplefilter("ignore", UnloadedPadWarning)  # of no doubt for a threshold
         yield
     for one in caught:
         if issubclass(one.category, ValidityWarning):
