@@ -194,3 +194,13 @@ def test_pads_without_a_map_are_answered_on_grids(table):
     assert answer.model.startswith("2-D")
     with pytest.raises(SceneError, match=r"length/diameter must be 0\.05 to 20\.0 for a map of a pad"):
         scene_of(short + 'film = { name = "map" }\n')
+
+
+def test_the_clearance_of_a_bearing_is_told_as_it_was_given():
+    """A pocket all over its length is deeper where the pad is closest."""
+    pocket = "recess = { depth = 1e-4, start = 1, end = 2, share = 1 }"
+    scene = scene_of(DAM + OIL + f"pads = [{{ start = 0, extent = 3, preload = 0.2, {pocket} }}]\n")
+    assert scene.bearing.minimum_film((0.0, 0.0)) > 7.1e-5
+    data, _ = scene.film_table.echo(scene.bearing)
+    assert data.assembled_clearance == pytest.approx(7e-5, rel=1e-14)
+    assert data.pad_clearance == pytest.approx(7e-5 / 0.8, rel=1e-14)
