@@ -114,12 +114,17 @@ class LobedBearing(FilmReaction, PadBearing):
             raise InputError("lobes must have one at least, got ()")
         require_apart(self.lobes)
         super().__post_init__()
-        require_pad_film(self.film, (lobe.extent for lobe in self.lobes), self.slenderness)
+        require_pad_film(self.film, self.extents, self.slenderness)
 
     @property
     def preloads(self) -> tuple[float, ...]:
         """Preload of each lobe [1]."""
         return tuple(lobe.preload for lobe in self.lobes)
+
+    @property
+    def extents(self) -> tuple[float, ...]:
+        """Angle that each lobe covers [rad]."""
+        return tuple(lobe.extent for lobe in self.lobes)
 
     def minimum_film(self, position: ArrayLike) -> Array:
         """Return the least film on any pad [m], shape (...), of journals at positions (2, ...) [m].
@@ -133,8 +138,8 @@ class LobedBearing(FilmReaction, PadBearing):
     def bound_film(self) -> BoundLobes:
         """The films of the pads tied to the dimensions; InputError without a stated temperature."""
         self.require_temperature()
-        extents = {lobe.extent: self.film.kernel(lobe.extent, self.slenderness) for lobe in self.lobes}
-        films = [JournalKernel(extents[lobe.extent], self.clearance, self.force_scale) for lobe in self.lobes]
+        kernels = {extent: self.film.kernel(extent, self.slenderness) for extent in self.extents}
+        films = [JournalKernel(kernels[lobe.extent], self.clearance, self.force_scale) for lobe in self.lobes]
         places = [
             LobePlace(lobe.middle, (self.clearance * lobe.center[0], self.clearance * lobe.center[1]))
             for lobe in self.lobes
@@ -205,7 +210,7 @@ class LobedBearing(FilmReaction, PadBearing):
         """
         if type(self) is not LobedBearing or not isinstance(self.film, PadMapFilm) or self.is_warming:
             return None
-        extents = list(dict.fromkeys(lobe.extent for lobe in self.lobes))
+        extents = list(dict.fromkeys(self.extents))
         tables = {"slenderness": np.array([self.slenderness])}
         for number, extent in enumerate(extents):
             kernel = self.film.table(extent, self.slenderness).kernel()
@@ -219,6 +224,5 @@ class LobedBearing(FilmReaction, PadBearing):
         """Return this bearing with a film that carries the maps it needs; see `model.Portable`."""
         if not isinstance(self.film, PadMapFilm):
             return self
-        extents = dict.fromkeys(lobe.extent for lobe in self.lobes)
-        tables = tuple(self.film.table(extent, self.slenderness) for extent in extents)
+        tables = tuple(self.film.table(extent, self.slenderness) for extent in dict.fromkeys(self.extents))
         return replace(self, film=replace(self.film, tables=tables))

@@ -15,7 +15,7 @@ from ..oil.warm_bearing import WarmBearing
 class PadBearing(WarmBearing):
     """Pads around a journal, as `LobedBearing`, `PressureDamBearing` and `TiltingPadBearing` have them.
 
-    A bearing adds its pads and `preloads`.
+    A bearing adds its pads, `preloads` and `extents`.
 
     Parameters
     ----------
@@ -78,6 +78,11 @@ class PadBearing(WarmBearing):
     @property
     def preloads(self) -> Sequence[float]:
         """Preload of each pad [1], or the one that all have."""
+        raise NotImplementedError
+
+    @property
+    def extents(self) -> Sequence[float]:
+        """Angle that each pad covers [rad], or the one that all cover."""
         raise NotImplementedError
 
     @property

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Annotated
 
@@ -96,10 +95,6 @@ class DamTable(PadTable):
     def echo(self, bearing: PressureDamBearing) -> tuple[DamData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
         return echo_of_pads(DamData, bearing), dam_film_name(bearing)
-
-    def extents(self, bearing: PressureDamBearing) -> Collection[float]:
-        """Return the angles that pads of the bearing cover [rad]."""
-        return [pad.extent for pad in bearing.pads]
 
     def make_map(self, report: Report) -> None:
         """Do nothing: films with steps have no map."""

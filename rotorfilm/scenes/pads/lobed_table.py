@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -78,7 +77,3 @@ class LobedTable(FilmedPadTable):
     def echo(self, bearing: LobedBearing) -> tuple[LobedData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
         return echo_of_pads(LobedData, bearing), pad_film_name(bearing.film)
-
-    def extents(self, bearing: LobedBearing) -> Collection[float]:
-        """Return the angles that pads of the bearing cover [rad]."""
-        return [lobe.extent for lobe in bearing.lobes]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
@@ -17,7 +16,7 @@ from .pad_remarks import AnyPads, pad_remarks
 
 @dataclass(frozen=True, kw_only=True)
 class PadTable(OiledTable):
-    """The table of a bearing made of pads; a family adds its pads, `build`, `extents` and `echo`.
+    """The table of a bearing made of pads; a family adds its pads, `build` and `echo`.
 
     Parameters
     ----------
@@ -58,15 +57,11 @@ class PadTable(OiledTable):
         """Return the bearing; raise InputError where a value breaks its rule."""
         raise NotImplementedError
 
-    def extents(self, bearing: Any) -> Collection[float]:
-        """Return the angles that pads of the bearing cover [rad]."""
-        raise NotImplementedError
-
     def remarks(
         self, bearing: AnyPads, oil: Lubricant, speed: float, load: tuple[float, float]
     ) -> tuple[str, ...]:
         """Return what its physics leaves out and should not."""
-        return pad_remarks(bearing, max(self.extents(bearing)), oil, speed, load)
+        return pad_remarks(bearing, oil, speed, load)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,5 +85,5 @@ class FilmedPadTable(PadTable):
         """Make the maps of the pads, where the film is one, unless they lie on disk."""
         bearing: Any = self.build()
         if isinstance(bearing.film, PadMapFilm):
-            for extent in sorted(set(self.extents(bearing))):
+            for extent in sorted(set(bearing.extents)):
                 bearing.film.table(extent, bearing.slenderness, report)

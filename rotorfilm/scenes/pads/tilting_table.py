@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -102,7 +101,3 @@ class TiltingTable(FilmedPadTable):
     def echo(self, bearing: TiltingPadBearing) -> tuple[TiltingData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
         return echo_of_pads(TiltingData, bearing), pad_film_name(bearing.film)
-
-    def extents(self, bearing: TiltingPadBearing) -> Collection[float]:
-        """Return the angles that pads of the bearing cover [rad]."""
-        return (bearing.extent,)

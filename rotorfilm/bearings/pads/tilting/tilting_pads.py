@@ -95,7 +95,7 @@ class TiltingPads(PadBearing):
         if heavy != (self.pad_mass is not None):
             rule = "with both pivot_stiffness and pad_inertia, and only then"
             raise InputError(f"pad_mass must be given {rule}, got {self.pad_mass!r}")
-        require_pad_film(self.film, [self.extent], self.slenderness)
+        require_pad_film(self.film, self.extents, self.slenderness)
         self._check_pivots()
 
     def _check_pivots(self) -> None:
@@ -113,6 +113,11 @@ class TiltingPads(PadBearing):
     def preloads(self) -> tuple[float]:
         """The preload of all pads [1]."""
         return (self.preload,)
+
+    @property
+    def extents(self) -> tuple[float]:
+        """The angle that all pads cover [rad]."""
+        return (self.extent,)
 
     @property
     def room(self) -> float:
