@@ -87,7 +87,9 @@ class TiltingOrbitRung(SampledOrbitRung[TiltingCandidate]):
         rows = turn.force if self.quantity == FORCE else turn.places[:2]
         samples = rows.shape[1]
         wave = first_wave(rows @ basis(samples // 2, samples).back.T)
-        return wave_value(self.quantity, wave, self.rotor.profile.speeds[0], self.rotor.unbalance_angle)
+        # Over the angle of the rotor, not time: the unbalance turns with the phase at negative speed too.
+        speed = abs(self.rotor.profile.speeds[0])
+        return wave_value(self.quantity, wave, speed, self.rotor.unbalance_angle)
 
 
 def tilting_orbit_ladder(scene: Scene, quantity: str) -> Ladder:
