@@ -5,13 +5,11 @@ its weight, and with a twentieth of it, as where a gear lifts the shaft: then th
 """
 
 import math
-import warnings
 
 from rotorfilm import (
     LobedBearing,
     PressureDamBearing,
     TiltingPadBearing,
-    ValidityWarning,
     even_pivots,
     lobe_set,
     pressure_dam_pads,
@@ -35,8 +33,6 @@ bearings["tilting pads"] = TiltingPadBearing(
     **BORE, assembled_clearance="0.1 mm", preload=0.3, extent="60 deg", pivots=even_pivots(5)
 )
 
-# The upper tilting pads carry nothing at low speeds, of which the search in vain for a threshold warns.
-warnings.simplefilter("ignore", ValidityWarning)
 onset = {}
 for name, bearing in bearings.items():
     for load in (WEIGHT, 0.05 * WEIGHT):

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
         RotorfilmError as RotorfilmError,
         SceneError as SceneError,
         UndefinedDerivativeError as UndefinedDerivativeError,
+        UnloadedPadWarning as UnloadedPadWarning,
         ValidityWarning as ValidityWarning,
     )
     from .fmu import *

@@ -88,6 +88,10 @@ class ValidityWarning(UserWarning):
     """A model is used outside the range in which it was verified."""
 
 
+class UnloadedPadWarning(ValidityWarning):
+    """A tilting pad has no film and no unique tilt, as those opposite to a load often have not."""
+
+
 class FileWarning(RuntimeWarning):
     """A file of ours is damaged or cannot be written, so that work is done again or may be lost."""
 

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ..bearings.films.geometry import Groove
     from ..bearings.films.law import FilmLaw
     from ..bearings.journal import GrooveMapTable
+    from ..scenes.film_table import FilmTable
     from ..scenes.lubricant_table import LubricantTable
 
 Grooves = Annotated[
@@ -61,10 +62,6 @@ def coefficients(
     groove: Grooves = None,
 ) -> Said:
     """Find equilibrium, stiffness and damping of a journal bearing; numbers without a unit are SI."""
-    from ..bearings.journal import film_name
-    from ..linear import coefficients as film_coefficients, equilibrium
-    from ..scenes.journal.echo import bearing_data
-    from ..scenes.journal.journal_remarks import film_remarks
     from ..scenes.reading.tables import read_table
     from ..scenes.schema import JournalTable
 
@@ -74,17 +71,7 @@ def coefficients(
     grooves = tuple(_groove(text) for text in groove or [])
     law = _film(film, order, constant, rupture, cells)
     table = replace(read_table(JournalTable, "--", geometry), film=law, grooves=grooves).on("--", lubricant)
-    bearing = table.build()
-    table.make_map(report)
-    force, rate = operation_of(load, speed)
-    at = equilibrium(bearing, force, rate)
-    derivatives = film_coefficients(bearing, at.position, rate)
-    data, name = bearing_data(bearing), film_name(bearing.fitted_film)
-    remarks = film_remarks(bearing, lubricant.properties, rate, force)
-    answer = {"bearing": data, "model": name, "equilibrium": at, "losses": at.losses}
-    answer["coefficients"] = derivatives
-    answer["remarks"] = remarks
-    return Said(answer, partial(console.print_rows, "journal bearing", rows(**answer)))
+    return found_of("journal bearing", table, lubricant, operation_of(load, speed), report)
 
 
 def groove_map(
@@ -217,3 +204,24 @@ def operation_of(load: str, speed: str) -> tuple[tuple[float, float], float]:
     table = read_table(OperationTable, "--", options)
     assert table.load is not None
     return table.load, table.speed
+
+
+def found_of(
+    title: str,
+    table: FilmTable,
+    lubricant: LubricantTable,
+    operation: tuple[tuple[float, float], float],
+    report: Report,
+    **whirl: float,
+) -> Said:
+    """Return equilibrium, losses, K and C of the bearing of a table, and what its physics leaves out."""
+    from ..linear import coefficients as film_coefficients, equilibrium
+
+    bearing, (load, speed) = table.build(), operation
+    table.make_map(report)
+    at = equilibrium(bearing, load, speed)
+    data, name = table.echo(bearing)
+    answer = {"bearing": data, "model": name, "equilibrium": at, "losses": at.losses}
+    answer["coefficients"] = film_coefficients(bearing, at.position, speed, **whirl)
+    answer["remarks"] = table.remarks(bearing, lubricant.properties, speed, load)
+    return Said(answer, partial(console.print_rows, title, rows(**answer)))

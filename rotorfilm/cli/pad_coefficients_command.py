@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import Annotated, Any
 
 from ..errors import InputError
 from ..progress import Report
-from ..readable.result import rows
-from . import printing as console
 from .command import Option, Said
-from .journal_commands import lubricant_of, operation_of
+from .journal_commands import found_of, lubricant_of, operation_of
 
 DAM, TILTING = "pressure_dam", "tilting_pad"
 
@@ -73,22 +70,12 @@ def pad_coefficients(
 
     K and C of tilting pads hold at one frequency, which is told with them.
     """
-    from ..linear import coefficients, equilibrium
-
     given = {name: value for name, value in locals().items() if isinstance(value, str) or name == "pad_count"}
     lubricant = lubricant_of(viscosity, oil, supply_temperature)
     asked = {name: value for name, value in given.items() if name not in _NOT_OF_TABLES and value is not None}
     table = _table(kind, asked, between_pads).on("--", lubricant)
-    bearing = table.build()
     whirl = {} if frequency is None else {"frequency": _frequency(kind, frequency)}
-    table.make_map(report)
-    force, rate = operation_of(load, speed)
-    at = equilibrium(bearing, force, rate)
-    data, name = table.echo(bearing)
-    answer = {"bearing": data, "model": name, "equilibrium": at, "losses": at.losses}
-    answer["coefficients"] = coefficients(bearing, at.position, rate, **whirl)
-    answer["remarks"] = table.remarks(bearing, lubricant.properties, rate, force)
-    return Said(answer, partial(console.print_rows, f"bearing: {kind}", rows(**answer)))
+    return found_of(f"bearing: {kind}", table, lubricant, operation_of(load, speed), report, **whirl)
 
 
 _NOT_OF_TABLES = ("kind", "load", "speed", "oil", "supply_temperature", "frequency")

@@ -14,6 +14,7 @@ from scipy.optimize import brentq
 from ..errors import (
     EquilibriumError,
     InputError,
+    UnloadedPadWarning,
     ValidityWarning,
     require_finite,
     require_positive,
@@ -69,7 +70,8 @@ def whirl_threshold(
     -----
     ValidityWarning
         Once, where there is no threshold and rests that were searched are beyond what the film is meant for;
-        and of a threshold beyond it. Not of speeds that are only passed.
+        and of a threshold beyond it. Not of speeds that are only passed, nor of unloaded pads, which the
+        equilibrium at the threshold tells.
 
     Notes
     -----
@@ -119,6 +121,7 @@ def _passing(passed: list[str]) -> Iterator[None]:
     """Keep what warns of rests that a search only passes through: nobody asked for them."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", ValidityWarning)
+        warnings.simplefilter("ignore", UnloadedPadWarning)  # of no doubt for a threshold
         yield
     for one in caught:
         if issubclass(one.category, ValidityWarning):
@@ -142,7 +145,7 @@ def _searched(
             return _none(critical_mass(at).reason)
         stable.append(is_stable(at, mass))
         if before is not None and stable[-2:] == [True, False]:
-            return _refined(reaction, load, mass, (before, at))
+            return _refined(reaction, load, mass, (before, at), passed)
         before = at
 
 
@@ -151,16 +154,21 @@ def _settling(
 ) -> WhirlThreshold:
     """Return the threshold by the exponents of rotor and bearing together."""
 
-    def least_damped(speed: float) -> tuple[complex, Equilibrium]:
-        with _passing(passed):
-            at = equilibrium(reaction, load, speed)
-        film: Settling = settled(reaction, at.position, speed)
-        return complex(film.at_rest().modes(at.position, speed, mass)[0]), at
+    def least_damped(at: Equilibrium) -> complex:
+        film: Settling = settled(reaction, at.position, at.speed)
+        return complex(film.at_rest().modes(at.position, at.speed, mass)[0])
 
-    onset, stable = _first_onset(lambda speed: least_damped(speed)[0].real, _speeds(*ends))
+    def growth(speed: float) -> float:
+        with _passing(passed):
+            return least_damped(equilibrium(reaction, load, speed)).real
+
+    onset, stable = _first_onset(growth, _speeds(*ends))
     if onset is None:
         return _none(_why_none(stable, *ends))
-    exponent, rest = least_damped(onset)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UnloadedPadWarning)  # the rest itself tells them
+        rest = equilibrium(reaction, load, onset)
+    exponent = least_damped(rest)
     return WhirlThreshold(
         speed=onset,
         whirl_ratio=abs(exponent.imag) / onset,
@@ -227,11 +235,16 @@ def _first_carried(reaction: Reaction, load: Array, speeds: list[float]) -> int:
 
 
 def _refined(
-    reaction: Reaction, load: Array, mass: float, bracket: tuple[Coefficients, Coefficients]
+    reaction: Reaction,
+    load: Array,
+    mass: float,
+    bracket: tuple[Coefficients, Coefficients],
+    passed: list[str],
 ) -> WhirlThreshold:
     def margin(log_speed: float) -> float:
-        at = equilibrium(reaction, load, math.exp(log_speed))
-        return whirl_margin(coefficients(reaction, at.position, at.speed), mass)
+        with _passing(passed):
+            at = equilibrium(reaction, load, math.exp(log_speed))
+            return whirl_margin(coefficients(reaction, at.position, at.speed), mass)
 
     stable, unstable = bracket
     if whirl_margin(unstable, mass) > 0.0:

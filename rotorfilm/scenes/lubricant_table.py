@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Annotated, Any
+from dataclasses import dataclass, replace
+from typing import Annotated, Any, Protocol, Self
 
 from ..bearings.oil import Cooling, Oil
 from ..bearings.oil.oil import grade_number
@@ -167,3 +167,40 @@ class LubricantTable:
         names = ("density", "heat_capacity", "conductivity", "thinning")
         given = {name: getattr(self, name) for name in names if getattr(self, name) is not None}
         return Lubricant(**{**known, **given})
+
+
+class _Lubricated(Protocol):
+    @property
+    def viscosity(self) -> float | None: ...
+
+    @property
+    def oil(self) -> Oil | None: ...
+
+
+class OiledTable:
+    """The table of a bearing, a dataclass with `viscosity`, `oil` and `cooling`, on the oil of a scene."""
+
+    @property
+    def has_lubricant(self: _Lubricated) -> bool:
+        """Whether there is a viscosity, or the oil of the scene."""
+        return self.viscosity is not None or self.oil is not None
+
+    def on(self, where: str, lubricant: LubricantTable) -> Self:
+        """Return this table with the oil of the scene, unless it has a viscosity or an oil.
+
+        Parameters
+        ----------
+        where : str
+            Its name in the file, for messages.
+        lubricant : LubricantTable
+
+        Raises
+        ------
+        InputError
+            If neither gives a viscosity.
+        """
+        if self.has_lubricant:  # type: ignore[misc]
+            return self
+        if not lubricant.has_viscosity:
+            raise InputError(f"{where}.viscosity is required where [lubricant] gives no grade or viscosity")
+        return replace(self, oil=lubricant.oil, cooling=lubricant.cooling)  # type: ignore[type-var]

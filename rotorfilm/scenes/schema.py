@@ -7,7 +7,7 @@ is listed by one line in `rotorfilm.scenes.families`, and renames nothing.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
 from ..bearings import journal
@@ -21,7 +21,7 @@ from ..progress import Report
 from .journal.echo import BearingData, bearing_data
 from .journal.film_tables import FEED_HOLE, FILMS, GROOVE, PAD
 from .journal.journal_remarks import film_remarks
-from .lubricant_table import Lubricant, LubricantTable
+from .lubricant_table import Lubricant, OiledTable
 from .reading.readers import read_load
 from .reading.shared_fields import made_from
 from .reading.tables import Quantity, TableList, Variant
@@ -34,7 +34,7 @@ SCHEMA = 1
 
 
 @dataclass(frozen=True, kw_only=True)
-class JournalTable:
+class JournalTable(OiledTable):
     """`[journal]`: a cylindrical journal bearing, full unless it has pads or grooves.
 
     Parameters
@@ -87,26 +87,6 @@ class JournalTable:
     def film_is_given(self) -> bool:
         """Whether the file names the film, so that no other may answer."""
         return self.film is not None
-
-    @property
-    def has_lubricant(self) -> bool:
-        """Whether there is a viscosity, or the oil of the scene."""
-        return self.viscosity is not None or self.oil is not None
-
-    def on(self, where: str, lubricant: LubricantTable) -> JournalTable:
-        """Return this table with the oil of the scene, unless it has its own viscosity.
-
-        Parameters
-        ----------
-        where : str
-            Its name in the file, for messages.
-        lubricant : LubricantTable
-        """
-        if self.has_lubricant:
-            return self
-        if not lubricant.has_viscosity:
-            raise InputError(f"{where}.viscosity is required where [lubricant] gives no grade or viscosity")
-        return replace(self, oil=lubricant.oil, cooling=lubricant.cooling)
 
     def build(self) -> JournalBearing:
         """Return the bearing; raise InputError where a value breaks its rule."""

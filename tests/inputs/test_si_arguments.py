@@ -29,14 +29,10 @@ RESULTS = {
 ARRAYS = {"Measurements"}
 """Of arrays, in SI."""
 
-SCALED = ARRAYS | {
-    "BallSupport",
-    "ContactLaw",
-    "HeatedBearing",
-    "MovingContact",
-    "OwnReaction",
-    "TiltingPads",
-}
+PARTS = {"PadBearing", "RecessedPads", "TiltingPads"}
+"""What bearings are made of, which have it with quantities."""
+
+SCALED = ARRAYS | PARTS | {"BallSupport", "ContactLaw", "HeatedBearing", "MovingContact", "OwnReaction"}
 """Made by functions, from scales that these know."""
 
 

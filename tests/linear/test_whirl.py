@@ -1,4 +1,5 @@
 import math
+import sys
 
 import numpy as np
 import pytest
@@ -6,7 +7,8 @@ from hypothesis import given, settings, strategies as st
 from scipy.optimize import brentq, minimize_scalar
 
 from rotorfilm.bearings.journal import SplittingFilm
-from rotorfilm.errors import EquilibriumError, InputError
+from rotorfilm.bearings.pads import PadGridFilm, TiltingPadBearing
+from rotorfilm.errors import EquilibriumError, InputError, ValidityWarning, warn_user
 from rotorfilm.linear import coefficients, critical_mass, equilibrium, speed_parameter, whirl_threshold
 
 SPEED = 1500 * math.pi / 30
@@ -184,3 +186,31 @@ def test_threshold_outside_the_range_asked_for(bearing):
 def test_bad_arguments(bearing, arguments, message):
     with pytest.raises(InputError, match=message):
         whirl_threshold(bearing, *arguments)
+
+
+PADS = TiltingPadBearing(
+    radius=0.05,
+    length=0.05,
+    pad_clearance=1e-4,
+    viscosity=0.02,
+    pivots=tuple(np.radians([270.0, 342.0, 54.0, 126.0, 198.0])),
+    extent=math.pi / 3.0,
+    film=PadGridFilm(cells=(16, 4)),
+)
+
+
+@pytest.mark.parametrize("pads", [False, True])
+def test_a_search_says_what_is_doubtful_of_the_threshold_alone(bearing, monkeypatch, pads):
+    """Each rest says its speed: those of the scan and of the refinement are only passed."""
+
+    def doubted(reaction, load, speed):
+        warn_user(f"{speed!r}")
+        return equilibrium(reaction, load, speed)
+
+    monkeypatch.setattr(sys.modules["rotorfilm.linear.whirl"], "equilibrium", doubted)
+    unit = PADS.force_scale * 300.0
+    case = (PADS, [0.0, -0.05 * unit], unit / 9.0, (200.0, 600.0)) if pads else (bearing, LOAD, MASS)
+    with pytest.warns(ValidityWarning) as said:
+        found = whirl_threshold(*case)
+    assert {str(one.message) for one in said} == {f"{found.speed!r}"}
+    assert not pads or found.equilibrium.pads.unloaded.any()

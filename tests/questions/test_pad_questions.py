@@ -365,3 +365,19 @@ def test_phase_and_force_of_an_orbit_on_tilting_pads():
     inertia = 300.0 * 314.159265**2 * amplitude
     assert found["unbalance_force"].value == pytest.approx(inertia, rel=1.1 * 0.01 * 314.159265**2 / inertia)
     assert -math.pi < found["unbalance_phase"].value < 0.0
+
+
+def test_the_phase_on_tilting_pads_is_that_of_coefficients_and_mirrored_at_negative_speed():
+    """Pads and load are their own mirror image: the orbit lags by as much, in the other sense."""
+    table = TILTING + 'film = { name = "reynolds", cells = [16, 4] }\n'
+    scene = asked(table, "unbalance_phase", 0.05, "unbalance = 1e-6\nunbalance_angle = 0.7")
+    at = equilibrium(scene.bearing, scene.static_load, scene.speed)
+    found = coefficients(scene.bearing, at.position, scene.speed)
+    dynamic = found.stiffness + 1j * scene.speed * found.damping - scene.speed**2 * 300.0 * np.eye(2)
+    x, y = np.linalg.solve(dynamic, np.array([1.0, -1j]))
+    exact = np.angle(x + 1j * y)
+    back = replace(scene, operation=replace(scene.operation, speed=-scene.speed))
+    for each, expected in ((scene, exact), (back, -exact)):
+        linear, orbit = (ladder_of(each).rungs[k].answer(None).value for k in (0, 1))
+        assert linear == pytest.approx(expected, rel=1e-6)
+        assert orbit == pytest.approx(expected, rel=1e-3)

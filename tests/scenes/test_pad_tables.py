@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -152,12 +153,16 @@ def test_a_scene_that_asks_nothing_is_described(table):
 def test_warming_is_that_of_a_pad_that_keeps_its_heat():
     scene = scene_of(ELLIPTICAL)
     bearing, oil = scene.bearing, scene.lubricant.properties
-    numbers = pad_numbers(bearing, 2.0, oil, 300.0, (0.0, -3e3))
+    numbers, kept = (
+        pad_numbers(bearing, one, 300.0, (0.0, -3e3)) for one in (oil, replace(oil, conductivity=1e-3))
+    )
     # Couette flow U/2 through the gap c carries the shear power viscosity U^2/c over the arc R extent.
-    U, c, R = 300.0 * 0.05, 7e-5, 0.05
-    carried = 0.02 * U**2 / c * R * 2.0 / (oil.density * oil.heat_capacity * 0.5 * U * c)
+    U, c, R, extent = 300.0 * 0.05, 7e-5, 0.05, math.radians(160.0)
+    carried = 0.02 * U**2 / c * R * extent / (oil.density * oil.heat_capacity * 0.5 * U * c)
     conducted = 0.02 * U**2 / (8.0 * oil.conductivity)
-    assert numbers["warming"] == pytest.approx(min(carried, conducted))
+    assert numbers["warming"] == pytest.approx(conducted)
+    assert kept["warming"] == pytest.approx(carried)
+    assert conducted < carried
     assert numbers["tilt"] == pytest.approx(2e3 * 7e-5 / 0.05)
     fast = scene_of(ELLIPTICAL, RUN.replace("3000", "9000"))
     assert fast.film_remarks[0].startswith("heat: along one pad the oil warms by about")
@@ -194,3 +199,13 @@ def test_pads_without_a_map_are_answered_on_grids(table):
     assert answer.model.startswith("2-D")
     with pytest.raises(SceneError, match=r"length/diameter must be 0\.05 to 20\.0 for a map of a pad"):
         scene_of(short + 'film = { name = "map" }\n')
+
+
+def test_the_clearance_of_a_bearing_is_told_as_it_was_given():
+    """A pocket all over its length is deeper where the pad is closest."""
+    pocket = "recess = { depth = 1e-4, start = 1, end = 2, share = 1 }"
+    scene = scene_of(DAM + OIL + f"pads = [{{ start = 0, extent = 3, preload = 0.2, {pocket} }}]\n")
+    assert scene.bearing.minimum_film((0.0, 0.0)) > 7.1e-5
+    data, _ = scene.film_table.echo(scene.bearing)
+    assert data.assembled_clearance == pytest.approx(7e-5, rel=1e-14)
+    assert data.pad_clearance == pytest.approx(7e-5 / 0.8, rel=1e-14)

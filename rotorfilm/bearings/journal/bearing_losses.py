@@ -10,28 +10,13 @@ from numpy.typing import ArrayLike
 from ...errors import require_inside
 from ...model import Array
 from ...results import BearingLosses
+from ..film_units import Dimensions
 from ..films.geometry import FilmGeometry
 from ..films.law import FilmLaw, FilmOptions, options
 
 
-class LossyBearing(Protocol):
+class LossyBearing(Dimensions, Protocol):
     """What losses need to know of a bearing: see `JournalBearing`."""
-
-    @property
-    def radius(self) -> float:
-        """Bearing radius [m]."""
-
-    @property
-    def film_length(self) -> float:
-        """Axial length that is film [m]."""
-
-    @property
-    def clearance(self) -> float:
-        """Radial clearance [m]."""
-
-    @property
-    def film_viscosity(self) -> float:
-        """Dynamic viscosity of the film [Pa s]."""
 
     @property
     def supply_pressure(self) -> float:

@@ -10,7 +10,8 @@ import numpy as np
 from ...errors import InputError
 from ...model import Array
 from ..oil import Cooling
-from .losses_of_pads import BearingOfPads, PadUnderJournal, behind_pads, cross, flows_of_pads
+from .losses_of_pads import PadUnderJournal, behind_pads, cross, flows_of_pads
+from .pad_bearing import PadBearing
 from .pad_losses import LossyPadFilm, gap_shear_of_pad, gap_slopes_of_pad
 
 SPEED = np.array([0.0, 0.0, 0.0, 0.0, 1.0])
@@ -34,7 +35,7 @@ class PadSlopes(NamedTuple):
 
 
 def heat_slopes_of_pads(
-    bearing: BearingOfPads,
+    bearing: PadBearing,
     film: LossyPadFilm,
     pads: Sequence[PadSlopes],
     state: tuple[Array, Array, float],

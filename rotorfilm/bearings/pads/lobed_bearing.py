@@ -11,8 +11,6 @@ from numpy.typing import ArrayLike
 from ...errors import (
     FilmContactError,
     InputError,
-    require_each,
-    require_positive,
     require_tuple,
     require_vector,
     warn_user,
@@ -25,14 +23,11 @@ from ...native.response_kernels import LobePlace, LobesKernel
 from ...native.spec import NativeSpec
 from ...results import BearingLosses
 from ..films.kernel_film import BoundKernel, continued
-from ..oil import Cooling, Oil
-from ..oil.lubricant import require_lubricant
-from ..oil.warm_bearing import WarmBearing
 from ..reaction import FilmReaction, broadcast_state
-from .clearances import PadClearance
 from .heat_of_pads import SPEED, PadSlopes, heat_slopes_of_pads
 from .lobe import Lobe, require_apart
 from .losses_of_pads import PadUnderJournal, losses_of_pads
+from .pad_bearing import PadBearing
 from .pad_film import PadFilm, PadMapFilm, require_pad_film
 from .pad_losses import LossyPadFilm
 
@@ -81,34 +76,16 @@ class BoundLobes(BoundKernel):
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class LobedBearing(PadClearance, FilmReaction, WarmBearing):
+class LobedBearing(FilmReaction, PadBearing):
     """A journal bearing of fixed pads, such as an elliptical one: a Reaction and a static Model.
 
     x and y are Cartesian from the bearing center, rotation is about +z, the force acts on the journal. The
     film of a pad knows the journal only from the pad's own center of curvature (Lund & Thomsen 1978); that of
-    the bearing is their sum. Eccentricity ratios are in pad clearances.
+    the bearing is their sum. Eccentricity ratios are in pad clearances. Dimensions, clearance and lubricant
+    are given as to every `PadBearing`.
 
     Parameters
     ----------
-    radius : float [m]
-        Journal radius; or `diameter`, twice that.
-    length : float [m]
-        Axial length.
-    pad_clearance : float or None [m]
-        Radial clearance c_p of a pad: its radius of curvature less that of the journal. Give this or the
-        assembled one.
-    assembled_clearance : float or None [m]
-        Radial clearance of the largest journal that fits in, (1 - preload) c_p, as drawings and ROSS have it;
-        for lobes of one preload.
-    viscosity : float or None [Pa s]
-        Dynamic viscosity of the lubricant, the same at all temperatures; None where `oil` is given.
-    oil : Oil or None
-        The lubricant by its viscosity over temperature, in place of `viscosity`.
-    temperature : float or None [K]
-        Of the films, where the oil is given; None leaves it to the heat balance, with `cooling`, and to
-        `equilibrium`, as that of a `JournalBearing`.
-    cooling : Cooling or None
-        What takes the heat away; needed for a heat balance only. Its carry-over is from pad to pad.
     lobes : tuple of Lobe
         The pads; `lobe_set` makes the usual sets.
     film : PadFilm
@@ -117,9 +94,8 @@ class LobedBearing(PadClearance, FilmReaction, WarmBearing):
     Raises
     ------
     InputError
-        If a dimension is not finite and positive, viscosity and oil are not one of both, an oil has neither
-        temperature nor cooling, there are not one of both clearances, it is not below the radius, there is no
-        lobe, lobes overlap, or the film cannot be that of their extents and length/diameter.
+        As a `PadBearing`, and if there is no lobe, lobes overlap, or the film cannot be that of their extents
+        and length/diameter.
 
     Examples
     --------
@@ -129,31 +105,26 @@ class LobedBearing(PadClearance, FilmReaction, WarmBearing):
     (2,)
     """
 
-    radius: float
-    length: float
     lobes: tuple[Lobe, ...]
-    viscosity: float | None = None
-    oil: Oil | None = None
-    temperature: float | None = None
-    cooling: Cooling | None = None
-    pad_clearance: float | None = None
-    assembled_clearance: float | None = None
     film: PadFilm = field(default_factory=PadMapFilm)
 
     def __post_init__(self) -> None:
-        require_each(self, require_positive, "radius", "length")
-        require_lubricant(self.viscosity, self.oil, self.temperature, self.cooling)
         require_tuple("lobes", self.lobes, Lobe)
         if not self.lobes:
             raise InputError("lobes must have one at least, got ()")
         require_apart(self.lobes)
-        self.require_clearance()
-        require_pad_film(self.film, (lobe.extent for lobe in self.lobes), self.slenderness)
+        super().__post_init__()
+        require_pad_film(self.film, self.extents, self.slenderness)
 
     @property
     def preloads(self) -> tuple[float, ...]:
         """Preload of each lobe [1]."""
         return tuple(lobe.preload for lobe in self.lobes)
+
+    @property
+    def extents(self) -> tuple[float, ...]:
+        """Angle that each lobe covers [rad]."""
+        return tuple(lobe.extent for lobe in self.lobes)
 
     def minimum_film(self, position: ArrayLike) -> Array:
         """Return the least film on any pad [m], shape (...), of journals at positions (2, ...) [m].
@@ -167,8 +138,8 @@ class LobedBearing(PadClearance, FilmReaction, WarmBearing):
     def bound_film(self) -> BoundLobes:
         """The films of the pads tied to the dimensions; InputError without a stated temperature."""
         self.require_temperature()
-        extents = {lobe.extent: self.film.kernel(lobe.extent, self.slenderness) for lobe in self.lobes}
-        films = [JournalKernel(extents[lobe.extent], self.clearance, self.force_scale) for lobe in self.lobes]
+        kernels = {extent: self.film.kernel(extent, self.slenderness) for extent in self.extents}
+        films = [JournalKernel(kernels[lobe.extent], self.clearance, self.force_scale) for lobe in self.lobes]
         places = [
             LobePlace(lobe.middle, (self.clearance * lobe.center[0], self.clearance * lobe.center[1]))
             for lobe in self.lobes
@@ -239,7 +210,7 @@ class LobedBearing(PadClearance, FilmReaction, WarmBearing):
         """
         if type(self) is not LobedBearing or not isinstance(self.film, PadMapFilm) or self.is_warming:
             return None
-        extents = list(dict.fromkeys(lobe.extent for lobe in self.lobes))
+        extents = list(dict.fromkeys(self.extents))
         tables = {"slenderness": np.array([self.slenderness])}
         for number, extent in enumerate(extents):
             kernel = self.film.table(extent, self.slenderness).kernel()
@@ -253,6 +224,5 @@ class LobedBearing(PadClearance, FilmReaction, WarmBearing):
         """Return this bearing with a film that carries the maps it needs; see `model.Portable`."""
         if not isinstance(self.film, PadMapFilm):
             return self
-        extents = dict.fromkeys(lobe.extent for lobe in self.lobes)
-        tables = tuple(self.film.table(extent, self.slenderness) for extent in extents)
+        tables = tuple(self.film.table(extent, self.slenderness) for extent in dict.fromkeys(self.extents))
         return replace(self, film=replace(self.film, tables=tables))

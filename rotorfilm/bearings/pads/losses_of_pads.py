@@ -11,31 +11,8 @@ from numpy.typing import NDArray
 from ...model import Array
 from ...results import BearingLosses
 from ..films.geometry import TURN
+from .pad_bearing import PadBearing
 from .pad_losses import LossyPadFilm, PadFlows, gap_shear_of_pad
-
-
-class BearingOfPads(Protocol):
-    """What losses need to know of a bearing made of pads."""
-
-    @property
-    def radius(self) -> float:
-        """Journal radius [m]."""
-
-    @property
-    def length(self) -> float:
-        """Axial length [m]."""
-
-    @property
-    def clearance(self) -> float:
-        """Clearance of a pad [m]."""
-
-    @property
-    def film_viscosity(self) -> float:
-        """Dynamic viscosity of the film [Pa s]."""
-
-    @property
-    def slenderness(self) -> float:
-        """Length / diameter [1]."""
 
 
 class PadUnderJournal(NamedTuple):
@@ -98,7 +75,7 @@ class BearingFlow(NamedTuple):
 
 
 def losses_of_pads(
-    bearing: BearingOfPads,
+    bearing: PadBearing,
     film: LossyPadFilm,
     pads: Sequence[PadUnderJournal],
     state: tuple[Array, Array, Array],
@@ -109,7 +86,7 @@ def losses_of_pads(
 
     Parameters
     ----------
-    bearing : BearingOfPads
+    bearing : PadBearing
     film : LossyPadFilm
         The film law of its pads.
     pads : sequence of PadUnderJournal
@@ -143,7 +120,7 @@ def losses_of_pads(
 
 
 def collected_losses(
-    bearing: BearingOfPads, pads: Sequence[Placed], flow: BearingFlow, state: tuple[Array, Array, Array]
+    bearing: PadBearing, pads: Sequence[Placed], flow: BearingFlow, state: tuple[Array, Array, Array]
 ) -> BearingLosses:
     """Return the losses of a bearing from what the films of its pads do; see `losses_of_pads`."""
     position, velocity, speed = state
@@ -152,7 +129,7 @@ def collected_losses(
     q, v = position.reshape(2, -1), velocity.reshape(2, -1)
     unit = bearing.clearance * bearing.radius * bearing.length
     inflow, arriving = (
-        unit * rows.reshape(-1, *shape) for rows in behind_pads(pads, into, out, omega >= 0.0)
+        unit * rows.reshape(len(pads), *shape) for rows in behind_pads(pads, into, out, omega >= 0.0)
     )
     return BearingLosses(
         power_loss=_number(drag * omega - (force * v).sum(axis=0), shape),

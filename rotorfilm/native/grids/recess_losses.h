@@ -9,8 +9,8 @@
 /* Of each pad at state[5] a row of losses (count x RF_RECESS_LOSSES): the force of its film x, y in units of viscosity
    R^3 L/c_p^2; what pressure on the steps adds to the torque, over half of the same and c_p, per rate; Sigma, the
    integral of 1/H over film and streamers, and that of a gap full of oil; what enters at the edge that the oil meets
-   first, and what comes to the other, in units of c_p R L. Sigma and the flows are those of a journal that rests there, the oil runs
-   along at half the speed.
+   first, and what comes to the other, in units of c_p R L. Sigma and the flows are those of a journal that rests there:
+   the oil runs along at half the speed.
 
    Streamers keep the thickness at which a film ended, in a recess and beside it; behind the edge of a pad they have
    that of the gap. A film begins only where they bring what it takes. RF_AT_WALL, RF_STUCK, RF_MEMORY. */

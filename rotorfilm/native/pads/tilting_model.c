@@ -86,7 +86,8 @@ void *rf_create_tilting(const rf_tables *tables, int inertia, rf_sizes *sizes, r
         rf_say(why, RF_MEMORY, "no memory for a journal");
         return NULL;
     }
-    if (rf_take_pad_map(&m->map, "", tables, why) != RF_OK || take_pads(m, tables, inertia, why) != RF_OK || allocate(m, why) != RF_OK) {
+    if (rf_take_pad_map(&m->map, "", tables, why) != RF_OK || take_pads(m, tables, inertia, why) != RF_OK
+        || allocate(m, why) != RF_OK) {
         rf_destroy_tilting(m);
         return NULL;
     }

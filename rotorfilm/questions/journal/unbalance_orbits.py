@@ -12,7 +12,7 @@ import numpy as np
 
 from ...answers import DISAGREEMENT, ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work, WorkUnit, beside_bound
 from ...errors import InputError
-from ...ladders import CandidateRung, Ladder
+from ...ladders import Ladder
 from ...model import Reaction
 from ...motion.periodic.driven_rotor import (
     RotorAnswers,
@@ -31,6 +31,7 @@ from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.film_rungs import turn_films
 from ...scenes.journal.warm_rest import WarmRest
 from ..orbit_place import UNITS, WALL, OrbitPlace, SolvedTurn
+from ..orbit_rung import SampledOrbitRung
 from .field_rungs import HeatedQuestion
 from .heat_rungs import thermal_ladder
 
@@ -48,37 +49,8 @@ LINEAR = 31
 
 
 @dataclass(frozen=True, kw_only=True)
-class OrbitRung(CandidateRung[FilmCandidate]):
-    """The orbit on one film, linear about the equilibrium or nonlinear at so many samples.
-
-    Attributes
-    ----------
-    quantity : str
-        A key of `UNITS`.
-    rotor : RigidRotor
-    samples : int
-        Over a turn; 0 for the linear orbit.
-    """
-
-    quantity: str
-    rotor: RigidRotor
-    samples: int
-
-    @property
-    def name(self) -> str:
-        """Linear, or the number of samples, and the film."""
-        how = f"nonlinear, {self.samples} samples" if self.samples else "linear"
-        return f"{how}, {self.film.name}"
-
-    @property
-    def prior(self) -> float:
-        """Order of magnitude of the film's error."""
-        return 0.3 * self.film.prior
-
-    @property
-    def refines(self) -> tuple[object, ...]:
-        """The film, where there are samples."""
-        return (self.film,) if self.samples else ()
+class OrbitRung(SampledOrbitRung[FilmCandidate]):
+    """The orbit on one film, by what the rotor answers to its forces."""
 
     @property
     def place(self) -> OrbitPlace:

@@ -4,22 +4,22 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...answers import DISAGREEMENT, ISOTHERMAL, ErrorEstimate, Found, Work, WorkUnit
 from ...bearings.pads import TiltingPadBearing
 from ...errors import FilmContactError
-from ...ladders import CandidateRung, Ladder
+from ...ladders import Ladder
 from ...linear import equilibrium
 from ...model import Array
 from ...motion.periodic.harmonics import basis, first_wave
 from ...motion.periodic.stateful_orbit import StatefulTurn, TurnEquations, resampled
-from ...rotors import RigidRotor
 from ...scenes.pads.tilting_candidates import TiltingCandidate, tilting_candidates
 from ..journal.unbalance_orbits import SAMPLES, rotor_of
 from ..orbit_place import FORCE, UNITS, wave_change, wave_value
+from ..orbit_rung import SampledOrbitRung
 from .warm_pads import settled_scene
 
 if TYPE_CHECKING:
@@ -32,45 +32,9 @@ NEWTON = 6
 """Newton steps that an orbit takes about."""
 
 
-class SolvedPads(NamedTuple):
-    """An orbit on tilting pads, as its estimate and a higher rung start from it."""
-
-    turn: StatefulTurn
-    film: TiltingCandidate
-
-
 @dataclass(frozen=True, kw_only=True)
-class TiltingOrbitRung(CandidateRung[TiltingCandidate]):
-    """The orbit on one film, linear about the rest or nonlinear at so many samples.
-
-    Attributes
-    ----------
-    quantity : str
-        A key of `UNITS`.
-    rotor : RigidRotor
-    samples : int
-        Over a turn; 0 for the linear orbit.
-    """
-
-    quantity: str
-    rotor: RigidRotor
-    samples: int
-
-    @property
-    def name(self) -> str:
-        """Linear, or the number of samples, and the film."""
-        how = f"nonlinear, {self.samples} samples" if self.samples else "linear"
-        return f"{how}, {self.film.name}"
-
-    @property
-    def prior(self) -> float:
-        """Order of magnitude of the film's error."""
-        return 0.3 * self.film.prior
-
-    @property
-    def refines(self) -> tuple[object, ...]:
-        """The film, where there are samples."""
-        return (self.film,) if self.samples else ()
+class TiltingOrbitRung(SampledOrbitRung[TiltingCandidate]):
+    """The orbit on tilting pads of one film, by its equations over a turn."""
 
     @property
     def points(self) -> WorkUnit:
@@ -84,13 +48,13 @@ class TiltingOrbitRung(CandidateRung[TiltingCandidate]):
         if not self.samples:
             turn, count = self._equations(bearing, LINEAR).linear(self._rest(bearing)), LINEAR
         else:
-            start = self._rest(bearing)[:, None] if before is None else before.solution.turn.places
+            start = self._rest(bearing)[:, None] if before is None else before.solution.places
             turn, count = self._equations(bearing, self.samples).orbit(start), NEWTON * self.samples
-        return Found(self._value(turn), {self.points: count}, SolvedPads(turn, self.film))
+        return Found(self._value(turn), {self.points: count}, turn)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the change by two steps with the richer film, at twice the samples, by this one's slopes."""
-        places = found.solution.turn.places
+        places = found.solution.places
         samples = 2 * places.shape[1] + 1
         places = resampled(places, samples)
         own, rich = (self._equations(one, samples) for one in (self.film.reaction, self.film.rich))
@@ -123,7 +87,9 @@ class TiltingOrbitRung(CandidateRung[TiltingCandidate]):
         rows = turn.force if self.quantity == FORCE else turn.places[:2]
         samples = rows.shape[1]
         wave = first_wave(rows @ basis(samples // 2, samples).back.T)
-        return wave_value(self.quantity, wave, self.rotor.profile.speeds[0], self.rotor.unbalance_angle)
+        # Over the angle of the rotor, not time: the unbalance turns with the phase at negative speed too.
+        speed = abs(self.rotor.profile.speeds[0])
+        return wave_value(self.quantity, wave, speed, self.rotor.unbalance_angle)
 
 
 def tilting_orbit_ladder(scene: Scene, quantity: str) -> Ladder:

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated
 
 from ...bearings.pads import PressureDamBearing, Recess, RecessedPad, pressure_dam_pads
 from ...errors import InputError
 from ...limits import FILM_CELLS
 from ...progress import Report
 from ..reading.readers import Counts
+from ..reading.shared_fields import made_from
 from ..reading.tables import Keyed, Quantity, Table, TableList
 from .pad_data import DamData, echo_of_pads
 from .pad_tables import PadTable
@@ -74,7 +74,7 @@ class DamTable(PadTable):
         for name, value in given.items():
             if self.pads:
                 raise InputError(f"{name} must not be given beside pads, got {value!r}")
-        self.require_bearing()
+        super().__post_init__()
 
     @property
     def film_is_given(self) -> bool:
@@ -86,30 +86,15 @@ class DamTable(PadTable):
         given = {name: getattr(self, name) for name in (*NEEDED, *FURTHER)}
         return {name: value for name, value in given.items() if value is not None}
 
-    def built(self, viscosity: float | None) -> PressureDamBearing:
-        """Return the bearing with a viscosity [Pa s], or on its oil."""
+    def build(self) -> PressureDamBearing:
+        """Return the bearing; raise InputError where a value breaks its rule."""
         pads = self.pads or pressure_dam_pads(**self._of_design)
-        further: dict[str, Any] = {} if self.cells is None else {"cells": self.cells}
-        known = {name: getattr(self, name) for name in ("oil", "cooling", "temperature")}
-        return PressureDamBearing(
-            radius=self.radius,
-            length=self.length,
-            pad_clearance=self.pad_clearance,
-            assembled_clearance=self.assembled_clearance,
-            viscosity=viscosity,
-            pads=pads,
-            **known,
-            **further,
-        )
+        cells = self.cells or PressureDamBearing.cells
+        return made_from(PressureDamBearing, self, pads=pads, cells=cells)
 
     def echo(self, bearing: PressureDamBearing) -> tuple[DamData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
-        found = echo_of_pads(DamData, bearing, float(bearing.minimum_film((0.0, 0.0))))
-        return found, dam_film_name(bearing)
-
-    def extents(self, bearing: PressureDamBearing) -> Collection[float]:
-        """Return the angles that pads of the bearing cover [rad]."""
-        return [pad.extent for pad in bearing.pads]
+        return echo_of_pads(DamData, bearing), dam_film_name(bearing)
 
     def make_map(self, report: Report) -> None:
         """Do nothing: films with steps have no map."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -62,25 +61,19 @@ class LobedTable(FilmedPadTable):
         for name, value in self._of_preset.items():
             if self.lobes:
                 raise InputError(f"{name} must stand in each of lobes, or beside a preset, got {value!r}")
-        self.require_bearing()
+        super().__post_init__()
 
     @property
     def _of_preset(self) -> dict[str, float]:
         given = {name: getattr(self, name) for name in ("preload", "extent", "offset", "turned")}
         return {name: value for name, value in given.items() if value is not None}
 
-    def built(self, viscosity: float | None) -> LobedBearing:
-        """Return the bearing with a viscosity [Pa s], or on its oil."""
+    def build(self) -> LobedBearing:
+        """Return the bearing; raise InputError where a value breaks its rule."""
         lobes = self.lobes or lobe_set(self.preset or "", **self._of_preset)
         film = self.film or usual_film((lobe.extent for lobe in lobes), self.radius, self.length)
-        return made_from(LobedBearing, self, viscosity=viscosity, lobes=lobes, film=film)
+        return made_from(LobedBearing, self, lobes=lobes, film=film)
 
     def echo(self, bearing: LobedBearing) -> tuple[LobedData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
-        return echo_of_pads(LobedData, bearing, float(bearing.minimum_film((0.0, 0.0)))), pad_film_name(
-            bearing.film
-        )
-
-    def extents(self, bearing: LobedBearing) -> Collection[float]:
-        """Return the angles that pads of the bearing cover [rad]."""
-        return [lobe.extent for lobe in bearing.lobes]
+        return echo_of_pads(LobedData, bearing), pad_film_name(bearing.film)

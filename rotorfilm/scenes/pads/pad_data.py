@@ -86,7 +86,7 @@ class DamData(PadData):
     pads: tuple[RecessedPad, ...]
 
 
-def echo_of_pads(kind: type[D], bearing: AnyPads, assembled_clearance: float) -> D:
+def echo_of_pads(kind: type[D], bearing: AnyPads) -> D:
     """Return what an answer repeats of a bearing made of pads.
 
     Parameters
@@ -94,7 +94,6 @@ def echo_of_pads(kind: type[D], bearing: AnyPads, assembled_clearance: float) ->
     kind : type
         LobedData, TiltingData or DamData.
     bearing : LobedBearing, TiltingPadBearing or PressureDamBearing
-    assembled_clearance : float [m]
     """
     return made_from(
         kind,
@@ -102,5 +101,5 @@ def echo_of_pads(kind: type[D], bearing: AnyPads, assembled_clearance: float) ->
         slenderness=bearing.slenderness,
         viscosity=bearing.film_viscosity,
         pad_clearance=bearing.clearance,
-        assembled_clearance=assembled_clearance,
+        assembled_clearance=bearing.bore_clearance,
     )

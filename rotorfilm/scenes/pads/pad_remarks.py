@@ -32,20 +32,20 @@ AnyPads = LobedBearing | PressureDamBearing | TiltingPadBearing
 
 
 def pad_numbers(
-    bearing: AnyPads, extent: float, oil: Lubricant, speed: float, load: tuple[float, float]
+    bearing: AnyPads, oil: Lubricant, speed: float, load: tuple[float, float]
 ) -> dict[str, float]:
-    """Return the dimensionless numbers of a bearing whose longest pad has an extent [rad].
+    """Return the dimensionless numbers of a bearing.
 
     Returns
     -------
     dict of str to float
         Those of `film_numbers`, over the assembled clearance c, and
-        warming [K] : of oil that goes along one pad and keeps its heat, 2 viscosity speed R^2 extent/(density
-        heat capacity c^2), or between cold walls viscosity U^2/(8 conductivity), the lesser one.
+        warming [K] : of oil that goes along the longest pad and keeps its heat, 2 viscosity speed R^2
+        extent/(density heat capacity c^2), or between cold walls viscosity U^2/(8 conductivity), the lesser.
         thinning : relative loss of viscosity by that.
     """
     R, c, mu, omega = bearing.radius, room(bearing), bearing.film_viscosity, abs(speed)
-    carried = 2.0 * mu * omega * R**2 * extent / (oil.density * oil.heat_capacity * c**2)
+    carried = 2.0 * mu * omega * R**2 * max(bearing.extents) / (oil.density * oil.heat_capacity * c**2)
     conducted = mu * (omega * R) ** 2 / (8.0 * oil.conductivity)
     warming = min(carried, conducted)
     dimensions = R, bearing.length, c, mu
@@ -56,9 +56,7 @@ def pad_numbers(
     }
 
 
-def pad_remarks(
-    bearing: AnyPads, extent: float, oil: Lubricant, speed: float, load: tuple[float, float]
-) -> tuple[str, ...]:
+def pad_remarks(bearing: AnyPads, oil: Lubricant, speed: float, load: tuple[float, float]) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each; the arguments are of `pad_numbers`.
 
     Of films on an oil it is said at their temperature, and that they warm is not left out.
@@ -67,7 +65,7 @@ def pad_remarks(
     if bearing.oil is not None:
         remarks = tuple(remark for remark in PAD_REMARKS if remark.number != "thinning")
         bearing = _warmed(bearing, speed, load)
-    return said(remarks, pad_numbers(bearing, extent, oil, speed, load))
+    return said(remarks, pad_numbers(bearing, oil, speed, load))
 
 
 def quick_pads(bearing: AnyPads) -> AnyPads:
@@ -75,12 +73,11 @@ def quick_pads(bearing: AnyPads) -> AnyPads:
     if isinstance(bearing, PressureDamBearing):
         return replace(bearing, cells=DAM_CELLS)
     film = bearing.film
-    extents = (
-        [bearing.extent] if isinstance(bearing, TiltingPadBearing) else [p.extent for p in bearing.lobes]
-    )
-    if isinstance(film, PadMapFilm) and not any(film.making_time(x, bearing.slenderness) for x in extents):
-        return bearing
-    return replace(bearing, film=PadGridFilm(cells=CELLS))
+    if not isinstance(film, PadMapFilm) or any(
+        film.making_time(extent, bearing.slenderness) for extent in bearing.extents
+    ):
+        return replace(bearing, film=PadGridFilm(cells=CELLS))
+    return bearing
 
 
 def _warmed(bearing: AnyPads, speed: float, load: tuple[float, float]) -> AnyPads:

@@ -2,43 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from dataclasses import dataclass, replace
-from typing import Annotated, Any, Protocol, Self, TypeVar
+from typing import Annotated, Any
 
 from ...bearings.oil import Cooling, Oil
 from ...bearings.pads import PadFilm, PadMapFilm
-from ...errors import InputError
 from ...progress import Report
-from ..lubricant_table import Lubricant, LubricantTable
+from ..lubricant_table import Lubricant, OiledTable
 from ..reading.tables import Quantity, Variant
 from .pad_films import PAD_FILMS
 from .pad_remarks import AnyPads, pad_remarks
 
-B_co = TypeVar("B_co", bound=AnyPads, covariant=True)
-
-
-class _Table(Protocol[B_co]):
-    @property
-    def viscosity(self) -> float | None: ...
-
-    @property
-    def oil(self) -> Oil | None: ...
-
-    def built(self, viscosity: float | None) -> B_co:
-        """Return the bearing with a viscosity [Pa s], or on its oil."""
-
-    def extents(self, bearing: Any) -> Collection[float]:
-        """Return the angles that pads of the bearing cover [rad]."""
-
-
-class _FilmedTable(_Table[B_co], Protocol[B_co]):
-    def build(self) -> B_co: ...
-
 
 @dataclass(frozen=True, kw_only=True)
-class PadTable:
-    """The table of a bearing made of pads.
+class PadTable(OiledTable):
+    """The table of a bearing made of pads; a family adds its pads, `build` and `echo`.
 
     Parameters
     ----------
@@ -69,39 +47,21 @@ class PadTable:
     cooling: Cooling | None = None
     temperature: float | None = None
 
-    def require_bearing(self: _Table[AnyPads]) -> None:
-        """Raise InputError where a value breaks its rule, at whatever viscosity the oil of the scene has."""
-        self.built(1.0 if self.viscosity is None and self.oil is None else self.viscosity)
+    def __post_init__(self) -> None:
+        if self.has_lubricant:
+            self.build()
+        else:  # until `on` gives the oil, the other values are checked beside any viscosity
+            replace(self, viscosity=1.0)
 
-    def on(self, where: str, lubricant: LubricantTable) -> Self:
-        """Return this table with the oil of the scene, unless it has a viscosity or an oil.
-
-        Parameters
-        ----------
-        where : str
-            Its name in the file, for messages.
-        lubricant : LubricantTable
-
-        Raises
-        ------
-        InputError
-            If neither gives a viscosity.
-        """
-        if self.viscosity is not None or self.oil is not None:
-            return self
-        if not lubricant.has_viscosity:
-            raise InputError(f"{where}.viscosity is required where [lubricant] gives no grade or viscosity")
-        return replace(self, oil=lubricant.oil, cooling=lubricant.cooling)
-
-    def build(self: _Table[B_co]) -> B_co:
+    def build(self) -> AnyPads:
         """Return the bearing; raise InputError where a value breaks its rule."""
-        return self.built(self.viscosity)
+        raise NotImplementedError
 
     def remarks(
-        self: _Table[AnyPads], bearing: AnyPads, oil: Lubricant, speed: float, load: tuple[float, float]
+        self, bearing: AnyPads, oil: Lubricant, speed: float, load: tuple[float, float]
     ) -> tuple[str, ...]:
         """Return what its physics leaves out and should not."""
-        return pad_remarks(bearing, max(self.extents(bearing)), oil, speed, load)
+        return pad_remarks(bearing, oil, speed, load)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -121,9 +81,9 @@ class FilmedPadTable(PadTable):
         """Whether the file names the film, so that no other may answer."""
         return self.film is not None
 
-    def make_map(self: _FilmedTable[Any], report: Report) -> None:
+    def make_map(self, report: Report) -> None:
         """Make the maps of the pads, where the film is one, unless they lie on disk."""
-        bearing = self.build()
+        bearing: Any = self.build()
         if isinstance(bearing.film, PadMapFilm):
-            for extent in sorted(set(self.extents(bearing))):
+            for extent in sorted(set(bearing.extents)):
                 bearing.film.table(extent, bearing.slenderness, report)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -89,20 +88,16 @@ class TiltingTable(FilmedPadTable):
                 f"loading must be given with pad_count, and only then, got {self.loading!r} and "
                 f"{self.pad_count!r}"
             )
-        self.require_bearing()
+        super().__post_init__()
 
-    def built(self, viscosity: float | None) -> TiltingPadBearing:
-        """Return the bearing with a viscosity [Pa s], or on its oil."""
+    def build(self) -> TiltingPadBearing:
+        """Return the bearing; raise InputError where a value breaks its rule."""
         pivots = self.pivots
         if self.pad_count is not None and self.loading is not None:
             pivots = even_pivots(self.pad_count, between_pads=LOADINGS[self.loading])
         film = self.film or usual_film([self.extent], self.radius, self.length)
-        return made_from(TiltingPadBearing, self, viscosity=viscosity, pivots=pivots, film=film)
+        return made_from(TiltingPadBearing, self, pivots=pivots, film=film)
 
     def echo(self, bearing: TiltingPadBearing) -> tuple[TiltingData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
-        return echo_of_pads(TiltingData, bearing, bearing.bore_clearance), pad_film_name(bearing.film)
-
-    def extents(self, bearing: TiltingPadBearing) -> Collection[float]:
-        """Return the angles that pads of the bearing cover [rad]."""
-        return (bearing.extent,)
+        return echo_of_pads(TiltingData, bearing), pad_film_name(bearing.film)

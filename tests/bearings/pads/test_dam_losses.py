@@ -137,3 +137,9 @@ def test_dams_without_a_stated_temperature_have_no_force():
     with pytest.raises(InputError, match="temperature must be stated"):
         bearing.force([0.0, 0.0], STILL, SPEED)
     assert bearing.minimum_film([0.0, -2e-5]) == pytest.approx(8e-5)
+
+
+def test_an_empty_batch_has_empty_losses_and_no_force():
+    bearing, none = dam(pressure_dam_pads(depth="60 um", end="140 deg", share=0.75)), np.zeros((2, 0))
+    assert bearing.force(none, none, np.zeros(0)).shape == (2, 0)
+    assert bearing.losses(none, none, np.zeros(0)).inflow.shape == (2, 0)

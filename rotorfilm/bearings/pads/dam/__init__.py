@@ -9,5 +9,6 @@ if TYPE_CHECKING:
     from .dam_design import pressure_dam_pads as pressure_dam_pads
     from .dam_kernel import DamKernel
     from .recessed_pad import Recess as Recess, RecessedPad as RecessedPad
+    from .recessed_pads import RecessedPads as RecessedPads
 else:
     show(__name__)

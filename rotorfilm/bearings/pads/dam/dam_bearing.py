@@ -15,7 +15,7 @@ from ....results import BearingLosses
 from ...kernel_reaction import KernelReaction
 from ...reaction import broadcast_state
 from ..losses_of_pads import BearingFlow, collected_losses, cross
-from .dam_kernel import DamKernel, PadPressure, pad_places
+from .dam_kernel import LOSSES, DamKernel, PadPressure, pad_places
 from .recessed_pads import RecessedPads
 
 PARAMETERS = (
@@ -36,7 +36,7 @@ class PressureDamBearing(RecessedPads, KernelReaction):
     Angles are absolute, from +x towards +y. The film is two-dimensional, on a grid of its own for each pad,
     with ambient pressure, 0, at all edges of the pads and where it ruptures.
 
-    Its parameters are those of `RecessedPads`.
+    Its parameters are those of `RecessedPads` and of every `PadBearing`.
 
     Notes
     -----
@@ -118,8 +118,10 @@ class PressureDamBearing(RecessedPads, KernelReaction):
         """
         q, v, omega = broadcast_state(position, velocity, speed)
         self.require_film(q)
-        states = np.concatenate([np.reshape(part, (-1, omega.size)) for part in (q, v, omega)])
-        rows = np.stack([self._losses_at(state) for state in states.T], axis=-1)
+        states = _flat(q, v, omega)
+        rows = np.empty((len(self.pads), LOSSES, omega.size))
+        for k, state in enumerate(states.T):
+            rows[..., k] = self._losses_at(state)
         force, (steps, streamers, gap), flows = rows[:, :2], rows.swapaxes(0, 1)[2:5], rows[:, 5:]
         turning, scale, c = states[4], self.force_scale, self.clearance
         centers = np.array([pad.center for pad in self.pads])
@@ -169,8 +171,13 @@ class PressureDamBearing(RecessedPads, KernelReaction):
     def _answers(
         self, film: DamKernel, position: Array, velocity: Array, speed: Array, differentiated: bool
     ) -> Array:
-        states = np.concatenate([np.reshape(part, (-1, speed.size)) for part in (position, velocity, speed)])
+        states = _flat(position, velocity, speed)
         batch = film.batch(states, differentiated=differentiated)
         if batch.status:
             self.report(batch.status, states[:, batch.first].tolist())
         return batch.values
+
+
+def _flat(position: Array, velocity: Array, speed: Array) -> Array:
+    """Return the states of a batch, of any shape, as columns (5, n)."""
+    return np.concatenate([position.reshape(2, -1), velocity.reshape(2, -1), speed.reshape(1, -1)])

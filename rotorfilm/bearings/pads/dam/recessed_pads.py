@@ -14,9 +14,7 @@ from ....errors import (
     FilmContactError,
     InputError,
     UndefinedDerivativeError,
-    require_each,
     require_kind,
-    require_positive,
     require_tuple,
     require_vector,
 )
@@ -25,10 +23,7 @@ from ....model import Array
 from ....native.film_kernels import Status
 from ...films.geometry import FilmGeometry, Pad
 from ...films.ring.ring_grids import are_counts
-from ...oil import Cooling, Oil
-from ...oil.lubricant import require_lubricant
-from ...oil.warm_bearing import WarmBearing
-from ..clearances import PadClearance
+from ..pad_bearing import PadBearing
 from .dam_kernel import DamKernel, pad_rows
 from .recessed_pad import RecessedPad
 
@@ -38,31 +33,13 @@ DIMENSIONS = ("radius", "length", "clearance", "film_viscosity")
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class RecessedPads(PadClearance, WarmBearing):
+class RecessedPads(PadBearing):
     """Fixed pads around a journal, any of which may have a recess.
 
-    Clearances are those of a `LobedBearing`: c_p of a pad is its radius of curvature less that of the
-    journal, c_b that of the largest journal that fits in, and preload = 1 - c_b/c_p.
+    Dimensions, clearance and lubricant are given as to every `PadBearing`.
 
     Parameters
     ----------
-    radius : float [m]
-        Bearing radius; or `diameter`, twice that.
-    length : float [m]
-        Axial length of the pads.
-    pad_clearance : float or None [m]
-        c_p; give this or the assembled one.
-    assembled_clearance : float or None [m]
-        c_b = (1 - preload) c_p, the least film of a centered journal; for pads of one preload.
-    viscosity : float or None [Pa s]
-        Dynamic viscosity of the lubricant, the same at all temperatures; None where `oil` is given.
-    oil : Oil or None
-        The lubricant by its viscosity over temperature, in place of `viscosity`.
-    temperature : float or None [K]
-        Of the films, where the oil is given; None leaves it to the heat balance, with `cooling`, and to
-        `equilibrium`.
-    cooling : Cooling or None
-        What takes the heat away; needed for a heat balance only. Its carry-over is from pad to pad.
     pads : tuple of RecessedPad
         See `pressure_dam_pads` for the usual two.
     cells : tuple of int
@@ -74,37 +51,32 @@ class RecessedPads(PadClearance, WarmBearing):
     Raises
     ------
     InputError
-        If a value breaks its rule, the clearance is not below the radius, or pads overlap.
+        As a `PadBearing`, and if another value breaks its rule or pads overlap.
     """
 
-    radius: float
-    length: float
     pads: tuple[RecessedPad, ...]
-    pad_clearance: float | None = None
-    assembled_clearance: float | None = None
-    viscosity: float | None = None
-    oil: Oil | None = None
-    temperature: float | None = None
-    cooling: Cooling | None = None
     cells: tuple[int, int] = (64, 16)
     extrapolated: bool = True
 
     def __post_init__(self) -> None:
-        require_each(self, require_positive, "radius", "length")
-        require_lubricant(self.viscosity, self.oil, self.temperature, self.cooling)
         require_tuple("pads", self.pads, RecessedPad)
         require_kind("extrapolated", self.extrapolated, bool, "True or False")
         if not self.pads:
             raise InputError(f"pads must be one at least, got {self.pads!r}")
         if not are_counts(self.cells, (16, 8), (4, 4)):
             raise InputError(f"cells must be two multiples of 4, at least (16, 8), got {self.cells!r}")
-        self.require_clearance()
+        super().__post_init__()
         FilmGeometry(pads=tuple(Pad(start=pad.start, extent=pad.extent) for pad in self.pads))
 
     @property
     def preloads(self) -> tuple[float, ...]:
         """Preload of each pad [1]."""
         return tuple(pad.preload for pad in self.pads)
+
+    @property
+    def extents(self) -> tuple[float, ...]:
+        """Angle that each pad covers [rad]."""
+        return tuple(pad.extent for pad in self.pads)
 
     @cached_property
     def kernel(self) -> DamKernel:
@@ -141,8 +113,7 @@ class RecessedPads(PadClearance, WarmBearing):
         Inside the circle of the assembled clearance it never does, outside it need not.
         """
         flat = position.reshape(2, -1)
-        inside = self.clearance * (1.0 - max(self.preloads))
-        for x, y in flat[:, ~(np.hypot(*flat) < inside)].T.tolist():
+        for x, y in flat[:, ~(np.hypot(*flat) < self.bore_clearance)].T.tolist():
             least, touched = self._place.least(x, y)
             if not least > 0.0:
                 pad = self.pads[touched]

@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ....errors import InputError, require_finite, require_number, warn_user
+from ....errors import InputError, UnloadedPadWarning, require_finite, require_number, warn_user
 from ....model import Array, Tangent
 from ....native.pads.tilting_kernel import RestPoint
 from ....readable.result import Readable
@@ -106,7 +106,8 @@ class TiltingPadsAtRest:
             where = ", ".join(f"{angle:g}" for angle in angles)
             warn_user(
                 f"pads {', '.join(map(str, loose + 1))} (pivots at {where} deg) are unloaded: they have no "
-                "film and no unique tilt, and may flutter"
+                "film and no unique tilt, and may flutter",
+                UnloadedPadWarning,
             )
         return point.force
 

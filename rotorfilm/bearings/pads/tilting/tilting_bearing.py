@@ -41,7 +41,7 @@ class TiltingPadBearing(Called, TiltingPads):
     the result names, `at_rest().matrices` stiffness and damping of journal and pads together. `force` and
     `jacobian` are those of pads held at their start.
 
-    Its parameters are those of `TiltingPads`.
+    Its parameters are those of `TiltingPads` and of every `PadBearing`.
 
     Examples
     --------

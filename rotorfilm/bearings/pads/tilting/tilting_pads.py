@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike
 from ....errors import (
     InputError,
     brief,
-    require_each,
     require_finite,
     require_non_negative,
     require_number,
@@ -22,38 +21,22 @@ from ....errors import (
 from ....inputs.si_arguments import quantities
 from ....model import Array
 from ....native.pads.tilting_kernel import TiltingKernel
-from ...oil import Cooling, Oil
-from ...oil.lubricant import require_lubricant
-from ...oil.warm_bearing import WarmBearing
-from ..clearances import PadClearance
+from ..pad_bearing import PadBearing
 from ..pad_film import PadFilm, PadMapFilm, require_pad_film
 from .pivots import directions, gaps, reach
 
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class TiltingPads(PadClearance, WarmBearing):
+class TiltingPads(PadBearing):
     """Equal tilting pads around a journal.
 
-    Clearances: c_p of a pad is its radius of curvature less that of the journal, c_b that of the assembled
-    bearing is the gap at a pivot around a centered journal, and preload = 1 - c_b / c_p. Eccentricities of
-    ROSS and Someya are over c_b, those of Lund and Thomsen over c_p.
+    Dimensions, clearance and lubricant are given as to every `PadBearing`; the assembled clearance c_b is the
+    gap at a pivot around a centered journal. Eccentricities of ROSS and Someya are over c_b, those of Lund
+    and Thomsen over c_p.
 
     Parameters
     ----------
-    radius : float [m]
-        Of the journal; or `diameter`, twice that.
-    length : float [m]
-        Axial length of the pads.
-    viscosity : float or None [Pa s]
-        Dynamic viscosity of the lubricant, the same at all temperatures; None where `oil` is given.
-    oil : Oil or None
-        The lubricant by its viscosity over temperature, in place of `viscosity`.
-    temperature : float or None [K]
-        Of the films, where the oil is given; None leaves it to the heat balance, with `cooling`, of a journal
-        at rest: `equilibrium` finds it.
-    cooling : Cooling or None
-        What takes the heat away; needed for a heat balance only. Its carry-over is from pad to pad.
     pivots : tuple of floats [rad]
         Angles of the pivots; `even_pivots` has them for a load on or between pads.
     extent : float [rad]
@@ -63,10 +46,6 @@ class TiltingPads(PadClearance, WarmBearing):
         towards the trailing end of a journal that turns in that sense.
     preload : float [1]
         1 - c_b / c_p, below 1.
-    pad_clearance : float or None [m]
-        c_p; give this or the assembled one.
-    assembled_clearance : float or None [m]
-        c_b; give this or that of the pads.
     pivot_stiffness : float or None [N/m]
         Of a spring below each pivot, along its direction; None for rigid ones.
     pad_inertia : float or None [kg m2]
@@ -84,21 +63,14 @@ class TiltingPads(PadClearance, WarmBearing):
     Raises
     ------
     InputError
-        If a value breaks its rule, or the film cannot be that of pads of this extent and length/diameter.
+        As a `PadBearing`, and if another value breaks its rule, or the film cannot be that of pads of this
+        extent and length/diameter.
     """
 
-    radius: float
-    length: float
     pivots: tuple[float, ...]
     extent: float
-    viscosity: float | None = None
-    oil: Oil | None = None
-    temperature: float | None = None
-    cooling: Cooling | None = None
     pivot_offset: float = 0.5
     preload: float = 0.0
-    pad_clearance: float | None = None
-    assembled_clearance: float | None = None
     pivot_stiffness: float | None = None
     pad_inertia: float | None = None
     pivot_distance: float = 0.0
@@ -107,9 +79,8 @@ class TiltingPads(PadClearance, WarmBearing):
     film: PadFilm = field(default_factory=PadMapFilm)
 
     def __post_init__(self) -> None:
-        require_each(self, require_positive, "radius", "length", "extent")
-        require_lubricant(self.viscosity, self.oil, self.temperature, self.cooling)
-        require_each(self, require_non_negative, "pivot_distance")
+        require_positive("extent", self.extent)
+        require_non_negative("pivot_distance", self.pivot_distance)
         for name in ("pivot_stiffness", "pad_inertia", "pad_mass"):
             if getattr(self, name) is not None:
                 require_positive(name, getattr(self, name))
@@ -119,12 +90,12 @@ class TiltingPads(PadClearance, WarmBearing):
             raise InputError(f"pivot_offset must be within 0 and 1, got {self.pivot_offset!r}")
         if require_number("preload", self.preload) >= 1.0:
             raise InputError(f"preload must be below 1, got {self.preload!r}")
-        self.require_clearance()
+        super().__post_init__()
         heavy = self.pivot_stiffness is not None and self.pad_inertia is not None
         if heavy != (self.pad_mass is not None):
             rule = "with both pivot_stiffness and pad_inertia, and only then"
             raise InputError(f"pad_mass must be given {rule}, got {self.pad_mass!r}")
-        require_pad_film(self.film, [self.extent], self.slenderness)
+        require_pad_film(self.film, self.extents, self.slenderness)
         self._check_pivots()
 
     def _check_pivots(self) -> None:
@@ -144,9 +115,9 @@ class TiltingPads(PadClearance, WarmBearing):
         return (self.preload,)
 
     @property
-    def bore_clearance(self) -> float:
-        """Clearance c_b of the assembled bearing [m]."""
-        return self.clearance * (1.0 - self.preload)
+    def extents(self) -> tuple[float]:
+        """The angle that all pads cover [rad]."""
+        return (self.extent,)
 
     @property
     def room(self) -> float:

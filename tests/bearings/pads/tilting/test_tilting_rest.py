@@ -14,7 +14,7 @@ from rotorfilm import (
     PadMapFilm,
     ReducedCoefficients,
     TiltingPadBearing,
-    ValidityWarning,
+    UnloadedPadWarning,
     coefficients,
     equilibrium,
     even_pivots,
@@ -235,7 +235,7 @@ def test_unloaded_pads_are_flagged_and_said(tilting):
         assembled_clearance=194.564e-6,
         film=PadGridFilm(cells=(64, 8)),
     )
-    with pytest.warns(ValidityWarning, match=r"pads 3, 4 \(pivots at 54, 126 deg\) are unloaded"):
+    with pytest.warns(UnloadedPadWarning, match=r"pads 3, 4 \(pivots at 54, 126 deg\) are unloaded"):
         at = equilibrium(bearing, [0.0, -112815.0], "900 rpm")
     assert at.pads.unloaded.tolist() == [False, False, True, True, False]
     # Without film at the very end of the neutral tilts: eta = -|xi| tan b.
