@@ -20,8 +20,8 @@ MOST_GROWTH = 2.0
 EMPTY = -1e-9
 """Content of a cell below which a difference of second order took more oil from it than it had."""
 
-STILL, MOST_STILL = 1e-12, 12
-"""Change of theta at which the steady film stands, and most solutions on the way."""
+STILL, MOST_STILL, WEIGHT = 1e-13, 80, 0.7
+"""Change of theta at which the steady film stands, most solutions on the way, and how much of each counts."""
 
 
 class OilMemory(NamedTuple):
@@ -55,10 +55,11 @@ def steady_oil(film: ConservedFilm, gap: Gap, rate: float) -> ConservedState:
         As `ConservedFilm.solve`.
     """
     state = film.solve(gap, rate)
+    carried = np.zeros(film.cells.opening.shape)
     for _ in range(MOST_STILL):
         theta = state.solution.theta
-        held = Storage(0.0, -sharpened(film, gap, rate, theta))
-        state = film.solve(gap, rate, storage=held, guess=state.solution.full)
+        carried = (1.0 - WEIGHT) * carried + WEIGHT * sharpened(film, gap, rate, theta)
+        state = film.solve(gap, rate, storage=Storage(0.0, -carried), guess=state.solution.full)
         if np.abs(state.solution.theta - theta).max() <= STILL:
             break
     return state

@@ -23,6 +23,9 @@ LARGEST_ANGLE = 2.0 * math.pi / 192.0
 LARGEST_WAY = 0.02
 """Way of the journal in one inner step, in clearances."""
 
+SWEEPS = 2
+"""Films in one inner step, the second with what the first says of limited transport."""
+
 HALVINGS = 4
 """Times that all inner steps are halved before a step is given up."""
 
@@ -82,7 +85,7 @@ class SteppedFilm:
             Signal(name=name, unit="m3/s", nominal=volume * NOMINAL_SPEED, description=text)
             for name, text in FLOWS.items()
         ]
-        oil = "oil in the film, without the openings"
+        oil = "oil in the gap, over the openings too"
         held = Signal(name="oil_volume", unit="m3", nominal=volume, description=oil)
         return (*force_outputs(force * NOMINAL_SPEED), *flows, held)
 
@@ -163,9 +166,12 @@ class SteppedFilm:
         for k in range(1, pieces + 1):
             on_way = target if k == pieces else between(begin, target, dt, k / pieces)
             self._inside(on_way, f" at t = {t + dt * k / pieces:.9g} s")
-            found = self._found(state, on_way, dt / pieces, None)
-            solutions += found.solution.solutions
-            state = FilmMemory(after_step(state.oil, found, dt / pieces), on_way, self._output(found))
+            near, end = None, state
+            for _ in range(SWEEPS):
+                found = self._found(state, on_way, dt / pieces, near)
+                solutions += found.solution.solutions
+                near = end = FilmMemory(after_step(state.oil, found, dt / pieces), on_way, self._output(found))
+            state = end
         return state, state.output.copy(), {"steps": pieces, "solutions": solutions}
 
     def _found(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None) -> ConservedState:
@@ -175,8 +181,7 @@ class SteppedFilm:
 
     def _output(self, state: ConservedState) -> Array:
         force, volume = self.scales
-        flows, film = self.film.flows(state), self.film.cells.opening < 0
-        oil = np.sum((state.content * self.film.cells.area)[film])
+        flows, oil = self.film.flows(state), np.sum(state.content * self.film.cells.area)
         rest = np.array([flows.out, flows.drawn_in, flows.inflow.sum(), oil])
         return np.concatenate([force * self.film.force(state), volume * rest])
 
