@@ -35,13 +35,14 @@ class OilMemory(NamedTuple):
         The same one step earlier.
     length : float [s]
         Of the last step; 0 where there was none.
-    theta : ndarray, shape (N, M) [1]
+    pressure, theta : ndarray, shape (N, M) [1/s], [1]
     full : ndarray of uint8, shape (N, M)
     """
 
     content: Array
     before: Array
     length: float
+    pressure: Array
     theta: Array
     full: np.ndarray
 
@@ -67,12 +68,12 @@ def steady_oil(film: ConservedFilm, gap: Gap, rate: float) -> ConservedState:
 
 def remembered(state: ConservedState) -> OilMemory:
     """Return the memory of a film that has long stood as it is."""
-    return OilMemory(state.content, state.content, 0.0, state.solution.theta, state.solution.full)
+    return OilMemory(state.content, state.content, 0.0, *state.solution[:3])
 
 
 def after_step(memory: OilMemory, state: ConservedState, dt: float) -> OilMemory:
     """Return the memory after a step of length dt [s] that ended at a state."""
-    return OilMemory(state.content, memory.content, dt, state.solution.theta, state.solution.full)
+    return OilMemory(state.content, memory.content, dt, *state.solution[:3])
 
 
 def oil_step(

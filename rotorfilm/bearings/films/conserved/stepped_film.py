@@ -14,7 +14,8 @@ from ....signals import Signal, force_outputs, journal_inputs
 from ...reaction import NOMINAL_SPEED, input_vector
 from ...stepped_reaction import Trial
 from .conserved_film import ConservedFilm, ConservedState, circular_gap
-from .conserved_motion import step_stiffness
+from .conserved_motion import step_stiffness, sudden_slopes
+from .oil_kernel import OilSolution
 from .oil_steps import OilMemory, after_step, oil_step, packed_oil, remembered, steady_oil, unpacked_oil
 
 LARGEST_ANGLE = 2.0 * math.pi / 192.0
@@ -140,6 +141,14 @@ class SteppedFilm:
         force, _ = self.scales
         slope = force / self.clearance * step_stiffness(self.film, found)
         return Trial(end, end.output, slope, found.solution.solutions + 1)
+
+    def slopes(self, state: FilmMemory) -> Array:
+        """Return d force / d (x, y, vx, vy, speed) at a state whose cells keep their oil, shape (2, 5)."""
+        rate, gap = 0.5 * float(state.motion[4]), circular_gap(self.film.cells, state.motion[:2] / self.clearance)
+        solution = OilSolution(state.oil.pressure, state.oil.theta, state.oil.full, 0, 0)
+        film = ConservedState(gap, rate, self.film.equations(gap, rate), solution)
+        force, _ = self.scales
+        return force * sudden_slopes(self.film, film) / np.array([*[self.clearance] * 4, 1.0])
 
     def answer(self, state: FilmMemory) -> Array:
         """Return the outputs of a state, shape (6,)."""

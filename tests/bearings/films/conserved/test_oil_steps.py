@@ -40,7 +40,7 @@ def carried_slug(lines, limited, supply, turns=150.0 / 360.0):
     film = ring(lines, supply)
     angle, gap = film.cells.angle, circular_gap(film.cells, np.zeros(2))
     theta = np.tile(0.3 + 0.5 * np.exp(-(((angle - 1.5) / np.radians(15.0)) ** 2))[:, None], (1, 4))
-    memory = OilMemory(theta, theta, 0.0, theta, np.zeros(theta.shape, dtype=np.uint8))
+    memory = OilMemory(theta, theta, 0.0, 0.0 * theta, theta, np.zeros(theta.shape, dtype=np.uint8))
     steps = 2 * lines
     for _ in range(steps):
         dt = turns * 2.0 * np.pi / 0.5 / steps
@@ -99,6 +99,6 @@ def test_a_cell_never_gives_more_oil_than_it_has(supply):
     film = ring(36, supply)
     gap = circular_gap(film.cells, np.zeros(2))
     now, before = np.full((36, 4), 0.1), np.full((36, 4), 0.9)
-    memory = OilMemory(now, before, 0.1, now, np.zeros(now.shape, dtype=np.uint8))
+    memory = OilMemory(now, before, 0.1, 0.0 * now, now, np.zeros(now.shape, dtype=np.uint8))
     state = oil_step(film, memory, gap, 0.5, 0.1)
     np.testing.assert_allclose(state.content, 0.1, rtol=1e-12)

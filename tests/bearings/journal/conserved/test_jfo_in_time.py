@@ -97,6 +97,23 @@ def test_the_slope_is_that_of_the_step():
 
 
 @pytest.mark.closed_form
+def test_sudden_slopes_are_those_of_very_short_steps():
+    # The slope of an Euler step is K + C/dt, up to O(dt); the force at its end by speed goes as the steady flow.
+    state = FILM.start(motion(0.0))
+    slopes = FILM.slopes(state)
+    dts = np.array([1.0, 2.0]) * 1e-5 * TURN
+    short = [FILM.attempt(state, motion(0.0), dt).slope for dt in dts]
+    C = (short[0] - short[1]) / (1.0 / dts[0] - 1.0 / dts[1])
+    np.testing.assert_allclose(-slopes[:, 2:4], C, atol=1e-4 * np.abs(C).max())
+    K = (2.0 * short[1] - short[0]) - np.zeros((2, 2))
+    np.testing.assert_allclose(-slopes[:, :2], K, atol=1e-3 * np.abs(K).max())
+    faster = [FILM.attempt(state, motion(0.0, omega * (1.0 + s)), dts[0]).output[:2] for s in (1e-4, -1e-4)]
+    np.testing.assert_allclose(
+        slopes[:, 4], (faster[0] - faster[1]) / (2e-4 * omega), atol=2e-3 * np.abs(slopes[:, 4]).max()
+    )
+
+
+@pytest.mark.closed_form
 def test_a_full_film_feels_the_velocity_as_damping():
     # Full all round, the film is linear in velocity, with the exact damping dK/ds.
     plain = JournalBearing(radius=R, length=0.05, clearance=c, viscosity=0.02)
