@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import OdeSolver, Radau
 
+from ...bearings.stepped_reaction import SteppedReaction
 from ...errors import ContactError, ConvergenceError, InputError, require_finite, require_positive
 from ...inputs.kinds import arguments
 from ...model import Array, Dynamic, Reaction, stops
@@ -21,12 +22,13 @@ from ..compiled.simulate_rotor import simulate_rotor
 from ..compiled.times import require_longest_step, sample_times
 from .coupled import Coupled
 from .integration import Integration, integrate
+from .stepped_run import simulate_steps
 
 
 @arguments
 def simulate(
     rotor: Dynamic,
-    reaction: Reaction,
+    reaction: Reaction | SteppedReaction | Mapping[str, SteppedReaction],
     *,
     duration: float,
     samples: int = 1001,
@@ -40,15 +42,17 @@ def simulate(
 
     Rotor and film are connected by the names of their signals and integrated together, with the exact
     Jacobian of both, so no coupling error arises. The integration stops at the kinks of a `Kinked` rotor.
-    A linear rotor on films that have kernels is integrated in C, as by `simulate_rotor`, all others by scipy.
+    A linear rotor on films that have kernels is integrated in C, as by `simulate_rotor`, all others by scipy;
+    films that remember, as `JFOFilm`, with the rotor in one Newton step, by differences of second order.
 
     Parameters
     ----------
     rotor : Dynamic
         With outputs x, y, vx, vy, speed and inputs force_x, force_y.
-    reaction : Reaction
+    reaction : Reaction, JFOFilm, or mapping of str to JFOFilm
         The film; one with states is a Dynamic too, as `BushReaction`. One whose temperature is left to the
-        balance of its heat gets it as a state.
+        balance of its heat gets it as a state. Films that remember begin steady; a flexible rotor takes one
+        for each station by name.
     duration : float [s]
     samples : int
         Number of samples at equal distance, from 0 to `duration` inclusive.
@@ -57,9 +61,11 @@ def simulate(
     initial_state : array_like, shape (n_states,), optional
         State at t = 0, instead of the models' own: that of the rotor, then that of a film with states.
     rtol : float [1]
-        Relative local error of a step; the absolute one is rtol times the nominal value of each state.
+        Relative local error of a step; the absolute one is rtol times the nominal value of each state. For
+        films that remember `max_step` says how exact it is, instead.
     max_step : float [s]
-        Longest step of the integrator.
+        Longest step of the integrator. With films that remember the length of all steps but those cut short;
+        by default 1/384 of a turn at the highest speed.
     method : a class derived from scipy.integrate.OdeSolver, optional
         Stiff methods are given the exact Jacobian. By default the compiled integration where it takes rotor
         and film (`motion.compiled.compiled_form`) and comes to the end, `scipy.integrate.Radau` otherwise.
@@ -70,7 +76,8 @@ def simulate(
         Signals: every output of the rotor, the film force on the journal [N], and of a film with states
         its further outputs and its states. Work:
         film_evaluations, jacobians, steps, restarts (steps cut short at the wall), of the compiled
-        integration also rejected (those and all others cut short).
+        integration also rejected (those and all others cut short); with films that remember steps,
+        newton_steps, film_solutions, restarts.
 
     Raises
     ------
@@ -83,11 +90,16 @@ def simulate(
     """
     require_positive("duration", duration)
     require_positive("rtol", rtol)
+    require_longest_step(max_step)
+    if isinstance(reaction, SteppedReaction | Mapping):
+        if method is not None:
+            raise InputError(f"method must be None for films that step by themselves, got {method!r}")
+        grid = sample_times(duration, samples, times)
+        return simulate_steps(rotor, reaction, grid, duration, initial_state, max_step)
     reaction = in_time(reaction)
     system = Coupled(rotor, reaction)
     grid = sample_times(duration, samples, times)
     state = _initial(system, system.initial_state if initial_state is None else initial_state)
-    require_longest_step(max_step)
     if method is None and (mounted := compiled_form(rotor, reaction)) is not None:
         labels = [*names(rotor.outputs), *FORCE_OUTPUTS]
         try:

@@ -67,11 +67,20 @@ class Storage(NamedTuple):
     held: Array
 
 
-def step_storage(dt: float, now: Array, before: Array | None = None) -> Storage:
-    """Return the storage of a step of length dt [s] from theta H: Euler's, or BDF2 with the one before."""
+def step_storage(dt: float, now: Array, before: Array | None = None, ratio: float = 1.0) -> Storage:
+    """Return the storage of a step of length dt [s] from theta H: Euler's, or BDF2 with the one before.
+
+    `ratio` is that of the step to the one before.
+    """
     if before is None:
         return Storage(1.0 / dt, now / dt)
-    return Storage(1.5 / dt, (4.0 * now - before) / (2.0 * dt))
+    newest, last, older = bdf2(ratio)
+    return Storage(newest / dt, -(last * now + older * before) / dt)
+
+
+def bdf2(ratio: float) -> tuple[float, float, float]:
+    """Return a, b, c of y' = (a y_n+1 + b y_n + c y_n-1)/dt, `ratio` the step over the one before."""
+    return (1.0 + 2.0 * ratio) / (1.0 + ratio), -(1.0 + ratio), ratio**2 / (1.0 + ratio)
 
 
 class ConservedState(NamedTuple):

@@ -25,6 +25,7 @@ from ...at_frequency import ReducedCoefficients
 from ...films.conserved.conserved_cells import conserved_cells, require_conserved_cells
 from ...films.conserved.conserved_film import ConservedFilm, ConservedState, circular_gap
 from ...films.conserved.conserved_motion import dynamic_stiffness, slow_motion, speed_slope
+from ...films.conserved.stepped_film import SteppedFilm
 from ..bearing import JournalBearing
 from .jfo_state import JFOState, jfo_state
 from .jfo_supply import oil_supply
@@ -35,7 +36,7 @@ AIR_SHARE = 0.01
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class JFOFilm:
+class JFOFilm(SteppedFilm):
     """The film of a journal bearing that conserves its oil (Jakobsson, Floberg and Olsson).
 
     Where the film ruptures the oil goes on, in a gap that it fills in part, until there is enough to start
@@ -111,8 +112,13 @@ class JFOFilm:
         """Radial clearance of the bearing [m]."""
         return self.bearing.clearance
 
+    @property
+    def scales(self) -> tuple[float, float]:
+        """Units of the force [N s] and of the oil, clearance radius length [m3]."""
+        return self.bearing.force_scale, self.clearance * self.bearing.radius * self.bearing.film_length
+
     @cached_property
-    def film(self) -> ConservedFilm:
+    def film(self) -> ConservedFilm:  # type: ignore[override]
         """The film without dimensions, for steps in time; see `ConservedFilm`."""
         supply = oil_supply(self.bearing, self.supply_flow, self.cavitation_pressure, self.submerged)
         return ConservedFilm(

@@ -1,0 +1,195 @@
+"""A film that conserves its oil as a Stepped model: the motion of the journal in, force and flows out."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ....errors import ConvergenceError, InputError, require_inside, require_positive
+from ....model import Array
+from ....signals import Signal, force_outputs, journal_inputs
+from ...reaction import NOMINAL_SPEED, input_vector
+from ...stepped_reaction import Trial
+from .conserved_film import ConservedFilm, ConservedState, circular_gap
+from .conserved_motion import step_stiffness
+from .oil_steps import OilMemory, after_step, oil_step, packed_oil, remembered, steady_oil, unpacked_oil
+
+LARGEST_ANGLE = 2.0 * math.pi / 192.0
+"""Rotation of the shaft in one inner step [rad]."""
+
+LARGEST_WAY = 0.02
+"""Way of the journal in one inner step, in clearances."""
+
+HALVINGS = 4
+"""Times that all inner steps are halved before a step is given up."""
+
+FLOWS = {
+    "side_flow": "oil that leaves through both ends",
+    "drawn_in": "oil that enters through both ends",
+    "inflow": "oil that leaves all openings for the film, less what arrives there",
+}
+
+
+class FilmMemory(NamedTuple):
+    """State of a film in motion.
+
+    Attributes
+    ----------
+    oil : OilMemory
+    motion : ndarray, shape (5,) [m, m, m/s, m/s, rad/s]
+        x, y, vx, vy, speed of the journal.
+    output : ndarray, shape (6,) [N, N, m3/s, m3/s, m3/s, m3]
+    """
+
+    oil: OilMemory
+    motion: Array
+    output: Array
+
+
+class SteppedFilm:
+    """Makes a Stepped model of a `film` in a `clearance`; force and oil have the units of `scales`.
+
+    The input u is the motion of the journal at the end of a step. On the way there it goes along the cubic with the
+    positions and velocities of both ends, in inner steps of a turn/192 and .02 clearances at most, halved where the
+    film is not found. Outputs belong to the end of the last step. In their balance
+
+        (3 oil_volume - 4 oil_volume before + the one before that)/(2 dt) = inflow + drawn_in - side_flow
+
+    nothing is lost: that is how steps of equal length go.
+    """
+
+    film: ConservedFilm
+    clearance: float
+
+    @property
+    def scales(self) -> tuple[float, float]:
+        """Units of the force [N s] and of the oil, clearance radius length [m3]."""
+        raise NotImplementedError
+
+    @property
+    def inputs(self) -> tuple[Signal, ...]:
+        """Signals x, y, vx, vy, speed, at the end of a step."""
+        return journal_inputs(self.clearance, NOMINAL_SPEED)
+
+    @property
+    def outputs(self) -> tuple[Signal, ...]:
+        """Signals force_x, force_y on the journal, side_flow, drawn_in, inflow, oil_volume."""
+        force, volume = self.scales
+        flows = [
+            Signal(name=name, unit="m3/s", nominal=volume * NOMINAL_SPEED, description=text)
+            for name, text in FLOWS.items()
+        ]
+        oil = "oil in the film, without the openings"
+        held = Signal(name="oil_volume", unit="m3", nominal=volume, description=oil)
+        return (*force_outputs(force * NOMINAL_SPEED), *flows, held)
+
+    def start(self, u: ArrayLike) -> FilmMemory:
+        """Return the steady film of a journal at rest at u = (x, y, vx, vy, speed); its velocity counts later.
+
+        Raises
+        ------
+        InputError
+            If u is not five finite numbers.
+        FilmContactError
+            If the journal touches the wall.
+        ConvergenceError
+            If the search for the cavity does not end.
+        """
+        motion = self._inside(input_vector(u), "")
+        gap = circular_gap(self.film.cells, motion[:2] / self.clearance)
+        state = steady_oil(self.film, gap, 0.5 * float(motion[4]))
+        return FilmMemory(remembered(state), motion, self._output(state))
+
+    def step(
+        self, state: FilmMemory, t: float, u: ArrayLike, dt: float
+    ) -> tuple[FilmMemory, Array, dict[str, int]]:
+        """Return state, outputs and counters of work after dt [s] in which the journal goes to u.
+
+        Raises
+        ------
+        InputError
+            If u is not five finite numbers, or dt not finite and not negative.
+        FilmContactError
+            If the journal touches the wall; the old state stays good.
+        ConvergenceError
+            If the film is not found even in steps halved several times; the old state stays good.
+        """
+        target = self._inside(input_vector(u), f" at t = {t + dt:.9g} s")
+        if dt == 0.0:
+            return state, state.output, {"steps": 0, "solutions": 0}
+        require_positive("dt", dt)
+        pieces = self._pieces(state.motion, target, dt)
+        for halving in range(HALVINGS + 1):
+            try:
+                return self._followed(state, t, target, dt, pieces * 2**halving)
+            except ConvergenceError:
+                if halving == HALVINGS:
+                    raise
+        raise AssertionError
+
+    def attempt(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None = None) -> Trial:
+        """Return one inner step, with its slope; see `bearings.stepped_reaction`."""
+        found = self._found(state, u, dt, near)
+        end = FilmMemory(after_step(state.oil, found, dt), u, self._output(found))
+        force, _ = self.scales
+        slope = force / self.clearance * step_stiffness(self.film, found)
+        return Trial(end, end.output, slope, found.solution.solutions + 1)
+
+    def answer(self, state: FilmMemory) -> Array:
+        """Return the outputs of a state, shape (6,)."""
+        return state.output.copy()
+
+    def pack(self, state: FilmMemory) -> bytes:
+        """Return a state as bytes, to the last bit."""
+        return packed_oil(state.oil, motion=state.motion, output=state.output)
+
+    def unpack(self, content: bytes) -> FilmMemory:
+        """Return the state in bytes; raise InputError if it is of other cells."""
+        oil, further = unpacked_oil(content, self.film.cells.opening.shape)
+        return FilmMemory(oil, further["motion"], further["output"])
+
+    def _pieces(self, begin: Array, end: Array, dt: float) -> int:
+        angle = max(abs(begin[4]), abs(end[4])) * dt
+        way = math.hypot(*(end[:2] - begin[:2])) / self.clearance
+        return max(1, math.ceil(angle / LARGEST_ANGLE), math.ceil(way / LARGEST_WAY))
+
+    def _followed(
+        self, state: FilmMemory, t: float, target: Array, dt: float, pieces: int
+    ) -> tuple[FilmMemory, Array, dict[str, int]]:
+        solutions, begin = 0, state.motion
+        for k in range(1, pieces + 1):
+            on_way = target if k == pieces else between(begin, target, dt, k / pieces)
+            self._inside(on_way, f" at t = {t + dt * k / pieces:.9g} s")
+            found = self._found(state, on_way, dt / pieces, None)
+            solutions += found.solution.solutions
+            state = FilmMemory(after_step(state.oil, found, dt / pieces), on_way, self._output(found))
+        return state, state.output.copy(), {"steps": pieces, "solutions": solutions}
+
+    def _found(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None) -> ConservedState:
+        gap = circular_gap(self.film.cells, u[:2] / self.clearance)
+        like = None if near is None else near.oil
+        return oil_step(self.film, state.oil, gap, 0.5 * float(u[4]), dt, near=like)
+
+    def _output(self, state: ConservedState) -> Array:
+        force, volume = self.scales
+        flows, film = self.film.flows(state), self.film.cells.opening < 0
+        oil = np.sum((state.content * self.film.cells.area)[film])
+        rest = np.array([flows.out, flows.drawn_in, flows.inflow.sum(), oil])
+        return np.concatenate([force * self.film.force(state), volume * rest])
+
+    def _inside(self, motion: Array, when: str) -> Array:
+        require_inside(motion[:2], self.clearance, when)
+        return motion
+
+
+def between(begin: Array, end: Array, dt: float, share: float) -> Array:
+    """Return (x, y, vx, vy, speed) on the cubic between two motions, at a share of the time dt [s] between them."""
+    s, way = share, end[:2] - begin[:2]
+    v0, v1 = begin[2:4] * dt, end[2:4] * dt
+    bent, turned = v0 + v1 - 2.0 * way, 3.0 * way - 2.0 * v0 - v1
+    place = begin[:2] + s * (v0 + s * (turned + s * bent))
+    velocity = (v0 + s * (2.0 * turned + 3.0 * s * bent)) / dt
+    return np.concatenate([place, velocity, [begin[4] + s * (end[4] - begin[4])]])
