@@ -102,7 +102,7 @@ def plot_damper_run(
 
 
 def plot_damper_turn(turn: DamperTurn, *, axes: Axes | None = None) -> Axes:
-    """Draw where a damper that conserves its oil is empty: around it and over a turn, half-way along the film.
+    """Draw where a damper that conserves its oil is empty, around it and over a turn, half-way along it.
 
     A line is where the rotor is nearest to the wall.
 
@@ -123,7 +123,7 @@ def plot_damper_turn(turn: DamperTurn, *, axes: Axes | None = None) -> Axes:
     nearest = np.degrees(np.arctan2(turn.position[1], turn.position[0]) % (2.0 * np.pi))
     jump = np.abs(np.diff(nearest, append=nearest[0])) > 180.0
     axes.plot(np.where(jump, np.nan, nearest), turned, "C1", linewidth=1.3, label="least gap")
-    axes.set(xlabel="angle from +x towards +y [deg]", ylabel="turns")
+    axes.set(xlabel="angle from +x towards +y [deg]", ylabel="turns", xlim=(0.0, 360.0))
     axes.legend(fontsize=8)
     return axes
 

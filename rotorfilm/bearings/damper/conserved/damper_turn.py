@@ -22,7 +22,8 @@ from ....errors import (
 from ....inputs.kinds import arguments
 from ....model import Array
 from ....readable.result import Drawable
-from ...films.conserved.conserved_film import ConservedState, circular_gap, step_storage
+from ...films.conserved.conserved_film import ConservedState, circular_gap
+from ...films.conserved.oil_steps import OilMemory, after_step, oil_step
 from .jfo_damper import JFODamper
 from .scaled_film import ScaledFilm
 
@@ -165,14 +166,14 @@ def _turns(scaled: ScaledFilm, position: Array, speed: float) -> Iterator[_Rows]
     """Yield turn after turn of a motion, from a full film where it begins and ends."""
     film, gaps = scaled.film, [circular_gap(scaled.film.cells, q / scaled.clearance) for q in position.T]
     dt = 2.0 * np.pi / speed / len(gaps)
-    now = np.repeat(gaps[-1].line[:, None], film.cells.width.size, axis=1)
-    before = full = None
+    theta = np.ones(film.cells.opening.shape)
+    content = theta * gaps[-1].line[:, None]
+    oil = OilMemory(content, content, 0.0, theta, theta.astype(np.uint8))
     while True:
         states: list[ConservedState] = []
         for gap in gaps:
-            state = film.solve(gap, 0.0, storage=step_storage(dt, now, before), guess=full)
-            now, before, full = state.content, now, state.solution.full
-            states.append(state)
+            states.append(oil_step(film, oil, gap, 0.0, dt))
+            oil = after_step(oil, states[-1], dt)
         yield _rows(scaled, states)
 
 

@@ -26,7 +26,9 @@ from ...films.conserved.conserved_cells import require_conserved_cells
 from ...films.conserved.conserved_film import ConservedFilm, ConservedState, circular_gap, direction
 from ...films.conserved.conserved_motion import dynamic_stiffness, slow_motion
 from ...films.conserved.reynolds_oil import reynolds_state
+from ...films.conserved.stepped_film import FilmMemory, SteppedFilm
 from ...reaction import broadcast_state
+from ...stepped_reaction import Trial
 from .damper_supply import DamperSupply
 from .jfo_orbit import JFOOrbit, jfo_orbit
 from .scaled_film import ScaledFilm, scaled_film
@@ -43,13 +45,14 @@ QUARTER = np.array([[0.0, -1.0], [1.0, 0.0]])
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class JFODamper:
+class JFODamper(SteppedFilm):
     """A squeeze-film damper that conserves its oil (Jakobsson, Floberg and Olsson); its cage is solid.
 
     The race does not spin: oil in the cavity stays where it is, and only pressure moves it. So the cavity
     remembers the last turn, and what fills it again is the supply. There is a force on a centered circular
-    orbit, steady in axes that turn with it, or at rest; any other motion wants its past: `moving_damper`, or
-    `damper_turn` for one that repeats itself. 72 x 16 cells are within .8 % of the force.
+    orbit, steady in axes that turn with it, or at rest; any other motion wants its past. That is what
+    `simulate` steps through with the rotor, and `damper_turn` for a motion that repeats itself: the damper is
+    a Stepped model too. 72 x 16 cells are within .8 % of the force.
 
     Parameters
     ----------
@@ -59,7 +62,7 @@ class JFODamper:
     supply : DamperSupply
     stiffness : float [N/m]
         Of retainer springs, preloaded so that they carry the static load where the rotor is centered. Their
-        force is part of `force`, not of the film's that `orbit` and steps in time return.
+        force is part of `force` and of steps in time, not of the film's that `orbit` and `damper_turn` return.
     cells : tuple of int
         Lines around the film and cells along half its length, about; even numbers.
 
@@ -115,9 +118,37 @@ class JFODamper:
         )
 
     @property
-    def film(self) -> ConservedFilm:
+    def film(self) -> ConservedFilm:  # type: ignore[override]
         """The film without dimensions; see `ConservedFilm`."""
         return self.scaled.film
+
+    @property
+    def scales(self) -> tuple[float, float]:
+        """Units of the force [N s] and of the oil [m3]."""
+        return self.scaled.force, self.scaled.oil
+
+    def carrying(self, motion: Array) -> float:
+        """Return 0: the race does not spin."""
+        return 0.0
+
+    def answer(self, state: FilmMemory) -> Array:
+        """Return the outputs of a state, shape (6,), the force with that of the springs."""
+        found = super().answer(state)
+        found[:2] -= self.stiffness * state.motion[:2]
+        return found
+
+    def step(
+        self, state: FilmMemory, t: float, u: ArrayLike, dt: float
+    ) -> tuple[FilmMemory, Array, dict[str, int]]:
+        """Return state, outputs and counters of work after dt [s]; see `SteppedFilm.step`."""
+        end, _, report = super().step(state, t, u, dt)
+        return end, self.answer(end), report
+
+    def attempt(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None = None) -> Trial:
+        """Return one inner step, with its slope; see `bearings.stepped_reaction`."""
+        film = super().attempt(state, u, dt, near)
+        slope = film.slope + self.stiffness * np.eye(2)
+        return film._replace(output=self.answer(film.state), slope=slope)
 
     def orbit(self, eccentricity_ratio: float, speed: float) -> JFOOrbit:
         """Return the film on a centered circular orbit.
@@ -242,7 +273,7 @@ class JFODamper:
         if abs(position @ velocity) > CIRCULAR * e * v or (e == 0.0 and v > 0.0):
             raise InputError(
                 "velocity must be 0 or across the position, as on a centered circular orbit: the film "
-                "remembers, and another motion needs its past (moving_damper, damper_turn), got velocity "
+                "remembers, and another motion needs its past (simulate, damper_turn), got velocity "
                 f"{velocity.tolist()} at position {position.tolist()}"
             )
         radial = position / e if e > 0.0 else np.array([1.0, 0.0])
