@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ...bearings.damper import PorousDamper
+from ...bearings.damper import JFODamper, PorousDamper
 from ...bearings.sprung import Sprung
 from ...errors import InputError
 from ...rotors import RigidRotor
@@ -26,7 +26,7 @@ class DamperScene(NamedTuple):
     ----------
     rotor : RigidRotor
         At the center of the damper, at rest.
-    support : PorousDamper or Sprung
+    support : PorousDamper, Sprung or JFODamper
     start : float [s]
         When the excitation begins: until then nothing moves, and the run counts from there.
     duration : float [s]
@@ -35,7 +35,7 @@ class DamperScene(NamedTuple):
     """
 
     rotor: RigidRotor
-    support: PorousDamper | Sprung
+    support: PorousDamper | Sprung | JFODamper
     start: float
     duration: float
     step: float
@@ -78,6 +78,17 @@ def damper_models(scene: Scene) -> DamperScene:
 
 
 def damper_fmus(scene: Scene) -> SceneModels:
-    """Return the damper of a scene, springs included, and its rotor, at rest in the center."""
+    """Return the damper of a scene, springs included, and its rotor, at rest in the center.
+
+    Raises
+    ------
+    InputError
+        As `damper_models`, or if the damper conserves its oil, of which there is no FMU.
+    """
     models = damper_models(scene)
+    if isinstance(models.support, JFODamper):
+        raise InputError(
+            "damper.supply must be left out for FMUs, or a film be named that knows none, as "
+            f'film = {{name = "map"}}, got {models.support.supply!r}'
+        )
     return SceneModels("damper", models.support, models.rotor, {}, models.step, models.duration)

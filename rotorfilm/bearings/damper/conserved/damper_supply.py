@@ -19,8 +19,9 @@ from ...films.conserved.conserved_film import Supply
 from ...films.geometry import FeedHole, FilmGeometry, Pocket
 
 REMEDY = (
-    "supply_pressure with circumferential_groove (its width), end_groove=True or holes=(FeedHole(...),), "
-    "or ends in an oil bath with a cavity below ambient (submerged=True, cavitation_pressure=-1e5)"
+    "supply_pressure with circumferential_groove (its width), end_groove=True or "
+    "feed_holes=(FeedHole(...),), or ends in an oil bath with a cavity below ambient "
+    "(submerged=True, cavitation_pressure=-1e5)"
 )
 
 
@@ -39,7 +40,7 @@ class DamperSupply:
         Width of a groove all round in the middle of the length, which has no film; None for none.
     end_groove : bool
         Whether the oil comes from a groove all round beyond one end of the film; the other end is open.
-    holes : tuple of FeedHole
+    feed_holes : tuple of FeedHole
         In the middle of the length.
     cavitation_pressure : float [Pa]
         In the cavity, not above 0.
@@ -57,7 +58,7 @@ class DamperSupply:
     supply_pressure: float = 0.0
     circumferential_groove: float | None = None
     end_groove: bool = False
-    holes: tuple[FeedHole, ...] = ()
+    feed_holes: tuple[FeedHole, ...] = ()
     cavitation_pressure: float = 0.0
     submerged: bool = False
 
@@ -69,19 +70,20 @@ class DamperSupply:
             require_non_negative("circumferential_groove", self.circumferential_groove)
         require_kind("end_groove", self.end_groove, bool, "True or False")
         require_kind("submerged", self.submerged, bool, "True or False")
-        require_tuple("holes", self.holes, FeedHole)
+        require_tuple("feed_holes", self.feed_holes, FeedHole)
         self._require_one()
 
     def _require_one(self) -> None:
         grooves = self.circumferential_groove is not None, self.end_groove
-        kinds = sum((*grooves, bool(self.holes)))
+        kinds = sum((*grooves, bool(self.feed_holes)))
         if kinds > 1:
             raise InputError(
-                f"a damper must be fed by one of circumferential_groove, end_groove and holes, got {self!r}"
+                "a damper must be fed by one of circumferential_groove, end_groove and feed_holes, "
+                f"got {self!r}"
             )
         if self.supply_pressure > 0.0 and not kinds:
             raise InputError(
-                f"supply_pressure must be 0 without a groove or holes, got {self.supply_pressure!r}"
+                f"supply_pressure must be 0 without a groove or feed_holes, got {self.supply_pressure!r}"
             )
         pressure = self.supply_pressure - self.cavitation_pressure if kinds or self.submerged else 0.0
         if pressure <= 0.0:
@@ -98,7 +100,7 @@ class DamperSupply:
     @property
     def turns_alike(self) -> bool:
         """Whether the supply is the same all round, so that a centered circular orbit is a steady state."""
-        return not self.holes
+        return not self.feed_holes
 
 
 class SuppliedFilm(NamedTuple):
@@ -139,7 +141,7 @@ def supplied_film(given: DamperSupply, radius: float, length: float, pressure_sc
     width = given.circumferential_groove or 0.0
     if width >= length:
         raise InputError(f"circumferential_groove must be below the length {length!r}, got {width!r}")
-    pockets = tuple(_pocket(hole, radius, length) for hole in given.holes)
+    pockets = tuple(_pocket(hole, radius, length) for hole in given.feed_holes)
     end, held = -given.cavitation_pressure / pressure_scale, given.supply_pressure / pressure_scale
     geometry = FilmGeometry(pockets=pockets, supply=held, circumferential=given.grooved)
     count = len(geometry.openings())

@@ -62,7 +62,7 @@ class JFODamper(SteppedFilm):
     supply : DamperSupply
     stiffness : float [N/m]
         Of retainer springs, preloaded so that they carry the static load where the rotor is centered. Their
-        force is part of `force` and of steps in time, not of the film's that `orbit` and `damper_turn` return.
+        force is part of `force` and of steps in time, not of that of the film: `orbit`, `damper_turn`.
     cells : tuple of int
         Lines around the film and cells along half its length, about; even numbers.
 
@@ -260,8 +260,8 @@ class JFODamper(SteppedFilm):
         """Return the film in axes that turn with the orbit, in which its wall carries the oil back."""
         if not self.supply.turns_alike:
             raise InputError(
-                "holes must be () for a steady orbit, as holes pass by once a turn; damper_turn finds the "
-                f"periodic film, got {self.supply.holes!r}"
+                "feed_holes must be () for a steady orbit, as holes pass by once a turn; damper_turn finds "
+                f"the periodic film, got {self.supply.feed_holes!r}"
             )
         gap = circular_gap(self.film.cells, np.array([eccentricity_ratio, 0.0]))
         return self.film.solve(gap, -speed)
