@@ -36,6 +36,14 @@ class SteppedReaction(Stepped, Protocol):
     def clearance(self) -> float:
         """Radial clearance [m]: the journal center stays within this distance of the origin."""
 
+    def slopes(self, state: Any) -> Array:
+        """Return d force / d (x, y, vx, vy, speed) at a state that its past holds as it is, shape (2, 5).
+
+        Parameters
+        ----------
+        state : object
+        """
+
     def attempt(self, state: Any, u: Array, dt: float, near: Any = None) -> Trial:
         """Return one step of length dt [s], not divided, that ends with the input u = (x, y, vx, vy, speed).
 

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from .schemes.explicit import GaussSeidel as GaussSeidel, Jacobi as Jacobi
     from .schemes.implicit import SIExp as SIExp, SIExp3 as SIExp3
     from .schemes.newton import Newton as Newton
+    from .schemes.remembering import SIMemory as SIMemory
     from .schemes.scheme import Scheme as Scheme
     from .slaves import InProcessSlave, Slave
     from .watch import CouplingWatch as CouplingWatch

@@ -8,6 +8,7 @@ from dataclasses import replace
 from os import PathLike
 from typing import Any
 
+from ..bearings.stepped_reaction import SteppedReaction
 from ..errors import InputError
 from ..fmu.check.instance import extracted
 from ..inputs.kinds import arguments
@@ -19,10 +20,11 @@ from .fmu_slave import ExchangeRotor, FmuSlave
 from .schemes.explicit import GaussSeidel
 from .schemes.scheme import Scheme
 from .slaves import InProcessSlave, Slave
+from .stepped_partner import SteppedPartner
 from .wiring import local_name
 
 Path = str | PathLike[str]
-Film = Path | Model
+Film = Path | Model | SteppedReaction
 
 
 @arguments
@@ -48,7 +50,7 @@ def cosimulate(
         It takes forces and gives motion. Co-Simulation will do for held forces; other schemes take an FMU for
         Model Exchange with directional derivatives, which the master integrates, or one with the inputs of a
         force law (`LawRotor`).
-    film_fmu : path or Model, or mapping of station to such
+    film_fmu : path, Model or JFOFilm, or mapping of station to such
         It takes motion and gives forces, for Co-Simulation.
     macro_step : float [s]
         Distance of the communication points; the last step is shorter where it must be.
@@ -116,12 +118,17 @@ def _run(
         others: dict[str, Slave] = {
             station: stack.enter_context(open_fmu(film))
             if isinstance(film, str | PathLike)
-            else InProcessSlave(film)
+            else in_process(film)
             for station, film in films.items()
         }
         return couple(
             first, others, macro_step=macro_step, duration=duration, scheme=scheme, progress=progress
         )
+
+
+def in_process(film: Any) -> Slave:
+    """Return a film of this package as a partner."""
+    return SteppedPartner(film) if isinstance(film, SteppedReaction) else InProcessSlave(film)
 
 
 def open_fmu(path: Path) -> AbstractContextManager[FmuSlave]:

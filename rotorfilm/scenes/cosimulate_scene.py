@@ -19,6 +19,7 @@ from ..cosim import (
     Scheme,
     SIExp,
     SIExp3,
+    SIMemory,
     cosimulate,
     critical_macro_step,
 )
@@ -38,6 +39,7 @@ SCHEMES: dict[str, Scheme] = {
     **{f"jacobi-{degree}": Jacobi(degree=degree) for degree in range(3)},
     "si-exp": SIExp(),
     "si-exp3": SIExp3(),
+    "si-memory": SIMemory(),
     "newton": Newton(),
     "adaptive": Adaptive(),
 }

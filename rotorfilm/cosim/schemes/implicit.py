@@ -19,7 +19,7 @@ class _Tangential:
 
     def step(self, bench: Bench, history: Sequence[Sample], t: float, dt: float) -> Sample:
         """Advance by one macro step; see `Scheme`."""
-        motion = bench.drive(t, dt, _law(history, self.curvature(history)))
+        motion = bench.drive(t, dt, tangent_law(history, self.curvature(history)))
         return bench.evaluate(t, dt, motion, True)
 
     def curvature(self, history: Sequence[Sample]) -> Array:
@@ -74,7 +74,7 @@ def defect(before: Sample, now: Sample) -> Array:
     return left
 
 
-def _law(history: Sequence[Sample], curvature: Array) -> ForceLaw:
+def tangent_law(history: Sequence[Sample], curvature: Array) -> ForceLaw:
     """Return the law of the tangents at the present point; a change of the speed is carried on."""
     now = history[-1]
     tangents = now.tangents

@@ -18,7 +18,7 @@ SLAVE = f"{PACKAGE}.fmu.python.slave"
 STEPPED_SLAVE = f"{PACKAGE}.fmu.python.stepped_slave"
 API = f"{PACKAGE}.fmu.python.pythonfmu_api"
 
-LIBRARY = f"{PACKAGE}.native"
+LIBRARY = {f"{PACKAGE}.native", f"{PACKAGE}.bearings.films.conserved.stepped_film"}
 """What a module imports that calls the compiled library."""
 
 COMPANIONS = "bearings/journal/map/data/*"
@@ -85,7 +85,7 @@ def content_hash(contents: Mapping[str, bytes]) -> str:
 
 def _companions(modules: Iterable[str]) -> dict[str, bytes]:
     sources = {name: source_of(name) for name in modules}
-    if not any(LIBRARY in imported_names(name, source) for name, source in sources.items()):
+    if all(LIBRARY.isdisjoint(imported_names(name, source)) for name, source in sources.items()):
         return {}
     found = sorted(path for path in ROOT.glob(COMPANIONS) if path.is_file())
     libraries = [library_path(name) for name in (FILMS, LOOPS)]

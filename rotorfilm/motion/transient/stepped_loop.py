@@ -152,6 +152,11 @@ class SteppedLoop:
                 return self._moment(t, x, tuple(each.state for each in trials), [e.output for e in trials])
         raise ConvergenceError(f"Newton's method must end in the step to t = {t:.9g} s")
 
+    def gap(self, moment: Moment) -> float:
+        """Return the least clearance left at any journal, relative to its own [1]."""
+        motion = self._motion(moment.time, moment.state)
+        return min(1.0 - math.hypot(*motion[s.motion[:2]]) / s.film.clearance for s in self.stations)
+
     def _tried(
         self, now: Moment, t: float, x: Array, dt: float, last: list[Trial] | None
     ) -> list[Trial]:

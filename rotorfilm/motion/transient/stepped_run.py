@@ -14,10 +14,14 @@ from ...errors import ContactError, ConvergenceError, FilmContactError, InputErr
 from ...model import Array, Dynamic, breakpoints
 from ...results import Trajectory
 from ...signals import Signal, names, units
+from ..compiled.journal_films import CONTACT_GAP
 from .stepped_loop import Moment, SteppedLoop, stations_of
 
 STEPS_A_TURN = 384
 """Steps in a turn of the shaft at its highest speed."""
+
+AT_WALL = 1e-3
+"""Gap, in clearances, in which a journal whose steps fail counts as at the wall."""
 
 HALVINGS = 12
 """Times that a step is halved before a run is given up."""
@@ -68,14 +72,22 @@ def simulate_steps(
             halvings += 1
             loop.work["restarts"] += 1
             if halvings > HALVINGS:
-                kind = ContactError if isinstance(failure, FilmContactError) else ConvergenceError
-                raise kind(str(failure), record.trajectory()) from failure
+                raise _failed(failure, loop.gap(now), record.trajectory()) from failure
             continue
         record.add(now, reached)
+        if loop.gap(reached) <= CONTACT_GAP:
+            raise ContactError(f"journal reached the wall at t = {reached.time:.9g} s", record.trajectory())
         before, now = now, reached
         if length == left:
             done, halvings = done + 1, max(0, halvings - 1)
     return record.trajectory()
+
+
+def _failed(failure: Exception, gap: float, partial: Trajectory) -> ContactError | ConvergenceError:
+    """Return what a step that cannot be made means, at a gap of so many clearances."""
+    if isinstance(failure, FilmContactError) or gap < AT_WALL:
+        return ContactError(f"journal reached the wall, {gap:.3g} of the clearance is left: {failure}", partial)
+    return ConvergenceError(str(failure), partial)
 
 
 def part_of_turn(rotor: Dynamic, duration: float) -> float:

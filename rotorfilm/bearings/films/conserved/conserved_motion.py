@@ -8,8 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....model import Array
+from .conserved_cells import FILM
 from .conserved_film import ConservedFilm, ConservedState, Gap, direction
 from .oil_kernel import oil_outflow, oil_response
+
+KEEPS = 1e30
+"""Storage [1/s] of cells that keep their oil."""
 
 Complex = NDArray[np.complex128]
 
@@ -66,6 +70,30 @@ def slow_motion(film: ConservedFilm, state: ConservedState) -> SlowMotion:
     room = np.where(full, 0.0, state.gap.line[:, None] * film.cells.area)
     slow = oil_response(state.equations, full, none, -(held + room * still))
     return SlowMotion(_stiffness(film, state, still).real, _stiffness(film, state, slow).real)
+
+
+def sudden_slopes(film: ConservedFilm, state: ConservedState) -> Array:
+    """Return d force / d (e_x, e_y, their rates, speed) of a film whose cells keep their oil, shape (2, 5).
+
+    So it answers at once, to a motion too quick for oil to cross the cavity. `state` has no storage.
+    """
+    moved, held = _slopes(film, state)
+    gap, solution = state.gap, state.solution
+    free = ~solution.full.astype(bool) & (film.cells.opening == FILM)
+    by_line = -direction(film.cells.angle)
+    thinned = np.where(free, -solution.theta * (by_line / gap.line)[:, :, None], 0.0)
+    still = np.zeros(gap.line.shape)
+    carrying = state.equations._replace(
+        around=still, along=still, center=0.0, end_pressure=0.0, wedge=state.rate * gap.face
+    )
+    none = np.zeros(film.cells.opening.shape)
+    dragged = [oil_outflow(carrying, none, theta) for theta in thinned]
+    by_speed = oil_outflow(carrying._replace(wedge=0.5 * gap.face), none, solution.theta)
+    right = -np.concatenate([moved + np.array(dragged), held, by_speed[None]])
+    keeps = np.where(solution.full, 0.0, KEEPS * film.cells.area)
+    change = oil_response(state.equations, solution.full, keeps, np.where(solution.full, right, 0.0)).real
+    pressure = np.where(solution.full, change, 0.0)
+    return np.asarray(-12.0 * np.tensordot(film.weights, pressure, ((1, 2), (1, 2))))
 
 
 def speed_slope(film: ConservedFilm, state: ConservedState) -> Array:

@@ -20,8 +20,8 @@ MOST_GROWTH = 2.0
 EMPTY = -1e-9
 """Content of a cell below which a difference of second order took more oil from it than it had."""
 
-STILL, MOST_STILL = 1e-12, 12
-"""Change of theta at which the steady film stands, and most solutions on the way."""
+STILL, MOST_STILL, WEIGHT = 1e-13, 80, 0.7
+"""Change of theta at which the steady film stands, most solutions on the way, and how much of each counts."""
 
 
 class OilMemory(NamedTuple):
@@ -35,13 +35,14 @@ class OilMemory(NamedTuple):
         The same one step earlier.
     length : float [s]
         Of the last step; 0 where there was none.
-    theta : ndarray, shape (N, M) [1]
+    pressure, theta : ndarray, shape (N, M) [1/s], [1]
     full : ndarray of uint8, shape (N, M)
     """
 
     content: Array
     before: Array
     length: float
+    pressure: Array
     theta: Array
     full: np.ndarray
 
@@ -55,10 +56,11 @@ def steady_oil(film: ConservedFilm, gap: Gap, rate: float) -> ConservedState:
         As `ConservedFilm.solve`.
     """
     state = film.solve(gap, rate)
+    carried = np.zeros(film.cells.opening.shape)
     for _ in range(MOST_STILL):
         theta = state.solution.theta
-        held = Storage(0.0, -sharpened(film, gap, rate, theta))
-        state = film.solve(gap, rate, storage=held, guess=state.solution.full)
+        carried = (1.0 - WEIGHT) * carried + WEIGHT * sharpened(film, gap, rate, theta)
+        state = film.solve(gap, rate, storage=Storage(0.0, -carried), guess=state.solution.full)
         if np.abs(state.solution.theta - theta).max() <= STILL:
             break
     return state
@@ -66,12 +68,12 @@ def steady_oil(film: ConservedFilm, gap: Gap, rate: float) -> ConservedState:
 
 def remembered(state: ConservedState) -> OilMemory:
     """Return the memory of a film that has long stood as it is."""
-    return OilMemory(state.content, state.content, 0.0, state.solution.theta, state.solution.full)
+    return OilMemory(state.content, state.content, 0.0, *state.solution[:3])
 
 
 def after_step(memory: OilMemory, state: ConservedState, dt: float) -> OilMemory:
     """Return the memory after a step of length dt [s] that ended at a state."""
-    return OilMemory(state.content, memory.content, dt, state.solution.theta, state.solution.full)
+    return OilMemory(state.content, memory.content, dt, *state.solution[:3])
 
 
 def oil_step(

@@ -14,7 +14,8 @@ from ....signals import Signal, force_outputs, journal_inputs
 from ...reaction import NOMINAL_SPEED, input_vector
 from ...stepped_reaction import Trial
 from .conserved_film import ConservedFilm, ConservedState, circular_gap
-from .conserved_motion import step_stiffness
+from .conserved_motion import step_stiffness, sudden_slopes
+from .oil_kernel import OilSolution
 from .oil_steps import OilMemory, after_step, oil_step, packed_oil, remembered, steady_oil, unpacked_oil
 
 LARGEST_ANGLE = 2.0 * math.pi / 192.0
@@ -22,6 +23,9 @@ LARGEST_ANGLE = 2.0 * math.pi / 192.0
 
 LARGEST_WAY = 0.02
 """Way of the journal in one inner step, in clearances."""
+
+SWEEPS = 2
+"""Films in one inner step, the second with what the first says of limited transport."""
 
 HALVINGS = 4
 """Times that all inner steps are halved before a step is given up."""
@@ -86,7 +90,7 @@ class SteppedFilm:
             Signal(name=name, unit="m3/s", nominal=volume * NOMINAL_SPEED, description=text)
             for name, text in FLOWS.items()
         ]
-        oil = "oil in the film, without the openings"
+        oil = "oil in the gap, over the openings too"
         held = Signal(name="oil_volume", unit="m3", nominal=volume, description=oil)
         return (*force_outputs(force * NOMINAL_SPEED), *flows, held)
 
@@ -142,6 +146,14 @@ class SteppedFilm:
         slope = force / self.clearance * step_stiffness(self.film, found)
         return Trial(end, end.output, slope, found.solution.solutions + 1)
 
+    def slopes(self, state: FilmMemory) -> Array:
+        """Return d force / d (x, y, vx, vy, speed) at a state whose cells keep their oil, shape (2, 5)."""
+        rate, gap = 0.5 * float(state.motion[4]), circular_gap(self.film.cells, state.motion[:2] / self.clearance)
+        solution = OilSolution(state.oil.pressure, state.oil.theta, state.oil.full, 0, 0)
+        film = ConservedState(gap, rate, self.film.equations(gap, rate), solution)
+        force, _ = self.scales
+        return force * sudden_slopes(self.film, film) / np.array([*[self.clearance] * 4, 1.0])
+
     def answer(self, state: FilmMemory) -> Array:
         """Return the outputs of a state, shape (6,)."""
         return state.output.copy()
@@ -167,9 +179,12 @@ class SteppedFilm:
         for k in range(1, pieces + 1):
             on_way = target if k == pieces else between(begin, target, dt, k / pieces)
             self._inside(on_way, f" at t = {t + dt * k / pieces:.9g} s")
-            found = self._found(state, on_way, dt / pieces, None)
-            solutions += found.solution.solutions
-            state = FilmMemory(after_step(state.oil, found, dt / pieces), on_way, self._output(found))
+            near, end = None, state
+            for _ in range(SWEEPS):
+                found = self._found(state, on_way, dt / pieces, near)
+                solutions += found.solution.solutions
+                near = end = FilmMemory(after_step(state.oil, found, dt / pieces), on_way, self._output(found))
+            state = end
         return state, state.output.copy(), {"steps": pieces, "solutions": solutions}
 
     def _found(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None) -> ConservedState:
@@ -179,8 +194,7 @@ class SteppedFilm:
 
     def _output(self, state: ConservedState) -> Array:
         force, volume = self.scales
-        flows, film = self.film.flows(state), self.film.cells.opening < 0
-        oil = np.sum((state.content * self.film.cells.area)[film])
+        flows, oil = self.film.flows(state), np.sum(state.content * self.film.cells.area)
         rest = np.array([flows.out, flows.drawn_in, flows.inflow.sum(), oil])
         return np.concatenate([force * self.film.force(state), volume * rest])
 

@@ -1,0 +1,191 @@
+"""The journal film that conserves its oil as a Stepped model: order, balance of oil, its state, failures."""
+
+import numpy as np
+import pytest
+
+from rotorfilm import Groove, JFOFilm, JournalBearing, Stepped
+from rotorfilm.bearings.films.conserved.conserved_film import ConservedFilm
+from rotorfilm.bearings.films.conserved.stepped_film import between
+from rotorfilm.errors import ConvergenceError, FilmContactError, InputError
+
+R, c, omega = 0.05, 1e-4, 314.0
+TOP = Groove(center=np.pi / 2, width=np.radians(20.0), length=0.04)
+BEARING = JournalBearing(
+    radius=R, length=0.05, clearance=c, viscosity=0.02, grooves=(TOP,), supply_pressure=2e5
+)
+FILM = JFOFilm(bearing=BEARING, cells=(36, 4))
+TURN = 2.0 * np.pi / omega
+
+
+def motion(t, speed=omega):
+    """Return the input of a large orbit that begins smoothly."""
+    a, b, nu = 0.3 * c, 0.2 * c, 0.5 * omega
+    place = [3e-5 + a * np.sin(nu * t) ** 2, -4e-5 + b * np.sin(nu * t) ** 3]
+    rate = [
+        2.0 * a * nu * np.sin(nu * t) * np.cos(nu * t),
+        3.0 * b * nu * np.sin(nu * t) ** 2 * np.cos(nu * t),
+    ]
+    return np.array([*place, *rate, speed])
+
+
+def followed(film, steps, turns=1.0):
+    """Return the outputs along the orbit in equal steps, the start included."""
+    state, dt = film.start(motion(0.0)), turns * TURN / steps
+    outputs = [film.answer(state)]
+    for k in range(steps):
+        state, output, work = film.step(state, k * dt, motion((k + 1) * dt), dt)
+        assert work["steps"] == 1
+        outputs.append(output)
+    return np.array(outputs).T
+
+
+def test_is_a_stepped_model():
+    assert isinstance(FILM, Stepped)
+    assert [s.name for s in FILM.inputs] == ["x", "y", "vx", "vy", "speed"]
+    assert [s.name for s in FILM.outputs] == [
+        "force_x", "force_y", "side_flow", "drawn_in", "inflow", "oil_volume"
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("speed", [omega, -omega, 0.0])
+def test_starts_with_the_steady_film_and_stays(speed):
+    u = np.array([3e-5, -4e-5, 0.0, 0.0, speed])
+    state, steady = FILM.start(u), FILM.solve(u[:2], speed)
+    found = FILM.answer(state)
+    # Transport of second order moves the oil of the cavity within its cells, and the force by little.
+    np.testing.assert_allclose(found[:2], steady.force, rtol=2e-3)
+    assert found[2] == pytest.approx(steady.side_flow, rel=2e-3)
+    for dt in (TURN / 100.0, TURN / 3.0):
+        state, output, _ = FILM.step(state, 0.0, u, dt)
+        np.testing.assert_allclose(output, found, rtol=1e-8, atol=1e-12 * np.abs(found).max())
+
+
+@pytest.mark.convergence
+def test_steps_are_of_second_order():
+    # The impulse of the force, which does not mind at which moment a cell fills.
+    impulses = []
+    for steps in (96, 192, 384):
+        force = followed(FILM, steps, 0.5)[:2]
+        impulses.append(0.5 * TURN / steps * (force[:, 1:] + force[:, :-1]).sum(axis=1) / 2.0)
+    change = [np.hypot(*(b - a)) for a, b in zip(impulses, impulses[1:], strict=False)]
+    assert 1.6 < np.log2(change[0] / change[1]) < 2.6
+    assert change[1] < 2e-4 * np.hypot(*impulses[2])
+
+
+@pytest.mark.closed_form
+def test_no_oil_is_made_or_lost():
+    steps = 192
+    _, _, out, drawn, fed, volume = followed(FILM, steps)
+    stored = (1.5 * volume[2:] - 2.0 * volume[1:-1] + 0.5 * volume[:-2]) * steps / TURN
+    assert np.abs(stored).max() > 0.1 * out.max()
+    np.testing.assert_allclose(stored, (fed + drawn - out)[2:], atol=1e-10 * out.max())
+
+
+@pytest.mark.closed_form
+def test_the_slope_is_that_of_the_step():
+    state, dt = FILM.start(motion(0.0)), TURN / 96.0
+    for k in range(6):
+        state = FILM.attempt(state, motion(k * dt), dt).state
+    u = motion(6.0 * dt)
+    trial = FILM.attempt(state, u, dt, near=state)
+    columns = []
+    for unit in np.eye(5)[:2]:
+        sides = [FILM.attempt(state, u + side * 1e-10 * unit, dt, near=state).output[:2] for side in (1, -1)]
+        columns.append((sides[0] - sides[1]) / 2e-10)
+    # But for how the limited transport takes the gap, of which the slope knows nothing.
+    np.testing.assert_allclose(-np.array(columns).T, trial.slope, atol=1e-4 * np.abs(trial.slope).max())
+
+
+@pytest.mark.closed_form
+def test_sudden_slopes_are_those_of_very_short_steps():
+    # The slope of an Euler step is K + C/dt, up to O(dt); the force at its end by speed goes as the steady flow.
+    state = FILM.start(motion(0.0))
+    slopes = FILM.slopes(state)
+    dts = np.array([1.0, 2.0]) * 1e-5 * TURN
+    short = [FILM.attempt(state, motion(0.0), dt).slope for dt in dts]
+    C = (short[0] - short[1]) / (1.0 / dts[0] - 1.0 / dts[1])
+    np.testing.assert_allclose(-slopes[:, 2:4], C, atol=1e-4 * np.abs(C).max())
+    K = (2.0 * short[1] - short[0]) - np.zeros((2, 2))
+    np.testing.assert_allclose(-slopes[:, :2], K, atol=1e-3 * np.abs(K).max())
+    faster = [FILM.attempt(state, motion(0.0, omega * (1.0 + s)), dts[0]).output[:2] for s in (1e-4, -1e-4)]
+    np.testing.assert_allclose(
+        slopes[:, 4], (faster[0] - faster[1]) / (2e-4 * omega), atol=2e-3 * np.abs(slopes[:, 4]).max()
+    )
+
+
+@pytest.mark.closed_form
+def test_a_full_film_feels_the_velocity_as_damping():
+    # Full all round, the film is linear in velocity, with the exact damping dK/ds.
+    plain = JournalBearing(radius=R, length=0.05, clearance=c, viscosity=0.02)
+    film = JFOFilm(bearing=plain, cells=(36, 4), cavitation_pressure=-1e9, submerged=True)
+    outputs = followed(film, 384)
+    for k in (50, 125, 300):
+        u = motion(k * TURN / 384)
+        C = film.slow_coefficients(u[:2], omega).damping
+        expected = film.force(u[:2], [0.0, 0.0], omega) - C @ u[2:4]
+        np.testing.assert_allclose(outputs[:2, k], expected, atol=1e-3 * np.hypot(*outputs[:2]).max())
+
+
+def test_long_steps_are_divided_along_the_cubic():
+    state, dt = FILM.start(motion(0.0)), TURN / 16.0
+    whole, output, work = FILM.step(state, 0.0, motion(dt), dt)
+    assert work["steps"] == 12
+    for k in range(1, 13):
+        state, _, _ = FILM.step(state, 0.0, between(motion(0.0), motion(dt), dt, k / 12.0), dt / 12.0)
+    np.testing.assert_allclose(FILM.answer(state), output, rtol=1e-12)
+    np.testing.assert_array_equal(whole.motion, motion(dt))
+
+
+@pytest.mark.closed_form
+def test_the_way_between_two_motions_is_a_cubic():
+    def on_cubic(t):
+        return np.array([1.0 + t - 2.0 * t**3, t**2, 1.0 - 6.0 * t**2, 2.0 * t, 3.0 + t])
+
+    found = between(on_cubic(0.5), on_cubic(2.5), 2.0, 0.3)
+    np.testing.assert_allclose(found, on_cubic(1.1), rtol=1e-13)
+
+
+def test_a_state_goes_through_bytes_to_the_last_bit():
+    state = FILM.start(motion(0.0))
+    for k in range(1, 4):
+        state, _, _ = FILM.step(state, 0.0, motion(k * TURN / 200.0), TURN / 200.0)
+    again = FILM.unpack(FILM.pack(state))
+    ends = [FILM.step(each, 0.0, motion(4.0 * TURN / 200.0), TURN / 200.0)[0] for each in (state, again)]
+    assert FILM.pack(ends[0]) == FILM.pack(ends[1])
+    other = JFOFilm(bearing=BEARING, cells=(40, 4))
+    with pytest.raises(InputError, match=r"content must be of \(40, 6\) cells, got \(36, 6\)"):
+        other.unpack(FILM.pack(state))
+
+
+def test_a_step_that_fails_leaves_the_state(monkeypatch):
+    state, near_wall = FILM.start(motion(0.0)), np.array([1.2 * c, 0.0, 0.0, 0.0, omega])
+    before = FILM.pack(state)
+    with pytest.raises(FilmContactError, match="at t = 0.001 s"):
+        FILM.step(state, 0.0, near_wall, 1e-3)
+    whole, limit = ConservedFilm.solve, TURN / 300.0
+
+    def stubborn(self, gap, rate, *, storage=None, **given):
+        if storage is not None and storage.rate < 1.0 / limit:
+            raise ConvergenceError("too long")
+        return whole(self, gap, rate, storage=storage, **given)
+
+    monkeypatch.setattr(ConservedFilm, "solve", stubborn)
+    assert FILM.step(state, 0.0, motion(TURN / 192.0), TURN / 192.0)[2]["steps"] == 2
+    limit = TURN / 1e5
+    with pytest.raises(ConvergenceError, match="too long"):
+        FILM.step(state, 0.0, motion(TURN / 192.0), TURN / 192.0)
+    assert FILM.pack(state) == before
+
+
+def test_arguments_break_a_rule():
+    state = FILM.start(motion(0.0))
+    for u, match in (([0.0] * 4, r"u must have shape \(5,\)"), ([np.nan] * 5, "u must be finite")):
+        with pytest.raises(InputError, match=match):
+            FILM.start(u)
+        with pytest.raises(InputError, match=match):
+            FILM.step(state, 0.0, u, 1e-4)
+    with pytest.raises(InputError, match=r"dt must be finite and positive, got -1\.0"):
+        FILM.step(state, 0.0, motion(0.0), -1.0)
+    with pytest.raises(FilmContactError):
+        FILM.start([c, 0.0, 0.0, 0.0, omega])
+    assert FILM.step(state, 0.0, motion(0.0), 0.0)[0] is state

@@ -1,0 +1,209 @@
+"""Rotors on a film that conserves its oil, in time: order, small and large orbits, balances, what goes wrong."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from rotorfilm import (
+    ElasticMaterial,
+    Groove,
+    JeffcottRotor,
+    JFOFilm,
+    JournalBearing,
+    RigidRotor,
+    ShaftElement,
+    ShaftRotor,
+    SpeedProfile,
+    Station,
+    as_reaction,
+    equilibrium,
+    simulate,
+)
+from rotorfilm.errors import ContactError, ConvergenceError, InputError
+
+R, c, mu, omega, mass = 0.05, 1e-4, 0.02, 314.0, 250.0
+TOP = Groove(center=np.pi / 2, width=np.radians(20.0), length=0.04)
+BEARING = JournalBearing(
+    radius=R, length=0.05, clearance=c, viscosity=mu, grooves=(TOP,), supply_pressure=2e5
+)
+FILM = JFOFilm(bearing=BEARING, cells=(36, 4))
+TURN = 2.0 * np.pi / omega
+
+
+@pytest.fixture(scope="module")
+def rest():
+    return equilibrium(FILM, [0.0, -9.80665 * mass], omega).position
+
+
+def rotor(rest, unbalance=0.2, **given):
+    size = {"mass": mass, "speed": omega, "unbalance": unbalance * c * mass, "position": tuple(rest)}
+    return RigidRotor(**{**size, **given})
+
+
+@pytest.mark.convergence
+def test_a_coupled_run_is_of_second_order(rest):
+    end = 0.5 * TURN
+    times = np.linspace(0.0, end, 13)
+    runs = [
+        simulate(rotor(rest), FILM, duration=end, times=times, max_step=end / n) for n in (24, 48, 96)
+    ]
+    change = [np.abs(b.position - a.position).max() / c for a, b in zip(runs, runs[1:], strict=False)]
+    assert 1.7 < np.log2(change[0] / change[1]) < 2.3
+    assert change[1] < 4e-4
+    work = runs[2].work
+    assert work["steps"] == 96
+    assert work["restarts"] == 0
+    assert work["newton_steps"] < 4.5 * 96
+
+
+@pytest.mark.closed_form
+def test_a_small_orbit_is_that_of_the_dynamic_stiffness(rest):
+    small, start = 1e-4, np.concatenate([rest, [0.0, 0.0]])
+    held = -FILM.start([*start, omega]).output[:2]
+    K = FILM.complex_stiffness(rest, omega, 1j * omega)
+    pull = small * c * mass * omega**2 * np.array([1.0, -1j])
+    amplitude = np.linalg.solve(K - mass * omega**2 * np.eye(2), pull)
+    moving = start + np.concatenate([amplitude.real, -omega * amplitude.imag])
+    turning = rotor(rest, small, gravity=(0.0, 0.0), static_force=tuple(held))
+    turns, n = 2, 216
+    found = simulate(
+        turning, FILM, duration=turns * TURN, initial_state=moving, max_step=TURN / n,
+        times=TURN * (turns - 1 + np.arange(n) / n),
+    )  # fmt: skip
+    seen = 2.0 * (found.position @ np.exp(-1j * omega * found.time)) / n
+    assert np.abs(seen - amplitude).max() < 1e-3 * np.abs(amplitude).max()
+
+
+def full_film():
+    """Return a film full all round, and the same as a reaction: its force is linear in the velocity."""
+    plain = JournalBearing(radius=R, length=0.05, clearance=c, viscosity=mu)
+    film = JFOFilm(bearing=plain, cells=(36, 4), cavitation_pressure=-1e9, submerged=True)
+
+    def force(x, y, vx, vy, speed):
+        C = film.slow_coefficients((x, y), speed).damping
+        return film.force((x, y), (0.0, 0.0), speed) - C @ np.array([vx, vy])
+
+    return film, as_reaction(force, clearance=c)
+
+
+@pytest.mark.convergence
+def test_a_run_up_on_a_full_film_is_that_of_ordinary_differential_equations():
+    film, same = full_film()
+    end = 0.5 * TURN
+    profile = SpeedProfile(times=(0.0, end), speeds=(0.6 * omega, omega))
+    turning = RigidRotor(
+        mass=20.0, speed=profile, unbalance=0.3 * c * 20.0, gravity=(0.0, 0.0), position=(1e-5, -2e-5)
+    )
+    times = np.linspace(0.0, end, 9)
+    exact = simulate(turning, same, duration=end, times=times, rtol=1e-6)
+    errors = []
+    for n in (30, 60):
+        found = simulate(turning, film, duration=end, times=times, max_step=end / n)
+        errors.append(np.abs(found.position - exact.position).max() / c)
+    assert errors[1] < 1e-3
+    assert 1.6 < np.log2(errors[0] / errors[1]) < 2.6
+
+
+@pytest.mark.convergence
+def test_impulse_and_work_are_in_balance(rest):
+    n = 120
+    turning = rotor(rest)
+    found = simulate(turning, FILM, duration=TURN, samples=n + 1, max_step=TURN / n)
+    pull = np.array([turning.unbalance_force(t) + turning.static_load for t in found.time]).T
+    force = np.stack([found["force_x"], found["force_y"]]) + pull
+    v, dt = found.velocity, TURN / n
+    gained = dt * (force.sum(axis=1) - 0.5 * (force[:, 0] + force[:, -1]))
+    scale = dt * np.abs(force).sum()
+    np.testing.assert_allclose(mass * (v[:, -1] - v[:, 0]), gained, atol=2e-3 * scale)
+    power = np.sum(force * v, axis=0)
+    work = dt * (power.sum() - 0.5 * (power[0] + power[-1]))
+    energy = 0.5 * mass * np.sum(v**2, axis=0)
+    assert energy[-1] - energy[0] == pytest.approx(work, abs=2e-3 * dt * np.abs(power).sum())
+
+
+def test_flexible_rotors_that_are_stiff_are_rigid(rest):
+    # Half the mass in the journal and a stiff shaft to the disk; and a shaft on two films, by symmetry.
+    times = np.linspace(0.0, 0.25 * TURN, 5)
+    given = {"duration": 0.25 * TURN, "times": times, "max_step": TURN / 48}
+    rigid = simulate(rotor(rest), FILM, **given)
+    still = [rest[0], rest[0], rest[1], rest[1], 0.0, 0.0, 0.0, 0.0]
+    jeffcott = JeffcottRotor(
+        mass=0.5 * mass, journal_mass=0.5 * mass, stiffness=1e13, speed=omega,
+        unbalance=0.2 * c * mass, initial=tuple(still),
+    )  # fmt: skip
+    found = simulate(jeffcott, FILM, **given)
+    assert np.abs(found.position - rigid.position).max() < 1e-3 * c
+
+
+def test_a_shaft_takes_a_film_in_each_station():
+    steel = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
+    pieces = ShaftElement(length=0.5, outer_diameter=0.1, material=steel).split(4)
+    ends = (Station(node=0, name="left"), Station(node=4, name="right"))
+    shaft = ShaftRotor(elements=pieces, stations=ends, speed=omega)
+    given = {"duration": 0.1 * TURN, "samples": 3, "max_step": TURN / 96}
+    found = simulate(shaft, {"left": FILM, "right": FILM}, **given)
+    np.testing.assert_allclose(found["left_y"], found["right_y"], rtol=1e-6)
+    np.testing.assert_allclose(found["left_force_y"], found["right_force_y"], rtol=1e-6)
+    assert found["left_y"][-1] < 0.0
+    assert found.units["right_oil_volume"] == "m3"
+    with pytest.raises(InputError, match=r"reaction must be films in all stations of the rotor, got \['left'\]"):
+        simulate(shaft, {"left": FILM}, **given)
+    with pytest.raises(InputError, match="rotor must have the outputs"):
+        simulate(shaft, FILM, **given)
+    with pytest.raises(InputError, match=r"reaction\['right'\] must be a film that steps"):
+        simulate(shaft, {"left": FILM, "right": BEARING}, **given)
+
+
+def test_the_wall_ends_a_run_with_what_there_is(rest):
+    thrown = rotor(rest, static_force=(0.0, -1e9))
+    with pytest.raises(ContactError, match="journal reached the wall, .* of the clearance is left") as caught:
+        simulate(thrown, FILM, duration=TURN, samples=2000, max_step=TURN / 96)
+    assert 2 < caught.value.partial.time.size < 200
+    assert np.all(np.isfinite(caught.value.partial["force_y"]))
+
+
+class Shy(JFOFilm):
+    """A film that is not found in a long step after some time."""
+
+    def attempt(self, state, u, dt, near=None):
+        if u[0] > 3.3e-5 and dt > TURN / 150.0:
+            raise ConvergenceError("too long")
+        return super().attempt(state, u, dt, near)
+
+
+def test_steps_that_fail_are_halved_and_said(rest):
+    times = np.linspace(0.0, 0.5 * TURN, 7)
+    shy = Shy(bearing=BEARING, cells=(36, 4))
+    given = {"duration": 0.5 * TURN, "times": times, "max_step": TURN / 96}
+    found, plain = (simulate(rotor(rest), each, **given) for each in (shy, FILM))
+    assert found.work["restarts"] > 0
+    assert found.work["steps"] > 48
+    assert np.abs(found.position - plain.position).max() < 1e-3 * c
+
+
+def test_a_film_that_is_lost_ends_a_run_with_what_there_is(rest):
+    class Lost(JFOFilm):
+        def attempt(self, state, u, dt, near=None):
+            if u[1] < rest[1] - 2e-6:
+                raise ConvergenceError("lost")
+            return super().attempt(state, u, dt, near)
+
+    with pytest.raises(ConvergenceError, match="lost") as caught:
+        simulate(rotor(rest), Lost(bearing=BEARING, cells=(36, 4)), duration=TURN, max_step=TURN / 48)
+    partial = caught.value.partial
+    assert 2 < partial.time.size < 1001
+    assert partial["y"].min() > rest[1] - 2.1e-6
+
+
+def test_arguments_break_a_rule(rest):
+    from scipy.integrate import Radau
+
+    with pytest.raises(InputError, match="method must be None for films that step by themselves"):
+        simulate(rotor(rest), FILM, duration=TURN, method=Radau)
+    with pytest.raises(InputError, match=r"initial_state must have shape \(4,\), got \(3,\)"):
+        simulate(rotor(rest), FILM, duration=TURN, initial_state=np.zeros(3))
+    with pytest.raises(InputError, match="max_step must be positive"):
+        simulate(rotor(rest), FILM, duration=TURN, max_step=0.0)
+    still = dataclasses.replace(rotor(rest, 0.0), speed=0.0)
+    assert simulate(still, FILM, duration=1e-4, samples=2).work["steps"] == 1
