@@ -78,17 +78,6 @@ def damper_models(scene: Scene) -> DamperScene:
 
 
 def damper_fmus(scene: Scene) -> SceneModels:
-    """Return the damper of a scene, springs included, and its rotor, at rest in the center.
-
-    Raises
-    ------
-    InputError
-        As `damper_models`, or if the damper conserves its oil, of which there is no FMU.
-    """
+    """Return the damper of a scene, springs included, and its rotor, at rest in the center."""
     models = damper_models(scene)
-    if isinstance(models.support, JFODamper):
-        raise InputError(
-            "damper.supply must be left out for FMUs, or a film be named that knows none, as "
-            f'film = {{name = "map"}}, got {models.support.supply!r}'
-        )
     return SceneModels("damper", models.support, models.rotor, {}, models.step, models.duration)

@@ -23,7 +23,7 @@ from ....inputs.kinds import arguments
 from ....model import Array
 from ....readable.result import Drawable
 from ...films.conserved.conserved_film import ConservedState, circular_gap
-from ...films.conserved.oil_steps import OilMemory, after_step, oil_step
+from ...films.conserved.oil_steps import after_step, oil_step, remembered
 from .jfo_damper import JFODamper
 from .scaled_film import ScaledFilm
 
@@ -94,7 +94,7 @@ def damper_turn(
 ) -> DamperTurn:
     """Return the film of a damper over a turn of a motion that repeats itself: any orbit, with any supply.
 
-    It starts full and goes on, in steps of second order (BDF2), until its force repeats itself.
+    It starts from the film of a rotor at rest, which is full, and goes on, in steps of second order (BDF2), until its force repeats itself.
 
     Parameters
     ----------
@@ -163,12 +163,10 @@ class _Rows(NamedTuple):
 
 
 def _turns(scaled: ScaledFilm, position: Array, speed: float) -> Iterator[_Rows]:
-    """Yield turn after turn of a motion, from a full film where it begins and ends."""
+    """Yield turn after turn of a motion, from a film at rest where it begins and ends."""
     film, gaps = scaled.film, [circular_gap(scaled.film.cells, q / scaled.clearance) for q in position.T]
     dt = 2.0 * np.pi / speed / len(gaps)
-    theta = np.ones(film.cells.opening.shape)
-    content = theta * gaps[-1].line[:, None]
-    oil = OilMemory(content, content, 0.0, theta, theta.astype(np.uint8))
+    oil = remembered(film.solve(gaps[-1], 0.0))
     while True:
         states: list[ConservedState] = []
         for gap in gaps:
