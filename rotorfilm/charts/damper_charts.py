@@ -6,7 +6,9 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
+from ..bearings.damper import DamperTurn
 from ..motion import BistableMap, OrbitBranch, SynchronousOrbits
 from .canvas import new_axes
 
@@ -96,6 +98,33 @@ def plot_damper_run(
     beside.set(ylabel="force on housing, N")
     lines = [*axes.lines[:1], *beside.lines]
     axes.legend(lines, [str(line.get_label()) for line in lines], fontsize=8)
+    return axes
+
+
+def plot_damper_turn(turn: DamperTurn, *, axes: Axes | None = None) -> Axes:
+    """Draw where a damper that conserves its oil is empty, around it and over a turn, half-way along it.
+
+    A line is where the rotor is nearest to the wall.
+
+    Parameters
+    ----------
+    turn : DamperTurn
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+    """
+    axes = axes or new_axes("Oil over a turn")
+    order = np.argsort(turn.angle)
+    place, turned = np.degrees(turn.angle[order]), turn.time / turn.time[-1]
+    middle = turn.oil_content[:, order, turn.axial.size // 2]
+    shown = axes.pcolormesh(place, turned, middle, shading="nearest", vmin=0.0, vmax=1.0, cmap="YlGnBu")
+    figure = axes.get_figure()
+    assert isinstance(figure, Figure)
+    figure.colorbar(shown, ax=axes, label="share of the gap that is oil")
+    nearest = np.degrees(np.arctan2(turn.position[1], turn.position[0]) % (2.0 * np.pi))
+    jump = np.abs(np.diff(nearest, append=nearest[0])) > 180.0
+    axes.plot(np.where(jump, np.nan, nearest), turned, "C1", linewidth=1.3, label="least gap")
+    axes.set(xlabel="angle from +x towards +y [deg]", ylabel="turns", xlim=(0.0, 360.0))
+    axes.legend(fontsize=8)
     return axes
 
 

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from ..answers import QuestionAnswer
 from ..bearings.contact import ContactRun
+from ..bearings.damper import JFOOrbit
 from ..bearings.journal import FilmState, JFOState
 from ..errors import InputError
 from ..model import Array
@@ -19,7 +20,7 @@ from ..readable.result import Drawable
 from ..results import Trajectory
 from .canvas import new_axes, new_figure
 from .comparisons.scene_ladder import RungPoint, plot_scene_ladder
-from .damper_charts import plot_bistable, plot_damper_run, plot_eccentricity
+from .damper_charts import plot_bistable, plot_damper_run, plot_damper_turn, plot_eccentricity
 from .rotor_charts import plot_campbell
 from .whirl_charts import plot_orbit_curves, plot_periodic_orbit
 
@@ -80,14 +81,15 @@ def plot_trajectory(run: Trajectory, *, axes: Sequence[Axes] | None = None) -> t
     return beside, below
 
 
-def plot_film(state: FilmState | JFOState, *, axes: Axes | None = None) -> Axes:
+def plot_film(state: FilmState | JFOState | JFOOrbit, *, axes: Axes | None = None) -> Axes:
     """Draw the pressure [MPa] of a film, unwrapped: the angle in the bearing, and from end to end.
 
-    Of a film that conserves its oil there is a line too around what is not full.
+    Of a film that conserves its oil there is a line too around what is not full; that of a damper is drawn
+    in axes that turn with its orbit, and with its mirror image where a groove is at one end.
 
     Parameters
     ----------
-    state : FilmState or JFOState
+    state : FilmState, JFOState or JFOOrbit
     axes : Axes, optional
         Where to draw; a new figure by default.
     """
@@ -106,9 +108,11 @@ def plot_film(state: FilmState | JFOState, *, axes: Axes | None = None) -> Axes:
     figure = axes.get_figure()
     assert isinstance(figure, Figure)
     figure.colorbar(shown, ax=axes, label="pressure [MPa]")
-    if isinstance(state, JFOState) and state.oil_content.min() < 1.0:
+    if isinstance(state, JFOState | JFOOrbit) and state.oil_content.min() < 1.0:
         axes.contour(*places, both_halves(state.oil_content), levels=[0.999], colors="white", linewidths=1.0)
-    axes.set(xlabel="angle from +x towards +y [deg]", ylabel="axial [mm]")
+    turning = isinstance(state, JFOOrbit)
+    origin = "the line of centers in the sense of +z" if turning else "+x towards +y"
+    axes.set(xlabel=f"angle from {origin} [deg]", ylabel="axial [mm]")
     return axes
 
 
@@ -169,6 +173,8 @@ PICTURES: dict[str, Callable[..., Any]] = {
     ),
     "FilmState": plot_film,
     "JFOState": plot_film,
+    "JFOOrbit": plot_film,
+    "DamperTurn": plot_damper_turn,
     "ContactRun": plot_contact_run,
     "QuestionAnswer": plot_question,
 }

@@ -185,6 +185,8 @@ def _case(scene: Scene, quantity: str) -> CouplingCase:
     turns = scene.cosimulation.revolutions
     if not scene.has_film:
         assert scene.damper is not None  # the question is asked of scenes with either
+        if scene.damper.supply is not None:
+            raise InputError(f"damper.supply must be left out for {quantity}, got {scene.damper.supply!r}")
         centered = scene.rigid_rotor.build(scene.speed, (0.0, 0.0))
         return CouplingCase(rotor=centered, reaction=scene.damper.support(), revolutions=turns)
     load, name = scene.static_load, ""

@@ -7,6 +7,11 @@ from ...sources import show
 if TYPE_CHECKING:
     from .bearing import PorousDamper as PorousDamper
     from .cage import AxialFeed as AxialFeed, PorousCage as PorousCage, RadialFeed as RadialFeed
+    from .conserved.damper_supply import DamperSupply as DamperSupply
+    from .conserved.damper_turn import DamperTurn as DamperTurn, damper_turn as damper_turn
+    from .conserved.extrapolated_damper import ExtrapolatedDamper
+    from .conserved.jfo_damper import JFODamper as JFODamper
+    from .conserved.jfo_orbit import JFOOrbit as JFOOrbit
     from .damper_groups import DamperGroups as DamperGroups, damper_groups as damper_groups
     from .full_squeeze import SqueezeFilm
     from .mapped_squeeze import FiniteMapSqueeze as FiniteMapSqueeze, MapSqueeze as MapSqueeze

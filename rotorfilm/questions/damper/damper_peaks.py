@@ -17,7 +17,7 @@ from ...model import Reaction, Tangent, largest_eccentricity_ratio, prepared_tan
 from ...motion.transient.equal_steps import MarchMotion, linear_march, peak
 from ...motion.transient.shaken_rotor import RestTangent, ShakenRotor, StatesAlong, states_along
 from ...rotors import RigidRotor
-from ...scenes.damper.damper_films import NO_RICHER, DamperFilm, damper_films, mapped_short, quiet, sprung
+from ...scenes.damper.damper_films import NO_RICHER, DamperFilm, mapped_short, plain_films, quiet, sprung
 from ...scenes.damper.damper_models import damper_models
 from ...scenes.damper.damper_remarks import rotor_remarks
 from ...scenes.damper.damper_table import DamperTable
@@ -188,6 +188,11 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
         got = "none" if scene.excitation is None else f"{scene.excitation!r}"
         raise InputError(f'excitation of kind "blade_loss" or "run_up" is required for {quantity}, got {got}')
     assert scene.damper is not None  # or the ladder is another one
+    if scene.damper.supply is not None:
+        raise InputError(
+            f"damper.supply must be left out for {quantity}, whose films make the oil that they take; a run "
+            f"of the scene conserves it, got {scene.damper.supply!r}"
+        )
     models = damper_models(scene)
     rungs = tuple(
         DamperPeakRung(
@@ -213,7 +218,7 @@ def damper_peak_ladder(scene: Scene, quantity: str) -> Ladder:
 
 def _choices(table: DamperTable) -> list[tuple[DamperFilm, int]]:
     """Return films and steps of the rungs, 0 for the linear motion, the cheapest first."""
-    films = damper_films(table)
+    films = plain_films(table)
     # `own` is the richest film beside that of finite length: it has the whole cage, gives the small motion,
     # and is the last one where there is feed, for which a motion in the finite film takes minutes.
     *cheap, own = films if len(films) < 2 or films[-1].rich_law is not None else films[:-1]

@@ -28,7 +28,16 @@ from ...motion.circular.orbit_near import (
 from ...motion.circular.orbit_points import OrbitRotor, orbit_rotor
 from ...rotors import RigidRotor
 from ...scenes.counted import Counted
-from ...scenes.damper.damper_films import NO_RICHER, DamperFilm, damper_films, mapped_short, quiet, sprung
+from ...scenes.damper.damper_films import (
+    NO_RICHER,
+    AnyDamperFilm,
+    ConservedDamperFilm,
+    damper_films,
+    lands,
+    mapped_short,
+    quiet,
+    sprung,
+)
 from ...scenes.damper.damper_models import damper_models
 from ...scenes.damper.damper_remarks import rotor_remarks
 from ...scenes.journal.film_rung import MAP_MADE
@@ -42,7 +51,7 @@ UNITS = {UP: "kg m", DOWN: "kg m", "transmissibility": "1", "unbalance_amplitude
 
 
 @dataclass(frozen=True, kw_only=True)
-class DamperCurveRung(CandidateRung[DamperFilm]):
+class DamperCurveRung(CandidateRung[AnyDamperFilm]):
     """One film and one model of its cage.
 
     Attributes
@@ -71,7 +80,7 @@ class DamperCurveRung(CandidateRung[DamperFilm]):
     @cached_property
     def search(self) -> Reaction:
         """Film and springs that are quick enough for hundreds of orbits."""
-        slow = isinstance(self.film.law, FiniteSqueeze)
+        slow = isinstance(self.film, ConservedDamperFilm) or isinstance(self.film.law, FiniteSqueeze)
         return sprung(self.film.moving, self.stiffness) if slow else self.support
 
     @property
@@ -237,15 +246,15 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
         if not _endless(film, quantity, is_named=scene.damper.film is not None)
     )
     units = {rung.unit: _one(rung, scene.speed) for rung in rungs}
-    asked = replace(rotor, unbalance=0.0) if quantity in (UP, DOWN) else rotor
+    asked, count = replace(rotor, unbalance=0.0) if quantity in (UP, DOWN) else rotor, lands(scene.damper)
     return Ladder(
         rungs=rungs,
         unit=UNITS[quantity],
         units=units,
         remarks=rotor_remarks(
             mapped_short(scene.damper),
-            stiffness,
-            asked,
+            stiffness / count,
+            replace(asked, mass=asked.mass / count, unbalance=asked.unbalance / count),
             scene.lubricant.properties,
             steady=quantity not in (UP, DOWN),
         ),
@@ -253,12 +262,12 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
     )
 
 
-def _endless(film: DamperFilm, quantity: str, *, is_named: bool) -> bool:
+def _endless(film: AnyDamperFilm, quantity: str, *, is_named: bool) -> bool:
     """Return whether hundreds of orbits would take minutes: a fed film of finite length has no map.
 
     One that the scene names is the only rung there is.
     """
-    slow = film.is_fed and isinstance(film.law, FiniteSqueeze)
+    slow = isinstance(film.law, FiniteSqueeze) and film.shape.is_fed
     return slow and not is_named and quantity in (UP, DOWN)
 
 

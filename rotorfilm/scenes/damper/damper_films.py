@@ -11,8 +11,10 @@ from functools import cached_property
 
 from ...answers import WorkUnit
 from ...bearings.damper import (
+    ExtrapolatedDamper,
     FiniteMapSqueeze,
     FiniteSqueeze,
+    JFODamper,
     MapSqueeze,
     PorousDamper,
     ShortSqueeze,
@@ -20,7 +22,7 @@ from ...bearings.damper import (
 )
 from ...bearings.films.cavitation import FullFilm
 from ...bearings.sprung import Sprung
-from ...errors import RotorfilmError, ValidityWarning
+from ...errors import InputError, RotorfilmError, ValidityWarning
 from ...model import Reaction
 from ..journal.film_rung import MAP_MADE
 from .damper_table import DamperTable
@@ -57,6 +59,8 @@ class DamperFilm:
         The film that the defect is sampled with; None where there is none.
     prior : float [1]
         Order of magnitude of the error of its force; 0 if unknown.
+    conserved : JFODamper or None
+        The damper that conserves its oil, where the scene has its supply: it is richer than all of these.
     """
 
     name: str
@@ -65,6 +69,7 @@ class DamperFilm:
     rich_shape: PorousDamper
     rich_law: SqueezeLaw | None
     prior: float
+    conserved: JFODamper | None = None
 
     @property
     def is_fed(self) -> bool:
@@ -78,7 +83,7 @@ class DamperFilm:
 
     def bound(self, eccentricity_ratio: float = 0.0, *, slopes: bool = False) -> float:
         """Return the verified error of its force [1], the same everywhere; infinite where there is none."""
-        return TOP_BOUNDS.get(type(self.law), math.inf)
+        return math.inf if self.conserved is not None else TOP_BOUNDS.get(type(self.law), math.inf)
 
     def prepare(self) -> dict[WorkUnit, int]:
         """Return the work of making the damper, which its first use makes."""
@@ -87,6 +92,8 @@ class DamperFilm:
     @property
     def rich_work(self) -> dict[WorkUnit, int]:
         """Work of making the richer one."""
+        if self.conserved is not None:
+            return {}
         return {RICH_MADE: 1} if isinstance(self.rich_law, FiniteMapSqueeze) else {}
 
     @cached_property
@@ -95,8 +102,10 @@ class DamperFilm:
         return with_changes(self.shape, film=self.law)
 
     @cached_property
-    def rich(self) -> PorousDamper | None:
+    def rich(self) -> PorousDamper | ExtrapolatedDamper | None:
         """The damper with the richer film."""
+        if self.conserved is not None:
+            return ExtrapolatedDamper(damper=self.conserved)
         return None if self.rich_law is None else with_changes(self.rich_shape, film=self.rich_law)
 
     @cached_property
@@ -112,8 +121,89 @@ class DamperFilm:
         return with_changes(self.rich_shape, film=_mapped(self.rich_law, self.rich_shape))
 
 
-def damper_films(table: DamperTable) -> tuple[DamperFilm, ...]:
-    """Return the films that can answer for a damper, the cheapest first; one that a scene names alone.
+@dataclass(frozen=True, kw_only=True)
+class ConservedDamperFilm:
+    """The damper that conserves its oil as a film that may answer, judged by one on twice as fine a grid.
+
+    Attributes
+    ----------
+    name : str
+    damper : JFODamper
+        Without springs.
+    prior : float [1]
+        0: nothing is known beforehand.
+    """
+
+    name: str
+    damper: JFODamper
+    prior: float = 0.0
+
+    @property
+    def law(self) -> None:
+        """None: it is no film law of another damper."""
+
+    def bound(self, eccentricity_ratio: float = 0.0, *, slopes: bool = False) -> float:
+        """Return infinity: it has no verified error."""
+        return math.inf
+
+    def prepare(self) -> dict[WorkUnit, int]:
+        """Return no work: there is nothing to make."""
+        return {}
+
+    @property
+    def rich_work(self) -> dict[WorkUnit, int]:
+        """No work either."""
+        return {}
+
+    @cached_property
+    def reaction(self) -> ExtrapolatedDamper:
+        """The damper on circular orbits."""
+        return ExtrapolatedDamper(damper=self.damper)
+
+    @cached_property
+    def moving(self) -> ExtrapolatedDamper:
+        """The same on half as many lines and cells, for searches through hundreds of orbits."""
+        return ExtrapolatedDamper(damper=self.reaction.coarser)
+
+    @cached_property
+    def rich(self) -> ExtrapolatedDamper:
+        """The damper on twice as many lines and cells."""
+        around, along = self.damper.cells
+        return ExtrapolatedDamper(damper=replace(self.damper, cells=(2 * around, 2 * along)))
+
+
+AnyDamperFilm = DamperFilm | ConservedDamperFilm
+
+
+def damper_films(table: DamperTable) -> tuple[AnyDamperFilm, ...]:
+    """Return the films that can answer for an orbit, the cheapest first; one that a scene names alone.
+
+    With a supply the short film, judged by the film that conserves its oil, and that film, which takes less
+    time than the map of one of finite length.
+
+    Raises
+    ------
+    InputError
+        If the supply differs around the damper.
+    """
+    plain = plain_films(table)
+    if table.supply is None:
+        return plain
+    if not table.supply.turns_alike:
+        raise InputError(
+            "supply.feed_holes must be left out for a question about orbits, which they make unsteady: run "
+            f"the scene, or take damper_turn, got {table.supply.feed_holes!r}"
+        )
+    damper = replace(table.conserved(table.supply), stiffness=0.0)
+    judged = [replace(film, conserved=damper) for film in plain]
+    if table.film is not None:
+        return tuple(judged)
+    quick = [film for film in judged if not film.makes_map]
+    return (*quick, ConservedDamperFilm(name="conserved oil", damper=damper))
+
+
+def plain_films(table: DamperTable) -> tuple[DamperFilm, ...]:
+    """Return the films that know no supply, the cheapest first; one that a scene names alone.
 
     Solid cage, thin layer, Darcy's layer with the short film, then the film of finite length. A film with
     feed keeps its cage, through which it is fed.
@@ -172,9 +262,14 @@ def _mapped(law: SqueezeLaw, shape: PorousDamper) -> SqueezeLaw:
 
 
 def mapped_short(table: DamperTable) -> PorousDamper:
-    """Return the damper with the short film, on its map where it has one."""
-    shape = _short(table)
+    """Return one land of the damper with the short film, on its map where it has one; see `lands`."""
+    shape = with_changes(_short(table), viscosity=table.viscosity)
     return with_changes(shape, film=_mapped(ShortSqueeze(), shape))
+
+
+def lands(table: DamperTable) -> int:
+    """Return how many films the damper has side by side: two beside a groove in its middle."""
+    return 2 if table.supply is not None and table.supply.circumferential_groove is not None else 1
 
 
 def with_changes(damper: PorousDamper, **changes: object) -> PorousDamper:
@@ -191,6 +286,6 @@ def quiet() -> Iterator[None]:
         yield
 
 
-def sprung(damper: PorousDamper, stiffness: float) -> Reaction:
+def sprung(damper: PorousDamper | ExtrapolatedDamper, stiffness: float) -> Reaction:
     """Return the damper with springs of the stiffness [N/m], if there are some."""
     return Sprung(reaction=damper, stiffness=stiffness) if stiffness else damper

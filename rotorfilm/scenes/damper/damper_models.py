@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ...bearings.damper import PorousDamper
+from ...bearings.damper import JFODamper, PorousDamper
 from ...bearings.sprung import Sprung
 from ...errors import InputError
 from ...rotors import RigidRotor
@@ -26,7 +26,7 @@ class DamperScene(NamedTuple):
     ----------
     rotor : RigidRotor
         At the center of the damper, at rest.
-    support : PorousDamper or Sprung
+    support : PorousDamper, Sprung or JFODamper
     start : float [s]
         When the excitation begins: until then nothing moves, and the run counts from there.
     duration : float [s]
@@ -35,7 +35,7 @@ class DamperScene(NamedTuple):
     """
 
     rotor: RigidRotor
-    support: PorousDamper | Sprung
+    support: PorousDamper | Sprung | JFODamper
     start: float
     duration: float
     step: float

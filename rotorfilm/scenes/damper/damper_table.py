@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Annotated
 
 from ...bearings.damper import (
     AxialFeed,
+    DamperSupply,
     FiniteMapSqueeze,
     FiniteSqueeze,
+    JFODamper,
     MapSqueeze,
     PorousCage,
     PorousDamper,
@@ -20,9 +22,13 @@ from ...bearings.damper import (
 )
 from ...bearings.films.cavitation import FullFilm, HalfSommerfeld
 from ...bearings.sprung import Sprung
-from ...errors import ValidityWarning, require_non_negative
+from ...errors import InputError, ValidityWarning, require_non_negative
+from ..journal.film_tables import FEED_HOLE
 from ..reading.shared_fields import made_from
-from ..reading.tables import Keyed, Quantity, Table, Variant, flag
+from ..reading.tables import Keyed, Quantity, Table, TableList, Variant, flag
+
+CELLS = (48, 8)
+"""Of a film that conserves its oil and is stepped through in time."""
 
 CAGE = Keyed(
     PorousCage,
@@ -43,6 +49,19 @@ FEEDS: dict[str, Keyed] = {
     "axial": Keyed(AxialFeed, {"start_pressure": Quantity("Pa"), "end_pressure": Quantity("Pa")}),
 }
 """`feed = {kind = "radial", ...}`: how lubricant is fed, through the cage or at both ends."""
+
+SUPPLY = Keyed(
+    DamperSupply,
+    {
+        "supply_pressure": Quantity("Pa"),
+        "circumferential_groove": Quantity("m"),
+        "end_groove": flag,
+        "feed_holes": TableList(FEED_HOLE),
+        "cavitation_pressure": Quantity("Pa"),
+        "submerged": flag,
+    },
+)
+"""`supply = {supply_pressure, circumferential_groove, ...}`: what feeds a film that conserves its oil."""
 
 EXTENTS: dict[str, Keyed] = {"half_sommerfeld": Keyed(HalfSommerfeld), "full": Keyed(FullFilm)}
 
@@ -74,6 +93,8 @@ class DamperTable:
     extent : FullFilm or HalfSommerfeld
         Whether the film carries tension.
     feed : RadialFeed, AxialFeed or None
+    supply : DamperSupply or None
+        Of a solid cage and a film that ruptures: then the oil is conserved in it, unless a film law is named.
     film : SqueezeLaw or None
         The film law; if the file does not say, the short film, or what the question of the scene needs.
     """
@@ -88,20 +109,42 @@ class DamperTable:
         default_factory=HalfSommerfeld
     )
     feed: Annotated[RadialFeed | AxialFeed | None, Variant("kind", FEEDS)] = None
+    supply: Annotated[DamperSupply | None, Table(SUPPLY)] = None
     film: Annotated[SqueezeLaw | None, Variant("name", SQUEEZES)] = None
 
     def __post_init__(self) -> None:
         require_non_negative("stiffness", self.stiffness)
+        if self.supply is not None:
+            self.conserved(self.supply)
         with warnings.catch_warnings():
             # Which film answers is not known yet; a run of this one warns when it is built.
             warnings.simplefilter("ignore", ValidityWarning)
             self.build()
 
     def build(self) -> PorousDamper:
-        """Return the damper without its springs; raise InputError where a value breaks its rule."""
-        return made_from(PorousDamper, self, film=self.film or ShortSqueeze())
+        """Return the damper without its springs; raise InputError where a value breaks its rule.
 
-    def support(self) -> PorousDamper | Sprung:
-        """Return the damper with its springs, if it has some."""
+        Its film laws know no supply. Two lands beside a groove are one of them, in oil twice as viscous.
+        """
+        film, groove = self.film or ShortSqueeze(), self.supply and self.supply.circumferential_groove
+        if groove is None:
+            return made_from(PorousDamper, self, film=film)
+        land, twice = 0.5 * (self.length - groove), 2.0 * self.viscosity
+        return made_from(PorousDamper, self, film=film, length=land, viscosity=twice)
+
+    def conserved(self, supply: DamperSupply) -> JFODamper:
+        """Return the damper that conserves its oil, with its springs; raise InputError where it cannot."""
+        for name, wanted in (("cage", None), ("feed", None), ("extent", HalfSommerfeld())):
+            if getattr(self, name) != wanted:
+                raise InputError(
+                    f"{name} must be left out beside supply, as the film that conserves its oil has a solid "
+                    f"cage and ruptures, got {getattr(self, name)!r}"
+                )
+        return made_from(JFODamper, self, supply=supply)
+
+    def support(self) -> PorousDamper | Sprung | JFODamper:
+        """Return the damper with its springs, if it has some; with a supply that which conserves its oil."""
+        if self.supply is not None and self.film is None:
+            return replace(self.conserved(self.supply), cells=CELLS)
         damper = self.build()
         return Sprung(reaction=damper, stiffness=self.stiffness) if self.stiffness else damper

@@ -73,6 +73,10 @@ class SteppedFilm:
         """Units of the force [N s] and of the oil, clearance radius length [m3]."""
         raise NotImplementedError
 
+    def carrying(self, motion: Array) -> float:
+        """Return the speed with which the walls carry the oil [rad/s]: half that of a journal."""
+        return 0.5 * float(motion[4])
+
     @property
     def inputs(self) -> tuple[Signal, ...]:
         """Signals x, y, vx, vy, speed, at the end of a step."""
@@ -104,7 +108,7 @@ class SteppedFilm:
         """
         motion = self._inside(input_vector(u), "")
         gap = circular_gap(self.film.cells, motion[:2] / self.clearance)
-        state = steady_oil(self.film, gap, 0.5 * float(motion[4]))
+        state = steady_oil(self.film, gap, self.carrying(motion))
         return FilmMemory(remembered(state), motion, self._output(state))
 
     def step(
@@ -186,7 +190,7 @@ class SteppedFilm:
     def _found(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None) -> ConservedState:
         gap = circular_gap(self.film.cells, u[:2] / self.clearance)
         like = None if near is None else near.oil
-        return oil_step(self.film, state.oil, gap, 0.5 * float(u[4]), dt, near=like)
+        return oil_step(self.film, state.oil, gap, self.carrying(u), dt, near=like)
 
     def _output(self, state: ConservedState) -> Array:
         force, volume = self.scales

@@ -1,0 +1,1 @@
+"""Squeeze-film dampers whose film conserves its oil, with real supply."""
