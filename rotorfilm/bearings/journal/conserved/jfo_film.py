@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from numbers import Number
 from typing import Any, ClassVar, cast
@@ -26,6 +26,7 @@ from ...films.conserved.conserved_cells import conserved_cells, require_conserve
 from ...films.conserved.conserved_film import ConservedFilm, ConservedState, circular_gap
 from ...films.conserved.conserved_motion import dynamic_stiffness, slow_motion, speed_slope
 from ..bearing import JournalBearing
+from .jfo_losses import JFOHeat
 from .jfo_state import JFOState, jfo_state
 from .jfo_supply import oil_supply
 
@@ -35,7 +36,7 @@ AIR_SHARE = 0.01
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class JFOFilm:
+class JFOFilm(JFOHeat):
     """The film of a journal bearing that conserves its oil (Jakobsson, Floberg and Olsson).
 
     Where the film ruptures the oil goes on, in a gap that it fills in part, until there is enough to start
@@ -52,7 +53,7 @@ class JFOFilm:
     bearing : JournalBearing
         With what feeds it: grooves of a length, feed holes, a circumferential groove, or grooves over the
         whole length at ambient pressure. Gaps between pads are full of oil at ambient pressure. Its own film
-        law has no part.
+        law has no part. On an oil with a cooling `equilibrium` finds the temperature of the film too.
     cells : tuple of int
         Lines around the film and cells along half the length, about; even numbers.
     supply_flow : float or None [m3/s]
@@ -103,7 +104,6 @@ class JFOFilm:
         if not require_number("cavitation_pressure", self.cavitation_pressure) <= 0.0:
             raise InputError(f"cavitation_pressure must not be above 0, got {self.cavitation_pressure!r}")
         require_kind("submerged", self.submerged, bool, "True or False")
-        self.bearing.require_temperature()
         oil_supply(self.bearing, self.supply_flow, self.cavitation_pressure, self.submerged)
 
     @property
@@ -114,6 +114,7 @@ class JFOFilm:
     @cached_property
     def film(self) -> ConservedFilm:
         """The film without dimensions, for steps in time; see `ConservedFilm`."""
+        self.bearing.require_temperature()
         supply = oil_supply(self.bearing, self.supply_flow, self.cavitation_pressure, self.submerged)
         return ConservedFilm(
             conserved_cells(self.bearing.geometry, *self.cells), self.bearing.slenderness, supply
@@ -221,6 +222,10 @@ class JFOFilm:
             return force_x, force_y, self._jacobian(state).ravel().tolist()
 
         return tangent
+
+    def at_temperature(self, temperature: float) -> JFOFilm:
+        """Return this film at one temperature [K]; raises InputError if its bearing has no oil."""
+        return replace(self, bearing=self.bearing.at_temperature(temperature))
 
     def at_rest(self) -> JFOFilm:
         """Return this film: it has a force for a journal at rest only."""
