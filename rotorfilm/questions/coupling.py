@@ -187,6 +187,8 @@ def _case(scene: Scene, quantity: str) -> CouplingCase:
         assert scene.damper is not None  # the question is asked of scenes with either
         centered = scene.rigid_rotor.build(scene.speed, (0.0, 0.0))
         return CouplingCase(rotor=centered, reaction=scene.damper.support(), revolutions=turns)
+    if scene.journal is not None:
+        scene.journal.require_law(quantity)
     load, name = scene.static_load, ""
     film: Any = scene.bearing
     if scene.journal is not None and not (scene.film_is_given or has_map(film)):

@@ -112,6 +112,14 @@ class JournalTable(OiledTable):
         }
         return [name for name, there in given.items() if there]
 
+    def require_law(self, what: str) -> None:
+        """Raise InputError if the film conserves its oil: it has no force in any motion, as that takes."""
+        if self.conserves:
+            raise InputError(
+                f"journal.film must be a law of the moment for {what}, as map or reynolds, got one that "
+                "conserves its oil, and remembers"
+            )
+
     def bearing(self) -> JournalBearing:
         """Return the bearing, with its film law where the file names one; InputError for a bad value."""
         named = None if isinstance(self.film, ConservedOil) else self.film

@@ -208,11 +208,7 @@ class BearingTable:
     def build(self) -> JournalBearing | LinearBearing:
         """Return the bearing."""
         if self.journal is not None:
-            if self.journal.conserves:
-                raise InputError(
-                    "journal.film must be a law of the moment on a shaft, as map or reynolds, got one that "
-                    "conserves its oil, and remembers"
-                )
+            self.journal.require_law("a shaft")
             return self.journal.bearing()
         assert self.stiffness is not None  # checked in __post_init__
         return LinearBearing(stiffness=self.stiffness, damping=self.damping)
