@@ -145,7 +145,7 @@ def hindsight(scene: Any, drawn: Drawn, truth: Any, answer: QuestionAnswer) -> t
 def draw_all(seed: int, count: int, families: Sequence[str] = tuple(FAMILIES)) -> list[Drawn]:
     """Return the scenes: of these families in turn, by their weights."""
     random = np.random.default_rng(seed)
-    names = [name for name in families for _ in range(FAMILIES[name][0])]
+    names = [name for name in families for _ in range(FAMILIES[name][0])] or list(families)
     order = [names[k % len(names)] for k in range(count)]
     return [FAMILIES[name][1](random) for name in order]
 

@@ -136,7 +136,7 @@ class JournalTable(OiledTable):
         return made_from(JFOFilm, self, bearing=bearing, cells=cells or own.cells)
 
     def build(self) -> JournalBearing | JFOFilm:
-        """Return the bearing, or its film that conserves the oil; InputError where a value breaks its rule."""
+        """Return the bearing, or its film that conserves the oil; InputError for a bad value."""
         bearing = self.bearing()
         return self.conserved(bearing) if self.conserves else bearing
 

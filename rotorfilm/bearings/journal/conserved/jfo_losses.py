@@ -1,4 +1,4 @@
-"""What a film that conserves its oil takes from the shaft, its flows at openings, and the balance of its heat."""
+"""What a film that conserves its oil takes from the shaft, its flows at openings, the balance of its heat."""
 
 from __future__ import annotations
 

@@ -68,7 +68,8 @@ def rupture_error(bearing: JournalBearing, position: ArrayLike, speed: float) ->
     --------
     >>> from rotorfilm import FeedHole, JournalBearing
     >>> size = dict(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.02)
-    >>> bearing = JournalBearing(**size, grooves=(FeedHole(center="90 deg", diameter="14 mm"),), supply_pressure=2e5)
+    >>> hole = FeedHole(center="90 deg", diameter="14 mm")
+    >>> bearing = JournalBearing(**size, grooves=(hole,), supply_pressure=2e5)
     >>> rupture_error(bearing, position=[30e-6, -50e-6], speed=314.2).side_flow > 0.3
     True
     """
@@ -94,9 +95,7 @@ def _compared(forces: list[Array], losses: list[BearingLosses | None]) -> Ruptur
     )
 
 
-def both_films(
-    bearing: JournalBearing, cells: tuple[int, int] = COARSE
-) -> tuple[JournalBearing, JFOFilm]:
+def both_films(bearing: JournalBearing, cells: tuple[int, int] = COARSE) -> tuple[JournalBearing, JFOFilm]:
     """Return a bearing with Reynolds rupture and the film that conserves its oil, on the same cells.
 
     Raises
