@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ...answers import ErrorEstimate, Found
+from ...answers import HEATED, ISOTHERMAL, ErrorEstimate, Found
 from ...bearings.journal import JFOFilm, JournalBearing
 from ...bearings.journal.conserved.rupture_error import both_films
 from ...errors import InputError, RotorfilmError
@@ -63,10 +63,15 @@ class Rupture:
     load: tuple[float, float]
     speed: float
 
+    @property
+    def films(self) -> tuple[JournalBearing, JFOFilm]:
+        """Reynolds rupture, and the film that conserves its oil."""
+        return both_films(self.bearing)
+
     @cached_property
     def rests(self) -> tuple[Rest, Rest]:
         """By Reynolds rupture, and by the film that conserves its oil."""
-        one, other = (rest_on(film, self.load, self.speed) for film in both_films(self.bearing))
+        one, other = (rest_on(film, self.load, self.speed) for film in self.films)
         return one, other
 
 
@@ -175,6 +180,11 @@ class RupturedRung(BaseRung):
             total, bound = self.distance(found.value, change.on(about.better)), False
         method = f"{about.method}; conservation of oil, {share:.2g}"
         return about._replace(error=total, method=method, bound=bound, shared=about.shared + share)
+
+
+def within_of(scene: Scene) -> str:
+    """Return the physics in which the tolerance of a film that conserves its oil is meant."""
+    return HEATED if scene.journal_bearing.is_warming else ISOTHERMAL
 
 
 def supply_of(table: JournalTable, bearing: JournalBearing) -> str | None:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from ...answers import HEATED, ISOTHERMAL, ErrorEstimate, Found
+from ...answers import ErrorEstimate, Found
 from ...bearings.journal import JFOFilm, film_name, has_losses
 from ...errors import InputError, RotorfilmError
 from ...ladders import Ladder
@@ -18,7 +18,7 @@ from ...scenes.journal.warm_rest import uniform_rest
 from .conserved_rungs import ConservedRung, conserved_films
 from .field_rungs import HeatedQuestion
 from .heat_rungs import BALANCED, UniformRung, known_films, thermal_ladder
-from .ruptured_rungs import UNFED, Change, Rest, Rupture, rest_on, rest_slopes, with_rupture
+from .ruptured_rungs import UNFED, Change, Rest, Rupture, rest_on, rest_slopes, with_rupture, within_of
 from .statics import (
     ANGLE,
     LOSSES,
@@ -86,12 +86,11 @@ def ruptured_ladder(scene: Scene, quantity: str) -> Ladder:
 
 def conserved_ladder(scene: Scene, quantity: str) -> Ladder:
     """Return the ladder of a static quantity of a bearing whose film conserves its oil."""
-    warm = scene.journal_bearing.is_warming
     return Ladder(
         rungs=above_rupture(scene, quantity),
         unit=UNITS[quantity],
         remarks=scene.film_remarks,
-        within=HEATED if warm else ISOTHERMAL,
+        within=within_of(scene),
     )
 
 

@@ -73,7 +73,7 @@ class ConservedOil:
         require_conserved_cells(self.cells)
 
 
-FILMS: dict[str, Callable[[], Keyed[FilmLaw] | Keyed[ConservedOil]]] = {
+FILMS: dict[str, Callable[[], Keyed[FilmLaw | ConservedOil]]] = {
     # With grooves or several pads at ambient pressure that is `grooved_map` with its defaults.
     "map": lambda: Keyed(journal.MapFilm),
     "grooved_map": lambda: Keyed(

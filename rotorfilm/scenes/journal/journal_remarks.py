@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import replace
+from typing import Any
 
 from ...bearings.journal import JFOFilm, JournalBearing, MapFilm, ReynoldsFilm, ShortFilm
 from ...errors import RotorfilmError, ValidityWarning
 from ...linear import equilibrium
-from ...model import Reaction
 from ..lubricant_table import Lubricant
 from ..remarks import Remark, said
 from .packaged_map import has_map
@@ -82,7 +82,7 @@ def journal_numbers(
     oil: Lubricant,
     speed: float,
     load: tuple[float, float],
-    film: Reaction | None = None,
+    film: Any = None,
 ) -> dict[str, float]:
     """Return the dimensionless numbers of a bearing at a speed [rad/s] and a load [N].
 
@@ -159,7 +159,7 @@ def film_numbers(
 
 
 def film_loss(
-    bearing: JournalBearing, speed: float, load: tuple[float, float], film: Reaction | None = None
+    bearing: JournalBearing, speed: float, load: tuple[float, float], film: Any = None
 ) -> tuple[float, float, float]:
     """Return power [W], side flow [m3/s] and eccentricity ratio of an isothermal film.
 
@@ -199,10 +199,9 @@ def film_remarks(
     Of a bearing whose oil warms it is said of the film at its temperature, and heat is not left out.
     """
     remarks: tuple[Remark, ...] = REMARKS
+    film: Any = None
     if isinstance(bearing, JFOFilm):
         film, bearing = replace(bearing, cells=CONSERVED), bearing.bearing
-    else:
-        film = None
     if bearing.is_warming:
         remarks = tuple(remark for remark in REMARKS if remark.number not in ("thinning", "unknown"))
         bearing = _warmed(bearing, film or _quick(bearing), speed, load)
@@ -210,9 +209,7 @@ def film_remarks(
     return said(remarks, journal_numbers(bearing, oil, speed, load, film))
 
 
-def _warmed(
-    bearing: JournalBearing, quick: Reaction, speed: float, load: tuple[float, float]
-) -> JournalBearing:
+def _warmed(bearing: JournalBearing, quick: Any, speed: float, load: tuple[float, float]) -> JournalBearing:
     """Return a bearing at the temperature of its balance, or of fresh oil where it has no rest."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ValidityWarning)
