@@ -101,4 +101,4 @@ def _value(scene: Scene, quantity: str, cells: tuple[int, int]) -> Any:
         return getattr(coefficients(film, at.position, scene.speed), quantity)
     if quantity in POSITIONS:
         return np.asarray(getattr(at, quantity))
-    return np.asarray(getattr(film.solve(at.position, scene.speed), quantity))
+    return np.asarray(getattr(film.losses(at.position, np.zeros(2), scene.speed), quantity))

@@ -35,7 +35,7 @@ class FilmTable(Protocol):
         """
 
     def build(self) -> Any:
-        """Return the bearing, a Reaction, or a film for a journal at rest; raise InputError where a value breaks its rule."""
+        """Return the bearing, a Reaction or a film at rest; InputError where a value breaks its rule."""
 
     def echo(self, bearing: Any) -> tuple[Readable, str]:
         """Return what an answer repeats of the bearing that was built, and the name of its film."""

@@ -1,4 +1,4 @@
-"""Rungs above Reynolds rupture: films that conserve their oil, each judged by that on cells twice as long."""
+"""Rungs above Reynolds rupture: films that conserve their oil, each judged by coarser cells."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ...ladders import BaseRung
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
 
-CELLS = (72, 6), (144, 12), (288, 24)
+CELLS = (72, 8), (144, 12), (288, 24)
 """Cells of the rungs, around and along half of the film."""
 
 SECONDS = {CELLS[0]: 0.01, CELLS[1]: 0.03, CELLS[2]: 0.15}
@@ -62,12 +62,17 @@ class ConservedRung(BaseRung):
         return Found(self.value(self.film, before), {self.unit: 1})
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the change since cells twice as long: at most about that, and mostly a third of it."""
+        """Return the change since half the lines, and since half the cells along: mostly thrice the error.
+
+        Each by itself, as they may cancel.
+        """
         around, along = self.film.cells
-        half = replace(self.film, cells=(_even(around), max(4, _even(along))))
-        error = self.distance(self.value(half, found), found.value)
+        others = (_other(around, 16), along), (around, _other(along, 4))
+        error = sum(
+            self.distance(self.value(replace(self.film, cells=cells), found), found.value) for cells in others
+        )
         work = {WorkUnit(f"estimates of {self.name}"): 1}
-        about = ErrorEstimate(error, "cells twice as long", work, bound=True)
+        about = ErrorEstimate(error, "half the lines, half the cells along", work, bound=True)
         if self.heat is None:
             return about
         heat = self.heat(tolerance)
@@ -75,8 +80,10 @@ class ConservedRung(BaseRung):
         return about._replace(error=error + heat.error, method=method, doubt=heat.doubt, shared=heat.error)
 
 
-def _even(cells: int) -> int:
-    return 2 * round(0.25 * cells)
+def _other(cells: int, least: int) -> int:
+    """Return an even number of about half the cells, or of twice as many where that is too few."""
+    half = 2 * round(0.25 * cells)
+    return half if half >= least else 2 * cells
 
 
 def conserved_films(scene: Scene) -> tuple[JFOFilm, ...]:

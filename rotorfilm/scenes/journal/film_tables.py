@@ -67,7 +67,7 @@ class ConservedOil:
     cells : tuple of int
     """
 
-    cells: tuple[int, int] = (144, 10)
+    cells: tuple[int, int] = (144, 12)
 
     def __post_init__(self) -> None:
         require_conserved_cells(self.cells)
