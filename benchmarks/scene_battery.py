@@ -3,6 +3,7 @@
     python benchmarks/scene_battery.py --count 200 --seed 1 --out battery.csv
     python benchmarks/scene_battery.py --count 40 --families lobes dam tilting
     python benchmarks/scene_battery.py --family heated --count 40
+    python benchmarks/scene_battery.py --family supplied --count 60
     python benchmarks/scene_battery.py --family lobes dam tilting --count 40
 
 The ranges of a family were fixed before its estimator was tuned; the default seed was not run while anything
@@ -144,7 +145,7 @@ def hindsight(scene: Any, drawn: Drawn, truth: Any, answer: QuestionAnswer) -> t
 def draw_all(seed: int, count: int, families: Sequence[str] = tuple(FAMILIES)) -> list[Drawn]:
     """Return the scenes: of these families in turn, by their weights."""
     random = np.random.default_rng(seed)
-    names = [name for name in families for _ in range(FAMILIES[name][0])]
+    names = [name for name in families for _ in range(FAMILIES[name][0])] or list(families)
     order = [names[k % len(names)] for k in range(count)]
     return [FAMILIES[name][1](random) for name in order]
 

@@ -78,6 +78,8 @@ class ErrorEstimate(NamedTuple):
         Why the estimate must not be trusted; empty if it may.
     shared : float [1]
         Part of the error that all rungs have which share it; see `Rung.shares`.
+    better : object
+        What a richer model makes of the value; None where only its distance is known.
     """
 
     error: float
@@ -86,6 +88,7 @@ class ErrorEstimate(NamedTuple):
     bound: bool = False
     doubt: str = ""
     shared: float = 0.0
+    better: Any = None
 
 
 def beside_bound(error: float, bound: float, method: str, work: Work, doubt: str = "") -> ErrorEstimate:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from . import bushes, contacts, couplings, dampers, heated, journals, openings, padded, shafts
+from . import bushes, contacts, couplings, dampers, heated, journals, openings, padded, shafts, supplied
 from .drawn import Drawn
 
 Draw = Callable[[np.random.Generator], Drawn]
@@ -39,5 +39,6 @@ FAMILIES: dict[str, tuple[int, Draw]] = {
     "dam": (1, padded.dam),
     "tilting": (2, padded.tilting),
     "heated": (0, heated.heated),
+    "supplied": (0, supplied.supplied),
 }
 """Weight of each family in a round of the battery, and how one scene of it is drawn; 0 of those run alone."""

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from ..bearings.films.law import FilmLaw
     from ..bearings.journal import GrooveMapTable
     from ..scenes.film_table import FilmTable
+    from ..scenes.journal.film_tables import ConservedOil
     from ..scenes.lubricant_table import LubricantTable
 
 Grooves = Annotated[
@@ -44,7 +45,7 @@ def coefficients(
         str | None, Option(help="Of the fresh oil, with a grade.", metavar='"45 degC"')
     ] = None,
     film: Annotated[
-        str, Option(help="Film law: map, grooved_map, reynolds, short or splitting.", metavar="NAME")
+        str, Option(help="Film law: map, grooved_map, reynolds, jfo, short or splitting.", metavar="NAME")
     ] = "map",
     order: Annotated[str | None, Option(help='Splitting order, "N,M" or "N,inf".', metavar="2,inf")] = None,
     constant: Annotated[bool, Option("--constant", help="Splitting film with the function 1.")] = False,
@@ -57,7 +58,7 @@ def coefficients(
     ] = None,
     cells: Annotated[
         str | None,
-        Option(help='Cells of the reynolds or grooved_map film, "AROUND,ALONG".', metavar="96,8"),
+        Option(help='Cells of the reynolds, jfo or grooved_map film, "AROUND,ALONG".', metavar="96,8"),
     ] = None,
     groove: Grooves = None,
 ) -> Said:
@@ -159,7 +160,9 @@ def lubricant_of(viscosity: str | None, oil: str | None, supply_temperature: str
     return LubricantTable(grade=read_grade("--oil", oil), supply_temperature=supplied)
 
 
-def _film(film: str, order: str | None, constant: bool, rupture: str | None, cells: str | None) -> FilmLaw:
+def _film(
+    film: str, order: str | None, constant: bool, rupture: str | None, cells: str | None
+) -> FilmLaw | ConservedOil:
     from ..scenes.journal.film_tables import FILMS
     from ..scenes.reading.tables import choose, keyed, read_table
 

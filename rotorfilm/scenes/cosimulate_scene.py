@@ -142,6 +142,8 @@ def run_scene(scene: Scene, scheme: Scheme | Auto, report: Report = silent) -> t
         See `cosimulate`.
     """
     require_steps("operation.duration", scene.duration * abs(scene.speed), scene.cosimulation)
+    if scene.journal is not None:
+        scene.journal.require_law("a co-simulation")
     report(0.0, "equilibrium, FMUs")
     result = _coupled(scene, scheme, part_of(report, 0.05, 0.75))
     report(0.75, "monolithic solution")

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from typing import Any, Protocol, Self, runtime_checkable
 
 from ..errors import InputError
-from ..model import Reaction
 from ..progress import Report
 from ..readable.result import Readable
 from .families import family_of
@@ -35,8 +34,8 @@ class FilmTable(Protocol):
         lubricant : LubricantTable
         """
 
-    def build(self) -> Reaction:
-        """Return the bearing; raise InputError where a value breaks its rule."""
+    def build(self) -> Any:
+        """Return the bearing, a Reaction or a film at rest; InputError where a value breaks its rule."""
 
     def echo(self, bearing: Any) -> tuple[Readable, str]:
         """Return what an answer repeats of the bearing that was built, and the name of its film."""

@@ -248,7 +248,7 @@ class Scene:
         """The bearing of `[journal]`; raises InputError if the scene has none."""
         if self.journal is None:
             raise InputError("journal is required, got no such table")
-        return self.journal.build()
+        return self.journal.bearing()
 
     @property
     def rotor(self) -> RigidRotor:

@@ -13,18 +13,18 @@ from typing import TYPE_CHECKING, Annotated
 from ..bearings import journal
 from ..bearings.films.geometry import FeedHole, Groove, Pad
 from ..bearings.films.law import FilmLaw
-from ..bearings.journal import JournalBearing
+from ..bearings.journal import JFOFilm, JournalBearing
 from ..bearings.oil import Cooling, Oil
 from ..errors import InputError, require_finite, require_positive
 from ..limits import STEPS
 from ..progress import Report
 from .journal.echo import BearingData, bearing_data
-from .journal.film_tables import FEED_HOLE, FILMS, GROOVE, PAD
+from .journal.film_tables import FEED_HOLE, FILMS, GROOVE, PAD, ConservedOil
 from .journal.journal_remarks import film_remarks
 from .lubricant_table import Lubricant, OiledTable
 from .reading.readers import read_load
 from .reading.shared_fields import made_from
-from .reading.tables import Quantity, TableList, Variant
+from .reading.tables import Quantity, TableList, Variant, flag
 
 if TYPE_CHECKING:
     from ..rotors.rigid import RigidRotor
@@ -51,7 +51,7 @@ class JournalTable(OiledTable):
         Of `[lubricant]`, where there is no viscosity.
     cooling : Cooling or None
         Of `[lubricant]`, with the oil.
-    film : FilmLaw or None
+    film : FilmLaw, ConservedOil or None
         The film law; if the file does not say, the map where there is one, or what a question needs.
     pads : tuple of Pad
         Where there is a bearing wall; empty for the full circumference.
@@ -63,6 +63,13 @@ class JournalTable(OiledTable):
         Round holes at mid-length.
     circumferential_groove : float or None [m]
         Axial width of a groove all round at mid-length; None for none.
+    supply_flow : float or None [m3/s]
+        Oil given to each groove or hole, in place of a supply pressure; only a film that conserves its oil
+        takes it, as the next two.
+    cavitation_pressure : float [Pa]
+        Gauge pressure in the cavity, not above 0.
+    submerged : bool
+        Whether there is oil around the ends.
     """
 
     radius: Annotated[float, Quantity("m", twice="diameter")]
@@ -71,12 +78,15 @@ class JournalTable(OiledTable):
     viscosity: Annotated[float | None, Quantity("Pa.s")] = None
     oil: Oil | None = None
     cooling: Cooling | None = None
-    film: Annotated[FilmLaw | None, Variant("name", FILMS)] = None
+    film: Annotated[FilmLaw | ConservedOil | None, Variant("name", FILMS)] = None
     pads: Annotated[tuple[Pad, ...], TableList(PAD)] = ()
     grooves: Annotated[tuple[Groove, ...], TableList(GROOVE)] = ()
     supply_pressure: Annotated[float, Quantity("Pa")] = 0.0
     feed_holes: Annotated[tuple[FeedHole, ...], TableList(FEED_HOLE)] = ()
     circumferential_groove: Annotated[float | None, Quantity("m")] = None
+    supply_flow: Annotated[float | None, Quantity("m3/s")] = None
+    cavitation_pressure: Annotated[float, Quantity("Pa")] = 0.0
+    submerged: Annotated[bool, flag] = False
 
     def __post_init__(self) -> None:
         # Without a viscosity there is no bearing before `on` has given the oil.
@@ -88,16 +98,56 @@ class JournalTable(OiledTable):
         """Whether the file names the film, so that no other may answer."""
         return self.film is not None
 
-    def build(self) -> JournalBearing:
-        """Return the bearing; raise InputError where a value breaks its rule."""
-        return made_from(JournalBearing, self, grooves=(*self.grooves, *self.feed_holes))
+    @property
+    def conserves(self) -> bool:
+        """Whether the film is one that conserves its oil: named so, or with keys that no other takes."""
+        return isinstance(self.film, ConservedOil) or bool(self._supply_keys)
 
-    def echo(self, bearing: JournalBearing) -> tuple[BearingData, str]:
+    @property
+    def _supply_keys(self) -> list[str]:
+        given = {
+            "supply_flow": self.supply_flow is not None,
+            "cavitation_pressure": self.cavitation_pressure != 0.0,
+            "submerged": self.submerged,
+        }
+        return [name for name, there in given.items() if there]
+
+    def require_law(self, what: str) -> None:
+        """Raise InputError if the film conserves its oil: it has no force in any motion, as that takes."""
+        if self.conserves:
+            raise InputError(
+                f"journal.film must be a law of the moment for {what}, as map or reynolds, got one that "
+                "conserves its oil, and remembers"
+            )
+
+    def bearing(self) -> JournalBearing:
+        """Return the bearing, with its film law where the file names one; InputError for a bad value."""
+        named = None if isinstance(self.film, ConservedOil) else self.film
+        if named is not None and self._supply_keys:
+            raise InputError(
+                f'{self._supply_keys[0]} must be left out unless film is {{name = "jfo"}} or not given, '
+                f"got film {journal.film_name(named)}"
+            )
+        return made_from(JournalBearing, self, film=named, grooves=(*self.grooves, *self.feed_holes))
+
+    def conserved(self, bearing: JournalBearing, cells: tuple[int, int] | None = None) -> JFOFilm:
+        """Return the film of a bearing that conserves its oil, on cells that by default are the file's."""
+        own = self.film if isinstance(self.film, ConservedOil) else ConservedOil()
+        return made_from(JFOFilm, self, bearing=bearing, cells=cells or own.cells)
+
+    def build(self) -> JournalBearing | JFOFilm:
+        """Return the bearing, or its film that conserves the oil; InputError for a bad value."""
+        bearing = self.bearing()
+        return self.conserved(bearing) if self.conserves else bearing
+
+    def echo(self, bearing: JournalBearing | JFOFilm) -> tuple[BearingData, str]:
         """Return what an answer repeats of the bearing, and the name of its film."""
+        if isinstance(bearing, JFOFilm):
+            return bearing_data(bearing.bearing), f"JFOFilm(cells={bearing.cells})"
         return bearing_data(bearing), journal.film_name(bearing.fitted_film)
 
     def remarks(
-        self, bearing: JournalBearing, oil: Lubricant, speed: float, load: tuple[float, float]
+        self, bearing: JournalBearing | JFOFilm, oil: Lubricant, speed: float, load: tuple[float, float]
     ) -> tuple[str, ...]:
         """Return what its physics leaves out and should not; see `film_remarks`."""
         return film_remarks(bearing, oil, speed, load)
@@ -107,6 +157,8 @@ class JournalTable(OiledTable):
         if not (self.grooves or self.pads):
             return
         bearing = self.build()
+        if isinstance(bearing, JFOFilm):
+            return
         if isinstance(bearing.fitted_film, journal.GroovedMapFilm):
             journal.build_groove_map(bearing, report)
 

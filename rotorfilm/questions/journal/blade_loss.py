@@ -23,6 +23,7 @@ from ...scenes.journal.film_candidate import FilmCandidate
 from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.warm_rest import WarmRest
 from ..peak_rung import LINEAR_STEPS, SAMPLED, STEPS, PeakMotion, PeakRung
+from .conserved_whirl import relative, with_moved_rupture
 from .field_rungs import HeatedQuestion
 from .heat_rungs import thermal_ladder
 from .unbalance_orbits import film_batch_units, orbit_films, require_one_unbalance
@@ -125,10 +126,17 @@ def blade_loss_ladder(scene: Scene, quantity: str) -> Ladder:
         If the scene loses no blade, has no rotor, or does not turn.
     """
     calls = calls_of(lost_blade(scene))
+    assert scene.journal is not None  # whose question it is
+    scene.journal.require_law(quantity)
     films = tuple(sorted(orbit_films(scene), key=lambda film: film.time(calls)))
-    if scene.journal_bearing.is_warming:
-        return warm_blade_ladder(scene, films, partial(BladeLossRung, **blade_numbers(scene)))
-    return cold_blade_ladder(scene, films)
+    make = partial(BladeLossRung, **blade_numbers(scene))
+    warm = scene.journal_bearing.is_warming
+    ladder = warm_blade_ladder(scene, films, make) if warm else cold_blade_ladder(scene, films)
+
+    def linear(film: FilmCandidate) -> float:
+        return float(make(film=film, steps=0).answer(None).value)
+
+    return with_moved_rupture(scene, ladder, linear, relative, scaled=True)
 
 
 def calls_of(excitation: BladeLossTable) -> int:

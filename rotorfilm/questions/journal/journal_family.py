@@ -8,7 +8,8 @@ from ...scenes.schema import JournalTable
 from ..coupling import coupling_ladder
 from ..orbit_place import UNITS as ORBITS
 from .blade_loss import blade_loss_ladder
-from .statics import UNITS as STATICS, static_ladder
+from .static_ladders import static_ladder
+from .statics import UNITS as STATICS
 from .unbalance_orbits import orbit_ladder
 from .warm_whirl import journal_whirl_ladder
 

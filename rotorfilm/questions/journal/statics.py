@@ -11,8 +11,6 @@ import numpy as np
 
 from ...answers import ISOTHERMAL, SAFETY, ErrorEstimate, Found, Work, WorkUnit
 from ...bearings.contact_place import minimum_film
-from ...bearings.journal import film_name, has_losses
-from ...errors import InputError
 from ...ladders import CandidateRung, Ladder
 from ...linear import coefficients, equilibrium
 from ...model import Array, Reaction, prepared_tangent
@@ -20,11 +18,7 @@ from ...results import Equilibrium
 from ...scenes.counted import counted_calls
 from ...scenes.journal.film_candidate import FilmCandidate, room
 from ...scenes.journal.film_defects import corrected, one_defect
-from ...scenes.journal.film_rung import FilmRung
-from ...scenes.journal.film_rungs import point_films
 from ...scenes.journal.warm_rest import WarmRest
-from .field_rungs import HeatedQuestion
-from .heat_rungs import thermal_ladder
 
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
@@ -133,6 +127,7 @@ class StaticRung(CandidateRung[FilmCandidate]):
             {self.film.defects(smooth=slopes): 2 if twice else 1, self.film.tangents: 2},
             bound=self.film.bounded,
             doubt=moved.doubt,
+            better=None if moved.doubt else better,
         )
 
     def expected(self, done: Work) -> Work:
@@ -173,31 +168,6 @@ def _one_tangent(bearing: Reaction, speed: float) -> Callable[[], object]:
     return lambda: prepared_tangent(bearing)(0.3 * room(bearing), 0.4 * room(bearing), 0.0, 0.0, speed)
 
 
-def static_ladder(scene: Scene, quantity: str) -> Ladder:
-    """Return the ladder of a static quantity of a journal bearing; on an oil with the rungs of its heat.
-
-    Raises
-    ------
-    InputError
-        If the film has no losses, where they are asked for or heat the oil; if a temperature is asked for and
-        there is no oil.
-    """
-    films = point_films(scene.journal_bearing, fixed=scene.film_is_given)
-    if scene.journal_bearing.is_warming:
-        return warm_static_ladder(scene, quantity, films)
-    if quantity in TEMPERATURES:
-        raise InputError(
-            f"lubricant must give the oil of the journal for {quantity}, as a grade, got journal.viscosity "
-            f"{scene.journal_bearing.film_viscosity:g} Pa s"
-        )
-    if quantity in LOSSES:
-        films = tuple(film for film in films if has_losses(film.reaction))
-        if not films:
-            name = film_name(scene.journal_bearing.fitted_film)
-            raise InputError(f"film must be a law with losses for {quantity}, as map or reynolds, got {name}")
-    return cold_static_ladder(scene, quantity, films)
-
-
 def cold_static_ladder(scene: Scene, quantity: str, films: Sequence[FilmCandidate]) -> Ladder:
     """Return the ladder of a static quantity by films of one viscosity."""
     rungs = tuple(
@@ -210,23 +180,6 @@ def cold_static_ladder(scene: Scene, quantity: str, films: Sequence[FilmCandidat
         remarks=scene.film_remarks,
         within=ISOTHERMAL,
     )
-
-
-def warm_static_ladder(scene: Scene, quantity: str, films: tuple[FilmRung, ...]) -> Ladder:
-    """Return the ladder of a static quantity of a journal bearing on an oil."""
-
-    def make(film: FilmRung) -> StaticRung:
-        return StaticRung(film=film, quantity=quantity, load=scene.static_load, speed=scene.speed)
-
-    supply = scene.journal_bearing.cooled[1].supply_temperature
-    question = HeatedQuestion(
-        load=scene.static_load,
-        speed=scene.speed,
-        make=make,
-        value=lambda own: rest_value(quantity, own),
-        distance=lambda value, better: relative_distance(quantity, value, better, supply),
-    )
-    return thermal_ladder(scene, films, (question,), UNITS[quantity], fresh=quantity not in TEMPERATURES)
 
 
 def rest_value(quantity: str, own: WarmRest) -> Array | float:

@@ -30,8 +30,9 @@ from ...scenes.journal.film_candidate import FilmCandidate, room
 from ...scenes.journal.film_rung import FilmRung
 from ...scenes.journal.film_rungs import turn_films
 from ...scenes.journal.warm_rest import WarmRest
-from ..orbit_place import UNITS, WALL, OrbitPlace, SolvedTurn
+from ..orbit_place import PHASE, UNITS, WALL, OrbitPlace, SolvedTurn
 from ..orbit_rung import SampledOrbitRung
+from .conserved_whirl import with_moved_rupture
 from .field_rungs import HeatedQuestion
 from .heat_rungs import thermal_ladder
 
@@ -147,10 +148,22 @@ def require_one_unbalance(rotor: RigidRotor) -> None:
 def orbit_ladder(scene: Scene, quantity: str) -> Ladder:
     """Return the ladder of a quantity of the synchronous orbit: linear, then nonlinear, on each film."""
     rotor = rotor_of(scene)
+    assert scene.journal is not None  # whose question it is
+    scene.journal.require_law(quantity)
     films = orbit_films(scene)
-    if scene.journal_bearing.is_warming:
-        return warm_orbit_ladder(scene, quantity, rotor, films)
-    return cold_orbit_ladder(scene, quantity, films)
+    warm = scene.journal_bearing.is_warming
+    ladder = (
+        warm_orbit_ladder(scene, quantity, rotor, films)
+        if warm
+        else cold_orbit_ladder(scene, quantity, films)
+    )
+
+    def linear(film: FilmCandidate) -> float:
+        rung = OrbitRung(film=film, quantity=quantity, rotor=rotor, samples=0)
+        return float(rung.answer(None).value)
+
+    place = OrbitRung(film=films[0], quantity=quantity, rotor=rotor, samples=0).place
+    return with_moved_rupture(scene, ladder, linear, place.change, scaled=quantity != PHASE)
 
 
 def cold_orbit_ladder(scene: Scene, quantity: str, films: Sequence[FilmCandidate]) -> Ladder:

@@ -22,6 +22,7 @@ from ...scenes.journal.film_candidate import FilmCandidate
 from ...scenes.journal.film_rungs import point_films
 from ...scenes.journal.heat_steps import HeatError, HeatSteps, JudgedRest
 from ...scenes.journal.warm_rest import WarmRest, uniform_rest
+from .conserved_whirl import with_conserved_whirl
 from .heat_rungs import BALANCE, BALANCED, BALANCES, FRESH, HeatLevel, balance_at, known_films, with_heat
 from .whirl_rungs import AROUND, WhirlRung, whirl_ladder
 
@@ -246,6 +247,11 @@ def journal_whirl_ladder(scene: Scene, quantity: str) -> Ladder:
     InputError
         If the scene has no rigid rotor.
     """
+    return with_conserved_whirl(scene, quantity, lambda: _ruptured_ladder(scene, quantity))
+
+
+def _ruptured_ladder(scene: Scene, quantity: str) -> Ladder:
+    """Return the same by Reynolds rupture."""
     if scene.rigid_rotor is None or not scene.journal_bearing.is_warming:
         return whirl_ladder(scene, quantity)
     mass, films = scene.rigid_rotor.mass, point_films(scene.journal_bearing, fixed=scene.film_is_given)

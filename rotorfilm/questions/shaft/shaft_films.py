@@ -104,7 +104,7 @@ def film_levels(shaft: ShaftTable) -> tuple[ShaftFilms, ...]:
 
 
 def _choices(journal: JournalTable) -> tuple[FilmRung, ...]:
-    bearing = journal.build()
+    bearing = journal.bearing()
     films = turn_films(bearing, fixed=journal.film is not None, grids=GRIDS, maps=False)
     return known_films(films) if bearing.is_warming else films
 

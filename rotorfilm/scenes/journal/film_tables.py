@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 from ...bearings import journal
 from ...bearings.films.cavitation import Complementarity, FullFilm, HalfSommerfeld
+from ...bearings.films.conserved.conserved_cells import require_conserved_cells
 from ...bearings.films.film_start import FreeStart, HeldLine, WidestGap
 from ...bearings.films.geometry import FeedHole, Groove, Pad
 from ...bearings.films.law import FilmLaw
@@ -55,7 +57,23 @@ STARTS: dict[str, Keyed] = {
 }
 """Where the two-dimensional film of a bearing without openings starts, by name."""
 
-FILMS: dict[str, Callable[[], Keyed[FilmLaw]]] = {
+
+@dataclass(frozen=True, kw_only=True)
+class ConservedOil:
+    """`film = {name = "jfo"}`: the film that conserves its oil, which is no law of the moment; see `JFOFilm`.
+
+    Parameters
+    ----------
+    cells : tuple of int
+    """
+
+    cells: tuple[int, int] = (144, 12)
+
+    def __post_init__(self) -> None:
+        require_conserved_cells(self.cells)
+
+
+FILMS: dict[str, Callable[[], Keyed[FilmLaw | ConservedOil]]] = {
     # With grooves or several pads at ambient pressure that is `grooved_map` with its defaults.
     "map": lambda: Keyed(journal.MapFilm),
     "grooved_map": lambda: Keyed(
@@ -70,6 +88,7 @@ FILMS: dict[str, Callable[[], Keyed[FilmLaw]]] = {
             "film_start": Variant("kind", STARTS),
         },
     ),
+    "jfo": lambda: Keyed(ConservedOil, {"cells": CELLS}),
     "short": lambda: Keyed(journal.ShortFilm),
     "splitting": lambda: Keyed(
         journal.SplittingFilm,

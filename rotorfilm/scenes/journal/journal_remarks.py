@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import replace
+from typing import Any
 
-from ...bearings.journal import JournalBearing, MapFilm, ReynoldsFilm, ShortFilm
+from ...bearings.journal import JFOFilm, JournalBearing, MapFilm, ReynoldsFilm, ShortFilm
 from ...errors import RotorfilmError, ValidityWarning
 from ...linear import equilibrium
 from ..lubricant_table import Lubricant
@@ -31,6 +32,10 @@ TILT = 0.1
 
 COARSE = (48, 4)
 """Cells of a film whose loss and flow tell how far the oil warms where its own would take long."""
+
+
+CONSERVED = (48, 4)
+"""The same of a film that conserves its oil."""
 
 
 CONCENTRIC = 1e-3
@@ -58,7 +63,7 @@ REMARKS = (
         "pressure",
         1.0,
         "cavitation: the load makes {pressure:.2g} times the ambient pressure, so that the oil may hold "
-        "tension and rupture elsewhere; no film conserves its mass",
+        "tension and rupture elsewhere",
         below=True,
     ),
     Remark("compression", 0.01, "compressibility: {compression:.2%} by the mean pressure"),
@@ -73,9 +78,15 @@ REMARKS = (
 
 
 def journal_numbers(
-    bearing: JournalBearing, oil: Lubricant, speed: float, load: tuple[float, float]
+    bearing: JournalBearing,
+    oil: Lubricant,
+    speed: float,
+    load: tuple[float, float],
+    film: Any = None,
 ) -> dict[str, float]:
     """Return the dimensionless numbers of a bearing at a speed [rad/s] and a load [N].
+
+    Loss and flow are those of a film, or if None is given of a quick one of the bearing.
 
     Returns
     -------
@@ -103,7 +114,7 @@ def journal_numbers(
     volumetric = oil.density * oil.heat_capacity
     numbers = film_numbers((R, bearing.length, c, mu), oil, speed, load)
     peclet = numbers["peclet"]
-    power, flow, eccentricity_ratio = film_loss(bearing, speed, load)
+    power, flow, eccentricity_ratio = film_loss(bearing, speed, load, film)
     conducted = mu * (omega * R) ** 2 / (8.0 * oil.conductivity)
     carried = power / (volumetric * flow) if flow else conducted
     share = min(eccentricity_ratio / SLIGHT, 1.0) ** 2
@@ -147,11 +158,13 @@ def film_numbers(
     }
 
 
-def film_loss(bearing: JournalBearing, speed: float, load: tuple[float, float]) -> tuple[float, float, float]:
+def film_loss(
+    bearing: JournalBearing, speed: float, load: tuple[float, float], film: Any = None
+) -> tuple[float, float, float]:
     """Return power [W], side flow [m3/s] and eccentricity ratio of an isothermal film.
 
-    It is the film of the bearing where that is quick: a map of the package, or the short film; else a coarse
-    grid. Not-a-number, all three, where that film has no answer under the load.
+    If none is given it is the film of the bearing where that is quick: a map of the package, or the short
+    film; else a coarse grid. Not-a-number, all three, where that film has no answer under the load.
     """
     R, L, c = bearing.radius, bearing.length, bearing.clearance
     concentric = 2.0 * math.pi * bearing.film_viscosity * speed**2 * R**3 * L / c, 0.0, 0.0
@@ -160,7 +173,7 @@ def film_loss(bearing: JournalBearing, speed: float, load: tuple[float, float]) 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ValidityWarning)
         try:
-            at = equilibrium(_quick(bearing), load, speed)
+            at = equilibrium(film or _quick(bearing), load, speed)
             losses = at.losses
         except RotorfilmError:
             return math.nan, math.nan, math.nan
@@ -179,26 +192,29 @@ def _quick(bearing: JournalBearing) -> JournalBearing:
 
 
 def film_remarks(
-    bearing: JournalBearing, oil: Lubricant, speed: float, load: tuple[float, float]
+    bearing: JournalBearing | JFOFilm, oil: Lubricant, speed: float, load: tuple[float, float]
 ) -> tuple[str, ...]:
     """Return what is left out and should not be, one line each, at a speed [rad/s] and a load [N].
 
     Of a bearing whose oil warms it is said of the film at its temperature, and heat is not left out.
     """
     remarks: tuple[Remark, ...] = REMARKS
+    film: Any = None
+    if isinstance(bearing, JFOFilm):
+        film, bearing = replace(bearing, cells=CONSERVED), bearing.bearing
     if bearing.is_warming:
         remarks = tuple(remark for remark in REMARKS if remark.number not in ("thinning", "unknown"))
-        bearing = _warmed(bearing, speed, load)
-    return said(remarks, journal_numbers(bearing, oil, speed, load))
+        bearing = _warmed(bearing, film or _quick(bearing), speed, load)
+        film = film and film.at_temperature(bearing.temperature)
+    return said(remarks, journal_numbers(bearing, oil, speed, load, film))
 
 
-def _warmed(bearing: JournalBearing, speed: float, load: tuple[float, float]) -> JournalBearing:
+def _warmed(bearing: JournalBearing, quick: Any, speed: float, load: tuple[float, float]) -> JournalBearing:
     """Return a bearing at the temperature of its balance, or of fresh oil where it has no rest."""
-    quick = _quick(bearing)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ValidityWarning)
         try:
             temperature = equilibrium(quick, load, speed).temperature
         except RotorfilmError:
             temperature = None
-    return quick.at_temperature(bearing.coldest() if temperature is None else temperature)
+    return bearing.at_temperature(bearing.coldest() if temperature is None else temperature)

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...bearings.journal import JournalBearing, film_name
+from ...bearings.journal import JFOFilm, JournalBearing, film_name
 from ...linear import CriticalMass, coefficients, critical_mass, equilibrium, whirl_threshold
 from ...model import Reaction
 from ...readable.result import Readable
 from ...results import BearingLosses, Coefficients, Equilibrium, WhirlThreshold
+from ...warming import settled
 from .echo import bearing_data
+
+WHIRLS = 40
+"""Most frequencies at which K and C are taken until the whirl has that frequency."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,7 +34,8 @@ class Answer(Readable):
     critical_mass : CriticalMass
         Heaviest rigid rotor that is stable at the equilibrium.
     whirl_threshold : WhirlThreshold or None
-        Onset of self-excited whirl; None when the scene has no rotor.
+        Onset of self-excited whirl; None when the scene has no rotor, or a film that conserves its oil, of
+        which a question finds it.
     remarks : tuple of str
         What the physics of the film leaves out, in dimensionless numbers; only a scene knows.
     """
@@ -89,6 +94,16 @@ def film_answer(
     """
     at = equilibrium(bearing, load, speed)
     derivatives = coefficients(bearing, at.position, speed)
+    if isinstance(bearing, JFOFilm):
+        return Answer(
+            bearing=given[0],
+            model=given[1],
+            equilibrium=at,
+            coefficients=derivatives,
+            losses=at.losses,
+            critical_mass=_whirling_mass(settled(bearing, at.position, speed), at),
+            whirl_threshold=None,
+        )
     return Answer(
         bearing=given[0],
         model=given[1],
@@ -98,3 +113,15 @@ def film_answer(
         critical_mass=critical_mass(derivatives),
         whirl_threshold=None if mass is None else whirl_threshold(bearing, load, mass),
     )
+
+
+def _whirling_mass(film: JFOFilm, at: Equilibrium) -> CriticalMass:
+    """Return the critical mass with K and C at the frequency of the whirl itself."""
+    frequency = 0.5 * abs(at.speed)
+    found = critical_mass(film.coefficients(at.position, at.speed, frequency))
+    for _ in range(WHIRLS):
+        if found.whirl_frequency is None or abs(found.whirl_frequency - frequency) <= 1e-10 * frequency:
+            break
+        frequency = found.whirl_frequency
+        found = critical_mass(film.coefficients(at.position, at.speed, frequency))
+    return found

@@ -208,7 +208,8 @@ class BearingTable:
     def build(self) -> JournalBearing | LinearBearing:
         """Return the bearing."""
         if self.journal is not None:
-            return self.journal.build()
+            self.journal.require_law("a shaft")
+            return self.journal.bearing()
         assert self.stiffness is not None  # checked in __post_init__
         return LinearBearing(stiffness=self.stiffness, damping=self.damping)
 

@@ -256,10 +256,15 @@ class ConservedFilm:
     def shear(self, state: ConservedState) -> float:
         """Return the torque against the journal over viscosity length radius^3/clearance [1/s].
 
-        Shear of oil where there is some, in strips across the whole gap, without the openings.
+        Shear of oil where there is some, in strips across the whole gap, without the openings up to their
+        edges: of the cell of an edge half is film, and full.
         """
         P, theta, gap = state.solution.pressure, state.solution.theta, state.gap
-        film = np.where(self.cells.opening == FILM, theta, 0.0) * self._grid[1]
-        drag = 2.0 * state.rate * np.sum(film / gap.line[:, None])
+        film = self.cells.opening == FILM
+        half = 0.5 * self.cells.spacing[:, None]
+        after = np.where(np.roll(film, -1, axis=0), half, 0.0)
+        before = np.where(np.roll(film, 1, axis=0), np.roll(half, 1, axis=0), 0.0)
+        extent = np.where(film, theta * self.cells.extent[:, None], after + before)
+        drag = 2.0 * state.rate * np.sum(extent * self.cells.width / gap.line[:, None])
         rise = (np.roll(P, -1, axis=0) - P) @ self.cells.width
         return float(drag + 6.0 * gap.face @ rise)

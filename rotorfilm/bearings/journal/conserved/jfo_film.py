@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from numbers import Number
 from typing import Any, ClassVar, cast
@@ -27,6 +27,7 @@ from ...films.conserved.conserved_film import ConservedFilm, ConservedState, cir
 from ...films.conserved.conserved_motion import dynamic_stiffness, slow_motion, speed_slope
 from ...films.conserved.stepped_film import SteppedFilm
 from ..bearing import JournalBearing
+from .jfo_losses import JFOHeat
 from .jfo_state import JFOState, jfo_state
 from .jfo_supply import oil_supply
 
@@ -36,7 +37,7 @@ AIR_SHARE = 0.01
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class JFOFilm(SteppedFilm):
+class JFOFilm(JFOHeat, SteppedFilm):
     """The film of a journal bearing that conserves its oil (Jakobsson, Floberg and Olsson).
 
     Where the film ruptures the oil goes on, in a gap that it fills in part, until there is enough to start
@@ -53,7 +54,7 @@ class JFOFilm(SteppedFilm):
     bearing : JournalBearing
         With what feeds it: grooves of a length, feed holes, a circumferential groove, or grooves over the
         whole length at ambient pressure. Gaps between pads are full of oil at ambient pressure. Its own film
-        law has no part.
+        law has no part. On an oil with a cooling `equilibrium` finds the temperature of the film too.
     cells : tuple of int
         Lines around the film and cells along half the length, about; even numbers.
     supply_flow : float or None [m3/s]
@@ -104,7 +105,6 @@ class JFOFilm(SteppedFilm):
         if not require_number("cavitation_pressure", self.cavitation_pressure) <= 0.0:
             raise InputError(f"cavitation_pressure must not be above 0, got {self.cavitation_pressure!r}")
         require_kind("submerged", self.submerged, bool, "True or False")
-        self.bearing.require_temperature()
         oil_supply(self.bearing, self.supply_flow, self.cavitation_pressure, self.submerged)
 
     @property
@@ -120,6 +120,7 @@ class JFOFilm(SteppedFilm):
     @cached_property
     def film(self) -> ConservedFilm:  # type: ignore[override]
         """The film without dimensions, for steps in time; see `ConservedFilm`."""
+        self.bearing.require_temperature()
         supply = oil_supply(self.bearing, self.supply_flow, self.cavitation_pressure, self.submerged)
         return ConservedFilm(
             conserved_cells(self.bearing.geometry, *self.cells), self.bearing.slenderness, supply
@@ -227,6 +228,10 @@ class JFOFilm(SteppedFilm):
             return force_x, force_y, self._jacobian(state).ravel().tolist()
 
         return tangent
+
+    def at_temperature(self, temperature: float) -> JFOFilm:
+        """Return this film at one temperature [K]; raises InputError if its bearing has no oil."""
+        return replace(self, bearing=self.bearing.at_temperature(temperature))
 
     def at_rest(self) -> JFOFilm:
         """Return this film: it has a force for a journal at rest only."""

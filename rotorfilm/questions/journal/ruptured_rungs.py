@@ -1,0 +1,246 @@
+"""What the conservation of oil changes, in the estimate of Reynolds rupture.
+
+Reynolds rupture makes the oil with which its film starts. How much that matters is the change from it to the
+film that conserves its oil, both on a coarse grid under the same load; it is added to what richer grids
+change, with its sign where both are known.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ...answers import HEATED, ISOTHERMAL, ErrorEstimate, Found
+from ...bearings.journal import JFOFilm, JournalBearing
+from ...bearings.journal.conserved.rupture_error import both_films
+from ...errors import InputError, RotorfilmError
+from ...ladders import BaseRung, Ladder, Rung
+from ...linear import equilibrium
+from ...results import Equilibrium
+from ...scenes.journal.film_candidate import FilmCandidate
+from ...scenes.journal.film_defects import tangent
+from ...warming import settled
+
+if TYPE_CHECKING:
+    from ...scenes.scene import Scene
+    from ...scenes.schema import JournalTable
+
+
+class Rest(NamedTuple):
+    """A journal at rest, and the film at its temperature there."""
+
+    at: Equilibrium
+    film: Any
+
+    @property
+    def frozen(self) -> FilmCandidate:
+        """The film as a candidate, for rungs of motions; there is no richer one."""
+        return candidate("", self.film)
+
+
+def candidate(name: str, film: Any) -> FilmCandidate:
+    """Return a film as a candidate of which nothing is known beforehand."""
+    return FilmCandidate(name=name, reaction=film, rich=film, rich_name=name, position_prior=0.0, prior=0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Rupture:
+    """Both films of a bearing on a coarse grid, at rest under a load; found once.
+
+    Attributes
+    ----------
+    bearing : JournalBearing
+        At one temperature, or on an oil.
+    load : (float, float) [N]
+    speed : float [rad/s]
+    """
+
+    bearing: JournalBearing
+    load: tuple[float, float]
+    speed: float
+
+    @property
+    def films(self) -> tuple[JournalBearing, JFOFilm]:
+        """Reynolds rupture, and the film that conserves its oil."""
+        return both_films(self.bearing)
+
+    @cached_property
+    def rests(self) -> tuple[Rest, Rest]:
+        """By Reynolds rupture, and by the film that conserves its oil."""
+        one, other = (rest_on(film, self.load, self.speed) for film in self.films)
+        return one, other
+
+
+def rest_on(film: Any, load: tuple[float, float], speed: float) -> Rest:
+    """Return where a journal rests on a film, which may be on an oil."""
+    at = equilibrium(film, load, speed)
+    return Rest(at, settled(film, at.position, speed))
+
+
+def rest_slopes(rest: Rest) -> tuple[np.ndarray, np.ndarray]:
+    """Return K and C of a rest: smooth ones of Reynolds rupture, else at the frequency of the shaft."""
+    film, at = rest.film, rest.at
+    if isinstance(film, JFOFilm):
+        found = film.coefficients(at.position, at.speed)
+        return found.stiffness, found.damping
+    slopes = tangent(film, at.position, at.speed, smooth=True)[1]
+    return -slopes[:, :2], -slopes[:, 2:]
+
+
+class Change(NamedTuple):
+    """A quantity by Reynolds rupture, and by the film that conserves its oil, on one coarse grid.
+
+    Attributes
+    ----------
+    own, better : float or ndarray
+    relative : bool
+        Whether the one over the other counts, or their difference.
+    """
+
+    own: Any
+    better: Any
+    relative: bool = False
+
+    def on(self, value: Any) -> Any:
+        """Return a value by Reynolds rupture as changed."""
+        return value * self.better / self.own if self.relative else value + (self.better - self.own)
+
+
+@dataclass(frozen=True, kw_only=True)
+class RupturedRung(BaseRung):
+    """An answer by Reynolds rupture, whose estimate has what the conservation of its oil would change.
+
+    Attributes
+    ----------
+    inner : Rung
+        Its error is that of the film and, of an oil, of the heat.
+    change : callable
+        Takes the answer and returns what the conservation of the oil changes, a Change.
+    distance : callable
+        Takes a value and a better one, and returns how far it is off in the unit of the tolerance.
+    token : object
+        What rungs of one question share.
+    """
+
+    inner: Any
+    change: Callable[[Found], Change]
+    distance: Callable[[Any, Any], float]
+    token: object
+
+    @property
+    def name(self) -> str:
+        """That of the rung."""
+        return str(self.inner.name)
+
+    @property
+    def film(self) -> Any:
+        """That of the rung."""
+        return self.inner.film
+
+    @property
+    def prior(self) -> float:
+        """That of the rung."""
+        return float(self.inner.prior)
+
+    @property
+    def refines(self) -> tuple[object, ...]:
+        """What the rung refines."""
+        return tuple(self.inner.refines)
+
+    @property
+    def shares(self) -> object:
+        """The error of the rung's kind, or else that of all by Reynolds rupture."""
+        return self.inner.shares or self.token
+
+    def answer(self, before: Found | None) -> Found:
+        """Return the answer of the rung."""
+        found: Found = self.inner.answer(before)
+        return found
+
+    def expected(self, done: Any) -> Any:
+        """Return the work of the rung."""
+        return self.inner.expected(done)
+
+    def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
+        """Return the error of the rung with what the conservation of its oil would change."""
+        about: ErrorEstimate = self.inner.estimate(found, before, tolerance)
+        try:
+            change = self.change(found)
+        except RotorfilmError as error:
+            doubt = f"what the conservation of its oil would change is not known: {error}"
+            return about._replace(doubt=about.doubt or doubt)
+        share = self.distance(found.value, change.on(found.value))
+        if about.better is None:
+            total, bound = about.error + share, about.bound and about.error > share
+        else:
+            total, bound = self.distance(found.value, change.on(about.better)), False
+        method = f"{about.method}; conservation of oil, {share:.2g}"
+        return about._replace(error=total, method=method, bound=bound, shared=about.shared + share)
+
+
+def within_of(scene: Scene) -> str:
+    """Return the physics in which the tolerance of a film that conserves its oil is meant."""
+    return HEATED if scene.journal_bearing.is_warming else ISOTHERMAL
+
+
+def supply_of(table: JournalTable, bearing: JournalBearing) -> str | None:
+    """Return why the oil of a bearing cannot be conserved, empty if it can; None without an opening."""
+    if bearing.geometry.plain:
+        return None
+    try:
+        table.conserved(bearing)
+    except InputError as error:
+        return str(error)
+    return ""
+
+
+NOT_JUDGED = "conservation of oil: not judged, {reason}"
+
+NO_RUNG = (
+    "conservation of oil: in the estimate, by small motion; no rung of this question follows the oil of a "
+    "cavity in time"
+)
+
+UNFED = (
+    "supply: the bearing has none, and its film starts with oil that is made there; with the grooves or "
+    "holes that feed it this is another number"
+)
+
+
+def with_rupture(
+    scene: Scene,
+    ladder: Ladder,
+    change: Callable[[Found], Change],
+    distance: Callable[[Any, Any], float],
+    above: Callable[[], tuple[Rung, ...]] | None = None,
+) -> Ladder:
+    """Return a ladder by Reynolds rupture whose estimates count the conservation of the oil.
+
+    Parameters
+    ----------
+    scene : Scene
+    ladder : Ladder
+    change, distance : callable
+        See `RupturedRung`.
+    above : callable, optional
+        Returns the rungs that conserve their oil; None where there is none.
+    """
+    table = scene.journal
+    assert table is not None  # whose question it is
+    reason = supply_of(table, scene.journal_bearing)
+    if reason is None:
+        return ladder
+    if reason:
+        return replace(ladder, remarks=(*ladder.remarks, NOT_JUDGED.format(reason=reason)))
+    token = object()
+    rungs: tuple[Rung, ...] = tuple(
+        RupturedRung(inner=rung, change=change, distance=distance, token=token) for rung in ladder.rungs
+    )
+    if above is not None and not scene.film_is_given:
+        return replace(ladder, rungs=(*rungs, *above()))
+    remarks = ladder.remarks if above is not None else (*ladder.remarks, NO_RUNG)
+    return replace(ladder, rungs=rungs, remarks=remarks)
