@@ -98,3 +98,28 @@ class AtRest(JournalForce, Protocol):
         speed : float [rad/s]
         rotor_mass : float [kg]
         """
+
+
+@runtime_checkable
+class Remembering(JournalForce, Protocol):
+    """A force on a journal at rest of what remembers its motion: its stiffness is K(s) at every exponent."""
+
+    def complex_stiffness(self, position: ArrayLike, speed: float, s: complex) -> NDArray[np.complex128]:
+        """Return K(s), shape (2, 2) [N/m]: the force changes by -K(s) q e^(s t) as the journal moves so.
+
+        Parameters
+        ----------
+        position : array_like, shape (2,) [m]
+        speed : float [rad/s]
+        s : complex [1/s]
+        """
+
+    def coefficients(self, position: ArrayLike, speed: float, frequency: float | None = None) -> Any:
+        """Return `MemoryCoefficients` without a frequency, or those at a frequency.
+
+        Parameters
+        ----------
+        position : array_like, shape (2,) [m]
+        speed : float [rad/s]
+        frequency : float or None [rad/s]
+        """

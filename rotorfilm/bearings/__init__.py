@@ -5,7 +5,10 @@ from typing import TYPE_CHECKING
 from ..sources import show
 
 if TYPE_CHECKING:
-    from .at_frequency import ReducedCoefficients as ReducedCoefficients
+    from .at_frequency import (
+        MemoryCoefficients as MemoryCoefficients,
+        ReducedCoefficients as ReducedCoefficients,
+    )
     from .bush import *
     from .contact import *
     from .damper import *

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
+from ..bearings.at_frequency import MemoryCoefficients
+from ..errors import ConvergenceError
 from ..inputs.kinds import arguments
 from ..readable.result import Readable
 from ..results import Coefficients
+from .memory.exponents import rigid_growing
+from .memory.mass_borders import mass_borders
 
 _RANK_TOLERANCE = 1e-10
 
@@ -36,6 +41,22 @@ class CriticalMass(Readable):
     reason: str = ""
 
 
+@dataclass(frozen=True, kw_only=True)
+class CountedMass(CriticalMass):
+    """The mass at the border of stability on a film that remembers, with what grows on both sides of it.
+
+    Attributes
+    ----------
+    growing_below, growing_above : int [1]
+        How many exponents s of det(K(s) + mass s^2) = 0 grow with lighter and with heavier rotors, up to the
+        next border; counted by the phase along all frequencies, so that none is missed. Without a border
+        both are those of any mass.
+    """
+
+    growing_below: int
+    growing_above: int
+
+
 @arguments
 def critical_mass(coefficients: Coefficients) -> CriticalMass:
     """Return the mass at which the rotor m q'' + C q' + K q = 0 loses stability.
@@ -43,7 +64,9 @@ def critical_mass(coefficients: Coefficients) -> CriticalMass:
     Parameters
     ----------
     coefficients : Coefficients
-        Film stiffness K and damping C; they act on the whole mass.
+        Film stiffness K and damping C; they act on the whole mass. With `MemoryCoefficients`, as
+        `coefficients` returns them of a film that conserves its oil, the border is that of K(s) at the whirl
+        itself, and the result a `CountedMass`.
 
     Notes
     -----
@@ -55,6 +78,8 @@ def critical_mass(coefficients: Coefficients) -> CriticalMass:
 
     (the stability criterion in Lund (1987), J. Tribol. 109, 37-41, doi:10.1115/1.3261324).
     """
+    if isinstance(coefficients, MemoryCoefficients):
+        return _counted(coefficients)
     reason = _why_no_border(coefficients)
     if reason:
         return CriticalMass(mass=None, whirl_frequency=None, whirl_ratio=None, reason=reason)
@@ -66,6 +91,44 @@ def critical_mass(coefficients: Coefficients) -> CriticalMass:
         mass=k / squared,
         whirl_frequency=frequency,
         whirl_ratio=frequency / speed if speed else None,
+    )
+
+
+def _counted(film: MemoryCoefficients) -> CountedMass:
+    """Return the lightest mass with which nothing grows below, and something above."""
+    borders = mass_borders(film)
+    if not borders:
+        growing = rigid_growing(film, float(np.abs(film.stiffness).max()) / film.speed**2)
+        reason = "unstable whatever the mass" if growing else "stable whatever the mass"
+        return _no_counted(reason, growing, growing)
+    masses = [border.mass for border in borders]
+    between = [math.sqrt(one * other) for one, other in pairwise(masses)]
+    counts = [rigid_growing(film, mass) for mass in (0.5 * masses[0], *between, 2.0 * masses[-1])]
+    for border, (below, above) in zip(borders, pairwise(counts), strict=True):
+        if abs(above - below) != 2:
+            raise ConvergenceError(
+                f"one whirl must begin or cease to grow at a mass of {border.mass:.6g} kg, and {below} "
+                f"exponents grow below it, {above} above"
+            )
+        if below == 0:
+            return CountedMass(
+                mass=border.mass,
+                whirl_frequency=border.frequency,
+                whirl_ratio=border.frequency / abs(film.speed),
+                growing_below=below,
+                growing_above=above,
+            )
+    return _no_counted(f"no light rotor is stable: {counts[0]} exponents grow", counts[0], counts[-1])
+
+
+def _no_counted(reason: str, below: int, above: int) -> CountedMass:
+    return CountedMass(
+        mass=None,
+        whirl_frequency=None,
+        whirl_ratio=None,
+        reason=reason,
+        growing_below=below,
+        growing_above=above,
     )
 
 

@@ -23,10 +23,11 @@ from ..errors import (
 from ..inputs.kinds import arguments
 from ..model import Array, JournalForce, Reaction, require_reaction
 from ..results import Coefficients, Equilibrium, WhirlThreshold
-from ..warming import Settling, settled
+from ..warming import Remembering, Settling, settled
 from .coefficients import coefficients
 from .critical_mass import critical_mass, damping_has_rank_one, is_stable, whirl_margin
 from .equilibrium import checked_load, equilibrium
+from .memory.counted_threshold import counted_threshold, leading_exponent
 
 _POINTS_PER_DECADE = 12
 _SPEED_FACTOR = 100.0
@@ -41,7 +42,8 @@ def whirl_threshold(
     Parameters
     ----------
     reaction : Reaction
-        The film; of one with states that rest, as tilting pads, rotor and states are judged together.
+        The film; of one with states that rest, as tilting pads, rotor and states are judged together, and
+        of one that conserves its oil, rotor and oil by K(s): the result is a `CountedThreshold`.
     load : array_like, shape (2,) [N]
         External static force on the journal, weight included.
     mass : float [kg]
@@ -155,6 +157,8 @@ def _settling(
     """Return the threshold by the exponents of rotor and bearing together."""
 
     def least_damped(at: Equilibrium) -> complex:
+        if isinstance(reaction, Remembering):
+            return leading_exponent(reaction, at, mass)
         film: Settling = settled(reaction, at.position, at.speed)
         return complex(film.at_rest().modes(at.position, at.speed, mass)[0])
 
@@ -169,13 +173,14 @@ def _settling(
         warnings.simplefilter("ignore", UnloadedPadWarning)  # the rest itself tells them
         rest = equilibrium(reaction, load, onset)
     exponent = least_damped(rest)
-    return WhirlThreshold(
+    found = WhirlThreshold(
         speed=onset,
         whirl_ratio=abs(exponent.imag) / onset,
         critical_mass=mass,
         speed_parameter=speed_parameter(speed=onset, clearance=reaction.clearance, mass=mass, load=load),
         equilibrium=rest,
     )
+    return counted_threshold(reaction, found) if isinstance(reaction, Remembering) else found
 
 
 def _first_onset(growth: Callable[[float], float], speeds: Array) -> tuple[float | None, list[bool]]:

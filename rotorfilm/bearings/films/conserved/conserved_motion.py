@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -31,6 +33,67 @@ class SlowMotion(NamedTuple):
     damping: Array
 
 
+@dataclass(frozen=True, eq=False)
+class FilmInMotion:
+    """A steady film about which the journal moves a little, called for K(s) and dK/ds at one s.
+
+    Parameters
+    ----------
+    film : ConservedFilm
+    state : ConservedState
+    scale : float
+        Unit of the stiffness; with 1 it is without dimensions [1/s].
+    """
+
+    film: ConservedFilm
+    state: ConservedState
+    scale: float = 1.0
+
+    @cached_property
+    def _slopes(self) -> tuple[Array, Array]:
+        return _slopes(self.film, self.state)
+
+    def __call__(self, s: complex) -> tuple[Complex, Complex]:
+        """Return K(s) and dK/ds, shape (2, 2) each; the storage of the cavity as in `dynamic_stiffness`.
+
+        Parameters
+        ----------
+        s : complex [1/s]
+        """
+        rate, by_s = _wave_rate(self.film, self.state, s)
+        moved, held = self._slopes
+        still = self._response(rate, moved + s * held)
+        steeper = self._response(rate, held + self._room(by_s) * still)
+        return self._stiffness(still), self._stiffness(steeper)
+
+    def stiffness(self, s: complex, *, as_stepped: bool = False) -> Complex:
+        """Return K(s) alone; see `dynamic_stiffness`.
+
+        Parameters
+        ----------
+        s : complex [1/s]
+        as_stepped : bool
+        """
+        rate = np.full(self.state.gap.line.shape, complex(s))
+        if not as_stepped:
+            rate, _ = _wave_rate(self.film, self.state, s)
+        moved, held = self._slopes
+        return self._stiffness(self._response(rate, moved + s * held))
+
+    def _room(self, rate: Complex) -> Complex:
+        """Return the storage of the cavity at a rate on each line, shape (N, M)."""
+        state = self.state
+        return np.where(
+            state.solution.full, 0.0, (rate * state.gap.line)[:, None] * self.film.cells.area
+        )
+
+    def _response(self, rate: Complex, outflow: Complex) -> Complex | Array:
+        return oil_response(self.state.equations, self.state.solution.full, self._room(rate), -outflow)
+
+    def _stiffness(self, change: Complex | Array) -> Complex:
+        return self.scale * _stiffness(self.film, self.state, change)
+
+
 def dynamic_stiffness(
     film: ConservedFilm, state: ConservedState, s: complex, *, as_stepped: bool = False
 ) -> Complex:
@@ -48,11 +111,7 @@ def dynamic_stiffness(
         default they keep their phase: the storage of the cavity has (exp(2 s dxi/speed) - 1) speed/(2 dxi) in
         place of s, where the cells resolve the wave.
     """
-    moved, held = _slopes(film, state)
-    rate = np.full(film.cells.extent.shape, complex(s)) if as_stepped else _wave_rate(film, state, s)
-    room = np.where(state.solution.full, 0.0, (rate * state.gap.line)[:, None] * film.cells.area)
-    change = oil_response(state.equations, state.solution.full, room, -(moved + s * held))
-    return _stiffness(film, state, change)
+    return FilmInMotion(film, state).stiffness(s, as_stepped=as_stepped)
 
 
 def step_stiffness(film: ConservedFilm, state: ConservedState) -> Array:
@@ -121,13 +180,14 @@ def _slopes(film: ConservedFilm, state: ConservedState) -> tuple[Array, Array]:
     return np.array(moved), held
 
 
-def _wave_rate(film: ConservedFilm, state: ConservedState, s: complex) -> Complex:
-    """Return what stands for s in the storage of the cavity, shape (N,)."""
+def _wave_rate(film: ConservedFilm, state: ConservedState, s: complex) -> tuple[Complex, Complex]:
+    """Return what stands for s in the storage of the cavity, shape (N,), and its derivative by s."""
     speed = 2.0 * abs(state.rate)
     turn = 2.0 * s * film.cells.extent
     resolved = np.abs(turn) <= speed
     phase = np.where(resolved, turn, 0.0) / (speed or 1.0)
-    return np.asarray(s * np.where(phase == 0.0, 1.0, np.expm1(phase) / np.where(phase == 0.0, 1.0, phase)))
+    known = np.where(phase == 0.0, 1.0, phase)
+    return np.asarray(s * np.where(phase == 0.0, 1.0, np.expm1(phase) / known)), np.exp(phase)
 
 
 def _stiffness(film: ConservedFilm, state: ConservedState, change: Complex | Array) -> Complex:

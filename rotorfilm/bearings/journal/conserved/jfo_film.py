@@ -21,10 +21,10 @@ from ....errors import (
 )
 from ....inputs.si_arguments import quantities
 from ....model import Array, Tangent
-from ...at_frequency import ReducedCoefficients
+from ...at_frequency import MemoryCoefficients, ReducedCoefficients
 from ...films.conserved.conserved_cells import conserved_cells, require_conserved_cells
 from ...films.conserved.conserved_film import ConservedFilm, ConservedState, circular_gap
-from ...films.conserved.conserved_motion import dynamic_stiffness, slow_motion, speed_slope
+from ...films.conserved.conserved_motion import FilmInMotion, slow_motion, speed_slope
 from ...films.conserved.stepped_film import SteppedFilm
 from ..bearing import JournalBearing
 from .jfo_losses import JFOHeat
@@ -166,8 +166,7 @@ class JFOFilm(JFOHeat, SteppedFilm):
         """
         if not isinstance(s, Number) or not np.isfinite(s):
             raise InputError(f"s must be a finite number, got {s!r}")
-        _, state = self._steady(position, speed)
-        return self._per_length * dynamic_stiffness(self.film, state, complex(s))
+        return self._in_motion(position, speed).stiffness(complex(s))
 
     def slow_coefficients(self, position: ArrayLike, speed: float) -> ReducedCoefficients:
         """Return K and C in motions slow against the time that oil takes to cross the cavity: K(0), dK/ds(0).
@@ -180,18 +179,37 @@ class JFOFilm(JFOHeat, SteppedFilm):
             As in `solve`.
         """
         q, state = self._steady(position, speed)
-        return self._coefficients(q, speed, *self._slow(state), 0.0)
+        K, C = self._slow(state)
+        return ReducedCoefficients(
+            stiffness=K, damping=C, position=q, speed=float(speed), frequency=0.0
+        )
 
     def coefficients(
         self, position: ArrayLike, speed: float, frequency: float | None = None
     ) -> ReducedCoefficients:
-        """Return Re K(i frequency) and Im K(i frequency)/frequency; see `linear.coefficients`."""
+        """Return Re K(i frequency) and Im K(i frequency)/frequency; see `linear.coefficients`.
+
+        Without a frequency they are `MemoryCoefficients`, at that of the shaft: what takes them for modes,
+        thresholds or a critical mass goes by K(s).
+        """
         own = abs(require_number("speed", speed))
         nu = own if frequency is None else require_number("frequency", frequency)
         if nu == 0.0:
             return self.slow_coefficients(position, speed)
-        K = self.complex_stiffness(position, speed, 1j * nu)
-        return self._coefficients(np.asarray(position, dtype=float), speed, K.real, K.imag / nu, nu)
+        motion = self._in_motion(position, speed)
+        K, q = motion.stiffness(1j * nu), np.asarray(position, dtype=float)
+        if frequency is not None:
+            return ReducedCoefficients(
+                stiffness=K.real, damping=K.imag / nu, position=q, speed=float(speed), frequency=nu
+            )
+        return MemoryCoefficients(
+            stiffness=K.real,
+            damping=K.imag / nu,
+            position=q,
+            speed=float(speed),
+            frequency=nu,
+            motion=motion,
+        )
 
     def force(self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike) -> Array:
         """Return the force on a journal at rest, shape (2,) [N].
@@ -253,16 +271,8 @@ class JFOFilm(JFOHeat, SteppedFilm):
         by_motion = -np.hstack(self._slow(state))
         return np.column_stack([by_motion, self.bearing.force_scale * speed_slope(self.film, state)])
 
-    def _coefficients(
-        self, position: Array, speed: float, stiffness: Array, damping: Array, frequency: float
-    ) -> ReducedCoefficients:
-        return ReducedCoefficients(
-            stiffness=stiffness,
-            damping=damping,
-            position=position,
-            speed=float(speed),
-            frequency=frequency,
-        )
+    def _in_motion(self, position: ArrayLike, speed: float) -> FilmInMotion:
+        return FilmInMotion(self.film, self._steady(position, speed)[1], self._per_length)
 
     def _at_rest(
         self, position: ArrayLike, velocity: ArrayLike, speed: ArrayLike
