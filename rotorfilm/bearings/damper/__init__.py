@@ -1,11 +1,21 @@
-"""Squeeze-film dampers with a porous cage."""
+"""Squeeze-film dampers: solid or porous cages, seals, grooves, the inertia of the oil."""
 
 from typing import TYPE_CHECKING
 
 from ...sources import show
 
 if TYPE_CHECKING:
-    from .bearing import PorousDamper as PorousDamper
+    from .bearing import PorousDamper as PorousDamper, SqueezeFilmDamper as SqueezeFilmDamper
+    from .built.end_seals import (
+        EndSeal as EndSeal,
+        gap_seal as gap_seal,
+        leak_test_seal as leak_test_seal,
+    )
+    from .built.small_motion import (
+        FilmSegment as FilmSegment,
+        SegmentedDamper as SegmentedDamper,
+        SmallMotion as SmallMotion,
+    )
     from .cage import AxialFeed as AxialFeed, PorousCage as PorousCage, RadialFeed as RadialFeed
     from .damper_groups import DamperGroups as DamperGroups, damper_groups as damper_groups
     from .full_squeeze import SqueezeFilm
