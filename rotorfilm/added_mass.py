@@ -52,6 +52,22 @@ def inertial(reaction: Any) -> InertialReaction | None:
     return reaction if heavy else None
 
 
+def require_turning(reaction: Any, rotor: Any) -> None:
+    """Warn, or raise InputError, where a rotor turns too fast for the inertia of its bearing.
+
+    Parameters
+    ----------
+    reaction : Reaction
+    rotor : Model
+        Whose output "speed" says by its nominal value how fast it turns.
+    """
+    heavy = inertial(reaction)
+    if heavy is not None:
+        for signal in rotor.outputs:
+            if signal.name == "speed":
+                heavy.require_range(signal.nominal)
+
+
 def require_massless(name: str, reaction: Any) -> None:
     """Raise InputError for a reaction with an added mass."""
     if inertial(reaction) is not None:

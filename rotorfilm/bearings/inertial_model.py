@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..model import Array, Linearization, static_linearization
+from ..results import Coefficients
 from ..signals import Signal, force_outputs
 from .reaction import StaticReaction, input_vector
 
@@ -15,6 +17,19 @@ MASS_OUTPUTS = ("mass_xx", "mass_xy", "mass_yy")
 """Signals that follow the force of a reaction with an added mass."""
 
 _ROWS, _COLUMNS = [0, 0, 1], [0, 1, 1]
+
+
+@dataclass(frozen=True, kw_only=True)
+class InertialCoefficients(Coefficients):
+    """K, C and the added mass M of a film whose oil has inertia: F = -K q - C v - M a for small motion.
+
+    Attributes
+    ----------
+    mass : ndarray, shape (2, 2) [kg]
+        Rows: force x, y; columns: acceleration along x, y.
+    """
+
+    mass: Array
 
 
 class _Heavy(Protocol):

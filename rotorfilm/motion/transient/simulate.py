@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import OdeSolver, Radau
 
+from ...added_mass import require_turning
 from ...errors import ContactError, ConvergenceError, InputError, require_finite, require_positive
 from ...inputs.kinds import arguments
 from ...model import Array, Dynamic, Reaction, stops
@@ -40,7 +41,7 @@ def simulate(
 
     Rotor and film are connected by the names of their signals and integrated together, with the exact
     Jacobian of both, so no coupling error arises. The integration stops at the kinks of a `Kinked` rotor.
-    A linear rotor on films that have kernels is integrated in C, as by `simulate_rotor`, all others by scipy.
+    The mass that the oil of a damper adds is part of the same system. A linear rotor on films that have kernels is integrated in C, as by `simulate_rotor`, all others by scipy.
 
     Parameters
     ----------
@@ -85,6 +86,7 @@ def simulate(
     require_positive("rtol", rtol)
     reaction = in_time(reaction)
     system = Coupled(rotor, reaction)
+    require_turning(reaction, rotor)
     grid = sample_times(duration, samples, times)
     state = _initial(system, system.initial_state if initial_state is None else initial_state)
     require_longest_step(max_step)
@@ -147,7 +149,7 @@ def _trajectory(system: Coupled, kept: list[tuple[float, Array]]) -> Trajectory:
     split, time = len(system.rotor.states), np.array([t for t, _ in inside])
     outputs = np.array([system.rotor.output(t, state[:split], no_force) for t, state in inside])
     outputs = outputs.reshape(len(inside), len(system.rotor.outputs)).T
-    states = np.array([state[split:] for _, state in inside]).reshape(len(inside), -1).T
+    states = np.array([state for _, state in inside]).reshape(len(inside), -1).T
     film = system.film_outputs(time, outputs[system.wiring.motion], states)
     known = (*system.rotor.outputs, *system.film_signals())
     signals = dict(zip(names(known), [*outputs, *film], strict=True))
