@@ -13,8 +13,8 @@ from typing import Any, NamedTuple, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .added_mass import require_massless
 from .errors import InputError, brief, require_kind
+from .reactions.added_mass import require_massless
 from .signals import Signal
 
 Array = NDArray[np.float64]
@@ -197,7 +197,7 @@ class Reaction(JournalForce, Model, Protocol):
 
 
 def require_reaction(name: str, value: object, kind: Any = Reaction, *, heavy: bool = False) -> None:
-    """Raise InputError unless `value` is a Reaction, or of a lesser kind; with an added mass only if `heavy`."""
+    """Raise InputError unless `value` is a Reaction or of a lesser kind, with added mass only if `heavy`."""
     require_kind(name, value, kind, "a Reaction such as a JournalBearing, or what as_reaction makes")
     if not heavy:
         require_massless(name, value)

@@ -18,7 +18,7 @@ LEAVES = [
     "errors",
     "units",
     "signals",
-    "added_mass",
+    "reactions",
     "model",
     "warming",
     "results",

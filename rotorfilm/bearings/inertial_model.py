@@ -49,7 +49,7 @@ class _Heavy(Protocol):
 
 
 class InertialModel(StaticReaction):
-    """A StaticReaction with `has_inertia`, `mass` and `mass_slopes`: see `added_mass.InertialReaction`."""
+    """A StaticReaction with `has_inertia`, `mass` and `mass_slopes`: see `InertialReaction`."""
 
     @property
     def outputs(self: _Heavy) -> tuple[Signal, ...]:

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..added_mass import inertial
 from ..errors import require_kind, require_positive, require_vector
 from ..inputs.si_arguments import quantities
 from ..model import (
@@ -21,6 +20,7 @@ from ..model import (
     prepared_tangent,
 )
 from ..native.spec import HasKernel, NativeSpec
+from ..reactions.added_mass import inertial
 from .contact_place import WalledReaction, minimum_film
 from .inertial_model import InertialModel
 

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..added_mass import inertial, require_turning
 from ..errors import InputError, require_finite, require_kind
 from ..inputs.kinds import arguments
 from ..model import Array, Dynamic, Model, Reaction, require_reaction
+from ..reactions.added_mass import inertial, require_turning
 from ..results import Equilibrium
 from ..rotors.heavy_journals import with_mass
 from ..signals import FORCE_OUTPUTS, MOTION_NAMES, indices, names
@@ -48,8 +48,8 @@ def closed_loop(
     control.StateSpace
         Inputs force_x, force_y: small external force on the journal [N]. Outputs x, y, vx, vy: small motion
         about the equilibrium [m, m/s], and housing_force_x, housing_force_y: change of the force on the
-        housing [N], the opposite of the film force on the journal. The speed is constant. The mass that a film
-        adds is that of the rotor's, and its force is part of that on the housing.
+        housing [N], the opposite of the film force on the journal. The speed is constant. The mass that a
+        film adds is that of the rotor's, and its force is part of that on the housing.
 
     Raises
     ------

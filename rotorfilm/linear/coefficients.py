@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..added_mass import inertial
 from ..bearings.inertial_model import InertialCoefficients
 from ..errors import InputError, require_finite, require_number
 from ..inputs.kinds import arguments
 from ..model import JournalForce, Reaction, require_reaction
+from ..reactions.added_mass import inertial
 from ..results import Coefficients
 from ..warming import Settling, settled
 from .equilibrium import equilibrium

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..added_mass import inertial
 from ..bearings.inertial_model import InertialCoefficients
 from ..errors import InputError, require_number, require_positive
 from ..inputs.kinds import arguments
 from ..model import JournalForce, Reaction, require_reaction
+from ..reactions.added_mass import inertial
 from ..readable.result import Readable
 from ..results import CircularOrbit
 from ..rotors import RigidRotor
@@ -48,8 +48,9 @@ class OrbitCoefficients(Readable):
 def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: float) -> OrbitCoefficients:
     """Return the equivalent coefficients of a film on a synchronous circular orbit.
 
-    With inertia the stiffness is that without the added mass, minus its mass times speed^2. They are what a linear code may take for a cavitated film, which has no damping matrix at rest: exact for
-    this orbit, no derivative, and different at every radius.
+    With inertia the stiffness is that without the added mass, minus its mass times speed^2. They are what a
+    linear code may take for a cavitated film, which has no damping matrix at rest: exact for this orbit, no
+    derivative, and different at every radius.
 
     Parameters
     ----------

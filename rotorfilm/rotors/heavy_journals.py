@@ -1,6 +1,6 @@
 """A rotor in bearings whose oil adds mass: the forces that solve the accelerations of both at once.
 
-A bearing answers F - M a, a = V f(x, u) being the acceleration of its journal and f linear in the forces u, so
+A bearing answers F - M a, a = V f(x, u) being the acceleration of its journal, f linear in the forces u, so
 
     (1 + M V B) (u - F) = -M V f(x, F)
 
@@ -15,8 +15,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..added_mass import InertialReaction, inertial
 from ..model import Array, Linearization, Reaction
+from ..reactions.added_mass import InertialReaction, inertial
 
 
 class HeavyJournals:
@@ -77,10 +77,14 @@ class HeavyJournals:
         for k, (bearing, rows) in enumerate(zip(self.heavy, self.motion, strict=True)):
             if bearing is not None:
                 at = sensed[rows]
-                by_motion = np.einsum("ijk,j->ik", bearing.mass_slopes(at[:2], at[2:]), rotor.C[rows[2:]] @ rates)
+                by_motion = np.einsum(
+                    "ijk,j->ik", bearing.mass_slopes(at[:2], at[2:]), rotor.C[rows[2:]] @ rates
+                )
                 moved[2 * k : 2 * k + 2, :size] -= by_motion @ rotor.C[rows]
         joint = np.eye(len(mass)) + mass @ along @ push
-        return np.linalg.solve(joint, moved), -np.linalg.solve(joint, mass @ along @ free)
+        by_state = np.asarray(np.linalg.solve(joint, moved), dtype=float)
+        by_input = -np.asarray(np.linalg.solve(joint, mass @ along @ free), dtype=float)
+        return by_state, by_input
 
     def _mass(self, sensed: Array) -> Array:
         """Return the added masses of all journals, shape (2 n, 2 n) [kg]."""
@@ -112,8 +116,7 @@ def with_mass(rotor: Linearization, mass: ArrayLike, force: list[int], motion: l
     Returns
     -------
     Linearization
-        With two outputs more: the force on the journal that is left to accelerate it with the added mass, that
-        is minus the mass times its acceleration [N].
+        With two outputs more: minus the added mass times the acceleration of the journal [N].
     """
     M, V, push = np.asarray(mass, dtype=float), rotor.C[motion[2:]], rotor.B[:, force]
     joint = np.eye(2) + M @ V @ push

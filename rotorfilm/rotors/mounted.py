@@ -11,11 +11,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..added_mass import require_turning
 from ..errors import InputError, require_kind
 from ..inputs.kinds import arguments
 from ..model import Array, Dynamic, Linearization, Reaction, require_reaction, require_reactions
 from ..native.spec import NativeSpec
+from ..reactions.added_mass import require_turning
 from ..signals import JOURNAL_INPUTS, Signal, indices, names
 from ..warming import in_time
 from .heavy_journals import HeavyJournals

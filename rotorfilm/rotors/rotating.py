@@ -25,8 +25,8 @@ def rotating_linearization(
     film : ndarray, shape (2, 5, ...)
         Jacobian of the force at (e, 0), (0, speed e): radial and tangential axes.
     added : tuple of two ndarrays, optional
-        Mass that the film adds, shape (2, 2, ...) [kg], and its slopes times the acceleration -speed^2 (e, 0),
-        by position and velocity, shape (2, 4, ...).
+        Mass that the film adds, shape (2, 2, ...) [kg], and its slopes by position and velocity times the
+        acceleration -speed^2 (e, 0), shape (2, 4, ...).
 
     Returns
     -------

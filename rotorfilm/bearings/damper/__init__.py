@@ -11,10 +11,10 @@ if TYPE_CHECKING:
         gap_seal as gap_seal,
         leak_test_seal as leak_test_seal,
     )
-    from .built.small_motion import (
+    from .built.squeeze_impedance import (
         FilmSegment as FilmSegment,
         SegmentedDamper as SegmentedDamper,
-        SmallMotion as SmallMotion,
+        SqueezeImpedance as SqueezeImpedance,
     )
     from .cage import AxialFeed as AxialFeed, PorousCage as PorousCage, RadialFeed as RadialFeed
     from .damper_groups import DamperGroups as DamperGroups, damper_groups as damper_groups

@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-
 from typing import Self
 
 import numpy as np
@@ -64,13 +63,14 @@ class SqueezeFilmDamper(SqueezeInertia):
     seals : EndSeal or None
         At both ends of a solid cage without feed; None for open ends.
     density : float [kg/m3]
-        Of the oil, whose inertia then is part of the answer: F = `force` - `mass` acceleration, for a solid cage
-        without feed. 0 without inertia.
+        Of the oil, whose inertia then is part of the answer: F = `force` - `mass` acceleration, for a solid
+        cage without feed. 0 without inertia.
 
     Raises
     ------
     InputError
-        If a value breaks its rule, or the film cannot represent the extent, the feed, the seals or the inertia.
+        If a value breaks its rule, or the film cannot represent the extent, the feed, the seals or the
+        inertia.
 
     Warns
     -----
@@ -179,7 +179,7 @@ class SqueezeFilmDamper(SqueezeInertia):
 
     @property
     def squeeze_case(self) -> SqueezeCase:
-        """This damper as its film sees it."""
+        """Itself as its film sees it."""
         modes = layer_modes(self.layer)
         ends = (
             self.feed if isinstance(self.feed, AxialFeed) else AxialFeed(start_pressure=0.0, end_pressure=0.0)

@@ -14,9 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...added_mass import inertial, require_turning
 from ...errors import InputError, require_kind, require_positive
 from ...model import Array, JournalForce, Reaction, largest_eccentricity_ratio, require_reaction
+from ...reactions.added_mass import inertial, require_turning
 from ...rotors import RigidRotor
 from ...rotors.rotating import rotating_linearization
 

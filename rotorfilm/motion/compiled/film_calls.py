@@ -19,7 +19,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...added_mass import require_massless
 from ...bearings.damper import PorousDamper, SqueezeFilmDamper
 from ...bearings.films.kernel_film import BoundKernel
 from ...bearings.linear import LinearBearing
@@ -30,6 +29,7 @@ from ...model import Reaction
 from ...native import Status
 from ...native.layouts.structs import SprungStruct
 from ...native.library import functions, loops
+from ...reactions.added_mass import require_massless
 
 _CALLBACK = CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double))
 

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import OdeSolver, Radau
 
-from ...added_mass import require_turning
 from ...errors import ContactError, ConvergenceError, InputError, require_finite, require_positive
 from ...inputs.kinds import arguments
 from ...model import Array, Dynamic, Reaction, stops
+from ...reactions.added_mass import require_turning
 from ...results import Trajectory
 from ...signals import FORCE_OUTPUTS, names, units
 from ...warming import in_time
@@ -41,7 +41,8 @@ def simulate(
 
     Rotor and film are connected by the names of their signals and integrated together, with the exact
     Jacobian of both, so no coupling error arises. The integration stops at the kinks of a `Kinked` rotor.
-    The mass that the oil of a damper adds is part of the same system. A linear rotor on films that have kernels is integrated in C, as by `simulate_rotor`, all others by scipy.
+    The mass that the oil of a damper adds is part of the same system. A linear rotor on films that have
+    kernels is integrated in C, as by `simulate_rotor`, all others by scipy.
 
     Parameters
     ----------

@@ -135,9 +135,7 @@ def short_inertia(E: Array) -> tuple[InertiaFunctions, InertiaFunctions]:
     n_log = -(1.0 / s + 2.0 / near) * by_s
     c_log = (3.0 / (3.0 * s + 1.0) - 3.0 / s - 3.0 / near) * by_s
     values = InertiaFunctions(2.0 * tenth / near, n, t, 2.0 * t, c)
-    slopes = InertiaFunctions(
-        -2.0 * tenth / near**2 * by_s, n * n_log, t * n_log, 2.0 * t * n_log, c * c_log
-    )
+    slopes = InertiaFunctions(-2.0 * tenth / near**2 * by_s, n * n_log, t * n_log, 2.0 * t * n_log, c * c_log)
     return values, slopes
 
 

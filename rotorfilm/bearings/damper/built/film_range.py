@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ....errors import InputError, warn_user
-from .small_motion import land_share
+from .squeeze_impedance import land_share
 
 FULL_LIMITS = (10.0, 20.0)
 """Squeeze Reynolds numbers to which the first order of the inertia is used as it is, and with a warning."""
@@ -29,7 +29,8 @@ def require_inertia_range(reynolds: float, *, cavitated: bool) -> None:
     -----
     Force on a circular orbit against the exact Navier-Stokes equations of a short full film: at 10 off by
     0.7, 1.6, 2.3 % at eccentricity ratios 0.1, 0.5, 0.8, at 20 by 1.8, 5.1, 12 %. Ruptured, against the
-    pressure of viscosity and inertia cut off together: at 5 by 2.6 and 4.6 % at 0.2 and 0.5, at 10 by 8, 18 %.
+    pressure of viscosity and inertia cut off together: at 5 by 2.6 and 4.6 % at 0.2 and 0.5, at 10 by 8, 18
+    %.
     """
     well, far = RUPTURED_LIMITS if cavitated else FULL_LIMITS
     kind, error = ("ruptured", "8 to 18 %") if cavitated else ("full", "2 to 12 %")

@@ -2,9 +2,9 @@
 
 Laminar flow -grad p = 12 viscosity v/h^2, div(h v) = -h_t, flow out of either end G_s p. By Ritz's method:
 harmonics around the circumference; along the axis Legendre polynomials that vanish at the ends, and a
-constant, which the ends leave free. The inertia of that flow adds a pressure p1 of first order in the Reynolds
-number, whose force needs no second solution: with the velocity field v_k of a unit velocity of the rotor along
-k, and v that of its whole motion,
+constant, which the ends leave free. The inertia of that flow adds a pressure p1 of first order in the
+Reynolds number, whose force needs no second solution: with the velocity field v_k of a unit velocity of the
+rotor along k, and v that of its whole motion,
 
     F1_k = -density * integral of h v_k.[(6/5) dv/dt + (54/35) (v.grad) v - (6/35) (h_t/h) v] dA,
 
@@ -95,16 +95,12 @@ def squeeze_motions(eps: float, slenderness: float, end_leak: float) -> SqueezeM
     mass = [0.15 / slenderness**2 * film.over(film.h * (v.around**2 + v.along**2)) for v in flows]
     damping = [film.damping(k, P) for k, P in enumerate(pressures)]
     moved = [[film.moved(k, p, way) for way in range(2)] for k, p in enumerate(slopes)]
-    pushes = [
-        film.convection(k, rate, flows, moved) for k, rate in ((0, (1, 0)), (0, (0, 1)), (1, (1, 1)))
-    ]
-    return SqueezeMotions(
-        (damping[0], damping[1]), (mass[0], mass[1]), (pushes[0], pushes[1], pushes[2])
-    )
+    pushes = [film.convection(k, rate, flows, moved) for k, rate in ((0, (1, 0)), (0, (0, 1)), (1, (1, 1)))]
+    return SqueezeMotions((damping[0], damping[1]), (mass[0], mass[1]), (pushes[0], pushes[1], pushes[2]))
 
 
 class _Film:
-    """One film: the grid, the trial functions of pressures even (0) and odd (1) in the angle, and solutions."""
+    """One film: its grid, and pressures even (0) and odd (1) in the angle."""
 
     def __init__(self, eps: float, slenderness: float, end_leak: float) -> None:
         count = _harmonics(eps)
@@ -202,7 +198,10 @@ def _axis(*, free_ends: bool) -> _Axis:
     if free_ends:
         rows = np.vstack([np.eye(1, rows.shape[1]), rows])
     value, slope, bend = (
-        np.polynomial.legendre.legval(x, np.polynomial.legendre.legder(rows.T, order)) for order in range(3)
+        np.asarray(
+            np.polynomial.legendre.legval(x, np.polynomial.legendre.legder(rows.T, order)), dtype=float
+        )
+        for order in range(3)
     )
     return _Axis(weight, value, slope, bend, np.sum(rows, axis=1))
 

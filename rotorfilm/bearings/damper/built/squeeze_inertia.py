@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ....errors import InputError
+from ....errors import InputError, require_inside
 from ....model import Array
 from ...films.law import options
 from ...inertial_model import InertialModel
@@ -16,7 +16,7 @@ from ..squeeze_laws import SqueezeCase, SqueezeLaw, SqueezeOptions
 from .end_seals import EndSeal
 from .film_inertia import FilmInertia
 from .film_range import require_inertia_range
-from .small_motion import FilmSegment, SegmentedDamper, SmallMotion
+from .squeeze_impedance import FilmSegment, SegmentedDamper, SqueezeImpedance
 
 
 class SqueezeInertia(InertialModel):
@@ -32,7 +32,7 @@ class SqueezeInertia(InertialModel):
 
     @property
     def squeeze_case(self) -> SqueezeCase:
-        """This damper as its film sees it."""
+        """Itself as its film sees it."""
         raise NotImplementedError
 
     @property
@@ -65,15 +65,15 @@ class SqueezeInertia(InertialModel):
         if velocity is None and self.has_inertia and self.squeeze_case.cavitated:
             raise InputError("velocity must be given for the mass of a ruptured film, got None")
         q, v, _ = broadcast_state(position, np.zeros(2) if velocity is None else velocity, 0.0)
-        self.require_film(q)
+        require_inside(q, self.clearance)
         if not self.has_inertia:
             return np.zeros((2, *q.shape))
         return self._inertia_scale / self.clearance * self.film_inertia.mass(*self._scaled(q, v))
 
     def mass_slopes(self, position: ArrayLike, velocity: ArrayLike) -> Array:
-        """Return d mass / d (x, y, vx, vy), shape (2, 2, 4, ...); see `added_mass.InertialReaction`."""
+        """Return d mass / d (x, y, vx, vy), shape (2, 2, 4, ...); see `InertialReaction`."""
         q, v, _ = broadcast_state(position, velocity, 0.0)
-        self.require_film(q)
+        require_inside(q, self.clearance)
         if not self.has_inertia:
             return np.zeros((2, 2, 4, *q.shape[1:]))
         return self._inertia_scale / self.clearance**2 * self.film_inertia.mass_slopes(*self._scaled(q, v))
@@ -92,7 +92,7 @@ class SqueezeInertia(InertialModel):
         """
         require_inertia_range(self.reynolds_number(frequency), cavitated=self.squeeze_case.cavitated)
 
-    def small_motion(self, frequency: float) -> SmallMotion:
+    def small_motion(self, frequency: float) -> SqueezeImpedance:
         """Return damping and added mass of small motion about the center, exact in the frequency [rad/s].
 
         Parameters

@@ -1,9 +1,9 @@
 """Small motion of a centered full squeeze film: lands and grooves between seals, exact in the frequency.
 
-A film of thickness h answers -grad p = Z v with Z = i w density/(1 - tanh(l)/l), l = (h/2) sqrt(i w/nu), which
-is 12 viscosity/h^2 + (6/5) i w density to first order. Around the circumference p = P(z) cos(theta), per unit
-velocity of the rotor P'' - P/R^2 = Z/h; P and the flow -(h/Z) P' are continuous from segment to segment, and
-flow = G_s P at the ends. The force pi R integral of P dz is -(C + i w M).
+A film of thickness h answers -grad p = Z v with Z = i w density/(1 - tanh(l)/l), l = (h/2) sqrt(i w/nu),
+which is 12 viscosity/h^2 + (6/5) i w density to first order. Around the circumference p = P(z) cos(theta),
+per unit velocity of the rotor P'' - P/R^2 = Z/h; P and the flow -(h/Z) P' are continuous from segment to
+segment, and flow = G_s P at the ends. The force pi R integral of P dz is -(C + i w M).
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ SERIES = 0.05
 
 
 @dataclass(frozen=True, kw_only=True)
-class SmallMotion(Readable):
+class SqueezeImpedance(Readable):
     """Damping and added mass of a squeeze film, the same in every direction, at one frequency.
 
     Attributes
@@ -104,7 +104,7 @@ class SegmentedDamper:
         for segment in self.segments:
             require_kind("segments", segment, FilmSegment, "FilmSegments")
 
-    def small_motion(self, frequency: float) -> SmallMotion:
+    def small_motion(self, frequency: float) -> SqueezeImpedance:
         """Return damping and added mass at a frequency [rad/s], exact for laminar flow.
 
         Parameters
@@ -122,7 +122,7 @@ class SegmentedDamper:
         slow = 1e-4 * self.viscosity / max(self.density, 1e-9) / max(s.clearance for s in self.segments) ** 2
         at = frequency or slow
         impedance = -self._force(at)
-        return SmallMotion(
+        return SqueezeImpedance(
             damping=impedance.real, added_mass=impedance.imag / at, frequency=float(frequency)
         )
 
