@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .errors import InputError, brief, require_kind
+from .reactions.added_mass import require_massless
 from .signals import Signal
 
 Array = NDArray[np.float64]
@@ -195,17 +196,19 @@ class Reaction(JournalForce, Model, Protocol):
     """A model whose outputs begin with FORCE_OUTPUTS, on the journal, and its inputs with JOURNAL_INPUTS."""
 
 
-def require_reaction(name: str, value: object, kind: Any = Reaction) -> None:
-    """Raise InputError unless `value` is a Reaction, or of a lesser kind, with a list of what it lacks."""
+def require_reaction(name: str, value: object, kind: Any = Reaction, *, heavy: bool = False) -> None:
+    """Raise InputError unless `value` is a Reaction or of a lesser kind, with added mass only if `heavy`."""
     require_kind(name, value, kind, "a Reaction such as a JournalBearing, or what as_reaction makes")
+    if not heavy:
+        require_massless(name, value)
 
 
-def require_reactions(name: str, values: object) -> None:
+def require_reactions(name: str, values: object, *, heavy: bool = False) -> None:
     """Raise InputError unless `values` is a mapping from names of stations to Reactions."""
     if not isinstance(values, Mapping):
         raise InputError(f"{name} must be a mapping such as {{'left': film}}, got {brief(values)}")
     for station, value in values.items():
-        require_reaction(f"{name}[{station!r}]", value)
+        require_reaction(f"{name}[{station!r}]", value, heavy=heavy)
 
 
 class Force(Protocol):

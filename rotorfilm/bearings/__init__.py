@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from .films.law import FilmLaw as FilmLaw
     from .films.map_fit import fit_map_table, tabulate_film
     from .films.map_table import MapTable as MapTable
+    from .inertial_model import InertialCoefficients as InertialCoefficients
     from .journal import *
     from .linear import LinearBearing as LinearBearing
     from .oil import Cooling as Cooling, Oil as Oil

@@ -20,13 +20,14 @@ from ..model import (
     prepared_tangent,
 )
 from ..native.spec import HasKernel, NativeSpec
+from ..reactions.added_mass import inertial
 from .contact_place import WalledReaction, minimum_film
-from .reaction import StaticReaction
+from .inertial_model import InertialModel
 
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class Sprung(StaticReaction):
+class Sprung(InertialModel):
     """A reaction in parallel with equal springs along x and y: F = reaction - stiffness * position.
 
     The springs are preloaded so that they carry the static load where the rotor is centered: give the rotor
@@ -75,6 +76,37 @@ class Sprung(StaticReaction):
     def nominal_force(self) -> float:
         """Nominal force of the reaction [N]."""
         return self.reaction.outputs[0].nominal
+
+    @property
+    def has_inertia(self) -> bool:
+        """Whether the reaction adds the mass of its oil to the rotor."""
+        return inertial(self.reaction) is not None
+
+    def mass(self, position: ArrayLike, velocity: ArrayLike) -> Array:
+        """Return the added mass of the reaction [kg], shape (2, 2, ...), zeros without inertia."""
+        heavy = inertial(self.reaction)
+        if heavy is None:
+            return np.zeros((2, *np.shape(position)))
+        return heavy.mass(position, velocity)
+
+    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike) -> Array:
+        """Return d mass / d (x, y, vx, vy), shape (2, 2, 4, ...)."""
+        heavy = inertial(self.reaction)
+        if heavy is None:
+            return np.zeros((2, 2, 4, *np.shape(position)[1:]))
+        return heavy.mass_slopes(position, velocity)
+
+    def require_range(self, frequency: float) -> None:
+        """Warn, or raise InputError, where the inertia of the reaction ends, for whirl at [rad/s].
+
+        Parameters
+        ----------
+        frequency : float [rad/s]
+            Of the motion.
+        """
+        heavy = inertial(self.reaction)
+        if heavy is not None:
+            heavy.require_range(frequency)
 
     def native(self) -> NativeSpec | None:
         """Return the kernel of the reaction with these springs; None where it takes none."""

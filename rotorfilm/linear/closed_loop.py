@@ -10,13 +10,18 @@ from numpy.typing import ArrayLike
 from ..errors import InputError, require_finite, require_kind
 from ..inputs.kinds import arguments
 from ..model import Array, Dynamic, Model, Reaction, require_reaction
+from ..reactions.added_mass import inertial, require_turning
 from ..results import Equilibrium
+from ..rotors.heavy_journals import with_mass
 from ..signals import FORCE_OUTPUTS, MOTION_NAMES, indices, names
 from .equilibrium import equilibrium
-from .linearize import OperatingPoint, linearize
+from .linearize import OperatingPoint, checked_vector, control_system, linearize
 
 if TYPE_CHECKING:
     import control
+
+INERTIA = ("inertia_force_x", "inertia_force_y")
+"""Outputs of a rotor that carries its film's mass: minus that mass times the acceleration."""
 
 HOUSING = ("housing_force_x", "housing_force_y")
 
@@ -43,7 +48,8 @@ def closed_loop(
     control.StateSpace
         Inputs force_x, force_y: small external force on the journal [N]. Outputs x, y, vx, vy: small motion
         about the equilibrium [m, m/s], and housing_force_x, housing_force_y: change of the force on the
-        housing [N], the opposite of the film force on the journal. The speed is constant.
+        housing [N], the opposite of the film force on the journal. The speed is constant. The mass that a
+        film adds is that of the rotor's, and its force is part of that on the housing.
 
     Raises
     ------
@@ -51,15 +57,19 @@ def closed_loop(
         If the rotor lacks one of these signals, or `at` is no Equilibrium.
     """
     require_kind("rotor", rotor, Model, "a rotor such as a RigidRotor")
-    require_reaction("reaction", reaction)
+    require_reaction("reaction", reaction, heavy=True)
+    require_turning(reaction, rotor)
     indices("rotor must have the inputs", names(rotor.inputs), FORCE_OUTPUTS)
     indices("rotor must have the outputs", names(rotor.outputs), MOTION_NAMES)
     require_kind("at", at, Equilibrium, "an Equilibrium, as equilibrium() returns it")
     shaft = OperatingPoint(x=rotor.initial_state, u=-at.load)
+    housing = [[f"-film.{signal}"] for signal in FORCE_OUTPUTS]
+    if inertial(reaction) is not None:
+        housing = [[*of, f"-rotor.{own}"] for of, own in zip(housing, INERTIA, strict=True)]
     import control
 
     return control.interconnect(
-        [linearize(rotor, shaft, name="rotor"), linearize(reaction, at, name="film")],
+        [_rotor(rotor, reaction, at, shaft), linearize(reaction, at, name="film")],
         connections=[
             *([f"film.{signal}", f"rotor.{signal}"] for signal in MOTION_NAMES),
             *([f"rotor.{signal}", f"film.{signal}"] for signal in FORCE_OUTPUTS),
@@ -68,12 +78,28 @@ def closed_loop(
         inputs=list(FORCE_OUTPUTS),
         outlist=[
             *(f"rotor.{signal}" for signal in MOTION_NAMES),
-            *(f"-film.{signal}" for signal in FORCE_OUTPUTS),
+            *housing,
         ],
         outputs=[*MOTION_NAMES, *HOUSING],
         name=name,
         # the speed is a parameter of the linear loop, whatever the rotor says about it
         check_unused=False,
+    )
+
+
+def _rotor(rotor: Dynamic, reaction: Reaction, at: Equilibrium, shaft: OperatingPoint) -> control.StateSpace:
+    """Return a rotor with the mass that its film adds, whose forces on the journal are outputs then."""
+    heavy = inertial(reaction)
+    if heavy is None:
+        return linearize(rotor, shaft, name="rotor")
+    force = indices("rotor must have the inputs", names(rotor.inputs), FORCE_OUTPUTS)
+    motion = indices("rotor must have the outputs", names(rotor.outputs), MOTION_NAMES)
+    state = checked_vector("x", shaft.x, len(rotor.states))
+    matrices = rotor.linearization(0.0, state, checked_vector("u", shaft.u, len(rotor.inputs)))
+    whole = with_mass(matrices, heavy.mass(at.position, np.zeros(2)), force, motion)
+    outputs = (*names(rotor.outputs), *INERTIA)
+    return control_system(
+        *whole, inputs=names(rotor.inputs), outputs=outputs, states=names(rotor.states), name="rotor"
     )
 
 

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..bearings.inertial_model import InertialCoefficients
 from ..errors import InputError, require_finite, require_number
 from ..inputs.kinds import arguments
 from ..model import JournalForce, Reaction, require_reaction
+from ..reactions.added_mass import inertial
 from ..results import Coefficients
 from ..warming import Settling, settled
 from .equilibrium import equilibrium
@@ -23,6 +25,8 @@ def coefficients(
     reaction: Reaction, position: ArrayLike, speed: float, frequency: float | None = None
 ) -> Coefficients:
     """Return K = -dF/d(position) and C = -dF/d(velocity) of a film, for a journal at rest.
+
+    Of a film with inertia also the added mass, as `InertialCoefficients`.
 
     Parameters
     ----------
@@ -46,7 +50,7 @@ def coefficients(
     UndefinedDerivativeError
         If the film has no derivative there.
     """
-    require_reaction("reaction", reaction, JournalForce)
+    require_reaction("reaction", reaction, JournalForce, heavy=True)
     position = require_finite("position", position)
     speed = require_number("speed", speed)
     if position.shape != (2,):
@@ -56,11 +60,15 @@ def coefficients(
         found: Coefficients = film.at_rest().coefficients(position, speed, frequency)
         return found
     derivative = film.jacobian(position, np.zeros(2), speed)
-    return Coefficients(
-        stiffness=-derivative[:, :2],
-        damping=-derivative[:, 2:4],
+    stiffness, damping, heavy = -derivative[:, :2], -derivative[:, 2:4], inertial(film)
+    if heavy is None:
+        return Coefficients(stiffness=stiffness, damping=damping, position=position, speed=speed)
+    return InertialCoefficients(
+        stiffness=stiffness,
+        damping=damping,
         position=position,
         speed=speed,
+        mass=heavy.mass(position, np.zeros(2)),
     )
 
 
@@ -84,6 +92,7 @@ def coefficient_table(reaction: Reaction, load: ArrayLike, speeds: ArrayLike) ->
     EquilibriumError
         If there is no equilibrium at one of the speeds.
     """
+    require_reaction("reaction", reaction)
     grid = require_finite("speeds", speeds)
     if grid.ndim != 1 or not grid.size:
         raise InputError(f"speeds must be a list of rising numbers, got {speeds!r}")

@@ -107,7 +107,7 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     angle phi of the position. The residual is (log(|F| / |load|), angle from -load to F). A film force grows
     as a power of chi near the center and of 1 - chi near the wall: the equations are nearly linear.
     """
-    require_reaction("reaction", reaction, JournalForce)
+    require_reaction("reaction", reaction, JournalForce, heavy=True)
     load = checked_load(load)
     speed = require_number("speed", speed)
     if isinstance(reaction, Warming) and reaction.is_warming:

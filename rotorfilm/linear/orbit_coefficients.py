@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..bearings.inertial_model import InertialCoefficients
 from ..errors import InputError, require_number, require_positive
 from ..inputs.kinds import arguments
 from ..model import JournalForce, Reaction, require_reaction
+from ..reactions.added_mass import inertial
 from ..readable.result import Readable
 from ..results import CircularOrbit
 from ..rotors import RigidRotor
@@ -46,8 +48,9 @@ class OrbitCoefficients(Readable):
 def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: float) -> OrbitCoefficients:
     """Return the equivalent coefficients of a film on a synchronous circular orbit.
 
-    They are what a linear code may take for a cavitated film, which has no damping matrix at rest: exact for
-    this orbit, no derivative, and different at every radius.
+    With inertia the stiffness is that without the added mass, minus its mass times speed^2. They are what a
+    linear code may take for a cavitated film, which has no damping matrix at rest: exact for this orbit, no
+    derivative, and different at every radius.
 
     Parameters
     ----------
@@ -65,12 +68,17 @@ def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: flo
     FilmContactError
         If the orbit is as wide as the clearance.
     """
-    require_reaction("reaction", reaction, JournalForce)
+    require_reaction("reaction", reaction, JournalForce, heavy=True)
     require_positive("eccentricity_ratio", eccentricity_ratio)
     if require_number("speed", speed) == 0.0:
         raise InputError(f"speed must not be zero on an orbit, got {speed!r}")
     radius = eccentricity_ratio * reaction.clearance
     radial, tangential = reaction.force([radius, 0.0], [0.0, speed * radius], speed)
+    heavy = inertial(reaction)
+    if heavy is not None:
+        heavy.require_range(speed)
+        swung = heavy.mass([radius, 0.0], [0.0, speed * radius])[:, 0] * speed**2 * radius
+        radial, tangential = radial + swung[0], tangential + swung[1]
     return OrbitCoefficients(
         stiffness=float(-radial / radius),
         damping=float(-tangential / (speed * radius)),
@@ -85,7 +93,8 @@ def small_motion_transmissibility(
 ) -> control.TransferFunction:
     """Return the force on the housing per force on the rotor in small motion about the center.
 
-    T(s) = (C s + K)/(m s^2 + C s + K), with |T| = 1 at s = i sqrt(2 K/m) whatever the damping.
+    T(s) = (M s^2 + C s + K)/((m + M) s^2 + C s + K), M being the mass that the film adds; |T| = 1 at
+    s = i sqrt(2 K/(m + 2 M)) whatever the damping, and M/(m + M) at high speed.
 
     Parameters
     ----------
@@ -103,11 +112,18 @@ def small_motion_transmissibility(
     """
     at = coefficients(reaction, [0.0, 0.0], 0.0)
     stiffness, damping = _isotropic("stiffness", at.stiffness), _isotropic("damping", at.damping)
+    added = 0.0
+    if isinstance(at, InertialCoefficients):
+        added = _isotropic("mass", at.mass)
     numerator = [damping, stiffness]
     import control
 
     return control.TransferFunction(
-        numerator, [rotor.mass, *numerator], inputs=["force"], outputs=["housing_force"], name=name
+        [added, *numerator] if added else numerator,
+        [rotor.mass + added, *numerator],
+        inputs=["force"],
+        outputs=["housing_force"],
+        name=name,
     )
 
 
@@ -133,10 +149,15 @@ def orbit_system(
         their rates: change of the position in turning axes [m, m/s]; housing_radial, housing_tangential:
         change of the force on the housing [N]. Its poles are the Floquet exponents of the orbit.
     """
-    require_reaction("reaction", reaction, JournalForce)
+    require_reaction("reaction", reaction, JournalForce, heavy=True)
     radius = orbit.eccentricity_ratio * reaction.clearance
-    film = reaction.jacobian([radius, 0.0], [0.0, orbit.speed * radius], orbit.speed)
-    matrices = rotating_linearization(rotor.mass, orbit.speed, film)
+    position, velocity = np.array([radius, 0.0]), np.array([0.0, orbit.speed * radius])
+    film, added = reaction.jacobian(position, velocity, orbit.speed), None
+    heavy = inertial(reaction)
+    if heavy is not None:
+        slopes = heavy.mass_slopes(position, velocity)
+        added = heavy.mass(position, velocity), -(orbit.speed**2) * radius * slopes[:, 0]
+    matrices = rotating_linearization(rotor.mass, orbit.speed, film, added)
     nominal = reaction.outputs[0].nominal
     inputs = tuple(
         Signal(name=f"force_{axis}", unit="N", nominal=nominal, description=f"{axis} force on the rotor")

@@ -15,8 +15,10 @@ from ..errors import InputError, require_kind
 from ..inputs.kinds import arguments
 from ..model import Array, Dynamic, Linearization, Reaction, require_reaction, require_reactions
 from ..native.spec import NativeSpec
+from ..reactions.added_mass import require_turning
 from ..signals import JOURNAL_INPUTS, Signal, indices, names
 from ..warming import in_time
+from .heavy_journals import HeavyJournals
 from .stations import AroundRotor, prefixed
 from .system_kernel import system_kernel
 
@@ -54,7 +56,7 @@ class MountedRotor(AroundRotor):
             )
         require_kind("rotor", self.rotor, Dynamic, "a rotor such as a ShaftRotor")
         for station, bearing in zip(self.stations, self.bearings, strict=True):
-            require_reaction(f"bearings[{station!r}]", bearing)
+            require_reaction(f"bearings[{station!r}]", bearing, heavy=True)
             if bearing.states and not isinstance(bearing, Dynamic):
                 raise InputError(f"bearings with states must be Dynamic, got {bearing!r}")
             if names(bearing.inputs) != list(JOURNAL_INPUTS):
@@ -104,7 +106,7 @@ class MountedRotor(AroundRotor):
     def derivative(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return dx/dt with the bearings' forces at this state; FilmContactError as the bearings raise it."""
         own, felt = self._split(t, x)
-        forces = [b.output(t, z, m)[:2] for b, z, m in felt]
+        forces = self._forces(t, own, [b.output(t, z, m)[:2] for b, z, m in felt], u)
         rates = [
             b.derivative(t, z, m) for b, (_, z, m) in zip(self._moving, felt, strict=True) if b is not None
         ]
@@ -114,7 +116,7 @@ class MountedRotor(AroundRotor):
         """Return the outputs of the rotor, the bearings' forces, and their further outputs."""
         own, felt = self._split(t, x)
         values = [b.output(t, z, m) for b, z, m in felt]
-        forces = [value[:2] for value in values]
+        forces = self._forces(t, own, [value[:2] for value in values], u)
         whole = self.rotor.output(t, own, self._inputs(forces, u))
         return np.concatenate([whole, *forces, *(value[2:] for value in values)])
 
@@ -122,18 +124,25 @@ class MountedRotor(AroundRotor):
         """Return the exact derivatives of rotor and bearings; the speed is held."""
         own, felt = self._split(t, x)
         parts = [b.linearization(t, z, m) for b, z, m in felt]
-        values = [b.output(t, z, m)[:2] for b, z, m in felt]
-        rotor = self.rotor.linearization(t, own, self._inputs(values, u))
+        values = self._forces(t, own, [b.output(t, z, m)[:2] for b, z, m in felt], u)
+        inputs = self._inputs(values, u)
+        rotor = self.rotor.linearization(t, own, inputs)
         slopes = _joined(parts, [rotor.C[rows] for rows in self._motion], rotor.C.shape[1])
         taken, free = self._taken, list(self._free)
+        forces, driven = slopes.forces, np.zeros((len(slopes.forces), len(free)))
+        if self._heavy:
+            rates, sensed = self.rotor.derivative(t, own, inputs), self.rotor.output(t, own, inputs)
+            columns = rotor.B[:, taken], rotor.B[:, free]
+            forces, driven = self._heavy.slopes(rotor, *columns, sensed, forces, rates)
         states = len(slopes.A) - len(rotor.A)
-        push = np.hstack([rotor.A, np.zeros((len(rotor.A), states))]) + rotor.B[:, taken] @ slopes.forces
-        seen = np.hstack([rotor.C, np.zeros((len(rotor.C), states))]) + rotor.D[:, taken] @ slopes.forces
+        push = np.hstack([rotor.A, np.zeros((len(rotor.A), states))]) + rotor.B[:, taken] @ forces
+        seen = np.hstack([rotor.C, np.zeros((len(rotor.C), states))]) + rotor.D[:, taken] @ forces
+        by_input = rotor.B[:, free] + rotor.B[:, taken] @ driven
         return Linearization(
             np.vstack([push, slopes.A[len(rotor.A) :]]),
-            np.vstack([rotor.B[:, free], np.zeros((states, len(free)))]),
-            np.vstack([seen, slopes.forces, slopes.further]),
-            np.vstack([rotor.D[:, free], np.zeros((len(slopes.forces) + len(slopes.further), len(free)))]),
+            np.vstack([by_input, np.zeros((states, len(free)))]),
+            np.vstack([seen, forces, slopes.further]),
+            np.vstack([rotor.D[:, free], driven, np.zeros((len(slopes.further), len(free)))]),
         )
 
     def native(self) -> NativeSpec | None:
@@ -156,6 +165,15 @@ class MountedRotor(AroundRotor):
         inner = [whole[a:b] for a, b in pairwise(self._ends)]
         motion = [sensed[rows] for rows in self._motion]
         return own, list(zip(self.bearings, inner, motion, strict=True))
+
+    def _forces(self, t: float, own: Array, forces: list[Array], u: ArrayLike) -> list[Array]:
+        """Return the forces of the bearings, with those of their added masses."""
+        if not self._heavy:
+            return forces
+        inputs = self._inputs(forces, u)
+        rotor, rates = self.rotor.linearization(t, own, inputs), self.rotor.derivative(t, own, inputs)
+        sensed, push = self.rotor.output(t, own, inputs), rotor.B[:, self._taken]
+        return np.split(self._heavy.forces(rotor, push, sensed, np.concatenate(forces), rates), len(forces))
 
     def _inputs(self, forces: Sequence[Array], u: ArrayLike) -> Array:
         whole = np.empty(self._size)
@@ -185,6 +203,10 @@ class MountedRotor(AroundRotor):
     def _motion(self) -> list[list[int]]:
         speed = indices("rotor must have the outputs", names(self.rotor.outputs), ["speed"])
         return [rows + speed for rows in self.motion_places]
+
+    @cached_property
+    def _heavy(self) -> HeavyJournals:
+        return HeavyJournals(self.bearings, self._motion)
 
     @cached_property
     def _taken(self) -> list[int]:
@@ -240,7 +262,9 @@ def mount(rotor: Dynamic, bearings: Mapping[str, Reaction]) -> MountedRotor:
     InputError
         If the rotor has no such station, or a bearing does not fit.
     """
-    require_reactions("bearings", bearings)
+    require_reactions("bearings", bearings, heavy=True)
+    for bearing in bearings.values():
+        require_turning(bearing, rotor)
     return MountedRotor(
         rotor=rotor, stations=tuple(bearings), bearings=tuple(map(in_time, bearings.values()))
     )

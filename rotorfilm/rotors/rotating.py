@@ -7,7 +7,9 @@ import numpy as np
 from ..model import Array, Linearization
 
 
-def rotating_linearization(mass: float, speed: float, film: Array) -> Linearization:
+def rotating_linearization(
+    mass: float, speed: float, film: Array, added: tuple[Array, Array] | None = None
+) -> Linearization:
     """Return the motion near a synchronous circular orbit, in radial and tangential axes.
 
     With q = R(speed t) r the film and the unbalance see a state at rest, and
@@ -22,6 +24,9 @@ def rotating_linearization(mass: float, speed: float, film: Array) -> Linearizat
     speed : float [rad/s]
     film : ndarray, shape (2, 5, ...)
         Jacobian of the force at (e, 0), (0, speed e): radial and tangential axes.
+    added : tuple of two ndarrays, optional
+        Mass that the film adds, shape (2, 2, ...) [kg], and its slopes by position and velocity times the
+        acceleration -speed^2 (e, 0), shape (2, 4, ...).
 
     Returns
     -------
@@ -32,16 +37,24 @@ def rotating_linearization(mass: float, speed: float, film: Array) -> Linearizat
     """
     slopes = np.moveaxis(film, (0, 1), (-2, -1))
     J = np.array([[0.0, -1.0], [1.0, 0.0]])
+    heavy = np.zeros((*slopes.shape[:-2], 2, 2))
+    if added is not None:
+        heavy = np.moveaxis(added[0], (0, 1), (-2, -1))
+        slopes = slopes[..., :4] - np.moveaxis(added[1], (0, 1), (-2, -1))
     by_velocity = slopes[..., 2:4]
     by_position = slopes[..., :2] + speed * by_velocity @ J
+    share = np.linalg.inv(mass * np.eye(2) + heavy)
     A = np.zeros((*slopes.shape[:-2], 4, 4))
     A[..., :2, 2:] = np.eye(2)
-    A[..., 2:, :2] = by_position / mass + speed**2 * np.eye(2)
-    A[..., 2:, 2:] = by_velocity / mass - 2.0 * speed * J
-    B = np.zeros((4, 2))
-    B[2:] = np.eye(2) / mass
+    A[..., 2:, :2] = share @ by_position + speed**2 * np.eye(2)
+    A[..., 2:, 2:] = share @ by_velocity - 2.0 * speed * J
+    B = np.zeros((*(A.shape[:-2] if added is not None else ()), 4, 2))
+    B[..., 2:, :] = share if added is not None else np.eye(2) / mass
     C = np.zeros((*slopes.shape[:-2], 6, 4))
     C[..., :4, :] = np.eye(4)
-    C[..., 4:, :2] = -by_position
-    C[..., 4:, 2:] = -by_velocity
-    return Linearization(A, B, C, np.zeros((6, 2)))
+    # The film gives the housing -dF + M da, and m da = dF - M da + the force on the rotor.
+    C[..., 4:, :2] = -mass * share @ by_position
+    C[..., 4:, 2:] = -mass * share @ by_velocity
+    D = np.zeros((*B.shape[:-2], 6, 2))
+    D[..., 4:, :] = heavy @ share if added is not None else 0.0
+    return Linearization(A, B, C, D)

@@ -1,11 +1,21 @@
-"""Squeeze-film dampers with a porous cage."""
+"""Squeeze-film dampers: solid or porous cages, seals, grooves, the inertia of the oil."""
 
 from typing import TYPE_CHECKING
 
 from ...sources import show
 
 if TYPE_CHECKING:
-    from .bearing import PorousDamper as PorousDamper
+    from .bearing import PorousDamper as PorousDamper, SqueezeFilmDamper as SqueezeFilmDamper
+    from .built.end_seals import (
+        EndSeal as EndSeal,
+        gap_seal as gap_seal,
+        leak_test_seal as leak_test_seal,
+    )
+    from .built.squeeze_impedance import (
+        FilmSegment as FilmSegment,
+        SegmentedDamper as SegmentedDamper,
+        SqueezeImpedance as SqueezeImpedance,
+    )
     from .cage import AxialFeed as AxialFeed, PorousCage as PorousCage, RadialFeed as RadialFeed
     from .conserved.damper_supply import DamperSupply as DamperSupply
     from .conserved.damper_turn import DamperTurn as DamperTurn, damper_turn as damper_turn

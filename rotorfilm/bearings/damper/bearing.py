@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from ...errors import (
     InputError,
     require_each,
     require_kind,
+    require_non_negative,
     require_positive,
     warn_user,
 )
@@ -22,7 +24,10 @@ from ...native.spec import NativeSpec
 from ..films.cavitation import FullFilm, HalfSommerfeld
 from ..films.kernel_film import BoundKernel
 from ..films.law import options
-from ..reaction import NOMINAL_SPEED, StaticReaction
+from ..reaction import NOMINAL_SPEED
+from .built.end_seals import EndSeal
+from .built.film_range import warn_of_short_seals
+from .built.squeeze_inertia import SqueezeInertia
 from .cage import AxialFeed, PorousCage, RadialFeed
 from .damper_kernel import DIMENSIONS, damper_spec
 from .full_squeeze import SqueezeFilm
@@ -36,7 +41,7 @@ LARGEST_RATIO = 0.5
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class PorousDamper(StaticReaction):
+class SqueezeFilmDamper(SqueezeInertia):
     """A squeeze-film damper: a Reaction whose journal does not spin, so that the speed does not matter.
 
     Parameters
@@ -55,11 +60,17 @@ class PorousDamper(StaticReaction):
     film : SqueezeLaw
         `ShortSqueeze()`, `FiniteSqueeze()`, their maps `MapSqueeze()` and `FiniteMapSqueeze()`, which also
         run in C inside an FMU, or, for history, `PublishedSqueeze()`.
+    seals : EndSeal or None
+        At both ends of a solid cage without feed; None for open ends.
+    density : float [kg/m3]
+        Of the oil, whose inertia then is part of the answer: F = `force` - `mass` acceleration, for a solid
+        cage without feed. 0 without inertia.
 
     Raises
     ------
     InputError
-        If a value breaks its rule, or the film cannot represent the extent or the feed.
+        If a value breaks its rule, or the film cannot represent the extent, the feed, the seals or the
+        inertia.
 
     Warns
     -----
@@ -70,6 +81,8 @@ class PorousDamper(StaticReaction):
     -----
     Cusano & Funk (1977) without the wedge term, which a race that does not spin does not have. Full films
     have F = -(a w + b (e.w) e + k e), w = velocity/clearance, in closed form: the center is no exception.
+    Inertia to first order in the squeeze Reynolds number frequency clearance^2 density/viscosity: up to 10,
+    a ruptured film to 5; see `require_range`.
     """
 
     radius: float
@@ -80,6 +93,8 @@ class PorousDamper(StaticReaction):
     extent: FullFilm | HalfSommerfeld = field(default_factory=HalfSommerfeld)
     feed: RadialFeed | AxialFeed | None = None
     film: SqueezeLaw = field(default_factory=ShortSqueeze)
+    seals: EndSeal | None = None
+    density: float = 0.0
 
     def __post_init__(self) -> None:
         require_each(self, require_positive, "radius", "length", "clearance", "viscosity")
@@ -91,7 +106,12 @@ class PorousDamper(StaticReaction):
         require_kind("film", self.film, SqueezeLaw, "a squeeze film such as ShortSqueeze()")
         if self._back_is_open and isinstance(self.feed, RadialFeed):
             raise InputError("feed must not be a RadialFeed where the back of the cage is vented, got both")
-        _ = self.bound_film
+        require_kind("seals", self.seals, EndSeal | None, "an EndSeal or None")
+        require_non_negative("density", self.density)
+        for name in ("seals", "density"):
+            if getattr(self, name) and (self.cage is not None or self.feed is not None):
+                raise InputError(f"{name} must be left out beside a porous cage or a feed, got {self!r}")
+        _ = self.bound_film, self.density and self.film_inertia
         self._warn()
 
     @property
@@ -117,7 +137,7 @@ class PorousDamper(StaticReaction):
     @property
     def is_fed(self) -> bool:
         """Whether the force has a part that comes from a feed, so that the film has no potential."""
-        case = self._case
+        case = self.squeeze_case
         return bool(np.any(case.feed) or (case.cavitated and np.any(case.ends)))
 
     @cached_property
@@ -128,29 +148,29 @@ class PorousDamper(StaticReaction):
     @cached_property
     def bound_film(self) -> SqueezeFilm:
         """The film law in this damper's dimensions."""
-        return self.film.bind(self._case)
+        return self.film.bind(self.squeeze_case)
 
     @cached_property
     def film_in_c(self) -> BoundKernel | None:
         """The film in SI units in C, to be asked at speed 0; None where the law is no map."""
-        if not isinstance(self.bound_film, MappedSqueezeFilm):
+        if self.has_inertia or not isinstance(self.bound_film, MappedSqueezeFilm):
             return None
         return self.bound_film.bound(clearance=self.clearance, force_scale=self.force_scale)
 
     def native(self) -> NativeSpec | None:
         """Return the kernel of the C library that is this damper; None if its film is no map.
 
-        Nor has a subclass, which may differ from it.
+        Nor has one with seals or inertia, nor a subclass, which may differ from it.
         """
-        if type(self) is not PorousDamper:
+        if type(self) not in KERNELS or self.has_inertia:
             return None
         dimensions = {name: getattr(self, name) for name, _, _ in DIMENSIONS}
         caged = self.cage is not None
         return damper_spec(self.bound_film, dimensions, caged=caged, nominal_force=self.nominal_force)
 
-    def portable(self) -> PorousDamper:
+    def portable(self) -> Self:
         """Return this damper with a film that carries the table it needs; see `model.Portable`."""
-        carried = self._options.tabulated(self._case)
+        carried = self._options.tabulated(self.squeeze_case)
         return self if carried is None else replace(self, film=carried)
 
     @property
@@ -158,7 +178,8 @@ class PorousDamper(StaticReaction):
         return options(self.film, SqueezeOptions)
 
     @property
-    def _case(self) -> SqueezeCase:
+    def squeeze_case(self) -> SqueezeCase:
+        """Itself as its film sees it."""
         modes = layer_modes(self.layer)
         ends = (
             self.feed if isinstance(self.feed, AxialFeed) else AxialFeed(start_pressure=0.0, end_pressure=0.0)
@@ -171,7 +192,15 @@ class PorousDamper(StaticReaction):
             feed=self._feed(modes),
             ends=(ends.start_pressure * rate, ends.end_pressure * rate),
             cavitated=isinstance(self.extent, HalfSommerfeld),
+            end_leak=self._end_leak,
         )
+
+    @property
+    def _end_leak(self) -> float:
+        """12 viscosity radius G_s/clearance^3."""
+        if self.seals is None:
+            return math.inf
+        return 12.0 * self.viscosity * self.radius * self.seals.leakage / self.clearance**3
 
     def prepare(self) -> Callable[[float, float, float, float, float], tuple[float, float]]:
         """Return the force as a function of five numbers; in C for a map. See `StaticReaction.prepare`."""
@@ -201,12 +230,13 @@ class PorousDamper(StaticReaction):
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape, inside the clearance."""
-        return self.force_scale * self.bound_film.force(position / self.clearance, velocity / self.clearance)
+        film = self.force_scale * self.bound_film.force(position / self.clearance, velocity / self.clearance)
+        return film + self.convection(position, velocity)
 
     def prepared_jacobian(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `jacobian` for inner loops: float arrays of equal batch shape, inside the clearance."""
         film = self.bound_film.jacobian(position / self.clearance, velocity / self.clearance)
-        by_motion = self.force_scale / self.clearance * film
+        by_motion = self.force_scale / self.clearance * film + self.convection_slopes(position, velocity)
         return np.concatenate([by_motion, np.zeros_like(by_motion[:, :1])], axis=1)
 
     def _feed(self, modes: LayerModes) -> Array:
@@ -238,8 +268,20 @@ class PorousDamper(StaticReaction):
                 f"the damping of a solid cage is too large by {100.0 * excess:.2g} % in small motion; "
                 "FiniteMapSqueeze() covers it",
             )
+        if self.seals is not None and limit < math.inf:
+            warn_of_short_seals(self.slenderness, self._end_leak)
         if self.cage is not None and self.cage.thickness > LARGEST_RATIO * self.radius:
             warn_user(
                 f"thickness must not exceed {LARGEST_RATIO} radii of {self.radius!r} m, got "
                 f"{self.cage.thickness!r}: the layer is unrolled to a plane",
             )
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class PorousDamper(SqueezeFilmDamper):
+    """A `SqueezeFilmDamper` under the name of its porous cage, with the same parameters."""
+
+
+KERNELS = (SqueezeFilmDamper, PorousDamper)
+"""Classes of dampers that have a kernel in C."""

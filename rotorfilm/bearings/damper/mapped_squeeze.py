@@ -20,8 +20,15 @@ from ...native import MapKernel
 from ..films.kernel_film import BoundKernel
 from ..films.map_table import MapTable
 from ..journal import MapFilm
+from .built.film_inertia import FilmInertia
 from .full_squeeze import SqueezeFilm
-from .squeeze_laws import SqueezeCase, SqueezeOptions
+from .squeeze_laws import (
+    SqueezeCase,
+    SqueezeOptions,
+    finite_film_inertia,
+    sealed_short,
+    short_film_inertia,
+)
 from .squeeze_table import LARGEST, LARGEST_FINITE, RATIO, SqueezeTable, finite_table, short_table
 
 SHORT = 1e-6
@@ -54,7 +61,12 @@ class MapSqueeze(SqueezeOptions):
     def bind(self, case: SqueezeCase) -> SqueezeFilm:
         """Return the film of one damper; raise InputError for one with feed."""
         _require_potential(self, case)
-        return MappedSqueezeFilm(_squeeze_map(self._table(case), SHORT), one_slenderness=False)
+        film = MappedSqueezeFilm(_squeeze_map(self._table(case), SHORT), one_slenderness=False)
+        return sealed_short(film, case)
+
+    def inertia(self, case: SqueezeCase) -> FilmInertia:
+        """Return the inertia of the film of one damper; see `SqueezeOptions`."""
+        return short_film_inertia(case)
 
     def tabulated(self, case: SqueezeCase) -> MapSqueeze:
         """Return this law with the table of one damper; see `SqueezeOptions`."""
@@ -88,9 +100,18 @@ class FiniteMapSqueeze(SqueezeOptions):
     table: SqueezeTable | None = None
 
     def bind(self, case: SqueezeCase) -> SqueezeFilm:
-        """Return the film of one damper; raise InputError for one with feed."""
+        """Return the film of one damper; raise InputError for one with feed or seals."""
         _require_potential(self, case)
+        if case.is_sealed:
+            raise InputError(
+                "seals must be None for FiniteMapSqueeze(): FullFilm() with FiniteSqueeze() has them, and a "
+                "short film"
+            )
         return MappedSqueezeFilm(_squeeze_map(self._table(case), case.slenderness), one_slenderness=True)
+
+    def inertia(self, case: SqueezeCase) -> FilmInertia:
+        """Return the inertia of the film of one damper; see `SqueezeOptions`."""
+        return finite_film_inertia(case)
 
     def tabulated(self, case: SqueezeCase) -> FiniteMapSqueeze:
         """Return this law with the table of one damper; see `SqueezeOptions`."""

@@ -10,6 +10,10 @@ import numpy as np
 
 from ...errors import InputError
 from ...model import Array
+from .built.end_seals import SealedShortFilm
+from .built.film_inertia import FilmInertia, FullInertia, short_inertia
+from .built.finite_inertia import TabulatedSqueezeFilm, radial_table
+from .built.zone_inertia import ZoneInertia
 from .cavitated_squeeze import CavitatedSqueezeFilm
 from .clipped_squeeze import ClippedSqueezeFilm
 from .finite_squeeze import LARGEST, FiniteSqueezeFilm
@@ -33,6 +37,8 @@ class SqueezeCase(NamedTuple):
     ends : tuple of two floats [1/s]
         Pressure at both ends times clearance^2/(3 viscosity length^2).
     cavitated : bool
+    end_leak : float [1]
+        12 viscosity radius/clearance^3 times the leakage of either end; infinite for open ends.
     """
 
     slenderness: float
@@ -41,6 +47,12 @@ class SqueezeCase(NamedTuple):
     feed: Array
     ends: tuple[float, float]
     cavitated: bool
+    end_leak: float = math.inf
+
+    @property
+    def is_sealed(self) -> bool:
+        """Whether seals hold pressure at its ends."""
+        return math.isfinite(self.end_leak)
 
 
 @runtime_checkable
@@ -68,6 +80,10 @@ class SqueezeOptions:
         """Return this law with the table that it would make in a damper; None if it makes none."""
         return None
 
+    def inertia(self, case: SqueezeCase) -> FilmInertia:
+        """Return the inertia of the film of one damper; raise InputError where it is not known."""
+        raise InputError(f"density must be 0 for {self!r}, whose inertia is not known")
+
 
 @dataclass(frozen=True)
 class ShortSqueeze(SqueezeOptions):
@@ -77,12 +93,12 @@ class ShortSqueeze(SqueezeOptions):
     """Largest length / diameter for which the film is meant [1]."""
 
     def bind(self, case: SqueezeCase) -> SqueezeFilm:
-        """Return the film of one damper."""
-        if not case.cavitated:
-            return FullSqueezeFilm(case.modes, case.feed)
-        if np.any(case.feed) or np.any(case.ends):
-            return ClippedSqueezeFilm(case.modes, case.feed, case.ends)
-        return CavitatedSqueezeFilm(case.modes)
+        """Return the film of one damper; raise InputError where its seals are tight."""
+        return sealed_short(_open_short(case), case)
+
+    def inertia(self, case: SqueezeCase) -> FilmInertia:
+        """Return the inertia of the film of one damper; see `SqueezeOptions`."""
+        return short_film_inertia(case)
 
 
 @dataclass(frozen=True)
@@ -96,7 +112,13 @@ class FiniteSqueeze(SqueezeOptions):
         """Return the film of one damper; raise InputError for a cavitated film."""
         if case.cavitated:
             raise InputError("extent must be FullFilm() for FiniteSqueeze(), got a cavitated film")
+        if case.is_sealed:
+            return TabulatedSqueezeFilm(radial_table(case.slenderness, case.end_leak))
         return FiniteSqueezeFilm(case.slenderness, case.layer, case.modes, case.feed)
+
+    def inertia(self, case: SqueezeCase) -> FilmInertia:
+        """Return the inertia of the film of one damper; see `SqueezeOptions`."""
+        return finite_film_inertia(case)
 
 
 @dataclass(frozen=True)
@@ -113,12 +135,51 @@ class PublishedSqueeze(SqueezeOptions):
         """Return the film of one damper; raise InputError for a cavitated film or a grading below 0."""
         if case.cavitated:
             raise InputError("extent must be FullFilm() for PublishedSqueeze(), got a cavitated film")
+        if case.is_sealed:
+            raise InputError("seals must be None for PublishedSqueeze()")
         if case.layer is not None and case.layer.grading < 0.0:
             raise InputError(
                 f"grading must not be negative for PublishedSqueeze(), got {case.layer.grading!r}"
             )
         conductance = 1.0 if case.layer is None else published_conductance(case.layer)
         return _LinearSqueezeFilm(math.pi * conductance, 3.0 * math.pi * float(np.sum(case.feed)))
+
+
+def _open_short(case: SqueezeCase) -> SqueezeFilm:
+    if not case.cavitated:
+        return FullSqueezeFilm(case.modes, case.feed)
+    if np.any(case.feed) or np.any(case.ends):
+        return ClippedSqueezeFilm(case.modes, case.feed, case.ends)
+    return CavitatedSqueezeFilm(case.modes)
+
+
+def sealed_short(film: SqueezeFilm, case: SqueezeCase) -> SqueezeFilm:
+    """Return a short film with the seals of a damper; raise InputError where they are tight."""
+    if not case.is_sealed:
+        return film
+    if case.end_leak == 0.0:
+        raise InputError(
+            "leakage of seals must be positive for a short film, got 0: its oil can only go out, not around; "
+            "FullFilm() with FiniteSqueeze() has both"
+        )
+    # c^3/(2 viscosity G_s L), half the circle where the film ruptures
+    damping = math.pi * 3.0 / (case.end_leak * case.slenderness)
+    return SealedShortFilm(film, 0.5 * damping if case.cavitated else damping)
+
+
+def short_film_inertia(case: SqueezeCase) -> FilmInertia:
+    """Return the inertia of a short film: that of its zone where it ruptures."""
+    return ZoneInertia() if case.cavitated else FullInertia(short_inertia)
+
+
+def finite_film_inertia(case: SqueezeCase) -> FilmInertia:
+    """Return the inertia of a full film of finite length; raise InputError for one that ruptures."""
+    if case.cavitated:
+        raise InputError(
+            "density must be 0 for a cavitated film of finite length, whose inertia is not known; "
+            "ShortSqueeze() and MapSqueeze() have that of a short one"
+        )
+    return FullInertia(radial_table(case.slenderness, case.end_leak).inertia)
 
 
 def published_conductance(layer: PorousLayer) -> float:

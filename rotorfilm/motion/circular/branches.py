@@ -226,13 +226,12 @@ def _branch(system: OrbitRotor, low: float, high: float, wanted: Array) -> Orbit
     unbalance = wanted[(wanted >= ends.min()) & (wanted <= ends.max())]
     eps = _inverted(system, low, high, unbalance, rising=bool(ends[1] > ends[0]))
     points = orbit_points(system, eps)
-    film = orbit_slope(system, eps).film
     return OrbitBranch(
         unbalance=unbalance,
         eccentricity_ratio=eps,
         phase=np.angle(points.pull),
         transmissibility=np.abs(points.force) / np.abs(points.pull),
-        growth_rate=growth_rates(system, film),
+        growth_rate=growth_rates(system, orbit_slope(system, eps)),
     )
 
 

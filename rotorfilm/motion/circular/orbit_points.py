@@ -16,6 +16,7 @@ import numpy as np
 
 from ...errors import InputError, require_kind, require_positive
 from ...model import Array, JournalForce, Reaction, largest_eccentricity_ratio, require_reaction
+from ...reactions.added_mass import inertial, require_turning
 from ...rotors import RigidRotor
 from ...rotors.rotating import rotating_linearization
 
@@ -61,17 +62,20 @@ class OrbitSlope(NamedTuple):
         Jacobian of the film.
     pull : ndarray of complex, shape (n,) [N]
         u w^2 exp(i b).
+    added : tuple of two ndarrays or None
+        Of a film with inertia, as `orbit_mass` returns it.
     """
 
     slope: Array
     film: np.ndarray
     pull: np.ndarray
+    added: tuple[Array, Array] | None
 
 
 def orbit_rotor(rotor: RigidRotor, reaction: Reaction) -> OrbitRotor:
     """Return the constants of a rotor whose orbits are circular; raise InputError where they are not."""
     require_kind("rotor", rotor, RigidRotor, "a RigidRotor")
-    require_reaction("reaction", reaction, JournalForce)
+    require_reaction("reaction", reaction, JournalForce, heavy=True)
     speeds = set(rotor.profile.speeds)
     if len(speeds) != 1 or 0.0 in speeds:
         raise InputError(f"speed must be constant and not zero for synchronous orbits, got {rotor.speed!r}")
@@ -84,6 +88,7 @@ def orbit_rotor(rotor: RigidRotor, reaction: Reaction) -> OrbitRotor:
     reach = largest_eccentricity_ratio(reaction)
     system = OrbitRotor(rotor.mass, abs(speeds.pop()), reaction.clearance, reaction, reach)
     _require_isotropy(system)
+    require_turning(reaction, rotor)
     return system
 
 
@@ -92,6 +97,10 @@ def orbit_points(system: OrbitRotor, eccentricity_ratio: Array) -> OrbitPoints:
     position, velocity = _motion(system, eccentricity_ratio)
     speed = np.full(eccentricity_ratio.shape, system.speed)
     radial, tangential = system.reaction.force(position, velocity, speed)
+    heavy = inertial(system.reaction)
+    if heavy is not None:
+        swung = system.speed**2 * position[0] * heavy.mass(position, velocity)[:, 0]
+        radial, tangential = radial + swung[0], tangential + swung[1]
     inertia = system.mass * system.speed**2 * position[0]
     return OrbitPoints(eccentricity_ratio, -(inertia + radial) + 1j * tangential, radial + 1j * tangential)
 
@@ -102,15 +111,37 @@ def orbit_slope(system: OrbitRotor, eccentricity_ratio: Array) -> OrbitSlope:
     speed = np.full(eccentricity_ratio.shape, system.speed)
     film = system.reaction.jacobian(position, velocity, speed)
     along = film[:, 0] + system.speed * film[:, 3]
+    added = orbit_mass(system.reaction, position, velocity, system.speed)
+    if added is not None:
+        along = along - added[1][:, 0] - system.speed * added[1][:, 3] + system.speed**2 * added[0][:, 0]
     pull_slope = -(system.mass * system.speed**2 + along[0]) + 1j * along[1]
     pull = orbit_points(system, eccentricity_ratio).pull
-    return OrbitSlope(2.0 * (pull.conj() * pull_slope).real, film, pull)
+    return OrbitSlope(2.0 * (pull.conj() * pull_slope).real, film, pull, added)
 
 
-def growth_rates(system: OrbitRotor, film: np.ndarray) -> Array:
-    """Return the largest real part of the Floquet exponents, shape (n,), of Jacobians (2, 5, n)."""
-    A = rotating_linearization(system.mass, system.speed, film).A
+def growth_rates(system: OrbitRotor, orbits: OrbitSlope) -> Array:
+    """Return the largest real part of the Floquet exponents of orbits, shape (n,)."""
+    A = rotating_linearization(system.mass, system.speed, orbits.film, orbits.added).A
     return np.linalg.eigvals(A).real.max(axis=-1)
+
+
+def orbit_mass(
+    reaction: JournalForce, position: Array, velocity: Array, speed: float
+) -> tuple[Array, Array] | None:
+    """Return mass (2, 2, ...) [kg] and its slopes times -speed^2 position (2, 4, ...); None without inertia.
+
+    Parameters
+    ----------
+    reaction : Reaction
+    position, velocity : ndarray, shape (2, ...) [m], [m/s]
+        On circular orbits.
+    speed : float [rad/s]
+    """
+    heavy = inertial(reaction)
+    if heavy is None:
+        return None
+    slopes = np.einsum("ijk...,j...->ik...", heavy.mass_slopes(position, velocity), -(speed**2) * position)
+    return heavy.mass(position, velocity), slopes
 
 
 def _motion(system: OrbitRotor, eccentricity_ratio: Array) -> tuple[Array, Array]:

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...bearings.damper import PorousDamper
+from ...bearings.damper import PorousDamper, SqueezeFilmDamper
 from ...bearings.films.kernel_film import BoundKernel
 from ...bearings.linear import LinearBearing
 from ...bearings.reaction import FilmReaction
@@ -29,6 +29,7 @@ from ...model import Reaction
 from ...native import Status
 from ...native.layouts.structs import SprungStruct
 from ...native.library import functions, loops
+from ...reactions.added_mass import require_massless
 
 _CALLBACK = CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_double))
 
@@ -79,6 +80,7 @@ def warn_beyond(calls: Iterable[FilmCall]) -> None:
 
 def film_call(reaction: Reaction) -> FilmCall:
     """Return the compiled force of a reaction without states, one that calls back where it has none."""
+    require_massless("reaction", reaction)
     return kernel_call(reaction) or _called_back(reaction)
 
 
@@ -86,7 +88,7 @@ def kernel_call(reaction: Reaction) -> FilmCall | None:
     """Return the force of a reaction in the C library; None if it has none, as one of a user's own class."""
     if isinstance(reaction, FilmReaction):
         return _bound(reaction.film_in_c)
-    if type(reaction) is PorousDamper:
+    if type(reaction) is SqueezeFilmDamper or type(reaction) is PorousDamper:
         film = _bound(reaction.film_in_c)
         return None if film is None else film.beside(0.0, still=True)
     if type(reaction) is Sprung:

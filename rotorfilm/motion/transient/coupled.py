@@ -19,6 +19,7 @@ from ...model import (
     require_reaction,
     static_linearization,
 )
+from ...rotors.heavy_journals import HeavyJournals
 from ...signals import FORCE_OUTPUTS, JOURNAL_INPUTS, Signal, indices, names
 
 NUDGE = 1e-6
@@ -42,7 +43,7 @@ def connect(rotor: Dynamic, reaction: Reaction) -> LoopWiring:
         which nobody would drive, or the film has states and such an input or no derivative.
     """
     require_kind("rotor", rotor, Model, "a rotor such as a RigidRotor")
-    require_reaction("reaction", reaction)
+    require_reaction("reaction", reaction, heavy=True)
     inputs = names(rotor.inputs)
     motion = indices("rotor must have the outputs", names(rotor.outputs), JOURNAL_INPUTS)
     force = indices("rotor must have the inputs", inputs, FORCE_OUTPUTS)
@@ -88,6 +89,7 @@ class Coupled:
         # What has walls of its own says itself where it is touched.
         self._walled = isinstance(reaction, WalledReaction)
         self._force = None if reaction.states else prepared_force(reaction)
+        self._heavy = HeavyJournals([reaction], [self.wiring.motion])
 
     @property
     def initial_state(self) -> Array:
@@ -138,17 +140,28 @@ class Coupled:
         except UndefinedDerivativeError:
             film = self._film_derivatives(t, x, self._nudged(t, x, u, journal))
         push, motion, rows = rotor.B[:, self.wiring.force], rotor.C[self.wiring.motion], len(FORCE_OUTPUTS)
-        return np.block(
-            [[rotor.A + push @ film.D[:rows] @ motion, push @ film.C[:rows]], [film.B @ motion, film.A]]
-        )
+        forces = np.hstack([film.D[:rows] @ motion, film.C[:rows]])
+        if self._heavy:
+            own = x[: self._split]
+            rates, sensed = self.rotor.derivative(t, own, u), self.rotor.output(t, own, u)
+            forces, _ = self._heavy.slopes(rotor, push, push[:, :0], sensed, forces, rates)
+        whole = np.block([[rotor.A, np.zeros((len(rotor.A), len(film.A)))], [film.B @ motion, film.A]])
+        whole[: len(rotor.A)] += push @ forces
+        return whole
 
-    def film_outputs(self, time: Array, journal: Array, film: Array) -> Array:
+    def film_outputs(self, time: Array, journal: Array, states: Array) -> Array:
         """Return what the film adds to a trajectory: its outputs and its states, shape (n_signals, n).
 
         Parameters
         ----------
-        time, journal, film : ndarray, shapes (n,), (5, n) and (n_film_states, n)
+        time, journal, states : ndarray, shapes (n,), (5, n) and (n_states, n)
+            The states are those of the rotor and of the film.
         """
+        film = states[self._split :]
+        if self._heavy:
+            pairs = zip(time, states.T, journal.T, strict=True)
+            forces = [self._input(t, x, at)[self.wiring.force] for t, x, at in pairs]
+            return np.reshape(forces, (len(time), len(FORCE_OUTPUTS))).T
         if not len(film):
             return self.reaction.force(journal[:2], journal[2:4], journal[4])
         outputs = [self.reaction.output(t, x, u) for t, x, u in zip(time, film.T, journal.T, strict=True)]
@@ -169,7 +182,15 @@ class Coupled:
             raise ConvergenceError(f"film force must be finite, got {force} at t = {t:.9g} s")
         u = np.empty(len(self.wiring.force))
         u[self.wiring.force] = force
-        return u
+        return self._with_mass(t, x[: self._split], u) if self._heavy else u
+
+    def _with_mass(self, t: float, x: Array, u: Array) -> Array:
+        """Return the rotor's input with the force of a film's added mass."""
+        rotor, sensed = self.rotor.linearization(t, x, u), self.rotor.output(t, x, u)
+        push, order = rotor.B[:, self.wiring.force], self.wiring.force
+        whole = np.empty_like(u)
+        whole[order] = self._heavy.forces(rotor, push, sensed, u[order], self.rotor.derivative(t, x, u))
+        return whole
 
     def _film_force(self, t: float, x: Array, journal: Array) -> Array:
         if self._force is None:

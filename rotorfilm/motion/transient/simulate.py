@@ -13,6 +13,7 @@ from ...bearings.stepped_reaction import SteppedReaction
 from ...errors import ContactError, ConvergenceError, InputError, require_finite, require_positive
 from ...inputs.kinds import arguments
 from ...model import Array, Dynamic, Reaction, stops
+from ...reactions.added_mass import require_turning
 from ...results import Trajectory
 from ...signals import FORCE_OUTPUTS, names, units
 from ...warming import in_time
@@ -42,8 +43,9 @@ def simulate(
 
     Rotor and film are connected by the names of their signals and integrated together, with the exact
     Jacobian of both, so no coupling error arises. The integration stops at the kinks of a `Kinked` rotor.
-    A linear rotor on films that have kernels is integrated in C, as by `simulate_rotor`, all others by scipy;
-    films that remember, as `JFOFilm`, with the rotor in one Newton step, by differences of second order.
+    The mass that the oil of a damper adds is part of the same system. A linear rotor on films that have
+    kernels is integrated in C, as by `simulate_rotor`, all others by scipy; films that remember, as `JFOFilm`,
+    with the rotor in one Newton step, by differences of second order.
 
     Parameters
     ----------
@@ -98,6 +100,7 @@ def simulate(
         return simulate_steps(rotor, reaction, grid, duration, initial_state, max_step)
     reaction = in_time(reaction)
     system = Coupled(rotor, reaction)
+    require_turning(reaction, rotor)
     grid = sample_times(duration, samples, times)
     state = _initial(system, system.initial_state if initial_state is None else initial_state)
     if method is None and (mounted := compiled_form(rotor, reaction)) is not None:
@@ -159,7 +162,7 @@ def _trajectory(system: Coupled, kept: list[tuple[float, Array]]) -> Trajectory:
     split, time = len(system.rotor.states), np.array([t for t, _ in inside])
     outputs = np.array([system.rotor.output(t, state[:split], no_force) for t, state in inside])
     outputs = outputs.reshape(len(inside), len(system.rotor.outputs)).T
-    states = np.array([state[split:] for _, state in inside]).reshape(len(inside), -1).T
+    states = np.array([state for _, state in inside]).reshape(len(inside), -1).T
     film = system.film_outputs(time, outputs[system.wiring.motion], states)
     known = (*system.rotor.outputs, *system.film_signals())
     signals = dict(zip(names(known), [*outputs, *film], strict=True))

@@ -1,0 +1,190 @@
+"""Small motion of a centered full squeeze film: lands and grooves between seals, exact in the frequency.
+
+A film of thickness h answers -grad p = Z v with Z = i w density/(1 - tanh(l)/l), l = (h/2) sqrt(i w/nu),
+which is 12 viscosity/h^2 + (6/5) i w density to first order. Around the circumference p = P(z) cos(theta),
+per unit velocity of the rotor P'' - P/R^2 = Z/h; P and the flow -(h/Z) P' are continuous from segment to
+segment, and flow = G_s P at the ends. The force pi R integral of P dz is -(C + i w M).
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ....errors import InputError, require_each, require_kind, require_non_negative, require_positive
+from ....inputs.si_arguments import quantities
+from ....readable.result import Readable
+from .end_seals import EndSeal
+
+SERIES = 0.05
+"""Size of l below which the impedance is taken from its series."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SqueezeImpedance(Readable):
+    """Damping and added mass of a squeeze film, the same in every direction, at one frequency.
+
+    Attributes
+    ----------
+    damping : float [N s/m]
+    added_mass : float [kg]
+    frequency : float [rad/s]
+        Of the motion.
+    """
+
+    damping: float
+    added_mass: float
+    frequency: float
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class FilmSegment:
+    """A piece of the axis of a damper with one film thickness: a land, or a groove all round.
+
+    Of a groove the depth that counts is below the true one where oil recirculates in it: depth is an input.
+
+    Parameters
+    ----------
+    length : float [m]
+        Along the axis.
+    clearance : float [m]
+        Radial: of a groove its depth and that of the lands beside it.
+
+    Raises
+    ------
+    InputError
+        If a value is not positive.
+    """
+
+    length: float
+    clearance: float
+
+    def __post_init__(self) -> None:
+        require_each(self, require_positive, "length", "clearance")
+
+
+@quantities
+@dataclass(frozen=True, kw_only=True)
+class SegmentedDamper:
+    """Lands and grooves of a squeeze-film damper in small motion about the center, its film full.
+
+    Parameters
+    ----------
+    radius : float [m]
+    segments : tuple of FilmSegment
+        From one end to the other.
+    viscosity : float [Pa s]
+    density : float [kg/m3]
+        0 without inertia.
+    seals : EndSeal or None
+        At both ends; None for open ends.
+
+    Raises
+    ------
+    InputError
+        If a value breaks its rule.
+    """
+
+    radius: float
+    segments: tuple[FilmSegment, ...]
+    viscosity: float
+    density: float = 0.0
+    seals: EndSeal | None = None
+
+    def __post_init__(self) -> None:
+        require_each(self, require_positive, "radius", "viscosity")
+        require_non_negative("density", self.density)
+        require_kind("seals", self.seals, EndSeal | None, "an EndSeal or None")
+        if not self.segments:
+            raise InputError("segments must be at least one, got none")
+        for segment in self.segments:
+            require_kind("segments", segment, FilmSegment, "FilmSegments")
+
+    def small_motion(self, frequency: float) -> SqueezeImpedance:
+        """Return damping and added mass at a frequency [rad/s], exact for laminar flow.
+
+        Parameters
+        ----------
+        frequency : float [rad/s]
+            Of the motion, not negative; 0 for slow motion, where the mass is that of first order.
+
+        Raises
+        ------
+        InputError
+            If the frequency is negative or not finite.
+        """
+        require_non_negative("frequency", frequency)
+        # The mass of slow motion is the slope of the force: at so low a frequency it errs by its square.
+        slow = 1e-4 * self.viscosity / max(self.density, 1e-9) / max(s.clearance for s in self.segments) ** 2
+        at = frequency or slow
+        impedance = -self._force(at)
+        return SqueezeImpedance(
+            damping=impedance.real, added_mass=impedance.imag / at, frequency=float(frequency)
+        )
+
+    def _force(self, frequency: float) -> complex:
+        """Return the force per unit velocity [N s/m]."""
+        R, count = self.radius, len(self.segments)
+        A = np.zeros((2 * count, 2 * count), dtype=complex)
+        b = np.zeros(2 * count, dtype=complex)
+        leak = None if self.seals is None else self.seals.leakage
+        for k, segment in enumerate(self.segments):
+            h, half = segment.clearance, 0.5 * segment.length / R
+            Z = film_impedance(h, self.viscosity, self.density, frequency)
+            own, still, flow = slice(2 * k, 2 * k + 2), Z * R * R / h, h / (Z * R)
+            for end, row in ((-1.0, 2 * k - 1), (1.0, 2 * k + 1)):
+                # cosh and sinh about the middle, divided by cosh at the ends
+                pressure = np.array([1.0, end * math.tanh(half)])
+                out = -flow * np.array([end * math.tanh(half), 1.0])
+                if 0 <= row < 2 * count - 1:
+                    A[row, own] -= end * pressure
+                    b[row] -= end * still
+                    A[row + 1, own] -= end * out
+                    continue
+                row = 0 if end < 0.0 else 2 * count - 1
+                held = pressure if leak is None else end * out - leak * pressure
+                A[row, own], b[row] = held, still if leak is None else -leak * still
+        found = np.linalg.solve(A, b)
+        total = 0.0j
+        for k, segment in enumerate(self.segments):
+            Z = film_impedance(segment.clearance, self.viscosity, self.density, frequency)
+            half = 0.5 * segment.length / R
+            mean = found[2 * k] * math.tanh(half) / half - Z * R * R / segment.clearance
+            total += segment.length * mean
+        return math.pi * R * total
+
+
+def film_impedance(height: float, viscosity: float, density: float, frequency: float) -> complex:
+    """Return the pressure gradient per mean velocity of a film [Pa s/m2].
+
+    Parameters
+    ----------
+    height : float [m]
+        Of the film.
+    viscosity : float [Pa s]
+    density : float [kg/m3]
+    frequency : float [rad/s]
+    """
+    squared = 0.25j * height**2 * frequency * density / viscosity
+    if abs(squared) < SERIES**2:
+        return 12.0 * viscosity / height**2 * (1.0 + 0.4 * squared - squared**2 / 525.0)
+    root = cmath.sqrt(squared)
+    return 1j * frequency * density / (1.0 - cmath.tanh(root) / root)
+
+
+def land_share(slenderness: float, leak: complex) -> complex:
+    """Return damping of a land per that of an endless sealed one, 12 pi viscosity R^3 L/c^3.
+
+    Parameters
+    ----------
+    slenderness : float [1]
+        Length / diameter.
+    leak : complex [1]
+        R Z G_s/c; infinite for open ends.
+    """
+    tanh = math.tanh(slenderness)
+    return 1.0 - tanh / slenderness / (1.0 + tanh / leak) if leak else 1.0

@@ -1,0 +1,1 @@
+"""What reactions may have besides a force."""

@@ -1,0 +1,78 @@
+"""Reactions whose oil moves along as a mass: what they say of it, and who takes it."""
+
+from __future__ import annotations
+
+from typing import Any, Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..errors import InputError
+
+
+@runtime_checkable
+class InertialReaction(Protocol):
+    """What a Reaction may add: F = force(position, velocity, speed) - mass(position, velocity) acceleration.
+
+    Its outputs then go on with MASS_OUTPUTS. A rotor takes the mass into its own: an exchange of
+    accelerations diverges as soon as the oil is heavier than the rotor.
+    """
+
+    @property
+    def has_inertia(self) -> bool:
+        """Whether there is a mass at all."""
+
+    def mass(self, position: ArrayLike, velocity: ArrayLike) -> NDArray[np.float64]:
+        """Return the added mass [kg], shape (2, 2, ...), symmetric.
+
+        Parameters
+        ----------
+        position : array_like, shape (2, ...) [m]
+            Journal center from the bearing center.
+        velocity : array_like, shape (2, ...) [m/s]
+            Of the journal center.
+        """
+
+    def mass_slopes(self, position: ArrayLike, velocity: ArrayLike) -> NDArray[np.float64]:
+        """Return d mass / d (x, y, vx, vy), shape (2, 2, 4, ...)."""
+
+    def require_range(self, frequency: float) -> None:
+        """Warn, or raise InputError, where the model of the inertia ends, for whirl at a frequency [rad/s].
+
+        Parameters
+        ----------
+        frequency : float [rad/s]
+            Of the motion.
+        """
+
+
+def inertial(reaction: Any) -> InertialReaction | None:
+    """Return a reaction with an added mass as such; None for one without."""
+    heavy = isinstance(reaction, InertialReaction) and reaction.has_inertia
+    return reaction if heavy else None
+
+
+def require_turning(reaction: Any, rotor: Any) -> None:
+    """Warn, or raise InputError, where a rotor turns too fast for the inertia of its bearing.
+
+    Parameters
+    ----------
+    reaction : Reaction
+    rotor : Model
+        Whose output "speed" says by its nominal value how fast it turns.
+    """
+    heavy = inertial(reaction)
+    if heavy is not None:
+        for signal in rotor.outputs:
+            if signal.name == "speed":
+                heavy.require_range(signal.nominal)
+
+
+def require_massless(name: str, reaction: Any) -> None:
+    """Raise InputError for a reaction with an added mass."""
+    if inertial(reaction) is not None:
+        raise InputError(
+            f"{name} must not add its oil's mass to the rotor here, got {reaction!r}: simulate, "
+            "synchronous_orbits, orbit_system, closed_loop, transmissibility and mount take that mass; "
+            "density 0 leaves it out"
+        )
