@@ -13,8 +13,9 @@ from ...model import Array
 from ...results import Trajectory
 from ...rotors import MountedRotor
 from ...signals import names, units
-from .march import March, rate_of
-from .modal import matrix_speed, modal_rotor, take_apart
+from .march import rate_of
+from .modal import modal_rotor, take_apart
+from .run_up import RunUp, Settings
 from .times import require_longest_step, sample_times
 
 LONGEST_TURN = 1.0
@@ -41,8 +42,7 @@ def simulate_rotor(
     ----------
     mounted : MountedRotor
         From `mount`, with a bearing without states in at least one station and no forces left free that
-        anybody would drive. Its speed is constant; it may be a profile if the shaft has neither gyroscopic
-        effect nor rotating damping.
+        anybody would drive. Its speed may be a profile.
     duration : float [s]
     samples : int
         Number of samples at equal distance, from 0 to `duration` inclusive.
@@ -78,42 +78,38 @@ def simulate_rotor(
     require_positive("duration", duration)
     require_positive("rtol", rtol)
     require_longest_step(max_step)
-    parts = take_apart(mounted)
-    modal = modal_rotor(parts, matrix_speed(parts))
+    parts, size = take_apart(mounted), len(mounted.states)
     state = np.asarray(mounted.initial_state if initial_state is None else initial_state, dtype=float)
-    if require_finite("initial_state", state).shape != (len(modal.shapes),):
-        raise InputError(f"initial_state must have shape ({len(modal.shapes)},), got {state.shape}")
+    if require_finite("initial_state", state).shape != (size,):
+        raise InputError(f"initial_state must have shape ({size},), got {state.shape}")
     grid = sample_times(duration, samples, times)
-    longest = min(max_step, duration, LONGEST_TURN * 2.0 * np.pi / rate_of(modal))
-    march = March(modal=modal, state=modal.modal(state), rtol=rtol, longest=longest, duration=duration)
+    rate = parts.nominal_speed or rate_of(modal_rotor(parts, 0.0))
+    longest = min(max_step, duration, LONGEST_TURN * 2.0 * np.pi / rate)
+    run = RunUp(parts, state, Settings(rtol=rtol, longest=longest, duration=duration))
     kept: list[Array] = [state[None]] if grid.size and grid[0] == 0.0 else []
-    kinks = [t for t in parts.profile.times if 0.0 < t < duration] if len(parts.profile.times) > 1 else []
-    begin = 0.0
     try:
-        for stop in [*kinks, duration]:
-            kept.append(modal.physical(march.to(stop, grid[(grid > begin) & (grid <= stop)]).T).T)
-            begin = stop
+        kept.extend(run.states(grid))
     except (ContactError, ConvergenceError) as failure:
-        kept.append(modal.physical(failure.partial.T).T)
-        raise type(failure)(str(failure), _trajectory(mounted, grid, kept, march)) from failure
-    march.warn()
-    return _trajectory(mounted, grid, kept, march)
+        kept.append(failure.partial)
+        raise type(failure)(str(failure), _trajectory(mounted, grid, kept, run)) from failure
+    run.warn()
+    return _trajectory(mounted, grid, kept, run)
 
 
-def _trajectory(mounted: MountedRotor, grid: Array, kept: list[Array], march: March) -> Trajectory:
+def _trajectory(mounted: MountedRotor, grid: Array, kept: list[Array], run: RunUp) -> Trajectory:
     states = np.concatenate(kept) if kept else np.zeros((0, len(mounted.states)))
     time = grid[: len(states)]
     rotor = mounted.bare
     # Displacements and rates are linear in the state, the last output is the speed.
     rows = rotor.linearization(0.0, rotor.initial_state, np.zeros(len(rotor.inputs))).C
     outputs = rows @ states.T
-    outputs[-1] = [march.modal.parts.profile.speed(t) for t in time]
+    outputs[-1] = [run.parts.profile.speed(t) for t in time]
     signals = dict(zip(names(rotor.outputs), outputs, strict=True))
-    parts = march.modal.parts
+    parts = run.parts
     for name, bearing in zip(parts.names, parts.bearings, strict=True):
         prefix = f"{name}_" if name else ""
         x, y, vx, vy = (signals[prefix + key] for key in ("x", "y", "vx", "vy"))
         force = bearing.force(np.stack([x, y]), np.stack([vx, vy]), signals["speed"])
         signals[prefix + "force_x"], signals[prefix + "force_y"] = force
     known = {**dict.fromkeys(signals, "N"), **units(rotor.outputs)}
-    return Trajectory(time=time, signals=signals, work=dict(march.work), units=known)
+    return Trajectory(time=time, signals=signals, work=run.work, units=known)
