@@ -42,7 +42,7 @@ class ShapesRotor(FlexibleRotor):
         return self._structure
 
 
-class Start(NamedTuple):
+class ShapedStart(NamedTuple):
     """A rotor in its bearings and its state at t = 0; whether more shapes may follow."""
 
     mounted: MountedRotor
@@ -50,7 +50,7 @@ class Start(NamedTuple):
     condensed: bool
 
 
-def starts(mounted: MountedRotor, state: Array, *, whole: bool) -> Iterator[Start]:
+def starts(mounted: MountedRotor, state: Array, *, whole: bool) -> Iterator[ShapedStart]:
     """Yield a rotor in ever more of its shapes, and whole in the end or at once."""
     rotor = mounted.bare
     if not whole and isinstance(rotor, FlexibleRotor) and rotor.assembly.hysteresis is None:
@@ -59,8 +59,8 @@ def starts(mounted: MountedRotor, state: Array, *, whole: bool) -> Iterator[Star
                 break
             if k % FURTHER == 0:
                 small = ShapesRotor(rotor, model.structure)
-                yield Start(mount(small, mounted.all_bearings), _within(model, state), True)
-    yield Start(mounted, state, False)
+                yield ShapedStart(mount(small, mounted.all_bearings), _within(model, state), True)
+    yield ShapedStart(mounted, state, False)
 
 
 def _within(model: Condensed, state: Array) -> Array:

@@ -17,7 +17,7 @@ from ...model import Array
 from ...results import Trajectory
 from ...rotors import MountedRotor
 from ...signals import names, units
-from .condensed_rotor import Start, largest_difference, starts
+from .condensed_rotor import ShapedStart, largest_difference, starts
 from .march import rate_of
 from .modal import Parts, modal_rotor, take_apart
 from .run_up import RunUp, Settings
@@ -113,7 +113,7 @@ class Wanted(NamedTuple):
     condensation: float
 
 
-def _agreed(starts: Iterator[Start], wanted: Wanted) -> Trajectory:
+def _agreed(starts: Iterator[ShapedStart], wanted: Wanted) -> Trajectory:
     """Return the first run that one in fewer shapes agrees with, or that of the whole rotor."""
     # Runs are compared at more times than those that are asked for.
     dense = wanted._replace(grid=np.union1d(wanted.grid, np.linspace(0.0, wanted.duration, COMPARED)))
@@ -143,7 +143,7 @@ def _at(run: Trajectory, grid: Array) -> Trajectory:
     return replace(run, time=run.time[kept], signals={name: row[kept] for name, row in run.signals.items()})
 
 
-def _run(start: Start, parts: Parts, wanted: Wanted) -> Trajectory:
+def _run(start: ShapedStart, parts: Parts, wanted: Wanted) -> Trajectory:
     mounted, state, grid = start.mounted, start.state, wanted.grid
     rate = parts.nominal_speed or rate_of(modal_rotor(parts, 0.0))
     longest = min(wanted.max_step, wanted.duration, LONGEST_TURN * 2.0 * np.pi / rate)
