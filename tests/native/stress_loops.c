@@ -173,7 +173,8 @@ static rf_step_table new_table(void)
     const rf_step_table table = {
         calloc(s * ROWS * 2 * MODES, sizeof(double)),  calloc(s * s * ROWS * CHANNELS, sizeof(double)),
         calloc(s * ROWS * CHANNELS, sizeof(double)),   calloc(MODES, sizeof(rf_complex)),
-        calloc(2 * MODES * s * CHANNELS, sizeof(double)),
+        calloc(2 * MODES * s * CHANNELS, sizeof(double)), calloc(s * MODES, sizeof(rf_complex)),
+        calloc(s * (s + 1) * MODES, sizeof(rf_complex)),
     };
     return table;
 }
@@ -185,6 +186,8 @@ static void free_table(const rf_step_table *table)
     free(table->defect);
     free(table->keep);
     free(table->forced);
+    free(table->turn);
+    free(table->weights);
 }
 
 /* A march over `duration`; films that are springs without stiffness leave the closed form of free motion. */
@@ -198,7 +201,11 @@ static void try_march(const rf_response *films, const void *const *of, int is_fr
     const double slopes[] = {(speeds[1] - speeds[0]) / times[1], 0.0};
     const double angles[] = {0.0, 0.5 * times[1] * (speeds[0] + speeds[1])};
     rf_complex z[MODES], begun[MODES], out[SAMPLES * MODES];
-    double grid[SAMPLES];
+    double grid[SAMPLES], turned[4 * MODES * MODES], turned_rest[2 * MODES];
+    for (int k = 0; k < 4 * MODES * MODES; ++k)
+        turned[k] = about(0.5, odd);
+    for (int k = 0; k < 2 * MODES; ++k)
+        turned_rest[k] = about(1e-6, odd);
     for (int k = 0; k <= RF_SLOTS; ++k)
         tables[k] = new_table();
     const double decay = 400.0 * uniform(), turn = 100.0 + 900.0 * uniform();
@@ -218,6 +225,7 @@ static void try_march(const rf_response *films, const void *const *of, int is_fr
         {STAGES, NODES, LAGRANGE, REMAINDER},
         {JOURNALS, films, of, rest, spring, damper, lengths, walls},
         {2, times, speeds, slopes, angles},
+        {about(300.0, odd), is_free || uniform() < 0.5 ? NULL : turned, turned_rest},
         .scales = scales, .longest = duration / 3.0, .shortest = 1e-13 * duration,
         .rtol = pow(10.0, -6.0 * uniform()), .newton = 1e-9, .tables = tables, .step = (int32_t)(20.0 * uniform()), .z = z,
     };

@@ -90,6 +90,10 @@ class StepTable(NamedTuple):
         Modal coordinates at the end per themselves.
     forced : ndarray, shape (2 n_modes, s channels)
         Their real and imaginary parts per force at each node.
+    turn : ndarray of complex, shape (s, n_modes), or None
+        Modal coordinates at the nodes per themselves; None where the modes are those of the speed.
+    weights : ndarray of complex, shape (s, s + 1, n_modes), or None
+        The same per drive at each node, and per gap of it at the start.
     """
 
     move: Array
@@ -97,9 +101,11 @@ class StepTable(NamedTuple):
     defect: Array
     keep: Complex
     forced: Array
+    turn: Complex | None
+    weights: Complex | None
 
     @classmethod
-    def unfilled(cls, rotor: ModalArrays, stages: int) -> StepTable:
+    def unfilled(cls, rotor: ModalArrays, stages: int, *, spins: bool = False) -> StepTable:
         """Return a table that is to be filled."""
         modes, channels = rotor.push.shape
         rows = len(rotor.sense)
@@ -109,6 +115,8 @@ class StepTable(NamedTuple):
             np.empty((stages, rows, channels)),
             np.empty(modes, dtype=complex),
             np.empty((2 * modes, stages * channels)),
+            np.empty((stages, modes), dtype=complex) if spins else None,
+            np.empty((stages, stages + 1, modes), dtype=complex) if spins else None,
         )
 
     @classmethod
@@ -122,4 +130,4 @@ class StepTable(NamedTuple):
 
     def struct(self) -> StepTableStruct:
         """Return it as the C library reads it, while this object lives."""
-        return StepTableStruct(*(numbers.ctypes.data for numbers in self))
+        return StepTableStruct(*(None if part is None else part.ctypes.data for part in self))

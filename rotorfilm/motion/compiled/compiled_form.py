@@ -6,7 +6,7 @@ from ...errors import InputError
 from ...model import Dynamic, Reaction
 from ...rotors import FlexibleRotor, MountedRotor, RigidRotor, mount
 from .film_calls import kernel_call
-from .modal import matrix_speed, take_apart
+from .modal import take_apart
 
 EQUATIONS = ("derivative", "output", "operators")
 """Of a rotor, which a subclass may change."""
@@ -21,8 +21,7 @@ def compiled_form(rotor: Dynamic, reaction: Reaction) -> MountedRotor | None:
       a kernel (map, short film, grooved map, two-dimensional film), a linear one, or one of these beside
       springs;
     - the rotor is a `RigidRotor` or a `FlexibleRotor`, mounted or not, whose equations no subclass has
-      changed, without a loss factor;
-    - its speed is constant, or it has neither gyroscopic effect nor rotating damping.
+      changed, without a loss factor.
 
     Parameters
     ----------
@@ -38,7 +37,7 @@ def compiled_form(rotor: Dynamic, reaction: Reaction) -> MountedRotor | None:
     if not all(kernel_call(bearing) for bearing in mounted.all_bearings.values()):
         return None
     try:
-        matrix_speed(take_apart(mounted))
+        take_apart(mounted)
     except InputError:
         return None
     return mounted

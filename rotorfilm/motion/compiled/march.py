@@ -10,13 +10,13 @@ import numpy as np
 
 from ...errors import ContactError, ConvergenceError
 from ...model import Array
-from ...native.layouts.structs import SLOTS, STEPS, MarchStruct, SpeedsStruct, StepTableStruct
+from ...native.layouts.structs import SLOTS, STEPS, MarchStruct, SpeedsStruct, SpinStruct, StepTableStruct
 from ...native.library import loops
 from ...rotors import SpeedProfile
 from .collocation import STAGES, ModalArrays, StepTable, radau_scheme
-from .film_calls import raise_foreign, warn_beyond
+from .film_calls import raise_foreign
 from .journal_films import JournalFilms
-from .modal import Complex, ModalRotor
+from .modal import Complex, ModalRotor, spin_rates
 
 BUDGET = 20000
 """Steps between two looks at the interpreter, where a user may interrupt."""
@@ -69,6 +69,8 @@ class March:
         Longest step.
     duration : float [s]
         Of the whole run, which says what step is too short.
+    speed : float [rad/s], optional
+        Of the modes, where the matrices depend on the speed and that is not always this one.
     stages : int
         Collocation nodes.
     """
@@ -81,17 +83,21 @@ class March:
         rtol: float,
         longest: float,
         duration: float,
+        speed: float | None = None,
         stages: int = STAGES,
     ) -> None:
         self.modal, self.state = modal, np.array(state, dtype=complex)
         self._duration = duration
         self._kept = ModalArrays.of(modal), radau_scheme(stages), JournalFilms.of_rotor(modal)
         self._numbers = *profile_rows(modal.parts.profile), journal_scales(modal)
-        self._tables = [StepTable.unfilled(self._kept[0], stages) for _ in range(SLOTS + 1)]
+        spins = speed is not None and modal.parts.turns and set(modal.parts.profile.speeds) != {speed}
+        self._spin = spin_rates(modal) if spins else None
+        self._tables = [StepTable.unfilled(self._kept[0], stages, spins=spins) for _ in range(SLOTS + 1)]
         times = len(self._numbers[0])
         self._struct = MarchStruct(
             *(of.struct() for of in self._kept),
             SpeedsStruct(times, *(row.ctypes.data for row in self._numbers[:4])),
+            spin_struct(speed, self._spin),
             self._numbers[4].ctypes.data,
             longest,
             SHORTEST * duration,
@@ -116,6 +122,21 @@ class March:
         """How far the run is [s]."""
         return float(self._struct.time)
 
+    @property
+    def step(self) -> int:
+        """Which of the lengths of steps is the next one."""
+        return int(self._struct.step)
+
+    @property
+    def left_map(self) -> bool:
+        """Whether a film was asked beyond its map."""
+        return bool(self._struct.left_map)
+
+    def resume(self, time: float, state: Complex, step: int) -> None:
+        """Go on at a time [s] with a state in modal coordinates, and the step of another march if not -1."""
+        self._struct.time, self.state[:] = time, state
+        self._struct.step = step if step >= 0 else self._struct.step
+
     def to(self, stop: float, grid: Array) -> Complex:
         """Integrate to a time and return the modal coordinates at the times of `grid` after the last stop.
 
@@ -137,11 +158,6 @@ class March:
             raise self._failure(end, out[: place.value])
         return out
 
-    def warn(self) -> None:
-        """Warn if a film was asked beyond its map."""
-        if self._struct.left_map:
-            warn_beyond(self.modal.calls)
-
     def _failure(self, end: End, kept: Complex) -> ContactError | ConvergenceError:
         at = f"at t = {self.time:.9g} s"
         if end == End.WALL:
@@ -153,10 +169,14 @@ class March:
         return ConvergenceError(f"integration needs steps below {SHORTEST:g} of the duration {at}", kept)
 
 
+def spin_struct(speed: float | None, rates: tuple[Array, Array] | None) -> SpinStruct:
+    """Return what the speed changes as the C library reads it, while the arrays live."""
+    return SpinStruct(speed or 0.0, *(part.ctypes.data for part in rates or ()))
+
+
 def rate_of(modal: ModalRotor) -> float:
     """Return the largest angular speed [rad/s], or a slow mode's where the rotor does not turn."""
-    speed = max(abs(value) for value in modal.parts.profile.speeds)
-    return float(speed or np.abs(modal.values).min())
+    return modal.parts.nominal_speed or float(np.abs(modal.values).min())
 
 
 def journal_scales(modal: ModalRotor) -> Array:

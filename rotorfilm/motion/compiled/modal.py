@@ -60,6 +60,16 @@ class Parts(NamedTuple):
         return np.array([size if math.isfinite(size) else NOMINAL_LENGTH for size in sizes])
 
     @property
+    def nominal_speed(self) -> float:
+        """Largest angular speed [rad/s], 0 where it does not turn."""
+        return max(abs(value) for value in self.profile.speeds)
+
+    @property
+    def turns(self) -> bool:
+        """Whether the matrices depend on the speed: a gyroscopic effect or rotating damping."""
+        return bool(np.any(self.structure.gyroscopic) or np.any(self.structure.circulation))
+
+    @property
     def speed(self) -> float:
         """The constant speed [rad/s]; raise InputError where it changes."""
         speeds = set(self.profile.speeds)
@@ -136,19 +146,6 @@ def take_apart(mounted: MountedRotor) -> Parts:
     return Parts(structure, profile, tuple(bearings), tuple(names), rows)
 
 
-def matrix_speed(parts: Parts) -> float:
-    """Return the speed at which the matrices are taken; raise InputError where they change over time."""
-    s, profile = parts.structure, parts.profile
-    turning = bool(np.any(s.gyroscopic) or np.any(s.circulation))
-    if len(set(profile.speeds)) > 1 and turning:
-        raise InputError(
-            "speed must be constant for a rotor with gyroscopic effect or rotating damping, got a profile: "
-            "reduce the rotor (reduce_rotor) and take simulate(mount(rotor, bearings), last bearing), where "
-            "the station of the last bearing has no name"
-        )
-    return float(max(profile.speeds, key=abs))
-
-
 def _structure(rotor: Dynamic) -> tuple[Structure, SpeedProfile]:
     if not isinstance(rotor, RigidRotor | FlexibleRotor):
         raise InputError(f"rotor must be a RigidRotor or a FlexibleRotor in its bearings, got {rotor!r}")
@@ -174,6 +171,21 @@ def state_matrices(parts: Parts, speed: float) -> tuple[Array, Array, Array]:
         np.hstack([model.push[:, places], model.unbalance]),
         model.weight,
     )
+
+
+def spin_rates(modal: ModalRotor) -> tuple[Array, Array]:
+    """Return what a rad/s more than the speed of the modes adds to the rates of the modal coordinates.
+
+    Returns
+    -------
+    matrix : ndarray, shape (2 n_modes, 2 n_modes)
+        Per real and imaginary part, of real and imaginary part.
+    rest : ndarray, shape (2 n_modes,)
+        At the rest.
+    """
+    spin = modal.inverse @ solved_equations(modal.parts.structure).spin
+    seen, rest = spin @ np.hstack([modal.shapes.real, -modal.shapes.imag]), spin @ modal.rest
+    return np.vstack([seen.real, seen.imag]), np.concatenate([rest.real, rest.imag])
 
 
 def modal_rotor(parts: Parts, speed: float) -> ModalRotor:

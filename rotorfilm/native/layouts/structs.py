@@ -188,6 +188,8 @@ class StepTableStruct(ctypes.Structure):
         ("defect", c_void_p),
         ("keep", c_void_p),
         ("forced", c_void_p),
+        ("turn", c_void_p),
+        ("weights", c_void_p),
     ]
 
 
@@ -215,6 +217,16 @@ class SpeedsStruct(ctypes.Structure):
         ("speeds", c_void_p),
         ("slopes", c_void_p),
         ("angles", c_void_p),
+    ]
+
+
+class SpinStruct(ctypes.Structure):
+    """rf_spin of march.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("speed", c_double),
+        ("matrix", c_void_p),
+        ("rest", c_void_p),
     ]
 
 
@@ -257,6 +269,7 @@ class MarchStruct(ctypes.Structure):
         ("scheme", SchemeStruct),
         ("journals", JournalsStruct),
         ("profile", SpeedsStruct),
+        ("spin", SpinStruct),
         ("scales", c_void_p),
         ("longest", c_double),
         ("shortest", c_double),

@@ -152,6 +152,10 @@ int rf_set_step_table(const rf_modes *rotor, const rf_scheme *scheme, double h, 
         set_weights(modes, count, scheme->remainder, integrals, w + s * modes);
         set_seen(rotor, w + s * modes, table->defect + (size_t)i * block);
         set_move(rotor, table->keep, table->move + i * rotor->rows * 2 * modes);
+        if (table->weights) {
+            memcpy(table->turn + i * modes, table->keep, (size_t)modes * sizeof *w);
+            memcpy(table->weights + i * count * modes, w, (size_t)(count * modes) * sizeof *w);
+        }
     }
     set_advance(rotor, s, w, table);
     free(w);

@@ -41,6 +41,9 @@ typedef struct rf_step_table {
     double *defect;    /* s x rows x channels: per gap of the force at the start */
     rf_complex *keep;  /* modes: modal coordinates at the end per themselves */
     double *forced;    /* 2 modes x s channels: their real and imaginary parts per force at each node */
+    /* Where the modes are not those of the speed (spin.h), else NULL: */
+    rf_complex *turn;    /* s x modes: modal coordinates at the nodes per themselves */
+    rf_complex *weights; /* s x (s + 1) x modes: at a node per drive at each node, and per gap at the start */
 } rf_step_table;
 
 /* Fill the tables of a step of length h; answers an rf_status. */

@@ -6,13 +6,14 @@
 
 #include "../solvers/dense.h"
 #include "march_step.h"
+#include "spin.h"
 
 #define WHOLE 1.0001 /* of a step that must fit before the stop */
 
-/* The forces of the last step, continued to the nodes of one that is `ratio` as long. */
-static void extrapolate(const rf_march *march, double ratio, const double *u, double *out)
+/* What acts in the last step, so many numbers a node, continued to the nodes of one that is `ratio` as long. */
+static void extrapolate(const rf_march *march, double ratio, int32_t channels, const double *u, double *out)
 {
-    const int32_t s = march->scheme.stages, channels = march->rotor.channels;
+    const int32_t s = march->scheme.stages;
     for (int32_t i = 0; i < s; ++i) {
         const double at = 1.0 + ratio * march->scheme.nodes[i];
         double *row = out + i * channels;
@@ -26,6 +27,33 @@ static void extrapolate(const rf_march *march, double ratio, const double *u, do
                 row[c] += value * u[j * channels + c];
         }
     }
+}
+
+/* What may act in a step that follows one of this length, 0 where there is none. */
+static void guess(const rf_march *march, double h, double before, rf_scratch *at)
+{
+    const int32_t s = march->scheme.stages, channels = march->rotor.channels;
+    const int32_t drives = march->spin.matrix ? 2 * march->rotor.modes : 0;
+    if (before > 0.0) {
+        extrapolate(march, h / before, channels, at->u, at->guess);
+        extrapolate(march, h / before, drives, at->drive_before, at->drive);
+        return;
+    }
+    for (int32_t i = 0; i < s; ++i) {
+        memcpy(at->guess + i * channels, at->start, (size_t)channels * sizeof *at->guess);
+        memcpy(at->drive + i * drives, at->drive_start, (size_t)drives * sizeof *at->drive);
+    }
+}
+
+/* What acted in the step that is done, for the next one. */
+static void keep_forces(const rf_march *march, rf_scratch *at)
+{
+    const size_t s = (size_t)march->scheme.stages, channels = (size_t)march->rotor.channels;
+    const size_t drives = march->spin.matrix ? 2 * (size_t)march->rotor.modes : 0;
+    memcpy(at->u, at->guess, s * channels * sizeof *at->u);
+    memcpy(at->start, at->guess + (s - 1) * channels, channels * sizeof *at->start);
+    memcpy(at->drive_before, at->drive, s * drives * sizeof *at->drive);
+    memcpy(at->drive_start, at->drive + (s - 1) * drives, drives * sizeof *at->drive);
 }
 
 static double length_of(const rf_march *march, int32_t step)
@@ -66,6 +94,10 @@ static void set_forced(const rf_march *march, rf_scratch *at)
         memset(to, 0, (size_t)s * sizeof *to);
         for (int32_t j = 0; j < s; ++j) {
             rf_complex at_node = {0.0, 0.0};
+            if (march->spin.matrix) {
+                at_node.re = at->drive[2 * j * march->rotor.modes + m];
+                at_node.im = at->drive[(2 * j + 1) * march->rotor.modes + m];
+            }
             for (int32_t c = 0; c < channels; ++c) {
                 at_node.re += push[c].re * at->guess[j * channels + c];
                 at_node.im += push[c].im * at->guess[j * channels + c];
@@ -103,10 +135,14 @@ static int64_t sample(const rf_march *march, double h, const double *grid, int64
     return place;
 }
 
-static void advance(const rf_march *march, const rf_step_table *table, rf_scratch *at)
+static void advance(rf_march *march, const rf_step_table *table, rf_scratch *at)
 {
     const size_t modes = (size_t)march->rotor.modes;
     const size_t wide = (size_t)march->scheme.stages * (size_t)march->rotor.channels;
+    if (march->spin.matrix) {
+        rf_advance_spinning(march, table, at);
+        return;
+    }
     memset(at->both, 0, 2 * modes * sizeof *at->both);
     rf_add_product(2 * modes, wide, 1.0, table->forced, at->guess, at->both);
     for (size_t m = 0; m < modes; ++m) {
@@ -139,8 +175,6 @@ static int end_of(int status)
 static int march_on(rf_march *march, double stop, int64_t budget, const double *grid, int64_t count,
                     int64_t *place, rf_complex *out, rf_scratch *at)
 {
-    const int32_t s = march->scheme.stages, channels = march->rotor.channels;
-    const size_t forces = (size_t)s * (size_t)channels * sizeof *at->u;
     const double last = nextafter(stop, -HUGE_VAL);
     double before = 0.0; /* length of the step whose forces are known */
     const int start = rf_set_start(march, at);
@@ -153,11 +187,7 @@ static int march_on(rf_march *march, double stop, int64_t budget, const double *
         const rf_step_table *table = whole ? table_of(march, march->step) : table_once(march, h);
         if (!table)
             return RF_MARCH_MEMORY;
-        if (before > 0.0)
-            extrapolate(march, h / before, at->u, at->guess);
-        else
-            for (int32_t i = 0; i < s; ++i)
-                memcpy(at->guess + i * channels, at->start, (size_t)channels * sizeof *at->guess);
+        guess(march, h, before, at);
         const int status = rf_try_step(march, table, h, last, at, &error);
         if (status == RF_MEMORY)
             return RF_MARCH_MEMORY;
@@ -177,8 +207,7 @@ static int march_on(rf_march *march, double stop, int64_t budget, const double *
         march->left_map |= status == RF_OUTSIDE;
         *place = sample(march, h, grid, count, *place, at, out);
         advance(march, table, at);
-        memcpy(at->u, at->guess, forces);
-        memcpy(at->start, at->guess + (s - 1) * channels, (size_t)channels * sizeof *at->start);
+        keep_forces(march, at);
         march->time = whole ? march->time + h : stop;
         before = h;
         if (whole) {

@@ -16,6 +16,14 @@ typedef struct rf_speeds {
     const double *times, *speeds, *slopes, *angles; /* slopes after the times, angles turned since t = 0 */
 } rf_speeds;
 
+/* What the speed changes of a rotor whose modes are those of another one: rates of its modal coordinates, real
+   parts and then imaginary ones, per rad/s that it turns faster. */
+typedef struct rf_spin {
+    double speed;         /* of the modes */
+    const double *matrix; /* 2 modes x 2 modes; NULL where the speed changes nothing, or is that of the modes */
+    const double *rest;   /* 2 modes: at the rest about which motion is counted */
+} rf_spin;
+
 #define RF_SLOTS 24   /* lengths of steps whose tables are kept */
 #define RF_STEPS 400  /* lengths of steps: the longest over 2^(k/4) */
 
@@ -33,6 +41,7 @@ typedef struct rf_march {
     rf_scheme scheme;
     rf_journals journals;
     rf_speeds profile;
+    rf_spin spin;
     const double *scales; /* 4 n: make x, y, vx, vy of each journal dimensionless */
     double longest, shortest; /* step [s] */
     double rtol, newton;      /* local error, and what Newton's method leaves of it */

@@ -6,6 +6,7 @@
 
 #include "../films/map_frame.h"
 #include "../solvers/dense.h"
+#include "spin.h"
 
 #define NEWTON_STEPS 8
 #define HUGE_CHANGE 1e300
@@ -14,11 +15,13 @@ int rf_open_scratch(rf_scratch *at, const rf_march *march)
 {
     const size_t s = (size_t)march->scheme.stages, channels = (size_t)march->rotor.channels;
     const size_t rows = (size_t)march->rotor.rows, modes = (size_t)march->rotor.modes;
-    const size_t all = 2 * s * (size_t)march->journals.count;
+    const size_t all = 2 * s * (size_t)march->journals.count, drives = march->spin.matrix ? 2 * modes : 0;
     const size_t sizes[] = {s * channels, s * channels, channels, 2 * modes, s * rows, s * rows,  s * rows,
-                            s,            all,          4 * all,  all * all, all,      2 * modes * s, 2 * modes * s};
+                            s,            all,          4 * all,  s * drives, s * drives, drives, s * drives, all * all,
+                            all,          2 * modes * s, 2 * modes * s};
     double **const places[] = {&at->u,      &at->guess, &at->start, &at->both,   &at->free, &at->motion,
-                               &at->before, &at->speed, &at->force, &at->slope, &at->matrix, &at->right};
+                               &at->before, &at->speed, &at->force, &at->slope, &at->drive,
+                               &at->drive_before, &at->drive_start, &at->push, &at->matrix, &at->right};
     const size_t count = sizeof sizes / sizeof *sizes, named = sizeof places / sizeof *places;
     size_t total = 0;
     for (size_t k = 0; k < count; ++k)
@@ -49,10 +52,14 @@ static double unbalance(const rf_speeds *profile, double t, double pair[2])
 }
 
 /* Motion of the journals at the nodes under the forces in at->guess. */
-static void set_motion(const rf_march *march, const rf_step_table *table, const rf_scratch *at, double *motion)
+static void set_motion(const rf_march *march, const rf_step_table *table, rf_scratch *at, double *motion)
 {
     const size_t s = (size_t)march->scheme.stages, channels = (size_t)march->rotor.channels;
     const size_t rows = (size_t)march->rotor.rows;
+    if (march->spin.matrix) {
+        rf_set_spinning_motion(march, table, at, motion);
+        return;
+    }
     memcpy(motion, at->free, s * rows * sizeof *motion);
     for (size_t i = 0; i < s; ++i)
         for (size_t j = 0; j < s; ++j)
@@ -147,6 +154,8 @@ static double local_error(const rf_march *march, const rf_step_table *table, rf_
 {
     const int32_t s = march->scheme.stages, channels = march->rotor.channels, rows = march->rotor.rows;
     double *gap = at->right, worst = 0.0;
+    if (march->spin.matrix)
+        rf_set_spinning_gap(march, table, at, at->before);
     for (int32_t c = 0; c < channels; ++c) {
         gap[c] = at->start[c];
         for (int32_t j = 0; j < s; ++j)
@@ -155,7 +164,7 @@ static double local_error(const rf_march *march, const rf_step_table *table, rf_
     for (int32_t i = 0; i < s; ++i)
         for (int32_t q = 0; q < rows; ++q) {
             const double *defect = table->defect + (i * rows + q) * channels;
-            double total = 0.0;
+            double total = march->spin.matrix ? at->before[i * rows + q] : 0.0;
             for (int32_t c = 0; c < channels; ++c)
                 total += defect[c] * gap[c];
             worst = fmax(worst, fabs(total) * march->scales[q]);
@@ -192,5 +201,7 @@ int rf_set_start(const rf_march *march, rf_scratch *at)
         at->motion[q] = total;
     }
     const double w = unbalance(&march->profile, march->time, at->start + forces);
+    if (march->spin.matrix)
+        rf_set_drive_start(march, w, at);
     return rf_set_forces(&march->journals, at->motion, w, at->start, at->slope);
 }

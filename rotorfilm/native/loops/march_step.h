@@ -12,6 +12,8 @@ typedef struct rf_scratch {
     double *free, *motion, *before; /* s x rows: without forces, with them, and with those of the last iterate */
     double *speed;          /* s */
     double *force, *slope;  /* s x 2 n, s x 2 n x 4 */
+    double *drive, *drive_before; /* s x 2 modes: what spin.h adds, in this step and in the last one */
+    double *drive_start, *push;   /* 2 modes: at the start; s x 2 modes: all that acts on the modes */
     double *matrix, *right; /* (s 2 n) squared, and as many as one row or all channels */
     rf_complex *forced;     /* modes x s: what the forces of a step do to each mode, by powers of time */
     rf_complex *weights;    /* modes x s */

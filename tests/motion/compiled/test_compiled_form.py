@@ -158,7 +158,6 @@ class OwnBearing(JournalBearing):
         (rigid(), OwnBearing(**SIZES)),
         (rigid(), PorousDamper(radius=0.05, length=0.02, clearance=1e-4, viscosity=0.02)),
         (mount(shaft(), {"left": OwnBearing(**SIZES)}), MAP),
-        (mount(shaft(SpeedProfile(times=(0.0, 1.0), speeds=(100.0, 200.0))), {"left": MAP}), MAP),
         (mount(shaft(loss_factor=0.01), {"left": MAP}), MAP),
     ],
     ids=[
@@ -166,7 +165,6 @@ class OwnBearing(JournalBearing):
         "own bearing",
         "film without kernel",
         "own bearing mounted",
-        "gyroscopic run-up",
         "hysteresis",
     ],
 )

@@ -181,12 +181,6 @@ def test_run_up_of_a_rigid_rotor():
     assert run["speed"] == pytest.approx(other["speed"])
 
 
-def test_run_up_with_gyroscopic_effect_is_refused():
-    rotor = shaft(speed=SpeedProfile(times=(0.0, 1.0), speeds=(100.0, 200.0)))
-    with pytest.raises(InputError, match="speed must be constant"):
-        simulate_rotor(mount(rotor, {"left": BEARING, "right": BEARING}), duration=0.1)
-
-
 def test_rest_stays_at_rest():
     rotor = shaft(unbalances=(), speed=150.0)
     films = {"left": BEARING, "right": BEARING}
