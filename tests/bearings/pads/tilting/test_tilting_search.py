@@ -3,13 +3,11 @@
 import numpy as np
 import pytest
 
-from rotorfilm import FilmContactError, PadMapFilm, equilibrium
-from rotorfilm.bearings.pads.pad_build import PadResolution
+from rotorfilm import PadMapFilm, equilibrium, even_pivots
 from rotorfilm.bearings.pads.tilting.held_pads import TURN
 from rotorfilm.bearings.pads.tilting.pivots import directions
 
 SPEED = 300.0
-COARSE = PadMapFilm(resolution=PadResolution(cells=(16, 4), nodes=(8, 9, 24)))
 
 
 @pytest.mark.closed_form
@@ -32,35 +30,30 @@ def test_a_load_that_one_pad_carries_nearly_alone_has_its_place(tilting, side, h
     assert abs(at.position[0]) > 0.3 * bearing.clearance
 
 
-@pytest.mark.parametrize(
-    ("place", "velocity", "tilts"),
-    [
-        ((15.768342966, -48.960275813), (-50.83726297558074, 30.385281535486464), (-32.8, 63.26, -14.6, -30.7)),
-        ((11.533588193916555, 2.7984857394483638), (-2980.422431739963, -7789.090046664958), (50.7, 38.8, -28.3, -0.67)),
-        ((-15.541, 48.498), (-13.036, -8.735), (-22.161, -59.757, -81.63, -37.14)),
-    ],
-)
-def test_pads_follow_where_newtons_steps_would_go_round_in_circles(tilting, place, velocity, tilts):
-    """The moment of a spline bends where the film ruptures: of some states in ten thousand steps repeat."""
-    bearing = tilting(4, 0.5, 60.0, 0.3, film=COARSE)
-    random, c = np.random.default_rng(3), bearing.clearance
-    Q, found = directions(bearing.pivots), 0
-    back = 0.5 * SPEED * TURN
-    for _ in range(4000):
-        place, tilts = 0.5 * c * random.uniform(-1.0, 1.0, 2), 0.9 * c * random.uniform(-1.0, 1.0, 4)
-        velocity = c * SPEED * random.uniform(-1.0, 1.0, 2) * 10.0 ** random.uniform(-4.0, 0.0)
-        try:
-            rates = bearing.evaluated(tilts, [*place, *velocity, SPEED]).rates
-        except FilmContactError:
-            continue
+CIRCLES = [
+    (
+        (1.5768342966143575e-05, -4.8960275813175866e-05, -5.083726297558074e-05, 3.0385281535486464e-05),
+        (-3.279893502959982e-05, 6.32633637350964e-05, -1.4555793215066918e-05, -3.0748299551809394e-05),
+    ),
+    (
+        (1.1533588193916555e-05, 2.7984857394483638e-06, -0.002980422431739963, -0.007789090046664958),
+        (5.0699225987634845e-05, 3.8815537911529006e-05, -2.8304797593655173e-05, -6.686912425611502e-07),
+    ),
+]
+"""x, y, vx, vy and the tilts of four pads, of 33000 random states those that failed Newton's method."""
+
+
+def test_pads_follow_where_newtons_steps_go_round_in_circles(tilting):
+    """The moment of a spline bends where the film ruptures."""
+    pivots = even_pivots(4, between_pads=True)
+    bearing = tilting(4, 0.5, 60.0, 0.3, film=PadMapFilm(), pivots=pivots)
+    Q, c, none = directions(pivots), bearing.clearance, np.zeros(4)
+    for (*place, vx, vy), tilts in CIRCLES:
+        rates = bearing.evaluated(tilts, [*place, vx, vy, SPEED]).rates
         shift = np.array([[bearing.preload], [0.0]])
-        e = (np.einsum("kij,i->jk", Q, place) + np.stack([np.zeros(4), tilts])) / c + shift
-        w = (np.einsum("kij,i->jk", Q, velocity) + np.stack([np.zeros(4), rates])) / c + back @ e
+        e = (np.einsum("kij,i->jk", Q, place) + np.stack([none, tilts])) / c + shift
+        w = (np.einsum("kij,i->jk", Q, (vx, vy)) + np.stack([none, rates])) / c + 0.5 * SPEED * TURN @ e
         force = bearing.kernel.film.force(e, w).values
-        film = force[0] != 0.0
         # With pivots in the middle the frames agree: no moment is left.
-        assert (
-            np.abs(force[1, film]).max(initial=0.0) <= 1e-9 * np.abs(force[0, film]).max(initial=0.0) + 1e-12
-        )
-        found += 1
-    assert found > 2000
+        assert np.abs(force[0]).max() > 0.0
+        assert np.all(np.abs(force[1]) <= 1e-9 * np.abs(force[0]).max())
