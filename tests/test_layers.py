@@ -62,7 +62,7 @@ PARTS = {
     "bearings/damper": [["built"]],
     "bearings/pads": [["dam", "tilting"]],
     "rotors": [["shaft"]],
-    "linear": [["large"]],
+    "linear": [["large", "search"]],
     "motion": [["compiled"], ["transient", "circular"], ["periodic"]],
     "cosim": [["schemes"], ["loops"]],
     "fmu": [["description"], ["python", "check"], ["native"]],

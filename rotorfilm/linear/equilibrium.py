@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,66 +13,32 @@ from numpy.typing import ArrayLike
 from ..bearings.contact_place import WalledReaction, relative_film
 from ..errors import (
     EquilibriumError,
-    FilmContactError,
     InputError,
-    UndefinedDerivativeError,
     ValidityWarning,
     require_finite,
     require_number,
 )
 from ..inputs.kinds import arguments
-from ..model import Array, JournalForce, Reaction, Tangent, prepared_tangent, require_reaction
+from ..model import Array, JournalForce, Reaction, prepared_tangent, require_reaction
 from ..results import Equilibrium
 from ..warming import Settling, Warming
-
-MAXIMUM_ECCENTRICITY = 0.9999
-"""Eccentricity ratio beyond which a load counts as more than the film can carry."""
+from .search.static_search import (
+    LARGEST_S,
+    MAXIMUM_ECCENTRICITY,
+    StaticPoint,
+    StaticTarget,
+    continued_place,
+    place_tolerance,
+    search_place,
+)
 
 UNLOADED = (
     "an unloaded journal has no attitude angle (for the centered journal use coefficients at position (0, 0))"
 )
 """Why a load of zero has no equilibrium."""
 
-_TOLERANCE = 1e-12
 _KELVIN = 4e-12
-_ROUNDOFF_STOP = 1e-13
-_NEWTON_STEPS = 60
-_NEUTRAL = 1e-11
-_LARGEST_S = math.log(MAXIMUM_ECCENTRICITY / (1.0 - MAXIMUM_ECCENTRICITY))
-_LARGEST_MOVE = (6.0, 1.0)
 _FIRST_ANGLE = math.pi / 3.0
-
-
-class _Target(NamedTuple):
-    """What the search looks for: the film in plain numbers, and the force that it must have."""
-
-    tangent: Tangent
-    clearance: float
-    speed: float
-    x: float
-    y: float
-    room: float
-    lead: float  # of the first trial, from the load on
-
-    @property
-    def size(self) -> float:
-        return math.hypot(self.x, self.y)
-
-
-class _Point(NamedTuple):
-    """A trial solution (s, phi): position, residual (ratio, angle) and its derivatives, row by row."""
-
-    s: float
-    phi: float
-    steps: int
-    position: tuple[float, float] = (math.nan, math.nan)
-    ratio: float = math.inf
-    angle: float = 0.0
-    matrix: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
-
-    @property
-    def norm(self) -> float:
-        return math.hypot(self.ratio, self.angle)
 
 
 @arguments
@@ -117,12 +83,14 @@ def equilibrium(reaction: Reaction, load: ArrayLike, speed: float) -> Equilibriu
     room = min(relative_film(film, np.zeros(2)), 1.0)
     lead = 0.0 if at_rest else math.copysign(_FIRST_ANGLE, speed)  # pads that follow take no journal aside
     x, y = -float(load[0]), -float(load[1])
-    target = _Target(prepared_tangent(film), film.clearance, speed, x, y, room, lead)
+    target = StaticTarget(prepared_tangent(film), film.clearance, speed, x, y, room, lead)
     with warnings.catch_warnings():
         # A state that the search only passes through is nobody's answer; that of the result is warned of.
         warnings.simplefilter("ignore", ValidityWarning)
-        best = _search(target)
-    if best.norm > _tolerance(best.s):
+        best = search_place(target)
+        if at_rest and best.norm > place_tolerance(best.s):
+            best = continued_place(target, best)
+    if best.norm > place_tolerance(best.s):
         raise EquilibriumError(_why_not(load, speed, best))
     found = _result(film, load, target, best)
     return found if at_rest is None else at_rest.settled(found)
@@ -173,92 +141,7 @@ def checked_load(load: ArrayLike) -> Array:
     return array
 
 
-def _search(target: _Target) -> _Point:
-    """Return the first converged point, or the best of all starts."""
-    points = []
-    for s, phi in _starts(target):
-        points.append(_newton(target, s, phi))
-        if points[-1].norm <= _tolerance(points[-1].s):
-            return points[-1]
-    return min(points, key=lambda point: point.norm)
-
-
-def _starts(target: _Target) -> list[tuple[float, float]]:
-    """Return starting points (s, phi); the first, half of the way to the wall, is enough for most films."""
-    along_load, half = math.atan2(-target.y, -target.x), math.log(target.room / (2.0 - target.room))
-    turns = [k * math.pi / 3.0 for k in range(6)]
-    first = (half, along_load + target.lead)
-    return [first, *((s, along_load + turn) for s in (half - 2.0, half + 2.0) for turn in turns)]
-
-
-def _newton(target: _Target, s: float, phi: float) -> _Point:
-    point = _point(target, s, phi, 0)
-    while point.steps < _NEWTON_STEPS and _ROUNDOFF_STOP < point.norm < math.inf:
-        a, b, c, d = point.matrix
-        det, size = a * d - b * c, a * a + b * b + c * c + d * d or 1.0
-        step_s, step_phi = b * point.angle - d * point.ratio, c * point.ratio - a * point.angle
-        if abs(det) < _NEUTRAL * size:  # nothing holds the journal in one direction: the shortest step
-            det, step_s = -size, a * point.ratio + c * point.angle
-            step_phi = b * point.ratio + d * point.angle
-        improved = _damped(target, point, step_s / det, step_phi / det)
-        if improved is None:
-            break
-        point = improved
-    return point
-
-
-def _damped(target: _Target, point: _Point, step_s: float, step_phi: float) -> _Point | None:
-    """Return the first of ever shorter steps that lowers the residual, or None."""
-    share = min(
-        1.0, _LARGEST_MOVE[0] / max(abs(step_s), 1e-300), _LARGEST_MOVE[1] / max(abs(step_phi), 1e-300)
-    )
-    for halvings in range(10):
-        part = 0.5**halvings * share
-        s = min(point.s + part * step_s, _LARGEST_S)
-        trial = _point(target, s, point.phi + part * step_phi, point.steps + 1)
-        if trial.norm < point.norm:
-            return trial
-    return None
-
-
-def _point(target: _Target, s: float, phi: float, steps: int) -> _Point:
-    """Return the residual at (s, phi), and d(residual)/d(s, phi) by the chain rule from dF/d(position)."""
-    distance = target.clearance / (1.0 + math.exp(-s))
-    x, y = distance * math.cos(phi), distance * math.sin(phi)
-    try:
-        fx, fy, D = target.tangent(x, y, 0.0, 0.0, target.speed)
-    except (UndefinedDerivativeError, FilmContactError):
-        return _Point(s, phi, steps)
-    size = math.hypot(fx, fy)
-    if not 0.0 < size < math.inf:
-        return _Point(s, phi, steps)
-    # d(position)/ds = (1 - chi) position, d(position)/dphi = position turned by 90 degrees
-    gap = 1.0 / (1.0 + math.exp(s))
-    x_s, y_s = gap * (D[0] * x + D[1] * y), gap * (D[5] * x + D[6] * y)
-    x_phi, y_phi = D[1] * x - D[0] * y, D[6] * x - D[5] * y
-    ux, uy = fx / size, fy / size
-    return _Point(
-        s,
-        phi,
-        steps,
-        (x, y),
-        math.log(size / target.size),
-        math.atan2(target.x * uy - target.y * ux, target.x * ux + target.y * uy),
-        (
-            (ux * x_s + uy * y_s) / size,
-            (ux * x_phi + uy * y_phi) / size,
-            (ux * y_s - uy * x_s) / size,
-            (ux * y_phi - uy * x_phi) / size,
-        ),
-    )
-
-
-def _tolerance(s: float) -> float:
-    """Return the tolerance: 1e-12, or more where 1 - chi loses digits in the subtraction."""
-    return max(_TOLERANCE, 1e-15 * (1.0 + math.exp(s)))
-
-
-def _result(reaction: Reaction, load: Array, target: _Target, point: _Point) -> Equilibrium:
+def _result(reaction: Reaction, load: Array, target: StaticTarget, point: StaticPoint) -> Equilibrium:
     position = np.array(point.position)
     force = reaction.force(position, np.zeros(2), target.speed)
     angle = math.copysign(1.0, target.speed) * (point.phi - math.atan2(-target.y, -target.x))
@@ -275,19 +158,19 @@ def _result(reaction: Reaction, load: Array, target: _Target, point: _Point) -> 
     )
 
 
-def _minimum_film(reaction: Reaction, target: _Target, point: _Point) -> float:
+def _minimum_film(reaction: Reaction, target: StaticTarget, point: StaticPoint) -> float:
     """Return the least film [m]; in a circle from s, which has its digits near the wall."""
     if isinstance(reaction, WalledReaction):
         return float(reaction.minimum_film(point.position))
     return target.clearance / (1.0 + math.exp(point.s))
 
 
-def _why_not(load: Array, speed: float, best: _Point) -> str:
+def _why_not(load: Array, speed: float, best: StaticPoint) -> str:
     """Return the message that names the load, the rule it breaks, and the film force at the limit."""
     given = f"got load {load.tolist()} N with |load| = {math.hypot(*load):.6g} N"
     if not math.isfinite(best.norm):
         return f"speed must make the film carry load: at speed {speed!r} rad/s it carries none, {given}"
-    if best.s == _LARGEST_S and best.ratio < 0.0:
+    if best.s == LARGEST_S and best.ratio < 0.0:
         limit = math.exp(best.ratio) * math.hypot(*load)
         return (
             f"load must be within the film's capacity at speed {speed!r} rad/s: the film force at "

@@ -69,9 +69,9 @@ def test_a_mounted_rotor_has_the_temperatures_as_states():
 
 def test_in_time_the_film_warms_and_keeps_its_temperature_in_vibration():
     cooling = Cooling(supply_temperature=310.25, bush_heat_capacity=300.0)
-    run = simulate(RigidRotor(mass=50.0, speed=SPEED), bearing(cooling=cooling), duration=0.3, samples=301)
+    run = simulate(RigidRotor(mass=50.0, speed=SPEED), bearing(cooling=cooling), duration=0.15, samples=151)
     temperature = run["temperature"]
     assert temperature[0] == 310.25
     # 200 to 500 W into some 300 J/K: the order of a kelvin a second, and no ripple of the orbit.
-    assert 0.2 < temperature[-1] - temperature[0] < 0.8
+    assert 0.1 < temperature[-1] - temperature[0] < 0.4
     assert np.abs(np.diff(temperature, 2)).max() < 1e-4

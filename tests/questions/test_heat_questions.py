@@ -1,7 +1,6 @@
 """Questions about journals on an oil: which thermal rung answers, how far it is off, and what it assumes."""
 
 import math
-from functools import cache
 
 import numpy as np
 import pytest
@@ -73,22 +72,16 @@ def grooved(quantity, tolerance):
     return parse_scene(text, "test")
 
 
-@cache
-def true_eccentricity(scene):
-    """Return the eccentricity ratio of a scene to 1 %."""
-    answer = scene("eccentricity_ratio", 0.01).ask()
-    assert answer.model.startswith("T3")
-    return answer.value
-
-
 @pytest.mark.parametrize("scene", [plain, grooved])
-@pytest.mark.parametrize(("tolerance", "levels"), [(0.1, {"T1"}), (0.03, {"T2", "T3"})])
-def test_tolerance_decides_the_thermal_rung(scene, tolerance, levels):
-    answer = scene("eccentricity_ratio", tolerance).ask()
-    assert answer.met
-    assert answer.model[:2] in levels
-    assert "isothermal" not in answer.within
-    assert abs(answer.value / true_eccentricity(scene) - 1.0) < tolerance
+def test_tolerance_decides_the_thermal_rung(scene):
+    true = scene("eccentricity_ratio", 0.01).ask()
+    assert true.model.startswith("T3")
+    for tolerance, levels in ((0.1, {"T1"}), (0.03, {"T2", "T3"})):
+        answer = scene("eccentricity_ratio", tolerance).ask()
+        assert answer.met
+        assert answer.model[:2] in levels
+        assert "isothermal" not in answer.within
+        assert abs(answer.value / true.value - 1.0) < tolerance
 
 
 def test_film_that_hardly_warms_stays_isothermal():
@@ -275,7 +268,7 @@ material = {{ young_modulus = "210 GPa", shear_modulus = "80 GPa", density = 785
 elements = [{{ length = "700 mm", outer_diameter = "60 mm", pieces = 4 }}]
 disks = [{{ node = 2, width = "40 mm", outer_diameter = "220 mm", inner_diameter = "60 mm" }}]
 unbalances = [{{ node = 2, unbalance = "300 g mm" }}]
-speeds = {{ first = "400 rpm", last = "12000 rpm", count = 40 }}
+speeds = {{ first = "400 rpm", last = "12000 rpm", count = 12 }}
 [[shaft.bearings]]
 name = "one"
 node = 0

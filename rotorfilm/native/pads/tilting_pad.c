@@ -4,7 +4,6 @@
 
 #include "../films/map_frame.h"
 
-#define NEWTON 60
 #define FREE 8       /* steps of Newton's method before those that do not halve what is left are replaced */
 #define HALVINGS 200
 #define SCAN 32
@@ -111,17 +110,20 @@ int rf_pad_follow(const rf_tilting_pad *pad, const double *e, double *w, double 
     if (!(rf_pad_least(pad, e) > 0.0))
         return rf_fail(RF_AT_WALL, f, jacobian, 8);
     w[1] = narrow_follow(pad, e, w[0]);
-    for (int step = 0; step < NEWTON; ++step) {
+    for (int step = 0; step < HALVINGS; ++step) {
+        const double width = high - low;
         const int status = rf_pivoted_film(pad, e, w, f, by);
         if (status > RF_OUTSIDE)
             return rf_fail(status, f, jacobian, 8);
         /* The moment falls with w_t all along. */
         *(f[1] > 0.0 ? &low : &high) = w[1];
         double next = w[1] - f[1] / by[7];
-        if (!(next >= low && next <= high))
-            next = isfinite(low) && isfinite(high) ? 0.5 * (low + high) : w[1] + copysign(w[0] + fabs(w[1]), f[1]);
-        const int settled = f[1] == 0.0 || fabs(next - w[1]) <= ROUNDOFF * (fabs(w[1]) + w[0]);
-        if (settled) {
+        const double near = ROUNDOFF * (fabs(w[1]) + w[0]);
+        const int bounded = isfinite(low) && isfinite(high);
+        const int slow = bounded && step >= FREE && high - low > 0.5 * width && !(fabs(next - w[1]) <= near);
+        if (slow || !(next >= low && next <= high))
+            next = bounded ? 0.5 * (low + high) : w[1] + copysign(w[0] + fabs(w[1]), f[1]);
+        if (f[1] == 0.0 || fabs(next - w[1]) <= near) {
             for (int k = 0; jacobian && k < 8; ++k)
                 jacobian[k] = by[k];
             f[1] = 0.0;

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...answers import DISAGREEMENT
 from ...bearings.contact_place import minimum_film, relative_film
-from ...linear.equilibrium import MAXIMUM_ECCENTRICITY
+from ...linear.search.static_search import MAXIMUM_ECCENTRICITY
 from ...model import Array, JournalForce
 from ...results import Equilibrium
 from .film_candidate import FilmCandidate, room

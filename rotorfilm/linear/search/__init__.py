@@ -1,0 +1,1 @@
+"""The search for the place of a journal under a load."""

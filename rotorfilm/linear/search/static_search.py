@@ -1,0 +1,167 @@
+"""Newton's method for the place at which a film has a given force, and the loads that it has no slope for."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from ...errors import FilmContactError, UndefinedDerivativeError
+from ...model import Tangent
+
+MAXIMUM_ECCENTRICITY = 0.9999
+"""Eccentricity ratio beyond which a load counts as more than the film can carry."""
+
+LARGEST_S = math.log(MAXIMUM_ECCENTRICITY / (1.0 - MAXIMUM_ECCENTRICITY))
+
+_TOLERANCE = 1e-12
+_ROUNDOFF_STOP = 1e-13
+_NEWTON_STEPS = 60
+_NEUTRAL = 1e-11
+_LARGEST_MOVE = (6.0, 1.0)
+_ACROSS = (0.1, 0.2, 0.4, 0.8)
+_LESS = 1.4
+
+
+class StaticTarget(NamedTuple):
+    """What the search looks for: the film in plain numbers, and the force that it must have."""
+
+    tangent: Tangent
+    clearance: float
+    speed: float
+    x: float
+    y: float
+    room: float
+    lead: float  # of the first trial, from the load on
+
+    @property
+    def size(self) -> float:
+        """Size of that force [N]."""
+        return math.hypot(self.x, self.y)
+
+
+class StaticPoint(NamedTuple):
+    """A trial solution (s, phi): position, residual (ratio, angle) and its derivatives, row by row."""
+
+    s: float
+    phi: float
+    steps: int
+    position: tuple[float, float] = (math.nan, math.nan)
+    ratio: float = math.inf
+    angle: float = 0.0
+    matrix: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+
+    @property
+    def norm(self) -> float:
+        """Size of the residual [1]."""
+        return math.hypot(self.ratio, self.angle)
+
+
+def search_place(target: StaticTarget) -> StaticPoint:
+    """Return the first converged point, or the best of all starts."""
+    points = []
+    for s, phi in _starts(target):
+        points.append(_newton(target, s, phi))
+        if points[-1].norm <= place_tolerance(points[-1].s):
+            return points[-1]
+    return min(points, key=lambda point: point.norm)
+
+
+def continued_place(target: StaticTarget, best: StaticPoint) -> StaticPoint:
+    """Return the point of a load that one pad carries nearly alone, by loads that pull less and less across.
+
+    There the film holds the journal in one direction only, and nothing tells Newton's method how far across
+    the next pad begins, whose load grows as the root of the way.
+    """
+    if not math.isfinite(best.norm):
+        return best
+    fx, fy, _ = target.tangent(*best.position, 0.0, 0.0, target.speed)
+    left = math.hypot(target.x - fx, target.y - fy)
+
+    def pulled(size: float) -> StaticTarget:
+        more = size / left - 1.0
+        return target._replace(x=target.x + more * (target.x - fx), y=target.y + more * (target.y - fy))
+
+    for share in _ACROSS:
+        across = max(share * target.size, left)
+        point = search_place(pulled(across))
+        while across > left and point.norm <= place_tolerance(point.s):
+            across = max(across / _LESS, left)
+            point = _newton(pulled(across), point.s, point.phi)
+        if across == left and point.norm <= place_tolerance(point.s):
+            return point
+    return best
+
+
+def _starts(target: StaticTarget) -> list[tuple[float, float]]:
+    """Return starting points (s, phi); the first, half of the way to the wall, is enough for most films."""
+    along_load, half = math.atan2(-target.y, -target.x), math.log(target.room / (2.0 - target.room))
+    turns = [k * math.pi / 3.0 for k in range(6)]
+    first = (half, along_load + target.lead)
+    return [first, *((s, along_load + turn) for s in (half - 2.0, half + 2.0) for turn in turns)]
+
+
+def _newton(target: StaticTarget, s: float, phi: float) -> StaticPoint:
+    point = _point(target, s, phi, 0)
+    while point.steps < _NEWTON_STEPS and _ROUNDOFF_STOP < point.norm < math.inf:
+        a, b, c, d = point.matrix
+        det, size = a * d - b * c, a * a + b * b + c * c + d * d or 1.0
+        step_s, step_phi = b * point.angle - d * point.ratio, c * point.ratio - a * point.angle
+        if abs(det) < _NEUTRAL * size:  # nothing holds the journal in one direction: the shortest step
+            det, step_s = -size, a * point.ratio + c * point.angle
+            step_phi = b * point.ratio + d * point.angle
+        improved = _damped(target, point, step_s / det, step_phi / det)
+        if improved is None:
+            break
+        point = improved
+    return point
+
+
+def _damped(target: StaticTarget, point: StaticPoint, step_s: float, step_phi: float) -> StaticPoint | None:
+    """Return the first of ever shorter steps that lowers the residual, or None."""
+    share = min(
+        1.0, _LARGEST_MOVE[0] / max(abs(step_s), 1e-300), _LARGEST_MOVE[1] / max(abs(step_phi), 1e-300)
+    )
+    for halvings in range(10):
+        part = 0.5**halvings * share
+        s = min(point.s + part * step_s, LARGEST_S)
+        trial = _point(target, s, point.phi + part * step_phi, point.steps + 1)
+        if trial.norm < point.norm:
+            return trial
+    return None
+
+
+def _point(target: StaticTarget, s: float, phi: float, steps: int) -> StaticPoint:
+    """Return the residual at (s, phi), and d(residual)/d(s, phi) by the chain rule from dF/d(position)."""
+    distance = target.clearance / (1.0 + math.exp(-s))
+    x, y = distance * math.cos(phi), distance * math.sin(phi)
+    try:
+        fx, fy, D = target.tangent(x, y, 0.0, 0.0, target.speed)
+    except (UndefinedDerivativeError, FilmContactError):
+        return StaticPoint(s, phi, steps)
+    size = math.hypot(fx, fy)
+    if not 0.0 < size < math.inf:
+        return StaticPoint(s, phi, steps)
+    # d(position)/ds = (1 - chi) position, d(position)/dphi = position turned by 90 degrees
+    gap = 1.0 / (1.0 + math.exp(s))
+    x_s, y_s = gap * (D[0] * x + D[1] * y), gap * (D[5] * x + D[6] * y)
+    x_phi, y_phi = D[1] * x - D[0] * y, D[6] * x - D[5] * y
+    ux, uy = fx / size, fy / size
+    return StaticPoint(
+        s,
+        phi,
+        steps,
+        (x, y),
+        math.log(size / target.size),
+        math.atan2(target.x * uy - target.y * ux, target.x * ux + target.y * uy),
+        (
+            (ux * x_s + uy * y_s) / size,
+            (ux * x_phi + uy * y_phi) / size,
+            (ux * y_s - uy * x_s) / size,
+            (ux * y_phi - uy * x_phi) / size,
+        ),
+    )
+
+
+def place_tolerance(s: float) -> float:
+    """Return the tolerance: 1e-12, or more where 1 - chi loses digits in the subtraction."""
+    return max(_TOLERANCE, 1e-15 * (1.0 + math.exp(s)))
