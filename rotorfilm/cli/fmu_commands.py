@@ -46,10 +46,11 @@ def build(
     platforms: Annotated[Platforms, Option(help="This machine's platform, or all of them.")] = (
         Platforms.HOST
     ),
+    ssp: Annotated[bool, Option("--ssp", help="Write system.ssp too: film and rotor, connected.")] = False,
 ) -> Said:
     """Export the film and the rotor of a scene as FMUs; a flexible rotor as one, with its bearings in it."""
     from ..scenes import Scene
-    from ..scenes.export_scene import export_scene
+    from ..scenes.export_scene import export_scene, export_scene_system
     from ..scenes.shaft.export_rotor import export_system
 
     loaded = Scene.load(scene)
@@ -64,6 +65,9 @@ def build(
         platforms=platforms.value,
     )
     files = {name: str(path) for name, path in made._asdict().items()}
+    if ssp:
+        system = export_scene_system(loaded, out / "system.ssp", version=fmi.value, platforms=platforms.value)
+        files["ssp"] = str(system)
     return Said(files, partial(console.print_rows, "FMUs", files.items()))
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..files import written_together
-from ..fmu import export_fmu
+from ..fmu import export_fmu, export_ssp
 from ..linear import equilibrium
 from ..rotors.law_rotor import LawRotor
 from ..rotors.rigid import RigidRotor
@@ -55,6 +55,40 @@ def write_models(
                 stop_time=models.duration,
             )
     return ExportedScene(film=folder / f"{models.name}.fmu", rotor=folder / "rotor.fmu")
+
+
+def export_scene_system(scene: Scene, path: Path, *, version: str = "2.0", platforms: str = "host") -> Path:
+    """Write the film and the rotor of a scene, connected, as one file of SSP; see `export_ssp`.
+
+    Parameters
+    ----------
+    scene : Scene
+        With a rotor.
+    path : Path
+        Ending in `.ssp`.
+    version, platforms : str
+        See `export_fmu`.
+
+    Raises
+    ------
+    InputError
+        If the scene has no rotor, or no bearing that a rotor runs in.
+    EquilibriumError
+        If the film cannot carry the load.
+    FmuError
+        If a model cannot be exported.
+    """
+    models = models_of(scene)
+    return export_ssp(
+        models.rotor,
+        models.bearing,
+        path,
+        version,
+        platforms=platforms,
+        start={"film": models.start},
+        step_size=models.step,
+        stop_time=models.duration,
+    )
 
 
 def resting_rotor(scene: Scene) -> RigidRotor:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Mapping
+from datetime import UTC, datetime
 from typing import NamedTuple, Protocol
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
+from ...errors import InputError
 from ...signals import Variable
 from ...units import DISPLAY_UNITS, UNITS
 from .dependencies import Dependencies, Unknown
@@ -55,6 +58,10 @@ class Description(NamedTuple):
         Default experiment.
     sources : tuple of str
         C files below `sources/` that make the binary.
+    author : str
+        Who made the model; empty where nobody is named.
+    structured : bool
+        Whether names are `component.signal`.
     """
 
     identifier: str
@@ -68,6 +75,8 @@ class Description(NamedTuple):
     stop_time: float
     step_size: float
     sources: tuple[str, ...] = ()
+    author: str = ""
+    structured: bool = True
 
     @property
     def tunable(self) -> bool:
@@ -111,10 +120,12 @@ def to_xml(description: Description, dialect: Dialect, token: str) -> bytes:
             "modelName": description.identifier,
             dialect.token: token,
             "description": description.title,
+            **({"author": description.author} if description.author else {}),
             "copyright": description.copyright,
             "license": "MIT, see documentation/licenses",
             "generationTool": description.tool,
-            "variableNamingConvention": "structured",
+            **_generated(),
+            "variableNamingConvention": "structured" if description.structured else "flat",
         },
     )
     for name in description.interfaces:
@@ -133,6 +144,20 @@ def to_xml(description: Description, dialect: Dialect, token: str) -> bytes:
         dialect.add_variable(variables, reference, variable)
     dialect.add_structure(SubElement(root, "ModelStructure"), description)
     return to_bytes(root)
+
+
+def _generated() -> dict[str, str]:
+    """Return when the FMU was made, as SOURCE_DATE_EPOCH says, so that equal builds are equal to the byte."""
+    seconds = os.environ.get("SOURCE_DATE_EPOCH", "")
+    if not seconds:
+        return {}
+    try:
+        made = datetime.fromtimestamp(int(seconds), tz=UTC)
+    except (ValueError, OverflowError, OSError):
+        raise InputError(
+            f"SOURCE_DATE_EPOCH must be a whole number of seconds since 1970, got {seconds!r}"
+        ) from None
+    return {"generationDateAndTime": made.strftime("%Y-%m-%dT%H:%M:%SZ")}
 
 
 def _add_units(root: Element, variables: tuple[Variable, ...]) -> None:

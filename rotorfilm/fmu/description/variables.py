@@ -24,7 +24,7 @@ def fmi_variables(model: Model | Stepped, component: str, start: Mapping[str, fl
     model : Model or Stepped
         A Stepped model shows no states.
     component : str
-        Identifier in front of the dot of every name.
+        Identifier in front of the dot of every name; empty for flat names.
     start : mapping of str to float
         Start values of inputs by signal name, in their units; 0 where none is given.
 
@@ -60,7 +60,7 @@ def labelled(component: str, causality: str, signal: Scalar, start: float | None
 
 
 def structured_name(component: str, label: str) -> str:
-    """Return `component.label`, the label quoted where FMI wants it.
+    """Return `component.label`, the label quoted where FMI wants it; without a component the label alone.
 
     Raises
     ------
@@ -68,14 +68,15 @@ def structured_name(component: str, label: str) -> str:
         If the label has characters that no FMI name may have.
     """
     if label.isidentifier() and label.isascii():
-        return to_fmi_name(component, label)
+        return to_fmi_name(component, label) if component else label
+    before = f"{component}." if component else ""
     if ELEMENT.fullmatch(label):
-        return f"{component}.{label}"
+        return f"{before}{label}"
     if not QUOTABLE.fullmatch(label):
         raise FmuError(
             f"signal names must be of ASCII letters, digits and !#$%&()*+,-./:;<>=?@[]^{{}}|~, got {label!r}"
         )
-    return f"{component}.'{label}'"
+    return f"{before}'{label}'"
 
 
 def require_unique(variables: Sequence[Variable]) -> None:

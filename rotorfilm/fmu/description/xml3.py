@@ -1,4 +1,4 @@
-"""modelDescription.xml, buildDescription.xml and terminalsAndIcons.xml of FMI 3.0."""
+"""modelDescription.xml and buildDescription.xml of FMI 3.0."""
 
 from __future__ import annotations
 
@@ -59,14 +59,4 @@ def build_description(identifier: str, sources: tuple[str, ...]) -> bytes:
     files = SubElement(configuration, "SourceFileSet", language="C99")
     for name in sources:
         SubElement(files, "SourceFile", name=name)
-    return to_bytes(root)
-
-
-def icon_description() -> bytes:
-    """Return terminalsAndIcons.xml: the size of icon.png on a diagram."""
-    root = Element("fmiTerminalsAndIcons", fmiVersion=VERSION)
-    corners = {"x1": "-100", "y1": "-100", "x2": "100", "y2": "100"}
-    graphics = SubElement(root, "GraphicalRepresentation")
-    SubElement(graphics, "CoordinateSystem", {**corners, "suggestedScalingFactorTo_mm": "0.1"})
-    SubElement(graphics, "Icon", corners)
     return to_bytes(root)

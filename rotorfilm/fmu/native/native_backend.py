@@ -17,8 +17,9 @@ from ...native.spec import NativeSpec
 from ...signals import Variable
 from ..archive import licenses
 from ..description.documentation import NATIVE, to_html
+from ..description.terminals import terminal_files
 from ..description.variables import fmi_variables, labelled, references, require_unique, structured_name
-from ..description.xml3 import build_description, icon_description
+from ..description.xml3 import build_description
 from ..python.bundle import PACKAGE
 from ..reference import reference_table, to_csv
 from .platforms import all_binaries, foreign_licenses, host_binary, native_sources
@@ -99,6 +100,8 @@ class Export(NamedTuple):
         "2.0" or "3.0".
     platforms : str
         "host" or "all".
+    prefix : str
+        What stands before the dot of each variable; empty where names are flat.
     """
 
     model: Model
@@ -109,6 +112,7 @@ class Export(NamedTuple):
     stop_time: float
     version: str
     platforms: str
+    prefix: str
 
 
 def native_tool() -> str:
@@ -130,7 +134,7 @@ def native_model_variables(export: Export) -> tuple[Variable, ...]:
     FmuError
         If two variables would have the same name.
     """
-    model, component = export.model, export.component
+    model, component = export.model, export.prefix
     time = Variable(name="time", causality="independent", unit="s", description="time")
     parameters = [
         replace(labelled(component, "parameter", p, p.value), tunable=p.tunable)
@@ -163,8 +167,8 @@ def _switches(export: Export) -> list[Variable]:
         return []
     count = len(export.model.events(0.0, export.model.initial_state, export.inputs))
     text = "event indicator: the model is smooth while it keeps its sign"
-    names = [structured_name(export.component, f"event_{k}") for k in range(count)]
-    return [Variable(name=name, causality="local", description=text, switch=True) for name in names]
+    labels = [structured_name(export.prefix, f"event_{k}") for k in range(count)]
+    return [Variable(name=label, causality="local", description=text, switch=True) for label in labels]
 
 
 def native_files(export: Export, variables: tuple[Variable, ...]) -> dict[str, bytes]:
@@ -183,6 +187,7 @@ def native_files(export: Export, variables: tuple[Variable, ...]) -> dict[str, b
         **licenses((PACKAGE,)),
         **foreign_licenses(),
         **_pictures(export),
+        **terminal_files(export.model, export.component, export.prefix, export.version == "3.0"),
         "documentation/index.html": _page(export, variables),
         REFERENCE: _reference(export, variables),
         **({"sources/buildDescription.xml": _build(export)} if export.version == "3.0" else {}),
@@ -226,6 +231,5 @@ def _pictures(export: Export) -> dict[str, bytes]:
         return {"model.png": content}
     return {
         f"terminalsAndIcons/{ICON}": content,
-        "terminalsAndIcons/terminalsAndIcons.xml": icon_description(),
         f"documentation/{ICON}": content,
     }

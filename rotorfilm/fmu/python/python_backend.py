@@ -78,6 +78,7 @@ def python_files(
     title: str,
     start: Mapping[str, float],
     variables: tuple[Variable, ...],
+    prefix: str,
 ) -> dict[str, bytes]:
     """Return all files of the FMU but the XML, by path.
 
@@ -94,7 +95,7 @@ def python_files(
     texts = PYTHON if isinstance(model, Model) else PYTHON_STEPPED
     page = to_html(title, variables, texts, json.dumps(shortened(data), indent=2))
     return {
-        **_resources(data, component, start, bundle, slave),
+        **_resources(data, component, prefix, start, bundle, slave),
         **binaries(component, bundle.files),
         **licenses((PACKAGE, "pythonfmu")),
         "documentation/index.html": page,
@@ -114,10 +115,10 @@ def _require_rebuilt(data: Any) -> None:
 
 
 def _resources(
-    data: Any, component: str, start: Mapping[str, float], bundle: Bundle, slave: SlaveClass
+    data: Any, component: str, prefix: str, start: Mapping[str, float], bundle: Bundle, slave: SlaveClass
 ) -> dict[str, bytes]:
     """Return the files that PythonFMU reads: the entry module, the model as data, and the source."""
-    settings = {"component": component, "start": dict(start), "modules": bundle.modules, "model": data}
+    settings = {"component": prefix, "start": dict(start), "modules": bundle.modules, "model": data}
     text = (json.dumps(settings, indent=2, sort_keys=True) + "\n").encode()
     tag = content_hash({**bundle.files, "model.json": text})
     entry = f"{component}_{tag}"

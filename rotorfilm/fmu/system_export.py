@@ -1,0 +1,189 @@
+"""A rotor and the films under it as one file of SSP 1.0: FMUs, their connections, and their parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ..errors import InputError, require_positive
+from ..files import write_whole
+from ..inputs.kinds import arguments
+from ..model import Dynamic, Model
+from .archive import to_zip
+from .description.system_structure import (
+    PARAMETERS,
+    Component,
+    Connection,
+    parameter_set,
+    system_structure,
+)
+from .description.terminals import Terminal, terminals
+from .export import export_fmu
+from .reading import read_description
+
+if TYPE_CHECKING:
+    import control
+
+ROTOR = "rotor"
+FILM = "film"
+"""Name of the only film; of several each has the name of its station."""
+
+
+class Part(NamedTuple):
+    """An FMU of the system: its file, its variables by name, its terminals by name."""
+
+    content: bytes
+    variables: dict[str, Any]
+    terminals: dict[str, Terminal]
+
+
+@arguments
+def export_ssp(
+    rotor: Dynamic | control.StateSpace,
+    films: Model | Mapping[str, Model],
+    path: str | Path,
+    version: str = "2.0",
+    *,
+    platforms: str = "host",
+    start: Mapping[str, Mapping[str, float]] | None = None,
+    stop_time: float = 0.1,
+    step_size: float = 1e-4,
+) -> Path:
+    """Write a rotor and the films under it as one system of SSP 1.0, which tools of SSP 2.0 read too.
+
+    Inside are an FMU of each (`resources/`), with names of variables that leave out the component, the
+    connections of each station (position, velocity and speed to the film, force to the rotor), and the values
+    of all parameters as a parameter set. The names of the components are `rotor`, and `film` or those of the
+    stations.
+
+    Parameters
+    ----------
+    rotor : Dynamic or control.StateSpace
+        With inputs `force_x`, `force_y` and outputs `x`, `y`, `vx`, `vy` of each station.
+    films : Model, or mapping of station to Model
+        Bearings or dampers.
+    path : str or Path
+        File to write, ending in `.ssp`; its folder is made if need be.
+    version, platforms : str
+        As in `export_fmu`.
+    start : mapping of str to mapping of str to float, optional
+        Start values of inputs [SI] by component and signal.
+    stop_time, step_size : float [s]
+        Default experiment.
+
+    Returns
+    -------
+    Path
+        The file written.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule, a film has no journal, or the rotor lacks a station or what a film
+        takes.
+    FmuError
+        If a model cannot be exported.
+    """
+    target = Path(path)
+    if target.suffix != ".ssp":
+        raise InputError(f"path must end in .ssp, got {str(path)!r}")
+    for argument, value in (("stop_time", stop_time), ("step_size", step_size)):
+        require_positive(argument, value)
+    stations = films if isinstance(films, Mapping) else {"": films}
+    models: dict[str, Any] = {ROTOR: rotor, **{station or FILM: film for station, film in stations.items()}}
+    starts = _starts(models, start or {})
+    with TemporaryDirectory() as folder:
+        parts = {}
+        for name, model in models.items():
+            file = Path(folder) / f"{name}.fmu"
+            export_fmu(
+                model,
+                file,
+                version,
+                platforms=platforms,
+                component=name,
+                start=starts[name],
+                stop_time=stop_time,
+                step_size=step_size,
+                flat_names=True,
+            )
+            parts[name] = _part(name, file)
+    connections = [link for station in stations for link in _connected(parts, station)]
+    target.parent.mkdir(parents=True, exist_ok=True)
+    return write_whole(target, to_zip(_contents(target.stem, parts, connections, float(stop_time))))
+
+
+def _starts(
+    models: Mapping[str, Any], start: Mapping[str, Mapping[str, float]]
+) -> dict[str, Mapping[str, float]]:
+    for name in start:
+        if name not in models:
+            raise InputError(f"start must have keys from the components {list(models)}, got {name!r}")
+    return {name: start.get(name, {}) for name in models}
+
+
+def _part(name: str, file: Path) -> Part:
+    described = read_description(str(file)).modelVariables
+    labels = {
+        side: [variable.name for variable in described if variable.causality == side]
+        for side in ("input", "output")
+    }
+    found = terminals(name, "", labels["input"], labels["output"])
+    return Part(
+        file.read_bytes(),
+        {variable.name: variable for variable in described},
+        {terminal.name: terminal for terminal in found},
+    )
+
+
+def _connected(parts: Mapping[str, Part], station: str) -> list[Connection]:
+    """Return the connections of a station: every member that one side gives and the other takes."""
+    name = station or FILM
+    rotor, film = parts[ROTOR].terminals.get(station or ROTOR), parts[name].terminals.get(name)
+    given = {} if film is None else parts[name].variables
+    if film is None or any(given[label].causality == "input" for label in _forces(film)):
+        raise InputError(f"films must take the motion of a journal and give its force, got none in {name!r}")
+    if rotor is None:
+        stations = list(parts[ROTOR].terminals)
+        raise InputError(f"rotor must have the station of each film, got {stations} without {name!r}")
+    missing = [member for member in film.members if member not in rotor.members]
+    if missing:
+        raise InputError(
+            f"rotor must have the signals of {name!r}, got {list(rotor.members)} without {missing}"
+        )
+    return [
+        Connection(ROTOR, rotor.members[member], name, label)
+        if parts[name].variables[label].causality == "input"
+        else Connection(name, label, ROTOR, rotor.members[member])
+        for member, label in film.members.items()
+    ]
+
+
+def _forces(terminal: Terminal) -> list[str]:
+    return [label for member, label in terminal.members.items() if member.startswith("force")]
+
+
+def _contents(
+    name: str, parts: Mapping[str, Part], connections: list[Connection], stop_time: float
+) -> dict[str, bytes]:
+    """Return the files of the archive by path."""
+    joined = {(end, label) for link in connections for end, label in (link[:2], link[2:])}
+    components = [
+        Component(
+            part,
+            f"resources/{part}.fmu",
+            tuple(
+                variable
+                for label, variable in parts[part].variables.items()
+                if (part, label) in joined or variable.causality == "parameter"
+            ),
+        )
+        for part in parts
+    ]
+    return {
+        "SystemStructure.ssd": system_structure(name, components, connections, stop_time),
+        PARAMETERS: parameter_set(name, components),
+        **{component.source: parts[component.name].content for component in components},
+    }
