@@ -1,4 +1,4 @@
-"""A film that remembers as a rotor asks for it: a step that is tried, with its slope, as often as Newton wants."""
+"""A film that remembers as a rotor asks for it: steps tried with their slope, as often as Newton wants."""
 
 from __future__ import annotations
 

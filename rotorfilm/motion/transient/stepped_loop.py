@@ -60,7 +60,9 @@ class Moment(NamedTuple):
     outputs: Array
 
 
-def stations_of(rotor: Dynamic, films: SteppedReaction | Mapping[str, SteppedReaction]) -> tuple[Station, ...]:
+def stations_of(
+    rotor: Dynamic, films: SteppedReaction | Mapping[str, SteppedReaction]
+) -> tuple[Station, ...]:
     """Return the films in their stations; raise InputError where they do not fit the rotor."""
     require_kind("rotor", rotor, Dynamic, "a rotor such as a RigidRotor")
     named = films if isinstance(films, Mapping) else {"": films}
@@ -80,20 +82,22 @@ def stations_of(rotor: Dynamic, films: SteppedReaction | Mapping[str, SteppedRea
             )
         )
     if len(inputs) > 2 * len(found):
-        raise InputError(f"reaction must be films in all stations of the rotor, got {list(named)} for {inputs}")
+        raise InputError(
+            f"reaction must be films in all stations of the rotor, got {list(named)} for {inputs}"
+        )
     return tuple(found)
 
 
 class SteppedLoop:
     """Steps of a rotor on films that remember.
 
-    With x the state of the rotor and F the forces of the films at the end of a step of length dt, Newton's method
-    solves
+    With x the state of the rotor and F the forces of the films at the end of a step of length dt, Newton's
+    method solves
 
         (a x + b x_n + c x_n-1)/dt = f(t, x, F),    F = F_film(journal at x; oil of the last steps)
 
-    by the exact slopes of the rotor and of the films' steps. Steps of second order (BDF2) of any lengths, Euler's
-    at the start and after one that was less than half as long.
+    by the exact slopes of the rotor and of the films' steps. Steps of second order (BDF2) of any lengths,
+    Euler's at the start and after one that was less than half as long.
 
     Parameters
     ----------
@@ -109,9 +113,7 @@ class SteppedLoop:
     def __init__(self, rotor: Dynamic, stations: tuple[Station, ...]) -> None:
         self.rotor, self.stations = rotor, stations
         self.work: Counter[str] = Counter(steps=0, newton_steps=0, film_solutions=0, restarts=0)
-        nominal = {
-            rotor.outputs[k].name: s.film.clearance for s in stations for k in s.motion[:2]
-        }
+        nominal = {rotor.outputs[k].name: s.film.clearance for s in stations for k in s.motion[:2]}
         self._scale = np.array([nominal.get(s.name, s.nominal) for s in rotor.states])
 
     def begin(self, state: Array) -> Moment:
@@ -157,9 +159,7 @@ class SteppedLoop:
         motion = self._motion(moment.time, moment.state)
         return min(1.0 - math.hypot(*motion[s.motion[:2]]) / s.film.clearance for s in self.stations)
 
-    def _tried(
-        self, now: Moment, t: float, x: Array, dt: float, last: list[Trial] | None
-    ) -> list[Trial]:
+    def _tried(self, now: Moment, t: float, x: Array, dt: float, last: list[Trial] | None) -> list[Trial]:
         motion, trials = self._motion(t, x), []
         for k, station in enumerate(self.stations):
             near = None if last is None else last[k].state
