@@ -162,7 +162,7 @@ def test_a_state_goes_through_bytes_to_the_last_bit():
 def test_a_step_that_fails_leaves_the_state(monkeypatch):
     state, near_wall = FILM.start(motion(0.0)), np.array([1.2 * c, 0.0, 0.0, 0.0, omega])
     before = FILM.pack(state)
-    with pytest.raises(FilmContactError, match="at t = 0.001 s"):
+    with pytest.raises(FilmContactError, match=r"at t = 0.001 s"):
         FILM.step(state, 0.0, near_wall, 1e-3)
     whole, limit = ConservedFilm.solve, TURN / 300.0
 
