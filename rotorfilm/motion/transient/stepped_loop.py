@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...bearings.films.conserved.conserved_film import bdf2
-from ...bearings.stepped_reaction import SteppedReaction, Trial
+from ...bearings.stepped_reaction import SteppedReaction, StepTrial
 from ...errors import ConvergenceError, FilmContactError, InputError, require_kind
 from ...model import Array, Dynamic
 from ...signals import FORCE_OUTPUTS, JOURNAL_INPUTS, indices, names
@@ -28,8 +28,17 @@ NEAREST = 0.1
 """Part of the gap that a Newton step leaves."""
 
 
-class Station(NamedTuple):
-    """One film, and where the rotor has its journal: indices of its outputs and inputs."""
+class FilmStation(NamedTuple):
+    """One film, and where the rotor has its journal.
+
+    Attributes
+    ----------
+    name : str
+        Of the station; empty where there is one only.
+    film : SteppedReaction
+    motion, force : list of int
+        Indices among the outputs of the rotor, x, y, vx, vy, speed, and among its inputs.
+    """
 
     name: str
     film: SteppedReaction
@@ -62,7 +71,7 @@ class Moment(NamedTuple):
 
 def stations_of(
     rotor: Dynamic, films: SteppedReaction | Mapping[str, SteppedReaction]
-) -> tuple[Station, ...]:
+) -> tuple[FilmStation, ...]:
     """Return the films in their stations; raise InputError where they do not fit the rotor."""
     require_kind("rotor", rotor, Dynamic, "a rotor such as a RigidRotor")
     named = films if isinstance(films, Mapping) else {"": films}
@@ -74,7 +83,7 @@ def stations_of(
         motion = [*(front + key for key in JOURNAL_INPUTS[:-1]), JOURNAL_INPUTS[-1]]
         force = [front + key for key in FORCE_OUTPUTS]
         found.append(
-            Station(
+            FilmStation(
                 name,
                 film,
                 indices("rotor must have the outputs", outputs, motion),
@@ -102,7 +111,7 @@ class SteppedLoop:
     Parameters
     ----------
     rotor : Dynamic
-    stations : tuple of Station
+    stations : tuple of FilmStation
 
     Attributes
     ----------
@@ -110,7 +119,7 @@ class SteppedLoop:
         Work so far: steps, newton_steps, film_solutions, restarts.
     """
 
-    def __init__(self, rotor: Dynamic, stations: tuple[Station, ...]) -> None:
+    def __init__(self, rotor: Dynamic, stations: tuple[FilmStation, ...]) -> None:
         self.rotor, self.stations = rotor, stations
         self.work: Counter[str] = Counter(steps=0, newton_steps=0, film_solutions=0, restarts=0)
         nominal = {rotor.outputs[k].name: s.film.clearance for s in stations for k in s.motion[:2]}
@@ -159,7 +168,9 @@ class SteppedLoop:
         motion = self._motion(moment.time, moment.state)
         return min(1.0 - math.hypot(*motion[s.motion[:2]]) / s.film.clearance for s in self.stations)
 
-    def _tried(self, now: Moment, t: float, x: Array, dt: float, last: list[Trial] | None) -> list[Trial]:
+    def _tried(
+        self, now: Moment, t: float, x: Array, dt: float, last: list[StepTrial] | None
+    ) -> list[StepTrial]:
         motion, trials = self._motion(t, x), []
         for k, station in enumerate(self.stations):
             near = None if last is None else last[k].state
@@ -168,7 +179,7 @@ class SteppedLoop:
         return trials
 
     def _change(
-        self, t: float, x: Array, newest: float, history: Array, dt: float, trials: list[Trial]
+        self, t: float, x: Array, newest: float, history: Array, dt: float, trials: list[StepTrial]
     ) -> Array:
         """Return Newton's step of the rotor's state."""
         u = self._input(trials)
@@ -176,7 +187,7 @@ class SteppedLoop:
         A, B, C, _ = self.rotor.linearization(t, x, u)
         matrix = newest * np.eye(len(x)) - dt * A
         for station, trial in zip(self.stations, trials, strict=True):
-            matrix += dt * B[:, station.force] @ trial.slope @ C[station.motion[:2]]
+            matrix += dt * B[:, station.force] @ trial.stiffness @ C[station.motion[:2]]
         return np.linalg.solve(matrix * self._scale, -residual) * self._scale
 
     def _within(self, t: float, x: Array, moved: Array) -> Array:
@@ -195,7 +206,7 @@ class SteppedLoop:
     def _motion(self, t: float, x: Array) -> Array:
         return self.rotor.output(t, x, np.zeros(len(self.rotor.inputs)))
 
-    def _input(self, trials: list[Trial]) -> Array:
+    def _input(self, trials: list[StepTrial]) -> Array:
         u = np.zeros(len(self.rotor.inputs))
         for station, trial in zip(self.stations, trials, strict=True):
             u[station.force] = trial.output[:2]

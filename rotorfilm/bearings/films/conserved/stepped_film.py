@@ -12,7 +12,7 @@ from ....errors import ConvergenceError, require_inside, require_positive
 from ....model import Array
 from ....signals import Signal, force_outputs, journal_inputs
 from ...reaction import NOMINAL_SPEED, input_vector
-from ...stepped_reaction import Trial
+from ...stepped_reaction import StepTrial
 from .conserved_film import ConservedFilm, ConservedState, circular_gap
 from .conserved_motion import step_stiffness, sudden_slopes
 from .oil_kernel import OilSolution
@@ -141,13 +141,13 @@ class SteppedFilm:
                     raise
         raise AssertionError
 
-    def attempt(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None = None) -> Trial:
+    def attempt(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None = None) -> StepTrial:
         """Return one inner step, with its slope; see `bearings.stepped_reaction`."""
         found = self._found(state, u, dt, near)
         end = FilmMemory(after_step(state.oil, found, dt), u, self._output(found))
         force, _ = self.scales
         slope = force / self.clearance * step_stiffness(self.film, found)
-        return Trial(end, end.output, slope, found.solution.solutions + 1)
+        return StepTrial(end, end.output, slope, found.solution.solutions + 1)
 
     def slopes(self, state: FilmMemory) -> Array:
         """Return d force / d (x, y, vx, vy, speed) at a state whose cells keep their oil, shape (2, 5)."""

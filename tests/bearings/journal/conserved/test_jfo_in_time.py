@@ -95,7 +95,9 @@ def test_the_slope_is_that_of_the_step():
         sides = [FILM.attempt(state, u + side * 1e-10 * unit, dt, near=state).output[:2] for side in (1, -1)]
         columns.append((sides[0] - sides[1]) / 2e-10)
     # But for how the limited transport takes the gap, of which the slope knows nothing.
-    np.testing.assert_allclose(-np.array(columns).T, trial.slope, atol=1e-4 * np.abs(trial.slope).max())
+    np.testing.assert_allclose(
+        -np.array(columns).T, trial.stiffness, atol=1e-4 * np.abs(trial.stiffness).max()
+    )
 
 
 @pytest.mark.closed_form
@@ -104,7 +106,7 @@ def test_sudden_slopes_are_those_of_very_short_steps():
     state = FILM.start(motion(0.0))
     slopes = FILM.slopes(state)
     dts = np.array([1.0, 2.0]) * 1e-5 * TURN
-    short = [FILM.attempt(state, motion(0.0), dt).slope for dt in dts]
+    short = [FILM.attempt(state, motion(0.0), dt).stiffness for dt in dts]
     C = (short[0] - short[1]) / (1.0 / dts[0] - 1.0 / dts[1])
     np.testing.assert_allclose(-slopes[:, 2:4], C, atol=1e-4 * np.abs(C).max())
     K = 2.0 * short[1] - short[0]
