@@ -1,11 +1,21 @@
-"""Films that remember, coupled over macro steps: the order of the scheme that tells their drift, and its answer."""
+"""Films that remember, coupled over macro steps: order of the scheme, and its answer."""
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy.linalg import expm
 
-from rotorfilm import Groove, JFOFilm, JournalBearing, RigidRotor, SIExp, SIExp3, SIMemory, cosimulate, simulate
+from rotorfilm import (
+    Groove,
+    JFOFilm,
+    JournalBearing,
+    RigidRotor,
+    SIExp,
+    SIExp3,
+    SIMemory,
+    cosimulate,
+    simulate,
+)
 from rotorfilm.cosim.stepped_partner import SteppedPartner
 from rotorfilm.errors import InputError
 from rotorfilm.signals import force_outputs, journal_inputs
@@ -109,5 +119,5 @@ def test_a_partner_goes_back_and_names_its_inputs(film):
     assert partner.get() != before
     partner.restore(state)
     assert partner.get() == before
-    with pytest.raises(InputError, match="input must be one of .*'speed'], got 'z'"):
+    with pytest.raises(InputError, match=r"input must be one of .*'speed'], got 'z'"):
         partner.set({"z": 1.0})

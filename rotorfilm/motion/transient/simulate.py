@@ -98,12 +98,12 @@ def simulate(
             raise InputError(f"method must be None for films that step by themselves, got {method!r}")
         grid = sample_times(duration, samples, times)
         return simulate_steps(rotor, reaction, grid, duration, initial_state, max_step)
-    reaction = in_time(reaction)
-    system = Coupled(rotor, reaction)
-    require_turning(reaction, rotor)
+    film: Reaction = in_time(reaction)
+    system = Coupled(rotor, film)
+    require_turning(film, rotor)
     grid = sample_times(duration, samples, times)
     state = _initial(system, system.initial_state if initial_state is None else initial_state)
-    if method is None and (mounted := compiled_form(rotor, reaction)) is not None:
+    if method is None and (mounted := compiled_form(rotor, film)) is not None:
         labels = [*names(rotor.outputs), *FORCE_OUTPUTS]
         try:
             run = simulate_rotor(
