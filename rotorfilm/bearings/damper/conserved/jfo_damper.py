@@ -150,6 +150,13 @@ class JFODamper(SteppedFilm):
         slope = film.slope + self.stiffness * np.eye(2)
         return film._replace(output=self.answer(film.state), slope=slope)
 
+    def slopes(self, state: FilmMemory) -> Array:
+        """Return d force / d (x, y, vx, vy, speed) at a state whose cells keep their oil, shape (2, 5)."""
+        found = super().slopes(state)
+        found[:, :2] -= self.stiffness * np.eye(2)
+        found[:, 4] = 0.0
+        return found
+
     def orbit(self, eccentricity_ratio: float, speed: float) -> JFOOrbit:
         """Return the film on a centered circular orbit.
 

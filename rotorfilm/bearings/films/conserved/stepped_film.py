@@ -148,7 +148,7 @@ class SteppedFilm:
 
     def slopes(self, state: FilmMemory) -> Array:
         """Return d force / d (x, y, vx, vy, speed) at a state whose cells keep their oil, shape (2, 5)."""
-        rate, gap = 0.5 * float(state.motion[4]), circular_gap(self.film.cells, state.motion[:2] / self.clearance)
+        rate, gap = self.carrying(state.motion), circular_gap(self.film.cells, state.motion[:2] / self.clearance)
         solution = OilSolution(state.oil.pressure, state.oil.theta, state.oil.full, 0, 0)
         film = ConservedState(gap, rate, self.film.equations(gap, rate), solution)
         force, _ = self.scales
