@@ -1,11 +1,15 @@
 """Dampers that conserve their oil: the table of docs/damper.md, its picture, and what grids are good for."""
 
+import warnings
 from pathlib import Path
 
 import numpy as np
 
 from rotorfilm import DamperSupply, FiniteSqueeze, FullFilm, JFODamper, PorousDamper, damper_turn
 from rotorfilm.bearings.damper import ExtrapolatedDamper
+from rotorfilm.errors import RotorfilmError
+from rotorfilm.questions.damper.dampers import damper_ladder
+from rotorfilm.scenes import read_scene
 
 R, c, mu, OMEGA = 0.05, 1e-4, 0.01, 300.0
 UNIT = 12.0 * mu * (R / c) ** 2 * OMEGA
@@ -76,7 +80,50 @@ def grids(count: int = 60) -> None:
         print(f"{name:8}: 36 x 8, 72 x 16, both extrapolated: {np.quantile(errors, share, axis=0).round(5)}")
 
 
+def estimates(count: int = 30) -> None:
+    """Print how often the estimate of a short film in a fed damper is within a factor 2 of its error."""
+    random, good, seen = np.random.default_rng(11), 0, 0
+    for _ in range(count):
+        radius, speed = 10.0 ** random.uniform(-1.7, -1.0), 10.0 ** random.uniform(2.0, 2.9)
+        clearance, mass = radius * 10.0 ** random.uniform(-3.0, -2.6), 10.0 ** random.uniform(0.7, 1.7)
+        supply = {"supply_pressure": 10.0 ** random.uniform(4.0, 5.5), "circumferential_groove": 0.0}
+        damper = {
+            "radius": radius,
+            "length": 2.0 * radius * random.uniform(0.2, 0.8),
+            "clearance": clearance,
+            "viscosity": 10.0 ** random.uniform(-2.5, -1.3),
+            "stiffness": mass * (speed / random.uniform(0.5, 3.0)) ** 2,
+            "supply": supply
+            | {"cavitation_pressure": -(10.0 ** random.uniform(3.0, 5.0)), "submerged": True},
+        }
+        rotor = {"mass": mass, "unbalance": random.uniform(0.05, 0.6) * mass * clearance}
+        quantity = str(random.choice(["transmissibility", "unbalance_amplitude"]))
+        scene = read_scene(
+            {
+                "schema": 1,
+                "damper": damper,
+                "operation": {"speed": speed},
+                "rigid_rotor": rotor,
+                "question": {"quantity": quantity, "tolerance": 1e-4},
+            },
+            "drawn",
+        )
+        ladder = damper_ladder(scene, quantity)
+        try:
+            first, top = (rung.answer(None) for rung in (ladder.rungs[0], ladder.rungs[-1]))
+        except RotorfilmError as error:
+            print(f"no answer: {error}"[:110])
+            continue
+        judged, error = ladder.rungs[0].estimate(first, None, 1e-4), abs(first.value / top.value - 1.0)
+        seen, within = seen + 1, 0.5 < (judged.error / error) < 2.0
+        good += within
+        print(f"{quantity:20} off by {error:.2e}, estimate {judged.error:.2e} {judged.doubt[:40]}")
+    print(f"{good} of {seen} estimates within a factor 2")
+
+
 if __name__ == "__main__":
     table()
     picture(Path(__file__).parents[1] / "docs")
     grids()
+    warnings.simplefilter("ignore")
+    estimates()
