@@ -1,4 +1,4 @@
-"""A film that remembers as a rotor asks for it: a step that is tried, with its slope, as often as Newton wants."""
+"""A film that remembers as a rotor asks for it: steps tried with their slope, as often as Newton wants."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any, NamedTuple, Protocol, runtime_checkable
 from ..model import Array, Stepped
 
 
-class Trial(NamedTuple):
+class StepTrial(NamedTuple):
     """A step of a film that may be taken, or tried again to another place.
 
     Attributes
@@ -16,7 +16,7 @@ class Trial(NamedTuple):
         At its end.
     output : ndarray, shape (n_outputs,)
         There; force_x, force_y come first.
-    slope : ndarray, shape (2, 2) [N/m]
+    stiffness : ndarray, shape (2, 2) [N/m]
         -d force / d position at the end of the step.
     solutions : int
         Linear systems that were solved.
@@ -24,7 +24,7 @@ class Trial(NamedTuple):
 
     state: Any
     output: Array
-    slope: Array
+    stiffness: Array
     solutions: int
 
 
@@ -44,7 +44,7 @@ class SteppedReaction(Stepped, Protocol):
         state : object
         """
 
-    def attempt(self, state: Any, u: Array, dt: float, near: Any = None) -> Trial:
+    def attempt(self, state: Any, u: Array, dt: float, near: Any = None) -> StepTrial:
         """Return one step of length dt [s], not divided, that ends with the input u = (x, y, vx, vy, speed).
 
         Parameters

@@ -1,4 +1,4 @@
-"""The film that conserves its oil as an FMU: steps of the model, its oil saved, restored and resumed elsewhere."""
+"""The film that conserves its oil as an FMU: its steps, its oil saved, restored, resumed."""
 
 import fmpy
 import numpy as np
@@ -24,7 +24,7 @@ def motion(k):
     phase = 0.5 * OMEGA * k * STEP
     place, rate = 2e-5 * np.array([1.0 - np.cos(phase), np.sin(phase)]), 2e-5 * 0.5 * OMEGA
     x, y = np.array([3e-5, -4e-5]) + place
-    return dict(x=x, y=y, vx=rate * np.sin(phase), vy=rate * np.cos(phase), speed=OMEGA)  # noqa: C408
+    return dict(x=x, y=y, vx=rate * np.sin(phase), vy=rate * np.cos(phase), speed=OMEGA)
 
 
 def values(answer):

@@ -44,8 +44,8 @@ class SIExp3(_Tangential):
 
     With s = (t - t_n)/H and D = F_(n-1) - F_n - dF/dq (q_(n-1) - q_n) - dF/dv (v_(n-1) - v_n), derivatives at
     t_n, what is left of the force between the two points is D s^2 to third order, before t_n and after it.
-    Of first order only with a film that has states of its own, which change where nothing moves; and where
-    the speed changes from the start, the first step has not seen it yet.
+    Of first order only with a film that has states of its own, which change where nothing moves (`SIMemory`
+    is for those); and where the speed changes from the start, the first step has not seen it yet.
     """
 
     order = 3

@@ -16,11 +16,11 @@ from .scheme import started
 class SIMemory:
     """SI-exp, and the parabola in time through what the last two steps left over: for films with states.
 
-    A film with states changes where nothing moves, so that what its tangents at t_n leave of the force begins
-    with a slope, left(s) = a s + b s^2, s = t - t_n. Both follow from left(t_(n-1) - t_n) and left(t_(n-2) - t_n).
-    Of third order at the price of SI-exp, with a film that is told, as `JFOFilm`, where the journal is at the end of
-    a step and goes there smoothly; a film whose inputs are held over the step stays of first order. A run begins with
-    short steps, as with forces extrapolated by parabolas.
+    A film with states changes where nothing moves, so that what its tangents at t_n leave of the force
+    begins with a slope, left(s) = a s + b s^2, s = t - t_n. Both follow from left(t_(n-1) - t_n) and
+    left(t_(n-2) - t_n). Of third order at the price of SI-exp, with a film that is told, as `JFOFilm`,
+    where the journal is at the end of a step and goes there smoothly; a film whose inputs are held over the
+    step stays of first order. A run begins with short steps, as with forces extrapolated by parabolas.
     """
 
     order = 3

@@ -96,11 +96,11 @@ def simulate(
             raise InputError(f"method must be None for films that step by themselves, got {method!r}")
         grid = sample_times(duration, samples, times)
         return simulate_steps(rotor, reaction, grid, duration, initial_state, max_step)
-    reaction = in_time(reaction)
-    system = Coupled(rotor, reaction)
+    film: Reaction = in_time(reaction)
+    system = Coupled(rotor, film)
     grid = sample_times(duration, samples, times)
     state = _initial(system, system.initial_state if initial_state is None else initial_state)
-    if method is None and (mounted := compiled_form(rotor, reaction)) is not None:
+    if method is None and (mounted := compiled_form(rotor, film)) is not None:
         labels = [*names(rotor.outputs), *FORCE_OUTPUTS]
         try:
             run = simulate_rotor(

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...bearings.films.conserved.conserved_film import bdf2
-from ...bearings.stepped_reaction import SteppedReaction, Trial
+from ...bearings.stepped_reaction import SteppedReaction, StepTrial
 from ...errors import ConvergenceError, FilmContactError, InputError, require_kind
 from ...model import Array, Dynamic
 from ...signals import FORCE_OUTPUTS, JOURNAL_INPUTS, indices, names
@@ -28,8 +28,17 @@ NEAREST = 0.1
 """Part of the gap that a Newton step leaves."""
 
 
-class Station(NamedTuple):
-    """One film, and where the rotor has its journal: indices of its outputs and inputs."""
+class FilmStation(NamedTuple):
+    """One film, and where the rotor has its journal.
+
+    Attributes
+    ----------
+    name : str
+        Of the station; empty where there is one only.
+    film : SteppedReaction
+    motion, force : list of int
+        Indices among the outputs of the rotor, x, y, vx, vy, speed, and among its inputs.
+    """
 
     name: str
     film: SteppedReaction
@@ -60,7 +69,9 @@ class Moment(NamedTuple):
     outputs: Array
 
 
-def stations_of(rotor: Dynamic, films: SteppedReaction | Mapping[str, SteppedReaction]) -> tuple[Station, ...]:
+def stations_of(
+    rotor: Dynamic, films: SteppedReaction | Mapping[str, SteppedReaction]
+) -> tuple[FilmStation, ...]:
     """Return the films in their stations; raise InputError where they do not fit the rotor."""
     require_kind("rotor", rotor, Dynamic, "a rotor such as a RigidRotor")
     named = films if isinstance(films, Mapping) else {"": films}
@@ -72,7 +83,7 @@ def stations_of(rotor: Dynamic, films: SteppedReaction | Mapping[str, SteppedRea
         motion = [*(front + key for key in JOURNAL_INPUTS[:-1]), JOURNAL_INPUTS[-1]]
         force = [front + key for key in FORCE_OUTPUTS]
         found.append(
-            Station(
+            FilmStation(
                 name,
                 film,
                 indices("rotor must have the outputs", outputs, motion),
@@ -80,25 +91,27 @@ def stations_of(rotor: Dynamic, films: SteppedReaction | Mapping[str, SteppedRea
             )
         )
     if len(inputs) > 2 * len(found):
-        raise InputError(f"reaction must be films in all stations of the rotor, got {list(named)} for {inputs}")
+        raise InputError(
+            f"reaction must be films in all stations of the rotor, got {list(named)} for {inputs}"
+        )
     return tuple(found)
 
 
 class SteppedLoop:
     """Steps of a rotor on films that remember.
 
-    With x the state of the rotor and F the forces of the films at the end of a step of length dt, Newton's method
-    solves
+    With x the state of the rotor and F the forces of the films at the end of a step of length dt, Newton's
+    method solves
 
         (a x + b x_n + c x_n-1)/dt = f(t, x, F),    F = F_film(journal at x; oil of the last steps)
 
-    by the exact slopes of the rotor and of the films' steps. Steps of second order (BDF2) of any lengths, Euler's
-    at the start and after one that was less than half as long.
+    by the exact slopes of the rotor and of the films' steps. Steps of second order (BDF2) of any lengths,
+    Euler's at the start and after one that was less than half as long.
 
     Parameters
     ----------
     rotor : Dynamic
-    stations : tuple of Station
+    stations : tuple of FilmStation
 
     Attributes
     ----------
@@ -106,12 +119,10 @@ class SteppedLoop:
         Work so far: steps, newton_steps, film_solutions, restarts.
     """
 
-    def __init__(self, rotor: Dynamic, stations: tuple[Station, ...]) -> None:
+    def __init__(self, rotor: Dynamic, stations: tuple[FilmStation, ...]) -> None:
         self.rotor, self.stations = rotor, stations
         self.work: Counter[str] = Counter(steps=0, newton_steps=0, film_solutions=0, restarts=0)
-        nominal = {
-            rotor.outputs[k].name: s.film.clearance for s in stations for k in s.motion[:2]
-        }
+        nominal = {rotor.outputs[k].name: s.film.clearance for s in stations for k in s.motion[:2]}
         self._scale = np.array([nominal.get(s.name, s.nominal) for s in rotor.states])
 
     def begin(self, state: Array) -> Moment:
@@ -158,8 +169,8 @@ class SteppedLoop:
         return min(1.0 - math.hypot(*motion[s.motion[:2]]) / s.film.clearance for s in self.stations)
 
     def _tried(
-        self, now: Moment, t: float, x: Array, dt: float, last: list[Trial] | None
-    ) -> list[Trial]:
+        self, now: Moment, t: float, x: Array, dt: float, last: list[StepTrial] | None
+    ) -> list[StepTrial]:
         motion, trials = self._motion(t, x), []
         for k, station in enumerate(self.stations):
             near = None if last is None else last[k].state
@@ -168,7 +179,7 @@ class SteppedLoop:
         return trials
 
     def _change(
-        self, t: float, x: Array, newest: float, history: Array, dt: float, trials: list[Trial]
+        self, t: float, x: Array, newest: float, history: Array, dt: float, trials: list[StepTrial]
     ) -> Array:
         """Return Newton's step of the rotor's state."""
         u = self._input(trials)
@@ -176,7 +187,7 @@ class SteppedLoop:
         A, B, C, _ = self.rotor.linearization(t, x, u)
         matrix = newest * np.eye(len(x)) - dt * A
         for station, trial in zip(self.stations, trials, strict=True):
-            matrix += dt * B[:, station.force] @ trial.slope @ C[station.motion[:2]]
+            matrix += dt * B[:, station.force] @ trial.stiffness @ C[station.motion[:2]]
         return np.linalg.solve(matrix * self._scale, -residual) * self._scale
 
     def _within(self, t: float, x: Array, moved: Array) -> Array:
@@ -195,7 +206,7 @@ class SteppedLoop:
     def _motion(self, t: float, x: Array) -> Array:
         return self.rotor.output(t, x, np.zeros(len(self.rotor.inputs)))
 
-    def _input(self, trials: list[Trial]) -> Array:
+    def _input(self, trials: list[StepTrial]) -> Array:
         u = np.zeros(len(self.rotor.inputs))
         for station, trial in zip(self.stations, trials, strict=True):
             u[station.force] = trial.output[:2]

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -86,12 +86,14 @@ def simulate_steps(
 def _failed(failure: Exception, gap: float, partial: Trajectory) -> ContactError | ConvergenceError:
     """Return what a step that cannot be made means, at a gap of so many clearances."""
     if isinstance(failure, FilmContactError) or gap < AT_WALL:
-        return ContactError(f"journal reached the wall, {gap:.3g} of the clearance is left: {failure}", partial)
+        return ContactError(
+            f"journal reached the wall, {gap:.3g} of the clearance is left: {failure}", partial
+        )
     return ConvergenceError(str(failure), partial)
 
 
 def part_of_turn(rotor: Dynamic, duration: float) -> float:
-    """Return the part of a turn at the highest speed of a run, in seconds; infinite for a shaft that stands."""
+    """Return the part of a turn at the highest speed of a run [s]; infinite for a shaft that stands."""
     moments = [0.0, *(t for t in breakpoints(rotor) if 0.0 < t < duration), duration]
     none = np.zeros(len(rotor.inputs))
     speeds = [abs(rotor.output(t, rotor.initial_state, none)[-1]) for t in moments]

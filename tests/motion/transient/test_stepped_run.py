@@ -1,6 +1,7 @@
-"""Rotors on a film that conserves its oil, in time: order, small and large orbits, balances, what goes wrong."""
+"""Rotors on a film that conserves its oil, in time: order, orbits, balances, what goes wrong."""
 
 import dataclasses
+import itertools
 
 import numpy as np
 import pytest
@@ -45,10 +46,8 @@ def rotor(rest, unbalance=0.2, **given):
 def test_a_coupled_run_is_of_second_order(rest):
     end = 0.5 * TURN
     times = np.linspace(0.0, end, 13)
-    runs = [
-        simulate(rotor(rest), FILM, duration=end, times=times, max_step=end / n) for n in (24, 48, 96)
-    ]
-    change = [np.abs(b.position - a.position).max() / c for a, b in zip(runs, runs[1:], strict=False)]
+    runs = [simulate(rotor(rest), FILM, duration=end, times=times, max_step=end / n) for n in (24, 48, 96)]
+    change = [np.abs(b.position - a.position).max() / c for a, b in itertools.pairwise(runs)]
     assert 1.7 < np.log2(change[0] / change[1]) < 2.3
     assert change[1] < 4e-4
     work = runs[2].work
@@ -147,7 +146,7 @@ def test_a_shaft_takes_a_film_in_each_station():
     np.testing.assert_allclose(found["left_force_y"], found["right_force_y"], rtol=1e-6)
     assert found["left_y"][-1] < 0.0
     assert found.units["right_oil_volume"] == "m3"
-    with pytest.raises(InputError, match=r"reaction must be films in all stations of the rotor, got \['left'\]"):
+    with pytest.raises(InputError, match="reaction must be films in all stations of the rotor"):
         simulate(shaft, {"left": FILM}, **given)
     with pytest.raises(InputError, match="rotor must have the outputs"):
         simulate(shaft, FILM, **given)
@@ -157,7 +156,9 @@ def test_a_shaft_takes_a_film_in_each_station():
 
 def test_the_wall_ends_a_run_with_what_there_is(rest):
     thrown = rotor(rest, static_force=(0.0, -1e9))
-    with pytest.raises(ContactError, match="journal reached the wall, .* of the clearance is left") as caught:
+    with pytest.raises(
+        ContactError, match=r"journal reached the wall, .* of the clearance is left"
+    ) as caught:
         simulate(thrown, FILM, duration=TURN, samples=2000, max_step=TURN / 96)
     assert 2 < caught.value.partial.time.size < 200
     assert np.all(np.isfinite(caught.value.partial["force_y"]))

@@ -28,7 +28,7 @@ from ...films.conserved.conserved_motion import dynamic_stiffness, slow_motion
 from ...films.conserved.reynolds_oil import reynolds_state
 from ...films.conserved.stepped_film import FilmMemory, SteppedFilm
 from ...reaction import broadcast_state
-from ...stepped_reaction import Trial
+from ...stepped_reaction import StepTrial
 from .damper_supply import DamperSupply
 from .jfo_orbit import JFOOrbit, jfo_orbit
 from .scaled_film import ScaledFilm, scaled_film
@@ -144,7 +144,7 @@ class JFODamper(SteppedFilm):
         end, _, report = super().step(state, t, u, dt)
         return end, self.answer(end), report
 
-    def attempt(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None = None) -> Trial:
+    def attempt(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None = None) -> StepTrial:
         """Return one inner step, with its slope; see `bearings.stepped_reaction`."""
         film = super().attempt(state, u, dt, near)
         slope = film.slope + self.stiffness * np.eye(2)

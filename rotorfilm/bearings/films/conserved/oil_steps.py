@@ -1,6 +1,7 @@
 """Steps in time of a film that conserves its oil: what it remembers, and the step from there to a gap.
 
-A journal bearing or a damper gives the gap at the end of the step and half the speed; nothing here knows which.
+A journal bearing or a damper gives the gap at the end of the step and half the speed; nothing here knows
+which.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from ....model import Array
 from .conserved_film import ConservedFilm, ConservedState, Gap, Storage, step_storage
 
 MOST_GROWTH = 2.0
-"""Of a step over the last one, up to which the difference of second order takes both; it is stable to 2.41."""
+"""Of a step over the last one, up to which differences of second order take both (stable to 2.41)."""
 
 EMPTY = -1e-9
 """Content of a cell below which a difference of second order took more oil from it than it had."""
@@ -81,8 +82,9 @@ def oil_step(
 ) -> ConservedState:
     """Return the film at the end of a step.
 
-    Differences of second order in time (BDF2) of the last two contents, steps of any lengths; Euler's where there
-    was none, after one that was less than half as long, and where the former would take more from a cell than it has.
+    Differences of second order in time (BDF2) of the last two contents, steps of any lengths; Euler's where
+    there was none, after one that was less than half as long, and where the former would take more from a
+    cell than it has.
 
     Parameters
     ----------
@@ -95,8 +97,8 @@ def oil_step(
     dt : float [s]
         Length of the step.
     near : OilMemory, optional
-        A film near that at the end, as the last iterate: its theta tells by how much transport of second order
-        differs from that of upstream values. By default that at the beginning.
+        A film near that at the end, as the last iterate: its theta tells by how much transport of second
+        order differs from that of upstream values. By default that at the beginning.
 
     Raises
     ------
@@ -107,7 +109,9 @@ def oil_step(
     carried = sharpened(film, gap, rate, like.theta)
     ratio = dt / memory.length if memory.length > 0.0 else np.inf
     if ratio <= MOST_GROWTH:
-        state = _solved(film, gap, rate, step_storage(dt, memory.content, memory.before, ratio), carried, like)
+        state = _solved(
+            film, gap, rate, step_storage(dt, memory.content, memory.before, ratio), carried, like
+        )
         if state.solution.theta.min() >= EMPTY:
             return state
     return _solved(film, gap, rate, step_storage(dt, memory.content), carried, like)
@@ -122,8 +126,8 @@ def _solved(
 def sharpened(film: ConservedFilm, gap: Gap, rate: float, theta: Array) -> Array:
     """Return what leaves the cells beyond transport at upstream theta, over their area, shape (N, M) [1/s].
 
-    At a face theta is that upstream plus d_- d_+/(d_- + d_+) where both have one sign (van Leer 1974), d_- and d_+
-    being the differences before and behind that cell.
+    At a face theta is that upstream plus d_- d_+/(d_- + d_+) where both have one sign (van Leer 1974), d_-
+    and d_+ being the differences before and behind that cell.
     """
     forward = rate >= 0.0
     row = theta if forward else theta[::-1]
@@ -145,7 +149,7 @@ def packed_oil(memory: OilMemory, **further: Array) -> bytes:
 
 
 def unpacked_oil(content: bytes, shape: tuple[int, ...]) -> tuple[OilMemory, dict[str, Array]]:
-    """Return what `packed_oil` made bytes of; raise InputError if it is of other cells than of a shape (N, M)."""
+    """Return what `packed_oil` made bytes of; raise InputError if it is not of a shape (N, M)."""
     with np.load(io.BytesIO(content), allow_pickle=False) as file:
         rows = {name: file[name] for name in file.files}
     memory = OilMemory(**{name: rows.pop(name) for name in OilMemory._fields})

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ....errors import ConvergenceError, InputError, require_inside, require_positive
+from ....errors import ConvergenceError, require_inside, require_positive
 from ....model import Array
 from ....signals import Signal, force_outputs, journal_inputs
 from ...reaction import NOMINAL_SPEED, input_vector
-from ...stepped_reaction import Trial
+from ...stepped_reaction import StepTrial
 from .conserved_film import ConservedFilm, ConservedState, circular_gap
 from .conserved_motion import step_stiffness, sudden_slopes
 from .oil_kernel import OilSolution
@@ -56,17 +56,24 @@ class FilmMemory(NamedTuple):
 class SteppedFilm:
     """Makes a Stepped model of a `film` in a `clearance`; force and oil have the units of `scales`.
 
-    The input u is the motion of the journal at the end of a step. On the way there it goes along the cubic with the
-    positions and velocities of both ends, in inner steps of a turn/192 and .02 clearances at most, halved where the
-    film is not found. Outputs belong to the end of the last step. In their balance
+    The input u is the motion of the journal at the end of a step. On the way there it goes along the cubic
+    with the positions and velocities of both ends, in inner steps of a turn/192 and .02 clearances at most,
+    halved where the film is not found. Outputs belong to the end of the last step. In their balance
 
         (3 oil_volume - 4 oil_volume before + the one before that)/(2 dt) = inflow + drawn_in - side_flow
 
     nothing is lost: that is how steps of equal length go.
     """
 
-    film: ConservedFilm
-    clearance: float
+    @property
+    def film(self) -> ConservedFilm:
+        """The film without dimensions."""
+        raise NotImplementedError
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance [m]."""
+        raise NotImplementedError
 
     @property
     def scales(self) -> tuple[float, float]:
@@ -95,7 +102,7 @@ class SteppedFilm:
         return (*force_outputs(force * NOMINAL_SPEED), *flows, held)
 
     def start(self, u: ArrayLike) -> FilmMemory:
-        """Return the steady film of a journal at rest at u = (x, y, vx, vy, speed); its velocity counts later.
+        """Return the steady film at rest at u = (x, y, vx, vy, speed); the velocity counts later.
 
         Raises
         ------
@@ -138,17 +145,18 @@ class SteppedFilm:
                     raise
         raise AssertionError
 
-    def attempt(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None = None) -> Trial:
+    def attempt(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None = None) -> StepTrial:
         """Return one inner step, with its slope; see `bearings.stepped_reaction`."""
         found = self._found(state, u, dt, near)
         end = FilmMemory(after_step(state.oil, found, dt), u, self._output(found))
         force, _ = self.scales
         slope = force / self.clearance * step_stiffness(self.film, found)
-        return Trial(end, end.output, slope, found.solution.solutions + 1)
+        return StepTrial(end, end.output, slope, found.solution.solutions + 1)
 
     def slopes(self, state: FilmMemory) -> Array:
         """Return d force / d (x, y, vx, vy, speed) at a state whose cells keep their oil, shape (2, 5)."""
-        rate, gap = self.carrying(state.motion), circular_gap(self.film.cells, state.motion[:2] / self.clearance)
+        rate = self.carrying(state.motion)
+        gap = circular_gap(self.film.cells, state.motion[:2] / self.clearance)
         solution = OilSolution(state.oil.pressure, state.oil.theta, state.oil.full, 0, 0)
         film = ConservedState(gap, rate, self.film.equations(gap, rate), solution)
         force, _ = self.scales
@@ -183,7 +191,9 @@ class SteppedFilm:
             for _ in range(SWEEPS):
                 found = self._found(state, on_way, dt / pieces, near)
                 solutions += found.solution.solutions
-                near = end = FilmMemory(after_step(state.oil, found, dt / pieces), on_way, self._output(found))
+                near = end = FilmMemory(
+                    after_step(state.oil, found, dt / pieces), on_way, self._output(found)
+                )
             state = end
         return state, state.output.copy(), {"steps": pieces, "solutions": solutions}
 
@@ -204,7 +214,7 @@ class SteppedFilm:
 
 
 def between(begin: Array, end: Array, dt: float, share: float) -> Array:
-    """Return (x, y, vx, vy, speed) on the cubic between two motions, at a share of the time dt [s] between them."""
+    """Return (x, y, vx, vy, speed) on the cubic between two motions, dt [s] apart, at a share of that."""
     s, way = share, end[:2] - begin[:2]
     v0, v1 = begin[2:4] * dt, end[2:4] * dt
     bent, turned = v0 + v1 - 2.0 * way, 3.0 * way - 2.0 * v0 - v1

@@ -118,7 +118,7 @@ class JFOFilm(SteppedFilm):
         return self.bearing.force_scale, self.clearance * self.bearing.radius * self.bearing.film_length
 
     @cached_property
-    def film(self) -> ConservedFilm:  # type: ignore[override]
+    def film(self) -> ConservedFilm:
         """The film without dimensions, for steps in time; see `ConservedFilm`."""
         supply = oil_supply(self.bearing, self.supply_flow, self.cavitation_pressure, self.submerged)
         return ConservedFilm(

@@ -1,4 +1,4 @@
-"""Steps in time of a film that conserves its oil: steps of any length, slugs through a cavity, films that stand."""
+"""Steps in time of a film that conserves its oil: any lengths, slugs, films that stand."""
 
 import numpy as np
 import pytest
@@ -36,7 +36,7 @@ def ring(lines, supply):
 
 
 def carried_slug(lines, limited, supply, turns=150.0 / 360.0):
-    """Return the slug of oil that a cavity has carried by a part of a turn, the one it was, and what it should be."""
+    """Return a slug of oil that a cavity has carried by a part of a turn, as it was, and as it should be."""
     film = ring(lines, supply)
     angle, gap = film.cells.angle, circular_gap(film.cells, np.zeros(2))
     theta = np.tile(0.3 + 0.5 * np.exp(-(((angle - 1.5) / np.radians(15.0)) ** 2))[:, None], (1, 4))
@@ -44,8 +44,12 @@ def carried_slug(lines, limited, supply, turns=150.0 / 360.0):
     steps = 2 * lines
     for _ in range(steps):
         dt = turns * 2.0 * np.pi / 0.5 / steps
-        state = oil_step(film, memory, gap, 0.5, dt) if limited else film.solve(
-            gap, 0.5, storage=step_storage(dt, memory.content, memory.before if memory.length else None)
+        state = (
+            oil_step(film, memory, gap, 0.5, dt)
+            if limited
+            else film.solve(
+                gap, 0.5, storage=step_storage(dt, memory.content, memory.before if memory.length else None)
+            )
         )
         memory = after_step(memory, state, dt)
     shifted = (angle - 1.5 - 2.0 * np.pi * turns + np.pi) % (2.0 * np.pi) - np.pi

@@ -1,5 +1,7 @@
 """The journal film that conserves its oil as a Stepped model: order, balance of oil, its state, failures."""
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -67,7 +69,7 @@ def test_steps_are_of_second_order():
     for steps in (96, 192, 384):
         force = followed(FILM, steps, 0.5)[:2]
         impulses.append(0.5 * TURN / steps * (force[:, 1:] + force[:, :-1]).sum(axis=1) / 2.0)
-    change = [np.hypot(*(b - a)) for a, b in zip(impulses, impulses[1:], strict=False)]
+    change = [np.hypot(*(b - a)) for a, b in itertools.pairwise(impulses)]
     assert 1.6 < np.log2(change[0] / change[1]) < 2.6
     assert change[1] < 2e-4 * np.hypot(*impulses[2])
 
@@ -93,19 +95,21 @@ def test_the_slope_is_that_of_the_step():
         sides = [FILM.attempt(state, u + side * 1e-10 * unit, dt, near=state).output[:2] for side in (1, -1)]
         columns.append((sides[0] - sides[1]) / 2e-10)
     # But for how the limited transport takes the gap, of which the slope knows nothing.
-    np.testing.assert_allclose(-np.array(columns).T, trial.slope, atol=1e-4 * np.abs(trial.slope).max())
+    np.testing.assert_allclose(
+        -np.array(columns).T, trial.stiffness, atol=1e-4 * np.abs(trial.stiffness).max()
+    )
 
 
 @pytest.mark.closed_form
 def test_sudden_slopes_are_those_of_very_short_steps():
-    # The slope of an Euler step is K + C/dt, up to O(dt); the force at its end by speed goes as the steady flow.
+    # The slope of an Euler step is K + C/dt, up to O(dt).
     state = FILM.start(motion(0.0))
     slopes = FILM.slopes(state)
     dts = np.array([1.0, 2.0]) * 1e-5 * TURN
-    short = [FILM.attempt(state, motion(0.0), dt).slope for dt in dts]
+    short = [FILM.attempt(state, motion(0.0), dt).stiffness for dt in dts]
     C = (short[0] - short[1]) / (1.0 / dts[0] - 1.0 / dts[1])
     np.testing.assert_allclose(-slopes[:, 2:4], C, atol=1e-4 * np.abs(C).max())
-    K = (2.0 * short[1] - short[0]) - np.zeros((2, 2))
+    K = 2.0 * short[1] - short[0]
     np.testing.assert_allclose(-slopes[:, :2], K, atol=1e-3 * np.abs(K).max())
     faster = [FILM.attempt(state, motion(0.0, omega * (1.0 + s)), dts[0]).output[:2] for s in (1e-4, -1e-4)]
     np.testing.assert_allclose(
@@ -160,7 +164,7 @@ def test_a_state_goes_through_bytes_to_the_last_bit():
 def test_a_step_that_fails_leaves_the_state(monkeypatch):
     state, near_wall = FILM.start(motion(0.0)), np.array([1.2 * c, 0.0, 0.0, 0.0, omega])
     before = FILM.pack(state)
-    with pytest.raises(FilmContactError, match="at t = 0.001 s"):
+    with pytest.raises(FilmContactError, match=r"at t = 0.001 s"):
         FILM.step(state, 0.0, near_wall, 1e-3)
     whole, limit = ConservedFilm.solve, TURN / 300.0
 
