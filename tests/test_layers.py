@@ -58,6 +58,7 @@ PARTS = {
     "bearings/films": [["ring", "conserved"]],
     "bearings/journal": [["rupture"], ["map", "splitting"], ["grooves"], ["heat"], ["conserved"]],
     "bearings/journal/heat": [["field"]],
+    "bearings/damper": [["conserved"]],
     "bearings/contact": [["film"], ["motion"]],
     "bearings/damper": [["built"]],
     "bearings/pads": [["dam", "tilting"]],

@@ -188,7 +188,7 @@ def _case(scene: Scene, quantity: str) -> CouplingCase:
         if scene.damper.supply is not None:
             raise InputError(f"damper.supply must be left out for {quantity}, got {scene.damper.supply!r}")
         centered = scene.rigid_rotor.build(scene.speed, (0.0, 0.0))
-        return CouplingCase(rotor=centered, reaction=scene.damper.support(), revolutions=turns)
+        return CouplingCase(rotor=centered, reaction=scene.damper.plain(), revolutions=turns)
     if scene.journal is not None:
         scene.journal.require_law(quantity)
     load, name = scene.static_load, ""

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from ..errors import InputError
 from ..ladders import Ladder
-from ..model import Model
+from ..model import Model, Stepped
 
 FAMILIES = {
     "journal": "questions.journal.journal_family",
@@ -34,7 +34,8 @@ class SceneModels(NamedTuple):
     ----------
     name : str
         Of the bearing and of its file.
-    bearing, rotor : Model
+    bearing : Model or Stepped
+    rotor : Model
     start : mapping of str to float
         Start values of the bearing.
     step : float [s]
@@ -43,7 +44,7 @@ class SceneModels(NamedTuple):
     """
 
     name: str
-    bearing: Model
+    bearing: Model | Stepped
     rotor: Model
     start: Mapping[str, float]
     step: float

@@ -51,6 +51,9 @@ DEEP_GROOVE = rf.BallBearing(
 )
 ANGULAR_CONTACT = rf.BallBearing(balls=8, ball_diameter=8e-3, pitch_diameter=0.034, contact_angle=0.4)
 DAM_PADS = rf.pressure_dam_pads(depth=6e-5, end=2.5, share=0.75, preload=0.2)
+FED_DAMPER = rf.DamperSupply(
+    supply_pressure=1e5, circumferential_groove=2e-3, cavitation_pressure=-5e4, submerged=True
+)
 MADE = [
     BEARING,
     rf.JFOFilm(
@@ -58,6 +61,8 @@ MADE = [
         supply_flow=2e-6,
         cavitation_pressure=-5e4,
     ),
+    rf.JFODamper(radius=0.05, length=0.04, clearance=1e-4, viscosity=0.02, supply=FED_DAMPER, stiffness=1e5),
+    FED_DAMPER,
     rf.Lobe(start=0.1, extent=1.0, preload=0.3, offset=0.6),
     LOBED,
     DAM_PADS[0],

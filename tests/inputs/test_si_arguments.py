@@ -20,7 +20,8 @@ DAMPER = next(one for one in MADE if isinstance(one, rf.PorousDamper))
 
 RESULTS = {
     "BallLoads", "BallRest", "BasinScan", "Campbell", "CircularOrbit", "CoSimulation", "Coefficients",
-    "CouplingReport", "CriticalMass", "CriticalSpeed", "Equilibrium", "HeatedState", "HopfPoint", "JFOState",
+    "CouplingReport", "CriticalMass", "CriticalSpeed", "DamperTurn", "Equilibrium", "HeatedState",
+    "HopfPoint", "JFOOrbit", "JFOState",
     "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients", "Reduction", "RotorEquilibrium",
     "RotorModes", "RotorThreshold", "StabilityChange", "TiltedPads", "Trajectory", "WhirlThreshold",
 }  # fmt: skip

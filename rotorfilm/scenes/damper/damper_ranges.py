@@ -61,7 +61,7 @@ RUPTURED = (
         "pressure",
         1.0 / NOTABLE,
         ON_ORBIT + "pressure is {pressure:.2g} times the ambient one, which does not fill the cavity again "
-        "within a turn; no film conserves its mass",
+        "within a turn: [damper] supply takes a film that conserves its oil",
     ),
 )
 """The same of one that does."""

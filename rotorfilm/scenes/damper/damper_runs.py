@@ -98,7 +98,8 @@ def _followed(models: DamperScene, follow: Callable[[], Trajectory | CoSimulatio
         found, touched = contact.partial, True
     run = found.trajectory if isinstance(found, CoSimulation) else found
     eps = np.hypot(*run.position) / models.support.clearance
-    reach = largest_eccentricity_ratio(models.support)
+    support = models.support
+    reach = 1.0 if isinstance(support, JFODamper) else largest_eccentricity_ratio(support)
     beyond = np.nonzero(eps >= reach)[0]
     first = int(beyond[0]) if beyond.size else len(eps) - 1
     shown = slice(0, first + 1)

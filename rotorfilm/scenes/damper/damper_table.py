@@ -126,7 +126,8 @@ class DamperTable:
 
         Its film laws know no supply. Two lands beside a groove are one of them, in oil twice as viscous.
         """
-        film, groove = self.film or ShortSqueeze(), self.supply and self.supply.circumferential_groove
+        film = self.film or ShortSqueeze()
+        groove = None if self.supply is None else self.supply.circumferential_groove
         if groove is None:
             return made_from(PorousDamper, self, film=film)
         land, twice = 0.5 * (self.length - groove), 2.0 * self.viscosity
@@ -146,5 +147,9 @@ class DamperTable:
         """Return the damper with its springs, if it has some; with a supply that which conserves its oil."""
         if self.supply is not None and self.film is None:
             return replace(self.conserved(self.supply), cells=CELLS)
+        return self.plain()
+
+    def plain(self) -> PorousDamper | Sprung:
+        """Return the damper of a film that knows no supply, with its springs, if it has some."""
         damper = self.build()
         return Sprung(reaction=damper, stiffness=self.stiffness) if self.stiffness else damper

@@ -94,7 +94,8 @@ def damper_turn(
 ) -> DamperTurn:
     """Return the film of a damper over a turn of a motion that repeats itself: any orbit, with any supply.
 
-    It starts from the film of a rotor at rest, which is full, and goes on, in steps of second order (BDF2), until its force repeats itself.
+    It starts from the film of a rotor at rest, which is full, and goes on in steps of second order (BDF2)
+    until its force repeats itself.
 
     Parameters
     ----------
@@ -135,13 +136,11 @@ def damper_turn(
     if q.ndim != 2 or q.shape[1] < FEWEST_STEPS:
         raise InputError(f"position must have shape (2, n), n at least {FEWEST_STEPS}, got shape {q.shape}")
     require_inside(q, damper.clearance)
-    change, found = np.inf, None
-    for turns, rows in enumerate(_turns(damper.scaled, q, speed), start=1):
-        last, found = found, rows
-        if last is not None:
-            change = float(np.abs(rows.force - last.force).max() / np.abs(rows.force).max())
-        if change <= tolerance or turns == most_turns:
-            break
+    going_on = _turns(damper.scaled, q, speed)
+    turns, change, found = 1, np.inf, next(going_on)
+    while change > tolerance and turns < most_turns:
+        last, found, turns = found, next(going_on), turns + 1
+        change = float(np.abs(found.force - last.force).max() / np.abs(found.force).max())
     result = _result(damper.scaled, found, q, speed, turns, change)
     damper.warn_of_air(result.drawn_in, result.side_flow)
     if change > tolerance:

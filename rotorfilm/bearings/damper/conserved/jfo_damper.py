@@ -28,7 +28,7 @@ from ...films.conserved.conserved_motion import dynamic_stiffness, slow_motion
 from ...films.conserved.reynolds_oil import reynolds_state
 from ...films.conserved.stepped_film import FilmMemory, SteppedFilm
 from ...reaction import broadcast_state
-from ...stepped_reaction import Trial
+from ...stepped_reaction import StepTrial
 from .damper_supply import DamperSupply
 from .jfo_orbit import JFOOrbit, jfo_orbit
 from .scaled_film import ScaledFilm, scaled_film
@@ -144,11 +144,18 @@ class JFODamper(SteppedFilm):
         end, _, report = super().step(state, t, u, dt)
         return end, self.answer(end), report
 
-    def attempt(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None = None) -> Trial:
+    def attempt(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None = None) -> StepTrial:
         """Return one inner step, with its slope; see `bearings.stepped_reaction`."""
         film = super().attempt(state, u, dt, near)
         slope = film.slope + self.stiffness * np.eye(2)
         return film._replace(output=self.answer(film.state), slope=slope)
+
+    def slopes(self, state: FilmMemory) -> Array:
+        """Return d force / d (x, y, vx, vy, speed) at a state whose cells keep their oil, shape (2, 5)."""
+        found = super().slopes(state)
+        found[:, :2] -= self.stiffness * np.eye(2)
+        found[:, 4] = 0.0
+        return found
 
     def orbit(self, eccentricity_ratio: float, speed: float) -> JFOOrbit:
         """Return the film on a centered circular orbit.

@@ -155,7 +155,7 @@ class SteppedFilm:
 
     def slopes(self, state: FilmMemory) -> Array:
         """Return d force / d (x, y, vx, vy, speed) at a state whose cells keep their oil, shape (2, 5)."""
-        rate = 0.5 * float(state.motion[4])
+        rate = self.carrying(state.motion)
         gap = circular_gap(self.film.cells, state.motion[:2] / self.clearance)
         solution = OilSolution(state.oil.pressure, state.oil.theta, state.oil.full, 0, 0)
         film = ConservedState(gap, rate, self.film.equations(gap, rate), solution)

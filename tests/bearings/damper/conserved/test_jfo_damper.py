@@ -389,6 +389,11 @@ def test_a_stepped_damper_goes_on_from_its_bytes_and_feels_its_springs():
         ends = [one.step(state, 0.0, u, 1e-3) for one, state in zip((film, sprung), states, strict=True)]
         assert_allclose(ends[1][1][:2], ends[0][1][:2] - 1e6 * u[:2], rtol=1e-12)
         states = [end[0] for end in ends]
+    at_rest = coefficients(sprung, ways[0][:2], 0.0)
+    slopes = sprung.slopes(sprung.start(ways[0]))
+    assert_allclose(-slopes[:, 2:4], at_rest.damping, rtol=1e-9, atol=1e-9 * at_rest.damping.max())
+    assert_allclose(-slopes[:, :2], 1e6 * np.eye(2), atol=1e-3)
+    assert_allclose(slopes[:, 4], 0.0)
     again = sprung.unpack(sprung.pack(states[1]))
     _, expected, _ = sprung.step(states[1], 0.0, ways[0], 1e-3)
     assert_allclose(sprung.step(again, 0.0, ways[0], 1e-3)[1], expected, rtol=0.0)
