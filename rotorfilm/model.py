@@ -200,12 +200,12 @@ def require_reaction(name: str, value: object, kind: Any = Reaction) -> None:
     require_kind(name, value, kind, "a Reaction such as a JournalBearing, or what as_reaction makes")
 
 
-def require_reactions(name: str, values: object) -> None:
-    """Raise InputError unless `values` is a mapping from names of stations to Reactions."""
+def require_reactions(name: str, values: object, kind: Any = Reaction) -> None:
+    """Raise InputError unless `values` is a mapping from names of stations to Reactions, or a lesser kind."""
     if not isinstance(values, Mapping):
         raise InputError(f"{name} must be a mapping such as {{'left': film}}, got {brief(values)}")
     for station, value in values.items():
-        require_reaction(f"{name}[{station!r}]", value)
+        require_reaction(f"{name}[{station!r}]", value, kind)
 
 
 class Force(Protocol):
