@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_kind
 from ..inputs.kinds import arguments
-from ..model import Array, Dynamic, Model, Reaction, require_reaction
+from ..model import Array, Dynamic, JournalForce, Model, Reaction, require_reaction
 from ..results import Equilibrium
 from ..signals import FORCE_OUTPUTS, MOTION_NAMES, indices, names
 from .equilibrium import equilibrium
@@ -51,7 +51,7 @@ def closed_loop(
         If the rotor lacks one of these signals, or `at` is no Equilibrium.
     """
     require_kind("rotor", rotor, Model, "a rotor such as a RigidRotor")
-    require_reaction("reaction", reaction)
+    require_reaction("reaction", reaction, JournalForce)
     indices("rotor must have the inputs", names(rotor.inputs), FORCE_OUTPUTS)
     indices("rotor must have the outputs", names(rotor.outputs), MOTION_NAMES)
     require_kind("at", at, Equilibrium, "an Equilibrium, as equilibrium() returns it")
