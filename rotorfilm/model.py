@@ -203,12 +203,12 @@ def require_reaction(name: str, value: object, kind: Any = Reaction, *, heavy: b
         require_massless(name, value)
 
 
-def require_reactions(name: str, values: object, *, heavy: bool = False) -> None:
-    """Raise InputError unless `values` is a mapping from names of stations to Reactions."""
+def require_reactions(name: str, values: object, kind: Any = Reaction, *, heavy: bool = False) -> None:
+    """Raise InputError unless `values` is a mapping from names of stations to Reactions, or a lesser kind."""
     if not isinstance(values, Mapping):
         raise InputError(f"{name} must be a mapping such as {{'left': film}}, got {brief(values)}")
     for station, value in values.items():
-        require_reaction(f"{name}[{station!r}]", value, heavy=heavy)
+        require_reaction(f"{name}[{station!r}]", value, kind, heavy=heavy)
 
 
 class Force(Protocol):

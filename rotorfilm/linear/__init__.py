@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from .closed_loop import closed_loop as closed_loop, transmissibility as transmissibility
     from .coefficients import coefficient_table as coefficient_table, coefficients as coefficients
     from .critical_mass import (
+        CountedMass as CountedMass,
         CriticalMass as CriticalMass,
         critical_mass as critical_mass,
         damping_has_rank_one,
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
         heated_equilibrium as heated_equilibrium,
     )
     from .linearize import OperatingPoint as OperatingPoint, linearize as linearize
+    from .memory.counted_threshold import CountedThreshold as CountedThreshold
+    from .memory.film_system import FilmSystem as FilmSystem, film_system as film_system
     from .nonlinear_system import ModelSystem, to_nlsys as to_nlsys
     from .orbit_coefficients import (
         OrbitCoefficients,

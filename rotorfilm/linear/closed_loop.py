@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError, require_finite, require_kind
 from ..inputs.kinds import arguments
-from ..model import Array, Dynamic, Model, Reaction, require_reaction
+from ..model import Array, Dynamic, JournalForce, Model, Reaction, require_reaction
 from ..reactions.added_mass import inertial, require_turning
 from ..results import Equilibrium
 from ..rotors.heavy_journals import with_mass
@@ -57,7 +57,7 @@ def closed_loop(
         If the rotor lacks one of these signals, or `at` is no Equilibrium.
     """
     require_kind("rotor", rotor, Model, "a rotor such as a RigidRotor")
-    require_reaction("reaction", reaction, heavy=True)
+    require_reaction("reaction", reaction, JournalForce, heavy=True)
     require_turning(reaction, rotor)
     indices("rotor must have the inputs", names(rotor.inputs), FORCE_OUTPUTS)
     indices("rotor must have the outputs", names(rotor.outputs), MOTION_NAMES)

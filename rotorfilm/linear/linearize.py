@@ -15,6 +15,7 @@ from ..inputs.si_arguments import quantities
 from ..model import Array, Linearization, Model
 from ..results import Equilibrium
 from ..signals import JOURNAL_INPUTS, Signal, names
+from ..warming import Remembering
 
 if TYPE_CHECKING:
     import control
@@ -47,7 +48,8 @@ def linearize(model: Model, at: OperatingPoint | Equilibrium, name: str | None =
     Parameters
     ----------
     model : Model
-        A static film gives a system without states whose D holds its derivatives.
+        A static film gives a system without states whose D holds its derivatives, one that remembers the
+        system of `film_system`, with an error up to 1e-3 at frequencies up to that of the shaft.
     at : OperatingPoint or Equilibrium
         An Equilibrium stands for the journal at rest there, as input of a film.
     name : str, optional
@@ -58,6 +60,10 @@ def linearize(model: Model, at: OperatingPoint | Equilibrium, name: str | None =
     InputError
         If the point does not fit the model, or an Equilibrium is given for a model that is no film.
     """
+    if isinstance(model, Remembering) and isinstance(at, Equilibrium):
+        from .memory.film_system import film_system
+
+        return film_system(model, at, name=name).system
     require_kind("model", model, Model, "a Model such as a bearing or a rotor")
     point = _film_point(model, at) if isinstance(at, Equilibrium) else at
     x = checked_vector("x", point.x, len(model.states))

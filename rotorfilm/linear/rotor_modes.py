@@ -19,13 +19,18 @@ from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure
 from .large.condensed import TOLERANCE, Condensed, models, usual_frequency
 from .large.defects import WholeRotor, whirl_errors
-from .large.second_order import small_motion
+from .large.remembered import motion_by_memory
+from .large.second_order import remembering, rest_near, small_motion
 from .rotor_rest import RotorEquilibrium, rest
 
 _OSCILLATES = 1e-6
 
 _HELD = 1e-12
 """Stiffness force / the forces that cancel in it, below which nothing holds a shape."""
+
+
+_SAME = 1e-9
+"""Relative difference below which two eigenvalues are one."""
 
 
 class Whirls:
@@ -201,12 +206,40 @@ def _part(model: Condensed, at: RotorEquilibrium, band: _Band, known_to: float) 
     whole, lifted = WholeRotor(model.whole, at, band.frequency), model.lifted(shapes)
     chosen = _is_held(whole, values, lifted) & (values.imag >= band.low) & (values.imag < band.high)
     order = np.flatnonzero(chosen)[np.argsort(values.imag[chosen])]
+    if remembering(at):
+        return _remembered(model, at, band, known_to, values[order], shapes[:, order])
     asked = [k for k in order if oscillates(values[k]) and abs(values[k]) <= known_to]
     error = 0.0
     if model.space is not None and asked:
         ends = model.lifted(np.linalg.solve(system.mass, left[len(system.mass) :, asked]))
         error = float(whirl_errors(model, whole, values[asked], lifted[:, asked], ends).max())
     return _Part(values[order].astype(complex), shapes[:, order].astype(complex), error)
+
+
+def _remembered(
+    model: Condensed,
+    at: RotorEquilibrium,
+    band: _Band,
+    known_to: float,
+    starts: np.ndarray,
+    shapes: np.ndarray,
+) -> _Part:
+    """Return the motions on films that remember next to those with K and C of one frequency."""
+    found: list[tuple[complex, np.ndarray]] = []
+    error = 0.0
+    for start, shape in zip(starts, shapes.T, strict=True):
+        one = motion_by_memory(model.structure, at, band.frequency, complex(start), shape)
+        if one is None or any(abs(one.value - other) <= _SAME * abs(other) for other, _ in found):
+            continue
+        found.append((one.value, one.right))
+        if model.space is not None and oscillates(np.array(one.value)) and abs(one.value) <= known_to:
+            whole = WholeRotor(model.whole, rest_near(at, one.value), band.frequency)
+            ends = (model.lifted(vector[:, None]) for vector in (one.right, one.left))
+            error = max(error, float(whirl_errors(model, whole, np.array([one.value]), *ends)[0]))
+    found.sort(key=lambda pair: pair[0].imag)
+    values = np.array([value for value, _ in found], dtype=complex)
+    vectors = np.array([vector for _, vector in found], dtype=complex).reshape(-1, len(shapes))
+    return _Part(values, vectors.T, error)
 
 
 def _is_held(

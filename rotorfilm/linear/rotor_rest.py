@@ -12,7 +12,7 @@ import numpy as np
 from ..bearings.contact_place import minimum_film
 from ..errors import EquilibriumError, InputError, require_number
 from ..inputs.kinds import arguments
-from ..model import Array, Reaction, require_reactions
+from ..model import Array, JournalForce, Reaction, require_reactions
 from ..readable.result import Readable
 from ..results import Coefficients
 from ..rotors import FlexibleRotor, require_flexible
@@ -107,7 +107,7 @@ def rotor_equilibrium(
 
 def rest(structure: Structure, bearings: Mapping[str, Reaction], speed: float) -> RotorEquilibrium:
     """Return where a rotor of these matrices rests; see `rotor_equilibrium`."""
-    require_reactions("bearings", bearings)
+    require_reactions("bearings", bearings, JournalForce)
     system = _System(structure, bearings, speed)
     q, loads = system.on_rigid_bearings()
     alone = [system.alone(k, load) for k, load in enumerate(loads.reshape(-1, 2))]

@@ -15,6 +15,7 @@ from ..inputs.kinds import arguments
 from ..model import Array, Reaction
 from ..readable.result import Readable
 from ..rotors import FlexibleRotor
+from .large.remembered import require_all_growing
 from .rotor_modes import Motions, motions_at, oscillates, speeds_in_turn
 
 NEUTRAL = 1e-9
@@ -92,6 +93,14 @@ def rotor_threshold(
     are off by up to 1e-6 |s|, as estimated, to the frequency named there; of faster motions nothing is
     estimated. The speed is off by that over the slope of Re s over the speed, which the result does not tell:
     where growth hardly changes with the speed it may be far off.
+
+    On films that remember, `JFOFilm`, exponents are those with K(s). At each of the speeds given those that
+    grow are counted besides by the phase of the determinant along all frequencies: none is missed unseen.
+
+    Raises
+    ------
+    ConvergenceError
+        If that count is another than that of the exponents found.
     """
     search = _Stability(rotor, bearings)
     grid = speeds_in_turn(speeds)
@@ -165,11 +174,17 @@ class _Stability(NamedTuple):
 
     def growing(self, speed: float) -> int:
         """Return how many eigenvalues grow at a speed."""
-        return self.growth(speed).growing
+        return self._counted(speed).growing
+
+    def _counted(self, speed: float) -> _Growth:
+        """Return what grows at a speed, with a proof on films that remember that it is all."""
+        found = self.growth(speed)
+        require_all_growing(self.rotor, self.bearings, speed, found.motions.eigenvalues, found.growing)
+        return found
 
     def changes(self, speeds: Array) -> Iterator[StabilityChange]:
         """Yield the changes of a grid of speeds in its order."""
-        for low, high in pairwise(self.growth(float(speed)) for speed in speeds):
+        for low, high in pairwise(self._counted(float(speed)) for speed in speeds):
             yield from self._between(low, high)
 
     def _between(self, low: _Growth, high: _Growth) -> Iterator[StabilityChange]:

@@ -166,7 +166,10 @@ def _settling(
         with _passing(passed):
             return least_damped(equilibrium(reaction, load, speed)).real
 
-    onset, stable = _first_onset(growth, _speeds(*ends))
+    speeds = _speeds(*ends)
+    with _passing(passed):
+        first = _first_carried(reaction, load, speeds.tolist())
+    onset, stable = _first_onset(growth, speeds[first:])
     if onset is None:
         return _none(_why_none(stable, *ends))
     with warnings.catch_warnings():
@@ -184,18 +187,10 @@ def _settling(
 
 
 def _first_onset(growth: Callable[[float], float], speeds: Array) -> tuple[float | None, list[bool]]:
-    """Return the lowest speed at which growth turns positive, None without, and where it is stable.
-
-    Speeds that carry no load are passed over.
-    """
+    """Return the lowest speed at which growth turns positive, None without, and where it is stable."""
     stable: list[bool] = []
     for k, speed in enumerate(speeds.tolist()):
-        try:
-            stable.append(growth(speed) < 0.0)
-        except EquilibriumError:
-            if stable:
-                raise
-            continue
+        stable.append(growth(speed) < 0.0)
         if stable[-2:] == [True, False]:
             low, high = np.log(speeds[k - 1 : k + 1]).tolist()
             return math.exp(brentq(lambda log: growth(math.exp(log)), low, high, xtol=1e-14)), stable

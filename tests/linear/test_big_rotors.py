@@ -284,8 +284,8 @@ def test_critical_speeds_of_coarse_steps_are_those_of_fine_ones(monkeypatch):
     """Whirls are counted: a step that misses one is halved. Few coordinates are solved per critical speed."""
     rotor = long_rotor(30)
     count = []
-    kept = crossings.mode_near
-    monkeypatch.setattr(crossings, "mode_near", lambda *a: count.append(1) or kept(*a))
+    kept = crossings.whirl_near
+    monkeypatch.setattr(crossings, "whirl_near", lambda *a: count.append(1) or kept(*a))
     fine = critical_speeds(rotor, FILMS, np.linspace(20.0, 700.0, 35))
     assert len(count) <= 6 * len(fine)
     coarse = critical_speeds(rotor, FILMS, [20.0, 250.0, 700.0])

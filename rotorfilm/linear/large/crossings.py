@@ -15,9 +15,8 @@ from ...rotors import FlexibleRotor
 from ..rotor_modes import Motions, motions_at, whirls_of
 from ..rotor_rest import rest
 from .condensed import exact_structure, models
-from .inverse_iteration import PATIENCE, ROUNDED, mode_near
+from .inverse_iteration import PATIENCE, ROUNDED, whirl_near
 from .likeness import matches
-from .second_order import small_motion
 
 REACH = 1.5
 """Highest frequency to which whirls are followed / top_speed speed."""
@@ -144,7 +143,7 @@ class CrossingSearch:
         for count in range(_STEPS):
             at = rest(small, self.bearings, speed)
             try:
-                value, shape, _ = mode_near(small_motion(exact, at, abs(speed)), value, shape)
+                value, shape, _ = whirl_near(exact, at, abs(speed), value, shape)
             except ConvergenceError:
                 return None
             lead = value.imag - abs(speed)

@@ -23,7 +23,9 @@ class WholeRotor:
     def __init__(self, structure: Structure, at: RotorEquilibrium, frequency: float) -> None:
         self.shaft = small_motion(structure, replace(at, coefficients={}), frequency)
         self.rows = structure.journals
-        self.films = [np.zeros((len(self.rows), len(self.rows))) for _ in range(2)]
+        size = len(self.rows), len(self.rows)
+        kind = np.result_type(float, *(film.stiffness for film in at.coefficients.values()))
+        self.films = [np.zeros(size, dtype=kind) for _ in range(2)]
         for name, film in at.coefficients.items():
             pair = 2 * structure.stations.index(name) + np.arange(2)
             for block, part in zip(self.films, (film.stiffness, film.damping), strict=True):
@@ -39,7 +41,7 @@ class WholeRotor:
         """Return L(s)* y, shape (N, m)."""
         m, c, k = self.shaft
         back, seen = np.conj(values), self.rows @ motion
-        film = self.films[0].T @ seen + self.films[1].T @ seen * back
+        film = self.films[0].conj().T @ seen + self.films[1].conj().T @ seen * back
         shaft = (m.T @ motion) * back**2 + (c.T @ motion) * back + k.conj().T @ motion
         return np.asarray(shaft + self.rows.T @ film)
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from scipy import sparse
 
 from ...errors import ConvergenceError
+from ...rotors.structure import Structure
+from ..rotor_rest import RotorEquilibrium
 from .banded import BandedFactor, DenseFactor
-from .second_order import SecondOrder
+from .second_order import SecondOrder, motion_near
 
 CONVERGED = 1e-12
 """Relative change of an eigenvalue, or of a speed, at which an iteration ends."""
@@ -57,12 +61,28 @@ def mode_near(
     ConvergenceError
         If the iteration does not end.
     """
+    return _iterated(lambda s: system, value, load)
+
+
+def whirl_near(
+    structure: Structure, at: RotorEquilibrium, frequency: float, value: complex, load: np.ndarray
+) -> tuple[complex, np.ndarray, np.ndarray]:
+    """Return the same of a rotor about its rest, with hysteresis at a frequency [rad/s].
+
+    Films that remember have K(s) at every step, and its slope: Newton's method for the nonlinear eigenvalue.
+    """
+    return _iterated(motion_near(structure, at, frequency), value, load)
+
+
+def _iterated(
+    system_at: Callable[[complex], SecondOrder], value: complex, load: np.ndarray
+) -> tuple[complex, np.ndarray, np.ndarray]:
     # On an eigenvalue itself L has no inverse.
     shift = value * (1.0 + 1e-9)
-    found, right, left = inverse_steps(system, shift, load, load, 3)[-1]
+    found, right, left = inverse_steps(system_at(shift), shift, load, load, 3)[-1]
     for step in range(_STEPS):
         before = found
-        found, right, left = inverse_steps(system, found * (1.0 + 1e-13), right, left, 1)[-1]
+        found, right, left = inverse_steps(system_at(found), found * (1.0 + 1e-13), right, left, 1)[-1]
         if abs(found - before) < (CONVERGED if step < PATIENCE else ROUNDED) * abs(found):
             return found, right, left
     raise ConvergenceError(f"whirl near {value:.6g} rad/s must be found by inverse iteration, and was not")

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 from scipy import sparse
 
+from ...bearings.at_frequency import MemoryCoefficients
 from ...model import Array
 from ...rotors.structure import Structure, across_planes, both_planes
 from ..rotor_rest import RotorEquilibrium
@@ -71,6 +74,27 @@ def with_hysteresis(structure: Structure, system: SecondOrder, frequency: float,
 def small_motion(structure: Structure, at: RotorEquilibrium, frequency: float) -> SecondOrder:
     """Return the equations of small motion about an equilibrium, with hysteresis at a frequency [rad/s]."""
     return with_hysteresis(structure, second_order(structure, at), frequency, at.speed)
+
+
+def remembering(at: RotorEquilibrium) -> dict[str, MemoryCoefficients]:
+    """Return the films of a rotor whose stiffness is K(s) at every exponent, by station."""
+    return {n: film for n, film in at.coefficients.items() if isinstance(film, MemoryCoefficients)}
+
+
+def rest_near(at: RotorEquilibrium, s: complex) -> RotorEquilibrium:
+    """Return an equilibrium with K(s) and its slope of the films that remember, for motion near e^(s t)."""
+    near = {name: film.near(s) for name, film in remembering(at).items()}
+    return replace(at, coefficients={**at.coefficients, **near}) if near else at
+
+
+def motion_near(
+    structure: Structure, at: RotorEquilibrium, frequency: float
+) -> Callable[[complex], SecondOrder]:
+    """Return the equations of small motion about an equilibrium near an exponent, as a function of it."""
+    if remembering(at):
+        return lambda s: small_motion(structure, rest_near(at, s), frequency)
+    system = small_motion(structure, at, frequency)
+    return lambda s: system
 
 
 def journal_rows(structure: Structure, name: str) -> Array:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...bearings.at_frequency import MemoryCoefficients
+from ...errors import ConvergenceError
 from ...results import Equilibrium, WhirlThreshold
 from ...warming import Remembering
 from ..equilibrium import equilibrium
@@ -35,11 +36,21 @@ def leading_exponent(reaction: Remembering, at: Equilibrium, mass: float) -> com
 
 
 def counted_threshold(reaction: Remembering, found: WhirlThreshold) -> CountedThreshold:
-    """Return a threshold with the numbers of exponents that grow beside it."""
+    """Return a threshold with the numbers of exponents that grow beside it.
+
+    Raises
+    ------
+    ConvergenceError
+        If they are not 0 below and more above: then another whirl was missed.
+    """
     speed, at, mass = found.speed, found.equilibrium, found.critical_mass
     assert speed is not None and at is not None and mass is not None
     rests = (equilibrium(reaction, at.load, speed * (1.0 + side)) for side in (-BESIDE, BESIDE))  # type: ignore[arg-type]
     below, above = (rigid_growing(_film(reaction, rest), mass) for rest in rests)
+    if below or not above:
+        raise ConvergenceError(
+            f"a whirl must begin to grow at {speed:.6g} rad/s, and {below} exponents grow below, {above} above"
+        )
     return CountedThreshold(
         speed=speed,
         whirl_ratio=found.whirl_ratio,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -19,7 +20,7 @@ NEUTRAL = 1e-6
 """Growth rate / frequency of a whirl that begins or ceases to grow."""
 
 CONVERGED = 1e-13
-_STEPS = 40
+_STEPS = 20
 _SAME = 1e-8
 _TOP = 4.0
 _DECADES = 4.0
@@ -31,7 +32,7 @@ class Exponents(NamedTuple):
     Attributes
     ----------
     values : ndarray, shape (n,) [1/s]
-        By falling real part, those with imaginary part >= 0; all that grow, and some of those that decay.
+        By falling real part, those with imaginary part >= 0; all that grow, at least one.
     growing : int
         How many grow, both of a pair, by the phase of the determinant.
     """
@@ -41,7 +42,7 @@ class Exponents(NamedTuple):
 
 
 def rigid_exponents(film: MemoryCoefficients, mass: float) -> Exponents:
-    """Return exponents of a rigid mass [kg] on a film, by Newton's method, the least damped first.
+    """Return exponents of a rigid mass [kg] on a film, by Newton's method from the least damped one on.
 
     Raises
     ------
@@ -50,24 +51,30 @@ def rigid_exponents(film: MemoryCoefficients, mass: float) -> Exponents:
     """
     found: list[complex] = []
     growing: int | None = None
-    for share in STARTS:
-        nu = share * abs(film.speed)
-        K = film.dynamic_stiffness.stiffness(1j * nu)
-        for start in _pencil(K.real, K.imag / nu, mass):
-            value = _refined(film.dynamic_stiffness, mass, complex(start.real, abs(start.imag)))
-            if value is not None and not any(abs(value - one) <= _SAME * abs(one) for one in found):
-                found.append(value)
-        found.sort(key=lambda one: -one.real)
+    for start in _starts(film, mass):
+        value = _refined(film.dynamic_stiffness, mass, start)
+        if value is None or any(abs(value - one) <= _SAME * abs(one) for one in found):
+            continue
+        found = sorted([*found, value], key=lambda one: -one.real)
         known = sum(2 if one.imag else 1 for one in found if one.real > 0.0)
-        if found and abs(found[0].real) <= NEUTRAL * abs(found[0]):  # on the border itself nothing is counted
+        if abs(found[0].real) <= NEUTRAL * abs(found[0]):  # on the border itself nothing is counted
             return Exponents(np.array(found), known)
         growing = rigid_growing(film, mass) if growing is None else growing
-        if found and known == growing:
+        if known == growing:
             return Exponents(np.array(found), growing)
     raise ConvergenceError(
         f"all {growing} growing exponents of a mass of {mass:.6g} kg on the film must be found, and "
         f"{len(found)} exponents were: {found}"
     )
+
+
+def _starts(film: MemoryCoefficients, mass: float) -> Iterator[complex]:
+    """Yield exponents with the stiffness and damping of a few frequencies, the least damped first."""
+    for share in STARTS:
+        nu = share * abs(film.speed)
+        K = film.dynamic_stiffness.stiffness(1j * nu)
+        near = _pencil(K.real, K.imag / nu, mass)
+        yield from sorted(near[near.imag >= 0.0].tolist(), key=lambda one: -one.real)
 
 
 def rigid_growing(film: MemoryCoefficients, mass: float) -> int:

@@ -1,0 +1,172 @@
+"""A film that remembers as a linear system for python-control, with its error over a range of frequencies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ...bearings.at_frequency import Complex, DynamicStiffness, MemoryCoefficients
+from ...errors import ConvergenceError, InputError, require_kind, require_positive
+from ...inputs.kinds import arguments
+from ...model import Array
+from ...readable.result import Readable
+from ...results import Equilibrium
+from ...signals import FORCE_OUTPUTS, JOURNAL_INPUTS
+from ...warming import Remembering
+
+if TYPE_CHECKING:
+    import control
+
+ORDERS = (2, 4, 6, 8, 12, 16, 24, 32)
+"""States for each direction of the journal that are tried, until the error is small enough."""
+
+POLES = (1.0, 0.5, 2.0)
+"""Decay rates of these states / highest frequency."""
+
+SAMPLES = 192
+"""Frequencies at which the film is asked; every second one is fitted, and the error is that at all."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FilmSystem(Readable):
+    """A film that remembers, as a linear system with few states.
+
+    Attributes
+    ----------
+    system : control.StateSpace
+        Inputs x, y, vx, vy, speed, outputs force_x, force_y, as small changes about the equilibrium. The
+        states are no oil contents, but what the film remembers of x and of y, each through a chain of equal
+        lags. The speed acts as in slow motion.
+    error : float [1]
+        Largest error of K(i nu), over its largest entry, at frequencies nu up to the highest; at rest there is
+        none.
+    highest_frequency : float [rad/s]
+        Beyond it nothing is known of the error.
+    """
+
+    system: control.StateSpace
+    error: float
+    highest_frequency: float
+
+
+class _Fit(NamedTuple):
+    """K(s) = K(0) + s damping + sum of parts (k - k at s = 0), k = ((s - a)/(s + a))^j/(s + a)."""
+
+    decay: float
+    damping: Array
+    parts: Array
+    error: float
+
+
+@arguments
+def film_system(
+    film: Remembering,
+    at: Equilibrium,
+    *,
+    highest_frequency: float | None = None,
+    tolerance: float = 1e-3,
+    name: str | None = None,
+) -> FilmSystem:
+    """Return the small motion of a film that remembers as a stable system with few states.
+
+    Parameters
+    ----------
+    film : Remembering
+        As `JFOFilm`.
+    at : Equilibrium
+        Where the journal rests.
+    highest_frequency : float, optional [rad/s]
+        Up to which K(i nu) is to be right; by default the speed.
+    tolerance : float [1]
+        Largest error there, over the largest entry of K(i nu).
+    name : str, optional
+        Name of the system.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule, or the shaft is at rest.
+    ConvergenceError
+        If 32 states for each direction are not enough.
+
+    Notes
+    -----
+    K(s) is fitted by least squares in Laguerre functions of s, at frequencies up to the highest, with K(0)
+    exact: oil that crosses a cavity is a delay, which they take up at a geometric rate. They decay whatever
+    the fit, and its damping in fast motion is positive.
+    """
+    require_kind("film", film, Remembering, "a film that remembers, such as a JFOFilm")
+    require_kind("at", at, Equilibrium, "an Equilibrium, as equilibrium() returns it")
+    require_positive("tolerance", tolerance)
+    if at.speed == 0.0:
+        raise InputError("at.speed must not be 0 for a film with a memory of the rotation, got 0.0")
+    top = abs(at.speed) if highest_frequency is None else highest_frequency
+    require_positive("highest_frequency", top)
+    coefficients: MemoryCoefficients = film.coefficients(at.position, at.speed)
+    still = coefficients.dynamic_stiffness.stiffness(0j).real
+    fit = _fitted(coefficients.dynamic_stiffness, still, top, tolerance)
+    by_speed = film.jacobian(at.position, np.zeros(2), at.speed)[:, 4]
+    return FilmSystem(
+        system=_system(fit, still, by_speed, name), error=fit.error, highest_frequency=float(top)
+    )
+
+
+def _fitted(motion: DynamicStiffness, still: Array, top: float, tolerance: float) -> _Fit:
+    """Return the fit with the fewest states whose error is small enough, and which damps fast motion."""
+    nu = top * np.arange(1, SAMPLES + 1) / SAMPLES
+    K = np.array([motion.stiffness(1j * float(one)) for one in nu])
+    fits = list(_fits(nu, K, still, top))
+    for fit in fits:
+        if fit.error <= tolerance and np.linalg.eigvalsh(fit.damping + fit.damping.T)[0] > 0.0:
+            return fit
+    raise ConvergenceError(
+        f"tolerance must be within reach of {ORDERS[-1]} states for each direction up to {top:.6g} rad/s, got "
+        f"{tolerance!r}: the least error is {min(fit.error for fit in fits):.3g}"
+    )
+
+
+def _fits(nu: Array, K: Complex, still: Array, top: float) -> Iterator[_Fit]:
+    """Yield fits to the stiffness at some frequencies, those with few states first."""
+    size = 1.0 / np.abs(K).max(axis=(1, 2))
+    wanted = ((K - still) * size[:, None, None]).reshape(len(nu), 4)
+    for order in ORDERS:
+        for decay in (top * pole for pole in POLES):
+            s = 1j * nu
+            lags = ((s - decay) / (s + decay)) ** np.arange(order)[:, None] / (s + decay)
+            terms = (np.vstack([s / top, decay * (lags - _at_rest(order, decay)[:, None])]) * size).T
+            some = slice(1, None, 2)
+            found, *_ = np.linalg.lstsq(_real(terms[some]), _real(wanted[some]), rcond=None)
+            error = float(np.abs(terms @ found - wanted).max())
+            yield _Fit(decay, found[0].reshape(2, 2) / top, decay * found[1:].reshape(-1, 2, 2), error)
+
+
+def _at_rest(order: int, decay: float) -> Array:
+    """Return the lags at s = 0."""
+    return np.asarray((-1.0) ** np.arange(order) / decay)
+
+
+def _real(rows: Complex) -> Array:
+    return np.concatenate([rows.real, rows.imag])
+
+
+def _system(fit: _Fit, still: Array, by_speed: Array, name: str | None) -> control.StateSpace:
+    """Return the fit as a state space: x_j' = q - a x_j - 2 a (x_1 + ... + x_(j-1)) for x and y."""
+    import control
+
+    order = len(fit.parts)
+    lags = -fit.decay * (np.eye(order) + 2.0 * np.tril(np.ones((order, order)), -1))
+    static = still - np.tensordot(_at_rest(order, fit.decay), fit.parts, 1)
+    return control.StateSpace(
+        np.kron(np.eye(2), lags),
+        np.hstack([np.kron(np.eye(2), np.ones((order, 1))), np.zeros((2 * order, 3))]),
+        -np.transpose(fit.parts, (1, 2, 0)).reshape(2, 2 * order),
+        np.hstack([-static, -fit.damping, by_speed[:, None]]),
+        inputs=list(JOURNAL_INPUTS),
+        outputs=list(FORCE_OUTPUTS),
+        states=[f"memory_{axis}_{k}" for axis in "xy" for k in range(order)],
+        name=name,
+        remove_useless_states=False,
+    )
