@@ -82,7 +82,7 @@ def with_conserved_whirl(scene: Scene, quantity: str, ruptured: Callable[[], Lad
     def start(before: Found | None) -> float:
         if before is not None:
             return float(before.value)
-        found = whirl_threshold(Rupture(bearing, load, scene.speed).films[0], load, mass).speed
+        found = whirl_threshold(Rupture(bearing, load, scene.speed).films[-1][0], load, mass).speed
         return scene.speed if found is None else found
 
     def above() -> tuple[ConservedRung, ...]:
@@ -94,7 +94,7 @@ def with_conserved_whirl(scene: Scene, quantity: str, ruptured: Callable[[], Lad
         )
 
     def change(found: Found) -> Change:
-        reynolds, conserved = Rupture(bearing, load, found.value).films
+        reynolds, conserved = Rupture(bearing, load, found.value).films[-1]
         around = found.value / AROUND, found.value * AROUND
         own = whirl_threshold(reynolds, load, mass, around).speed or found.value
         return Change(own, conserved_threshold(conserved, load, mass, own), relative=True)
@@ -131,8 +131,7 @@ def with_moved_rupture(
     rupture = Rupture(scene.journal_bearing, scene.static_load, scene.speed)
 
     def change(found: Found) -> Change:
-        own, better = (linear(rest.frozen) for rest in rupture.rests)
-        return Change(own, better, relative=scaled)
+        return rupture.change(lambda rest: linear(rest.frozen), relative=scaled)
 
     return with_rupture(scene, ladder, change, distance)
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from ...answers import HEATED, ISOTHERMAL, ErrorEstimate, Found
 from ...bearings.journal import JFOFilm, JournalBearing
-from ...bearings.journal.conserved.rupture_error import both_films
+from ...bearings.journal.conserved.rupture_error import COARSE, both_films, extrapolated_value
 from ...errors import InputError, RotorfilmError
 from ...ladders import BaseRung, Ladder, Rung
 from ...linear import equilibrium
@@ -49,7 +49,7 @@ def candidate(name: str, film: Any) -> FilmCandidate:
 
 @dataclass(frozen=True, eq=False)
 class Rupture:
-    """Both films of a bearing on a coarse grid, at rest under a load; found once.
+    """Both films of a bearing on coarse grids, at rest under a load; found once.
 
     Attributes
     ----------
@@ -64,15 +64,22 @@ class Rupture:
     speed: float
 
     @property
-    def films(self) -> tuple[JournalBearing, JFOFilm]:
-        """Reynolds rupture, and the film that conserves its oil."""
-        return both_films(self.bearing)
+    def films(self) -> tuple[tuple[JournalBearing, JFOFilm], ...]:
+        """Reynolds rupture, and the film that conserves its oil, on each of the cells, the coarser first."""
+        return tuple(both_films(self.bearing, cells) for cells in COARSE)
 
     @cached_property
-    def rests(self) -> tuple[Rest, Rest]:
-        """By Reynolds rupture, and by the film that conserves its oil."""
-        one, other = (rest_on(film, self.load, self.speed) for film in self.films)
-        return one, other
+    def rests(self) -> tuple[tuple[Rest, Rest], ...]:
+        """By Reynolds rupture, and by the film that conserves its oil, on each of the cells."""
+        return tuple(
+            (rest_on(one, self.load, self.speed), rest_on(other, self.load, self.speed))
+            for one, other in self.films
+        )
+
+    def change(self, value: Callable[[Rest], Any], *, relative: bool) -> Change:
+        """Return what the conservation of oil changes in a quantity of a rest."""
+        own, better = (extrapolated_value(*map(value, pair)) for pair in zip(*self.rests, strict=True))
+        return Change(own, better, relative)
 
 
 def rest_on(film: Any, load: tuple[float, float], speed: float) -> Rest:
