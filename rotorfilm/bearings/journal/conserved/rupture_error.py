@@ -92,7 +92,7 @@ def rupture_error(bearing: JournalBearing, position: ArrayLike, speed: float) ->
 
 
 def extrapolated_value(coarse: Any, fine: Any) -> Any:
-    """Return what cells without end would give, from two values of second order, the first on half of them."""
+    """Return what cells without end would give, of second order, the first value on half of them."""
     return (4.0 * fine - coarse) / 3.0
 
 
