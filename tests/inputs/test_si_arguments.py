@@ -22,7 +22,8 @@ RESULTS = {
     "BallLoads", "BallRest", "BasinScan", "Campbell", "CircularOrbit", "CoSimulation", "Coefficients",
     "CouplingReport", "CriticalMass", "CriticalSpeed", "Equilibrium", "HeatedState", "HopfPoint", "JFOState",
     "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients", "Reduction", "RotorEquilibrium",
-    "RotorModes", "RotorThreshold", "RuptureError", "StabilityChange", "TiltedPads", "Trajectory", "WhirlThreshold",
+    "RotorModes", "RotorThreshold", "RuptureError", "StabilityChange", "TiltedPads", "Trajectory",
+    "WhirlThreshold",
 }  # fmt: skip
 """Made by rotorfilm, not by its users."""
 

@@ -30,6 +30,10 @@ if TYPE_CHECKING:
     from ...scenes.schema import JournalTable
 
 
+CANCELED = 0.5
+"""Of the sum of two parts of an error, what they leave together where they are taken as not canceling."""
+
+
 class Rest(NamedTuple):
     """A journal at rest, and the film at its temperature there."""
 
@@ -78,8 +82,9 @@ class Rupture:
 
     def change(self, value: Callable[[Rest], Any], *, relative: bool) -> Change:
         """Return what the conservation of oil changes in a quantity of a rest."""
-        own, better = (extrapolated_value(*map(value, pair)) for pair in zip(*self.rests, strict=True))
-        return Change(own, better, relative)
+        reynolds, conserved = (tuple(map(value, pair)) for pair in zip(*self.rests, strict=True))
+        finer = Change(reynolds[-1], conserved[-1], relative)
+        return Change(extrapolated_value(*reynolds), extrapolated_value(*conserved), relative, finer)
 
 
 def rest_on(film: Any, load: tuple[float, float], speed: float) -> Rest:
@@ -106,11 +111,14 @@ class Change(NamedTuple):
     own, better : float or ndarray
     relative : bool
         Whether the one over the other counts, or their difference.
+    finer : Change or None
+        What is not extrapolated, on the finer of two grids; None of one grid.
     """
 
     own: Any
     better: Any
     relative: bool = False
+    finer: Change | None = None
 
     def on(self, value: Any) -> Any:
         """Return a value by Reynolds rupture as changed."""
@@ -173,7 +181,10 @@ class RupturedRung(BaseRung):
         return self.inner.expected(done)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the error of the rung with what the conservation of its oil would change."""
+        """Return the error of the rung with what the conservation of its oil would change.
+
+        Where both cancel, or are less than what the extrapolation of the latter changes, at most their sum.
+        """
         about: ErrorEstimate = self.inner.estimate(found, before, tolerance)
         try:
             change = self.change(found)
@@ -181,10 +192,15 @@ class RupturedRung(BaseRung):
             doubt = f"what the conservation of its oil would change is not known: {error}"
             return about._replace(doubt=about.doubt or doubt)
         share = self.distance(found.value, change.on(found.value))
-        if about.better is None:
-            total, bound = about.error + share, about.bound and about.error > share
-        else:
-            total, bound = self.distance(found.value, change.on(about.better)), False
+        total, bound = about.error + share, about.bound and about.error > share
+        if about.better is not None:
+            better = change.on(about.better)
+            known = self.distance(found.value, better)
+            unsure = 0.0 if change.finer is None else self.distance(change.finer.on(about.better), better)
+            if known > max(CANCELED * total, unsure):
+                total, bound = known, False
+            else:
+                total, bound = total + unsure, True
         method = f"{about.method}; conservation of oil, {share:.2g}"
         return about._replace(error=total, method=method, bound=bound, shared=about.shared + share)
 
