@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cache
+from typing import Any
 
 import numpy as np
 
@@ -86,15 +87,15 @@ def _load(bearing: JournalBearing, sommerfeld: float) -> list[float]:
 @cache
 def _full_flow() -> float:
     """Return what the groove takes at `AT_LOAD` and ambient pressure [m3/s]."""
-    film = JFOFilm(bearing=_bearing(0.0), cells=CELLS)
+    film: Any = JFOFilm(bearing=_bearing(0.0), cells=CELLS)
     at = equilibrium(film, _load(film.bearing, AT_LOAD), SPEED)
-    return film.solve(at.position, SPEED).side_flow
+    return float(film.solve(at.position, SPEED).side_flow)
 
 
 def _errors(sommerfeld: float, pressure: float, share: float | None = None) -> dict[str, float]:
     bearing = _bearing(pressure)
     flow = None if share is None else share * _full_flow()
-    film = JFOFilm(bearing=bearing, cells=CELLS, supply_flow=flow)
+    film: Any = JFOFilm(bearing=bearing, cells=CELLS, supply_flow=flow)
     load = _load(bearing, sommerfeld)
     own, better = equilibrium(bearing, load, SPEED), equilibrium(film, load, SPEED)
     assert own.losses is not None
