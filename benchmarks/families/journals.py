@@ -18,6 +18,7 @@ from rotorfilm.scenes.journal.film_defects import tangent
 from rotorfilm.scenes.journal.film_rung import FilmRung
 from rotorfilm.scenes.journal.film_rungs import extrapolated
 
+from .conserved_truth import by_conserved_oil
 from .drawn import Drawn, Truth, log_uniform
 
 POSITIONS = ("eccentricity_ratio", "minimum_film", "attitude_angle")
@@ -92,7 +93,7 @@ def grooved(random: np.random.Generator) -> Drawn:
     count = int(random.integers(1, 3))
     table["grooves"] = [{"center": first + math.pi * k, "width": width} for k in range(count)]
     quantity = str(random.choice([*POSITIONS, *SLOPES]))
-    return Drawn("grooved", scene_of(random, table, quantity, (3e-4, 0.1), (0.1, 0.85)), by_grid)
+    return Drawn("grooved", scene_of(random, table, quantity, (3e-4, 0.1), (0.1, 0.85)), by_conserved_oil)
 
 
 def plain_map(random: np.random.Generator) -> Drawn:

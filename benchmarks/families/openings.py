@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from rotorfilm.scenes import Scene
 from rotorfilm.scenes.journal.film_defects import tangent
 from rotorfilm.scenes.journal.film_rungs import extrapolated
 
+from .conserved_truth import by_conserved_oil
 from .drawn import Drawn, Truth, log_uniform
 from .journals import POSITIONS, REFERENCE, SLOPES, journal
 
@@ -40,7 +42,7 @@ def pads(random: np.random.Generator) -> Drawn:
     extent = extent or pitch * float(random.uniform(0.6, 0.95))
     first = float(random.uniform(0.0, 2.0 * math.pi))
     table["pads"] = [{"start": (first + pitch * k) % (2.0 * math.pi), "extent": extent} for k in range(count)]
-    return _scene(random, "pads", table)
+    return replace(_scene(random, "pads", table), reference=by_conserved_oil)
 
 
 def _scene(random: np.random.Generator, family: str, table: dict[str, Any]) -> Drawn:

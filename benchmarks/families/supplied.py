@@ -13,18 +13,12 @@ import numpy as np
 
 from rotorfilm.bearings.films.geometry import FeedHole, Groove
 from rotorfilm.bearings.journal import JFOFilm, JournalBearing
-from rotorfilm.linear import coefficients, equilibrium
-from rotorfilm.scenes import Scene
 
-from .drawn import Drawn, Truth, log_uniform
+from .conserved_truth import by_conserved_oil
+from .drawn import Drawn, log_uniform
 from .journals import POSITIONS, SLOPES, journal
 
 QUANTITIES = (*POSITIONS, *SLOPES, "side_flow", "power_loss")
-REFERENCE, COMPANION = (384, 32), (192, 16)
-"""Cells of the reference, and of the film whose distance tells its own error."""
-
-SHARE = 0.5
-"""Of that distance, the error of the reference: a third where it is of second order, all of it of first."""
 
 
 def supplied(random: np.random.Generator) -> Drawn:
@@ -73,32 +67,3 @@ def _bearing(table: dict[str, Any]) -> JournalBearing:
     holes = [FeedHole(**one) for one in table.get("feed_holes", ())]
     supply = table.get("supply_pressure", 0.0)
     return JournalBearing(**sizes, grooves=(*openings, *holes), supply_pressure=supply)
-
-
-def by_conserved_oil(scene: Scene) -> Truth:
-    """Return a static quantity by the film that conserves its oil, on the finest cells."""
-    assert scene.question is not None
-    quantity = scene.question.quantity
-    fine, coarse = (_value(scene, quantity, cells) for cells in (REFERENCE, COMPANION))
-    scale = 1.0 if quantity == "attitude_angle" else float(np.max(np.abs(fine)))
-    return Truth(fine, max(SHARE * float(np.max(np.abs(fine - coarse))) / scale, 5e-6))
-
-
-def _value(scene: Scene, quantity: str, cells: tuple[int, int]) -> Any:
-    assert scene.journal is not None
-    plain = scene.journal
-    bearing = JournalBearing(
-        radius=plain.radius,
-        length=plain.length,
-        clearance=plain.clearance,
-        viscosity=plain.viscosity,
-        grooves=(*plain.grooves, *plain.feed_holes),
-        supply_pressure=plain.supply_pressure,
-    )
-    film = JFOFilm(bearing=bearing, cells=cells)
-    at = equilibrium(film, scene.static_load, scene.speed)
-    if quantity in SLOPES:
-        return getattr(coefficients(film, at.position, scene.speed), quantity)
-    if quantity in POSITIONS:
-        return np.asarray(getattr(at, quantity))
-    return np.asarray(getattr(film.losses(at.position, np.zeros(2), scene.speed), quantity))

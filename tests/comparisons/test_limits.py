@@ -244,6 +244,7 @@ def test_atlas_names_the_abscissa_of_every_curve():
     assert all(np.isfinite(columns["error or limit"]))
     assert {each.panel.physics for each in PANELS.values()} == {
         "journal",
+        "supply",
         "heat",
         "rotor",
         "damper",
@@ -253,7 +254,8 @@ def test_atlas_names_the_abscissa_of_every_curve():
 
 
 def test_unknown_physics_are_named():
-    with pytest.raises(InputError, match="physics must be among journal, heat, rotor, damper, contact, bush"):
+    known = "journal, supply, heat, rotor, damper, contact, bush"
+    with pytest.raises(InputError, match=f"physics must be among {known}"):
         limits_atlas(["journals"])
     with pytest.raises(InputError, match="physics must name one of"):
         limits_atlas([])

@@ -23,7 +23,8 @@ RESULTS = {
     "CouplingReport", "CriticalMass", "CriticalSpeed", "DamperTurn", "Equilibrium", "HeatedState",
     "HopfPoint", "JFOOrbit", "JFOState",
     "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients", "Reduction", "RotorEquilibrium",
-    "RotorModes", "RotorThreshold", "StabilityChange", "TiltedPads", "Trajectory", "WhirlThreshold",
+    "RotorModes", "RotorThreshold", "RuptureError", "StabilityChange", "TiltedPads", "Trajectory",
+    "WhirlThreshold",
 }  # fmt: skip
 """Made by rotorfilm, not by its users."""
 

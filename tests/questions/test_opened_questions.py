@@ -92,7 +92,7 @@ def test_named_map_is_a_coarse_one_where_its_bound_is_enough(cache):
     assert answer.model.startswith("GroovedMapFilm(cells=(96, 8)")
     assert answer.next_model.startswith("GroovedMapFilm(cells=(192, 12)")
     report = answer.rungs[0]
-    assert report.method == "verified bound of the map"
+    assert report.method.startswith("verified bound of the map")
     assert len(list(cache.iterdir())) == 1
     # Once it lies on disk it answers where no film is named, and sooner than a grid.
     again = scene_of("stiffness", 0.2).ask()

@@ -160,7 +160,8 @@ def scene(
 def limits(
     report: Report,
     physics: Annotated[
-        list[str] | None, Option(help="journal, heat, rotor, damper, contact or bush; all unless given.")
+        list[str] | None,
+        Option(help="journal, supply, heat, rotor, damper, contact or bush; all unless given."),
     ] = None,
     out: Folder = OUT,
 ) -> Said:

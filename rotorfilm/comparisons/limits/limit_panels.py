@@ -1,8 +1,8 @@
 """The atlas of limits: where each simplification fails, as curves and the level that counts as failed.
 
-Each physics has a file of its own with its panels, `limits_journal.py`, `limits_heat.py`, `limits_rotor.py`
-(steps in time), `limits_damper.py`, `limits_contact.py` and `limits_bush.py`; `limits_atlas.py` puts them
-together.
+Each physics has a file of its own with its panels, `limits_journal.py`, `limits_supply.py`,
+`limits_heat.py`, `limits_rotor.py` (steps in time), `limits_damper.py`, `limits_contact.py` and
+`limits_bush.py`; `limits_atlas.py` puts them together.
 """
 
 from __future__ import annotations

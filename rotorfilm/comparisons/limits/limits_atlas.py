@@ -7,12 +7,28 @@ from collections.abc import Sequence
 
 from ...errors import InputError, ValidityWarning
 from ...progress import Report, silent
-from . import limits_bush, limits_contact, limits_damper, limits_heat, limits_journal, limits_rotor
+from . import (
+    limits_bush,
+    limits_contact,
+    limits_damper,
+    limits_heat,
+    limits_journal,
+    limits_rotor,
+    limits_supply,
+)
 from .limit_panels import Limit, LimitAtlas, PanelCurves
 
 PANELS: dict[str, PanelCurves] = {
     each.key: each
-    for physics in (limits_journal, limits_heat, limits_rotor, limits_damper, limits_contact, limits_bush)
+    for physics in (
+        limits_journal,
+        limits_supply,
+        limits_heat,
+        limits_rotor,
+        limits_damper,
+        limits_contact,
+        limits_bush,
+    )
     for each in physics.PANELS
 }
 """All panels by their names, in the order in which they are drawn."""
@@ -22,7 +38,7 @@ PHYSICS = tuple(dict.fromkeys(each.panel.physics for each in PANELS.values()))
 
 
 def limits_atlas(physics: Sequence[str] | None = None, *, report: Report = silent) -> LimitAtlas:
-    """Return the atlas of limits; all of it takes some 18 s of CPU.
+    """Return the atlas of limits; all of it takes some 20 s of CPU.
 
     Parameters
     ----------

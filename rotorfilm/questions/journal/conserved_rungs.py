@@ -64,13 +64,15 @@ class ConservedRung(BaseRung):
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the change since half the lines, and since half the cells along: mostly thrice the error.
 
-        Each by itself, as they may cancel.
+        Each by itself, as they may cancel, and that by both where it is more.
         """
         around, along = self.film.cells
-        others = (_other(around, 16), along), (around, _other(along, 4))
-        error = sum(
-            self.distance(self.value(replace(self.film, cells=cells), found), found.value) for cells in others
+        fewer = _other(around, 16), _other(along, 4)
+        lines, cells, both = (
+            self.distance(self.value(replace(self.film, cells=other), found), found.value)
+            for other in ((fewer[0], along), (around, fewer[1]), fewer)
         )
+        error = max(lines + cells, both)
         work = {WorkUnit(f"estimates of {self.name}"): 1}
         about = ErrorEstimate(error, "half the lines, half the cells along", work, bound=True)
         if self.heat is None:

@@ -6,12 +6,13 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from scipy.optimize import brentq
 
 from ...answers import Found
 from ...bearings.journal import JFOFilm
+from ...errors import AbsentError
 from ...ladders import Ladder
 from ...linear import whirl_threshold
-from ...linear.speed_events import secant_speed
 from ...model import Array
 from ...results import Coefficients
 from .conserved_rungs import ConservedRung, conserved_films
@@ -21,11 +22,11 @@ from .whirl_rungs import AROUND, least_stable, required_rotor
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
 
-STEP, NEAR, FARTHEST, MOST = 0.01, 1e-5, 0.25, 25
-"""Relative change of speed by which the search gets its first slope, at which it ends, the largest of a step,
-and most steps."""
+STEP, NEAR, MOST = 1.1, 1e-4, 30
+"""Factor of the speed between two that are looked at for a border, relative change at which it is found, and
+most looks. K and C jump a little with the cells of the cavity: a border between two speeds always ends."""
 
-WHIRLS, SAME = 40, 1e-9
+WHIRLS, SAME = 60, 1e-6
 """Most frequencies at which K and C are taken, and the relative change at which the whirl has that one."""
 
 
@@ -37,9 +38,10 @@ def whirl_growth(film: JFOFilm, position: Array, speed: float, mass: float) -> f
     frequency, value = 0.5 * abs(speed), 0j
     for _ in range(WHIRLS):
         value = least_stable(_matrix(film.coefficients(position, speed, frequency), mass))[0]
-        before, frequency = frequency, max(abs(value.imag), 1e-3 * abs(speed))
-        if abs(frequency - before) <= SAME * frequency:
+        own = max(abs(value.imag), 1e-3 * abs(speed))
+        if abs(own - frequency) <= SAME * frequency:
             break
+        frequency = 0.5 * (frequency + own)  # own alone may go round in a circle
     return float(value.real)
 
 
@@ -49,20 +51,27 @@ def _matrix(found: Coefficients, mass: float) -> Array:
 
 
 def conserved_threshold(film: JFOFilm, load: tuple[float, float], mass: float, start: float) -> float:
-    """Return the speed at which the whirl of a rigid rotor begins [rad/s], by secants from another one.
+    """Return the speed at which the whirl of a rigid rotor begins [rad/s], the nearest to another one.
 
     Raises
     ------
-    ConvergenceError
-        If none is found, as where the rotor is stable.
+    AbsentError
+        If there is none within some 17 times that one.
     """
 
-    def growth(speed: float) -> tuple[float, None]:
+    def growth(speed: float) -> float:
         rest = rest_on(film, load, speed)
-        return whirl_growth(rest.film, rest.at.position, speed, mass), None
+        return whirl_growth(rest.film, rest.at.position, speed, mass)
 
-    slope = (growth(start * (1.0 + STEP))[0] - growth(start)[0]) / (STEP * start)
-    return float(secant_speed(growth, start, slope, near=NEAR, farthest=FARTHEST, most=MOST).speed)
+    speed, own = start, growth(start)
+    factor = STEP if own < 0.0 else 1.0 / STEP
+    for _ in range(MOST):
+        last, speed = speed, speed * factor
+        if (growth(speed) < 0.0) is not (own < 0.0):
+            return float(brentq(growth, *sorted((last, speed)), rtol=NEAR))
+    raise AbsentError(
+        f"no threshold: none from {start:.6g} to {speed:.6g} rad/s on a film that conserves its oil"
+    )
 
 
 def with_conserved_whirl(scene: Scene, quantity: str, ruptured: Callable[[], Ladder]) -> Ladder:
@@ -82,7 +91,7 @@ def with_conserved_whirl(scene: Scene, quantity: str, ruptured: Callable[[], Lad
     def start(before: Found | None) -> float:
         if before is not None:
             return float(before.value)
-        found = whirl_threshold(Rupture(bearing, load, scene.speed).films[0], load, mass).speed
+        found = whirl_threshold(Rupture(bearing, load, scene.speed).films[-1][0], load, mass).speed
         return scene.speed if found is None else found
 
     def above() -> tuple[ConservedRung, ...]:
@@ -94,7 +103,7 @@ def with_conserved_whirl(scene: Scene, quantity: str, ruptured: Callable[[], Lad
         )
 
     def change(found: Found) -> Change:
-        reynolds, conserved = Rupture(bearing, load, found.value).films
+        reynolds, conserved = Rupture(bearing, load, found.value).films[-1]
         around = found.value / AROUND, found.value * AROUND
         own = whirl_threshold(reynolds, load, mass, around).speed or found.value
         return Change(own, conserved_threshold(conserved, load, mass, own), relative=True)
@@ -131,8 +140,7 @@ def with_moved_rupture(
     rupture = Rupture(scene.journal_bearing, scene.static_load, scene.speed)
 
     def change(found: Found) -> Change:
-        own, better = (linear(rest.frozen) for rest in rupture.rests)
-        return Change(own, better, relative=scaled)
+        return rupture.change(lambda rest: linear(rest.frozen), relative=scaled)
 
     return with_rupture(scene, ladder, change, distance)
 

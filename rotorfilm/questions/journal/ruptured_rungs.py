@@ -16,7 +16,7 @@ import numpy as np
 
 from ...answers import HEATED, ISOTHERMAL, ErrorEstimate, Found
 from ...bearings.journal import JFOFilm, JournalBearing
-from ...bearings.journal.conserved.rupture_error import both_films
+from ...bearings.journal.conserved.rupture_error import COARSE, both_films, extrapolated_value
 from ...errors import InputError, RotorfilmError
 from ...ladders import BaseRung, Ladder, Rung
 from ...linear import equilibrium
@@ -28,6 +28,10 @@ from ...warming import settled
 if TYPE_CHECKING:
     from ...scenes.scene import Scene
     from ...scenes.schema import JournalTable
+
+
+CANCELED = 0.5
+"""Of the sum of two parts of an error, what they leave together where they are taken as not canceling."""
 
 
 class Rest(NamedTuple):
@@ -49,7 +53,7 @@ def candidate(name: str, film: Any) -> FilmCandidate:
 
 @dataclass(frozen=True, eq=False)
 class Rupture:
-    """Both films of a bearing on a coarse grid, at rest under a load; found once.
+    """Both films of a bearing on coarse grids, at rest under a load; found once.
 
     Attributes
     ----------
@@ -64,15 +68,23 @@ class Rupture:
     speed: float
 
     @property
-    def films(self) -> tuple[JournalBearing, JFOFilm]:
-        """Reynolds rupture, and the film that conserves its oil."""
-        return both_films(self.bearing)
+    def films(self) -> tuple[tuple[JournalBearing, JFOFilm], ...]:
+        """Reynolds rupture, and the film that conserves its oil, on each of the cells, the coarser first."""
+        return tuple(both_films(self.bearing, cells) for cells in COARSE)
 
     @cached_property
-    def rests(self) -> tuple[Rest, Rest]:
-        """By Reynolds rupture, and by the film that conserves its oil."""
-        one, other = (rest_on(film, self.load, self.speed) for film in self.films)
-        return one, other
+    def rests(self) -> tuple[tuple[Rest, Rest], ...]:
+        """By Reynolds rupture, and by the film that conserves its oil, on each of the cells."""
+        return tuple(
+            (rest_on(one, self.load, self.speed), rest_on(other, self.load, self.speed))
+            for one, other in self.films
+        )
+
+    def change(self, value: Callable[[Rest], Any], *, relative: bool) -> Change:
+        """Return what the conservation of oil changes in a quantity of a rest."""
+        reynolds, conserved = (tuple(map(value, pair)) for pair in zip(*self.rests, strict=True))
+        finer = Change(reynolds[-1], conserved[-1], relative)
+        return Change(extrapolated_value(*reynolds), extrapolated_value(*conserved), relative, finer)
 
 
 def rest_on(film: Any, load: tuple[float, float], speed: float) -> Rest:
@@ -99,11 +111,14 @@ class Change(NamedTuple):
     own, better : float or ndarray
     relative : bool
         Whether the one over the other counts, or their difference.
+    finer : Change or None
+        What is not extrapolated, on the finer of two grids; None of one grid.
     """
 
     own: Any
     better: Any
     relative: bool = False
+    finer: Change | None = None
 
     def on(self, value: Any) -> Any:
         """Return a value by Reynolds rupture as changed."""
@@ -166,7 +181,10 @@ class RupturedRung(BaseRung):
         return self.inner.expected(done)
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
-        """Return the error of the rung with what the conservation of its oil would change."""
+        """Return the error of the rung with what the conservation of its oil would change.
+
+        Where both cancel, or are less than what the extrapolation of the latter changes, at most their sum.
+        """
         about: ErrorEstimate = self.inner.estimate(found, before, tolerance)
         try:
             change = self.change(found)
@@ -174,10 +192,15 @@ class RupturedRung(BaseRung):
             doubt = f"what the conservation of its oil would change is not known: {error}"
             return about._replace(doubt=about.doubt or doubt)
         share = self.distance(found.value, change.on(found.value))
-        if about.better is None:
-            total, bound = about.error + share, about.bound and about.error > share
-        else:
-            total, bound = self.distance(found.value, change.on(about.better)), False
+        total, bound = about.error + share, about.bound and about.error > share
+        if about.better is not None:
+            better = change.on(about.better)
+            known = self.distance(found.value, better)
+            unsure = 0.0 if change.finer is None else self.distance(change.finer.on(about.better), better)
+            if known > max(CANCELED * total, unsure):
+                total, bound = known, False
+            else:
+                total, bound = total + unsure, True
         method = f"{about.method}; conservation of oil, {share:.2g}"
         return about._replace(error=total, method=method, bound=bound, shared=about.shared + share)
 

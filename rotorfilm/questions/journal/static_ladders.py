@@ -63,8 +63,9 @@ def static_ladder(scene: Scene, quantity: str) -> Ladder:
     rupture = Rupture(scene.journal_bearing, scene.static_load, scene.speed)
 
     def change(found: Found) -> Change:
-        own, better = (conserved_value(quantity, rest, scene) for rest in rupture.rests)
-        return Change(own, better, relative=quantity in RELATIVE)
+        return rupture.change(
+            lambda rest: conserved_value(quantity, rest, scene), relative=quantity in RELATIVE
+        )
 
     return with_rupture(
         scene, ladder, change, distance_of(scene, quantity), lambda: above_rupture(scene, quantity)

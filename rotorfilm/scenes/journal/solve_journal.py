@@ -12,7 +12,7 @@ from ...results import BearingLosses, Coefficients, Equilibrium, WhirlThreshold
 from ...warming import settled
 from .echo import bearing_data
 
-WHIRLS = 40
+WHIRLS = 60
 """Most frequencies at which K and C are taken until the whirl has that frequency."""
 
 
@@ -118,10 +118,11 @@ def film_answer(
 def _whirling_mass(film: JFOFilm, at: Equilibrium) -> CriticalMass:
     """Return the critical mass with K and C at the frequency of the whirl itself."""
     frequency = 0.5 * abs(at.speed)
-    found = critical_mass(film.coefficients(at.position, at.speed, frequency))
     for _ in range(WHIRLS):
-        if found.whirl_frequency is None or abs(found.whirl_frequency - frequency) <= 1e-10 * frequency:
-            break
-        frequency = found.whirl_frequency
         found = critical_mass(film.coefficients(at.position, at.speed, frequency))
-    return found
+        own = found.whirl_frequency
+        if own is None or abs(own - frequency) <= 1e-9 * frequency:
+            return found
+        frequency = 0.5 * (frequency + own)  # own alone may go round in a circle
+    reason = "no frequency found at which the whirl has the stiffness and damping of that frequency"
+    return CriticalMass(mass=None, whirl_frequency=None, whirl_ratio=None, reason=reason)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,13 +13,12 @@ from ....errors import InputError, ValidityWarning, require_kind, require_vector
 from ....inputs.kinds import arguments
 from ....model import Array
 from ....readable.result import Readable
-from ....results import BearingLosses
 from ..bearing import JournalBearing
 from ..reynolds_film import ReynoldsFilm
 from .jfo_film import JFOFilm
 
-COARSE = (72, 8)
-"""Cells on which the two films differ by about as much as on fine ones."""
+COARSE = (36, 4), (72, 8)
+"""Cells on which both films are solved; what they differ by is extrapolated from them, of second order."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,8 +42,8 @@ class RuptureError(Readable):
 def rupture_error(bearing: JournalBearing, position: ArrayLike, speed: float) -> RuptureError:
     """Return how far Reynolds rupture is off in a bearing with its supply, for a journal at rest.
 
-    Both films are solved on 72 x 8 cells. It is a measure, not a bound: mostly within a fifth of what fine
-    grids say, nearly always within a factor 2.
+    Both films are solved on 36 x 4 and on 72 x 8 cells, and extrapolated. It is a measure, not a bound:
+    mostly within a fourth of what fine grids say, nearly always within a factor 2.
 
     Parameters
     ----------
@@ -77,25 +77,33 @@ def rupture_error(bearing: JournalBearing, position: ArrayLike, speed: float) ->
     if speed == 0.0:
         raise InputError("speed must not be zero for a film that ruptures, got 0.0")
     place, rest = require_vector("position", position), np.zeros(2)
-    reynolds, conserved = both_films(bearing)
-    forces = [film.force(place, rest, speed) for film in (reynolds, conserved)]
-    losses = [film.losses(place, rest, speed) for film in (reynolds, conserved)]
-    assert losses[0] is not None  # of a film in two dimensions
-    return _compared(forces, losses)
-
-
-def _compared(forces: list[Array], losses: list[BearingLosses | None]) -> RuptureError:
-    own, other = losses
-    assert own is not None
-    assert other is not None
+    films = zip(*(both_films(bearing, cells) for cells in COARSE), strict=True)
+    reynolds, conserved = (
+        extrapolated_value(*(_numbers(film, place, rest, speed) for film in pair)) for pair in films
+    )
+    size = float(np.hypot(*conserved[:2]))
+    if size == 0.0:
+        raise InputError(f"position must make a force, got {place!r}, where there is none")
     return RuptureError(
-        force=float(np.hypot(*(forces[0] - forces[1])) / np.hypot(*forces[1])),
-        side_flow=float(own.side_flow) / float(other.side_flow) - 1.0,
-        friction_torque=float(own.friction_torque) / float(other.friction_torque) - 1.0,
+        force=float(np.hypot(*(reynolds - conserved)[:2])) / size,
+        side_flow=float(reynolds[2] / conserved[2]) - 1.0,
+        friction_torque=float(reynolds[3] / conserved[3]) - 1.0,
     )
 
 
-def both_films(bearing: JournalBearing, cells: tuple[int, int] = COARSE) -> tuple[JournalBearing, JFOFilm]:
+def extrapolated_value(coarse: Any, fine: Any) -> Any:
+    """Return what cells without end would give, of second order, the first value on half of them."""
+    return (4.0 * fine - coarse) / 3.0
+
+
+def _numbers(film: JournalBearing | JFOFilm, place: Array, rest: Array, speed: float) -> Array:
+    """Return the force (2,) [N], the side flow [m3/s] and the torque [N m]."""
+    losses = film.losses(place, rest, speed)
+    assert losses is not None  # of films on grids
+    return np.array([*film.force(place, rest, speed), losses.side_flow, losses.friction_torque])
+
+
+def both_films(bearing: JournalBearing, cells: tuple[int, int]) -> tuple[JournalBearing, JFOFilm]:
     """Return a bearing with Reynolds rupture and the film that conserves its oil, on the same cells.
 
     Raises
