@@ -92,8 +92,8 @@ def require_no_mass(film: Sequence[str], rotor: Sequence[str]) -> None:
     if MASS_OUTPUTS[0] in film and MASS_OUTPUTS[0] not in rotor:
         raise InputError(
             f"film must not add mass to a rotor without inputs for it, got the outputs {list(MASS_OUTPUTS)}: "
-            "an exchange of accelerations multiplies its error by -mass/rotor mass, and diverges where the oil "
-            "is heavier than the rotor; mount(rotor, ...) has both in one FMU"
+            "an exchange of accelerations multiplies its error by -mass/rotor mass, and diverges where the "
+            "oil is heavier than the rotor; mount(rotor, ...) has both in one FMU"
         )
 
 

@@ -131,6 +131,17 @@ def test_leakage_of_a_gap_and_of_a_leak_test():
     assert_allclose([low.leakage, high.leakage], [0.7 * found.leakage, 1.3 * found.leakage])
 
 
+def test_air_takes_damping_and_mass():
+    damper = rf.SqueezeFilmDamper(**SIZE, density=800.0, extent=FULL)
+    found, bare = rf.aerated_damper(damper, 0.3).small_motion(0.0), damper.small_motion(0.0)
+    ratio = [found.damping / bare.damping, found.added_mass / bare.added_mass]
+    assert_allclose(ratio, 0.7, rtol=1e-9)
+    given = rf.feed_squeeze_number(damper, flow=1e-5, amplitude=5e-5, frequency=500.0)
+    assert_allclose(given, 1e-5 / (math.pi * 0.127 * 25.4e-3 * 5e-5 * 500.0))
+    with pytest.raises(InputError, match="air_fraction must be below 1, got 1.0"):
+        rf.aerated_damper(damper, 1.0)
+
+
 @pytest.mark.parametrize(
     ("make", "text"),
     [
