@@ -1,7 +1,8 @@
 """A sealed damper of a turbocharger: what seals and the inertia of the oil make of its orbit.
 
-A rotor with 0.9 kg on the damper turns at 60 000 rpm. Its seals, known to a fifth, set damping and added mass; what an
-orbit transmits is told with the inertia of the oil and without, and for both ends of that fifth.
+A rotor with 0.9 kg on the damper turns at 60 000 rpm. Its seals, known to a fifth, set damping and added
+mass; what an orbit transmits is told with the inertia of the oil and without, and at both ends of that
+fifth.
 """
 
 from dataclasses import replace

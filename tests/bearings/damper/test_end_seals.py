@@ -138,7 +138,7 @@ def test_air_takes_damping_and_mass():
     assert_allclose(ratio, 0.7, rtol=1e-9)
     given = rf.feed_squeeze_number(damper, flow=1e-5, amplitude=5e-5, frequency=500.0)
     assert_allclose(given, 1e-5 / (math.pi * 0.127 * 25.4e-3 * 5e-5 * 500.0))
-    with pytest.raises(InputError, match="air_fraction must be below 1, got 1.0"):
+    with pytest.raises(InputError, match=r"air_fraction must be below 1, got 1\.0"):
         rf.aerated_damper(damper, 1.0)
 
 
