@@ -25,6 +25,7 @@ TASKS = {
         "linear.rotor_rest",
         "results.Coefficients",
         "bearings.at_frequency",
+        "bearings.inertial_model",
         "results.Equilibrium",
     ),
     "Stability, critical speeds, Campbell diagrams": (

@@ -20,6 +20,10 @@ FORCE_OUTPUTS = ("force_x", "force_y")
 """Signals that the outputs of every Reaction begin with; a rotor takes them as inputs."""
 
 
+MASS_OUTPUTS = ("mass_xx", "mass_xy", "mass_yy")
+"""Signals that follow the force of a Reaction with an added mass."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Scalar:
     """What Signal, NativeParameter and Variable say of one number.

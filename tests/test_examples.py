@@ -79,6 +79,8 @@ LAST_NUMBER = {
     "film_run_up.py": pytest.approx(1.047, abs=0.01),
     "fmpy_loop.py": pytest.approx(1.0, abs=1e-9),
     # closed form: |T| = 1 at sqrt(2 K/m) whatever the damping
+    # |T| = 1 at omega^2 = 2 K/(m + 2 M)
+    "turbocharger_damper.py": pytest.approx(1.0, abs=1e-6),
     "damper_bode.py": pytest.approx(1.0, abs=1e-12),
     # a film knows clearance and viscosity as viscosity / clearance^2 only
     "two_parameters.py": pytest.approx(0.0, abs=1e-12),

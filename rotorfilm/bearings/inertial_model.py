@@ -10,11 +10,8 @@ from numpy.typing import ArrayLike
 
 from ..model import Array, Linearization, static_linearization
 from ..results import Coefficients
-from ..signals import Signal, force_outputs
+from ..signals import MASS_OUTPUTS, Signal, force_outputs
 from .reaction import StaticReaction, input_vector
-
-MASS_OUTPUTS = ("mass_xx", "mass_xy", "mass_yy")
-"""Signals that follow the force of a reaction with an added mass."""
 
 _ROWS, _COLUMNS = [0, 0, 1], [0, 1, 1]
 

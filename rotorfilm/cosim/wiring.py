@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, Protocol
 from ..errors import InputError
 from ..fmu.check.described import variables_of
 from ..rotors.stations import station_name, station_names
-from ..signals import FORCE_OUTPUTS, MOTION_NAMES, from_fmi_name, indices
+from ..signals import FORCE_OUTPUTS, MASS_OUTPUTS, MOTION_NAMES, from_fmi_name, indices
 
 
 class Ports(Protocol):
@@ -75,6 +75,7 @@ def wired(rotor: Ports, films: Mapping[str, Ports]) -> Wiring:
     for (station, film), motion, force in zip(films.items(), motions, forces, strict=True):
         indices("rotor must have the inputs", rotor.inputs, force)
         indices("film must have the outputs", film.outputs, FORCE_OUTPUTS)
+        require_no_mass(film.outputs, rotor.inputs)
         fed = sources(rotor.outputs, station, film.inputs)
         indices("rotor must have the outputs", rotor.outputs, list(fed.values()))
         indices("rotor must have the outputs", rotor.outputs, motion)
@@ -84,6 +85,16 @@ def wired(rotor: Ports, films: Mapping[str, Ports]) -> Wiring:
         tuple(name for own in motions for name in own[:2]),
         tuple(name for own in motions for name in own[2:]),
     )
+
+
+def require_no_mass(film: Sequence[str], rotor: Sequence[str]) -> None:
+    """Raise InputError where a film adds mass that the rotor does not take; names of outputs and inputs."""
+    if MASS_OUTPUTS[0] in film and MASS_OUTPUTS[0] not in rotor:
+        raise InputError(
+            f"film must not add mass to a rotor without inputs for it, got the outputs {list(MASS_OUTPUTS)}: "
+            "an exchange of accelerations multiplies its error by -mass/rotor mass, and diverges where the "
+            "oil is heavier than the rotor; mount(rotor, ...) has both in one FMU"
+        )
 
 
 def sources(outputs: Sequence[str], station: str, inputs: Iterable[str]) -> dict[str, str]:

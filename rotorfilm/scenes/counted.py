@@ -11,6 +11,7 @@ from ..bearings.contact_place import WalledReaction, minimum_film
 from ..bearings.reaction import StaticReaction
 from ..errors import require_vector
 from ..model import Array, Reaction, Tangent, largest_eccentricity_ratio, prepared_tangent
+from ..reactions.added_mass import require_massless
 
 
 class Counted(StaticReaction):
@@ -19,10 +20,11 @@ class Counted(StaticReaction):
     Parameters
     ----------
     reaction : Reaction
-        Without states.
+        Without states and added mass.
     """
 
     def __init__(self, reaction: Reaction) -> None:
+        require_massless("reaction", reaction)
         self._reaction = reaction
         self.forces = 0
         self.tangents = 0

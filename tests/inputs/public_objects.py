@@ -96,6 +96,12 @@ MADE = [
     rf.LinearBearing(stiffness=1e6, damping=100.0),
     rf.LinearBearing(stiffness=((1e6, 2.0), (3.0, 1e6)), damping=100.0),
     rf.TabulatedBearing(speeds=[1.0, 2.0], stiffness=np.ones((2, 2, 2)), damping=np.ones((2, 2, 2))),
+    rf.EndSeal(leakage=1e-10, uncertainty=0.3),
+    rf.FilmSegment(length=0.02, clearance=1e-4),
+    rf.SegmentedDamper(
+        radius=0.05, segments=(rf.FilmSegment(length=0.02, clearance=1e-4),), viscosity=4e-4, density=850.0
+    ),
+    rf.SqueezeFilmDamper(radius=0.05, length=0.02, clearance=1e-4, viscosity=4e-4, density=850.0),
     rf.PorousDamper(
         radius=0.05,
         length=0.02,

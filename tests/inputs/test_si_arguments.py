@@ -19,6 +19,8 @@ from .public_objects import BALL, BEARING, MADE
 DAMPER = next(one for one in MADE if isinstance(one, rf.PorousDamper))
 
 RESULTS = {
+    "InertialCoefficients",
+    "SqueezeImpedance",
     "BallLoads", "BallRest", "BasinScan", "Campbell", "CircularOrbit", "CoSimulation", "Coefficients",
     "CouplingReport", "CriticalMass", "CriticalSpeed", "DamperTurn", "Equilibrium", "HeatedState",
     "HopfPoint", "JFOOrbit", "JFOState",

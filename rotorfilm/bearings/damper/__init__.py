@@ -6,6 +6,7 @@ from ...sources import show
 
 if TYPE_CHECKING:
     from .bearing import PorousDamper as PorousDamper, SqueezeFilmDamper as SqueezeFilmDamper
+    from .built.air import aerated_damper as aerated_damper, feed_squeeze_number as feed_squeeze_number
     from .built.end_seals import (
         EndSeal as EndSeal,
         gap_seal as gap_seal,

@@ -27,6 +27,7 @@ from ..films.law import options
 from ..reaction import NOMINAL_SPEED
 from .built.end_seals import EndSeal
 from .built.film_range import warn_of_short_seals
+from .built.finite_inertia import LARGEST_TABULATED, TabulatedSqueezeFilm
 from .built.squeeze_inertia import SqueezeInertia
 from .cage import AxialFeed, PorousCage, RadialFeed
 from .damper_kernel import DIMENSIONS, damper_spec
@@ -111,7 +112,7 @@ class SqueezeFilmDamper(SqueezeInertia):
         for name in ("seals", "density"):
             if getattr(self, name) and (self.cage is not None or self.feed is not None):
                 raise InputError(f"{name} must be left out beside a porous cage or a feed, got {self!r}")
-        _ = self.bound_film, self.density and self.film_inertia
+        _ = self.density and self.film_inertia, self.bound_film
         self._warn()
 
     @property
@@ -131,8 +132,14 @@ class SqueezeFilmDamper(SqueezeInertia):
 
     @property
     def largest_eccentricity_ratio(self) -> float:
-        """Eccentricity ratio to which the film is meant: the last node of a map, 0.99 for finite length."""
-        return self._options.largest_eccentricity_ratio
+        """Eccentricity ratio to which the film is meant: the last node of a map, 0.99 for finite length.
+
+        A film of finite length with seals or inertia to 0.95.
+        """
+        reach = self._options.largest_eccentricity_ratio
+        if isinstance(self.bound_film, TabulatedSqueezeFilm):
+            reach = min(reach, LARGEST_TABULATED)
+        return min(reach, self.film_inertia.reach) if self.has_inertia else reach
 
     @property
     def is_fed(self) -> bool:

@@ -12,7 +12,7 @@ from ...errors import InputError
 from ...model import Array
 from .built.end_seals import SealedShortFilm
 from .built.film_inertia import FilmInertia, FullInertia, short_inertia
-from .built.finite_inertia import TabulatedSqueezeFilm, radial_table
+from .built.finite_inertia import LARGEST_TABULATED, TabulatedSqueezeFilm, radial_table
 from .built.zone_inertia import ZoneInertia
 from .cavitated_squeeze import CavitatedSqueezeFilm
 from .clipped_squeeze import ClippedSqueezeFilm
@@ -179,7 +179,7 @@ def finite_film_inertia(case: SqueezeCase) -> FilmInertia:
             "density must be 0 for a cavitated film of finite length, whose inertia is not known; "
             "ShortSqueeze() and MapSqueeze() have that of a short one"
         )
-    return FullInertia(radial_table(case.slenderness, case.end_leak).inertia)
+    return FullInertia(radial_table(case.slenderness, case.end_leak).inertia, LARGEST_TABULATED)
 
 
 def published_conductance(layer: PorousLayer) -> float:

@@ -25,6 +25,10 @@ CONVECTION = 17.0 / 70.0
 class FilmInertia(Protocol):
     """The inertia of a film in its units."""
 
+    @property
+    def reach(self) -> float:
+        """Eccentricity ratio to which it is meant; 1 where that is the wall."""
+
     def mass(self, eccentricity: Array, rate: Array) -> Array:
         """Return the added mass, shape (2, 2, ...), symmetric.
 
@@ -74,9 +78,12 @@ class FullInertia:
     ----------
     radial : callable
         Returns the `InertiaFunctions` and their slopes at squared eccentricity ratios (...).
+    reach : float [1]
+        Eccentricity ratio to which they are meant.
     """
 
     radial: Radial
+    reach: float = 1.0
 
     def mass(self, eccentricity: Array, rate: Array) -> Array:
         """Return the added mass, shape (2, 2, ...); see `FilmInertia.mass`."""

@@ -16,7 +16,7 @@ from .ritz_squeeze import squeeze_motions
 LARGEST_TABULATED = 0.95
 """Eccentricity ratio to which the pressures are resolved; beyond, all goes on as powers of 1 - eps^2."""
 
-NODES = 22
+NODES = 20
 """Of the table, over sqrt(1 - eps^2)."""
 
 POWERS = np.array([1.0, 1.0, 1.0, 1.0, 3.0, 3.0, 5.0])

@@ -21,11 +21,11 @@ from scipy.linalg import cho_factor, cho_solve
 
 from ....model import Array
 
-AXIAL = 10
+AXIAL = 8
 """Functions along half the axis."""
 
 MOST_HARMONICS = 90
-TOLERANCE = 1e-11
+TOLERANCE = 1e-9
 
 
 class SqueezeMotions(NamedTuple):

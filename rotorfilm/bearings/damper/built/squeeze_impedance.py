@@ -31,6 +31,7 @@ class SqueezeImpedance(Readable):
     ----------
     damping : float [N s/m]
     added_mass : float [kg]
+        Of the oil, which moves along with the rotor.
     frequency : float [rad/s]
         Of the motion.
     """

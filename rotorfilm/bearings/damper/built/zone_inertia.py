@@ -32,6 +32,11 @@ class ZoneInertia:
     numbers of 0.5, 2, 5, 10.
     """
 
+    @property
+    def reach(self) -> float:
+        """Up to the wall."""
+        return 1.0
+
     def mass(self, eccentricity: Array, rate: Array) -> Array:
         """Return the added mass, shape (2, 2, ...); see `FilmInertia.mass`."""
         zone = _zone(eccentricity, rate)
