@@ -59,7 +59,7 @@ PARTS = {
     "bearings/journal/heat": [["field"]],
     "bearings/contact": [["film"], ["motion"]],
     "bearings/pads": [["dam", "tilting"]],
-    "rotors": [["shaft"]],
+    "rotors": [["shaft"], ["driven"]],
     "linear": [["large"]],
     "motion": [["compiled"], ["transient", "circular"], ["periodic"]],
     "cosim": [["schemes"], ["loops"]],
