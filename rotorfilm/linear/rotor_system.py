@@ -125,7 +125,7 @@ def base_response(
     control.FrequencyResponseData
         Inputs and outputs as of `base_system`: phasors at exp(i frequency t) per m/s2.
     """
-    grid, s = checked_speeds(frequencies), rotor.structure
+    grid, s = checked_speeds(frequencies, "frequencies"), rotor.structure
     push = -s.mass @ translations(rotor)
     sense, labels = _outputs(rotor, at)
     responses = []

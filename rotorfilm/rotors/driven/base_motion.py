@@ -85,8 +85,8 @@ class BaseMotion:
     ) -> BaseMotion:
         """Return random motion along x and y, apart from each other, of a spectral density.
 
-        It is the sum of cosines with random phases (Shinozuka & Deodatis 1991, Appl. Mech. Rev. 44, 191-204,
-        eq. 45), at the middle of each interval of frequency.
+        It is the sum of cosines with random phases (Shinozuka & Deodatis 1991, Appl. Mech. Rev. 44, 191-204),
+        at the middle of each interval of frequency.
 
         Parameters
         ----------
