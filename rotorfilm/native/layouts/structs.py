@@ -230,6 +230,17 @@ class SpinStruct(ctypes.Structure):
     ]
 
 
+class GroundStruct(ctypes.Structure):
+    """rf_ground of march.h."""
+
+    _fields_: ClassVar[Sequence[Any]] = [
+        ("count", c_int32),
+        ("times", c_void_p),
+        ("x", c_void_p),
+        ("y", c_void_p),
+    ]
+
+
 class SprungStruct(ctypes.Structure):
     """rf_sprung of springs.h."""
 
@@ -270,6 +281,7 @@ class MarchStruct(ctypes.Structure):
         ("journals", JournalsStruct),
         ("profile", SpeedsStruct),
         ("spin", SpinStruct),
+        ("ground", GroundStruct),
         ("scales", c_void_p),
         ("longest", c_double),
         ("shortest", c_double),

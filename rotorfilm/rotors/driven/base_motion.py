@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike
 from ...errors import InputError, require_finite, require_kind, require_positive
 from ...inputs.si_arguments import in_si, quantities
 from ...model import Array, Linearization, breakpoints
-from ..profile import SpeedProfile
 from ..rigid import RigidRotor
 from ..shaft.reduced_rotor import ReducedRotor
 from ..sparse_chain import dense_matrix
@@ -118,7 +117,8 @@ class BaseMotion:
         """Return the acceleration at the time t [s], shape (2,) [m/s2]; at a jump that after it."""
         if not self.times[0] <= t < self.times[-1]:
             return np.zeros(2)
-        return np.array([np.interp(t, self.times, row) if row.size else 0.0 for row in self._rows])
+        times, x, y = self.rows
+        return np.array([np.interp(t, times, x), np.interp(t, times, y)])
 
     @property
     def breakpoints(self) -> tuple[float, ...]:
@@ -126,8 +126,11 @@ class BaseMotion:
         return self.times
 
     @cached_property
-    def _rows(self) -> tuple[Array, Array]:
-        return np.array(self.acceleration_x), np.array(self.acceleration_y)
+    def rows(self) -> Array:
+        """Times and acceleration along x and y, shape (3, n)."""
+        still = np.zeros(len(self.times))
+        given = (self.acceleration_x, self.acceleration_y)
+        return np.array([self.times, *(row if row else still for row in given)])
 
 
 @quantities
@@ -156,11 +159,6 @@ class ShakenBaseRotor(AroundRotor):
     def stations(self) -> tuple[str, ...]:  # type: ignore[override]
         """The stations of the rotor."""
         return self.rotor.structure.stations
-
-    @property
-    def speed(self) -> float | SpeedProfile:
-        """The speed of the rotor."""
-        return self.rotor.speed
 
     @cached_property
     def breakpoints(self) -> tuple[float, ...]:
