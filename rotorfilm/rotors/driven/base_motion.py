@@ -108,7 +108,9 @@ class BaseMotion:
         step = (omega[-1] - omega[0]) / count
         middle = omega[0] + step * (np.arange(count) + 0.5)
         size = np.sqrt(2.0 * step * np.interp(middle, omega, power))
-        times = np.linspace(0.0, duration, int(np.ceil(PER_PERIOD * omega[-1] * duration / (2.0 * np.pi))) + 1)
+        times = np.linspace(
+            0.0, duration, int(np.ceil(PER_PERIOD * omega[-1] * duration / (2.0 * np.pi))) + 1
+        )
         phases = np.random.default_rng(seed).uniform(0.0, 2.0 * np.pi, (2, count))
         x, y = (np.cos(np.outer(times, middle) + phase) @ size for phase in phases)
         return cls(times=tuple(times), acceleration_x=tuple(x), acceleration_y=tuple(y))

@@ -151,10 +151,7 @@ class DrivenRotor(AroundRotor):
         motion = np.append(turn.v, turn.speed)
         kinetic = 0.5 * motion @ self._inertias(turn) @ motion
         return float(
-            kinetic
-            + 0.5 * turn.q @ s.stiffness @ turn.q
-            - s.weight @ turn.q
-            - self._gravity @ turn.outward
+            kinetic + 0.5 * turn.q @ s.stiffness @ turn.q - s.weight @ turn.q - self._gravity @ turn.outward
         )
 
     def _turn(self, x: ArrayLike) -> _Turn:
