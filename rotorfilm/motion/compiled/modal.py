@@ -153,9 +153,7 @@ def take_apart(mounted: MountedRotor) -> Parts:
     """
     found = mounted.all_bearings
     bare = mounted.bare
-    shaken = isinstance(bare, ShakenBaseRotor)
-    rotor = bare.rotor if shaken else bare
-    structure, profile = _structure(rotor)
+    structure, profile = _structure(bare.rotor if isinstance(bare, ShakenBaseRotor) else bare)
     names = [name for name in structure.stations if name in found]
     bearings = [found[name] for name in names]
     if not names:
@@ -163,7 +161,9 @@ def take_apart(mounted: MountedRotor) -> Parts:
     places = [structure.stations.index(name) for name in names]
     rows = np.concatenate([structure.journals[2 * k : 2 * k + 2] for k in places])
     parts = Parts(structure, profile, tuple(bearings), tuple(names), rows)
-    return parts._replace(base=bare.base, moved=translations(rotor)) if shaken else parts
+    if isinstance(bare, ShakenBaseRotor):
+        return parts._replace(base=bare.base, moved=translations(bare.rotor))
+    return parts
 
 
 def _structure(rotor: Dynamic) -> tuple[Structure, SpeedProfile]:

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from ctypes import c_double, c_int, c_int32, c_int64, c_size_t, c_void_p
 from typing import Any, ClassVar
 
+from .run_structs import GroundStruct, SpinStruct
+
 
 class MapStruct(ctypes.Structure):
     """rf_map of map_kernel.h."""
@@ -217,27 +219,6 @@ class SpeedsStruct(ctypes.Structure):
         ("speeds", c_void_p),
         ("slopes", c_void_p),
         ("angles", c_void_p),
-    ]
-
-
-class SpinStruct(ctypes.Structure):
-    """rf_spin of march.h."""
-
-    _fields_: ClassVar[Sequence[Any]] = [
-        ("speed", c_double),
-        ("matrix", c_void_p),
-        ("rest", c_void_p),
-    ]
-
-
-class GroundStruct(ctypes.Structure):
-    """rf_ground of march.h."""
-
-    _fields_: ClassVar[Sequence[Any]] = [
-        ("count", c_int32),
-        ("times", c_void_p),
-        ("x", c_void_p),
-        ("y", c_void_p),
     ]
 
 

@@ -140,9 +140,10 @@ class BaseMotion:
 class ShakenBaseRotor(AroundRotor):
     """A rotor whose housings all move with the ground: a Dynamic model, as it is seen from the ground.
 
-    Displacements are those from the ground. Seen from there each mass feels the force -mass acceleration, which
-    M q'' = ... - M j a adds to the equations of the rotor, with the translation j of the whole rotor. Supports, tilt
-    springs and external damping stand on the ground. Housings that move apart from each other are not covered.
+    Displacements are those from the ground. Seen from there each mass feels the force -mass acceleration,
+    which M q'' = ... - M j a adds to the equations of the rotor, with the translation j of the whole rotor.
+    Supports, tilt springs and external damping stand on the ground. Housings that move apart from each other
+    are not covered.
 
     Parameters
     ----------
@@ -194,7 +195,7 @@ def translations(rotor: RigidRotor | FlexibleRotor) -> Array:
         # The translation that has the momentum of that of the whole rotor.
         full = rotor.rotor.assembly
         momentum = both_planes(rotor.basis).T @ (full.mass @ translations(rotor.rotor))
-        return np.linalg.solve(rotor.structure.mass, momentum)
+        return np.asarray(np.linalg.solve(rotor.structure.mass, momentum))
     return np.column_stack([_under(rotor, along) for along in ((1.0, 0.0), (0.0, 1.0))])
 
 

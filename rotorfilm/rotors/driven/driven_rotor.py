@@ -43,10 +43,10 @@ class DrivenRotor(AroundRotor):
         M q'' + U n p'' = T' f + weight + w^2 U e - (C + w G) q' - (K + w H) q,
         inertia p'' + (U n)' q'' = torque + (U n)' g + (J q)' C_i (q' - w J q),
 
-    e = (cos p, sin p), n = e', g the acceleration of gravity and J q the displacement turned by +90 deg. C_i is
-    the rotating damping: what it does to the whirl and to the torque are one. Both equations follow from one
-    kinetic energy (for a mass on springs: Dimentberg et al. 1997, Nonlinear Dynamics 13, 171-187), so the power
-    of the torque is what whirl and losses take: a rotor may hang at its critical speed (Sommerfeld 1902).
+    e = (cos p, sin p), n = e', g the acceleration of gravity and J q the displacement turned by +90 deg. C_i
+    is the rotating damping: what it does to the whirl and to the torque are one. Both equations follow from
+    one kinetic energy (for a mass on springs: Dimentberg et al. 1997, Nonlinear Dynamics 13, 171-187), so the
+    power of the torque is what whirl and losses take: a rotor may hang at its critical speed (Sommerfeld 1902).
 
     The shaft does not twist, and the torque follows its tilt. The friction of films does not brake it: what
     resists is part of the torque.
@@ -188,7 +188,8 @@ class DrivenRotor(AroundRotor):
             by_angle[:, None],
             by_speed[:, None],
         ]
-        last = [self._turned.T @ by_turned, inner.T @ turned, [-self._gravity @ turn.outward, on_speed]]
+        by_fall = float(-self._gravity @ turn.outward)
+        last = [self._turned.T @ by_turned, inner.T @ turned, np.array([by_fall, on_speed])]
         return np.vstack([np.hstack(columns), np.concatenate(last)])
 
     @cached_property
@@ -208,4 +209,4 @@ class DrivenRotor(AroundRotor):
         rotor = self.rotor
         if isinstance(rotor, RigidRotor):
             return np.array(rotor.gravity)
-        return np.linalg.solve(rotor.structure.mass, rotor.structure.weight)
+        return np.asarray(np.linalg.solve(rotor.structure.mass, rotor.structure.weight))

@@ -33,8 +33,8 @@ class LinearMotor:
     stall_torque : float [N m]
         Torque at rest, in the direction of the idle speed; positive.
     idle_speed : float or SpeedProfile [rad/s]
-        Speed without load. A profile is that of a converter: the slope of the line is then that of its largest
-        value, stall_torque / |idle_speed|, and the line is shifted.
+        Speed without load. A profile is that of a converter: the slope of the line is then that of its
+        largest value, stall_torque / |idle_speed|, and the line is shifted.
     resistance : float [N m s]
         Torque per rad/s that resists, of bearings, windage and load.
 
