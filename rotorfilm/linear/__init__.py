@@ -38,6 +38,8 @@ if TYPE_CHECKING:
     from .rotor_modes import RotorModes as RotorModes, rotor_modes as rotor_modes
     from .rotor_rest import RotorEquilibrium as RotorEquilibrium, rotor_equilibrium as rotor_equilibrium
     from .rotor_system import (
+        base_response as base_response,
+        base_system as base_system,
         rotor_system as rotor_system,
         rotor_transmissibility as rotor_transmissibility,
         unbalance_response as unbalance_response,

@@ -148,11 +148,11 @@ def transmissibility(
     )
 
 
-def checked_speeds(speeds: ArrayLike) -> Array:
+def checked_speeds(speeds: ArrayLike, name: str = "speeds") -> Array:
     """Return angular speeds [rad/s]; raise InputError unless they are positive and rising."""
-    grid = require_finite("speeds", speeds)
+    grid = require_finite(name, speeds)
     if grid.ndim != 1 or not grid.size or grid[0] <= 0.0 or np.any(np.diff(grid) <= 0.0):
-        raise InputError(f"speeds must be a list of positive and rising numbers, got {speeds!r}")
+        raise InputError(f"{name} must be a list of positive and rising numbers, got {speeds!r}")
     return grid
 
 

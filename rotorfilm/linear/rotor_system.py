@@ -11,13 +11,13 @@ from numpy.typing import ArrayLike
 from ..errors import InputError
 from ..inputs.kinds import arguments
 from ..model import Array, Reaction
-from ..rotors import FlexibleRotor, require_flexible
+from ..rotors import FlexibleRotor, require_flexible, translations
 from ..rotors.stations import station_name
 from ..rotors.structure import output_rows
 from ..signals import names
 from .closed_loop import HOUSING, checked_speeds
 from .large.driven import driven
-from .large.second_order import journal_rows, second_order
+from .large.second_order import journal_rows, second_order, small_motion
 from .linearize import control_system
 from .rotor_rest import RotorEquilibrium
 
@@ -63,6 +63,79 @@ def rotor_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = 
         outputs=labels,
         states=names(rotor.states),
         name=name,
+    )
+
+
+BASE = ("base_acceleration_x", "base_acceleration_y")
+"""Names of what the ground does to a rotor."""
+
+
+@arguments
+def base_system(rotor: FlexibleRotor, at: RotorEquilibrium, name: str | None = None) -> control.StateSpace:
+    """Return a rotor on its films, linearized about an equilibrium, on ground that shakes.
+
+    Parameters
+    ----------
+    rotor : FlexibleRotor
+        The one that rests at `at`, without a loss factor.
+    at : RotorEquilibrium
+    name : str, optional
+        Name of the system.
+
+    Returns
+    -------
+    control.StateSpace
+        Inputs: `base_acceleration_x`, `base_acceleration_y` of the ground, and of all housings with it
+        [m/s2]. Outputs: as of `rotor_system`, displacements from the ground.
+    """
+    inner = rotor_system(rotor, at, name)
+    moved = translations(rotor)
+    push = np.vstack([np.zeros_like(moved), -moved])
+    return control_system(
+        inner.A,
+        push,
+        inner.C,
+        np.zeros((len(inner.C), push.shape[1])),
+        inputs=BASE,
+        outputs=inner.output_labels,
+        states=inner.state_labels,
+        name=name,
+    )
+
+
+@arguments
+def base_response(
+    rotor: FlexibleRotor, at: RotorEquilibrium, frequencies: ArrayLike
+) -> control.FrequencyResponseData:
+    """Return the response of a rotor on its films to ground that shakes, over the frequency of the ground.
+
+    |H|^2 times the spectral density of the ground is that of the response.
+
+    Parameters
+    ----------
+    rotor : FlexibleRotor
+        The one that rests at `at`; it may have a loss factor.
+    at : RotorEquilibrium
+        Its speed is that of the shaft.
+    frequencies : array_like, shape (n,) [rad/s]
+        Of the ground, positive and rising.
+
+    Returns
+    -------
+    control.FrequencyResponseData
+        Inputs and outputs as of `base_system`: phasors at exp(i frequency t) per m/s2.
+    """
+    grid, s = checked_speeds(frequencies, "frequencies"), rotor.structure
+    push = -s.mass @ translations(rotor)
+    sense, labels = _outputs(rotor, at)
+    responses = []
+    for frequency in grid:
+        moved = np.linalg.solve(small_motion(s, at, frequency).dynamic_stiffness(frequency), push)
+        responses.append(sense @ np.concatenate([moved, 1j * frequency * moved]))
+    import control
+
+    return control.FrequencyResponseData(
+        np.stack(responses, axis=-1), grid, inputs=list(BASE), outputs=labels, name="base_response"
     )
 
 

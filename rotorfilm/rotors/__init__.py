@@ -5,6 +5,13 @@ from typing import TYPE_CHECKING
 from ..sources import show
 
 if TYPE_CHECKING:
+    from .driven.base_motion import (
+        BaseMotion as BaseMotion,
+        ShakenBaseRotor as ShakenBaseRotor,
+        translations,
+    )
+    from .driven.driven_rotor import DrivenRotor as DrivenRotor
+    from .driven.linear_motor import LinearMotor as LinearMotor
     from .force_law import ForceLaw
     from .jeffcott import JeffcottRotor as JeffcottRotor
     from .law_rotor import LawRotor

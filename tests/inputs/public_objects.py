@@ -128,6 +128,14 @@ MADE = [
         mass=10.0, diametral_inertia=0.2, polar_inertia=0.1, stations=(("a", -0.1), ("b", 0.1)), speed=9.0
     ),
     rf.SpeedProfile(times=(0.0, 1.0), speeds=(100.0, 200.0)),
+    rf.LinearMotor(stall_torque=2.0, idle_speed=300.0, resistance=1e-3),
+    rf.DrivenRotor(
+        rotor=rf.RigidRotor(mass=10.0, speed=100.0),
+        inertia=0.1,
+        torque=rf.LinearMotor(stall_torque=2.0, idle_speed=300.0),
+    ),
+    rf.BaseMotion(times=(0.0, 1.0), acceleration_x=(1.0, -1.0), acceleration_y=(0.5, 2.0)),
+    rf.ShakenBaseRotor(rotor=rf.RigidRotor(mass=10.0, speed=100.0), base=rf.BaseMotion(times=(0.0, 1.0))),
     STEEL,
     PIECE,
     rf.Coupling(stiffness=1e6, tilt_stiffness=1e3),

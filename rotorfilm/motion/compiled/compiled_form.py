@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ...errors import InputError
 from ...model import Dynamic, Reaction
-from ...rotors import FlexibleRotor, MountedRotor, RigidRotor, mount
+from ...rotors import FlexibleRotor, MountedRotor, RigidRotor, ShakenBaseRotor, mount
 from .film_calls import kernel_call
 from .modal import take_apart
 
@@ -21,7 +21,7 @@ def compiled_form(rotor: Dynamic, reaction: Reaction) -> MountedRotor | None:
       a kernel (map, short film, grooved map, two-dimensional film), a linear one, or one of these beside
       springs;
     - the rotor is a `RigidRotor` or a `FlexibleRotor`, mounted or not, whose equations no subclass has
-      changed, without a loss factor.
+      changed, without a loss factor; on ground that shakes too.
 
     Parameters
     ----------
@@ -31,6 +31,7 @@ def compiled_form(rotor: Dynamic, reaction: Reaction) -> MountedRotor | None:
         The bearing of that.
     """
     bare = rotor.bare if isinstance(rotor, MountedRotor) else rotor
+    bare = bare.rotor if isinstance(bare, ShakenBaseRotor) else bare
     if not _is_linear(bare) or kernel_call(reaction) is None:
         return None
     mounted = mount(rotor, {"": reaction})

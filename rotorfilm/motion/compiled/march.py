@@ -10,7 +10,15 @@ import numpy as np
 
 from ...errors import ContactError, ConvergenceError
 from ...model import Array
-from ...native.layouts.structs import SLOTS, STEPS, MarchStruct, SpeedsStruct, SpinStruct, StepTableStruct
+from ...native.layouts.structs import (
+    SLOTS,
+    STEPS,
+    GroundStruct,
+    MarchStruct,
+    SpeedsStruct,
+    SpinStruct,
+    StepTableStruct,
+)
 from ...native.library import loops
 from ...rotors import SpeedProfile
 from .collocation import STAGES, ModalArrays, StepTable, radau_scheme
@@ -92,12 +100,15 @@ class March:
         self._numbers = *profile_rows(modal.parts.profile), journal_scales(modal)
         spins = speed is not None and modal.parts.turns and set(modal.parts.profile.speeds) != {speed}
         self._spin = spin_rates(modal) if spins else None
+        base = modal.parts.base
+        self._ground = None if base is None else base.rows
         self._tables = [StepTable.unfilled(self._kept[0], stages, spins=spins) for _ in range(SLOTS + 1)]
         times = len(self._numbers[0])
         self._struct = MarchStruct(
             *(of.struct() for of in self._kept),
             SpeedsStruct(times, *(row.ctypes.data for row in self._numbers[:4])),
             spin_struct(speed, self._spin),
+            ground_struct(self._ground),
             self._numbers[4].ctypes.data,
             longest,
             SHORTEST * duration,
@@ -172,6 +183,11 @@ class March:
 def spin_struct(speed: float | None, rates: tuple[Array, Array] | None) -> SpinStruct:
     """Return what the speed changes as the C library reads it, while the arrays live."""
     return SpinStruct(speed or 0.0, *(part.ctypes.data for part in rates or ()))
+
+
+def ground_struct(rows: Array | None) -> GroundStruct:
+    """Return times and acceleration of the ground as the C library reads them, while the array lives."""
+    return GroundStruct() if rows is None else GroundStruct(rows.shape[1], *(row.ctypes.data for row in rows))
 
 
 def rate_of(modal: ModalRotor) -> float:

@@ -18,7 +18,15 @@ import numpy as np
 
 from ...errors import ConvergenceError, InputError
 from ...model import Array, Dynamic, Reaction
-from ...rotors import FlexibleRotor, MountedRotor, RigidRotor, SpeedProfile
+from ...rotors import (
+    BaseMotion,
+    FlexibleRotor,
+    MountedRotor,
+    RigidRotor,
+    ShakenBaseRotor,
+    SpeedProfile,
+    translations,
+)
 from ...rotors.structure import NOMINAL_LENGTH, Structure, solved_equations
 from .film_calls import FilmCall, film_call
 
@@ -45,6 +53,10 @@ class Parts(NamedTuple):
         Stations of the bearings.
     rows : ndarray, shape (2 n_bearings, N)
         Displacement of their journals.
+    base : BaseMotion or None
+        Of the ground; None where it is still.
+    moved : ndarray, shape (N, 2)
+        Coordinates of a translation of the rotor along x and y, none where the ground is still.
     """
 
     structure: Structure
@@ -52,6 +64,8 @@ class Parts(NamedTuple):
     bearings: tuple[Reaction, ...]
     names: tuple[str, ...]
     rows: Array
+    base: BaseMotion | None = None
+    moved: Array = np.zeros((0, 0))
 
     @property
     def lengths(self) -> Array:
@@ -71,7 +85,9 @@ class Parts(NamedTuple):
 
     @property
     def speed(self) -> float:
-        """The constant speed [rad/s]; raise InputError where it changes."""
+        """The constant speed [rad/s]; raise InputError where it changes, or the ground shakes."""
+        if self.base is not None:
+            raise InputError("ground must be still for a periodic motion, got a ShakenBaseRotor")
         speeds = set(self.profile.speeds)
         if len(speeds) != 1:
             raise InputError(f"speed must be constant, got a profile over {self.profile.times!r} s")
@@ -89,7 +105,7 @@ class ModalRotor(NamedTuple):
         State per modal coordinate: the state is the real part of their sum.
     inverse : ndarray of complex, shape (n_modes, 2 N)
     push : ndarray of complex, shape (n_modes, 2 n_bearings + 2)
-        Modal force per film force and per unbalance pair.
+        Modal force per film force and per unbalance pair; two columns more where the ground shakes.
     sense : ndarray of complex, shape (4 n_bearings, n_modes)
         x, y, vx, vy of each journal per modal coordinate.
     rest : ndarray, shape (2 N,)
@@ -136,14 +152,18 @@ def take_apart(mounted: MountedRotor) -> Parts:
         If the rotor is none with matrices, or a station is left without a bearing.
     """
     found = mounted.all_bearings
-    structure, profile = _structure(mounted.bare)
+    bare = mounted.bare
+    structure, profile = _structure(bare.rotor if isinstance(bare, ShakenBaseRotor) else bare)
     names = [name for name in structure.stations if name in found]
     bearings = [found[name] for name in names]
     if not names:
         raise InputError("rotor must rest in at least one bearing: mount(rotor, {station: bearing})")
     places = [structure.stations.index(name) for name in names]
     rows = np.concatenate([structure.journals[2 * k : 2 * k + 2] for k in places])
-    return Parts(structure, profile, tuple(bearings), tuple(names), rows)
+    parts = Parts(structure, profile, tuple(bearings), tuple(names), rows)
+    if isinstance(bare, ShakenBaseRotor):
+        return parts._replace(base=bare.base, moved=translations(bare.rotor))
+    return parts
 
 
 def _structure(rotor: Dynamic) -> tuple[Structure, SpeedProfile]:
@@ -163,12 +183,15 @@ def journal_rows(parts: Parts) -> Array:
 
 
 def state_matrices(parts: Parts, speed: float) -> tuple[Array, Array, Array]:
-    """Return A (2 N, 2 N) without films, B (2 N, 2 n_bearings + 2), the acceleration under weight (2 N,)."""
+    """Return A (2 N, 2 N) without films, B (2 N, 2 n_bearings + 2), the weight's acceleration (2 N,)."""
     model = solved_equations(parts.structure)
     places = [2 * parts.structure.stations.index(name) + axis for name in parts.names for axis in range(2)]
+    pushes = [model.push[:, places], model.unbalance]
+    if parts.base is not None:
+        pushes.append(np.vstack([np.zeros_like(parts.moved), -parts.moved]))
     return (
         model.steady + speed * model.spin,
-        np.hstack([model.push[:, places], model.unbalance]),
+        np.hstack(pushes),
         model.weight,
     )
 
@@ -202,7 +225,7 @@ def modal_rotor(parts: Parts, speed: float) -> ModalRotor:
     for spring, damper in SUPPORTS:
         K0 = spring * np.outer(stiffness, (1.0, 1.3)).ravel()
         C0 = damper / spring * K0 / rate
-        shifted = A - B[:, :-2] @ _support_rows(parts, K0, C0)
+        shifted = A - B[:, : len(K0)] @ _support_rows(parts, K0, C0)
         found = modes(shifted, rate)
         if best is None or found[3] < best[0][3]:
             best = found, K0, C0, shifted

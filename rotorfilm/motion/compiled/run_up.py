@@ -40,7 +40,8 @@ def stretches(parts: Parts, duration: float, bands: int = BANDS) -> Iterator[Str
     profile = parts.profile
     largest = max(profile.speeds, key=abs)
     width = abs(largest) / bands
-    kinks = [0.0, *(t for t in profile.times if 0.0 < t < duration), duration]
+    ground = () if parts.base is None else parts.base.times
+    kinks = sorted({0.0, *(t for t in (*profile.times, *ground) if 0.0 < t < duration), duration})
     for begin, end in pairwise(kinks):
         speed, slope = profile.speed(begin), profile.acceleration(begin)
         if not parts.turns or slope == 0.0:

@@ -11,7 +11,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import ContactError, ConvergenceError, InputError, require_finite, require_non_negative, require_positive
+from ...errors import (
+    ContactError,
+    ConvergenceError,
+    InputError,
+    require_finite,
+    require_non_negative,
+    require_positive,
+)
 from ...inputs.kinds import arguments
 from ...model import Array
 from ...results import Trajectory

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from ctypes import c_double, c_int, c_int32, c_int64, c_size_t, c_void_p
 from typing import Any, ClassVar
 
+from .run_structs import GroundStruct, SpinStruct
+
 
 class MapStruct(ctypes.Structure):
     """rf_map of map_kernel.h."""
@@ -220,16 +222,6 @@ class SpeedsStruct(ctypes.Structure):
     ]
 
 
-class SpinStruct(ctypes.Structure):
-    """rf_spin of march.h."""
-
-    _fields_: ClassVar[Sequence[Any]] = [
-        ("speed", c_double),
-        ("matrix", c_void_p),
-        ("rest", c_void_p),
-    ]
-
-
 class SprungStruct(ctypes.Structure):
     """rf_sprung of springs.h."""
 
@@ -270,6 +262,7 @@ class MarchStruct(ctypes.Structure):
         ("journals", JournalsStruct),
         ("profile", SpeedsStruct),
         ("spin", SpinStruct),
+        ("ground", GroundStruct),
         ("scales", c_void_p),
         ("longest", c_double),
         ("shortest", c_double),

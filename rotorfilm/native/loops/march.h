@@ -24,6 +24,12 @@ typedef struct rf_spin {
     const double *rest;   /* 2 modes: at the rest about which motion is counted */
 } rf_spin;
 
+/* Acceleration of the ground over time, linear between the times and none before and after them. */
+typedef struct rf_ground {
+    int32_t count; /* 0: it is still, and no channels are its */
+    const double *times, *x, *y;
+} rf_ground;
+
 #define RF_SLOTS 24   /* lengths of steps whose tables are kept */
 #define RF_STEPS 400  /* lengths of steps: the longest over 2^(k/4) */
 
@@ -42,6 +48,7 @@ typedef struct rf_march {
     rf_journals journals;
     rf_speeds profile;
     rf_spin spin;
+    rf_ground ground;
     const double *scales; /* 4 n: make x, y, vx, vy of each journal dimensionless */
     double longest, shortest; /* step [s] */
     double rtol, newton;      /* local error, and what Newton's method leaves of it */

@@ -51,6 +51,29 @@ static double unbalance(const rf_speeds *profile, double t, double pair[2])
     return w;
 }
 
+static void set_ground(const rf_ground *ground, double t, double pair[2])
+{
+    int32_t k = 0, beyond = ground->count - 1;
+    pair[0] = pair[1] = 0.0;
+    if (!(t >= ground->times[0] && t < ground->times[beyond]))
+        return;
+    while (beyond - k > 1) {
+        const int32_t middle = (k + beyond) / 2;
+        *(ground->times[middle] <= t ? &k : &beyond) = middle;
+    }
+    const double part = (t - ground->times[k]) / (ground->times[beyond] - ground->times[k]);
+    pair[0] = ground->x[k] + part * (ground->x[beyond] - ground->x[k]);
+    pair[1] = ground->y[k] + part * (ground->y[beyond] - ground->y[k]);
+}
+
+/* What acts besides the films at a time, in the channels after theirs; the speed. */
+static double set_given(const rf_march *march, double t, double *given)
+{
+    if (march->ground.count > 0)
+        set_ground(&march->ground, t, given + 2);
+    return unbalance(&march->profile, t, given);
+}
+
 /* Motion of the journals at the nodes under the forces in at->guess. */
 static void set_motion(const rf_march *march, const rf_step_table *table, rf_scratch *at, double *motion)
 {
@@ -87,7 +110,7 @@ static int set_node_forces(rf_march *march, rf_scratch *at)
 static void set_equations(const rf_march *march, const rf_step_table *table, rf_scratch *at)
 {
     const int32_t s = march->scheme.stages, channels = march->rotor.channels, rows = march->rotor.rows;
-    const int32_t forces = channels - 2, size = s * forces;
+    const int32_t forces = 2 * march->journals.count, size = s * forces;
     memset(at->matrix, 0, (size_t)size * (size_t)size * sizeof *at->matrix);
     for (int32_t row = 0; row < size; ++row) {
         const int32_t i = row / forces, r = row % forces;
@@ -108,7 +131,7 @@ static void set_equations(const rf_march *march, const rf_step_table *table, rf_
 static double take_forces(const rf_march *march, const rf_step_table *table, rf_scratch *at)
 {
     const int32_t s = march->scheme.stages, channels = march->rotor.channels, rows = march->rotor.rows;
-    const int32_t forces = channels - 2;
+    const int32_t forces = 2 * march->journals.count;
     double *const before = at->motion, change = 0.0;
     for (int32_t j = 0; j < s; ++j)
         for (int32_t c = 0; c < forces; ++c)
@@ -124,7 +147,7 @@ static double take_forces(const rf_march *march, const rf_step_table *table, rf_
 /* Solve for the films' forces at the nodes, in at->guess. */
 static int newton(rf_march *march, const rf_step_table *table, rf_scratch *at)
 {
-    const size_t size = (size_t)(march->scheme.stages * (march->rotor.channels - 2));
+    const size_t size = (size_t)(march->scheme.stages * 2 * march->journals.count);
     double before = HUGE_VAL;
     int worst = RF_OK;
     set_motion(march, table, at, at->motion);
@@ -177,8 +200,8 @@ int rf_try_step(rf_march *march, const rf_step_table *table, double h, double la
     const int32_t s = march->scheme.stages, channels = march->rotor.channels, rows = march->rotor.rows;
     const int32_t modes = march->rotor.modes;
     for (int32_t i = 0; i < s; ++i)
-        at->speed[i] = unbalance(&march->profile, fmin(march->time + h * march->scheme.nodes[i], last),
-                                 at->guess + i * channels + channels - 2);
+        at->speed[i] = set_given(march, fmin(march->time + h * march->scheme.nodes[i], last),
+                                 at->guess + i * channels + 2 * march->journals.count);
     for (int32_t m = 0; m < modes; ++m) {
         at->both[m] = march->z[m].re;
         at->both[modes + m] = march->z[m].im;
@@ -192,7 +215,7 @@ int rf_try_step(rf_march *march, const rf_step_table *table, double h, double la
 
 int rf_set_start(const rf_march *march, rf_scratch *at)
 {
-    const int32_t rows = march->rotor.rows, modes = march->rotor.modes, forces = march->rotor.channels - 2;
+    const int32_t rows = march->rotor.rows, modes = march->rotor.modes, forces = 2 * march->journals.count;
     for (int32_t q = 0; q < rows; ++q) {
         const rf_complex *sense = march->rotor.sense + q * modes;
         double total = 0.0;
@@ -200,7 +223,7 @@ int rf_set_start(const rf_march *march, rf_scratch *at)
             total += sense[m].re * march->z[m].re - sense[m].im * march->z[m].im;
         at->motion[q] = total;
     }
-    const double w = unbalance(&march->profile, march->time, at->start + forces);
+    const double w = set_given(march, march->time, at->start + forces);
     if (march->spin.matrix)
         rf_set_drive_start(march, w, at);
     return rf_set_forces(&march->journals, at->motion, w, at->start, at->slope);

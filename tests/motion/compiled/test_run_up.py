@@ -105,9 +105,7 @@ def test_modes_of_another_speed_give_the_matrix_exponential():
     start = 1e-5 * np.sin(np.arange(float(size)))
     modal = modal_rotor(take_apart(mounted), 330.0)
     times = np.array([0.011, 0.03])
-    march = March(
-        modal=modal, state=modal.modal(start), rtol=1e-10, longest=0.01, duration=0.03, speed=330.0
-    )
+    march = March(modal=modal, state=modal.modal(start), rtol=1e-10, longest=0.01, duration=0.03, speed=330.0)
     found = modal.physical(march.to(0.03, times).T)
     A = mounted.linearization(0.0, start, []).A
     for k, t in enumerate(times):

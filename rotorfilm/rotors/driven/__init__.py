@@ -1,0 +1,1 @@
+"""Rotors that a torque drives."""
