@@ -16,13 +16,14 @@ from ...progress import Report, silent
 from ..films.map_bounds import BATCH
 from ..films.quintic import quintic_coefficients
 from ..films.ring.ring_grids import are_counts, require_cells
-from ..films.ring.ring_kernel import RingKernel
+from ..films.ring.ring_kernel import RingKernel, richardson
 from ..films.ring.ring_samples import log_potential, reference
 from ..films.table_pieces import cores, made_pieces
 from .pad_bounds import LOSS_STATES, STATES, PadStates, loss_states, pad_bounds, pad_states
 from .pad_grid import CELLS, pad_grid
 from .pad_losses import CELLS as LOSS_CELLS, fitted_losses, grid_losses, loss_places
-from .pad_table import PadMapTable, wall
+from .pad_nodes import along_nodes, between_nodes, node_angles, node_places
+from .pad_table import PadMapTable
 
 REACH = 3.0
 """A film at the edge of a pad lies on so many times the angle over which its source drives."""
@@ -54,7 +55,8 @@ class PadResolution:
     cells : (int, int)
         Cells along the pad and along half its length: multiples of 4, at least 16 and 4.
     nodes : (int, int, int)
-        Nodes over u and over Y (at least 6), and over the angle of the source (even, at least 12).
+        Places over u and over Y at which the film is solved (at least 6), between which the map has one node
+        more each, and nodes over the angle of the source (even, at least 12).
     xi_range : (float, float) [1]
         First and last node towards the middle of the pad, (r - r_p)/c_p there; below 1.
     reach : float [1]
@@ -62,7 +64,7 @@ class PadResolution:
     """
 
     cells: tuple[int, int] = CELLS
-    nodes: tuple[int, int, int] = (24, 13, 80)
+    nodes: tuple[int, int, int] = (14, 13, 128)
     xi_range: tuple[float, float] = (-1.0, 0.97)
     reach: float = 0.95
 
@@ -83,6 +85,12 @@ class PadResolution:
         return -math.log1p(-self.xi_range[0]), -math.log1p(-self.xi_range[1])
 
     @property
+    def places(self) -> tuple[Array, Array]:
+        """The places that are solved: xi, and tanh Y."""
+        u = np.linspace(*self.u_range, self.nodes[0])
+        return -np.expm1(-u), np.tanh(np.linspace(-self.y_end, self.y_end, self.nodes[1]))
+
+    @property
     def y_end(self) -> float:
         """Last node of Y."""
         return math.atanh(self.reach)
@@ -99,8 +107,10 @@ class _Seen(NamedTuple):
     turn: float
 
     def levels(self, e: Array, phi: Array) -> Array:
-        """Return ln(-J), (D,), at e for unit sources at the angles phi."""
-        return log_potential(self.film, _rotation(-self.turn) @ e, phi - self.turn)[0]
+        """Return ln(-J) and its derivatives by e, (3, D), at e for unit sources at the angles phi."""
+        back = _rotation(self.turn)
+        found, of = log_potential(self.film, back.T @ e, phi - self.turn, slopes=True)
+        return np.stack([found, *(-back @ richardson(*of.slope[:2]) * np.exp(-found))])
 
     def reference(self, e: Array, w: Array) -> Array:
         """Return force and derivatives, (10, n), at states (2, n)."""
@@ -140,21 +150,10 @@ class _PadSolver:
         self._vanishing = 5.0 * np.log(np.cos(phi) + np.sin(0.5 * extent))
 
     def exponents(self, e: Array) -> Array:
-        """Return M at a place, (D,)."""
-        return np.concatenate([film.levels(e, phi) for film, phi in self._parts]) - self._vanishing
-
-
-def node_angles(extent: float, count: int) -> Array:
-    """Return the angles of the source of the nodes, (count,) [rad]: the middles of equal parts."""
-    return (np.arange(count) + 0.5 - 0.5 * count) * (np.pi + extent) / count
-
-
-def node_places(extent: float, resolution: PadResolution) -> Array:
-    """Return the eccentricities of the nodes, shape (2, count_u, count_y)."""
-    count_u, count_y, _ = resolution.nodes
-    xi = -np.expm1(-np.linspace(*resolution.u_range, count_u))
-    share = np.tanh(np.linspace(-resolution.y_end, resolution.y_end, count_y))
-    return np.stack([np.repeat(xi[:, None], count_y, axis=1), wall(xi, extent)[:, None] * share])
+        """Return M and its derivatives by e at a place, (3, D)."""
+        found = np.concatenate([film.levels(e, phi) for film, phi in self._parts], axis=1)
+        found[0] -= self._vanishing
+        return found
 
 
 def build_pad_table(
@@ -184,13 +183,13 @@ def build_pad_table(
         extent, slenderness, resolution.cells, node_angles(extent, count_phi)[count_phi // 2 :]
     )
     states = pad_states(extent, resolution.u_range, resolution.y_end)
-    nodes = [partial(solver.exponents, e) for e in node_places(extent, resolution).reshape(2, -1).T]
+    nodes = [partial(solver.exponents, e) for e in node_places(extent, *resolution.places).reshape(2, -1).T]
     checks = _checks(extent, slenderness, resolution.cells, states)
     columns, loss_checks = _loss_pieces(extent, slenderness, resolution.cells)
     pieces: list[Sequence[Callable[[], Array]]] = [nodes, checks, columns, loss_checks]
     answers = iter(made_pieces([one for group in pieces for one in group], report, TITLE))
     levels, exact, losses, exact_losses = ([next(answers) for _ in group] for group in pieces)
-    half = np.reshape(levels, (*counts, count_phi // 2))
+    half = _denser(np.moveaxis(np.reshape(levels, (*counts, 3, -1)), 2, 0), extent, resolution)
     coefficients = np.concatenate([half[:, ::-1, ::-1], half], axis=2)
     for axis in range(3):
         coefficients = quintic_coefficients(coefficients, axis)
@@ -204,6 +203,20 @@ def build_pad_table(
     )
     known = np.concatenate(exact, axis=1), np.concatenate(exact_losses, axis=1)
     return replace(table, bounds=pad_bounds(table, states, *known))
+
+
+def _denser(found: Array, extent: float, resolution: PadResolution) -> Array:
+    """Return M at the places and between them, (2 n - 1, 2 m - 1, D), of M and its slopes, (3, n, m, D)."""
+    (n, m, _), (first, last) = resolution.nodes, resolution.u_range
+    M, (by_u, by_y) = found[0], along_nodes(found[1:], extent, *resolution.places)
+    over_y = 2.0 * resolution.y_end / (m - 1)
+    # Between places over u the slopes by Y are those of the spline through them.
+    from scipy.interpolate import make_interp_spline
+
+    cells = np.linspace(0.0, n - 1.0, 2 * n - 1)
+    spline = make_interp_spline(np.arange(n), by_y, k=5)
+    M = between_nodes(M, by_u, (last - first) / (n - 1))
+    return between_nodes(M.swapaxes(0, 1), spline(cells).swapaxes(0, 1), over_y).swapaxes(0, 1)
 
 
 def expected_time(resolution: PadResolution) -> float:

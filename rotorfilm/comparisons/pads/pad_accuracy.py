@@ -129,7 +129,7 @@ class PadAccuracy(Readable):
 def pad_rungs() -> tuple[ComparedPad, ...]:
     """Return the films of pads, maps from coarse to fine and then grids."""
     fine = PadMapFilm().resolution
-    coarse, middle = replace(fine, cells=(48, 4), nodes=(8, 9, 24)), replace(fine, nodes=(16, 13, 64))
+    coarse, middle = replace(fine, cells=(48, 4), nodes=(6, 6, 24)), replace(fine, nodes=(9, 7, 64))
     maps = [(f"map {' x '.join(map(str, r.nodes))}", r) for r in (coarse, middle, fine)]
     grids = ((32, 4), (48, 8), (96, 8), (192, 16))
     return (

@@ -254,7 +254,7 @@ def test_trial_states_with_negative_wear_count_as_unworn():
     assert WEAR.linearization(0.0, [0.0], [LOAD, 9.0]).C.any()
 
 
-@pytest.mark.parametrize("step", [1.0, 1e2, 1e4])
+@pytest.mark.parametrize("step", [1.0, 1e4])
 def test_a_long_step_of_an_fmu_does_not_fail_on_its_trial_states(step):
     end = advance(WEAR, 0.0, np.zeros(1), np.array([LOAD, 4.5]), step)
     assert end[0] == pytest.approx(worn(WEAR, 4.5, step).y[0, -1], rel=1e-7)
