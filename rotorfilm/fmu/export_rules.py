@@ -67,7 +67,7 @@ def require_supported(path: Path, version: str, native: bool, platforms: str) ->
 
 
 def sized(spec: NativeSpec | None) -> NativeSpec:
-    """Return a kernel with the map of its own radius and length alone; FmuError where it has none over all."""
+    """Return a kernel with the map of its own radius and length alone; FmuError where it has no other."""
     found = None if spec is None else sized_spec(spec)
     if found is None:
         raise FmuError(
