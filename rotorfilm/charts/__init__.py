@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from .comparisons.coupling_error import plot_coupling_error as plot_coupling_error
     from .comparisons.damper_ladder import plot_damper_accuracy as plot_damper_accuracy
     from .comparisons.heat_ladder import plot_heat_accuracy as plot_heat_accuracy
-    from .comparisons.limit_charts import plot_limits as plot_limits
+    from .comparisons.limit_charts import plot_limit_summary as plot_limit_summary, plot_limits as plot_limits
     from .comparisons.pad_ladder import plot_pad_accuracy as plot_pad_accuracy
     from .comparisons.scene_ladder import RungPoint as RungPoint, plot_scene_ladder as plot_scene_ladder
     from .comparisons.whirl_verdicts import (

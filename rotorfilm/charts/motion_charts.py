@@ -41,9 +41,10 @@ def plot_orbits(
         axes.plot(x, y, ("-", "--", ":")[min(number, 2)], label=label, linewidth=1.6)
     if center is not None:
         x0, y0 = center
-        axes.plot(x0 / clearance, y0 / clearance, "k+", markersize=10, label="static equilibrium")
+        axes.plot(x0 / clearance, y0 / clearance, "k+", markersize=10, label="static equilibrium", zorder=3)
     axes.set(xlabel="x / clearance", ylabel="y / clearance", aspect="equal")
-    axes.legend(fontsize=8)
+    # Beside the picture: inside, it would lie on the orbits or the equilibrium within them.
+    axes.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.02, 1.0))
     return axes
 
 

@@ -16,6 +16,28 @@ NAME = "charts.html"
 LINES = 400
 """Rows of a table that are shown; all are in the CSV file, which the page carries too."""
 
+EXPLAINED = {
+    "chart_bearings": "Stiffness, damping and onset of whirl of eight types of bearings side by side.",
+    "chart_bush": "How far each model of the polymer bush is from the richest one, over what it costs.",
+    "chart_contact": "How far each model of a rolling contact is from the finest grid, over what it costs.",
+    "chart_contact_cases": "Published cases of a rolling ball as computed here; each statement is judged.",
+    "chart_contact_limits": "For which load steps and time steps the published scheme of a contact fails.",
+    "chart_cosim_cost": "Error of the coupled orbit over calls of the film; lower left is better.",
+    "chart_cosim_limits": "Longest stable macro step of each coupling scheme over the eccentricity ratio.",
+    "chart_damper": "Error of the force of every squeeze film over its cost; lower left is better.",
+    "chart_heat": "How far each model of a film that warms is from the richest one, over what it costs.",
+    "chart_heat_film": "Pressure and temperature over and across one film that warms.",
+    "chart_journal": "Error of the force of every journal film over its cost; lower left is better.",
+    "chart_limits": "Where each simplification stays within 10 %: green with all variants, yellow with some.",
+    "chart_pads": "Error of the films of pads over their cost; lower left is better.",
+    "chart_stability": "Speed at the onset of whirl by every journal film, over where the journal rests.",
+    "chart_whirl": "Whether each film tells a whirling from a resting journal, beside the reference.",
+}
+"""What is seen, by the name of the file."""
+
+ATLAS = "Error of each simplification against the next better model; above the dashed line it has failed."
+QUESTION = "Estimated error of every model that may answer this question over its cost, and the one chosen."
+
 STYLE = """
 body { font: 16px/1.5 system-ui, sans-serif; margin: 2rem auto; max-width: 75rem; padding: 0 1rem }
 img { max-width: 100%; height: auto; border: 1px solid #ddd }
@@ -73,12 +95,20 @@ def _title(chart: Path) -> str:
     return chart.stem.removeprefix("chart_").replace("_", " ")
 
 
+def _explained(stem: str) -> str:
+    """Return a sentence on what is seen; a chart with another name is that of a question."""
+    if stem.startswith(("chart_limits_", "chart_heat_limits")):
+        return ATLAS
+    return EXPLAINED.get(stem, QUESTION if stem.startswith("chart_") else "")
+
+
 def _section(chart: Path, name: str) -> str:
     picture = base64.b64encode(chart.read_bytes()).decode()
     table = chart.with_suffix(".csv")
     below = _table(table) if table.is_file() else ""
     return (
         f'<h2 id="{chart.stem}">{escape(name)}</h2>\n'
+        f"<p>{escape(_explained(chart.stem))}</p>\n"
         f'<img src="data:image/png;base64,{picture}" alt="{escape(name)}">\n{below}'
     )
 

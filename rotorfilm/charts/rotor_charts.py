@@ -126,7 +126,7 @@ def plot_unbalance_response(
     (Axes, Axes)
     """
     if axes is None:
-        axes = new_figure(size=(6.4, 6.0)).subplots(2, 1, sharex=True)
+        axes = new_figure(size=(7.4, 6.0)).subplots(2, 1, sharex=True)
     above, below = axes
     speeds = np.asarray(response.frequency) / RPM
     for name in displacements(response.output_labels) if outputs is None else outputs:
@@ -135,7 +135,8 @@ def plot_unbalance_response(
         below.plot(speeds, np.degrees(np.unwrap(np.angle(phasor))), label=name)
     above.set(ylabel="amplitude [um]", title="Unbalance response")
     below.set(xlabel="speed [rpm]", ylabel="phase [deg]")
-    above.legend(fontsize=8)
+    # Beside the picture: curves of many outputs are everywhere in it.
+    above.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.02, 1.0))
     for part in (above, below):
         part.grid(visible=True, alpha=0.3)
     return above, below

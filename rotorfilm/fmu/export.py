@@ -29,6 +29,7 @@ from .export_rules import (
     require_component,
     require_output,
     require_supported,
+    sized,
     start_values,
     title_of,
 )
@@ -73,6 +74,7 @@ def export_fmu(
     step_size: float = 1e-4,
     author: str = "",
     flat_names: bool = False,
+    fixed_size: bool = False,
 ) -> Path:
     """Write `model` as an FMU.
 
@@ -113,6 +115,9 @@ def export_fmu(
         Who made the model, for the description; empty to name nobody.
     flat_names : bool
         Whether variables are named `signal` and `state_signal`, without the component.
+    fixed_size : bool
+        Whether radius and length of a plain journal bearing stay as they are: the FMU then carries the map of
+        their ratio in place of that over all, which makes it less than half as large.
 
     Returns
     -------
@@ -133,6 +138,7 @@ def export_fmu(
     subject = in_time(exported_subject(model))
     spec = subject.native() if isinstance(subject, HasKernel) else None
     native = is_native(subject, spec, backend)
+    spec = sized(spec) if fixed_size else spec
     require_supported(target, version, native, platforms)
     name = component_of(model) if component is None else component
     require_component(name)

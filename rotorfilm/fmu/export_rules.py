@@ -11,6 +11,7 @@ import numpy as np
 
 from ..errors import FmuError, InputError, require_finite
 from ..model import Array, Dynamic, Model, Stepped
+from ..native.journal_spec import sized_spec
 from ..native.spec import NativeSpec
 from .linear_system import from_state_space
 
@@ -63,6 +64,17 @@ def require_supported(path: Path, version: str, native: bool, platforms: str) ->
         raise InputError(f"platforms must be one of {list(PLATFORMS)}, got {platforms!r}")
     if platforms == "all" and not native:
         raise FmuError("platforms must be 'host' for the python backend, which brings its own, got 'all'")
+
+
+def sized(spec: NativeSpec | None) -> NativeSpec:
+    """Return a kernel with the map of its own radius and length alone; FmuError where it has no other."""
+    found = None if spec is None else sized_spec(spec)
+    if found is None:
+        raise FmuError(
+            "model must have a kernel with a map over length / diameter for fixed_size, "
+            f"got {'no kernel' if spec is None else repr(spec.kernel)}"
+        )
+    return found
 
 
 def title_of(model: Model | Stepped) -> str:

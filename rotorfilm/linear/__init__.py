@@ -11,6 +11,7 @@ if TYPE_CHECKING:
         campbell as campbell,
         critical_speed_map as critical_speed_map,
         critical_speeds as critical_speeds,
+        resonant_speeds as resonant_speeds,
     )
     from .closed_loop import closed_loop as closed_loop, transmissibility as transmissibility
     from .coefficients import coefficient_table as coefficient_table, coefficients as coefficients

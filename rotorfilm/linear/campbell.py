@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,6 +28,12 @@ from .rotor_modes import (
     rotor_modes,
     speeds_in_turn,
 )
+
+PEAK_SPEEDS = 21
+"""Speeds across a resonance, two half-widths to each side."""
+
+LEAST_DECREMENT = 1e-6
+"""Logarithmic decrement below which a resonance counts as undamped."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -245,3 +251,27 @@ def _tracks(points: list[RotorModes], mass: Array) -> list[dict[int, int]]:
             tracks[following[-1]][column] = k
         current = following
     return tracks
+
+
+def resonant_speeds(speeds: ArrayLike, critical: Sequence[CriticalSpeed]) -> Array:
+    """Return the speeds with more of them across the resonances between them, so that no peak is cut off.
+
+    Parameters
+    ----------
+    speeds : array_like, shape (n,) [rad/s]
+        Rising.
+    critical : sequence of CriticalSpeed
+        As `critical_speeds` returns them. Those without damping are left out: their peak has no height.
+
+    Returns
+    -------
+    ndarray, shape (m,) [rad/s]
+        Rising, within the range of `speeds`: these, and 21 across each resonance, two half-widths to each
+        side. The half-width of a peak is speed log_decrement / (2 pi).
+    """
+    grid, width = np.asarray(speeds, dtype=float), np.linspace(-2.0, 2.0, PEAK_SPEEDS)
+    damped = [one for one in critical if abs(one.log_decrement) > LEAST_DECREMENT]
+    near = [one.speed * (1.0 + width * abs(one.log_decrement) / (2.0 * np.pi)) for one in damped]
+    every = np.unique(np.concatenate([grid, *near]))
+    within: Array = every[(every >= grid[0]) & (every <= grid[-1])]
+    return within

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
 
 from ..model import Array
+from .map_slice import slice_table
 from .spec import NativeParameter, NativeSpec
 
 NATIVE_PARAMETERS = (
@@ -48,6 +52,32 @@ def journal_spec(
         for name, unit, description in NATIVE_PARAMETERS
     )
     return NativeSpec(kernel=kernel, parameters=parameters, tables=tables)
+
+
+def sized_spec(spec: NativeSpec) -> NativeSpec | None:
+    """Return the kernel with the map of its own length / diameter in place of the map over all of them.
+
+    Radius and length are fixed then. None for a kernel without such a map.
+    """
+    layers = spec.tables.get("coefficients", np.zeros(0))
+    numbers = {parameter.name: parameter.value for parameter in spec.parameters}
+    if layers.ndim != 3 or len(layers) == 1 or not {"radius", "length"} <= set(numbers):
+        return None
+    slenderness = numbers["length"] / (2.0 * numbers["radius"])
+    low, high = spec.tables["range"]
+    own, center = slice_table(layers, spec.tables["center"], (float(low), float(high)), slenderness)
+    tables = {
+        "coefficients": own[None],
+        "center": np.array([center]),
+        "range": np.array([slenderness, slenderness]),
+    }
+    parameters = tuple(
+        replace(p, tunable=False, description=f"{p.description.partition(';')[0]}{_bounds(None)}")
+        if p.name in ("radius", "length")
+        else p
+        for p in spec.parameters
+    )
+    return replace(spec, parameters=parameters, tables={**spec.tables, **tables})
 
 
 def _bounds(slenderness_range: Array | None) -> str:

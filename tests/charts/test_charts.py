@@ -26,6 +26,9 @@ def test_orbits_are_scaled_by_the_clearance():
     np.testing.assert_allclose(line.get_xdata()[-1], 0.1)
     np.testing.assert_allclose([cross.get_xdata()[0], cross.get_ydata()[0]], [0.1, 0.2])
     assert axes.get_xlabel() == "x / clearance"
+    # The legend hides nothing.
+    axes.figure.canvas.draw()
+    assert not axes.get_legend().get_window_extent().overlaps(axes.get_window_extent())
 
 
 def test_locus_puts_the_attitude_angle_from_the_load_line_in_the_sense_of_rotation():

@@ -5,12 +5,15 @@ import json
 import re
 import shutil
 import subprocess
+from pathlib import Path
 
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
 from rotorfilm.charts import write_page
+from rotorfilm.charts.page import EXPLAINED
+from rotorfilm.cli.charts import chart_commands
 from rotorfilm.errors import InputError
 
 BROWSER = next(
@@ -50,6 +53,19 @@ def test_page_has_every_chart_and_table_and_needs_no_other_file(folder):
     assert ">two more</h2>" in text
     sources = re.findall(r'(?:src|href)="([^"]*)"', text)
     assert all(source.startswith(("data:", "#")) for source in sources)
+
+
+def test_every_chart_of_the_commands_is_explained(folder):
+    commands = Path(chart_commands.__file__).parent.glob("*.py")
+    written = {name for file in commands for name in re.findall(r'"(chart_[a-z_]+)["/.]', file.read_text())}
+    tables = {"chart_bush_shaft", "chart_contact_curves"}  # of which there is no picture
+    assert written - set(EXPLAINED) == {"chart_heat_limits", *tables}
+    for name in ("chart_journal", "chart_heat_limits", "chart_limits_damper"):
+        shutil.copy(folder / "chart_one.png", folder / f"{name}.png")
+    text = write_page(folder).read_text()
+    assert f"<p>{EXPLAINED['chart_journal']}</p>" in text
+    assert text.count("above the dashed line it has failed") == 2
+    assert text.count("that may answer this question") == 2
 
 
 def test_a_folder_without_charts_is_named(tmp_path):

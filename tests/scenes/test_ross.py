@@ -2,16 +2,18 @@
 
 import math
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotorfilm.bearings.journal import JournalBearing, ShortFilm
 from rotorfilm.bearings.linear import LinearBearing
 from rotorfilm.bearings.tabulated import TabulatedBearing
 from rotorfilm.errors import InputError
-from rotorfilm.linear import rotor_modes
-from rotorfilm.scenes import read_ross
+from rotorfilm.linear import coefficients, rotor_modes
+from rotorfilm.scenes import read_ross, to_ross_force
 
 STEEL = 'name = "Steel"\nrho = 7810.0\nE = 211e9\nG_s = 81.2e9\n'
 
@@ -187,3 +189,49 @@ def test_weight_hangs_along_minus_y(tmp_path):
     size = len(rotor.structure.coordinates)
     assert not rotor.structure.weight[:size].any()
     assert np.sum(rotor.structure.weight[size:][0:14:2]) == pytest.approx(-9.80665 * rotor.mass)
+
+
+@pytest.mark.parametrize("key", ["alpha", "beta", "default_damping_ratio"])
+def test_damping_of_the_whole_rotor_is_refused(tmp_path, key):
+    file = tmp_path / "rotor.toml"
+    parts = "".join([element(0, 0), disk(0, 0, 0.2), bearing(0, 1)])
+    file.write_text(f"[parameters]\n{key} = 0.01\n\n{parts}")
+    with pytest.raises(InputError, match=rf"^{key} must be 0, got 0\.01 among the parameters of"):
+        read_ross(file)
+
+
+def test_the_force_beyond_the_linear_one_completes_it():
+    """K, C and what is added are the film at any state, on the coordinates of the node alone."""
+    film = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1, film=ShortFilm())
+    rest = coefficients(film, [2e-5, -3e-5], 150.0)
+    rotor = SimpleNamespace(number_dof=6, ndof=24)
+    beyond = to_ross_force(rotor, {2: film}, {2: rest})
+    state = np.random.default_rng(4).normal(size=(2, 24)) * np.array([[1e-5], [2e-3]])
+    moved, moving = state[:, 12:14]
+    added = beyond(7, disp_resp=state[0], velc_resp=state[1], accl_resp=None, time_step=1e-5, args=[])
+    assert set(np.flatnonzero(added)) == {12, 13}
+    linear = -rest.stiffness @ moved - rest.damping @ moving
+    at_rest = film.force(rest.position, np.zeros(2), 150.0)
+    assert_allclose(
+        added[12:14] + linear + at_rest, film.force(rest.position + moved, moving, 150.0), rtol=1e-12
+    )
+    assert_allclose(beyond(0, disp_resp=0 * state[0], velc_resp=0 * state[0]), 0.0, atol=1e-9)
+    with pytest.raises(InputError, match=r"^rests must have the nodes of the films \[2\], got \[3\]"):
+        to_ross_force(rotor, {2: film}, {3: rest})
+
+
+def test_a_table_over_the_frequency_of_the_whirl_is_refused(tmp_path):
+    """ROSS 3 calls `speed` what was `frequency` before."""
+    axis = "[ 10.0, 20.0, 30.0, 40.0,]"
+    numbers = "[ 1e6, 2e6, 3e6, 4e6,]"
+    body = f"kxx = {numbers}\ncxx = {numbers}\n"
+    shaft = "".join([element(0, 0), disk(0, 0, 0.2)])
+    file = tmp_path / "rotor.toml"
+    for head, name in (("", "frequency"), ('ross_version = "3.1.0"\n', "speed")):
+        file.write_text(head + shaft + bearing(0, 1, f"{name} = {axis}\n{body}"))
+        [found] = read_ross(file).bearings.values()
+        assert_allclose(found.speeds, [10.0, 20.0, 30.0, 40.0])
+    for head, axes in (('ross_version = "3.1.0"\n', ""), ("", f"speed = {axis}\n")):
+        file.write_text(head + shaft + bearing(0, 1, f"{axes}frequency = {axis}\n{body}"))
+        with pytest.raises(InputError, match=r"^speed must be the only axis .*, got frequency in 'Bearing"):
+            read_ross(file)

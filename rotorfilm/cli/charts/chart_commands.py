@@ -165,11 +165,13 @@ def limits(
     ] = None,
     out: Folder = OUT,
 ) -> Said:
-    """Atlas of where methods fail: films, grids, steps, linearization, of all bearings. Ten seconds."""
+    """Atlas of where methods fail, a picture for each physics and a summary of all. Ten seconds."""
     from ... import charts, comparisons
 
     result = comparisons.limits_atlas(physics, report=report)
-    files = write_chart(out, "chart_limits", result.columns(), charts.plot_limits(result), data=result)
+    files = write_chart(out, "chart_limits", result.columns(), charts.plot_limit_summary(result), data=result)
+    for name, axes in charts.plot_limits(result).items():
+        files.append((name, str(charts.save(axes[0], out / f"chart_limits_{name}.png", dpi=DPI))))
     rows: list[tuple[str, str]] = []
     for panel, curves in groupby(comparisons.failures(result), key=lambda one: one.panel):
         rows += [("", ""), (f"{panel.physics}: {panel.title}", ""), (f"fails from {panel.x_label}", "")]
@@ -194,7 +196,7 @@ def heat(report: Report, out: Folder = OUT) -> Said:
     report(0.7, "where each model fails")
     limits = comparisons.limits_atlas(["heat"], report=part_of(report, 0.7, 0.95))
     files = write_chart(out, "chart_heat", result.columns(), charts.plot_heat_accuracy(result))
-    files += write_chart(out, "chart_heat_limits", limits.columns(), charts.plot_limits(limits))
+    files += write_chart(out, "chart_heat_limits", limits.columns(), charts.plot_limits(limits)["heat"])
     case = comparisons.HEAT_CASES[1]
     pictures = charts.plot_heated_film(heated_film(case), title=f"Film that warms: {case.name}")
     files.append(("film", str(charts.save(pictures[0], out / "chart_heat_film.png", dpi=DPI))))

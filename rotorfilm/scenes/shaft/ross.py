@@ -1,7 +1,7 @@
 """Rotors saved by ROSS: `rotor.save("rotor.toml")` there, `read_ross("rotor.toml")` here.
 
-For the TOML and JSON files of ROSS 1 and 2 (https://github.com/petrobras/ross); tested with 2.3.0. Its axes
-and its sense of rotation are those used here: x to the right, y up, rotation from x to y.
+For the TOML and JSON files of ROSS 1 to 3 (https://github.com/petrobras/ross); tested with 2.3.0 and 3.1.0.
+Its axes and its sense of rotation are those used here: x to the right, y up, rotation from x to y.
 """
 
 from __future__ import annotations
@@ -37,6 +37,9 @@ from ...rotors import (
 
 ABSENT = ("alpha", "beta")
 """Numbers of a shaft element that must be zero: what a ShaftRotor cannot have."""
+
+MODAL = "default_damping_ratio"
+"""Damping ratio that ROSS 3 gives all modes of a rotor, among its parameters."""
 
 PRESENT = ("rotary_inertia", "gyroscopic")
 """Effects that a ShaftRotor always has."""
@@ -97,6 +100,7 @@ def read_ross(path: str | Path, *, speed: float | SpeedProfile = 0.0) -> RossRot
 
 def _read(file: Path, data: RossTable, speed: float | SpeedProfile) -> RossRotor:
     tables = {name: table for name, table in data.items() if isinstance(table, dict) and name != "parameters"}
+    _require_undamped(file, data.get("parameters", {}))
     couplings = _of(tables, "CouplingElement")
     pieces: list[tuple[int, ShaftElement | Coupling]] = [
         *((table["n"], _element(name, table)) for name, table in _of(tables, "ShaftElement").items()),
@@ -104,7 +108,7 @@ def _read(file: Path, data: RossTable, speed: float | SpeedProfile) -> RossRotor
     ]
     chain = _chain(file, pieces)
     known = ("ShaftElement_", "CouplingElement_", "DiskElement_", "PointMass_")
-    rest = {n: t for n, t in tables.items() if not n.startswith(known)}
+    rest = {n: t for n, t in _over_speed(data, tables).items() if not n.startswith(known)}
     housings = _supports(chain, _of(tables, "PointMass"), rest)
     stations = {
         _identifier(name, k): (name, table)
@@ -123,6 +127,27 @@ def _read(file: Path, data: RossTable, speed: float | SpeedProfile) -> RossRotor
         beam=ClassicalBeam(),
     )
     return RossRotor(rotor=rotor, bearings=bearings)
+
+
+def _require_undamped(file: Path, parameters: RossTable) -> None:
+    """Raise where the whole rotor has a damping that no element has."""
+    for key in (*ABSENT, MODAL):
+        if parameters.get(key, 0.0):
+            raise InputError(f"{key} must be 0, got {parameters[key]!r} among the parameters of {file}")
+
+
+def _over_speed(data: RossTable, tables: Mapping[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
+    """Return the tables with one axis, named as in ROSS 1 and 2, whose `frequency` is the speed.
+
+    From 3 on `frequency` is that of the whirl, which no table over speed has.
+    """
+    found = {}
+    for name, table in tables.items():
+        over_whirl = "frequency" in table and ("speed" in table or str(data.get("ross_version", "2")) >= "3")
+        if over_whirl:
+            raise InputError(f"speed must be the only axis of the coefficients, got frequency in {name!r}")
+        found[name] = {**table, "frequency": table["speed"]} if "speed" in table else table
+    return found
 
 
 def _of(tables: Mapping[str, dict[str, Any]], kind: str) -> dict[str, dict[str, Any]]:

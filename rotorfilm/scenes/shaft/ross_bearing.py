@@ -1,10 +1,12 @@
 """Bearings of rotorfilm as elements of ROSS (https://github.com/petrobras/ross), the optional extra `ross`.
 
-Tested with ROSS 2.3.0; 3.x is untested.
+Tested with ROSS 2.3.0 and 3.1.0.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+from inspect import signature
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,9 +15,11 @@ from ...bearings.linear import LinearBearing
 from ...bearings.tabulated import TabulatedBearing
 from ...errors import InputError
 from ...inputs.kinds import arguments
+from ...model import Array, Reaction
+from ...results import Coefficients
 
 if TYPE_CHECKING:
-    from ross import BearingElement
+    from ross import BearingElement, Rotor
 
 ENTRIES = {"xx": (0, 0), "xy": (0, 1), "yx": (1, 0), "yy": (1, 1)}
 
@@ -40,7 +44,7 @@ def to_ross(
     Returns
     -------
     ross.BearingElement
-        It interpolates by a spline of its own and extrapolates in silence, where `TabulatedBearing` refuses.
+        It interpolates by a spline of its own and may extrapolate, where `TabulatedBearing` refuses.
 
     Raises
     ------
@@ -55,11 +59,65 @@ def to_ross(
         for letter, table in (("k", stiffness), ("c", damping))
         for entry, (row, column) in ENTRIES.items()
     }
+    if isinstance(bearing, TabulatedBearing) and len(bearing.speeds) < 4:
+        raise InputError(f"speeds must be at least 4 for ROSS, got {len(bearing.speeds)}")
+    element = _ross().BearingElement
     if isinstance(bearing, TabulatedBearing):
-        values["frequency"] = np.asarray(bearing.speeds)
-        if len(values["frequency"]) < 4:
-            raise InputError(f"speeds must be at least 4 for ROSS, got {len(values['frequency'])}")
-    return _ross().BearingElement(n=node, tag=tag, **values)
+        # From 3 on what ROSS calls frequency is that of the whirl.
+        axis = "speed" if "speed" in signature(element).parameters else "frequency"
+        values[axis] = np.asarray(bearing.speeds)
+    return element(n=node, tag=tag, **values)
+
+
+@arguments
+def to_ross_force(
+    rotor: Rotor, films: Mapping[int, Reaction], rests: Mapping[int, Coefficients]
+) -> Callable[..., Array]:
+    """Return what films do beyond their stiffness and damping, for `add_to_RHS` of ROSS's time response.
+
+    The rotor of ROSS has a bearing `to_ross(LinearBearing(...))` of the film's stiffness K and damping C at
+    each of these nodes, and its motion counts from the equilibrium, where ROSS starts, so that no weight is
+    given. The force is F(q0 + d, v) - F(q0, 0) + K d + C v: with the linear part, which ROSS has in its
+    matrices, it is the film at any displacement d. ROSS takes it at the start of a step,
+    or iterates it (`newmark_type="robust"`). The speed is that of the coefficients.
+
+    Parameters
+    ----------
+    rotor : ross.Rotor
+    films : mapping of int to Reaction
+        By node.
+    rests : mapping of int to Coefficients
+        Where each journal rests, with K and C there, as `coefficients` or a `RotorEquilibrium` has them.
+
+    Returns
+    -------
+    callable
+        `rotor.run_time_response(speed, F, t, method="newmark", add_to_RHS=...)`.
+
+    Raises
+    ------
+    InputError
+        If a film has no place of rest.
+    FilmContactError
+        From ROSS's run, where a journal meets the wall.
+    """
+    if set(films) != set(rests):
+        raise InputError(f"rests must have the nodes of the films {sorted(films)}, got {sorted(rests)}")
+    places = {node: int(node) * int(rotor.number_dof) for node in films}
+    static = {
+        node: film.force(rests[node].position, np.zeros(2), rests[node].speed) for node, film in films.items()
+    }
+
+    def beyond(step: int, *, disp_resp: Array, velc_resp: Array, **state: object) -> Array:
+        added = np.zeros(int(rotor.ndof))
+        for node, film in films.items():
+            at, where = rests[node], slice(places[node], places[node] + 2)
+            moved, moving = disp_resp[where], velc_resp[where]
+            force = film.force(at.position + moved, moving, at.speed)
+            added[where] = force - static[node] + at.stiffness @ moved + at.damping @ moving
+        return added
+
+    return beyond
 
 
 def _ross() -> Any:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -16,6 +16,7 @@ from ...linear import (
     RotorThreshold,
     campbell,
     critical_speeds,
+    resonant_speeds,
     rotor_equilibrium,
     rotor_threshold,
     unbalance_response,
@@ -31,13 +32,6 @@ if TYPE_CHECKING:
     import control
 
     from ..scene import Scene
-
-
-PEAK_SPEEDS = 21
-"""Speeds across a resonance, two half-widths to each side."""
-
-LEAST_DECREMENT = 1e-6
-"""Logarithmic decrement below which a resonance counts as undamped."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -116,7 +110,7 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
     report(0.65, "threshold of stability")
     threshold = rotor_threshold(rotor, bearings, speeds)
     report(0.85, "unbalance response")
-    turned = _with_peaks(speeds, critical)
+    turned = resonant_speeds(speeds, critical)
     response = unbalance_response(rotor, bearings, turned) if rotor.assembly.unbalance.any() else None
     report(1.0, "done")
     return RotorAnswer(
@@ -163,17 +157,6 @@ def response_columns(answer: RotorAnswer) -> dict[str, list[float]]:
 
 def _known(values: Array) -> list[float | None]:
     return [None if math.isnan(value) else value for value in values.tolist()]
-
-
-def _with_peaks(speeds: Array, critical: Sequence[CriticalSpeed]) -> Array:
-    """Return the speeds with more of them across the resonances between them."""
-    width = np.linspace(-2.0, 2.0, PEAK_SPEEDS)
-    # Without damping a peak has no height.
-    damped = [one for one in critical if abs(one.log_decrement) > LEAST_DECREMENT]
-    near = [one.speed * (1.0 + width * abs(one.log_decrement) / (2.0 * np.pi)) for one in damped]
-    every = np.unique(np.concatenate([speeds, *near]))
-    within: Array = every[(every >= speeds[0]) & (every <= speeds[-1])]
-    return within
 
 
 def _amplitudes(response: control.FrequencyResponseData) -> dict[str, Array]:

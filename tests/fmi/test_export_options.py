@@ -1,4 +1,4 @@
-"""Terminals, author and time of an FMU, and names without the component."""
+"""What an export may add or leave out: terminals, author and time, the component in names, other sizes."""
 
 import zipfile
 from pathlib import Path
@@ -6,13 +6,14 @@ from pathlib import Path
 import control
 import fmpy
 import pytest
+from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 from lxml import etree
 
-from rotorfilm.bearings.journal import MapFilm
+from rotorfilm.bearings.journal import MapFilm, ShortFilm
 from rotorfilm.bearings.journal.bearing import JournalBearing
-from rotorfilm.errors import InputError
-from rotorfilm.fmu import export_fmu
+from rotorfilm.errors import FmuError, InputError
+from rotorfilm.fmu import check_fmu, export_fmu
 from rotorfilm.fmu.description.terminals import terminals
 from rotorfilm.rotors import RigidRotor
 
@@ -109,3 +110,33 @@ def test_author_and_time_are_told_where_they_are_given(version, tmp_path, monkey
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "yesterday")
     with pytest.raises(InputError, match=r"^SOURCE_DATE_EPOCH must be a whole number .*, got 'yesterday'$"):
         export_fmu(BEARING, tmp_path / "c.fmu", version)
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_a_fixed_size_leaves_the_numbers_and_most_of_the_table(version, tmp_path):
+    start = {"x": 3e-5, "y": -6e-5, "vx": 2e-3, "speed": 100.0}
+    paths = [
+        export_fmu(
+            BEARING, tmp_path / f"{fixed}.fmu", version, component="part", start=start, fixed_size=fixed
+        )
+        for fixed in (False, True)
+    ]
+    whole, own = (fmpy.simulate_fmu(str(path), stop_time=1e-3, step_size=1e-3)[-1] for path in paths)
+    assert own["part.force_x"] == pytest.approx(whole["part.force_x"], rel=1e-14)
+    assert paths[1].stat().st_size < 0.5 * paths[0].stat().st_size
+    assert not [item for item in check_fmu(paths[1]) if item.passed is False]
+    # Clearance and viscosity only scale the force; another ratio is refused, another size of the same is not.
+    force = BEARING.force(position=[3e-5, -6e-5], velocity=[2e-3, 0.0], speed=100.0)
+    larger = {"part.radius": 0.1, "part.length": 0.06, "part.viscosity": 0.2}
+    found = fmpy.simulate_fmu(str(paths[1]), stop_time=1e-3, start_values=larger)[-1]
+    assert found["part.force_x"] == pytest.approx(2.0 * 2.0**4 * force[0], rel=1e-12)
+    with pytest.raises(FMICallException):
+        fmpy.simulate_fmu(str(paths[1]), stop_time=1e-3, start_values={"part.length": 0.031})
+
+
+def test_a_model_without_such_a_map_has_no_fixed_size(tmp_path):
+    for model, named in ((ROTOR, "'rigid_rotor'"), (JournalBearing(**SIZE, film=ShortFilm()), "'short")):
+        with pytest.raises(
+            FmuError, match=rf"^model must have a kernel with a map .* fixed_size, got {named}"
+        ):
+            export_fmu(model, tmp_path / "a.fmu", fixed_size=True)
