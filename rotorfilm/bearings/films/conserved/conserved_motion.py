@@ -138,9 +138,7 @@ def sudden_slopes(film: ConservedFilm, state: ConservedState) -> Array:
     """
     moved, held = _slopes(film, state)
     gap, solution = state.gap, state.solution
-    free = ~solution.full.astype(bool) & (film.cells.opening == FILM)
-    by_line = -direction(film.cells.angle)
-    thinned = np.where(free, -solution.theta * (by_line / gap.line)[:, :, None], 0.0)
+    thinned = np.where(solution.full, 0.0, -solution.theta * _widening(film, gap))
     still = np.zeros(gap.line.shape)
     carrying = state.equations._replace(
         around=still, along=still, center=0.0, end_pressure=0.0, wedge=state.rate * gap.face
@@ -153,6 +151,17 @@ def sudden_slopes(film: ConservedFilm, state: ConservedState) -> Array:
     change = oil_response(state.equations, solution.full, keeps, np.where(solution.full, right, 0.0)).real
     pressure = np.where(solution.full, change, 0.0)
     return np.asarray(-12.0 * np.tensordot(film.weights, pressure, ((1, 2), (1, 2))))
+
+
+def _widening(film: ConservedFilm, gap: Gap) -> Array:
+    """Return d log(room) / d (e_x, e_y), shape (2, N, M): an opening is one cell, if not held."""
+    cells, by_line = film.cells, -direction(film.cells.angle)
+    widening = np.where(cells.opening == FILM, (by_line / gap.line)[:, :, None], 0.0)
+    for opening in np.flatnonzero(film.supply.fed):
+        part = np.where(cells.opening == opening, cells.area, 0.0).sum(axis=1)
+        change = by_line @ part / (gap.line @ part)
+        widening = np.where(cells.opening == opening, change[:, None, None], widening)
+    return widening
 
 
 def speed_slope(film: ConservedFilm, state: ConservedState) -> Array:
