@@ -44,7 +44,16 @@ NO_RESULTS = {
         *("SolvedTurn", "OrbitPlace", "FollowedFilm", "ShaftSpeed", "ShaftModel", "ShakenBall"),
         *("HeatCase", "HeatRung", "RunningBearing", "WarmRest", "HeatSteps", "FieldLevel", "ComparedPad"),
         *("FilmCandidate", "LobedCandidate", "DamCandidate", "TiltingCandidate", "BearingType"),
-        *("RestingFilms", "DamperFilm", "FilmRung", "Limit", "Panel", "PanelCurves", "LimitAtlas"),
+        *(
+            "RestingFilms",
+            "DamperFilm",
+            "ConservedDamperFilm",
+            "FilmRung",
+            "Limit",
+            "Panel",
+            "PanelCurves",
+            "LimitAtlas",
+        ),
     },
 }
 """Classes with attributes that nobody is answered with, by the reason."""

@@ -118,7 +118,7 @@ class JFODamper(SteppedFilm):
         )
 
     @property
-    def film(self) -> ConservedFilm:  # type: ignore[override]
+    def film(self) -> ConservedFilm:
         """The film without dimensions; see `ConservedFilm`."""
         return self.scaled.film
 
@@ -147,8 +147,8 @@ class JFODamper(SteppedFilm):
     def attempt(self, state: FilmMemory, u: Array, dt: float, near: FilmMemory | None = None) -> StepTrial:
         """Return one inner step, with its slope; see `bearings.stepped_reaction`."""
         film = super().attempt(state, u, dt, near)
-        slope = film.slope + self.stiffness * np.eye(2)
-        return film._replace(output=self.answer(film.state), slope=slope)
+        slope = film.stiffness + self.stiffness * np.eye(2)
+        return film._replace(output=self.answer(film.state), stiffness=slope)
 
     def slopes(self, state: FilmMemory) -> Array:
         """Return d force / d (x, y, vx, vy, speed) at a state whose cells keep their oil, shape (2, 5)."""

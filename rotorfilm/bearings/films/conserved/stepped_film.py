@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -70,10 +70,11 @@ class SteppedFilm:
         """The film without dimensions."""
         raise NotImplementedError
 
-    @property
-    def clearance(self) -> float:
-        """Radial clearance [m]."""
-        raise NotImplementedError
+    if TYPE_CHECKING:  # a field of some films, a property of others
+
+        @property
+        def clearance(self) -> float:
+            """Radial clearance [m]."""
 
     @property
     def scales(self) -> tuple[float, float]:
