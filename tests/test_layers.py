@@ -60,7 +60,7 @@ PARTS = {
     "bearings/contact": [["film"], ["motion"]],
     "bearings/pads": [["dam", "tilting"]],
     "rotors": [["shaft"]],
-    "linear": [["large"]],
+    "linear": [["memory"], ["large"]],
     "motion": [["compiled"], ["transient", "circular"], ["periodic"]],
     "cosim": [["schemes"], ["loops"]],
     "fmu": [["description"], ["python", "check"], ["native"]],

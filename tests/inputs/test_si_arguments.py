@@ -20,8 +20,8 @@ DAMPER = next(one for one in MADE if isinstance(one, rf.PorousDamper))
 
 RESULTS = {
     "BallLoads", "BallRest", "BasinScan", "Campbell", "CircularOrbit", "CoSimulation", "Coefficients",
-    "CouplingReport", "CriticalMass", "CriticalSpeed", "Equilibrium", "HeatedState", "HopfPoint", "JFOState",
-    "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients", "Reduction", "RotorEquilibrium",
+    "CountedMass", "CountedThreshold", "CouplingReport", "CriticalMass", "CriticalSpeed", "Equilibrium",
+    "FilmSystem", "HeatedState", "HopfPoint", "JFOState", "MemoryCoefficients", "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients", "Reduction", "RotorEquilibrium",
     "RotorModes", "RotorThreshold", "StabilityChange", "TiltedPads", "Trajectory", "WhirlThreshold",
 }  # fmt: skip
 """Made by rotorfilm, not by its users."""
