@@ -31,6 +31,7 @@ TASKS = {
     "Stability, critical speeds, Campbell diagrams": (
         "linear.campbell",
         "linear.critical_mass",
+        "linear.memory.counted_threshold",
         "linear.rotor_modes",
         "linear.rotor_threshold",
         "linear.whirl",

@@ -19,14 +19,12 @@ from .public_objects import BALL, BEARING, MADE
 DAMPER = next(one for one in MADE if isinstance(one, rf.PorousDamper))
 
 RESULTS = {
-    "InertialCoefficients",
-    "SqueezeImpedance",
     "BallLoads", "BallRest", "BasinScan", "Campbell", "CircularOrbit", "CoSimulation", "Coefficients",
-    "CouplingReport", "CriticalMass", "CriticalSpeed", "DamperTurn", "Equilibrium", "HeatedState",
-    "HopfPoint", "JFOOrbit", "JFOState",
-    "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients", "Reduction", "RotorEquilibrium",
-    "RotorModes", "RotorThreshold", "RuptureError", "StabilityChange", "TiltedPads", "Trajectory",
-    "WhirlThreshold",
+    "CountedMass", "CountedThreshold", "CouplingReport", "CriticalMass", "CriticalSpeed", "DamperTurn",
+    "Equilibrium", "FilmSystem", "HeatedState", "HopfPoint", "InertialCoefficients", "JFOOrbit", "JFOState",
+    "MemoryCoefficients", "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients",
+    "Reduction", "RotorEquilibrium", "RotorModes", "RotorThreshold", "RuptureError", "SqueezeImpedance",
+    "StabilityChange", "TiltedPads", "Trajectory", "WhirlThreshold",
 }  # fmt: skip
 """Made by rotorfilm, not by its users."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
@@ -118,13 +119,14 @@ def _fitted(motion: DynamicStiffness, still: Array, top: float, tolerance: float
     """Return the fit with the fewest states whose error is small enough, and which damps fast motion."""
     nu = top * np.arange(1, SAMPLES + 1) / SAMPLES
     K = np.array([motion.stiffness(1j * float(one)) for one in nu])
-    fits = list(_fits(nu, K, still, top))
-    for fit in fits:
+    least = math.inf
+    for fit in _fits(nu, K, still, top):
+        least = min(least, fit.error)
         if fit.error <= tolerance and np.linalg.eigvalsh(fit.damping + fit.damping.T)[0] > 0.0:
             return fit
     raise ConvergenceError(
         f"tolerance must be within reach of {ORDERS[-1]} states for each direction up to {top:.6g} rad/s, got "
-        f"{tolerance!r}: the least error is {min(fit.error for fit in fits):.3g}"
+        f"{tolerance!r}: the least error is {least:.3g}"
     )
 
 

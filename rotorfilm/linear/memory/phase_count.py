@@ -39,7 +39,7 @@ def growing_count(ratio: Callable[[float], complex], frequencies: Array, referen
         If the phase jumps: a root on the imaginary axis itself.
     """
     values = [ratio(float(nu)) for nu in frequencies]
-    turn = 0.0 if values[0].real > 0.0 else math.pi
+    turn = 0.0
     for k in range(len(values) - 1):
         turn += _turn(ratio, (float(frequencies[k]), values[k]), (float(frequencies[k + 1]), values[k + 1]))
     turn -= math.atan2(values[-1].imag, values[-1].real)

@@ -1,0 +1,141 @@
+"""Flexible rotors on films that remember: the equations at each exponent, and the rigid journal as a limit."""
+
+import numpy as np
+import pytest
+from scipy.linalg import eigvals
+
+from rotorfilm import (
+    ConvergenceError,
+    Disk,
+    ElasticMaterial,
+    RigidShaft,
+    ShaftElement,
+    ShaftRotor,
+    Station,
+    Unbalance,
+    campbell,
+    critical_speeds,
+    rotor_equilibrium,
+    rotor_modes,
+    rotor_threshold,
+    unbalance_response,
+    whirl_threshold,
+)
+from rotorfilm.linear.large import remembered
+from rotorfilm.linear.large.remembered import rotor_growing
+
+STEEL = ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
+RIGID = RigidShaft(
+    mass=1200.0,
+    diametral_inertia=50.0,
+    polar_inertia=1.0,
+    stations=(("left", -0.5), ("right", 0.5)),
+    speed=300.0,
+)
+
+
+def shaft(elements=4):
+    pieces = ShaftElement(length=1.5, outer_diameter=0.1, material=STEEL).split(elements)
+    return ShaftRotor(
+        elements=pieces,
+        stations=(Station(node=0, name="left"), Station(node=elements, name="right")),
+        disks=(Disk(node=elements // 2, mass=600.0, diametral_inertia=5.0, polar_inertia=9.0),),
+        unbalances=(Unbalance(node=elements // 2, unbalance=1e-3),),
+        speed=157.08,
+    )
+
+
+@pytest.fixture(scope="module")
+def films(film_of):
+    """Return a film with a hole and a film with a groove, at the two ends."""
+    return {"left": film_of("hole", 2e5), "right": film_of("top", 1e5)}
+
+
+def equations(rotor, films, speed, s):
+    """Return L(s) with K(s) as the films themselves give it."""
+    m = rotor.structure
+    at = rotor_equilibrium(rotor, films, speed)
+    L = s**2 * m.mass + s * (m.damping + speed * m.gyroscopic) + m.stiffness + speed * m.circulation
+    for k, name in enumerate(m.stations):
+        rows = m.journals[2 * k : 2 * k + 2]
+        L = L + rows.T @ films[name].complex_stiffness(at.coefficients[name].position, speed, s) @ rows
+    return L
+
+
+def imbalance(L, shape):
+    """Return |L q| over the forces that cancel in it."""
+    return np.abs(L @ shape).max() / (np.abs(L) @ np.abs(shape)).max()
+
+
+@pytest.mark.closed_form
+@pytest.mark.parametrize("speed", [120.0, 400.0])
+def test_modes_solve_the_equations_at_their_own_exponents(films, speed):
+    rotor = shaft()
+    modes = rotor_modes(rotor, films, speed, 1500.0)
+    assert len(modes.eigenvalues) >= 4
+    for s, shape in zip(modes.eigenvalues, modes.shapes.T, strict=True):
+        assert imbalance(equations(rotor, films, speed, s), shape) < 1e-9
+        off = equations(rotor, films, speed, s * (1.0 + 1e-4))
+        assert imbalance(off, shape) > 1e-9
+
+
+@pytest.mark.closed_form
+def test_a_rigid_shaft_in_two_films_is_the_rigid_journal(film_of):
+    """And tilt does not matter: it loses stability later."""
+    film = film_of("hole", 2e5)
+    alone = whirl_threshold(film, [0.0, -600.0 * 9.80665], 600.0, speed_range=(300.0, 900.0))
+    found = rotor_threshold(RIGID, {"left": film, "right": film}, [300.0, 900.0])
+    assert found.speed == pytest.approx(alone.speed, rel=1e-8)
+    assert found.whirl_ratio == pytest.approx(alone.whirl_ratio, rel=1e-6)
+
+
+def test_what_grows_is_counted_besides(films, monkeypatch):
+    rotor = shaft(2)
+    for speed, growing in ((150.0, 0), (350.0, 2)):
+        modes = rotor_modes(rotor, films, speed, 1500.0)
+        at = rotor_equilibrium(rotor, films, speed)
+        assert rotor_growing(rotor.structure, at, modes.eigenvalues) == growing
+        assert 2 * np.sum(modes.eigenvalues.real > 0.0) == growing
+    monkeypatch.setattr(remembered, "growing_count", lambda *given: 4)
+    with pytest.raises(ConvergenceError, match="must be found, and 0 were of 4"):
+        rotor_threshold(rotor, films, [150.0, 350.0])
+
+
+@pytest.mark.closed_form
+def test_the_response_to_unbalance_has_the_stiffness_at_the_speed(films):
+    rotor = shaft()
+    speeds = [90.0, 250.0]
+    found = unbalance_response(rotor, films, speeds)
+    rows = rotor.structure.journals
+    for k, speed in enumerate(speeds):
+        force = speed**2 * rotor.structure.unbalance @ np.array([1.0, -1.0j])
+        journals = rows @ np.linalg.solve(equations(rotor, films, speed, 1j * speed), force)
+        data = [found.frdata[found.output_labels.index(n), 0, k] for n in ("left_x", "left_y", "right_x")]
+        np.testing.assert_allclose(data, journals[:3], rtol=1e-8)
+
+
+def test_campbell_diagram_and_critical_speeds_have_the_same_whirls(films):
+    rotor, speeds = shaft(2), [130.0, 150.0]
+    chart = campbell(rotor, films, speeds, 400.0)
+    modes = rotor_modes(rotor, films, 150.0, 400.0)
+    for s in modes.eigenvalues[modes.eigenvalues.imag < 300.0]:
+        assert np.nanmin(np.abs(chart.eigenvalues[:, 1] - s)) < 1e-8 * abs(s)
+    found = critical_speeds(rotor, films, speeds)
+    assert found
+    for one in found:
+        s = one.speed * complex(-one.log_decrement / (2.0 * np.pi), 1.0)
+        L = equations(rotor, films, one.speed, s)
+        sizes = np.linalg.svd(L / np.sqrt(np.outer(*2 * [np.abs(L).max(axis=1)])), compute_uv=False)
+        assert sizes[-1] < 1e-8 * sizes[0]
+
+
+def test_a_rotor_in_few_shapes_is_the_whole_one(films):
+    """The error that it tells covers what the shapes leave out."""
+    rotor, h = shaft(8), 1e-4
+    few = rotor_modes(rotor, films, 300.0, 400.0)
+    assert 0.0 < few.error < 1e-6
+    for s in few.eigenvalues:
+        L = equations(rotor, films, 300.0, s)
+        slope = (equations(rotor, films, 300.0, s + h) - equations(rotor, films, 300.0, s - h)) / (2.0 * h)
+        step = np.abs(eigvals(L, slope)).min()  # Newton's, to the exponent of the whole
+        assert step < 3.0 * few.error * abs(s)
