@@ -341,7 +341,7 @@ def test_file_is_read(tmp_path):
         (
             "[operation]",
             "film = { order = [1, 1] }\n[operation]",
-            r"case.toml: journal.film.name is required: one of \['grooved_map', 'jfo', 'map', 'reynolds', 'short'",
+            r"case.toml: journal.film.name is required: one of \['grooved_map', 'jfo', 'map', 'reynolds'",
         ),
         (
             "[operation]",
