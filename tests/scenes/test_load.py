@@ -308,8 +308,8 @@ def test_file_is_read(tmp_path):
             "clearance",
             "clearence",
             r"case.toml: journal.clearence is no known key; known here: radius, diameter, length, clearance, "
-            r"viscosity, film, pads, grooves, supply_pressure, feed_holes, circumferential_groove; "
-            r"did you mean 'clearance'\?",
+            r"viscosity, film, pads, grooves, supply_pressure, feed_holes, circumferential_groove, "
+            r"supply_flow, cavitation_pressure, submerged; did you mean 'clearance'\?",
         ),
         ("[journal]", "[jurnal]", r"case.toml: jurnal is no known key; .*; did you mean 'journal'\?"),
         ('clearance = "0.1 mm"', "", "case.toml: journal.clearance is required and missing"),
@@ -341,7 +341,7 @@ def test_file_is_read(tmp_path):
         (
             "[operation]",
             "film = { order = [1, 1] }\n[operation]",
-            r"case.toml: journal.film.name is required: one of \['grooved_map', 'map', 'reynolds', 'short'",
+            r"case.toml: journal.film.name is required: one of \['grooved_map', 'jfo', 'map', 'reynolds'",
         ),
         (
             "[operation]",
