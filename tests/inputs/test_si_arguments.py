@@ -19,12 +19,12 @@ from .public_objects import BALL, BEARING, MADE
 DAMPER = next(one for one in MADE if isinstance(one, rf.PorousDamper))
 
 RESULTS = {
-    "InertialCoefficients",
-    "SqueezeImpedance",
     "BallLoads", "BallRest", "BasinScan", "Campbell", "CircularOrbit", "CoSimulation", "Coefficients",
-    "CouplingReport", "CriticalMass", "CriticalSpeed", "Equilibrium", "HeatedState", "HopfPoint", "JFOState",
+    "CouplingReport", "CriticalMass", "CriticalSpeed", "Equilibrium", "HeatedState", "HopfPoint",
+    "InertialCoefficients", "JFOState",
     "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients", "Reduction", "RotorEquilibrium",
-    "RotorModes", "RotorThreshold", "StabilityChange", "TiltedPads", "Trajectory", "WhirlThreshold",
+    "RotorModes", "RotorThreshold", "SqueezeImpedance", "StabilityChange", "TiltedPads", "Trajectory",
+    "WhirlThreshold",
 }  # fmt: skip
 """Made by rotorfilm, not by its users."""
 
