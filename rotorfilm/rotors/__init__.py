@@ -10,8 +10,8 @@ if TYPE_CHECKING:
         ShakenBaseRotor as ShakenBaseRotor,
         translations,
     )
-    from .driven.driven_rotor import DrivenRotor as DrivenRotor
     from .driven.linear_motor import LinearMotor as LinearMotor
+    from .driven.motor_driven import MotorDrivenRotor as MotorDrivenRotor
     from .force_law import ForceLaw
     from .jeffcott import JeffcottRotor as JeffcottRotor
     from .law_rotor import LawRotor

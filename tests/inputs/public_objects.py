@@ -129,7 +129,7 @@ MADE = [
     ),
     rf.SpeedProfile(times=(0.0, 1.0), speeds=(100.0, 200.0)),
     rf.LinearMotor(stall_torque=2.0, idle_speed=300.0, resistance=1e-3),
-    rf.DrivenRotor(
+    rf.MotorDrivenRotor(
         rotor=rf.RigidRotor(mass=10.0, speed=100.0),
         inertia=0.1,
         torque=rf.LinearMotor(stall_torque=2.0, idle_speed=300.0),

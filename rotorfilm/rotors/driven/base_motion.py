@@ -149,6 +149,7 @@ class ShakenBaseRotor(AroundRotor):
     ----------
     rotor : RigidRotor or FlexibleRotor
     base : BaseMotion
+        Acceleration of the ground.
     """
 
     rotor: RigidRotor | FlexibleRotor

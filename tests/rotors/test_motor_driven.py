@@ -9,12 +9,12 @@ from scipy.integrate import DOP853, solve_ivp
 from scipy.optimize import brentq
 
 from rotorfilm import (
-    DrivenRotor,
     InputError,
     JeffcottRotor,
     JournalBearing,
     LinearBearing,
     LinearMotor,
+    MotorDrivenRotor,
     RigidRotor,
     RigidShaft,
     SpeedProfile,
@@ -46,7 +46,7 @@ def jeffcott(**changes):
 
 
 def test_motion_is_that_of_the_mass_center_and_its_moments():
-    rotor = DrivenRotor(rotor=rigid(), inertia=0.02, torque=MOTOR)
+    rotor = MotorDrivenRotor(rotor=rigid(), inertia=0.02, torque=MOTOR)
     times = np.linspace(0.0, 0.1, 11)
     run = simulate(rotor, SPRINGS, duration=0.1, times=times, rtol=1e-12, method=DOP853)
     mass, arm = 10.0, 2e-4
@@ -85,7 +85,7 @@ MODELS = {"rigid": rigid(), "jeffcott": jeffcott(), "gyroscopic": SHAFT}
 @pytest.mark.parametrize("name", MODELS)
 def test_energy_is_what_torque_and_forces_bring_and_damping_takes(name):
     rotor = MODELS[name]
-    driven = DrivenRotor(rotor=rotor, inertia=0.05, torque=MOTOR)
+    driven = MotorDrivenRotor(rotor=rotor, inertia=0.05, torque=MOTOR)
     rng, n = np.random.default_rng(1), len(rotor.initial_state) // 2
     q, v = 1e-4 * rng.normal(size=n), 1e-2 * rng.normal(size=n)
     angle, speed, u = 0.7, 90.0, rng.normal(size=2)
@@ -103,7 +103,7 @@ def test_energy_is_what_torque_and_forces_bring_and_damping_takes(name):
 
 @pytest.mark.parametrize("name", MODELS)
 def test_derivatives_are_exact(name):
-    driven = DrivenRotor(rotor=MODELS[name], inertia=0.05, torque=MOTOR)
+    driven = MotorDrivenRotor(rotor=MODELS[name], inertia=0.05, torque=MOTOR)
     rng, nominal = np.random.default_rng(2), np.array([signal.nominal for signal in driven.states])
     x, u = rng.normal(size=len(nominal)) * nominal, rng.normal(size=2)
     A, B, C, _ = driven.linearization(0.1, x, u)
@@ -130,7 +130,7 @@ def whirling(stall):
     critical = math.sqrt(stiffness / mass)
     motor = LinearMotor(stall_torque=stall, idle_speed=2.0 * critical)
     still = rigid(gravity=(0.0, 0.0), unbalance=unbalance, unbalance_angle=0.0, speed=0.8 * critical)
-    driven = DrivenRotor(rotor=still, inertia=5e-3, torque=motor)
+    driven = MotorDrivenRotor(rotor=still, inertia=5e-3, torque=motor)
 
     def surplus(speed):
         return motor.torque(0.0, speed) - whirl_torque(speed, mass, stiffness, damping, unbalance)
@@ -169,7 +169,7 @@ def test_a_converter_carries_the_idle_speed_up_and_films_feel_the_speed():
     ramp = SpeedProfile(times=(0.0, 0.1), speeds=(20.0, 120.0))
     motor = LinearMotor(stall_torque=60.0, idle_speed=ramp, resistance=0.5)
     film = JournalBearing(radius=0.05, length=0.03, clearance=1e-4, viscosity=0.1)
-    driven = DrivenRotor(rotor=rigid(mass=50.0), inertia=0.02, torque=motor)
+    driven = MotorDrivenRotor(rotor=rigid(mass=50.0), inertia=0.02, torque=motor)
     assert driven.breakpoints == (0.0, 0.1)
     assert not mount(driven, {"": film}).inputs
     run = simulate(driven, film, duration=0.25, samples=51, rtol=1e-6)
@@ -193,7 +193,7 @@ class Constant:
 
 
 def test_a_torque_of_ones_own_without_unbalance_is_newtons_law():
-    driven = DrivenRotor(rotor=rigid(unbalance=0.0), inertia=0.5, torque=Constant(3.0))
+    driven = MotorDrivenRotor(rotor=rigid(unbalance=0.0), inertia=0.5, torque=Constant(3.0))
     run = simulate(driven, SPRINGS, duration=0.2, samples=3, rtol=1e-6, method=DOP853)
     assert run["speed"] == pytest.approx([20.0, 20.6, 21.2])
     assert run["angle"][-1] == pytest.approx(20.0 * 0.2 + 0.5 * 6.0 * 0.2**2)
@@ -201,11 +201,11 @@ def test_a_torque_of_ones_own_without_unbalance_is_newtons_law():
 
 def test_what_does_not_fit_is_named():
     with pytest.raises(InputError, match="inertia must be larger than that of the unbalance, 4e-07"):
-        DrivenRotor(rotor=rigid(), inertia=4e-7, torque=MOTOR)
+        MotorDrivenRotor(rotor=rigid(), inertia=4e-7, torque=MOTOR)
     profile = SpeedProfile(times=(0.0, 1.0), speeds=(1.0, 2.0))
     with pytest.raises(InputError, match=r"rotor.speed must be a number, the speed at t = 0"):
-        DrivenRotor(rotor=rigid(speed=profile), inertia=1.0, torque=MOTOR)
+        MotorDrivenRotor(rotor=rigid(speed=profile), inertia=1.0, torque=MOTOR)
     with pytest.raises(InputError, match="idle_speed must not be 0 at all times"):
         LinearMotor(stall_torque=1.0, idle_speed=0.0)
     with pytest.raises(InputError, match="torque must be"):
-        DrivenRotor(rotor=rigid(), inertia=1.0, torque=3.0)
+        MotorDrivenRotor(rotor=rigid(), inertia=1.0, torque=3.0)

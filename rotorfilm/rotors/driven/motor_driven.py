@@ -35,7 +35,7 @@ class _Turn(NamedTuple):
 
 @quantities
 @dataclass(frozen=True, kw_only=True)
-class DrivenRotor(AroundRotor):
+class MotorDrivenRotor(AroundRotor):
     """A rotor that a torque drives, in place of a given speed: a Dynamic model.
 
     With the angle p turned, w = p', the coordinates q of the rotor and its unbalance U (docs of `Structure`),
@@ -46,7 +46,7 @@ class DrivenRotor(AroundRotor):
     e = (cos p, sin p), n = e', g the acceleration of gravity and J q the displacement turned by +90 deg. C_i
     is the rotating damping: what it does to the whirl and to the torque are one. Both equations follow from
     one kinetic energy (for a mass on springs: Dimentberg et al. 1997, Nonlinear Dynamics 13, 171-187), so the
-    power of the torque is what whirl and losses take: a rotor may hang at its critical speed (Sommerfeld 1902).
+    power of the torque is what whirl and losses take: it may hang at its critical speed (Sommerfeld 1902).
 
     The shaft does not twist, and the torque follows its tilt. The friction of films does not brake it: what
     resists is part of the torque.
