@@ -44,8 +44,8 @@ def simulate(
     Rotor and film are connected by the names of their signals and integrated together, with the exact
     Jacobian of both, so no coupling error arises. The integration stops at the kinks of a `Kinked` rotor.
     The mass that the oil of a damper adds is part of the same system. A linear rotor on films that have
-    kernels is integrated in C, as by `simulate_rotor`, all others by scipy; films that remember, as `JFOFilm`,
-    with the rotor in one Newton step, by differences of second order.
+    kernels is integrated in C, as by `simulate_rotor`, all others by scipy; films that remember, as
+    `JFOFilm`, with the rotor in one Newton step, by differences of second order.
 
     Parameters
     ----------

@@ -143,10 +143,10 @@ def _over_speed(data: RossTable, tables: Mapping[str, dict[str, Any]]) -> dict[s
     """
     found = {}
     for name, table in tables.items():
-        over_whirl = "frequency" in table and ("speed" in table or str(data.get("ross_version", "2")) >= "3")
-        if over_whirl:
+        speed, whirl = table.get("speed"), table.get("frequency")
+        if whirl is not None and (speed is not None or str(data.get("ross_version", "2")) >= "3"):
             raise InputError(f"speed must be the only axis of the coefficients, got frequency in {name!r}")
-        found[name] = {**table, "frequency": table["speed"]} if "speed" in table else table
+        found[name] = table if speed is None else {**table, "frequency": speed}
     return found
 
 
