@@ -68,7 +68,7 @@ def conserved_threshold(film: JFOFilm, load: tuple[float, float], mass: float, s
     for _ in range(MOST):
         last, speed = speed, speed * factor
         if (growth(speed) < 0.0) is not (own < 0.0):
-            return float(brentq(growth, *sorted((last, speed)), rtol=NEAR))
+            return float(brentq(growth, min(last, speed), max(last, speed), rtol=NEAR))
     raise AbsentError(
         f"no threshold: none from {start:.6g} to {speed:.6g} rad/s on a film that conserves its oil"
     )

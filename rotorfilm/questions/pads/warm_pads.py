@@ -48,7 +48,7 @@ class PadWhirlRung(WarmWhirlRung):
 
 def is_warm(scene: Scene) -> bool:
     """Return whether the bearing of a scene runs on an oil, as warm as its films get."""
-    return bool(scene.film_table.build().is_warming)  # type: ignore[attr-defined]
+    return bool(scene.film_table.build().is_warming)
 
 
 def settled_scene(scene: Scene) -> Scene:
