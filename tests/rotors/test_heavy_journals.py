@@ -127,6 +127,28 @@ def test_a_flexible_shaft_carries_the_mass_too():
         assert np.abs(force - bare).max() > 0.01 * np.abs(bare).max()
 
 
+def test_a_shaft_with_a_free_station_has_the_derivatives_of_its_equations():
+    # The shaft's own accelerations and the force at the free end move the mass of the other end.
+    mounted = rf.mount(shaft_of(), {"left": sprung(FULL)})
+    rng = np.random.default_rng(5)
+    x, u = 1e-5 * rng.normal(size=len(mounted.states)), rng.normal(size=len(mounted.inputs))
+    x[len(x) // 2 :] *= 300.0
+    found = mounted.linearization(0.0, x, u)
+
+    def seen(by):
+        state, force = x + by[: len(x)], u + by[len(x) :]
+        parts = mounted.derivative(0.0, state, force), mounted.output(0.0, state, force)
+        return np.concatenate(parts)
+
+    whole = np.block([[found.A, found.B], [found.C, found.D]])
+    half = len(x) // 2
+    steps = np.concatenate([np.full(half, 1e-8), np.full(half, 1e-4), np.full(len(u), 1.0)])
+    for k, step in enumerate(steps):
+        shift = np.eye(len(x) + len(u))[k] * step
+        slope = (seen(shift) - seen(-shift)) / (2.0 * step)
+        assert_allclose(whole[:, k], slope, atol=1e-6 * np.abs(whole[:, k]).max(), rtol=1e-6)
+
+
 @pytest.mark.parametrize(
     "ask",
     [
