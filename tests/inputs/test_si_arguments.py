@@ -21,7 +21,8 @@ DAMPER = next(one for one in MADE if isinstance(one, rf.PorousDamper))
 RESULTS = {
     "BallLoads", "BallRest", "BasinScan", "Campbell", "CircularOrbit", "CoSimulation", "Coefficients",
     "CountedMass", "CountedThreshold", "CouplingReport", "CriticalMass", "CriticalSpeed", "Equilibrium",
-    "FilmSystem", "HeatedState", "HopfPoint", "JFOState", "MemoryCoefficients", "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients", "Reduction", "RotorEquilibrium",
+    "FilmSystem", "HeatedState", "HopfPoint", "JFOState", "MemoryCoefficients", "PadEquilibrium",
+    "PadMatrices", "PeriodicOrbit", "ReducedCoefficients", "Reduction", "RotorEquilibrium",
     "RotorModes", "RotorThreshold", "StabilityChange", "TiltedPads", "Trajectory", "WhirlThreshold",
 }  # fmt: skip
 """Made by rotorfilm, not by its users."""
