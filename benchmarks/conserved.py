@@ -4,7 +4,9 @@
 
 1 Nine bearings at given load by JFOFilm on 144 x 10 cells: eccentricity ratio, attitude angle, side flow over
   clearance radius length speed, torque, stiffness and damping at half the speed over load/clearance. Below
-  each, by how much Reynolds rupture with the same openings differs.
+  each, by how much Reynolds rupture with the same openings differs. Then their critical masses over
+  load/(clearance speed^2) by K(s), with the whirl ratio and how many exponents grow below and above, beside
+  that of the notes, from another code; by K(0) and its slope; and of Reynolds rupture.
 2 200 random bearings on 144 x 10 cells by the active set and by Newton's method: largest difference of
   pressure over the largest, of the oil content, the balance of mass over the side flow, and the solutions.
 3 CPU time of a state over that of ReynoldsFilm with the same openings on 144 x 12 cells, of stiffness and
@@ -27,6 +29,7 @@ from rotorfilm import (
     JournalBearing,
     ReynoldsFilm,
     coefficients,
+    critical_mass,
     equilibrium,
 )
 from rotorfilm.bearings.films.conserved.conserved_film import circular_gap
@@ -114,6 +117,36 @@ def table() -> None:
         )
 
 
+NOTED = (5.28, 4.66, 7.91, None, 3.27, 5.53, 4.49, 6.08, 3.81, 2.31)
+"""Critical masses of another code; in case 7 with the oil content of the groove held, not its flow."""
+
+CROSSED = ("10 grooves at 45 and 225 deg, So .25, 2 bar", case(0.5, 2.0, UP / 2.0, 2.5 * UP), 0.25, None)
+
+
+def masses() -> None:
+    """Print the critical masses of the bearings."""
+    print("\n| bearing | mass by K(s) | notes | error | whirl ratio | growing | slow motion | Reynolds |")
+    print("|---|---|---|---|---|---|---|---|")
+    for (name, bearing, So, flow), noted in zip([*CASES, CROSSED], NOTED, strict=True):
+        film, load = film_of(bearing, flow), 2.0 * So * SPEED * bearing.force_scale
+        unit = load / CLEARANCE / SPEED**2
+        at, other = (equilibrium(one, [0.0, -load], SPEED) for one in (film, bearing))
+        found = critical_mass(coefficients(film, at.position, SPEED))
+        slow = critical_mass(film.slow_coefficients(at.position, SPEED))
+        lund = critical_mass(coefficients(bearing, other.position, SPEED))
+        own, still, reynolds = (None if one.mass is None else one.mass / unit for one in (found, slow, lund))
+        error = "" if own is None or noted is None else f"{100.0 * (own / noted - 1.0):+.1f} %"
+        print(
+            f"| {name} | {mass_text(own)} | {mass_text(noted)} | {error} | {found.whirl_ratio or 0.0:.3f} "
+            f"| {found.growing_below} to {found.growing_above} | {mass_text(still)} | {mass_text(reynolds)} |"
+        )
+
+
+def mass_text(mass: float | None) -> str:
+    """Return a critical mass, or that there is none."""
+    return "none" if mass is None else f"{mass:.2f}"
+
+
 def digits(matrix: np.ndarray) -> str:
     """Return four numbers."""
     return " ".join(f"{number:.3f}" for number in matrix.ravel())
@@ -187,5 +220,6 @@ def costs() -> None:
 if __name__ == "__main__":
     warnings.simplefilter("ignore")
     table()
+    masses()
     searches()
     costs()

@@ -39,7 +39,8 @@ def coefficients(
         Angular speed about +z.
     frequency : float or None [rad/s]
         Of the whirl, where K and C depend on it, as on tilting pads: their result, `ReducedCoefficients`,
-        names it. None for that of the shaft, 0 for slow motion.
+        names it. None for that of the shaft, 0 for slow motion. Those of a film that conserves its oil are
+        `MemoryCoefficients` with None, from which modes and critical masses take K(s).
 
     Raises
     ------

@@ -44,12 +44,16 @@ def counted_threshold(reaction: Remembering, found: WhirlThreshold) -> CountedTh
         If they are not 0 below and more above: then another whirl was missed.
     """
     speed, at, mass = found.speed, found.equilibrium, found.critical_mass
-    assert speed is not None and at is not None and mass is not None
-    rests = (equilibrium(reaction, at.load, speed * (1.0 + side)) for side in (-BESIDE, BESIDE))  # type: ignore[arg-type]
+    assert speed is not None
+    assert at is not None
+    assert mass is not None
+    beside = (speed * (1.0 - BESIDE), speed * (1.0 + BESIDE))
+    rests = [equilibrium(reaction, at.load, one) for one in beside]  # type: ignore[arg-type]
     below, above = (rigid_growing(_film(reaction, rest), mass) for rest in rests)
     if below or not above:
         raise ConvergenceError(
-            f"a whirl must begin to grow at {speed:.6g} rad/s, and {below} exponents grow below, {above} above"
+            f"a whirl must begin to grow at {speed:.6g} rad/s, and {below} exponents grow below it, "
+            f"{above} above"
         )
     return CountedThreshold(
         speed=speed,

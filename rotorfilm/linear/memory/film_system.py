@@ -42,8 +42,7 @@ class FilmSystem(Readable):
         states are no oil contents, but what the film remembers of x and of y, each through a chain of equal
         lags. The speed acts as in slow motion.
     error : float [1]
-        Largest error of K(i nu), over its largest entry, at frequencies nu up to the highest; at rest there is
-        none.
+        Largest error of K(i nu), over its largest entry, at frequencies nu up to the highest; K(0) has none.
     highest_frequency : float [rad/s]
         Beyond it nothing is known of the error.
     """
@@ -125,8 +124,8 @@ def _fitted(motion: DynamicStiffness, still: Array, top: float, tolerance: float
         if fit.error <= tolerance and np.linalg.eigvalsh(fit.damping + fit.damping.T)[0] > 0.0:
             return fit
     raise ConvergenceError(
-        f"tolerance must be within reach of {ORDERS[-1]} states for each direction up to {top:.6g} rad/s, got "
-        f"{tolerance!r}: the least error is {least:.3g}"
+        f"tolerance must be within reach of {ORDERS[-1]} states for each direction up to {top:.6g} rad/s, "
+        f"got {tolerance!r}: the least error is {least:.3g}"
     )
 
 

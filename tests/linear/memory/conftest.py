@@ -21,7 +21,7 @@ OPENINGS = {
 
 @pytest.fixture(scope="session")
 def film_of():
-    """Return a function that makes a film of 50 mm length from the name of its openings and their pressure."""
+    """Return a function that makes a film 50 mm long from the name of its openings and their pressure."""
 
     def make(opening="top", supply_pressure=0.0, cells=(36, 4)):
         bearing = JournalBearing(

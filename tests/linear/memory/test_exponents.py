@@ -164,7 +164,9 @@ def test_roots_are_counted(roots):
     # counted against another polynomial whose roots are known
     other = np.array([1.0, -1.0, -3.0, -3.0])
     count = growing_count(
-        lambda nu: np.prod(1j * nu - np.array(roots)) / np.prod(1j * nu - other), np.linspace(0.0, 40.0, 161), 1
+        lambda nu: np.prod(1j * nu - np.array(roots)) / np.prod(1j * nu - other),
+        np.linspace(0.0, 40.0, 161),
+        1,
     )
     assert count == np.sum(np.real(roots) > 0.0)
 
@@ -179,7 +181,9 @@ def test_a_root_that_neither_grows_nor_decays_is_not_counted():
     ("opening", "supply", "So", "expected", "quasi_static"),
     [("top", 0.0, 0.5, 6.08, 0.82), ("hole", 2.0, 0.5, 5.53, 0.69)],
 )
-def test_critical_masses_of_an_independent_code(film_of, rest_of, opening, supply, So, expected, quasi_static):
+def test_critical_masses_of_an_independent_code(
+    film_of, rest_of, opening, supply, So, expected, quasi_static
+):
     """M c w^2/W by K(s) of a code of its own; slow motion gives far less."""
     film = film_of(opening, supply * 0.0053 * SPEED * 12.0 * 0.02 * 500.0**2, (144, 10))
     at = rest_of(film, So)

@@ -1,4 +1,4 @@
-"""Flexible rotors on films that remember: the equations at each exponent, and the rigid journal as a limit."""
+"""Flexible rotors on films that remember: the equations at each exponent, and a rigid journal as a limit."""
 
 import numpy as np
 import pytest

@@ -83,9 +83,7 @@ class FilmInMotion:
     def _room(self, rate: Complex) -> Complex:
         """Return the storage of the cavity at a rate on each line, shape (N, M)."""
         state = self.state
-        return np.where(
-            state.solution.full, 0.0, (rate * state.gap.line)[:, None] * self.film.cells.area
-        )
+        return np.where(state.solution.full, 0.0, (rate * state.gap.line)[:, None] * self.film.cells.area)
 
     def _response(self, rate: Complex, outflow: Complex) -> Complex | Array:
         return oil_response(self.state.equations, self.state.solution.full, self._room(rate), -outflow)

@@ -180,9 +180,7 @@ class JFOFilm(JFOHeat, SteppedFilm):
         """
         q, state = self._steady(position, speed)
         K, C = self._slow(state)
-        return ReducedCoefficients(
-            stiffness=K, damping=C, position=q, speed=float(speed), frequency=0.0
-        )
+        return ReducedCoefficients(stiffness=K, damping=C, position=q, speed=float(speed), frequency=0.0)
 
     def coefficients(
         self, position: ArrayLike, speed: float, frequency: float | None = None
