@@ -13,7 +13,13 @@ if TYPE_CHECKING:
     from .build_groove_map import build_groove_map as build_groove_map
     from .conserved.jfo_film import JFOFilm as JFOFilm
     from .conserved.jfo_state import JFOState as JFOState
-    from .conserved.rupture_error import RuptureError as RuptureError, rupture_error as rupture_error
+    from .conserved.rupture_error import (
+        RUPTURE_CELLS,
+        RuptureError as RuptureError,
+        both_films,
+        extrapolated_value,
+        rupture_error as rupture_error,
+    )
     from .extrapolated_film import ExtrapolatedFilm as ExtrapolatedFilm
     from .film_state import FilmState, film_state as film_state
     from .fitting import film_name

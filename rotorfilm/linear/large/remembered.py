@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...errors import ConvergenceError
-from ...model import Array, JournalForce
+from ...model import Array, Reaction
 from ...rotors import FlexibleRotor
 from ...rotors.structure import Structure
 from ...warming import Remembering
@@ -93,7 +93,7 @@ def rotor_growing(structure: Structure, at: RotorEquilibrium, values: np.ndarray
 
 def require_all_growing(
     rotor: FlexibleRotor,
-    bearings: Mapping[str, JournalForce],
+    bearings: Mapping[str, Reaction],
     speed: float,
     values: np.ndarray,
     growing: int,

@@ -141,7 +141,8 @@ def _fits(nu: Array, K: Complex, still: Array, top: float) -> Iterator[_Fit]:
             some = slice(1, None, 2)
             found, *_ = np.linalg.lstsq(_real(terms[some]), _real(wanted[some]), rcond=None)
             error = float(np.abs(terms @ found - wanted).max())
-            yield _Fit(decay, found[0].reshape(2, 2) / top, decay * found[1:].reshape(-1, 2, 2), error)
+            damping, parts = found[0].reshape(2, 2) / top, decay * found[1:].reshape(-1, 2, 2)
+            yield _Fit(decay, damping.astype(float), parts.astype(float), error)
 
 
 def _at_rest(order: int, decay: float) -> Array:

@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ...answers import HEATED, ISOTHERMAL, ErrorEstimate, Found
-from ...bearings.journal import JFOFilm, JournalBearing
-from ...bearings.journal.conserved.rupture_error import COARSE, both_films, extrapolated_value
+from ...bearings.journal import RUPTURE_CELLS, JFOFilm, JournalBearing, both_films, extrapolated_value
 from ...errors import InputError, RotorfilmError
 from ...ladders import BaseRung, Ladder, Rung
 from ...linear import equilibrium
@@ -34,7 +33,7 @@ CANCELED = 0.5
 """Of the sum of two parts of an error, what they leave together where they are taken as not canceling."""
 
 
-class Rest(NamedTuple):
+class RestedFilm(NamedTuple):
     """A journal at rest, and the film at its temperature there."""
 
     at: Equilibrium
@@ -52,7 +51,7 @@ def candidate(name: str, film: Any) -> FilmCandidate:
 
 
 @dataclass(frozen=True, eq=False)
-class Rupture:
+class RuptureChange:
     """Both films of a bearing on coarse grids, at rest under a load; found once.
 
     Attributes
@@ -70,30 +69,30 @@ class Rupture:
     @property
     def films(self) -> tuple[tuple[JournalBearing, JFOFilm], ...]:
         """Reynolds rupture, and the film that conserves its oil, on each of the cells, the coarser first."""
-        return tuple(both_films(self.bearing, cells) for cells in COARSE)
+        return tuple(both_films(self.bearing, cells) for cells in RUPTURE_CELLS)
 
     @cached_property
-    def rests(self) -> tuple[tuple[Rest, Rest], ...]:
+    def rests(self) -> tuple[tuple[RestedFilm, RestedFilm], ...]:
         """By Reynolds rupture, and by the film that conserves its oil, on each of the cells."""
         return tuple(
             (rest_on(one, self.load, self.speed), rest_on(other, self.load, self.speed))
             for one, other in self.films
         )
 
-    def change(self, value: Callable[[Rest], Any], *, relative: bool) -> Change:
+    def change(self, value: Callable[[RestedFilm], Any], *, relative: bool) -> Change:
         """Return what the conservation of oil changes in a quantity of a rest."""
         reynolds, conserved = (tuple(map(value, pair)) for pair in zip(*self.rests, strict=True))
         finer = Change(reynolds[-1], conserved[-1], relative)
         return Change(extrapolated_value(*reynolds), extrapolated_value(*conserved), relative, finer)
 
 
-def rest_on(film: Any, load: tuple[float, float], speed: float) -> Rest:
+def rest_on(film: Any, load: tuple[float, float], speed: float) -> RestedFilm:
     """Return where a journal rests on a film, which may be on an oil."""
     at = equilibrium(film, load, speed)
-    return Rest(at, settled(film, at.position, speed))
+    return RestedFilm(at, settled(film, at.position, speed))
 
 
-def rest_slopes(rest: Rest) -> tuple[np.ndarray, np.ndarray]:
+def rest_slopes(rest: RestedFilm) -> tuple[np.ndarray, np.ndarray]:
     """Return K and C of a rest: smooth ones of Reynolds rupture, else at the frequency of the shaft."""
     film, at = rest.film, rest.at
     if isinstance(film, JFOFilm):

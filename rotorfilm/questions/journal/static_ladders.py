@@ -18,7 +18,16 @@ from ...scenes.journal.warm_rest import uniform_rest
 from .conserved_rungs import ConservedRung, conserved_films
 from .field_rungs import HeatedQuestion
 from .heat_rungs import BALANCED, UniformRung, known_films, thermal_ladder
-from .ruptured_rungs import UNFED, Change, Rest, Rupture, rest_on, rest_slopes, with_rupture, within_of
+from .ruptured_rungs import (
+    UNFED,
+    Change,
+    RestedFilm,
+    RuptureChange,
+    rest_on,
+    rest_slopes,
+    with_rupture,
+    within_of,
+)
 from .statics import (
     ANGLE,
     LOSSES,
@@ -60,7 +69,7 @@ def static_ladder(scene: Scene, quantity: str) -> Ladder:
     plain = scene.journal_bearing.geometry.plain
     if plain and quantity == "side_flow":
         ladder = replace(ladder, remarks=(*ladder.remarks, UNFED))
-    rupture = Rupture(scene.journal_bearing, scene.static_load, scene.speed)
+    rupture = RuptureChange(scene.journal_bearing, scene.static_load, scene.speed)
 
     def change(found: Found) -> Change:
         return rupture.change(
@@ -125,7 +134,7 @@ def heat_of_balance(scene: Scene, quantity: str) -> Callable[[float], ErrorEstim
     return heat
 
 
-def conserved_value(quantity: str, rest: Rest, scene: Scene) -> Array | float:
+def conserved_value(quantity: str, rest: RestedFilm, scene: Scene) -> Array | float:
     """Return a static quantity of a rest; K and C of a film that remembers at the frequency of the shaft."""
     at = rest.at
     if quantity in MATRIX:

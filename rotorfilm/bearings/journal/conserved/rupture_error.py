@@ -17,7 +17,7 @@ from ..bearing import JournalBearing
 from ..reynolds_film import ReynoldsFilm
 from .jfo_film import JFOFilm
 
-COARSE = (36, 4), (72, 8)
+RUPTURE_CELLS = (36, 4), (72, 8)
 """Cells on which both films are solved; what they differ by is extrapolated from them, of second order."""
 
 
@@ -27,15 +27,15 @@ class RuptureError(Readable):
 
     Attributes
     ----------
-    force : float [1]
+    force_error : float [1]
         Distance of both forces over that of the film that conserves its oil.
-    side_flow, friction_torque : float [1]
+    side_flow_error, torque_error : float [1]
         Of Reynolds rupture over that of the film that conserves its oil, less 1.
     """
 
-    force: float
-    side_flow: float
-    friction_torque: float
+    force_error: float
+    side_flow_error: float
+    torque_error: float
 
 
 @arguments
@@ -70,14 +70,14 @@ def rupture_error(bearing: JournalBearing, position: ArrayLike, speed: float) ->
     >>> size = dict(radius=0.05, length=0.05, clearance=1e-4, viscosity=0.02)
     >>> hole = FeedHole(center="90 deg", diameter="14 mm")
     >>> bearing = JournalBearing(**size, grooves=(hole,), supply_pressure=2e5)
-    >>> rupture_error(bearing, position=[30e-6, -50e-6], speed=314.2).side_flow > 0.3
+    >>> rupture_error(bearing, position=[30e-6, -50e-6], speed=314.2).side_flow_error > 0.3
     True
     """
     require_kind("bearing", bearing, JournalBearing, "a JournalBearing")
     if speed == 0.0:
         raise InputError("speed must not be zero for a film that ruptures, got 0.0")
     place, rest = require_vector("position", position), np.zeros(2)
-    films = zip(*(both_films(bearing, cells) for cells in COARSE), strict=True)
+    films = zip(*(both_films(bearing, cells) for cells in RUPTURE_CELLS), strict=True)
     reynolds, conserved = (
         extrapolated_value(*(_numbers(film, place, rest, speed) for film in pair)) for pair in films
     )
@@ -85,9 +85,9 @@ def rupture_error(bearing: JournalBearing, position: ArrayLike, speed: float) ->
     if size == 0.0:
         raise InputError(f"position must make a force, got {place!r}, where there is none")
     return RuptureError(
-        force=float(np.hypot(*(reynolds - conserved)[:2])) / size,
-        side_flow=float(reynolds[2] / conserved[2]) - 1.0,
-        friction_torque=float(reynolds[3] / conserved[3]) - 1.0,
+        force_error=float(np.hypot(*(reynolds - conserved)[:2])) / size,
+        side_flow_error=float(reynolds[2] / conserved[2]) - 1.0,
+        torque_error=float(reynolds[3] / conserved[3]) - 1.0,
     )
 
 
