@@ -95,7 +95,7 @@ class Folder(NamedTuple):
 def native_variables(model, spec, start):
     """Return time, parameters, inputs, outputs, states and derivatives of a model that is called m."""
     inputs = np.array([float(start.get(s.name, 0.0)) for s in model.inputs])
-    return native_model_variables(Export(model, spec, "m", "", inputs, 1.0, "2.0", "host"))
+    return native_model_variables(Export(model, spec, "m", "", inputs, 1.0, "2.0", "host", "m"))
 
 
 @pytest.fixture
