@@ -11,7 +11,7 @@ from ...comparisons.limits.limit_panels import Limit, LimitAtlas, Panel, failure
 from ..canvas import new_figure
 
 COLUMNS = 2
-SIZE = (4.7, 4.0)
+SIZE = (4.7, 4.6)
 """Width and height of a panel [inch]."""
 
 LONG = 24
@@ -65,7 +65,7 @@ def _finish(axes: Axes, panel: Panel) -> None:
     longest = max(len(label) for label in axes.get_legend_handles_labels()[1])
     columns = 1 if longest > LONG else 2
     # below, where no curve is
-    axes.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=columns, frameon=False)
+    axes.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=columns, frameon=False)
 
 
 def plot_limit_summary(atlas: LimitAtlas) -> list[Axes]:

@@ -59,13 +59,13 @@ def to_ross(
         for letter, table in (("k", stiffness), ("c", damping))
         for entry, (row, column) in ENTRIES.items()
     }
-    if isinstance(bearing, TabulatedBearing) and len(bearing.speeds) < 4:
-        raise InputError(f"speeds must be at least 4 for ROSS, got {len(bearing.speeds)}")
+    speeds = np.asarray(bearing.speeds) if isinstance(bearing, TabulatedBearing) else None
+    if speeds is not None and len(speeds) < 4:
+        raise InputError(f"speeds must be at least 4 for ROSS, got {len(speeds)}")
     element = _ross().BearingElement
-    if isinstance(bearing, TabulatedBearing):
+    if speeds is not None:
         # From 3 on what ROSS calls frequency is that of the whirl.
-        axis = "speed" if "speed" in signature(element).parameters else "frequency"
-        values[axis] = np.asarray(bearing.speeds)
+        values["speed" if "speed" in signature(element).parameters else "frequency"] = speeds
     return element(n=node, tag=tag, **values)
 
 
