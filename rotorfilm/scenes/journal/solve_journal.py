@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -164,9 +165,11 @@ def conserved_threshold(film: JFOFilm, load: tuple[float, float], mass: float, s
     # Imported here: nothing else of an answer takes it.
     from scipy.optimize import brentq
 
+    whole: Any = film  # a force at rest, which is what these take
+
     def growth(speed: float) -> float:
-        position = equilibrium(film, load, speed).position
-        return whirl_growth(settled(film, position, speed), position, speed, mass)
+        position = equilibrium(whole, load, speed).position
+        return whirl_growth(settled(whole, position, speed), position, speed, mass)
 
     speed, own = start, growth(start)
     factor = STEP if own < 0.0 else 1.0 / STEP
