@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ..errors import InputError, require_positive
 from ..files import write_whole
 from ..inputs.kinds import arguments
-from ..model import Dynamic, Model
+from ..model import Dynamic, Model, Stepped
 from .archive import to_zip
 from .description.system_structure import (
     PARAMETERS,
@@ -42,7 +42,7 @@ class Part(NamedTuple):
 @arguments
 def export_ssp(
     rotor: Dynamic | control.StateSpace,
-    films: Model | Mapping[str, Model],
+    films: Model | Stepped | Mapping[str, Model | Stepped],
     path: str | Path,
     version: str = "2.0",
     *,
@@ -62,7 +62,7 @@ def export_ssp(
     ----------
     rotor : Dynamic or control.StateSpace
         With inputs `force_x`, `force_y` and outputs `x`, `y`, `vx`, `vy` of each station.
-    films : Model, or mapping of station to Model
+    films : Model or Stepped, or a mapping of stations to these
         Bearings or dampers.
     path : str or Path
         File to write, ending in `.ssp`; its folder is made if need be.
