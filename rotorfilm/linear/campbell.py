@@ -253,6 +253,7 @@ def _tracks(points: list[RotorModes], mass: Array) -> list[dict[int, int]]:
     return tracks
 
 
+@arguments
 def resonant_speeds(speeds: ArrayLike, critical: Sequence[CriticalSpeed]) -> Array:
     """Return the speeds with more of them across the resonances between them, so that no peak is cut off.
 

@@ -16,8 +16,6 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from ...bearings.linear import LinearBearing
 from ...bearings.tabulated import TabulatedBearing
 from ...errors import InputError
@@ -34,6 +32,7 @@ from ...rotors import (
     Station,
     Support,
 )
+from .ross_coefficients import RossTable, over_speed, read_bearing
 
 ABSENT = ("alpha", "beta")
 """Numbers of a shaft element that must be zero: what a ShaftRotor cannot have."""
@@ -43,8 +42,6 @@ MODAL = "default_damping_ratio"
 
 PRESENT = ("rotary_inertia", "gyroscopic")
 """Effects that a ShaftRotor always has."""
-
-RossTable = Mapping[str, Any]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -108,14 +105,14 @@ def _read(file: Path, data: RossTable, speed: float | SpeedProfile) -> RossRotor
     ]
     chain = _chain(file, pieces)
     known = ("ShaftElement_", "CouplingElement_", "DiskElement_", "PointMass_")
-    rest = {n: t for n, t in _over_speed(data, tables).items() if not n.startswith(known)}
+    rest = {n: t for n, t in over_speed(data, tables).items() if not n.startswith(known)}
     housings = _supports(chain, _of(tables, "PointMass"), rest)
     stations = {
         _identifier(name, k): (name, table)
         for k, (name, table) in enumerate(rest.items())
         if table.get("n") not in housings
     }
-    bearings = {label: _bearing(name, table) for label, (name, table) in stations.items()}
+    bearings = {label: read_bearing(name, table) for label, (name, table) in stations.items()}
     rotor = ShaftRotor(
         elements=chain,
         disks=(*_disks(_of(tables, "DiskElement")), *_flanges(couplings)),
@@ -134,20 +131,6 @@ def _require_undamped(file: Path, parameters: RossTable) -> None:
     for key in (*ABSENT, MODAL):
         if parameters.get(key, 0.0):
             raise InputError(f"{key} must be 0, got {parameters[key]!r} among the parameters of {file}")
-
-
-def _over_speed(data: RossTable, tables: Mapping[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
-    """Return the tables with one axis, named as in ROSS 1 and 2, whose `frequency` is the speed.
-
-    From 3 on `frequency` is that of the whirl, which no table over speed has.
-    """
-    found = {}
-    for name, table in tables.items():
-        speed, whirl = table.get("speed"), table.get("frequency")
-        if whirl is not None and (speed is not None or str(data.get("ross_version", "2")) >= "3"):
-            raise InputError(f"speed must be the only axis of the coefficients, got frequency in {name!r}")
-        found[name] = table if speed is None else {**table, "frequency": speed}
-    return found
 
 
 def _of(tables: Mapping[str, dict[str, Any]], kind: str) -> dict[str, dict[str, Any]]:
@@ -252,7 +235,7 @@ def _supports(
             raise InputError(
                 f"n of one bearing to the ground must be that of {mass_name!r}, got {len(below)}"
             )
-        spring = _bearing(*below[0])
+        spring = read_bearing(*below[0])
         if not isinstance(spring, LinearBearing):
             raise InputError(f"frequency must be absent for a support, got a table in {below[0][0]!r}")
         found[node] = Support(mass=mass["mx"], stiffness=spring.stiffness, damping=spring.damping)
@@ -268,40 +251,6 @@ def _support_of(name: str, table: RossTable, supports: Mapping[int, Support]) ->
             f"n_link must be the node of a point mass {sorted(supports)}, got {link!r} in {name!r}"
         )
     return supports[link]
-
-
-def _bearing(name: str, table: RossTable) -> LinearBearing | TabulatedBearing:
-    if "kxx" not in table:
-        raise InputError(
-            f"{name!r} must be a shaft element, a disk or have the coefficient kxx, got {list(table)}"
-        )
-    masses = [table.get(f"m{entry}", 0.0) for entry in ("xx", "xy", "yx", "yy")]
-    if any(np.any(np.asarray(mass)) for mass in masses):
-        raise InputError(f"mxx, mxy, myx, myy must be 0, got {masses} in {name!r}")
-    stiffness, damping = (_entries(table, letter) for letter in "kc")
-    if len(stiffness) == len(damping) == 1:
-        return LinearBearing(stiffness=stiffness[0], damping=damping[0])
-    speeds = np.asarray(table.get("frequency", ()), dtype=float)
-    if len(speeds) < 2:
-        raise InputError(
-            f"frequency must go with the coefficients, got {table.get('frequency')!r} in {name!r}"
-        )
-    whole = [np.broadcast_to(t, (len(speeds), 2, 2)) for t in (stiffness, damping)]
-    return TabulatedBearing(speeds=speeds, stiffness=whole[0], damping=whole[1])
-
-
-def _entries(table: RossTable, letter: str) -> np.ndarray:
-    """Return the coefficients k or c, shape (n, 2, 2); ROSS leaves out what it can guess."""
-    main = table[f"{letter}xx"]
-    cross = np.zeros_like(np.atleast_1d(main))
-    found = [
-        table.get(f"{letter}xx"),
-        table.get(f"{letter}xy", cross),
-        table.get(f"{letter}yx", cross),
-        table.get(f"{letter}yy", main),
-    ]
-    columns = np.broadcast_arrays(*(np.atleast_1d(np.asarray(entry, dtype=float)) for entry in found))
-    return np.stack(columns, axis=-1).reshape(-1, 2, 2)
 
 
 def _identifier(name: str, number: int) -> str:
