@@ -32,7 +32,7 @@ from ...rotors import (
     Station,
     Support,
 )
-from .ross_coefficients import RossTable, over_speed, ross_coefficients
+from .ross_coefficients import RossTable, over_speed, read_bearing
 
 ABSENT = ("alpha", "beta")
 """Numbers of a shaft element that must be zero: what a ShaftRotor cannot have."""
@@ -112,7 +112,7 @@ def _read(file: Path, data: RossTable, speed: float | SpeedProfile) -> RossRotor
         for k, (name, table) in enumerate(rest.items())
         if table.get("n") not in housings
     }
-    bearings = {label: ross_coefficients(name, table) for label, (name, table) in stations.items()}
+    bearings = {label: read_bearing(name, table) for label, (name, table) in stations.items()}
     rotor = ShaftRotor(
         elements=chain,
         disks=(*_disks(_of(tables, "DiskElement")), *_flanges(couplings)),
@@ -235,7 +235,7 @@ def _supports(
             raise InputError(
                 f"n of one bearing to the ground must be that of {mass_name!r}, got {len(below)}"
             )
-        spring = ross_coefficients(*below[0])
+        spring = read_bearing(*below[0])
         if not isinstance(spring, LinearBearing):
             raise InputError(f"frequency must be absent for a support, got a table in {below[0][0]!r}")
         found[node] = Support(mass=mass["mx"], stiffness=spring.stiffness, damping=spring.damping)

@@ -1,4 +1,4 @@
-"""Stiffness and damping of bearings in the files of ROSS."""
+"""Bearings in files of ROSS: coefficients, constant or over speed."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ def over_speed(data: RossTable, tables: Mapping[str, dict[str, Any]]) -> dict[st
     return found
 
 
-def ross_coefficients(name: str, table: RossTable) -> LinearBearing | TabulatedBearing:
-    """Return the bearing of a table; one over speed where it has an axis."""
+def read_bearing(name: str, table: RossTable) -> LinearBearing | TabulatedBearing:
+    """Return the bearing of a table, whose `frequency` is the speed; see `over_speed`."""
     if "kxx" not in table:
         raise InputError(
             f"{name!r} must be a shaft element, a disk or have the coefficient kxx, got {list(table)}"
