@@ -8,19 +8,20 @@ from dataclasses import dataclass, field, replace
 from typing import cast
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from ..bearings.contact_place import minimum_film
 from ..errors import EquilibriumError, InputError, require_number
 from ..inputs.kinds import arguments
-from ..model import Array, JournalForce, Reaction, require_reactions
+from ..model import Array, Reaction
 from ..readable.result import Readable
 from ..results import Coefficients
 from ..rotors import FlexibleRotor, require_flexible
 from ..rotors.structure import Structure, across_planes
 from ..warming import Warming
-from .coefficients import coefficients
 from .equilibrium import equilibrium
 from .large.condensed import models, usual_frequency
+from .large.tilting import TiltingReaction, coefficients_at, film_rows, force_at, require_bearings, slopes_at
 
 TOLERANCE = 1e-10
 """Largest imbalance of forces, and misfit of displacements, relative to their scale, above roundoff."""
@@ -48,7 +49,8 @@ class RotorEquilibrium(Readable):
     coefficients : dict of str to Coefficients
         Stiffness, damping and journal position of each bearing, by station.
     loads : dict of str to ndarray, shape (2,) [N]
-        Static load on each bearing, by station.
+        Static load on each bearing, by station; shape (4,) with the moments about x, y [N m] of one that
+        resists tilts.
     displacement : ndarray, shape (N,)
         Coordinates of the rotor.
     residual : float [1]
@@ -79,7 +81,7 @@ def rotor_equilibrium(
         Its own speed is not used.
     bearings : mapping of str to Reaction
         By the name of the station; a station without one is free. Without weight they need not hold the
-        rotor.
+        rotor. `TiltingBalls` go into stations that feel tilts.
     speed : float [rad/s]
         Angular speed about +z, of either sign.
 
@@ -107,11 +109,11 @@ def rotor_equilibrium(
 
 def rest(structure: Structure, bearings: Mapping[str, Reaction], speed: float) -> RotorEquilibrium:
     """Return where a rotor of these matrices rests; see `rotor_equilibrium`."""
-    require_reactions("bearings", bearings, JournalForce)
+    require_bearings(bearings)
     system = _System(structure, bearings, speed)
     q, loads = system.on_rigid_bearings()
-    alone = [system.alone(k, load) for k, load in enumerate(loads.reshape(-1, 2))]
-    p = np.ravel([position for position, _ in alone])
+    alone = [system.alone(k, load) for k, load in enumerate(system.split(loads))]
+    p = np.concatenate([np.zeros(0), *(position for position, _ in alone)])
     temperatures = [temperature for _, temperature in alone]
     for _ in range(WARMINGS):
         system.warm(temperatures)
@@ -141,13 +143,18 @@ class _System:
         self.given = [bearings[name] for name in self.names]
         self.bearings = list(self.given)
         self.speed = speed
-        rows = [2 * structure.stations.index(name) + axis for name in self.names for axis in range(2)]
-        self.journals = structure.journals[rows]
+        self.sizes = [4 if isinstance(b, TiltingReaction) else 2 for b in self.given]
+        rows = [film_rows(structure, *pair) for pair in zip(self.names, self.sizes, strict=True)]
+        self.journals = np.concatenate([np.zeros((0, len(structure.weight))), *rows])
         self.stiffness = structure.stiffness + speed * structure.circulation
         if structure.hysteresis is not None:
             self.stiffness = self.stiffness + np.sign(speed) * across_planes(structure.hysteresis)
         self.weight = structure.weight
         self.size = float(np.abs(structure.weight).sum()) or 1.0
+
+    def split(self, values: Array) -> list[Array]:
+        """Return what a vector over the rows of all bearings has of each."""
+        return np.split(values, np.cumsum(self.sizes)[:-1]) if self.sizes else []
 
     def on_rigid_bearings(self) -> tuple[Array, Array]:
         """Return the displacement of the rotor, and the loads on bearings that do not give way."""
@@ -178,6 +185,10 @@ class _System:
     def alone(self, k: int, load: Array) -> tuple[Array, float | None]:
         """Return the position of one journal under its load, and the temperature of a film that warms."""
         bearing = self.given[k]
+        if isinstance(bearing, TiltingReaction):
+            still = np.linalg.norm(load[:2]) <= 1e-9 * self.size
+            at = np.zeros(2) if still else equilibrium(bearing.planar, load[:2], self.speed).position
+            return np.append(at, (0.0, 0.0)), None
         if np.linalg.norm(load) <= 1e-9 * self.size or not math.isfinite(bearing.clearance):
             return np.zeros(2), self._balanced(bearing, np.zeros(2))
         at = equilibrium(bearing, load, self.speed)
@@ -190,7 +201,7 @@ class _System:
 
     def balanced(self, p: Array) -> list[float | None]:
         """Return the temperatures of the films that warm, for these positions of the journals."""
-        return [self._balanced(b, at) for b, at in zip(self.given, p.reshape(-1, 2), strict=True)]
+        return [self._balanced(b, at) for b, at in zip(self.given, self.split(p), strict=True)]
 
     def _balanced(self, bearing: Reaction, at: Array) -> float | None:
         warms = isinstance(bearing, Warming) and bearing.is_warming
@@ -206,16 +217,13 @@ class _System:
             return q, p
 
     def forces(self, p: Array) -> Array:
-        pairs = zip(self.bearings, p.reshape(-1, 2), strict=True)
-        return np.ravel([b.force(at, np.zeros(2), self.speed) for b, at in pairs])
+        pairs = zip(self.bearings, self.split(p), strict=True)
+        return np.concatenate([np.zeros(0), *(force_at(b, at, self.speed) for b, at in pairs)])
 
     def slopes(self, p: Array) -> Array:
         """Return d(forces)/dp, block by block."""
-        whole = np.zeros((len(p), len(p)))
-        for k, (bearing, at) in enumerate(zip(self.bearings, p.reshape(-1, 2), strict=True)):
-            pair = slice(2 * k, 2 * k + 2)
-            whole[pair, pair] = bearing.jacobian(at, np.zeros(2), self.speed)[:, :2]
-        return whole
+        pairs = zip(self.bearings, self.split(p), strict=True)
+        return np.asarray(block_diag(np.zeros((0, 0)), *(slopes_at(b, at, self.speed) for b, at in pairs)))
 
     def residual(self, q: Array, p: Array, s: float) -> tuple[Array, Array]:
         forces = self.stiffness @ q - self.weight - self.journals.T @ self.forces(p)
@@ -223,7 +231,7 @@ class _System:
 
     def tolerances(self, q: Array, p: Array, s: float) -> tuple[Array, Array]:
         """Return the residuals at which the rotor rests: TOLERANCE, and roundoff of what cancels in them."""
-        lengths = np.repeat([min(b.clearance, 1e-4) for b in self.bearings], 2)
+        lengths = np.repeat([min(b.clearance, 1e-4) for b in self.bearings], self.sizes)
         forces = np.abs(self.weight) + np.abs(self.stiffness) @ np.abs(q)
         forces = forces + np.abs(self.journals.T) @ np.abs(self.forces(p))
         misfit = np.abs(self.journals) @ np.abs(q) + s * np.abs(p)
@@ -256,20 +264,22 @@ class _System:
     def _within(self, p: Array, step: Array) -> float:
         """Return the part of a step that leaves every journal at least half of its gap."""
         share = 1.0
-        pairs = zip(self.bearings, p.reshape(-1, 2), step.reshape(-1, 2), strict=True)
-        for bearing, at, move in pairs:
-            gap, length = float(minimum_film(bearing, at)), math.hypot(*move)
+        for bearing, at, move in zip(self.bearings, self.split(p), self.split(step), strict=True):
+            # Balls push back wherever the shaft goes: no gap, but a way on which their force may change much.
+            tilting = isinstance(bearing, TiltingReaction)
+            gap = bearing.clearance if tilting else float(minimum_film(bearing, at))
+            length = math.hypot(*move[:2])
             share = min(share, 0.5 * gap / length if length > 0.5 * gap else 1.0)
         return share
 
     def result(self, q: Array, p: Array, temperatures: list[float | None]) -> RotorEquilibrium:
         forces = self.forces(p)
-        places = dict(zip(self.names, p.reshape(-1, 2), strict=True))
+        places = dict(zip(self.names, self.split(p), strict=True))
         films = dict(zip(self.names, self.bearings, strict=True))
         return RotorEquilibrium(
             speed=self.speed,
-            coefficients={name: coefficients(films[name], at, self.speed) for name, at in places.items()},
-            loads=dict(zip(self.names, -forces.reshape(-1, 2), strict=True)),
+            coefficients={name: coefficients_at(films[name], at, self.speed) for name, at in places.items()},
+            loads=dict(zip(self.names, self.split(-forces), strict=True)),
             displacement=q,
             residual=float(np.abs(self.residual(q, p, 1.0)[0]).max()) / self.size,
             temperatures={n: T for n, T in zip(self.names, temperatures, strict=True) if T is not None},

@@ -17,7 +17,8 @@ from ..rotors.structure import output_rows
 from ..signals import names
 from .closed_loop import HOUSING, checked_speeds
 from .large.driven import driven
-from .large.second_order import journal_rows, second_order, small_motion
+from .large.second_order import second_order, small_motion
+from .large.tilting import film_rows
 from .linearize import control_system
 from .rotor_rest import RotorEquilibrium
 
@@ -242,7 +243,7 @@ def _outputs(rotor: FlexibleRotor, at: RotorEquilibrium) -> tuple[Array, list[st
     rows: Sequence[Array] = [output_rows(s)]
     labels = names(rotor.outputs)[:-1]
     for name, film in at.coefficients.items():
-        journal = journal_rows(s, name)
-        rows = [*rows, np.hstack([film.stiffness @ journal, film.damping @ journal])]
+        felt = film_rows(s, name, len(film.stiffness))
+        rows = [*rows, np.hstack([film.stiffness[:2] @ felt, film.damping[:2] @ felt])]
         labels += [station_name(name, signal) for signal in HOUSING]
     return np.vstack(rows), labels

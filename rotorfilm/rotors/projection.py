@@ -43,6 +43,7 @@ def projected(full: Structure, shapes: Array) -> Structure:
         readouts=tuple(Readout(readout.signal, readout.row @ twice) for readout in full.readouts),
         housings=None if full.housings is None else full.housings @ basis,
         hysteresis=None if full.hysteresis is None else shapes.T @ (full.hysteresis @ shapes),
+        tilts=None if full.tilts is None else full.tilts @ basis,
     )
 
 

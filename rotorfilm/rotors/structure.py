@@ -2,9 +2,8 @@
 
     M q'' + (C + w G) q' + (K + w H) q = T' f + weight + unbalance(t)
 
-with the angular speed w. The first half of q are coordinates of the x-z plane, the second half the same
-coordinates of the y-z plane. G is the gyroscopic effect; H is what rotating damping does to the
-displacement. The rows of T give the displacement of a journal from its housing.
+with the angular speed w. The first half of q are coordinates of the x-z plane, the second half those of the
+y-z plane. G is the gyroscopic effect, H rotating damping. T gives the displacement of journals from housings.
 
 The torque that drives the shaft is taken to follow the tilt of each cross section, as it does where the shaft
 itself transmits it; an angular acceleration then has no moment of its own besides that on the unbalance.
@@ -57,8 +56,7 @@ class Structure(NamedTuple):
     ----------
     mass, damping, gyroscopic, stiffness, circulation : ndarray or sparse array, shape (N, N)
         M, C, G, K, H of the module's equation, SI. A chain of elements is assembled sparse.
-    stations : tuple of str
-        Names of the bearing stations, empty for one without a prefix.
+    stations : tuple of str, empty for one without a prefix
     journals : ndarray, shape (2 n_stations, N)
         T: displacement of each journal from its housing, x and y in turn.
     weight : ndarray, shape (N,) [N]
@@ -66,12 +64,13 @@ class Structure(NamedTuple):
         Force per pair (w^2 cos p + a sin p, w^2 sin p - a cos p), angle p and its second derivative a.
     coordinates : tuple of Coordinate, length N / 2
     readouts : tuple of Readout
-    supports : tuple of int
-        Places of the housings among the coordinates of a plane.
+    supports : tuple of int, places of the housings among the coordinates of a plane
     housings : ndarray, shape (2 n_stations, N), or None
         Displacement of each housing, x and y in turn; None if all are rigid.
     hysteresis : ndarray, shape (N / 2, N / 2), or None
         Loss factor times stiffness of the rotating shaft in one plane [N/m].
+    tilts : ndarray, shape (2 n_stations, N), or None
+        Of the shaft about +x, +y, at stations that feel it.
     """
 
     mass: Array
@@ -88,6 +87,7 @@ class Structure(NamedTuple):
     supports: tuple[int, ...] = ()
     housings: Array | None = None
     hysteresis: Array | None = None
+    tilts: Array | None = None
 
 
 def dense(structure: Structure) -> Structure:

@@ -151,6 +151,7 @@ MADE = [
     DEEP_GROOVE,
     ANGULAR_CONTACT,
     rf.back_to_back(ANGULAR_CONTACT, distance=0.02, preload=100.0),
+    rf.TiltingBalls(bearing=ANGULAR_CONTACT),
     rf.BearingPair(
         bearing=ANGULAR_CONTACT,
         distance=0.02,

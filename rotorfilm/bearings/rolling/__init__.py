@@ -22,5 +22,6 @@ if TYPE_CHECKING:
         stribeck_load as stribeck_load,
     )
     from .rolling_material import RollingMaterial as RollingMaterial
+    from .tilting_balls import TiltingBalls as TiltingBalls
 else:
     show(__name__)

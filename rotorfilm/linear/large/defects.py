@@ -6,12 +6,14 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from ...model import Array
 from ...rotors.structure import Structure
 from ..rotor_rest import RotorEquilibrium
 from .condensed import MARGIN, Condensed
 from .second_order import small_motion
+from .tilting import film_rows
 
 _FASTER = 1.0 / (1.0 - MARGIN**-2.0)
 """How much more what is left out gives way than to slow forces, at most."""
@@ -22,14 +24,14 @@ class WholeRotor:
 
     def __init__(self, structure: Structure, at: RotorEquilibrium, frequency: float) -> None:
         self.shaft = small_motion(structure, replace(at, coefficients={}), frequency)
-        self.rows = structure.journals
-        size = len(self.rows), len(self.rows)
-        kind = np.result_type(float, *(film.stiffness for film in at.coefficients.values()))
-        self.films = [np.zeros(size, dtype=kind) for _ in range(2)]
-        for name, film in at.coefficients.items():
-            pair = 2 * structure.stations.index(name) + np.arange(2)
-            for block, part in zip(self.films, (film.stiffness, film.damping), strict=True):
-                block[np.ix_(pair, pair)] = part
+        films = at.coefficients
+        rows = [film_rows(structure, name, len(film.stiffness)) for name, film in films.items()]
+        self.rows = np.concatenate([np.zeros((0, len(structure.weight))), *rows])
+        none, found = np.zeros((0, 0)), films.values()
+        self.films = [
+            block_diag(none, *(film.stiffness for film in found)),
+            block_diag(none, *(film.damping for film in found)),
+        ]
 
     def forces(self, values: Any, motion: np.ndarray) -> np.ndarray:
         """Return L(s) x, shape (N, m), of motions x at one s [1/s] or one for each."""

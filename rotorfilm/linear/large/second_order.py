@@ -13,6 +13,7 @@ from ...bearings.at_frequency import MemoryCoefficients
 from ...model import Array
 from ...rotors.structure import Structure, across_planes, both_planes
 from ..rotor_rest import RotorEquilibrium
+from .tilting import film_rows
 
 
 class SecondOrder(NamedTuple):
@@ -41,7 +42,7 @@ def second_order(structure: Structure, at: RotorEquilibrium) -> SecondOrder:
     damping = structure.damping + at.speed * structure.gyroscopic
     stiffness = structure.stiffness + at.speed * structure.circulation
     for name, film in at.coefficients.items():
-        rows = journal_rows(structure, name)
+        rows = film_rows(structure, name, len(film.stiffness))
         damping = damping + _at_journal(structure, rows, film.damping)
         stiffness = stiffness + _at_journal(structure, rows, film.stiffness)
     return SecondOrder(structure.mass, damping, stiffness)

@@ -71,6 +71,7 @@ def _loads(full: Structure) -> Array:
     both = [full.journals[:, :n], full.journals[:, n:], housings]
     both += [full.weight.reshape(2, n), full.unbalance[:n].T, full.unbalance[n:].T]
     both += [readout.row[: 2 * n].reshape(2, n) for readout in full.readouts]
+    both += [] if full.tilts is None else [full.tilts[:, :n], full.tilts[:, n:]]
     rows = np.vstack(both)
     return np.asarray(rows[np.any(rows, axis=1)].T)
 

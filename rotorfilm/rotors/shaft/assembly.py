@@ -75,6 +75,7 @@ def assemble(
         supports=tuple(range(size - len(supported), size)),
         housings=housings if supported else None,
         hysteresis=loss_factor * stiffness if loss_factor else None,
+        tilts=_tilts(stations, size) if any(station.feels_tilt for station in stations) else None,
     )
 
 
@@ -131,6 +132,16 @@ def _journals(stations: Sequence[Station], size: int) -> Array:
     for k, station in enumerate(stations):
         for axis in range(2):
             rows[2 * k + axis, axis * size + 2 * station.node] = 1.0
+    return rows
+
+
+def _tilts(stations: Sequence[Station], size: int) -> Array:
+    """Return the tilt about +x and +y at each station that feels it: -dy/dz and dx/dz."""
+    rows = np.zeros((2 * len(stations), 2 * size))
+    for k, station in enumerate(stations):
+        if station.feels_tilt:
+            rows[2 * k, size + 2 * station.node + 1] = -1.0
+            rows[2 * k + 1, 2 * station.node + 1] = 1.0
     return rows
 
 

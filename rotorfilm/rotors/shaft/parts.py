@@ -130,11 +130,15 @@ class Station:
         Prefix of its signals, as `left` in `left_force_x`; empty for one station at most, whose signals then
         are those that `simulate` and `cosimulate` connect with a film.
     support : Support, optional
+        Its housing moves along x and y and does not tilt.
+    feels_tilt : bool
+        Whether the bearing here may also resist the tilt of the shaft, as `TiltingBalls` do.
     """
 
     node: int
     name: str = ""
     support: Support | None = None
+    feels_tilt: bool = False
 
     def __post_init__(self) -> None:
         if self.name and not self.name.isidentifier():

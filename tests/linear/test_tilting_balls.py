@@ -1,0 +1,175 @@
+"""Flexible rotors on ball bearings that resist tilts: closed forms of a mass on a cantilever, and balances."""
+
+import math
+
+import numpy as np
+import pytest
+
+import rotorfilm as rf
+from rotorfilm.errors import InputError
+
+SINGLE = rf.BallBearing(
+    balls=16, ball_diameter="7.938 mm", pitch_diameter="46.5 mm", contact_angle="25 deg", axial_load=400.0
+)
+PAIR = rf.back_to_back(SINGLE, distance="20 mm", preload="150 N")
+LIGHT = rf.ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=0.01)
+STEEL = rf.ElasticMaterial(young_modulus=211e9, shear_modulus=81.2e9, density=7810.0)
+LENGTH, DIAMETER, MASS, UNBALANCE = 0.12, 0.03, 0.02, 1e-8
+
+
+def overhung() -> rf.ShaftRotor:
+    """Return a mass at the end of a slender light shaft that one bearing holds."""
+    piece = rf.ShaftElement(
+        length=LENGTH, outer_diameter=DIAMETER, material=LIGHT, shear_coefficient=1e7
+    )
+    return rf.ShaftRotor(
+        elements=piece.split(2),
+        speed=0.0,
+        stations=(rf.Station(node=0, name="left", feels_tilt=True),),
+        disks=(rf.Disk(node=2, mass=MASS),),
+        unbalances=(rf.Unbalance(node=2, unbalance=UNBALANCE),),
+        probes=(rf.Probe(node=2, name="disk"),),
+        gravity=(0.0, 0.0),
+    )
+
+
+def end_stiffness(bearing: rf.BallBearing, speed: float) -> float:
+    """Return what a force along x at the end of that shaft meets [N/m]: all five degrees give way."""
+    z = bearing.axial_place(speed=speed)
+    arm = np.array([1.0, 0.0, 0.0, 0.0, LENGTH])
+    ball = arm @ np.linalg.solve(bearing.stiffness((0.0, 0.0, z, 0.0, 0.0), speed), arm)
+    bending = LENGTH**3 / (3.0 * 211e9 * math.pi * DIAMETER**4 / 64.0)
+    return float(1.0 / (ball + bending))
+
+
+def test_a_mass_on_a_cantilever_swings_with_the_stiffness_of_all_five_degrees() -> None:
+    # The coupling of x and tilt_y is a third of the compliance here, of either sign for a tilt turned round.
+    bearings = {"left": rf.TiltingBalls(bearing=SINGLE)}
+    speed = 800.0
+    wanted = math.sqrt(end_stiffness(SINGLE, speed) / MASS)
+    lowest = rf.rotor_modes(overhung(), bearings, speed).frequency[:2]
+    assert lowest == pytest.approx([wanted, wanted], rel=2e-4)
+
+
+def test_its_critical_speed_is_where_running_balls_leave_that_stiffness() -> None:
+    wanted = 1600.0
+    for _ in range(30):
+        wanted = math.sqrt(end_stiffness(SINGLE, wanted) / MASS)
+    bearings = {"left": rf.TiltingBalls(bearing=SINGLE)}
+    found = rf.critical_speeds(overhung(), bearings, np.linspace(1000.0, 2400.0, 7))
+    assert [one.speed for one in found] == pytest.approx([wanted] * len(found), rel=2e-4)
+    assert len(found) == 2
+    still = math.sqrt(end_stiffness(SINGLE, 0.0) / MASS)
+    assert abs(wanted / still - 1.0) > 1e-3  # the balls' inertia is seen
+
+
+def test_its_unbalance_response_is_that_of_a_mass_on_a_spring() -> None:
+    speed = 600.0
+    response = rf.unbalance_response(overhung(), {"left": rf.TiltingBalls(bearing=SINGLE)}, [speed])
+    at = response.output_labels.index("disk_x")
+    wanted = UNBALANCE * speed**2 / (end_stiffness(SINGLE, speed) - MASS * speed**2)
+    assert abs(response.frdata[at, 0, 0]) == pytest.approx(abs(wanted), rel=1e-3)
+
+
+def heavy(elements: int, bearing: rf.BearingPair) -> tuple[rf.ShaftRotor, dict[str, rf.TiltingBalls]]:
+    """Return a spindle with an overhang on two equal pairs."""
+    piece = rf.ShaftElement(length=0.3, outer_diameter=0.035, material=STEEL)
+    stations = tuple(
+        rf.Station(node=node * elements // 10, name=name, feels_tilt=True)
+        for name, node in (("left", 1), ("right", 6))
+    )
+    rotor = rf.ShaftRotor(
+        elements=piece.split(elements),
+        speed=0.0,
+        stations=stations,
+        disks=(rf.Disk(node=elements, mass=3.0),),
+    )
+    return rotor, dict.fromkeys(("left", "right"), rf.TiltingBalls(bearing=bearing))
+
+
+def test_forces_and_moments_at_rest_balance_the_weight() -> None:
+    rotor, bearings = heavy(10, PAIR)
+    at = rf.rotor_equilibrium(rotor, bearings, 1000.0)
+    places = rotor.positions[[station.node for station in rotor.stations]]
+    loads = np.array([at.loads["left"], at.loads["right"]])
+    weight = -9.80665 * rotor.mass
+    shaft = rotor.mass - 3.0
+    center = (shaft * 0.15 + 3.0 * 0.3) / rotor.mass
+    assert loads[:, 1].sum() == pytest.approx(weight, rel=1e-9)
+    # z x F: a force along y at z has the moment -z F about x.
+    assert (loads[:, 2] - places * loads[:, 1]).sum() == pytest.approx(-center * weight, rel=1e-9)
+    assert abs(loads[:, 2]).max() > 0.01
+
+
+def test_two_rows_in_two_nodes_are_the_pair_between_them() -> None:
+    z = 6e-6
+    rows = rf.TiltingBalls(
+        bearing=rf.BallBearing(
+            balls=16,
+            ball_diameter=7.938e-3,
+            pitch_diameter=46.5e-3,
+            contact_angle=0.4363,
+            axial_displacement=z,
+        )
+    )
+    both = rf.tandem(rows.bearing, distance=0.02)
+    pair = rf.TiltingBalls(
+        bearing=rf.BearingPair(bearing=both.bearing, distance=0.02, directions=(1, 1), axial_displacement=z)
+    )
+    solid = rf.ElasticMaterial(young_modulus=211e13, shear_modulus=81.2e13, density=7810.0)
+    elements = rf.ShaftElement(length=0.02, outer_diameter=0.035, material=solid).split(2)
+    elements += rf.ShaftElement(length=0.2, outer_diameter=0.035, material=STEEL).split(4)
+
+    def frequencies(nodes: tuple[int, ...], bearing: rf.TiltingBalls) -> np.ndarray:
+        stations = tuple(rf.Station(node=k, name=f"row_{k}", feels_tilt=True) for k in nodes)
+        rotor = rf.ShaftRotor(elements=elements, speed=0.0, stations=stations, gravity=(0.0, 0.0))
+        at = {station.name: bearing for station in stations}
+        return rf.rotor_modes(rotor, at, 900.0).frequency[:6]
+
+    assert frequencies((1,), pair) == pytest.approx(frequencies((0, 2), rows), rel=1e-5)
+
+
+def test_a_shaft_of_many_elements_moves_in_few_shapes_and_says_its_error() -> None:
+    few, many = (heavy(n, PAIR) for n in (10, 40))
+    known = rf.rotor_modes(*few, 1000.0)
+    found = rf.rotor_modes(*many, 1000.0)
+    assert found.frequency[:4] == pytest.approx(known.frequency[:4], rel=1e-5)
+    assert 0.0 < found.error < 1e-6
+
+
+@pytest.mark.parametrize("bearing", [SINGLE, PAIR], ids=["thrust", "pair"])
+def test_coefficients_are_the_slopes_of_force_and_moment(bearing: rf.BallBearing | rf.BearingPair) -> None:
+    held = rf.TiltingBalls(bearing=bearing)
+    place = np.array([3e-7, -5e-7, 2e-5, 1e-5])
+    steps = np.diag([1e-9, 1e-9, 1e-7, 1e-7])
+    slopes = np.stack(
+        [
+            (held.tilting_force(place + step, 900.0) - held.tilting_force(place - step, 900.0))
+            / (2.0 * step.max())
+            for step in steps
+        ],
+        axis=1,
+    )
+    stiffness = held.tilting_coefficients(place, 900.0).stiffness
+    size = np.sqrt(np.outer(np.diag(stiffness), np.diag(stiffness)))
+    assert np.abs((stiffness + slopes) / size).max() < 1e-5
+
+
+def test_the_python_control_system_has_the_whirls_of_the_modes() -> None:
+    rotor, bearings = heavy(10, PAIR)
+    poles = rf.rotor_system(rotor, rf.rotor_equilibrium(rotor, bearings, 1000.0)).poles()
+    lowest = np.sort(poles.imag[poles.imag > 0.0])[:4]
+    assert lowest == pytest.approx(rf.rotor_modes(rotor, bearings, 1000.0).frequency[:4], rel=1e-7)
+
+
+def test_what_does_not_fit_is_named() -> None:
+    rotor, bearings = heavy(10, PAIR)
+    plain = rf.ShaftRotor(elements=rotor.elements, speed=0.0, stations=(rf.Station(node=1, name="left"),))
+    with pytest.raises(InputError, match=r"station 'left' must feel tilts"):
+        rf.rotor_modes(plain, {"left": bearings["left"]}, 100.0)
+    with pytest.raises(InputError, match=r"bearings\['left'\] must be"):
+        rf.mount(rotor, bearings)
+    with pytest.raises(InputError, match="bearing must be a BallBearing or a BearingPair"):
+        rf.TiltingBalls(bearing=rotor)
+    with pytest.raises(InputError, match=r"place must have shape \(4,\)"):
+        bearings["left"].tilting_force([0.0, 0.0])
