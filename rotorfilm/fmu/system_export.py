@@ -11,6 +11,7 @@ from ..errors import InputError, require_positive
 from ..files import write_whole
 from ..inputs.kinds import arguments
 from ..model import Dynamic, Model, Stepped
+from ..reactions.added_mass import require_massless
 from .archive import to_zip
 from .description.system_structure import (
     PARAMETERS,
@@ -92,6 +93,8 @@ def export_ssp(
     for argument, value in (("stop_time", stop_time), ("step_size", step_size)):
         require_positive(argument, value)
     stations = films if isinstance(films, Mapping) else {"": films}
+    for station, film in stations.items():
+        require_massless(f"films[{station!r}]" if station else "films", film)
     models: dict[str, Any] = {ROTOR: rotor, **{station or FILM: film for station, film in stations.items()}}
     starts = _starts(models, start or {})
     with TemporaryDirectory() as folder:

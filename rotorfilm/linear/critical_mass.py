@@ -9,7 +9,8 @@ from itertools import pairwise
 import numpy as np
 
 from ..bearings.at_frequency import MemoryCoefficients
-from ..errors import ConvergenceError
+from ..bearings.inertial_model import InertialCoefficients
+from ..errors import ConvergenceError, InputError
 from ..inputs.kinds import arguments
 from ..readable.result import Readable
 from ..results import Coefficients
@@ -80,6 +81,10 @@ def critical_mass(coefficients: Coefficients) -> CriticalMass:
     """
     if isinstance(coefficients, MemoryCoefficients):
         return _counted(coefficients)
+    if isinstance(coefficients, InertialCoefficients):
+        raise InputError(
+            f"coefficients must have no added mass, got {coefficients!r}: density 0 leaves it out"
+        )
     reason = _why_no_border(coefficients)
     if reason:
         return CriticalMass(mass=None, whirl_frequency=None, whirl_ratio=None, reason=reason)

@@ -187,8 +187,8 @@ class _System:
         bearing = self.given[k]
         if isinstance(bearing, TiltingReaction):
             still = np.linalg.norm(load[:2]) <= 1e-9 * self.size
-            at = np.zeros(2) if still else equilibrium(bearing.planar, load[:2], self.speed).position
-            return np.append(at, (0.0, 0.0)), None
+            place = np.zeros(2) if still else equilibrium(bearing.planar, load[:2], self.speed).position
+            return np.append(place, (0.0, 0.0)), None
         if np.linalg.norm(load) <= 1e-9 * self.size or not math.isfinite(bearing.clearance):
             return np.zeros(2), self._balanced(bearing, np.zeros(2))
         at = equilibrium(bearing, load, self.speed)

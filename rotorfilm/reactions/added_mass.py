@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
@@ -66,6 +67,16 @@ def require_turning(reaction: Any, rotor: Any) -> None:
         for signal in rotor.outputs:
             if signal.name == "speed":
                 heavy.require_range(signal.nominal)
+
+
+def require_turned(reaction: Any, rotor: Any, signals: Mapping[str, Any]) -> None:
+    """Warn, or raise InputError, where a run became faster than its rotor said beforehand, as by a motor."""
+    heavy = inertial(reaction)
+    if heavy is not None and "speed" in signals and len(signals["speed"]):
+        said = max(signal.nominal for signal in rotor.outputs if signal.name == "speed")
+        highest = float(abs(signals["speed"]).max())
+        if highest > said:
+            heavy.require_range(highest)
 
 
 def require_massless(name: str, reaction: Any) -> None:

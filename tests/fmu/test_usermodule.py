@@ -40,6 +40,7 @@ def test_a_bundle_holds_what_its_modules_import_and_no_more():
         "inputs",
         "limits",
         "model",
+        "reactions",
         "readable",
         "results",
         "signals",

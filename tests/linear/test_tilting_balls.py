@@ -1,4 +1,4 @@
-"""Flexible rotors on ball bearings that resist tilts: closed forms of a mass on a cantilever, and balances."""
+"""Flexible rotors on ball bearings that resist tilts: closed forms of a mass on a cantilever, balances."""
 
 import math
 

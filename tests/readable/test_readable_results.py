@@ -86,7 +86,8 @@ SIZES = {"2": 2, "n_bearings": 2, "2 H + 1": 5, "...": 3}
 def sample(kind):
     """Return a result with made-up numbers, each another one, from what its docstring says of the fields."""
     names = [one.name for one in dataclasses.fields(kind)]
-    return kind(**{name: value_of(name, explained(kind, name)) for name in names})
+    beside = {name: object() for name, of in kind.__annotations__.items() if str(of).startswith("InitVar")}
+    return kind(**{name: value_of(name, explained(kind, name)) for name in names}, **beside)
 
 
 def value_of(name, said):

@@ -112,7 +112,9 @@ class SqueezeFilmDamper(SqueezeInertia):
         for name in ("seals", "density"):
             if getattr(self, name) and (self.cage is not None or self.feed is not None):
                 raise InputError(f"{name} must be left out beside a porous cage or a feed, got {self!r}")
-        _ = self.density and self.film_inertia, self.bound_film
+        if self.density:
+            _ = self.film_inertia
+        _ = self.bound_film
         self._warn()
 
     @property

@@ -13,7 +13,7 @@ from ...bearings.stepped_reaction import SteppedReaction
 from ...errors import ContactError, ConvergenceError, InputError, require_finite, require_positive
 from ...inputs.kinds import arguments
 from ...model import Array, Dynamic, Reaction, stops
-from ...reactions.added_mass import require_turning
+from ...reactions.added_mass import require_turned, require_turning
 from ...results import Trajectory
 from ...signals import FORCE_OUTPUTS, names, units
 from ...warming import in_time
@@ -128,7 +128,9 @@ def simulate(
         raise ContactError(str(contact), _trajectory(system, kept)) from contact
     except ConvergenceError as failure:
         raise ConvergenceError(str(failure), _trajectory(system, kept)) from failure
-    return _trajectory(system, kept)
+    run = _trajectory(system, kept)
+    require_turned(film, rotor, run.signals)
+    return run
 
 
 def _shown(run: Trajectory, labels: list[str]) -> Trajectory:

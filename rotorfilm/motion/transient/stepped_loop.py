@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...bearings.films.conserved.conserved_film import bdf2
+from ...bearings.films.conserved.oil_steps import MOST_GROWTH
 from ...bearings.stepped_reaction import SteppedReaction, StepTrial
 from ...errors import ConvergenceError, FilmContactError, InputError, require_kind
 from ...model import Array, Dynamic
@@ -20,9 +21,6 @@ CONVERGED = 1e-9
 
 MOST_ROUNDS = 12
 """Newton steps after which a step in time is halved."""
-
-MOST_GROWTH = 2.0
-"""Of a step over the last one, up to which differences of second order take both."""
 
 NEAREST = 0.1
 """Part of the gap that a Newton step leaves."""

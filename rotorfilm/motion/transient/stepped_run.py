@@ -13,7 +13,7 @@ from ...bearings.stepped_reaction import SteppedReaction
 from ...errors import ContactError, ConvergenceError, FilmContactError, InputError, require_finite
 from ...model import Array, Dynamic, breakpoints
 from ...results import Trajectory
-from ...signals import Signal, names, units
+from ...signals import Signal, indices, names, units
 from ..compiled.journal_films import CONTACT_GAP
 from .stepped_loop import Moment, SteppedLoop, stations_of
 
@@ -93,11 +93,22 @@ def _failed(failure: Exception, gap: float, partial: Trajectory) -> ContactError
 
 
 def part_of_turn(rotor: Dynamic, duration: float) -> float:
-    """Return the part of a turn at the highest speed of a run [s]; infinite for a shaft that stands."""
+    """Return the part of a turn at the highest speed of a run [s].
+
+    Raises
+    ------
+    InputError
+        If the shaft stands, or only a torque will turn it: then no turn tells how long a step may be.
+    """
+    speed = indices("rotor must have the outputs", names(rotor.outputs), ["speed"])
     moments = [0.0, *(t for t in breakpoints(rotor) if 0.0 < t < duration), duration]
     none = np.zeros(len(rotor.inputs))
-    speeds = [abs(rotor.output(t, rotor.initial_state, none)[-1]) for t in moments]
-    return 2.0 * math.pi / STEPS_A_TURN / max(speeds) if max(speeds) > 0.0 else math.inf
+    highest = float(max(np.abs(rotor.output(t, rotor.initial_state, none)[speed]).max() for t in moments))
+    if highest == 0.0:
+        raise InputError(
+            "max_step must be given, as the length of all steps, for a shaft that stands at first"
+        )
+    return 2.0 * math.pi / STEPS_A_TURN / highest
 
 
 class _Record:

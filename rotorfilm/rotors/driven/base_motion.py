@@ -22,6 +22,14 @@ PER_PERIOD = 20
 """Samples per period of the highest frequency of a spectrum: chords between them are .4 % off."""
 
 
+def _rising(times: ArrayLike) -> Array:
+    """Return the times of a record, or raise InputError."""
+    grid = require_finite("times", times)
+    if grid.ndim != 1 or grid.size < 2 or np.any(np.diff(grid) <= 0.0):
+        raise InputError(f"times must be two numbers at least and increase strictly, got {times!r}")
+    return grid
+
+
 @quantities
 @dataclass(frozen=True, kw_only=True)
 class BaseMotion:
@@ -45,9 +53,7 @@ class BaseMotion:
     acceleration_y: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
-        times = require_finite("times", self.times)
-        if times.ndim != 1 or times.size < 2 or np.any(np.diff(times) <= 0.0):
-            raise InputError(f"times must be two numbers at least and increase strictly, got {self.times!r}")
+        times = _rising(self.times)
         object.__setattr__(self, "times", tuple(times.tolist()))
         for name in ("acceleration_x", "acceleration_y"):
             values = require_finite(name, getattr(self, name))
@@ -69,7 +75,7 @@ class BaseMotion:
         # Imported when asked for: rotors are light.
         from scipy.interpolate import CubicSpline
 
-        grid = require_finite("times", times)
+        grid = _rising(times)
         rows = {"acceleration_x": require_finite("x", x), "acceleration_y": require_finite("y", y)}
         for name, row in rows.items():
             if row.shape not in ((0,), grid.shape):

@@ -16,6 +16,7 @@ from ...bearings.tabulated import TabulatedBearing
 from ...errors import InputError
 from ...inputs.kinds import arguments
 from ...model import Array, Reaction
+from ...reactions.added_mass import require_massless
 from ...results import Coefficients
 
 if TYPE_CHECKING:
@@ -103,6 +104,8 @@ def to_ross_force(
     """
     if set(films) != set(rests):
         raise InputError(f"rests must have the nodes of the films {sorted(films)}, got {sorted(rests)}")
+    for node, film in films.items():
+        require_massless(f"films[{node}]", film)
     places = {node: int(node) * int(rotor.number_dof) for node in films}
     static = {
         node: film.force(rests[node].position, np.zeros(2), rests[node].speed) for node, film in films.items()

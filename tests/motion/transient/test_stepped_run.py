@@ -207,4 +207,6 @@ def test_arguments_break_a_rule(rest):
     with pytest.raises(InputError, match="max_step must be positive"):
         simulate(rotor(rest), FILM, duration=TURN, max_step=0.0)
     still = dataclasses.replace(rotor(rest, 0.0), speed=0.0)
-    assert simulate(still, FILM, duration=1e-4, samples=2).work["steps"] == 1
+    with pytest.raises(InputError, match="max_step must be given"):
+        simulate(still, FILM, duration=1e-4, samples=2)
+    assert simulate(still, FILM, duration=1e-4, samples=2, max_step=2e-5).work["steps"] == 5
