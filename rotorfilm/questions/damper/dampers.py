@@ -28,11 +28,11 @@ from ...motion.circular.orbit_near import (
 from ...motion.circular.orbit_points import OrbitRotor, orbit_rotor
 from ...rotors import RigidRotor
 from ...scenes.counted import Counted
+from ...scenes.damper.built_films import orbit_films
 from ...scenes.damper.damper_films import (
     NO_RICHER,
     AnyDamperFilm,
     ConservedDamperFilm,
-    damper_films,
     lands,
     mapped_short,
     quiet,
@@ -242,7 +242,7 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
     stiffness = scene.damper.stiffness
     rungs = tuple(
         DamperCurveRung(film=film, rotor=rotor, stiffness=stiffness, quantity=quantity)
-        for film in damper_films(scene.damper)
+        for film in orbit_films(scene.damper, rotor)
         if not _endless(film, quantity, is_named=scene.damper.film is not None)
     )
     units = {rung.unit: _one(rung, scene.speed) for rung in rungs}
@@ -252,6 +252,7 @@ def damper_ladder(scene: Scene, quantity: str) -> Ladder:
         unit=UNITS[quantity],
         units=units,
         remarks=rotor_remarks(
+            scene.damper,
             mapped_short(scene.damper),
             stiffness / count,
             replace(asked, mass=asked.mass / count, unbalance=asked.unbalance / count),
