@@ -10,6 +10,7 @@ CONVENTIONS = Path(__file__).parents[1] / "docs" / "conventions.md"
 
 SEVERAL_UNITS = {
     "that of a pad is a share of its clearance, that of a ball bearing a force": {"preload"},
+    "leakage is that of a seal, or a ratio; an offset a place, or that of a pivot": {"leakage", "offset"},
     "a rolling ball is in SI, its contact in units of the Hertzian one": {
         "central_film",
         "damping",
