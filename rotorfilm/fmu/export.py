@@ -117,7 +117,7 @@ def export_fmu(
         Whether variables are named `signal` and `state_signal`, without the component.
     fixed_size : bool
         Whether radius and length of a plain journal bearing stay as they are: the FMU then carries the map of
-        their ratio in place of that over all, which makes it less than half as large.
+        their ratio in place of that over all, which makes it a fifth smaller.
 
     Returns
     -------
