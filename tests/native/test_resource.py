@@ -74,7 +74,7 @@ def test_tables_that_were_rounded_take_half_the_room_and_others_keep_every_digit
     beyond = rounded.copy()
     beyond[9] = 1e-8 * 2**31
     sizes = [
-        len(pack(NativeSpec(kernel="k", tables={"a": each}), "t", (TIME,))) for each in (rounded, rough, beyond)
+        len(pack(NativeSpec(kernel="k", tables={"a": each}), "t", (TIME,)))
+        for each in (rounded, rough, beyond)
     ]
     assert sizes == [sizes[1] - 4 * 400 + 8, sizes[1], sizes[1]]
-
