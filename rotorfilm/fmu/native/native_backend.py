@@ -58,8 +58,8 @@ INTERFACES = {
             **_BOTH3,
             "canHandleVariableCommunicationStepSize": "true",
             "hasEventMode": "true",
-            "providesIntermediateUpdate": "false",
-            "canReturnEarlyAfterIntermediateUpdate": "false",
+            "providesIntermediateUpdate": "true",
+            "canReturnEarlyAfterIntermediateUpdate": "true",
         },
     },
 }

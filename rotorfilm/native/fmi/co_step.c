@@ -3,6 +3,19 @@
 #include <math.h>
 #include <string.h>
 
+static double pass(void *host, double t, double end)
+{
+    rf_instance *c = host;
+    const double start = c->now.time;
+    c->now.time = t;
+    rf_forget(c);
+    rf_enter(c, RF_WITHIN_STEP);
+    const double wanted = c->within_step(c, t, end);
+    rf_enter(c, RF_STEPPING);
+    c->now.time = start;
+    return wanted;
+}
+
 /* Move the states to *t = end, or as far as it goes. */
 static int move(rf_instance *c, double *t, double end, rf_message *why)
 {
@@ -15,7 +28,8 @@ static int move(rf_instance *c, double *t, double end, rf_message *why)
     }
     if (c->sizes.states) {
         const rf_integration job = {c->type,      c->kernel,       c->sizes.states, c->nominal,
-                                    c->tolerance, &c->now.stride, c->work};
+                                    c->tolerance, &c->now.stride, c->work,
+                                    {c->within_step ? pass : NULL, c}};
         return rf_integrate(&job, t, x, c->values[RF_INPUT], end, why);
     }
     *t = end;

@@ -20,7 +20,8 @@ typedef enum rf_phase {
     RF_STEPPING = 32,
     RF_STEP_FAILED = 64,
     RF_RECONFIGURING = 128,
-    RF_TERMINATED = 256
+    RF_TERMINATED = 256,
+    RF_WITHIN_STEP = 512 /* while the host is told of a step within one of its own */
 } rf_phase;
 
 #define RF_ALWAYS (~0u) /* the rule of what mends an instance */
@@ -58,6 +59,8 @@ struct rf_instance {
     rf_host host;
     unsigned categories; /* bits of those that are on */
     int co_simulation, event_mode, early_return;
+    double (*within_step)(rf_instance *c, double t, double end); /* NULL, or who is told of steps within one */
+    void (*update)(void);                                       /* the host's callback behind it */
     rf_resource *resource;
     const rf_kernel_type *type;
     void *kernel;
@@ -113,7 +116,7 @@ void rf_enter(rf_instance *c, rf_phase phase);
 /* Leave an event behind: the next one becomes known. */
 void rf_pass_event(rf_instance *c);
 int rf_has_kink(const rf_instance *c);
-/* Advance by `step` from `from`; early returns end at a time event, where c->now.time then is. */
+/* Advance by `step` from `from`; early returns end at a time event, or where within_step wants it: c->now.time. */
 rf_answer rf_step(rf_instance *c, double from, double step);
 
 /* Saved conditions are blocks of rf_saved_size() bytes; as bytes they carry a checksum. */
