@@ -71,7 +71,7 @@ def test_the_outputs_of_each_step_within_one_are_those_of_its_time(rotor):
     times = [time for time, _ in seen]
     assert len(times) > 5
     assert times == sorted(set(times))
-    assert 0.0 < times[0]
+    assert times[0] > 0.0
     assert times[-1] < STEP
     scale = np.abs(orbit(STEP))
     for time, values in seen:
