@@ -2,9 +2,9 @@
 
     python benchmarks/beside_ross.py [PYTHON_WITH_ROSS]
 
-It writes docs/chart_ross.png and benchmarks/results/beside_ross.json. ROSS runs beside it in the Python given, in
-the same minutes; without one its figures are those of the last run, whose times do not compare. K and C are in
-load / pad clearance, with the sums of both over their largest entry; times are of the processor.
+It writes docs/chart_ross.png and benchmarks/results/beside_ross.json. ROSS runs beside it in the Python
+given, in the same minutes; without one its figures are those of the last run, whose times do not compare. Errors
+of K and C are over the largest entry of each; times are of the processor.
 """
 
 from __future__ import annotations
@@ -130,9 +130,14 @@ def draw(rows: list[dict], version: str) -> None:
         cost.plot([1e3 * row["time"] for row in mine], errors, marker, color=color, label=shown)
         prints.plot(range(len(mine)), [row["print"] for row in mine], marker, color=color)
     cost.set(xscale="log", yscale="log", xlabel="equilibrium, K and C of one bearing [ms of the processor]")
-    cost.set(ylabel="largest error of K, C / largest entry", title="Beside the film of 384 x 32 cells, extrapolated")
+    cost.set(
+        ylabel="largest error of K, C / largest entry",
+        title="Beside the film of 384 x 32 cells, extrapolated",
+    )
     cost.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), fontsize=8)
-    prints.set(ylabel="largest distance of K, C / largest entry", title="Beside what Lund & Thomsen (1978) print")
+    prints.set(
+        ylabel="largest distance of K, C / largest entry", title="Beside what Lund & Thomsen (1978) print"
+    )
     labels = [name.replace(", S", "\nS") for name in ROWS]
     prints.set_xticks(range(len(labels)), labels, rotation=30, ha="right", fontsize=7)
     prints.set_ylim(bottom=0.0)

@@ -48,7 +48,7 @@ LUND_THOMSEN = {
         (0.0, 1.0, 0.159),
     )
 }
-"""Elliptical bearings and cylindrical ones with two grooves, of 160 deg a pad: rows of Lund & Thomsen (1978)."""
+"""Rows of Lund & Thomsen (1978): elliptical bearings, cylindrical ones with two grooves, pads of 160 deg."""
 
 
 def arguments(case: tuple) -> tuple[dict, float]:
