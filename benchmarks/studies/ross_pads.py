@@ -48,7 +48,7 @@ LUND_THOMSEN = {
         (0.0, 1.0, 0.159),
     )
 }
-"""Rows of Lund & Thomsen (1978): elliptical bearings, cylindrical ones with two grooves, pads of 160 deg."""
+"""Rows of Lund & Thomsen (1978): elliptical bearings, and cylindrical ones with two grooves."""
 
 
 def arguments(case: tuple) -> tuple[dict, float]:
