@@ -3,8 +3,8 @@
     python benchmarks/beside_ross.py [PYTHON_WITH_ROSS]
 
 It writes docs/chart_ross.png and benchmarks/results/beside_ross.json. ROSS runs beside it in the Python
-given, in the same minutes; without one its figures are those of the last run, whose times do not compare. Errors
-of K and C are over the largest entry of each; times are of the processor.
+given, in the same minutes; without one its figures are those of the last run, whose times do not compare.
+Errors of K and C are over the largest entry of each; times are of the processor.
 """
 
 from __future__ import annotations
