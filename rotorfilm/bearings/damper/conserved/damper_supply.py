@@ -16,6 +16,7 @@ from ....errors import (
 )
 from ....inputs.si_arguments import quantities
 from ...films.conserved.conserved_film import Supply
+from ...films.conserved.oil_spec import OilNumbers
 from ...films.geometry import FeedHole, FilmGeometry, Pocket
 
 REMEDY = (
@@ -154,6 +155,19 @@ def supplied_film(given: DamperSupply, radius: float, length: float, pressure_sc
     )
     return SuppliedFilm(
         geometry, supply, *((2.0 * length, 0.5) if given.end_groove else (length - width, 1.0))
+    )
+
+
+def damper_numbers(given: DamperSupply, radius: float, viscosity: float, stiffness: float) -> OilNumbers:
+    """Return what the kernel of a film has besides its shape."""
+    supplied = np.ones(len(given.feed_holes), dtype=bool)
+    return OilNumbers(
+        radius=radius,
+        viscosity=viscosity,
+        cavitation_pressure=given.cavitation_pressure,
+        supplied=supplied,
+        supply_pressure=given.supply_pressure if given.grooved or supplied.any() else None,
+        stiffness=stiffness,
     )
 
 

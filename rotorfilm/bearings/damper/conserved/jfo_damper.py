@@ -25,11 +25,12 @@ from ....model import Array
 from ...films.conserved.conserved_cells import require_conserved_cells
 from ...films.conserved.conserved_film import ConservedFilm, ConservedState, circular_gap, direction
 from ...films.conserved.conserved_motion import dynamic_stiffness, slow_motion
+from ...films.conserved.oil_spec import OilNumbers
 from ...films.conserved.reynolds_oil import reynolds_state
 from ...films.conserved.stepped_film import FilmMemory, SteppedFilm
 from ...reaction import broadcast_state
 from ...stepped_reaction import StepTrial
-from .damper_supply import DamperSupply
+from .damper_supply import DamperSupply, damper_numbers
 from .jfo_orbit import JFOOrbit, jfo_orbit
 from .scaled_film import ScaledFilm, scaled_film
 
@@ -126,6 +127,11 @@ class JFODamper(SteppedFilm):
     def scales(self) -> tuple[float, float]:
         """Units of the force [N s] and of the oil [m3]."""
         return self.scaled.force, self.scaled.oil
+
+    @property
+    def numbers(self) -> OilNumbers:
+        """What its kernel has besides the film."""
+        return damper_numbers(self.supply, self.radius, self.viscosity, self.stiffness)
 
     def carrying(self, motion: Array) -> float:
         """Return 0: the race does not spin."""
