@@ -48,7 +48,10 @@ class OilGapStruct(ctypes.Structure):
 class OilPastStruct(ctypes.Structure):
     """rf_oil_past of oil_steps.h."""
 
-    _fields_: ClassVar[Sequence[Any]] = [("content", c_void_p), ("before", c_void_p), ("length", c_double)]
+    _fields_: ClassVar[Sequence[Any]] = [
+        *(("content", c_void_p), ("before", c_void_p)),
+        *(("length", c_double), ("full", c_void_p)),
+    ]
 
 
 class OilFoundStruct(ctypes.Structure):
