@@ -187,12 +187,16 @@ class Trajectory(Drawable):
         Counters of the work done: film evaluations, Jacobians, steps.
     units : dict of str to str
         SI unit of each signal, where it is known.
+    step_error : float or None [1]
+        Of a run on films that remember, whose steps have no error control: the local errors of all steps, added up
+        over the clearance, of the journal where that is most.
     """
 
     time: Array
     signals: dict[str, Array]
     work: dict[str, int]
     units: dict[str, str] = field(default_factory=dict)
+    step_error: float | None = None
 
     def _own_units(self) -> dict[str, str]:
         return self.units
