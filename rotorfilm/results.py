@@ -188,8 +188,7 @@ class Trajectory(Drawable):
     units : dict of str to str
         SI unit of each signal, where it is known.
     step_error : float or None [1]
-        Of a run on films that remember, whose steps have no error control: the local errors of all steps, added up
-        over the clearance, of the journal where that is most.
+        Of a run on films that remember: the local errors of its steps, added up over the clearance.
     """
 
     time: Array
@@ -290,11 +289,7 @@ def to_plain(value: Any) -> Any:
 def write_csv(path: Path, columns: Mapping[str, Iterable[object]]) -> Path:
     """Write columns of equal length as CSV, floats with nine digits, None as nothing; return the path.
 
-    Parameters
-    ----------
-    path : Path
-    columns : mapping of str to iterable
-        Heading, with the unit where there is one, and entries.
+    The keys of the columns are their headings, with the unit where there is one.
     """
     text = io.StringIO(newline="")
     writer = csv.writer(text, lineterminator="\n")

@@ -74,7 +74,9 @@ def _rows(model: Model | Stepped, time: Array, inputs: Array) -> list[Array]:
         for k, (t, u) in enumerate(zip(time, inputs, strict=True)):
             try:
                 last = k - 1
-                state = _moved(model, time[last], state, inputs[last], t - time[last]) if k else _begun(model, u)
+                state = (
+                    _moved(model, time[last], state, inputs[last], t - time[last]) if k else _begun(model, u)
+                )
                 row = np.concatenate([[t], u, _answered(model, t, state, u)])
             except Exception:
                 # Whatever ends a model ends its table.

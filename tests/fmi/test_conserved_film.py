@@ -1,4 +1,4 @@
-"""Films that conserve their oil as native FMUs: steps of the model, oil saved, restored, resumed after the end of a process."""
+"""Films that conserve their oil as native FMUs: steps of the model, oil saved, restored and resumed."""
 
 import signal
 import subprocess
@@ -180,7 +180,9 @@ def test_a_step_to_the_wall_is_discarded_and_says_why(film):
         stepped(fmu, 1)
         before, saved = values(fmu.get()), fmu._instance.save()
         fmu.set({"x": 1.5e-4})
-        with pytest.raises(FilmContactError, match=r"last good time t = 0\.0001 s: the journal must stay inside"):
+        with pytest.raises(
+            FilmContactError, match=r"last good time t = 0\.0001 s: the journal must stay inside"
+        ):
             fmu.step(STEP, STEP)
         np.testing.assert_array_equal(values(fmu.get()), before)
         fmu._instance.restore(saved)

@@ -81,9 +81,9 @@ NATIVE_STEPPED = {
     "Conventions": (
         "Values are in SI units where a unit is given. The model integrates in time by itself. When "
         "initialization ends it goes to the state that is stationary under the start values of the inputs. "
-        "Outputs belong to the end of the last step; inputs set after it act in the next one. Parameters may be "
-        "set between steps too. The state of the model is no list of variables: it goes through FMI as one "
-        "block of bytes, to the last bit."
+        "Outputs belong to the end of the last step; inputs set after it act in the next one. Parameters may "
+        "be set between steps too. The state of the model is no list of variables: it goes through FMI as "
+        "one block of bytes, to the last bit."
     ),
     "Statuses": (
         "A value that is not finite or out of its bounds, an attempt to set an output, and start values "

@@ -71,7 +71,9 @@ def interfaces_of(model: Model | Stepped, version: str) -> dict[str, dict[str, s
     every = INTERFACES[version]
     if not isinstance(model, Stepped):
         return every
-    own = {name: "false" if "Derivatives" in f"{name}s" else yes for name, yes in every["CoSimulation"].items()}
+    own = {
+        name: "false" if "Derivatives" in f"{name}s" else yes for name, yes in every["CoSimulation"].items()
+    }
     return {"CoSimulation": own}
 
 

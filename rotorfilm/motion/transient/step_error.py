@@ -1,4 +1,4 @@
-"""How far the steps of a run on films that remember may be off: there is no step control, so the run says it."""
+"""How far steps of a run on films that remember may be off: nothing controls them, so the run says it."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class StepError:
         self._error = np.zeros(len(loop.stations))
 
     def add(self, before: Moment | None, now: Moment, reached: Moment) -> None:
-        """Add a step from `now` that ended in `reached`; the first of a run, of first order, counts as none."""
+        """Add a step from `now` that ended in `reached`; the first of a run counts as none."""
         if before is None:
             return
         h, k = reached.time - now.time, now.time - before.time

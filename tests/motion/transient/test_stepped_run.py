@@ -235,7 +235,7 @@ class Circle:
 @pytest.mark.closed_form
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 2.0])
 def test_the_error_of_steps_is_that_of_their_differences(ratio):
-    # In steps h after k the formula of second order leaves (h + k)^2 h^2/(6 (2 h + k)) of the third derivative.
+    # Steps h after k of second order leave (h + k)^2 h^2/(6 (2 h + k)) of the third derivative.
     circle, h = Circle(3.0 * omega), 1e-3 / omega
     error, k = StepError(circle), h / ratio
     error.add(*(circle.moment(t) for t in np.cumsum([0.0, k, h])))

@@ -1,4 +1,4 @@
-"""A film that conserves its oil as a kernel of the compiled library: its tables, and what a simulator may set."""
+"""A film that conserves its oil as a kernel of the C library: its tables, and what a simulator may set."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Steps in time of a film that conserves its oil, in compiled code (`native/conserved/oil_steps.h`, `oil_travel.h`)."""
+"""Steps in time of a film that conserves its oil in compiled code (`native/conserved/oil_travel.h`)."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def shape_of(film: ConservedFilm) -> tuple[OilShapeStruct, ShapeNumbers]:
 
 
 def sharpened_oil(film: ConservedFilm, gap: Gap, rate: float, theta: Array) -> Array:
-    """Return what leaves the cells beyond transport at upstream theta, shape (N, M) [1/s]; see oil_steps.h."""
+    """Return what leaves the cells beyond transport at upstream theta, shape (N, M) [1/s]."""
     rows, theta = [_float(row) for row in gap], _float(theta)
     carried = np.empty(film.cells.opening.shape)
     loops()["rf_sharpen_oil"](
@@ -92,7 +92,7 @@ def step_oil(
     past: tuple[Array, Array, float, np.ndarray],
     near: tuple[Array, np.ndarray],
 ) -> ConservedState:
-    """Return the film after a step, from the contents now and before the last step, its length, and full cells.
+    """Return the film after a step from the contents now and before the last one, its length, and full cells.
 
     `near` is theta and the full cells of a film nearby.
 
@@ -128,7 +128,7 @@ def rest_oil(film: ConservedFilm, gap: Gap, rate: float) -> ConservedState:
 
 
 def oil_sums(film: ConservedFilm, state: ConservedState) -> Array:
-    """Return force_x, force_y, flows out of and into the ends, inflow, and the oil in the gap, shape (6,) [1/s]."""
+    """Return the force, flows out of and into the ends, inflow, and the oil in the gap, shape (6,) [1/s]."""
     rows, (equations, kept) = [_float(row) for row in state.gap], oil_struct(state.equations)
     P, theta, sums = _float(state.solution.pressure), _float(state.solution.theta), np.empty(SUMS)
     status = loops()["rf_oil_sums"](
@@ -201,9 +201,7 @@ class MovingFilm(NamedTuple):
         return OilFilmStruct(shape_of(self.film)[0], *self[1:])
 
 
-def block_of(
-    length: float, motion: Array, sums: Array, rows: Mapping[str, np.ndarray]
-) -> Array:
+def block_of(length: float, motion: Array, sums: Array, rows: Mapping[str, np.ndarray]) -> Array:
     """Return the block of numbers of which `rf_oil_travel` goes on."""
     return np.concatenate([[length], motion, sums, *(np.ravel(rows[name]) for name in ROWS)])
 

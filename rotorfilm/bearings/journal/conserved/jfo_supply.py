@@ -47,10 +47,8 @@ def oil_supply(
     )
 
 
-def oil_numbers(
-    bearing: JournalBearing, supply_flow: float | None, cavitation_pressure: float
-) -> OilNumbers:
-    """Return what the kernel of a film has besides its shape: openings that end in the bearing are at the supply."""
+def oil_numbers(bearing: JournalBearing, supply_flow: float | None, cavitation_pressure: float) -> OilNumbers:
+    """Return what the kernel of a film has besides it; openings that end in the bearing are at the supply."""
     geometry = bearing.geometry
     supplied = np.array([span.share < 1.0 for span in geometry.openings()], dtype=bool)
     pressed = supply_flow is None and (supplied.any() or geometry.circumferential)

@@ -120,7 +120,7 @@ def plates(t):
 
 
 def shut(steps, supply):
-    """Return times and loads on half the plates from where they are closest; the cavity shuts at t = .73239."""
+    """Return times and loads on half the plates, from where they are closest."""
     x = np.linspace(-0.5, 0.5, 65)
     opening = np.full((65, 1), FILM, dtype=np.int32)
     opening[0], opening[-1] = 0, 1

@@ -189,13 +189,15 @@ def test_a_step_that_fails_leaves_the_state():
         FILM.step(state, 0.0, near_wall, 1e-3)
     # On the cubic between two places inside the clearance the journal may be at the wall.
     wild = np.array([3e-5, -4e-5, 0.5, 0.0, omega])
-    with pytest.raises(FilmContactError, match=r"inside the clearance 0.0001 m, got an eccentricity of .* at t ="):
+    with pytest.raises(
+        FilmContactError, match=r"inside the clearance 0.0001 m, got an eccentricity of .* at t ="
+    ):
         FILM.step(state, 0.0, wild, 2e-3)
     assert FILM.pack(state) == before
 
 
 def test_steps_whose_film_is_not_found_are_halved():
-    # In a step longer than any age a cell that nothing flows through holds back so little that it has no pivot.
+    # In a step longer than any age a cell without flow holds back so little that it has no pivot.
     film = JFOFilm(bearing=dataclasses.replace(BEARING, supply_pressure=0.0), cells=(36, 4))
     u = np.array([3e-5, -4e-5, 0.0, 0.0, 0.0])
     state = film.start([*u[:4], omega])._replace(motion=u)
