@@ -23,6 +23,7 @@ LARGEST = {
     "rotorfilm_grid_systems": 128_000,
     "rotorfilm_heat": 82_000,
     "rotorfilm_pads": 74_000,
+    "rotorfilm_oil": 98_000,
     "rotorfilm_loops": 234_000,
     "rotorfilm_master": 244_000,
 }

@@ -15,6 +15,7 @@ from ...model import Array, Dynamic, breakpoints
 from ...results import Trajectory
 from ...signals import Signal, indices, names, units
 from ..compiled.journal_films import CONTACT_GAP
+from .step_error import StepError
 from .stepped_loop import Moment, SteppedLoop, stations_of
 
 STEPS_A_TURN = 384
@@ -59,7 +60,7 @@ def simulate_steps(
         raise InputError(f"initial_state must have shape ({len(rotor.states)},), got {state.shape}")
     longest = max_step if math.isfinite(max_step) else part_of_turn(rotor, duration)
     count = max(1, math.ceil(duration / longest * (1.0 - 1e-12)))
-    record = _Record(loop, times)
+    record, error = _Record(loop, times), StepError(loop)
     now, before = loop.begin(state), None
     record.add(now, now)
     halvings, done = 0, 0
@@ -75,12 +76,13 @@ def simulate_steps(
                 raise _failed(failure, loop.gap(now), record.trajectory()) from failure
             continue
         record.add(now, reached)
+        error.add(before, now, reached)
         if loop.gap(reached) <= CONTACT_GAP:
             raise ContactError(f"journal reached the wall at t = {reached.time:.9g} s", record.trajectory())
         before, now = now, reached
         if length == left:
             done, halvings = done + 1, max(0, halvings - 1)
-    return record.trajectory()
+    return replace(record.trajectory(), step_error=error.largest)
 
 
 def _failed(failure: Exception, gap: float, partial: Trajectory) -> ContactError | ConvergenceError:

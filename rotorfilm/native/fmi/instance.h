@@ -65,6 +65,7 @@ struct rf_instance {
     const rf_kernel_type *type;
     void *kernel;
     rf_sizes sizes;
+    size_t memory; /* numbers that the kernel remembers; it then has no states */
     rf_condition now;
     rf_phase resume; /* phase after reconfiguration */
     double stop_time, tolerance, last_good_time;
@@ -76,6 +77,12 @@ struct rf_instance {
     rf_jacobian jacobian;
     double *work, *nominal;
 };
+
+/* Numbers of the states, or of a memory. */
+static inline size_t rf_kept(const rf_instance *c)
+{
+    return c->sizes.states + c->memory;
+}
 
 /* The next ones answer NULL where it went wrong, with the message sent to the host. */
 rf_instance *rf_make_instance(const char *name, const char *token, const char *folder, int logging,

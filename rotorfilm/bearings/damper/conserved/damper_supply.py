@@ -13,10 +13,15 @@ from ....errors import (
     require_non_negative,
     require_number,
     require_tuple,
+    warn_user,
 )
 from ....inputs.si_arguments import quantities
 from ...films.conserved.conserved_film import Supply
+from ...films.conserved.oil_spec import OilNumbers
 from ...films.geometry import FeedHole, FilmGeometry, Pocket
+
+AIR_SHARE = 0.01
+"""Of the side flow, what ends in air may draw in before a warning."""
 
 REMEDY = (
     "supply_pressure with circumferential_groove (its width), end_groove=True or "
@@ -102,6 +107,14 @@ class DamperSupply:
         """Whether the supply is the same all round, so that a centered circular orbit is a steady state."""
         return not self.feed_holes
 
+    def warn_of_air(self, drawn_in: float, side_flow: float) -> None:
+        """Warn where ends in air would draw in air."""
+        if not self.submerged and drawn_in > AIR_SHARE * side_flow:
+            warn_user(
+                "submerged must be True for ends that draw in oil: in air they would draw in air, "
+                f"{100.0 * drawn_in / side_flow:.2g} % of the side flow"
+            )
+
 
 class SuppliedFilm(NamedTuple):
     """Supply and openings of a film, without dimensions, and the lengths that go with them.
@@ -154,6 +167,19 @@ def supplied_film(given: DamperSupply, radius: float, length: float, pressure_sc
     )
     return SuppliedFilm(
         geometry, supply, *((2.0 * length, 0.5) if given.end_groove else (length - width, 1.0))
+    )
+
+
+def damper_numbers(given: DamperSupply, radius: float, viscosity: float, stiffness: float) -> OilNumbers:
+    """Return what the kernel of a film has besides its shape."""
+    supplied = np.ones(len(given.feed_holes), dtype=bool)
+    return OilNumbers(
+        radius=radius,
+        viscosity=viscosity,
+        cavitation_pressure=given.cavitation_pressure,
+        supplied=supplied,
+        supply_pressure=given.supply_pressure if given.grooved or supplied.any() else None,
+        stiffness=stiffness,
     )
 
 

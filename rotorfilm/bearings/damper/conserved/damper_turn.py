@@ -142,7 +142,7 @@ def damper_turn(
         last, found, turns = found, next(going_on), turns + 1
         change = float(np.abs(found.force - last.force).max() / np.abs(found.force).max())
     result = _result(damper.scaled, found, q, speed, turns, change)
-    damper.warn_of_air(result.drawn_in, result.side_flow)
+    damper.supply.warn_of_air(result.drawn_in, result.side_flow)
     if change > tolerance:
         raise ConvergenceError(
             f"the film must repeat itself within most_turns {most_turns} to {tolerance:g} of the force, "
@@ -170,7 +170,7 @@ def _turns(scaled: ScaledFilm, position: Array, speed: float) -> Iterator[_Rows]
         states: list[ConservedState] = []
         for gap in gaps:
             states.append(oil_step(film, oil, gap, 0.0, dt))
-            oil = after_step(oil, states[-1], dt)
+            oil = after_step(film, oil, states[-1], dt)
         yield _rows(scaled, states)
 
 

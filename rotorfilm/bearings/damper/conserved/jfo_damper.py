@@ -18,23 +18,20 @@ from ....errors import (
     require_non_negative,
     require_number,
     require_positive,
-    warn_user,
 )
 from ....inputs.si_arguments import quantities
 from ....model import Array
 from ...films.conserved.conserved_cells import require_conserved_cells
 from ...films.conserved.conserved_film import ConservedFilm, ConservedState, circular_gap, direction
 from ...films.conserved.conserved_motion import dynamic_stiffness, slow_motion
+from ...films.conserved.oil_spec import OilNumbers
 from ...films.conserved.reynolds_oil import reynolds_state
 from ...films.conserved.stepped_film import FilmMemory, SteppedFilm
 from ...reaction import broadcast_state
 from ...stepped_reaction import StepTrial
-from .damper_supply import DamperSupply
+from .damper_supply import DamperSupply, damper_numbers
 from .jfo_orbit import JFOOrbit, jfo_orbit
 from .scaled_film import ScaledFilm, scaled_film
-
-AIR_SHARE = 0.01
-"""Of the side flow, what ends in air may draw in before a warning."""
 
 CIRCULAR = 1e-9
 """Radial velocity over the whole one, beyond which an orbit is no circle."""
@@ -127,6 +124,11 @@ class JFODamper(SteppedFilm):
         """Units of the force [N s] and of the oil [m3]."""
         return self.scaled.force, self.scaled.oil
 
+    @property
+    def numbers(self) -> OilNumbers:
+        """What its kernel has besides the film."""
+        return damper_numbers(self.supply, self.radius, self.viscosity, self.stiffness)
+
     def carrying(self, motion: Array) -> float:
         """Return 0: the race does not spin."""
         return 0.0
@@ -179,7 +181,7 @@ class JFODamper(SteppedFilm):
         omega = require_number("speed", speed)
         require_inside(np.array([eccentricity_ratio * self.clearance, 0.0]), self.clearance)
         found = jfo_orbit(self.scaled, self._turning(eccentricity_ratio, omega), eccentricity_ratio, omega)
-        self.warn_of_air(found.drawn_in, found.side_flow)
+        self.supply.warn_of_air(found.drawn_in, found.side_flow)
         return found
 
     def complex_stiffness(
@@ -254,14 +256,6 @@ class JFODamper(SteppedFilm):
         gap = circular_gap(self.film.cells, q / self.clearance)
         closing = -(v / self.clearance) @ direction(self.film.cells.angle)
         return self.scaled.force * self.film.force(reynolds_state(self.film, gap, closing))
-
-    def warn_of_air(self, drawn_in: float, side_flow: float) -> None:
-        """Warn where ends in air would draw in air."""
-        if not self.supply.submerged and drawn_in > AIR_SHARE * side_flow:
-            warn_user(
-                "submerged must be True for ends that draw in oil: in air they would draw in air, "
-                f"{100.0 * drawn_in / side_flow:.2g} % of the side flow"
-            )
 
     def _turning(self, eccentricity_ratio: float, speed: float) -> ConservedState:
         """Return the film in axes that turn with the orbit, in which its wall carries the oil back."""

@@ -84,7 +84,7 @@ class OilSolution(NamedTuple):
 
 def oil_outflow(cells: OilCells, pressure: Array, theta: Array) -> Array:
     """Return what flows out of every cell, shape (N, M)."""
-    struct, kept = _struct(cells)
+    struct, kept = oil_struct(cells)
     P, content, out = _float(pressure), _float(theta), np.empty(cells.opening.shape)
     loops()["rf_oil_outflow"](byref(struct), P.ctypes.data, content.ctypes.data, out.ctypes.data)
     del kept
@@ -116,13 +116,13 @@ def solve_oil(
     ConvergenceError
         If there is no such film, as without any supply, or the search does not end.
     """
-    struct, kept = _struct(cells)
+    struct, kept = oil_struct(cells)
     P, content = np.array(pressure, dtype=float), np.array(theta, dtype=float)
     full = np.zeros(P.shape, dtype=np.uint8) if guess is None else np.array(guess, dtype=np.uint8)
     work, places = OilWorkStruct(), (full.ctypes.data, P.ctypes.data, content.ctypes.data)
     status = loops()["rf_oil_film"](byref(struct), by_newton, guess is not None, *places, byref(work))
     del kept
-    _report(status)
+    report_search(status)
     return OilSolution(P, content, full, work.solutions, work.newton)
 
 
@@ -143,7 +143,7 @@ def oil_response(
     right : ndarray, shape (K, N, M)
         Changes of the outflow, of the same kind.
     """
-    struct, kept = _struct(cells)
+    struct, kept = oil_struct(cells)
     sets = np.ascontiguousarray(full, dtype=np.uint8)
     real = _float(storage.real), np.array(right.real, dtype=float, order="C")
     others = (_float(storage.imag), np.array(right.imag, dtype=float, order="C"))
@@ -158,11 +158,11 @@ def oil_response(
     )
     status = loops()["rf_oil_response"](byref(struct), *places)
     del kept
-    _report(status)
+    report_search(status)
     return real[1] + 1j * others[1] if np.iscomplexobj(storage) else real[1]
 
 
-def _struct(cells: OilCells) -> tuple[OilCellsStruct, list[np.ndarray]]:
+def oil_struct(cells: OilCells) -> tuple[OilCellsStruct, list[np.ndarray]]:
     """Return what C reads, and the arrays that it must outlive."""
     lines, nodes = cells.opening.shape
     kept: list[np.ndarray] = [_float(row) for row in (*cells[:6], cells.flow)]
@@ -184,7 +184,8 @@ def _float(numbers: Array) -> Array:
     return np.ascontiguousarray(numbers, dtype=float)
 
 
-def _report(status: int) -> None:
+def report_search(status: int) -> None:
+    """Raise what the status of a search for a film means."""
     if status == Status.NO_MEMORY:
         raise MemoryError("no memory for a film")
     if status:

@@ -25,11 +25,12 @@ from ...at_frequency import MemoryCoefficients, ReducedCoefficients
 from ...films.conserved.conserved_cells import conserved_cells, require_conserved_cells
 from ...films.conserved.conserved_film import ConservedFilm, ConservedState, circular_gap
 from ...films.conserved.conserved_motion import FilmInMotion, slow_motion, speed_slope
+from ...films.conserved.oil_spec import OilNumbers
 from ...films.conserved.stepped_film import SteppedFilm
 from ..bearing import JournalBearing
 from .jfo_losses import JFOHeat
 from .jfo_state import JFOState, jfo_state
-from .jfo_supply import oil_supply
+from .jfo_supply import oil_numbers, oil_supply
 
 AIR_SHARE = 0.01
 """Of the side flow, what ends in air may draw in before a warning."""
@@ -116,6 +117,11 @@ class JFOFilm(JFOHeat, SteppedFilm):
     def scales(self) -> tuple[float, float]:
         """Units of the force [N s] and of the oil, clearance radius length [m3]."""
         return self.bearing.force_scale, self.clearance * self.bearing.radius * self.bearing.film_length
+
+    @property
+    def numbers(self) -> OilNumbers:
+        """What its kernel has besides the film."""
+        return oil_numbers(self.bearing, self.supply_flow, self.cavitation_pressure)
 
     @cached_property
     def film(self) -> ConservedFilm:
