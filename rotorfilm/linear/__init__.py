@@ -13,6 +13,21 @@ if TYPE_CHECKING:
         critical_speeds as critical_speeds,
         resonant_speeds as resonant_speeds,
     )
+    from .certified.cross_coupling import (
+        AxialStage as AxialStage,
+        DisturbingStage as DisturbingStage,
+        Impeller as Impeller,
+    )
+    from .certified.level_one import (
+        StabilityLevelOne as StabilityLevelOne,
+        stability_level_one as stability_level_one,
+    )
+    from .certified.level_two import (
+        StabilityLevelTwo as StabilityLevelTwo,
+        stability_level_two as stability_level_two,
+    )
+    from .certified.rigid_support import rigid_support_speed as rigid_support_speed
+    from .certified.stability_curve import StabilityCurve as StabilityCurve
     from .closed_loop import closed_loop as closed_loop, transmissibility as transmissibility
     from .coefficients import coefficient_table as coefficient_table, coefficients as coefficients
     from .critical_mass import (

@@ -1,0 +1,73 @@
+"""Charts that rotors are certified with, as API 617 wants them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ..linear import StabilityLevelOne
+from ..linear.certified.screening import BORDER_DENSITY, BORDER_RATIO, LEAST_DECREMENT
+from .canvas import new_figure
+
+MEGANEWTON = 1e6
+
+
+def plot_stability_level_one(
+    result: StabilityLevelOne, *, axes: Sequence[Axes] | None = None
+) -> tuple[Axes, Axes]:
+    """Draw the log decrement over the applied cross-coupling [MN/m], and where the machine is screened.
+
+    Parameters
+    ----------
+    result : StabilityLevelOne
+    axes : two Axes, optional
+        For curves and screening; a new figure by default.
+
+    Returns
+    -------
+    (Axes, Axes)
+    """
+    if axes is None:
+        axes = new_figure(size=(9.6, 4.4)).subplots(1, 2)
+    beside, screening = axes
+    for curve in result.curves:
+        applied = curve.cross_coupling / MEGANEWTON
+        beside.plot(applied, curve.log_decrement, "o-", markersize=3, label=curve.name)
+    expected = result.anticipated_cross_coupling / MEGANEWTON
+    beside.axvline(expected, color="k", linestyle=":", label="QA")
+    beside.plot([expected], [result.anticipated_decrement], "ks", fillstyle="none", label="delta_A")
+    if math.isfinite(result.zero_cross_coupling):
+        beside.plot([result.zero_cross_coupling / MEGANEWTON], [0.0], "k^", fillstyle="none", label="Q0")
+    beside.axhline(LEAST_DECREMENT, color="k", linestyle="--", linewidth=0.8, label=f"{LEAST_DECREMENT:g}")
+    beside.axhline(0.0, color="k", linewidth=0.8)
+    needed = "required" if result.level_two_required else "not required"
+    beside.set(xlabel="applied cross-coupling [MN/m]", ylabel="log decrement", title=f"Level II is {needed}")
+    _screening(result, screening)
+    for part in (beside, screening):
+        part.grid(visible=True, alpha=0.3)
+        part.legend(fontsize=8)
+    return beside, screening
+
+
+def _screening(result: StabilityLevelOne, axes: Axes) -> None:
+    """Draw critical speed ratio over density, with the border between regions A and B."""
+    density = 0.0 if result.average_density is None else result.average_density
+    least, most = BORDER_DENSITY
+    right = max(1.2 * most, 1.2 * density)
+    border = np.array([0.0, least, most, most]), np.array([*BORDER_RATIO[:1], *BORDER_RATIO, 0.0])
+    axes.plot(*border, "k-", linewidth=1.0, label="border of regions A and B")
+    axes.text(0.4 * least, 0.5, "A")
+    axes.text(1.05 * most, 0.5, "B")
+    if result.average_density is not None:
+        axes.plot([density], [result.critical_speed_ratio], "ks", label="this machine")
+    top = max(3.5, 1.2 * result.critical_speed_ratio)
+    axes.set(
+        xlabel="average gas density [kg/m3]",
+        ylabel="critical speed ratio",
+        xlim=(0.0, right),
+        ylim=(0.0, top),
+        title=f"Q0/QA = {result.margin:.3g}",
+    )
