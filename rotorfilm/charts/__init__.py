@@ -10,7 +10,10 @@ if TYPE_CHECKING:
         plot_critical_speed as plot_critical_speed,
     )
     from .canvas import new_axes as new_axes, new_figure as new_figure, save as save
-    from .certified_charts import plot_stability_level_one as plot_stability_level_one
+    from .certified_charts import (
+        plot_separation_margins as plot_separation_margins,
+        plot_stability_level_one as plot_stability_level_one,
+    )
     from .comparisons.bearing_type_charts import (
         plot_bearing_coefficients as plot_bearing_coefficients,
         plot_bearing_thresholds as plot_bearing_thresholds,

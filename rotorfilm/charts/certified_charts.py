@@ -8,9 +8,10 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..linear import StabilityLevelOne
+from ..linear import SeparationMargins, StabilityLevelOne
 from ..linear.certified.screening import BORDER_DENSITY, BORDER_RATIO, LEAST_DECREMENT
-from .canvas import new_figure
+from .canvas import new_axes, new_figure
+from .rotor_charts import RPM
 
 MEGANEWTON = 1e6
 
@@ -71,3 +72,31 @@ def _screening(result: StabilityLevelOne, axes: Axes) -> None:
         ylim=(0.0, top),
         title=f"Q0/QA = {result.margin:.3g}",
     )
+
+
+def plot_separation_margins(result: SeparationMargins, *, axes: Axes | None = None) -> Axes:
+    """Draw the amplitudes [um] over speed [rpm], peaks with their AF, red where it is too near.
+
+    Parameters
+    ----------
+    result : SeparationMargins
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+    """
+    axes = axes or new_axes("Separation margins")
+    for name, amplitude in result.amplitudes.items():
+        axes.semilogy(result.speeds / RPM, 1e6 * amplitude, label=name)
+    axes.axvspan(
+        result.minimum_speed / RPM, result.maximum_speed / RPM, color="0.85", label="operating range"
+    )
+    for peak in result.peaks:
+        mark = "kv" if peak.acceptable else "rv"
+        axes.plot([peak.speed / RPM], [1e6 * peak.amplitude], mark, fillstyle="none")
+        axes.annotate(f"AF {peak.amplification_factor:.3g}", (peak.speed / RPM, 1e6 * peak.amplitude))
+    axes.set(
+        xlabel="speed [rpm]",
+        ylabel="amplitude [um]",
+        title="Separation margins are kept" if result.acceptable else "Separation margins are not kept",
+    )
+    axes.legend(fontsize=8)
+    return axes

@@ -26,6 +26,17 @@ if TYPE_CHECKING:
         StabilityLevelTwo as StabilityLevelTwo,
         stability_level_two as stability_level_two,
     )
+    from .certified.margins import (
+        ResonancePeak as ResonancePeak,
+        SeparationMargins as SeparationMargins,
+        amplification_factor as amplification_factor,
+        required_margin as required_margin,
+        separation_margins as separation_margins,
+    )
+    from .certified.placement import (
+        mode_unbalances as mode_unbalances,
+        residual_unbalance as residual_unbalance,
+    )
     from .certified.rigid_support import rigid_support_speed as rigid_support_speed
     from .certified.stability_curve import StabilityCurve as StabilityCurve
     from .closed_loop import closed_loop as closed_loop, transmissibility as transmissibility

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rotorfilm.linear import StabilityCurve, StabilityLevelOne
+from rotorfilm.linear import ResonancePeak, SeparationMargins, StabilityCurve, StabilityLevelOne
 
 CURVE = StabilityCurve(
     name="minimum",
@@ -44,3 +44,28 @@ def test_level_one_in_meganewton_per_meter():
     (machine,) = lines(screening)["this machine"].get_xydata()
     np.testing.assert_allclose(machine, [70.0, 2.6])
     assert screening.get_xlim()[1] > 70.0
+
+
+def test_margins_in_rpm_and_micrometers():
+    peak = ResonancePeak(
+        output="mid_x",
+        speed=200.0 * np.pi / 30.0,
+        amplitude=2e-6,
+        amplification_factor=5.0,
+        separation_margin=0.0,
+        required_margin=0.1,
+        acceptable=False,
+    )
+    result = SeparationMargins(
+        verdict="not acceptable",
+        acceptable=False,
+        minimum_speed=150.0 * np.pi / 30.0,
+        maximum_speed=250.0 * np.pi / 30.0,
+        peaks=(peak,),
+        speeds=np.array([100.0, 200.0, 300.0]) * np.pi / 30.0,
+        amplitudes={"mid_x": np.array([1e-6, 2e-6, 1e-6])},
+    )
+    axes = result.plot()
+    np.testing.assert_allclose(lines(axes)["mid_x"].get_xydata(), [[100.0, 1.0], [200.0, 2.0], [300.0, 1.0]])
+    assert "not kept" in axes.get_title()
+    assert [text.get_text() for text in axes.texts] == ["AF 5"]

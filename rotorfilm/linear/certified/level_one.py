@@ -124,8 +124,8 @@ def stability_level_one(
     -----
     API 617, 7th ed. (2002), part 1, 2.6.5, and its successor in the 8th ed. (2014). Level II is required for
     centrifugal compressors where Q0 / QA < 2, delta_A < .1, or Q0 / QA < 10 in region B of critical speed
-    ratio and density; for axial rotors where delta_A < .1. The border of region B is what ROSS reads off the figure: CSR
-    2.5 up to 16.53 kg/m3, from there in a line to 2.0 at 60 kg/m3; beyond, all is region B.
+    ratio and density; for axial rotors where delta_A < .1. The border of region B is what ROSS reads off the
+    figure: CSR 2.5 up to 16.53 kg/m3, from there in a line to 2.0 at 60 kg/m3; beyond, all is region B.
     """
     _require_cases(cases, stages, speed)
     turning = speed if stage_speed is None else stage_speed
