@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..linear import SeparationMargins, StabilityLevelOne
+from ..linear import SeparationMargins, ShaftStatics, StabilityLevelOne
 from ..linear.certified.screening import BORDER_DENSITY, BORDER_RATIO, LEAST_DECREMENT
 from .canvas import new_axes, new_figure
 from .rotor_charts import RPM
@@ -100,3 +100,34 @@ def plot_separation_margins(result: SeparationMargins, *, axes: Axes | None = No
     )
     axes.legend(fontsize=8)
     return axes
+
+
+def plot_shaft_statics(
+    result: ShaftStatics, *, axes: Sequence[Axes] | None = None
+) -> tuple[Axes, Axes, Axes]:
+    """Draw sag [um], shear force [N] and bending moment [N m] along a shaft [m], in both planes.
+
+    Parameters
+    ----------
+    result : ShaftStatics
+    axes : three Axes, optional
+        A new figure by default.
+
+    Returns
+    -------
+    (Axes, Axes, Axes)
+    """
+    if axes is None:
+        axes = new_figure(size=(7.4, 7.4)).subplots(3, 1, sharex=True)
+    above, middle, below = axes
+    for k, name in enumerate("xy"):
+        above.plot(result.positions, 1e6 * result.sag[k], "o-", markersize=3, label=name)
+        middle.plot(result.places, result.shear_force[k], label=name)
+        below.plot(result.places, result.bending_moment[k], label=name)
+    above.set(ylabel="sag [um]", title="Under its weight")
+    middle.set(ylabel="shear force [N]")
+    below.set(ylabel="bending moment [N m]", xlabel="along the shaft [m]")
+    for part in (above, middle, below):
+        part.grid(visible=True, alpha=0.3)
+        part.legend(fontsize=8)
+    return above, middle, below

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
         critical_speeds as critical_speeds,
         resonant_speeds as resonant_speeds,
     )
+    from .certified.bow import bow_response as bow_response
     from .certified.cross_coupling import (
         AxialStage as AxialStage,
         DisturbingStage as DisturbingStage,
@@ -33,11 +34,16 @@ if TYPE_CHECKING:
         required_margin as required_margin,
         separation_margins as separation_margins,
     )
+    from .certified.mesh_convergence import (
+        MeshConvergence as MeshConvergence,
+        mesh_convergence as mesh_convergence,
+    )
     from .certified.placement import (
         mode_unbalances as mode_unbalances,
         residual_unbalance as residual_unbalance,
     )
     from .certified.rigid_support import rigid_support_speed as rigid_support_speed
+    from .certified.shaft_statics import ShaftStatics as ShaftStatics, shaft_statics as shaft_statics
     from .certified.stability_curve import StabilityCurve as StabilityCurve
     from .closed_loop import closed_loop as closed_loop, transmissibility as transmissibility
     from .coefficients import coefficient_table as coefficient_table, coefficients as coefficients

@@ -133,7 +133,7 @@ def _crossing(size: Callable[[float], float], level: float, places: Sequence[flo
     """Return where the amplitude falls to a level, along speeds from the peak on; None before it rises."""
     for near, far in pairwise(places):
         if size(far) <= level:
-            return float(brentq(lambda w: size(w) - level, *sorted((near, far))))
+            return float(brentq(lambda w: size(w) - level, min(near, far), max(near, far)))
         if size(far) > size(near):
             return None
     return None

@@ -241,3 +241,22 @@ def test_no_node_near_the_middle_is_warned_of():
     uneven = (replace(piece, length=0.4), replace(piece, length=0.8))
     with pytest.warns(rf.ValidityWarning, match="mid-span"):
         rf.stability_level_one(jeffcott(elements=uneven), {"a": springs()}, SPEED, [IMPELLER])
+
+
+@pytest.mark.closed_form
+def test_rigid_supports_of_many_elements():
+    few = jeffcott()
+    ends = (rf.Station(node=0, name="left"), rf.Station(node=240, name="right"))
+    many = rf.ShaftRotor(
+        elements=few.elements[0].split(120) * 2,
+        disks=(rf.Disk(node=120, mass=MASS),),
+        stations=ends,
+        speed=0.0,
+        beam=few.beam,
+    )
+    assert rf.rigid_support_speed(many) == pytest.approx(rf.rigid_support_speed(few), rel=1e-6)
+
+
+def test_one_rigid_bearing_does_not_hold_a_rotor():
+    with pytest.raises(rf.InputError, match="stations must hold the rotor"):
+        rf.rigid_support_speed(jeffcott(stations=(rf.Station(node=1, name="left"),)))

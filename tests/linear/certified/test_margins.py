@@ -47,7 +47,7 @@ def test_amplification_factor_of_a_jeffcott_rotor(ratio):
     assert peak == pytest.approx(NATURAL / math.sqrt(1.0 - 2.0 * ratio**2), rel=1e-7)
     assert rf.amplification_factor(SPEEDS, jeffcott(ratio), peak) == pytest.approx(factor, rel=1e-4)
     found = rf.separation_margins(as_response(jeffcott(ratio)), 500.0, 600.0)
-    assert found.peaks[0].speed == pytest.approx(peak, rel=1e-6)
+    assert found.peaks[0].speed == pytest.approx(peak, rel=5e-6)
     assert found.peaks[0].amplification_factor == pytest.approx(factor, rel=1e-4)
     # lightly damped: AF = 1 / (2 z)
     assert factor == pytest.approx(0.5 / ratio, rel=2.5 * ratio)
