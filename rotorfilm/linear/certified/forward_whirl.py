@@ -81,9 +81,8 @@ class CrossCoupledRotor:
         """The first forward whirl without cross-coupling; AbsentError if there is none."""
         size = PROBE * self._stiffness
         motions = motions_about(self.rotor, self.under(size))
-        decrement = log_decrement(motions.eigenvalues)
-        swings = oscillates(motions.eigenvalues) & (decrement < PEAKED)
-        chosen = np.flatnonzero(swings & (motions.direction > 0.0))
+        swings = np.flatnonzero(oscillates(motions.eigenvalues) & (motions.direction > 0.0))
+        chosen = swings[log_decrement(motions.eigenvalues[swings]) < PEAKED]
         if not chosen.size:
             raise AbsentError(
                 f"rotor must have a forward whirl with a resonance at {self.at.speed:.6g} rad/s, and has none"
