@@ -83,6 +83,19 @@ if TYPE_CHECKING:
         rotor_threshold as rotor_threshold,
         stability_changes as stability_changes,
     )
+    from .straight.axial_statics import (
+        AxialStatics as AxialStatics,
+        axial_statics as axial_statics,
+        tensioned as tensioned,
+    )
+    from .straight.straight_motion import (
+        StraightModes as StraightModes,
+        ThrustBearing as ThrustBearing,
+        TwistSpring as TwistSpring,
+        axial_modes as axial_modes,
+        axial_response as axial_response,
+        twist_modes as twist_modes,
+    )
     from .whirl import speed_parameter, whirl_threshold as whirl_threshold
 else:
     show(__name__)
