@@ -91,8 +91,8 @@ def plot_separation_margins(result: SeparationMargins, *, axes: Axes | None = No
     )
     for peak in result.peaks:
         mark = "kv" if peak.acceptable else "rv"
-        axes.plot([peak.speed / RPM], [1e6 * peak.amplitude], mark, fillstyle="none")
-        axes.annotate(f"AF {peak.amplification_factor:.3g}", (peak.speed / RPM, 1e6 * peak.amplitude))
+        axes.plot([peak.speed / RPM], [1e6 * peak.peak_amplitude], mark, fillstyle="none")
+        axes.annotate(f"AF {peak.amplification_factor:.3g}", (peak.speed / RPM, 1e6 * peak.peak_amplitude))
     axes.set(
         xlabel="speed [rpm]",
         ylabel="amplitude [um]",

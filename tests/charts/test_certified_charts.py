@@ -50,7 +50,7 @@ def test_margins_in_rpm_and_micrometers():
     peak = ResonancePeak(
         output="mid_x",
         speed=200.0 * np.pi / 30.0,
-        amplitude=2e-6,
+        peak_amplitude=2e-6,
         amplification_factor=5.0,
         separation_margin=0.0,
         required_margin=0.1,

@@ -62,7 +62,7 @@ class ForwardWhirl(NamedTuple):
 class CrossCoupledRotor:
     """A rotor at rest in its bearings, to whose nodes cross-coupling is applied.
 
-    Attributes
+    Parameters
     ----------
     rotor : ShaftRotor
         With a station for each node where it acts.

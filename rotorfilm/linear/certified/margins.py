@@ -42,7 +42,7 @@ class ResonancePeak(Readable):
         What responds.
     speed : float [rad/s]
         Of the peak, the critical speed.
-    amplitude : float [m]
+    peak_amplitude : float [m]
         There.
     amplification_factor : float [1]
         AF = speed / (speed2 - speed1) between the speeds at which the amplitude is .707 of the peak; of a
@@ -57,7 +57,7 @@ class ResonancePeak(Readable):
 
     output: str
     speed: float
-    amplitude: float
+    peak_amplitude: float
     amplification_factor: float
     separation_margin: float
     required_margin: float
@@ -236,7 +236,7 @@ def _peaks(
             ResonancePeak(
                 output=name,
                 speed=speed,
-                amplitude=size(speed),
+                peak_amplitude=size(speed),
                 amplification_factor=factor,
                 separation_margin=margin,
                 required_margin=wanted,

@@ -66,7 +66,9 @@ class CompressorTable:
     speed : float [rad/s]
         Maximum continuous speed.
     impellers : tuple of Impeller
+        Of a centrifugal compressor.
     axial_stages : tuple of AxialStage
+        Of an axial one, beside impellers or alone.
     stage_speed : float or None [rad/s]
         At which the stages have their power; `speed` unless given.
     average_density : float or None [kg/m3]
