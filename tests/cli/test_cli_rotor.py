@@ -9,7 +9,6 @@ import pytest
 
 from rotorfilm.scenes import Scene
 from rotorfilm.scenes.shaft.shaft_remarks import shaft_remarks
-from rotorfilm.scenes.shaft.solve_compressor import solve_level_one
 from rotorfilm.scenes.shaft.solve_shaft import solve_rotor
 
 SCENE = Path(__file__).parents[2] / "examples" / "flexible_rotor.toml"
@@ -96,8 +95,15 @@ COMPRESSOR = SCENE.with_name("compressor.toml")
 def test_stability_of_a_compressor(run, tmp_path):
     code, out, _ = run("stability-level-one", COMPRESSOR, "--json", "--out", tmp_path / "out")
     assert code == 0
-    found, answer = json.loads(out), solve_level_one(Scene.load(COMPRESSOR))
-    assert found["zero_cross_coupling"] == pytest.approx(answer.zero_cross_coupling, rel=1e-9)
+    found, widths = json.loads(out), (15.0, 14.0, 13.0, 12.0, 11.0)
+    gases = zip((5.0, 6.0, 7.2, 8.6, 10.3), (6.0, 7.2, 8.6, 10.3, 12.4), strict=True)
+    wanted = [
+        3.0 * 60e3 * 9.5493 / (400.0 * width * 4000.0) * after / before * 1e6
+        for width, (before, after) in zip(widths, gases, strict=True)
+    ]
+    assert found["stage_cross_coupling"] == pytest.approx(wanted, rel=1e-5)
+    assert found["margin"] == pytest.approx(found["zero_cross_coupling"] / sum(wanted), rel=1e-5)
+    assert found["critical_speed_ratio"] < 1.0
     assert found["verdict"] == "acceptable: no analysis of level II is required"
     assert [curve["name"] for curve in found["curves"]] == ["smallest clearance", "largest clearance"]
     files = {f"stability_level_one.{ending}" for ending in ("png", "csv", "json")}
@@ -106,7 +112,7 @@ def test_stability_of_a_compressor(run, tmp_path):
     with (tmp_path / "out" / "stability_level_one.csv").open() as file:
         heading, *rows = list(csv.reader(file))
     assert heading[1] == "smallest clearance log decrement [1]"
-    assert float(rows[0][1]) == pytest.approx(answer.curves[0].log_decrement[0], rel=1e-8)
+    assert [float(row[1]) for row in rows] == pytest.approx(found["curves"][0]["log_decrement"], rel=1e-8)
 
 
 def test_help_of_the_stability_has_an_example(run):
