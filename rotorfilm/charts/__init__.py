@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     )
     from .canvas import new_axes as new_axes, new_figure as new_figure, save as save
     from .certified_charts import (
+        plot_polar_response as plot_polar_response,
         plot_separation_margins as plot_separation_margins,
         plot_shaft_statics as plot_shaft_statics,
         plot_stability_level_one as plot_stability_level_one,

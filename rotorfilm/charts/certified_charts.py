@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+import control
 import numpy as np
 from matplotlib.axes import Axes
 
@@ -131,3 +132,30 @@ def plot_shaft_statics(
         part.grid(visible=True, alpha=0.3)
         part.legend(fontsize=8)
     return above, middle, below
+
+
+def plot_polar_response(
+    response: control.FrequencyResponseData, outputs: Sequence[str], *, axes: Axes | None = None
+) -> Axes:
+    """Draw phasors [um] of a response over speed in the complex plane, with some speeds [rpm] beside them.
+
+    Parameters
+    ----------
+    response : control.FrequencyResponseData
+        As `unbalance_response` or `tracked_response` returns it.
+    outputs : sequence of str
+        Names of displacements.
+    axes : Axes, optional
+        Where to draw; a new figure by default.
+    """
+    axes = axes or new_axes("Polar plot")
+    speeds = np.asarray(response.frequency) / RPM
+    for name in outputs:
+        phasor = 1e6 * np.asarray(response.frdata)[list(response.output_labels).index(name), 0]
+        axes.plot(phasor.real, phasor.imag, label=name)
+        size = np.abs(phasor)
+        for k in {0, int(np.argmax(size)), len(speeds) - 1}:
+            axes.annotate(f"{speeds[k]:.0f} rpm", (phasor[k].real, phasor[k].imag), fontsize=8)
+    axes.set(xlabel="real [um]", ylabel="imaginary [um]", aspect="equal", adjustable="datalim")
+    axes.legend(fontsize=8)
+    return axes

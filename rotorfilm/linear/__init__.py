@@ -38,6 +38,7 @@ if TYPE_CHECKING:
         MeshConvergence as MeshConvergence,
         mesh_convergence as mesh_convergence,
     )
+    from .certified.order_tracking import tracked_response as tracked_response
     from .certified.placement import (
         mode_unbalances as mode_unbalances,
         residual_unbalance as residual_unbalance,
