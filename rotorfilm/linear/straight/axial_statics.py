@@ -62,7 +62,7 @@ def axial_statics(
     for node, force in forces.items():
         require_shaft_node("forces", node, rotor)
         load[node] += require_number(f"forces[{node}]", force)
-    moved: Array = np.linalg.solve(stiffness, load)
+    moved: Array = np.asarray(np.linalg.solve(stiffness, load), dtype=float)
     held = {b.node: 0.0 for b in bearings}
     thrust = np.array([b.stiffness * moved[b.node] for b in bearings])
     for bearing, force in zip(bearings, thrust, strict=True):
