@@ -15,6 +15,7 @@ from matplotlib.image import imread
 
 from rotorfilm.errors import ValidityWarning
 from rotorfilm.scenes import Scene, bundled_scene
+from rotorfilm.scenes.shaft.solve_compressor import solve_level_one
 from rotorfilm.scenes.shaft.solve_shaft import solve_rotor
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -57,6 +58,8 @@ LAST_NUMBER = {
     "tolerances.py": pytest.approx(0.0, abs=1e-3),
     # the same by grids: the dam on 128 x 32 cells, the grooves on 192 x 16
     "which_bearing.py": pytest.approx(11.407, rel=5e-3),
+    # the cross-coupling as a bearing of its own, in the modes of the rotor
+    "api617.py": pytest.approx(1.0, abs=1e-6),
     # the synchronous coefficients are those of a small orbit
     "tilting_pads.py": pytest.approx(1.0, abs=3e-4),
     # whirl ratio of a lightly loaded full film: one half
@@ -140,6 +143,10 @@ def test_scene_file_loads_and_solves(path):
             asked = scene.solve()
         assert asked.met
         assert asked.error_estimate <= asked.tolerance
+    elif scene.shaft is not None and scene.shaft.compressor is not None:
+        found = solve_level_one(scene)
+        assert not found.level_two_required
+        assert found.anticipated_decrement < min(curve.log_decrement.max() for curve in found.curves)
     elif scene.shaft is not None:
         found = solve_rotor(scene)
         assert found.residual < 1e-9

@@ -16,6 +16,7 @@ from .command import Argument, Option, Said
 from .solve_command import remark_rows
 
 if TYPE_CHECKING:
+    from ..linear import StabilityLevelOne
     from ..scenes.shaft.solve_shaft import RotorAnswer
 
 RPM = 30.0 / math.pi
@@ -37,6 +38,39 @@ def rotor(
     if out is not None:
         write_rotor(answer, out)
     return Said(plain_rotor(answer), partial(console.print_rows, answer.title, rotor_rows(answer)))
+
+
+def stability_level_one(
+    scene: Annotated[Path, Argument(help="Scene file with a table shaft.compressor.", metavar="SCENE.toml")],
+    out: Annotated[
+        Path | None, Option(help="Folder for the chart (PNG), the curves (CSV) and the result (JSON).")
+    ] = None,
+) -> Said:
+    """Screen the stability of a compressor by API 617, level I: log decrement over applied cross-coupling."""
+    from ..scenes import Scene
+    from ..scenes.shaft.solve_compressor import solve_level_one
+
+    given = Scene.load(scene)
+    found = solve_level_one(given)
+    if out is not None:
+        write_level_one(found, out)
+    return Said(to_plain(found), partial(console.print_rows, given.title, found.to_rows()))
+
+
+def write_level_one(found: StabilityLevelOne, folder: Path) -> None:
+    """Write chart, curves and JSON of an analysis into a folder, which is made if need be."""
+    from ..charts import plot_stability_level_one, save
+    from ..files import written_together
+
+    columns: dict[str, Any] = {}
+    for curve in found.curves:
+        columns[f"{curve.name} cross-coupling [N/m]"] = curve.cross_coupling.tolist()
+        columns[f"{curve.name} log decrement [1]"] = curve.log_decrement.tolist()
+        columns[f"{curve.name} frequency [rad/s]"] = curve.frequency.tolist()
+    with written_together(folder) as part:
+        save(plot_stability_level_one(found)[0], part / "stability_level_one.png")
+        write_csv(part / "stability_level_one.csv", columns)
+        console.write_json(part / "stability_level_one.json", to_plain(found))
 
 
 def rotor_rows(answer: RotorAnswer) -> list[tuple[str, str]]:

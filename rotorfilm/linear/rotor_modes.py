@@ -129,7 +129,16 @@ def motions_at(
     speed = require_number("speed", speed)
     require_range(highest_frequency)
     known_to = highest_frequency if highest_frequency < math.inf else usual_frequency(rotor, speed)
-    found = (_motions(model, bearings, speed, known_to) for model in models(rotor, known_to))
+    found = (
+        _motions(model, rest(model.structure, bearings, speed), known_to) for model in models(rotor, known_to)
+    )
+    return next(motions for motions in found if motions.error <= TOLERANCE)
+
+
+def motions_about(rotor: FlexibleRotor, at: RotorEquilibrium) -> Motions:
+    """Return the same about a rest that is known, with its K and C of the bearings."""
+    known_to = usual_frequency(rotor, at.speed)
+    found = (_motions(model, at, known_to) for model in models(rotor, known_to))
     return next(motions for motions in found if motions.error <= TOLERANCE)
 
 
@@ -153,10 +162,9 @@ def whirls_of(motions: Motions, highest_frequency: float = math.inf) -> RotorMod
     )
 
 
-def _motions(model: Condensed, bearings: Mapping[str, Reaction], speed: float, known_to: float) -> Motions:
+def _motions(model: Condensed, at: RotorEquilibrium, known_to: float) -> Motions:
     """Return the motions of a model of a rotor, in the coordinates of the whole."""
-    at = rest(model.structure, bearings, speed)
-    parts = [_part(model, at, part, known_to) for part in _frequencies(model.structure, abs(speed))]
+    parts = [_part(model, at, part, known_to) for part in _frequencies(model.structure, abs(at.speed))]
     shapes = np.hstack([part.shapes for part in parts])
     return Motions(
         speed=at.speed,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -169,22 +169,31 @@ def unbalance_response(
         If there is no equilibrium at one of the speeds.
     """
     require_flexible(rotor)
-    grid, s = checked_speeds(speeds), rotor.assembly
-    if not s.unbalance.any():
+    if not rotor.assembly.unbalance.any():
         raise InputError("rotor must have an unbalance, got none")
+    # (cos, sin) of the angle are the real parts of (1, -i) exp(i w t)
+    turning = rotor.assembly.unbalance @ np.array([[1.0], [-1.0j]])
+    return synchronous_response(rotor, bearings, speeds, lambda speed: speed**2 * turning, "unbalance")
+
+
+def synchronous_response(
+    rotor: FlexibleRotor,
+    bearings: Mapping[str, Reaction],
+    speeds: ArrayLike,
+    forces: Callable[[float], np.ndarray],
+    name: str,
+) -> control.FrequencyResponseData:
+    """Return the response to forces that turn with the shaft, phasors of shape (N, 1) [N] at each speed."""
+    grid = checked_speeds(speeds)
     responses = []
     for speed in grid:
-        # (cos, sin) of the angle are the real parts of (1, -i) exp(i w t)
-        force = speed**2 * s.unbalance @ np.array([[1.0], [-1.0j]])
-        at, motion = driven(rotor, bearings, float(speed), force, float(grid[-1]))
+        at, motion = driven(rotor, bearings, float(speed), forces(float(speed)), float(grid[-1]))
         sense, labels = _outputs(rotor, at)
         responses.append(sense @ motion)
     data = np.stack(responses, axis=-1)
     import control
 
-    return control.FrequencyResponseData(
-        data, grid, inputs=["unbalance"], outputs=labels, name="unbalance_response"
-    )
+    return control.FrequencyResponseData(data, grid, inputs=[name], outputs=labels, name=f"{name}_response")
 
 
 @arguments

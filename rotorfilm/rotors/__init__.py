@@ -31,6 +31,7 @@ if TYPE_CHECKING:
         LayeredElement as LayeredElement,
         ShaftElement as ShaftElement,
     )
+    from .shaft.modal_damping import ModallyDampedRotor as ModallyDampedRotor
     from .shaft.parts import (
         Disk as Disk,
         Probe as Probe,

@@ -135,6 +135,8 @@ class DiskTable:
         Of a disk of given size; that of the shaft unless given.
     mass : float or None [kg]
     diametral_inertia, polar_inertia : float [kg m2]
+    skew, skew_angle : float [rad]
+        By which its axis leans, and where to.
     """
 
     node: Annotated[int, NODE]
@@ -145,6 +147,8 @@ class DiskTable:
     mass: Annotated[float | None, Quantity("kg")] = None
     diametral_inertia: Annotated[float, Quantity("kg.m2")] = 0.0
     polar_inertia: Annotated[float, Quantity("kg.m2")] = 0.0
+    skew: Annotated[float, Quantity("rad")] = 0.0
+    skew_angle: Annotated[float, Quantity("rad")] = 0.0
 
     def __post_init__(self) -> None:
         sized = self.width is not None and self.outer_diameter is not None
@@ -158,13 +162,14 @@ class DiskTable:
             return made_from(Disk, self)
         assert self.width is not None  # checked in __post_init__, as the next
         assert self.outer_diameter is not None
-        return Disk.solid(
+        solid = Disk.solid(
             self.node,
             density=material.density if self.density is None else self.density,
             width=self.width,
             outer_diameter=self.outer_diameter,
             inner_diameter=self.inner_diameter,
         )
+        return replace(solid, skew=self.skew, skew_angle=self.skew_angle)
 
 
 @dataclass(frozen=True, kw_only=True)
