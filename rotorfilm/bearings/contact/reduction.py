@@ -13,7 +13,6 @@ from ...inputs.kinds import arguments
 from ...model import Linearization
 from .between_points import point_between
 from .contact_law import ContactLaw, transfer
-from .film.stationary import HERTZ_LOAD
 from .operating_points import FREQUENCIES, LOADS, ContactPoint, kept_points, operating_point, under_load
 from .point_contact import ALTERNATING, PointContact
 from .rational_fit import fit_transfer
@@ -49,7 +48,8 @@ def reduce_contact(contact: PointContact, order: int = 5, load: float = 1.0) -> 
         If the fitted damping is negative at some frequency, or the pressure alternates from cell to cell.
     """
     require_positive("load", load)
-    return _scaled(_law(operating_point(under_load(contact.equations, load)), order), load)
+    equations = under_load(contact.equations, load)
+    return _scaled(_law(operating_point(equations), equations.ellipse.load, order), load)
 
 
 @arguments
@@ -67,7 +67,7 @@ def interpolate_contact(contact: PointContact, order: int = 5, load: float = 1.0
     require_positive("load", load)
     equations = under_load(contact.equations, load)
     between = point_between(kept_points(equations), equations.V, equations.Q0)
-    law = _law(between.point, order)
+    law = _law(between.point, equations.ellipse.load, order)
     return _scaled(
         replace(
             law,
@@ -101,10 +101,10 @@ def in_si(ball: RollingBall, contact: PointContact, law: ContactLaw) -> ContactL
     )
 
 
-def _law(point: ContactPoint, order: int) -> ContactLaw:
-    """Return the law of a point, in its own units."""
+def _law(point: ContactPoint, unit: float, order: int) -> ContactLaw:
+    """Return the law of a point in its own units, `unit` being the integral of the dry pressure."""
     static = fit_static_law(point.delta, np.array(LOADS))
-    change = -(point.stiffness[1:] - point.stiffness[0].real) / HERTZ_LOAD
+    change = -(point.stiffness[1:] - point.stiffness[0].real) / unit
     fit = fit_transfer(FREQUENCIES, change, order, 1.0 / np.maximum(FREQUENCIES, SLOWEST))
     law = ContactLaw(
         offset=static.offset,

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from ...sources import show
 
 if TYPE_CHECKING:
+    from ..ellipse import elliptic_integrals
     from .ball_bearing import BallBearing as BallBearing
     from .ball_films import ball_films as ball_films
     from .ball_law import RunningBalls as RunningBalls, StaticBalls as StaticBalls
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
         face_to_face as face_to_face,
         tandem as tandem,
     )
-    from .elliptic_contact import EllipticContact as EllipticContact, elliptic_integrals
+    from .elliptic_contact import EllipticContact as EllipticContact
     from .load_zone import (
         load_integrals as load_integrals,
         palmgren_stiffness as palmgren_stiffness,
