@@ -81,6 +81,8 @@ FAMILIES = {"journal", "damper", "contact", "bush", "pads", "rolling"}
 BETWEEN_FAMILIES = {
     # The film of a damper over a map is the film of a journal that does not turn.
     ("damper", "journal"),
+    # The film between a ball and its race is that of a point contact on an ellipse.
+    ("rolling", "contact"),
 }
 
 SAME_NAME = {"bearing"}

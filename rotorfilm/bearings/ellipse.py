@@ -1,4 +1,4 @@
-"""The dry elliptic contact of two elastic bodies (Hertz 1881) in its own units, and its elliptic integrals."""
+"""The dry elliptic contact of two elastic bodies (Hertz 1881) in its own units; elliptic integrals."""
 
 from __future__ import annotations
 

@@ -2,8 +2,9 @@
 
 In units of the Hertzian contact the film thickness is deepened by C times the integral of p/|r - r'| dS', so
 a cell of unit pressure contributes C times the integral of 1/r over its rectangle, which is elementary
-(Love 1929); C = 4/pi^2 for a circular contact. On equal cells the sum is a discrete convolution; zero padding makes it exact, and the symmetry
-about y = 0 turns the transform across into cosine transforms of half the length.
+(Love 1929); a circular contact has C = 4/pi^2. On equal cells the sum is a discrete convolution; zero padding
+makes it exact, and the symmetry about y = 0 turns the transform across into cosine transforms of half the
+length.
 """
 
 from __future__ import annotations

@@ -5,8 +5,9 @@ In units of the Hertzian contact (Panovko 2011, equations 5-7, with the errata l
     H = delta + x^2 + (rho_y/rho_x) y^2 + C integral of p/|r - r'| dS',
     div(rho H^3 grad Phi) - V (rho H)_x - V (rho H)_t = R,    p >= 0,  R <= 0,  p R = 0,
 
-with dPhi/dp = 1/mu(p), all lengths in the axis along x; a circle has rho_y = rho_x and C = 4/pi^2. The rigid approach delta is the unknown beside the pressure, which keeps the singular
-kernel out of the equation of motion. In time, (rho H)_t = rate * (rho H) + history.
+with dPhi/dp = 1/mu(p), all lengths in the axis along x; a circle has rho_y = rho_x and C = 4/pi^2. The rigid
+approach delta is the unknown beside the pressure, which keeps the singular kernel out of the equation of
+motion. In time, (rho H)_t = rate * (rho H) + history.
 """
 
 from __future__ import annotations
