@@ -54,7 +54,7 @@ FURTHER = [home.split(".")[1] for home in REGISTERED.values() if home.startswith
 """Families that have only the one folder."""
 
 PARTS = {
-    "bearings": [["films"], ["oil"], ["journal"], ["damper", "contact", "bush", "pads", "rolling"]],
+    "bearings": [["films"], ["oil"], ["journal"], ["damper", "contact", "bush", "pads"], ["rolling"]],
     "bearings/films": [["ring", "conserved"]],
     "bearings/journal": [["rupture"], ["map", "splitting"], ["grooves"], ["heat"], ["conserved"]],
     "bearings/journal/heat": [["field"]],

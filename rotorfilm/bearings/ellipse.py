@@ -74,6 +74,11 @@ class Ellipse:
     In units of its load: lengths in b, pressures in the largest, approach and gap in b^2 rho_x/2. There the
     pressure is sqrt(1 - x^2 - y^2/kappa^2), and the gap is approach + x^2 + (rho_y/rho_x) y^2 + C times the
     integral of p/|r - r'|.
+
+    Parameters
+    ----------
+    ellipticity : float [1]
+        At least 1.
     """
 
     ellipticity: float

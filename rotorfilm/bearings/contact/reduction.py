@@ -10,7 +10,7 @@ import numpy as np
 
 from ...errors import InputError, ValidityWarning, require_positive
 from ...inputs.kinds import arguments
-from ...model import Linearization
+from ...model import Array, Linearization
 from .between_points import point_between
 from .contact_law import ContactLaw, transfer
 from .operating_points import FREQUENCIES, LOADS, ContactPoint, kept_points, operating_point, under_load
@@ -99,6 +99,34 @@ def in_si(ball: RollingBall, contact: PointContact, law: ContactLaw) -> ContactL
         time_scale=law.time_scale * ball.time_scale,
         force_scale=law.force_scale * ball.load,
     )
+
+
+def in_series(laws: list[ContactLaw], shares: Array, order: int) -> tuple[Linearization, float]:
+    """Return force over approach of contacts in series beside the static one, and the error of its damping.
+
+    To first order in what films add to the stiffness k: Z = k + sum of share^2 (Z_c - Z_c(0)), where a
+    contact has the `share` k/k_c of the approach.
+
+    Parameters
+    ----------
+    laws : list of ContactLaw
+        In SI.
+    shares : ndarray, shape (n,)
+        Sum 1.
+    order : int
+        Of the result.
+    """
+    unit = max(law.time_scale for law in laws)
+    value = np.zeros(len(FREQUENCIES), dtype=complex)
+    for law, share in zip(laws, shares, strict=True):
+        s = 1j * FREQUENCIES * law.time_scale / unit
+        per = law.force_scale / law.film_scale
+        value -= share**2 * per * transfer(Linearization(law.A, law.B, law.C, law.D), s)
+    scale = float(np.max(abs(value)))
+    fit = fit_transfer(FREQUENCIES, value / scale, order, 1.0 / np.maximum(FREQUENCIES, SLOWEST)).system
+    missed = (transfer(fit, 1j * FREQUENCIES) - value / scale).imag / FREQUENCIES
+    error = float(np.max(abs(missed)) / np.max(abs(value.imag / scale / FREQUENCIES)))
+    return Linearization(fit.A / unit, fit.B / unit, fit.C * scale, fit.D * scale), error
 
 
 def _law(point: ContactPoint, unit: float, order: int) -> ContactLaw:

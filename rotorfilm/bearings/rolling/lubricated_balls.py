@@ -14,18 +14,11 @@ from ...inputs.kinds import arguments
 from ...model import Array, Linearization
 from ...native.layouts.ball_structs import ROW
 from ...signals import Signal
-from ..contact import ContactGrid, ContactLaw
-from ..contact.contact_law import transfer
-from ..contact.operating_points import FREQUENCIES
-from ..contact.rational_fit import fit_transfer
+from ..contact import ContactGrid, in_series, require_state_space
 from .ball_element import BallElement
 from .ball_results import BallRest
 from .film_damping import ball_moves, films_at
 from .race_film import USUAL_GRID
-
-SLOWEST = 0.3
-"""Frequency below which a misfit of the damping counts less, in the unit of the slower film."""
-
 
 TINY = 1e-300
 """What stands for no load in a denominator."""
@@ -43,25 +36,34 @@ class LubricatedBalls:
     bearing : BallBearing or BearingPair
     rest : BallRest
         About which the films are linear.
-    film : Linearization
-        Force [N] of one ball over its approach [m], beside the static one: 0 in slow motion.
-    film_error : float [1]
+    A, B, C, D : ndarray
+        State space of one ball: what its films add to the force [N] over the approach of its grooves [m].
+    damping_error : float [1]
         Largest error of its damping, over the largest damping.
+
+    Raises
+    ------
+    InputError
+        If an argument breaks its rule.
     """
 
     bearing: BallElement
     rest: BallRest
-    film: Linearization
-    film_error: float
+    A: Array
+    B: Array
+    C: Array
+    D: Array
+    damping_error: float
 
     def __post_init__(self) -> None:
         require_kind("bearing", self.bearing, BallElement, "a BallBearing or a BearingPair")
         require_kind("rest", self.rest, BallRest, "a BallRest of the bearing")
+        require_state_space(self.A, self.B, self.C, self.D)
 
     @property
     def order(self) -> int:
         """States of each ball."""
-        return len(self.film.A)
+        return len(self.A)
 
     @cached_property
     def inputs(self) -> tuple[Signal, ...]:
@@ -112,7 +114,7 @@ class LubricatedBalls:
     def resting(self, u: ArrayLike) -> Array:
         """Return the state of films that have long rested at a motion u (5,) of the shaft."""
         drive = self._geometry(u).drive
-        return np.asarray(-np.outer(drive, np.linalg.solve(self.film.A, self.film.B[:, 0])).ravel())
+        return np.asarray(-np.outer(drive, np.linalg.solve(self.A, self.B[:, 0])).ravel())
 
     def output(self, t: float, x: ArrayLike, u: ArrayLike) -> Array:
         """Return force and moment on the shaft, shape (5,), for its motion u (5,); t is not used."""
@@ -123,16 +125,16 @@ class LubricatedBalls:
         """Return dx/dt [1/s]."""
         states = np.reshape(np.asarray(x, dtype=float), (-1, self.order))
         drive = self._geometry(u).drive
-        return np.asarray((states @ self.film.A.T + drive[:, None] * self.film.B[:, 0]).ravel())
+        return np.asarray((states @ self.A.T + drive[:, None] * self.B[:, 0]).ravel())
 
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives; at a kink those of one side."""
         at, geometry, balls = self._balls(x, u), self._geometry(u), len(self._moves)
-        A = np.kron(np.eye(balls), self.film.A)
-        B = np.einsum("ji,k->jki", geometry.by_motion, self.film.B[:, 0]).reshape(-1, 5)
+        A = np.kron(np.eye(balls), self.A)
+        B = np.einsum("ji,k->jki", geometry.by_motion, self.B[:, 0]).reshape(-1, 5)
         push = np.einsum("jai,ja->ji", self._moves, at.direction)
-        C = np.einsum("ji,j,k->ijk", push, at.acts, self.film.C[0]).reshape(5, -1)
-        by_motion = at.acts[:, None] * self.film.D[0, 0] * geometry.by_motion
+        C = np.einsum("ji,j,k->ijk", push, at.acts, self.C[0]).reshape(5, -1)
+        by_motion = at.acts[:, None] * self.D[0, 0] * geometry.by_motion
         loaded = np.einsum("ja,jai->ji", at.direction, at.moved)
         by_motion -= (at.pressed - at.acts)[:, None] * loaded
         turned = at.moved - at.direction[:, :, None] * loaded[:, None]
@@ -156,7 +158,7 @@ class LubricatedBalls:
         pressed = (load > 0.0).astype(float)
         direction = push / np.maximum(load, TINY)[:, None]
         states = np.reshape(np.asarray(x, dtype=float), (-1, self.order))
-        film = states @ self.film.C[0] + self.film.D[0, 0] * self._geometry(u).drive
+        film = states @ self.C[0] + self.D[0, 0] * self._geometry(u).drive
         acts = pressed * (film > -load)
         place = kernel.each["by_place"].reshape(-1, 2, 2)
         return _Balls(
@@ -268,32 +270,4 @@ def lubricated_balls(
     laws = [film.law(order, grid=grid) for film in films]
     compliance = np.array([1.0 / film.stiffness for film in films])
     film, error = in_series(laws, compliance / compliance.sum(), order)
-    return LubricatedBalls(bearing=bearing, rest=rest, film=film, film_error=error)
-
-
-def in_series(laws: list[ContactLaw], shares: Array, order: int) -> tuple[Linearization, float]:
-    """Return force over approach of contacts in series beside the static one, and the error of its damping.
-
-    To first order in what films add to the stiffness k: Z = k + sum of share^2 (Z_c - Z_c(0)), where a
-    contact has the `share` k/k_c of the approach.
-
-    Parameters
-    ----------
-    laws : list of ContactLaw
-        In SI.
-    shares : ndarray, shape (n,)
-        Sum 1.
-    order : int
-        Of the result.
-    """
-    unit = max(law.time_scale for law in laws)
-    value = np.zeros(len(FREQUENCIES), dtype=complex)
-    for law, share in zip(laws, shares, strict=True):
-        s = 1j * FREQUENCIES * law.time_scale / unit
-        per = law.force_scale / law.film_scale
-        value -= share**2 * per * transfer(Linearization(law.A, law.B, law.C, law.D), s)
-    scale = float(np.max(abs(value)))
-    fit = fit_transfer(FREQUENCIES, value / scale, order, 1.0 / np.maximum(FREQUENCIES, SLOWEST)).system
-    missed = (transfer(fit, 1j * FREQUENCIES) - value / scale).imag / FREQUENCIES
-    error = float(np.max(abs(missed)) / np.max(abs(value.imag / scale / FREQUENCIES)))
-    return Linearization(fit.A / unit, fit.B / unit, fit.C * scale, fit.D * scale), error
+    return LubricatedBalls(bearing=bearing, rest=rest, **film._asdict(), damping_error=error)

@@ -7,8 +7,15 @@ from dataclasses import dataclass, replace
 
 from ...errors import ValidityWarning, require_each, require_kind, require_positive, warn_user
 from ...inputs.si_arguments import quantities
-from ..contact import ContactGrid, ContactLaw, PointContact, reduce_contact
-from ..contact.film.pressure_fluid import BarusViscosity, RoelandsViscosity, roelands_viscosity
+from ..contact import (
+    BarusViscosity,
+    ContactGrid,
+    ContactLaw,
+    PointContact,
+    RoelandsViscosity,
+    reduce_contact,
+    roelands_viscosity,
+)
 from ..ellipse import Ellipse
 from ..hamrock_dowson import HamrockDowson
 from .elliptic_contact import EllipticContact
