@@ -58,13 +58,11 @@ def curvature_ratio(ellipticity: float) -> float:
     return kappa**2 * (m - share) / share if share > 0.0 else 1.0
 
 
-def require_ellipticity(value: object) -> float:
-    """Return an ellipticity, or raise InputError if it is not finite and at least 1."""
+def require_ellipticity(value: float) -> None:
+    """Raise InputError if an ellipticity is not finite and at least 1."""
     require_positive("ellipticity", value)
-    assert isinstance(value, int | float)
     if value < 1.0:
         raise InputError(f"ellipticity must be at least 1, got {value!r}")
-    return float(value)
 
 
 @dataclass(frozen=True)

@@ -91,18 +91,13 @@ def film_damping(
     """
     require_non_negative("structural_time", structural_time)
     films = films_at(bearing, rest, viscosity, pressure_coefficient)
-    slow = films[0].slow_damping, films[1].slow_damping
-    damping, each = np.zeros((5, 5)), []
-    move = ball_moves(bearing.rows)
-    for k, (inner, outer) in enumerate(_passed_on(bearing, rest)):
-        block = slow[0] * np.outer(inner, inner) + slow[1] * np.outer(outer, outer)
-        damping += move[k].T @ block @ move[k]
-        each.append(float(np.trace(block)))
+    blocks, moves = ball_blocks(bearing, rest, films), ball_moves(bearing.rows)
+    damping = np.einsum("jai,jab,jbk->ik", moves, blocks, moves)
     damping += 0.5 * structural_time * (rest.stiffness + rest.stiffness.T)
     return FilmDamping(
         damping=damping,
         planar=_planar(damping, rest.stiffness, free=bearing.axial_load is not None),
-        ball_damping=np.array(each),
+        ball_damping=np.trace(blocks, axis1=1, axis2=2),
         damping_time=np.diag(damping) / np.diag(rest.stiffness),
         films=films,
     )
@@ -130,6 +125,17 @@ def films_at(
         speed=rest.speed,
         viscosity=viscosity,
         pressure_coefficient=pressure_coefficient,
+    )
+
+
+def ball_blocks(bearing: BallElement, rest: BallRest, films: tuple[RaceFilm, RaceFilm]) -> Array:
+    """Return the damping of each ball over the (axial, radial) motion of its inner groove, (balls, 2, 2)."""
+    slow = films[0].slow_damping, films[1].slow_damping
+    return np.array(
+        [
+            slow[0] * np.outer(inner, inner) + slow[1] * np.outer(outer, outer)
+            for inner, outer in _passed_on(bearing, rest)
+        ]
     )
 
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...errors import require_kind
+from ...errors import InputError, require_kind
 from ...inputs.kinds import arguments
 from ...model import Array, Linearization
 from ...native.layouts.ball_structs import ROW
@@ -17,7 +17,7 @@ from ...signals import Signal
 from ..contact import ContactGrid, in_series, require_state_space
 from .ball_element import BallElement
 from .ball_results import BallRest
-from .film_damping import ball_moves, films_at
+from .film_damping import ball_blocks, ball_moves, films_at
 from .race_film import USUAL_GRID
 
 TINY = 1e-300
@@ -38,6 +38,8 @@ class LubricatedBalls:
         About which the films are linear.
     A, B, C, D : ndarray
         State space of one ball: what its films add to the force [N] over the approach of its grooves [m].
+    shares : ndarray, shape (balls,) [1]
+        By which balls multiply that: 1 but for what centrifugal force changes in the stiffness of contacts.
     damping_error : float [1]
         Largest error of its damping, over the largest damping.
 
@@ -53,11 +55,14 @@ class LubricatedBalls:
     B: Array
     C: Array
     D: Array
+    shares: Array
     damping_error: float
 
     def __post_init__(self) -> None:
         require_kind("bearing", self.bearing, BallElement, "a BallBearing or a BearingPair")
         require_kind("rest", self.rest, BallRest, "a BallRest of the bearing")
+        if np.shape(self.shares) != (len(self._moves),):
+            raise InputError(f"shares must be one of each ball, got shape {np.shape(self.shares)}")
         require_state_space(self.A, self.B, self.C, self.D)
 
     @property
@@ -68,7 +73,7 @@ class LubricatedBalls:
     @cached_property
     def inputs(self) -> tuple[Signal, ...]:
         """Signals x, y, z, tilt_x, tilt_y: the motion of the shaft."""
-        way, arm = self.bearing.clearance, float(self.bearing.rows[0, ROW.index("arm")])
+        way, arm = 0.1 * self.bearing.clearance, float(self.bearing.rows[0, ROW.index("arm")])
         return tuple(
             Signal(name=name, unit=unit, nominal=size, description=text)
             for name, unit, size, text in (
@@ -133,8 +138,9 @@ class LubricatedBalls:
         A = np.kron(np.eye(balls), self.A)
         B = np.einsum("ji,k->jki", geometry.by_motion, self.B[:, 0]).reshape(-1, 5)
         push = np.einsum("jai,ja->ji", self._moves, at.direction)
-        C = np.einsum("ji,j,k->ijk", push, at.acts, self.C[0]).reshape(5, -1)
-        by_motion = at.acts[:, None] * self.D[0, 0] * geometry.by_motion
+        acts = self.shares * at.acts
+        C = np.einsum("ji,j,k->ijk", push, acts, self.C[0]).reshape(5, -1)
+        by_motion = acts[:, None] * self.D[0, 0] * geometry.by_motion
         loaded = np.einsum("ja,jai->ji", at.direction, at.moved)
         by_motion -= (at.pressed - at.acts)[:, None] * loaded
         turned = at.moved - at.direction[:, :, None] * loaded[:, None]
@@ -158,7 +164,7 @@ class LubricatedBalls:
         pressed = (load > 0.0).astype(float)
         direction = push / np.maximum(load, TINY)[:, None]
         states = np.reshape(np.asarray(x, dtype=float), (-1, self.order))
-        film = states @ self.C[0] + self.D[0, 0] * self._geometry(u).drive
+        film = self.shares * (states @ self.C[0] + self.D[0, 0] * self._geometry(u).drive)
         acts = pressed * (film > -load)
         place = kernel.each["by_place"].reshape(-1, 2, 2)
         return _Balls(
@@ -242,8 +248,7 @@ def lubricated_balls(
     """Return the bearing with the dynamics of its films about a rest, both contacts of each ball in series.
 
     Solves the films of the most loaded ball at both races, on an ellipse of the ellipticity 4; that takes
-    some seconds and is kept on disk. The others have the same films: damping hardly depends on the load. With
-    `RunningBalls` the shares of both contacts in the motion of a ball are still those without inertia.
+    some seconds and is kept on disk. The others have the same films: damping hardly depends on the load.
 
     Parameters
     ----------
@@ -269,5 +274,10 @@ def lubricated_balls(
     films = films_at(bearing, rest, viscosity, pressure_coefficient)
     laws = [film.law(order, grid=grid) for film in films]
     compliance = np.array([1.0 / film.stiffness for film in films])
-    film, error = in_series(laws, compliance / compliance.sum(), order)
-    return LubricatedBalls(bearing=bearing, rest=rest, **film._asdict(), damping_error=error)
+    law, error = in_series(laws, compliance / compliance.sum(), order)
+    each = np.trace(ball_blocks(bearing, rest, films), axis1=1, axis2=2)
+    series = sum(
+        film.slow_damping * (c / sum(compliance)) ** 2 for film, c in zip(films, compliance, strict=True)
+    )
+    shares = np.where(each > 0.0, each / series, 1.0)
+    return LubricatedBalls(bearing=bearing, rest=rest, **law._asdict(), shares=shares, damping_error=error)

@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+import fmpy
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -19,6 +20,7 @@ from rotorfilm import (
     StaticBalls,
     ValidityWarning,
     back_to_back,
+    export_fmu,
     film_damping,
     linearize,
     lubricated_balls,
@@ -94,11 +96,11 @@ def test_numbers_of_a_race_are_those_of_its_definition():
 
 
 @pytest.mark.regression
-@pytest.mark.parametrize(("V", "Q0"), [(0.07, 18.0), (0.9, 9.0), (0.035, 33.0)])
+@pytest.mark.parametrize(("V", "Q0"), [(0.07, 18.0), (0.9, 9.0)])
 def test_formula_of_slow_damping_is_that_of_the_film_off_the_points_of_its_fit(V, Q0):
     film = race_film(V, Q0)
     share = film.slow_damping / (film.stiffness * film.time_scale)
-    assert share == pytest.approx(relative_damping(V, Q0, 40), rel=0.08)
+    assert share == pytest.approx(relative_damping(V, Q0, 36), rel=0.08)
 
 
 @pytest.mark.literature
@@ -240,7 +242,7 @@ def test_bearing_in_harmonic_motion_has_its_contacts_in_series(pressed):
 def test_derivatives_are_exact_with_films_at_work_and_lost(law, pressed):
     bearing = replace(ANGULAR, law=law)
     rest = bearing.rest((100.0, -300.0, 500.0, 0.0, 0.0), FAST)
-    model = replace(pressed[1], bearing=bearing, rest=rest)
+    model = replace(pressed[1], bearing=bearing, rest=rest, shares=np.linspace(0.5, 1.0, 10))
     assert isinstance(model, Dynamic)
     assert isinstance(model, Switched)
     rng = np.random.default_rng(3)
@@ -299,7 +301,18 @@ def test_films_at_rest_add_nothing_and_damp_a_mass(pressed):
     assert energy[-1] / energy[0] == pytest.approx(math.exp(-c / mass * run.t[-1]), rel=0.02)
 
 
-def test_errors_name_argument_rule_and_value():
+def test_films_go_out_as_an_fmu(pressed, tmp_path):
+    rest, model = pressed
+    path = tmp_path / "films.fmu"
+    export_fmu(model, path, "2.0", backend="python")
+    told = fmpy.read_model_description(str(path)).modelVariables
+    inputs, outputs = ([v.name for v in told if v.causality == kind] for kind in ("input", "output"))
+    signal = np.array([(0.0, *rest.displacement)], dtype=[(name, float) for name in ("time", *inputs)])
+    found = fmpy.simulate_fmu(str(path), stop_time=2e-5, output_interval=1e-5, input=signal, output=outputs)
+    assert found[outputs[2]] == pytest.approx(-300.0, rel=1e-9)
+
+
+def test_errors_name_argument_rule_and_value(pressed):
     rest = ANGULAR.rest((0.0, 0.0, 500.0, 0.0, 0.0), 0.0)
     with pytest.raises(InputError, match=r"rest must have loaded balls and turn, .* at 0\.0 rad/s"):
         film_damping(ANGULAR, rest, **OIL)
@@ -307,5 +320,7 @@ def test_errors_name_argument_rule_and_value():
         film_damping(DEEP, ANGULAR.rest((0.0, 0.0, 500.0, 0.0, 0.0), FAST), **OIL)
     with pytest.raises(InputError, match="structural_time must be finite and not negative, got -1"):
         film_damping(ANGULAR, rest, **OIL, structural_time=-1.0)
+    with pytest.raises(InputError, match=r"shares must be one of each ball, got shape \(3,\)"):
+        replace(pressed[1], shares=np.ones(3))
     with pytest.raises(InputError, match="touch must be an EllipticContact, got 3"):
         replace(race_film(0.1, 10.0), touch=3)
