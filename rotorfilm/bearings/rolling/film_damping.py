@@ -184,8 +184,8 @@ def _contact(stiffness: float, load: float, angle: float, touch: float) -> tuple
     return along, stiff + load / (touch + depth) * np.outer(across, across)
 
 
-def _counts(bearing: BallElement) -> Array:
-    return bearing.rows[:, ROW.index("count")].astype(int)
+def _counts(bearing: BallElement) -> list[int]:
+    return [int(count) for count in bearing.rows[:, ROW.index("count")]]
 
 
 def _planar(damping: Array, stiffness: Array, *, free: bool) -> Array:

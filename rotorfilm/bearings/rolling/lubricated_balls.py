@@ -135,7 +135,7 @@ class LubricatedBalls:
     def linearization(self, t: float, x: ArrayLike, u: ArrayLike) -> Linearization:
         """Return the exact derivatives; at a kink those of one side."""
         at, geometry, balls = self._balls(x, u), self._geometry(u), len(self._moves)
-        A = np.kron(np.eye(balls), self.A)
+        A = np.asarray(np.kron(np.eye(balls), self.A), dtype=float)
         B = np.einsum("ji,k->jki", geometry.by_motion, self.B[:, 0]).reshape(-1, 5)
         push = np.einsum("jai,ja->ji", self._moves, at.direction)
         acts = self.shares * at.acts
