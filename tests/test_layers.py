@@ -54,7 +54,7 @@ FURTHER = [home.split(".")[1] for home in REGISTERED.values() if home.startswith
 """Families that have only the one folder."""
 
 PARTS = {
-    "bearings": [["films"], ["oil"], ["journal"], ["damper", "contact", "bush", "pads", "rolling"]],
+    "bearings": [["films"], ["oil"], ["journal"], ["damper", "contact", "bush", "pads"], ["rolling"]],
     "bearings/films": [["ring", "conserved"]],
     "bearings/journal": [["rupture"], ["map", "splitting"], ["grooves"], ["heat"], ["conserved"]],
     "bearings/journal/heat": [["field"]],
@@ -81,6 +81,8 @@ FAMILIES = {"journal", "damper", "contact", "bush", "pads", "rolling"}
 BETWEEN_FAMILIES = {
     # The film of a damper over a map is the film of a journal that does not turn.
     ("damper", "journal"),
+    # The film between a ball and its race is that of a point contact on an ellipse.
+    ("rolling", "contact"),
 }
 
 SAME_NAME = {"bearing"}

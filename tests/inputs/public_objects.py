@@ -148,6 +148,13 @@ MADE = [
     rf.OperatingPoint(t=1.0, x=(), u=(0.0,) * 5),
     rf.RollingMaterial.steel(),
     rf.EllipticContact(rolling_radius=3e-3, groove_radius=0.05, combined_modulus=2.2e11),
+    rf.RaceFilm(
+        touch=rf.EllipticContact(rolling_radius=3e-3, groove_radius=0.05, combined_modulus=2.2e11),
+        load=100.0,
+        rolling_speed=5.0,
+        viscosity=0.02,
+        pressure_coefficient=2e-8,
+    ),
     DEEP_GROOVE,
     ANGULAR_CONTACT,
     rf.back_to_back(ANGULAR_CONTACT, distance=0.02, preload=100.0),
