@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     )
     from .periodic.hopf import HopfPoint as HopfPoint, hopf_point as hopf_point
     from .periodic.periodic_orbit import PeriodicOrbit as PeriodicOrbit, periodic_orbit as periodic_orbit
+    from .transient.ring_contacts import RingContacts as RingContacts, ring_contacts as ring_contacts
     from .transient.simulate import simulate as simulate
 else:
     show(__name__)

@@ -110,6 +110,14 @@ MADE = [
         cage=rf.PorousCage(thickness=2.5e-3, permeability=4e-13),
     ),
     rf.Sprung(reaction=rf.LinearBearing(stiffness=1e6, damping=1.0), stiffness=2e6),
+    rf.RubRing(
+        gap=2e-4,
+        stiffness=1e7,
+        radius=0.05,
+        friction_coefficient=0.1,
+        dissipation=0.2,
+        ring_center=(1e-5, 2e-5),
+    ),
     rf.HirsFriction(coefficient=0.079, exponent=-0.25),
     rf.AnnularSeal(
         radius=0.05,

@@ -23,8 +23,8 @@ RESULTS = {
     "CountedMass", "CountedThreshold", "CouplingReport", "CriticalMass", "CriticalSpeed", "DamperTurn",
     "Equilibrium", "FilmSystem", "HeatedState", "HopfPoint", "InertialCoefficients", "JFOOrbit", "JFOState",
     "MemoryCoefficients", "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients",
-    "Reduction", "RotorEquilibrium", "RotorModes", "RotorThreshold", "RuptureError", "SqueezeImpedance",
-    "StabilityChange", "TiltedPads", "Trajectory", "WhirlThreshold",
+    "Reduction", "RingContacts", "RotorEquilibrium", "RotorModes", "RotorThreshold", "RuptureError",
+    "SealFlow", "SqueezeImpedance", "StabilityChange", "TiltedPads", "Trajectory", "WhirlThreshold",
 }  # fmt: skip
 """Made by rotorfilm, not by its users."""
 
