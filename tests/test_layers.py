@@ -61,7 +61,7 @@ PARTS = {
     "bearings/contact": [["film"], ["motion"]],
     "bearings/damper": [["built", "conserved"]],
     "bearings/pads": [["dam", "tilting"]],
-    "rotors": [["shaft"], ["driven"]],
+    "rotors": [["shaft"], ["driven", "cracked"]],
     "linear": [["memory"], ["large", "search"]],
     "motion": [["compiled"], ["transient", "circular"], ["periodic"]],
     "cosim": [["schemes"], ["loops"]],

@@ -118,6 +118,14 @@ MADE = [
         dissipation=0.2,
         ring_center=(1e-5, 2e-5),
     ),
+    rf.GaschHinge(edge=0.2),
+    rf.JeffcottCrack(reduction=0.1, cross_reduction=0.02, crack_angle=0.3),
+    rf.ShaftCrack(element=0, depth=1e-3, crack_angle=0.3),
+    rf.CrackedRotor(
+        rotor=rf.JeffcottRotor(mass=5.0, journal_mass=1.0, stiffness=1e6, speed=100.0),
+        crack=rf.JeffcottCrack(reduction=0.1),
+        opening_angle=0.3,
+    ),
     rf.HirsFriction(coefficient=0.079, exponent=-0.25),
     rf.AnnularSeal(
         radius=0.05,
