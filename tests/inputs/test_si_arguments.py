@@ -21,8 +21,8 @@ DAMPER = next(one for one in MADE if isinstance(one, rf.PorousDamper))
 RESULTS = {
     "BallLoads", "BallRest", "BasinScan", "Campbell", "CircularOrbit", "CoSimulation", "Coefficients",
     "CountedMass", "CountedThreshold", "CouplingReport", "CrackedResponse", "CriticalMass", "CriticalSpeed",
-    "DamperTurn", "Equilibrium", "FilmSystem", "HeatedState", "HopfPoint", "InertialCoefficients", "JFOOrbit", "JFOState",
-    "MemoryCoefficients", "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients",
+    "DamperTurn", "Equilibrium", "FilmSystem", "HeatedState", "HopfPoint", "InertialCoefficients", "JFOOrbit",
+    "JFOState", "MemoryCoefficients", "PadEquilibrium", "PadMatrices", "PeriodicOrbit", "ReducedCoefficients",
     "Reduction", "RingContacts", "RotorEquilibrium", "RotorModes", "RotorThreshold", "RuptureError",
     "SealFlow", "SqueezeImpedance", "StabilityChange", "TiltedPads", "Trajectory", "WhirlThreshold",
 }  # fmt: skip
