@@ -1,6 +1,6 @@
-"""A shaft with a breathing crack: once, twice and three times per turn over the speed, and where it is unstable.
+"""A shaft with a breathing crack: its motion once, twice and three times per turn, over the speed.
 
-Weight opens and closes the crack, so that a horizontal shaft shows it at a half and a third of its critical speed.
+Weight opens and closes the crack: a horizontal shaft shows it at a half and a third of its critical speed.
 """
 
 from dataclasses import replace
@@ -32,7 +32,7 @@ def response(speed: float) -> rf.CrackedResponse:
 natural = rf.rotor_modes(shaft, springs, 1.0).frequency[0]
 shares = np.linspace(0.3, 0.56, 40)
 series = np.array([np.abs(response(share * natural).series["disk_y"]) for share in shares])
-axes = new_axes("Vertical motion of the disk [um] over speed / critical speed, crack of 15 mm in 50 mm")
+axes = new_axes("Motion of the disk [um] over speed / critical speed")
 for times in (1, 2, 3):
     axes.semilogy(shares, 1e6 * series[:, times], label=f"{times} per turn")
 axes.legend()

@@ -43,7 +43,7 @@ steady = rf.mount(replace(rotor, speed=speed), {"disk": ring})
 run = rf.simulate(steady, bearing, duration=1.0, times=[1.0], rtol=1e-8)
 radius = float(np.hypot(run["disk_x"], run["disk_y"])[0])
 
-# The disk on shaft and bearing; friction acts against the rotation: |(Z + k_c (1 + i mu)(1 - gap/r)) r| = u w^2.
+# The disk on shaft and bearing, friction against the rotation: |Z r + k_c (1 + i mu) (r - gap)| = u w^2.
 held = 2e7 + 3e3j * speed - rotor.journal_mass * speed**2
 Z = rotor.stiffness * held / (rotor.stiffness + held) - rotor.mass * speed**2 + 300.0j * speed
 

@@ -4,83 +4,16 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
+from seal_range import SPEED, BulkFlow, fitted
 
 import rotorfilm as rf
 
 WATER = {"viscosity": 1e-3, "density": 1000.0}
-SPEED = 300.0
 
 
 def seal(slenderness=0.2, **change):
     size = {"radius": 0.05, "length": 0.1 * slenderness, "clearance": 2e-4, "pressure_drop": 1e6}
     return rf.AnnularSeal(**{**size, **WATER, "inlet_loss": 0.2, **change})
-
-
-class BulkFlow:
-    """Hirs's equations about the steady flow in complex form: displacement 1 exp(i whirl t), all along +x."""
-
-    def __init__(self, seal, speed, *, short=False):
-        self.seal, self.surface, self.short = seal, seal.radius * speed, short
-        self.V = seal.flow(speed).axial_velocity
-
-    def friction(self, u):
-        """Return f W of stator and rotor, and W^2 of both."""
-        law, s = self.seal.friction, self.seal
-        squares = np.array([self.V**2 + u**2, self.V**2 + (u - self.surface) ** 2])
-        reynolds = 2.0 * np.sqrt(squares) * s.clearance * s.density / s.viscosity
-        return law.coefficient * reynolds**law.exponent * np.sqrt(squares), squares
-
-    def slowed(self, u):
-        """Return du/dz of the steady flow round the shaft."""
-        drag, _ = self.friction(u)
-        return -0.5 * (drag[0] * u + drag[1] * (u - self.surface)) / (self.V * self.seal.clearance)
-
-    def rates(self, y, whirl):
-        """Return d/dz of u0 and of (w, u, p) moved by the gap, and by the flow at the inlet."""
-        s, V, m = self.seal, self.V, self.seal.friction.exponent
-        u0, c, R = y[0].real, s.clearance, s.radius
-        drag, squares = self.friction(0.5 * self.surface if self.short else u0)
-        about = np.array([u0, u0 - self.surface])
-        near = about if not self.short else 0.5 * self.surface * np.array([1.0, -1.0])
-        mean, grown = 0.5 * drag.sum(), 0.5 * (1.0 + m) * drag / squares
-        change = 1j * (whirl - u0 / R)
-        out = [self.slowed(u0)]
-        for (w, u, p), h in ((y[1:4], -1.0), (y[4:7], 0.0)):
-            u = 0.0 * u if self.short else u
-            by_w = (1j / R) * u - change * h / c
-            axial = V * (grown.sum() * V * w + grown @ near * u + m * mean * h / c) + mean * w
-            axial += c * (change * w + V * by_w) - mean * V * h / c
-            held = 0.5 * drag @ about
-            across = grown @ about * V * w + mean * u + grown @ about**2 * u + m * held * h / c
-            across += c * (change * u + w * out[0]) + h * V * out[0]
-            by_u = ((1j / R) * c / s.density * p - across) / (c * V)
-            out += [by_w, by_u, -s.density / c * axial]
-        return np.array([*out, y[3], y[6]])
-
-    def impedance(self, whirl):
-        """Return -(force_x + i force_y) per displacement."""
-        s = self.seal
-        entry = -s.density * (1.0 + s.inlet_loss) * self.V
-        start = np.array([self.surface * s.inlet_swirl, 0, 0, 0, 1, 0, entry, 0, 0], dtype=complex)
-        scale = np.array([1.0, 1e3, 1e3, 1e9, 1.0, 1.0, 1e3, 1e6, 1.0])
-        run = solve_ivp(
-            lambda z, y: self.rates(y, whirl),
-            (0.0, s.length),
-            start,
-            method="DOP853",
-            rtol=1e-10,
-            atol=1e-12 * scale,
-        )
-        end = run.y[:, -1]
-        return np.pi * s.radius * (end[7] - end[3] / end[6] * end[8])
-
-
-def fitted(flow, speed):
-    """Return K, k, C, c, M of the impedance between no whirl and synchronous whirl."""
-    whirl = np.linspace(0.0, speed, 4)
-    found = np.array([flow.impedance(w) for w in whirl])
-    real, imaginary = np.polyfit(whirl, found.real, 2), np.polyfit(whirl, found.imag, 1)
-    return np.array([real[2], -imaginary[1], imaginary[0], real[1], -real[0]])
 
 
 @pytest.mark.literature
