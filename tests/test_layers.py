@@ -54,14 +54,14 @@ FURTHER = [home.split(".")[1] for home in REGISTERED.values() if home.startswith
 """Families that have only the one folder."""
 
 PARTS = {
-    "bearings": [["films"], ["oil"], ["journal"], ["damper", "contact", "bush", "pads"], ["rolling"]],
+    "bearings": [["films"], ["oil"], ["journal"], ["damper", "contact", "bush", "pads", "seal"], ["rolling"]],
     "bearings/films": [["ring", "conserved"]],
     "bearings/journal": [["rupture"], ["map", "splitting"], ["grooves"], ["heat"], ["conserved"]],
     "bearings/journal/heat": [["field"]],
     "bearings/contact": [["film"], ["motion"]],
     "bearings/damper": [["built", "conserved"]],
     "bearings/pads": [["dam", "tilting"]],
-    "rotors": [["shaft"], ["driven"]],
+    "rotors": [["shaft"], ["driven", "cracked"]],
     "linear": [["memory"], ["large", "search"], ["certified", "straight"]],
     "motion": [["compiled"], ["transient", "circular"], ["periodic"]],
     "cosim": [["schemes"], ["loops"]],
@@ -77,7 +77,7 @@ PARTS = {
 }
 """The same among the folders of a part."""
 
-FAMILIES = {"journal", "damper", "contact", "bush", "pads", "rolling"}
+FAMILIES = {"journal", "damper", "contact", "bush", "pads", "rolling", "seal"}
 BETWEEN_FAMILIES = {
     # The film of a damper over a map is the film of a journal that does not turn.
     ("damper", "journal"),

@@ -96,7 +96,7 @@ def _rotor(rotor: Dynamic, reaction: Reaction, at: Equilibrium, shaft: Operating
     motion = indices("rotor must have the outputs", names(rotor.outputs), MOTION_NAMES)
     state = checked_vector("x", shaft.x, len(rotor.states))
     matrices = rotor.linearization(0.0, state, checked_vector("u", shaft.u, len(rotor.inputs)))
-    whole = with_mass(matrices, heavy.mass(at.position, np.zeros(2)), force, motion)
+    whole = with_mass(matrices, heavy.mass(at.position, np.zeros(2), at.speed), force, motion)
     outputs = (*names(rotor.outputs), *INERTIA)
     return control_system(
         *whole, inputs=names(rotor.inputs), outputs=outputs, states=names(rotor.states), name="rotor"

@@ -77,7 +77,7 @@ def orbit_coefficients(reaction: Reaction, eccentricity_ratio: float, speed: flo
     heavy = inertial(reaction)
     if heavy is not None:
         heavy.require_range(speed)
-        swung = heavy.mass([radius, 0.0], [0.0, speed * radius])[:, 0] * speed**2 * radius
+        swung = heavy.mass([radius, 0.0], [0.0, speed * radius], speed)[:, 0] * speed**2 * radius
         radial, tangential = radial + swung[0], tangential + swung[1]
     return OrbitCoefficients(
         stiffness=float(-radial / radius),
@@ -155,8 +155,8 @@ def orbit_system(
     film, added = reaction.jacobian(position, velocity, orbit.speed), None
     heavy = inertial(reaction)
     if heavy is not None:
-        slopes = heavy.mass_slopes(position, velocity)
-        added = heavy.mass(position, velocity), -(orbit.speed**2) * radius * slopes[:, 0]
+        slopes = heavy.mass_slopes(position, velocity, orbit.speed)[:, :, :4]
+        added = heavy.mass(position, velocity, orbit.speed), -(orbit.speed**2) * radius * slopes[:, 0]
     matrices = rotating_linearization(rotor.mass, orbit.speed, film, added)
     nominal = reaction.outputs[0].nominal
     inputs = tuple(

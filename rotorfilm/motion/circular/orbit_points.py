@@ -99,7 +99,7 @@ def orbit_points(system: OrbitRotor, eccentricity_ratio: Array) -> OrbitPoints:
     radial, tangential = system.reaction.force(position, velocity, speed)
     heavy = inertial(system.reaction)
     if heavy is not None:
-        swung = system.speed**2 * position[0] * heavy.mass(position, velocity)[:, 0]
+        swung = system.speed**2 * position[0] * heavy.mass(position, velocity, speed)[:, 0]
         radial, tangential = radial + swung[0], tangential + swung[1]
     inertia = system.mass * system.speed**2 * position[0]
     return OrbitPoints(eccentricity_ratio, -(inertia + radial) + 1j * tangential, radial + 1j * tangential)
@@ -140,8 +140,9 @@ def orbit_mass(
     heavy = inertial(reaction)
     if heavy is None:
         return None
-    slopes = np.einsum("ijk...,j...->ik...", heavy.mass_slopes(position, velocity), -(speed**2) * position)
-    return heavy.mass(position, velocity), slopes
+    by_motion = heavy.mass_slopes(position, velocity, speed)[:, :, :4]
+    slopes = np.einsum("ijk...,j...->ik...", by_motion, -(speed**2) * position)
+    return heavy.mass(position, velocity, speed), slopes
 
 
 def _motion(system: OrbitRotor, eccentricity_ratio: Array) -> tuple[Array, Array]:
