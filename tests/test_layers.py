@@ -62,7 +62,7 @@ PARTS = {
     "bearings/damper": [["built", "conserved"]],
     "bearings/pads": [["dam", "tilting"]],
     "rotors": [["shaft"], ["driven"]],
-    "linear": [["memory"], ["large", "search"]],
+    "linear": [["memory"], ["large", "search"], ["critical"]],
     "motion": [["compiled"], ["transient", "circular"], ["periodic"]],
     "cosim": [["schemes"], ["loops"]],
     "fmu": [["description"], ["python", "check"], ["native"]],
