@@ -24,7 +24,8 @@ class DrivenResponse:
 
     Parameters
     ----------
-    rotor, bearings
+    rotor : FlexibleRotor
+    bearings : mapping of str to Reaction
         As in `rotor_modes`.
     loads : ndarray, shape (N, m) [N]
     highest : float [rad/s]
