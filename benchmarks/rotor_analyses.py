@@ -3,10 +3,10 @@
     python benchmarks/rotor_analyses.py [ELEMENTS]
 
 The rotor of Friswell et al. (2010), section 5.9, in 24 elements without inner shapes, as ROSS has them, on
-springs of 1 MN/m and 50 N s/m, or on the films of example 5.9.6; made anew for each analysis. `apart`: largest
-difference of what both answer, as a part. ROSS has six degrees of freedom a node; its critical speeds are
-asked for to 1e-8, since its own tolerance of 5e-3 leaves 1e-5. A dash: no such analysis. Transmissibilities
-are taken from its response of all coordinates; runs in time are in `rotor_transient.py`.
+springs of 1 MN/m and 50 N s/m, or on the films of example 5.9.6; made anew for each analysis. `apart`: the
+largest part by which the answers of both differ. ROSS has six degrees of freedom a node; its critical speeds
+are asked for to 1e-8, since its own tolerance of 5e-3 leaves 1e-5. A dash: no such analysis. Transmissibility
+is taken from its response of all coordinates; runs in time are in `rotor_transient.py`.
 """
 
 from __future__ import annotations

@@ -147,7 +147,7 @@ def plain_rotor_run(run: RotorRun) -> dict[str, Any]:
     """Return a run as plain numbers."""
     return {
         "peaks": dict(run.peaks),
-        "final_speed": run.final_speed,
+        "end_speed": run.end_speed,
         "contact_time": run.contact_time,
         "end": float(run.trajectory.time[-1]),
         "work": dict(run.trajectory.work),
@@ -159,7 +159,7 @@ def rotor_run_rows(run: RotorRun) -> list[tuple[str, str]]:
     calls = ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in run.trajectory.work.items())
     return [
         ("to", f"{run.trajectory.time[-1]:.6g} s"),
-        ("speed at the end", f"{run.final_speed * RPM:.6g} rpm"),
+        ("speed at the end", f"{run.end_speed * RPM:.6g} rpm"),
         *((f"largest displacement of {name}", f"{size * 1e6:.4g} um") for name, size in run.peaks.items()),
         ("contact", "none" if run.contact_time is None else f"at {run.contact_time:.6g} s"),
         ("work", calls),

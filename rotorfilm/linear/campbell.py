@@ -52,7 +52,7 @@ class Campbell(Whirls, Drawable):
         Largest of those of `RotorModes`.
     highest_frequency : float [rad/s]
         Modes that stay above it are left out; inf where none is.
-    work : dict of str to int [1]
+    work : dict of str to int
         As `RotorModes.work`, of all speeds.
     """
 

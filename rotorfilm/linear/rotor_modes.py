@@ -70,7 +70,7 @@ class RotorModes(Whirls, Readable):
         were.
     highest_frequency : float [rad/s]
         Up to which |s| the whirls are told; inf where all are.
-    work : dict of str to int [1]
+    work : dict of str to int
         Rests of the rotor that were searched (equilibria); eigenproblems in the shapes kept; factorizations
         of matrices of all coordinates.
     """

@@ -179,7 +179,9 @@ def unbalance_response(
     if not s.unbalance.any():
         raise InputError("rotor must have an unbalance, got none")
     responses = []
-    shaken = DrivenResponse(rotor=rotor, bearings=bearings, loads=s.unbalance, highest=float(grid[-1]))
+    shaken = DrivenResponse(
+        rotor=rotor, bearings=bearings, loads=s.unbalance, highest_frequency=float(grid[-1])
+    )
     with counted(*SOLVED) as work:
         for speed in grid:
             # (cos, sin) of the angle are the real parts of (1, -i) exp(i w t)
@@ -227,7 +229,7 @@ def rotor_transmissibility(
     grid, s = checked_speeds(speeds), rotor.assembly
     # A bearing pushes its housing back; an unbalance does not.
     push = s.journals if s.housings is None else s.journals + s.housings
-    shaken = DrivenResponse(rotor=rotor, bearings=bearings, loads=push.T, highest=float(grid[-1]))
+    shaken = DrivenResponse(rotor=rotor, bearings=bearings, loads=push.T, highest_frequency=float(grid[-1]))
     responses, wanted = [], []
     with counted(*SOLVED) as work:
         for speed in grid:

@@ -42,9 +42,9 @@ class RotorThreshold(Readable):
         As in `RotorModes`.
     reason : str
         Empty, or why there is no threshold.
-    error : float or None [rad/s]
+    speed_error : float or None [rad/s]
         How far the speed may be off by the shapes that were left out, estimated; 0 where none were.
-    work : dict of str to int [1]
+    work : dict of str to int
         As `RotorModes.work`.
     """
 
@@ -53,7 +53,7 @@ class RotorThreshold(Readable):
     whirl_ratio: float | None = None
     direction: float | None = None
     reason: str = ""
-    error: float | None = None
+    speed_error: float | None = None
     work: dict[str, int] = field(default_factory=dict, compare=False)
 
 
@@ -71,7 +71,7 @@ class StabilityChange(Readable):
     growing : int [1]
         How many eigenvalues grow beyond this speed, in the order searched: two of a whirl, one of a
         divergence. 0 where the rotor is stable again.
-    error : float [rad/s]
+    speed_error : float [rad/s]
         As in `RotorThreshold`.
     """
 
@@ -79,7 +79,7 @@ class StabilityChange(Readable):
     whirl_frequency: float
     direction: float
     growing: int
-    error: float = 0.0
+    speed_error: float = 0.0
 
 
 @arguments
@@ -102,7 +102,7 @@ def rotor_threshold(
 
     A rotor of more than 160 coordinates moves in few of its shapes, as in `rotor_modes`: its eigenvalues s
     are off by up to 1e-6 |s|, as estimated, to the frequency named there; of faster motions nothing is
-    estimated. The speed is off by the error of s over the slope of Re s over the speed: `error` tells it.
+    estimated. The speed is off by the error of s over the slope of Re s over the speed: `speed_error` tells it.
 
     On films that remember, `JFOFilm`, exponents are those with K(s). At each of the speeds given those that
     grow are counted besides by the phase of the determinant along all frequencies: none is missed unseen.
@@ -125,7 +125,7 @@ def rotor_threshold(
         whirl_frequency=found.whirl_frequency,
         whirl_ratio=found.whirl_frequency / abs(found.speed),
         direction=found.direction,
-        error=found.error,
+        speed_error=found.speed_error,
         work=dict(work),
     )
 
@@ -243,5 +243,5 @@ class _Stability(NamedTuple):
             whirl_frequency=float(motions.frequency[place]) if whirls else 0.0,
             direction=float(motions.direction[place]),
             growing=0,
-            error=change / (size * slope) if change else 0.0,
+            speed_error=change / (size * slope) if change else 0.0,
         )

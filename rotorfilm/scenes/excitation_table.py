@@ -171,12 +171,13 @@ class GroundTable:
 
     Parameters
     ----------
-    acceleration : tuple or None [s, m/s2]
-        Columns time, x and maybe y; linear between the times.
-    displacement : tuple or None [s, m]
-        Likewise; the cubic spline through it, at rest at both ends.
-    spectrum : tuple or None [rad/s, m2/s3]
-        Columns frequency and one-sided spectral density per rad/s of the acceleration along x and along y.
+    acceleration : tuple or None
+        Columns time [s], x and maybe y [m/s2]; linear between the times.
+    displacement : tuple or None
+        Columns time [s], x and maybe y [m]; the cubic spline through it, at rest at both ends.
+    spectrum : tuple or None
+        Columns frequency [rad/s] and one-sided spectral density per rad/s of the acceleration [m2/s3], the
+        same along x and along y.
     scale : float [1]
         By which the motion is multiplied.
     seed : int

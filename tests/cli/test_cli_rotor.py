@@ -87,3 +87,17 @@ def test_what_shaft_and_films_leave_out_is_said(run, short):
         [f"{name}, at {fastest:.4g} rad/s", "heat"] for name in ("left", "right")
     ]
     assert run("rotor", short)[1].count("left out") == 2
+
+
+def test_a_run_over_time_is_followed_and_written(run, tmp_path):
+    quake = (SCENE.parent / "earthquake.toml").read_text(encoding="utf-8")
+    scene = tmp_path / "quake.toml"
+    rows = "[[0.0, 0.0], [0.02, 3.0], [0.04, 0.0]]"
+    scene.write_text(quake.replace('"earthquake.csv"', rows), encoding="utf-8")
+    code, out, _ = run("rotor-run", scene, "--json", "--out", tmp_path / "motion.csv")
+    assert code == 0
+    found = json.loads(out)
+    assert found["end"] == pytest.approx(0.04)
+    assert set(found["peaks"]) == {"left", "right", "disk"}
+    assert found["work"]["steps"] > 0
+    assert (tmp_path / "motion.csv").read_text(encoding="utf-8").startswith("time")

@@ -172,10 +172,10 @@ def test_a_threshold_tells_the_error_of_its_speed():
     """In few shapes beside all coordinates; a small rotor has none."""
     speeds = np.linspace(150.0, 300.0, 4)
     found = rotor_threshold(long_rotor(30), FILMS, speeds)
-    assert 0.0 < found.error < 1e-4
+    assert 0.0 < found.speed_error < 1e-4
     exact = stability_changes(long_rotor(12), FILMS, speeds)[0]
-    assert exact.error == 0.0
-    assert abs(found.speed - exact.speed) < 10.0 * found.error + 1e-6 * exact.speed
+    assert exact.speed_error == 0.0
+    assert abs(found.speed - exact.speed) < 10.0 * found.speed_error + 1e-6 * exact.speed
 
 
 def test_analyses_count_their_work():

@@ -18,7 +18,6 @@ from rotorfilm import (
     rotor_equilibrium,
     simulate_rotor,
 )
-from rotorfilm.cli.main import main
 from rotorfilm.scenes import Scene, read_scene
 from rotorfilm.scenes.excitation_table import MotorTable
 from rotorfilm.scenes.shaft.rotor_runs import run_rotor
@@ -90,7 +89,7 @@ def test_a_motor_speeds_up_a_balanced_rotor():
     time = run.trajectory.time
     wanted = end + (scene.speed - end) * np.exp(-slope * time / motor.inertia)
     assert_allclose(run.trajectory["speed"], wanted, rtol=1e-5)
-    assert run.final_speed == pytest.approx(wanted[-1], rel=1e-5)
+    assert run.end_speed == pytest.approx(wanted[-1], rel=1e-5)
 
 
 def test_a_motor_turns_a_shaft_on_films():
@@ -110,13 +109,13 @@ def test_a_motor_turns_a_shaft_on_films():
     run = run_rotor(scene)
     assert {"left", "right", "disk"} == set(run.peaks)
     gained = 50.0 * (1.0 - 0.5) / 0.5 * 2e-3
-    assert run.final_speed - scene.speed == pytest.approx(gained, rel=1e-3)
+    assert run.end_speed - scene.speed == pytest.approx(gained, rel=1e-3)
 
 
 def test_a_run_up_ends_at_its_speed():
     scene = Scene.load(EXAMPLES / "critical_run_up.toml")
     run = run_rotor(replace(scene, excitation=replace(scene.excitation, duration=0.02)))
-    assert run.final_speed == pytest.approx(scene.excitation.end_speed)
+    assert run.end_speed == pytest.approx(scene.excitation.end_speed)
     assert run.contact_time is None
     assert run.trajectory.work["steps"] > 10
 
@@ -143,16 +142,3 @@ def test_other_excitations_are_refused():
     data["excitation"] = {"kind": "step", "load": "1 N"}
     with pytest.raises(InputError, match=r"excitation\.kind must be"):
         run_rotor(read(data))
-
-
-def test_the_command_follows_a_rotor(tmp_path, capsys):
-    data = (EXAMPLES / "earthquake.toml").read_text(encoding="utf-8")
-    scene = tmp_path / "quake.toml"
-    scene.write_text(
-        data.replace('"earthquake.csv"', "[[0.0, 0.0], [0.02, 3.0], [0.04, 0.0]]"), encoding="utf-8"
-    )
-    code = main(["rotor-run", str(scene), "--out", str(tmp_path / "motion.csv")])
-    told = capsys.readouterr().out
-    assert not code
-    assert "largest displacement of disk" in told
-    assert (tmp_path / "motion.csv").read_text().startswith("time")

@@ -28,14 +28,14 @@ class DrivenResponse:
     bearings : mapping of str to Reaction
         As in `rotor_modes`.
     loads : ndarray, shape (N, m) [N]
-    highest : float [rad/s]
+    highest_frequency : float [rad/s]
         Highest speed of interest; a rotor of many elements moves in the shapes that it needs.
     """
 
     rotor: FlexibleRotor
     bearings: Mapping[str, Reaction]
     loads: Array
-    highest: float
+    highest_frequency: float
 
     @cached_property
     def known(self) -> list[_Driven]:
@@ -52,7 +52,7 @@ class DrivenResponse:
         amplitudes : ndarray, shape (m, k)
             Of the loads.
         """
-        for k, model in enumerate(models(self.rotor, self.highest)):
+        for k, model in enumerate(models(self.rotor, self.highest_frequency)):
             if k == len(self.known):
                 self.known.append(_Driven(model, self.bearings, self.loads))
             found = self.known[k].at(speed, amplitudes)

@@ -41,7 +41,7 @@ class CountedTuple(tuple[Item, ...]):
 
     Attributes
     ----------
-    work : dict of str to int [1]
+    work : dict of str to int
         As `RotorModes.work`.
     """
 

@@ -41,14 +41,14 @@ class RotorRun(Readable):
     peaks : mapping of str to float [m]
         Greatest distance of each journal from the center of its bearing, and of each probe from its place in
         a straight shaft.
-    final_speed : float [rad/s]
+    end_speed : float [rad/s]
     contact_time : float or None [s]
         When a journal reached the wall; None if none did.
     """
 
     trajectory: Trajectory
     peaks: Mapping[str, float]
-    final_speed: float
+    end_speed: float
     contact_time: float | None = None
 
     def _own_units(self) -> dict[str, str]:
@@ -103,7 +103,7 @@ def run_rotor(scene: Scene, report: Report = silent) -> RotorRun:
     return RotorRun(
         trajectory=trajectory,
         peaks=_peaks(trajectory),
-        final_speed=float(trajectory["speed"][-1]),
+        end_speed=float(trajectory["speed"][-1]),
         contact_time=contact,
     )
 
