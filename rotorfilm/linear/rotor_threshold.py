@@ -102,7 +102,7 @@ def rotor_threshold(
 
     A rotor of more than 160 coordinates moves in few of its shapes, as in `rotor_modes`: its eigenvalues s
     are off by up to 1e-6 |s|, as estimated, to the frequency named there; of faster motions nothing is
-    estimated. The speed is off by the error of s over the slope of Re s over the speed: `speed_error` tells it.
+    estimated. The speed is off by the error of s over the slope of Re s over the speed, `speed_error`.
 
     On films that remember, `JFOFilm`, exponents are those with K(s). At each of the speeds given those that
     grow are counted besides by the phase of the determinant along all frequencies: none is missed unseen.

@@ -15,8 +15,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...model import Array
+
+Places = NDArray[np.intp]
 
 ROUNDS = 25
 """Steps of the fixed point."""
@@ -74,7 +77,7 @@ class Branches(NamedTuple):
         How far ds/dd may be from E.
     """
 
-    places: Array
+    places: Places
     drifts: Array
     slopes: Array
 
@@ -120,7 +123,7 @@ def _beside(T: Changing, reach: float) -> Array:
     return np.asarray(np.abs(T.values.real) - moved - T.wander - reach)
 
 
-def _gaps(T: Changing, places: Array) -> Array:
+def _gaps(T: Changing, places: Places) -> Array:
     """Return how near each diagonal entry comes to those at some places at least, shape (n, m)."""
     rates = np.diag(T.rates)
     apart = T.values[:, None] - T.values[places]
@@ -131,7 +134,7 @@ def _gaps(T: Changing, places: Array) -> Array:
     return np.asarray(least - T.wander[:, None] - T.wander[places])
 
 
-def _box(T: Changing, coupling: Array, places: Array) -> Array | None:
+def _box(T: Changing, coupling: Array, places: Places) -> Array | None:
     """Return bounds on what the vectors at some places have of all others, shape (n, m); None for none."""
     columns = np.arange(len(places))
     gaps, start = _gaps(T, places), coupling[:, places]
@@ -156,7 +159,7 @@ def _box(T: Changing, coupling: Array, places: Array) -> Array | None:
     return tried if found is not None and np.all((found < tried) | (tried == 0.0)) else None
 
 
-def _left_over(coupling: Array, places: Array, right: Array) -> Array:
+def _left_over(coupling: Array, places: Places, right: Array) -> Array:
     """Return the radii of Gershgorin's circles of what is left without the vectors at some places."""
     own = right[places]
     rows = own.sum(axis=1).max(initial=0.0)
@@ -170,11 +173,10 @@ def _left_over(coupling: Array, places: Array, right: Array) -> Array:
     return radii
 
 
-def _branches(T: Changing, coupling: Array, places: Array, right: Array, left: Array) -> Branches:
+def _branches(T: Changing, coupling: Array, places: Places, right: Array, left: Array) -> Branches:
     """Return how far eigenvalues and their rates may be from those of the diagonal."""
     rates = np.abs(T.rates) + 2.0 * T.bends / T.half
     own = np.diag(rates)[places].copy()
-    np.fill_diagonal(rates, np.diag(rates) * 1.0)
     both = (left * right).sum(axis=0)
     beside = (rates[places] * right.T).sum(axis=1) + (rates[:, places] * left).sum(axis=0)
     beside += (left * (rates @ right)).sum(axis=0)

@@ -35,7 +35,7 @@ def negative_count(stiffness: Any, square: float, inertia: Any) -> int:
     if not is_sparse(stiffness):
         tally("eigenproblems")
         return int(np.sum(np.linalg.eigvalsh(stiffness - square * inertia) < 0.0))
-    order = band_order(abs(stiffness) + abs(inertia))
+    order: Any = band_order(abs(stiffness) + abs(inertia))
     whole, heavy = (sparse.csc_array(part)[order][:, order] for part in (stiffness, inertia))
     scale = 1.0 / np.sqrt(np.maximum(abs(whole).max(axis=1).toarray().ravel(), np.finfo(float).tiny))
     scaling = sparse.diags_array(scale)

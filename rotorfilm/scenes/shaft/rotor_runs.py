@@ -156,7 +156,7 @@ def _rigid(scene: Scene) -> tuple[RigidRotor, dict[str, Reaction]]:
     return rotor, {"": bearing}
 
 
-def _rigid_parts(scene: Scene) -> tuple[RigidRotor, Reaction]:
+def _rigid_parts(scene: Scene) -> tuple[RigidRotor, Any]:
     """Return the rigid rotor of a scene at rest on its film, or in the center of its damper."""
     if scene.damper is not None and scene.rigid_rotor is not None:
         return scene.rigid_rotor.build(scene.speed, (0.0, 0.0)), scene.damper.support()
