@@ -62,7 +62,7 @@ PARTS = {
     "bearings/damper": [["built", "conserved"]],
     "bearings/pads": [["dam", "tilting"]],
     "rotors": [["shaft"], ["driven", "cracked"]],
-    "linear": [["memory"], ["large", "search"], ["certified", "straight"]],
+    "linear": [["memory"], ["large", "search"], ["critical"], ["certified", "straight"]],
     "motion": [["compiled"], ["transient", "circular"], ["periodic"]],
     "cosim": [["schemes"], ["loops"]],
     "fmu": [["description"], ["python", "check"], ["native"]],

@@ -39,6 +39,7 @@ COMMANDS = {
     "without dimensions: rotorfilm contact --v 0.1 --q0 5 --w 1 --step 0.7",
     "rotor_command.rotor": "rotor examples/flexible_rotor.toml --out pictures",
     "rotor_command.stability_level_one": "stability-level-one examples/compressor.toml --out pictures",
+    "rotor_command.rotor_run": "rotor-run examples/earthquake.toml --out motion.csv",
     "sweep_command.sweep": 'sweep examples/question.toml --vary "journal.clearance = 50 um, 60 um, 70 um" '
     '--vary "operation.speed = 1000 rpm : 3000 rpm : 5" --out sweep.nc',
 }

@@ -133,3 +133,17 @@ def test_a_bad_compressor_names_its_key(run, tmp_path):
     code, _, err = run("stability-level-one", path)
     assert code == 2
     assert "shaft.compressor.impellers[2].width must be finite and positive" in err
+
+
+def test_a_run_over_time_is_followed_and_written(run, tmp_path):
+    quake = (SCENE.parent / "earthquake.toml").read_text(encoding="utf-8")
+    scene = tmp_path / "quake.toml"
+    rows = "[[0.0, 0.0], [0.02, 3.0], [0.04, 0.0]]"
+    scene.write_text(quake.replace('"earthquake.csv"', rows), encoding="utf-8")
+    code, out, _ = run("rotor-run", scene, "--json", "--out", tmp_path / "motion.csv")
+    assert code == 0
+    found = json.loads(out)
+    assert found["end"] == pytest.approx(0.04)
+    assert set(found["peaks"]) == {"left", "right", "disk"}
+    assert found["work"]["steps"] > 0
+    assert (tmp_path / "motion.csv").read_text(encoding="utf-8").startswith("time")

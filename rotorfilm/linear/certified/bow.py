@@ -61,8 +61,10 @@ def bow_response(
     if shape.shape != (count,) or not np.isfinite(shape).all():
         raise InputError(f"bow must be {count} finite numbers, one for each node, got shape {shape.shape}")
     force = _straightening(rotor, shape)
-    turning = np.concatenate([force, -1j * force])[:, None]
-    return synchronous_response(rotor, bearings, speeds, lambda speed: turning, "bow")
+    turning = np.concatenate([force, -1j * force])
+    loads = np.column_stack([turning.real, turning.imag])
+    parts = np.array([[1.0], [1.0j]])
+    return synchronous_response(rotor, bearings, speeds, loads, lambda speed: parts, "bow")
 
 
 def _straightening(rotor: ShaftRotor, shape: np.ndarray) -> np.ndarray:
