@@ -137,7 +137,7 @@ def sharpened(film: ConservedFilm, gap: Gap, rate: float, theta: Array) -> Array
     limited = np.where(rises, product / np.where(rises, behind + ahead, 1.0), 0.0)
     # Turned round, the face of line k is that before it.
     face = limited if forward else np.roll(limited[::-1], -1, axis=0)
-    flux = (rate * gap.face)[:, None] * face * film.cells.width
+    flux = rate * film.carried(gap) * face * film.cells.width
     return np.asarray((flux - np.roll(flux, 1, axis=0)) / film.cells.area)
 
 

@@ -130,8 +130,8 @@ def opening_flows(film: ConservedFilm, state: ConservedState) -> tuple[Array, Ar
     P, theta, width = state.solution.pressure, state.solution.theta, cells.width
     after, onward = np.roll(cells.opening, -1, axis=0), cells.opening[:, 1:]
     upstream = np.roll(theta, -1, axis=0) if equations.backward else theta
-    carried = equations.wedge[:, None] * upstream
-    around = (carried + equations.around[:, None] * (P - np.roll(P, -1, axis=0))) * width
+    carried = equations.wedge * upstream
+    around = (carried + equations.around * (P - np.roll(P, -1, axis=0))) * width
     along = equations.along[:, None] * equations.conductance[:, :-1] * (P[:, :-1] - P[:, 1:])
     leaving, arriving = (np.zeros(len(equations.flow)) for _ in range(2))
     for flow, here, there in ((around, cells.opening, after), (along, cells.opening[:, :-1], onward)):

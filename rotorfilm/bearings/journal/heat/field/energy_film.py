@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .....model import Array
+from ....films.conserved.fluidity import Fluidity
 from .film_cells import FilmCells
-from .frozen_film import Fluidity
 from .heat_equations import HeatEquations, Heating, HeatSolution, Terms, carried, drained
 
 
@@ -30,7 +30,7 @@ class MeanTemperature:
 
     def fluidity(self, viscosity: Array) -> Fluidity:
         """Return how easily oil of a relative viscosity (N, M + 1) flows."""
-        return Fluidity(1.0 / viscosity, np.full(viscosity.shape, 0.5))
+        return Fluidity(1.0 / viscosity, np.full(viscosity.shape, 0.5), viscosity)
 
     def warm(self, heating: Heating) -> HeatSolution:
         """Return the temperature of a film, from one sparse solution."""

@@ -17,13 +17,14 @@ from .....errors import (
     require_number,
 )
 from .....model import Array
+from ....films.conserved.fluidity import Fluidity
 from ....films.ring.ring_grids import require_cells
 from ...bearing import JournalBearing
 from ...reynolds_film import ReynoldsFilm
 from .energy_film import MeanTemperature
 from .film_cells import FilmCells, film_cells
 from .film_flow import FilmFlow, fed_film
-from .frozen_film import Fluidity, FrozenFilm
+from .frozen_film import FrozenFilm
 from .heat_equations import Heating, HeatSolution
 from .heated_state import (
     HeatedState,

@@ -8,8 +8,8 @@ import numpy as np
 
 from .....errors import require_count
 from .....model import Array
+from ....films.conserved.fluidity import Fluidity
 from .film_cells import FilmCells
-from .frozen_film import Fluidity
 from .heat_equations import HeatEquations, Heating, HeatSolution, Terms, carried, drained
 from .layer_shares import LayerShares, layer_shares
 
@@ -41,7 +41,7 @@ class LayeredTemperature:
     def fluidity(self, viscosity: Array) -> Fluidity:
         """Return how easily oil of a relative viscosity (N, M + 1, layers) flows."""
         shares = layer_shares(1.0 / viscosity)
-        return Fluidity(12.0 * shares.F2, shares.dragged.sum(axis=-1))
+        return Fluidity(12.0 * shares.F2, shares.dragged.sum(axis=-1), 1.0 / shares.F0)
 
     def warm(self, heating: Heating) -> HeatSolution:
         """Return the temperature of a film, from one sparse solution."""
