@@ -28,7 +28,9 @@ if TYPE_CHECKING:
     from .grooves.openings import is_mappable
     from .heat.balanced_bearing import BalancedBearing as BalancedBearing
     from .heat.field.energy_film import MeanTemperature as MeanTemperature
-    from .heat.field.heated_film import FilmProfile, HeatedFilm as HeatedFilm
+    from .heat.field.heat_rounds import FilmProfile
+    from .heat.field.heated_film import HeatedFilm as HeatedFilm
+    from .heat.field.heated_jfo import HeatedJFOFilm as HeatedJFOFilm, HeatedJFOState as HeatedJFOState
     from .heat.field.heated_state import HeatAccount, HeatedState as HeatedState
     from .heat.field.layers_film import LayeredTemperature as LayeredTemperature
     from .heat.field.walls import (

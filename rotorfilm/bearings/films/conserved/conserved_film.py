@@ -264,9 +264,7 @@ class ConservedFilm:
         """Return the flows into and out of the film."""
         cells, equations, P = self.cells, state.equations, state.solution.pressure
         outflow = oil_outflow(equations, P, state.solution.theta)
-        fall = P[:, -1] - equations.end_pressure
-        fall[np.abs(fall) <= ROUNDOFF * equations.end_pressure] = 0.0
-        ends = equations.along * equations.conductance[:, -1] * fall
+        ends = equations.along * equations.conductance[:, -1] * self.falls(state)[:, -1]
         film = cells.opening == FILM
         inflow = np.bincount(cells.opening[~film], outflow[~film], len(equations.flow))
         if cells.grooved:
@@ -278,6 +276,13 @@ class ConservedFilm:
             inflow=np.asarray(inflow, dtype=float),
             defect=float(np.abs(outflow[film]).sum()),
         )
+
+    def falls(self, state: ConservedState) -> Array:
+        """Return by how much the pressure falls from each cell to the next along the bearing, (N, M) [1/s]."""
+        end = state.equations.end_pressure
+        fall = -np.diff(state.solution.pressure, append=end)
+        fall[np.abs(fall) <= ROUNDOFF * end] = 0.0
+        return fall
 
     def shear(self, state: ConservedState) -> float:
         """Return the torque against the journal over viscosity length radius^3/clearance [1/s].

@@ -110,7 +110,7 @@ def film_losses(
     torque = bearing.force_scale * bearing.clearance * film.shear(state)
     force = bearing.force_scale * film.force(state)
     inflow, arriving = (flow_unit * flow for flow in opening_flows(film, state))
-    pressure = bearing.pressure_scale * (_opening_pressure(film, state) - film.supply.end_pressure)
+    pressure = bearing.pressure_scale * (opening_pressure(film, state) - film.supply.end_pressure)
     return BearingLosses(
         power_loss=torque * speed + float(pressure @ (inflow - arriving)),
         friction_torque=torque,
@@ -151,7 +151,7 @@ def opening_flows(film: ConservedFilm, state: ConservedState) -> tuple[Array, Ar
     return next(both), next(both)
 
 
-def _opening_pressure(film: ConservedFilm, state: ConservedState) -> Array:
+def opening_pressure(film: ConservedFilm, state: ConservedState) -> Array:
     """Return the pressure of each opening, that of a groove all round last (openings,) [1/s]."""
     opening, P = film.cells.opening, state.solution.pressure
     held = opening != FILM
