@@ -178,7 +178,7 @@ class ConservedFilm:
 
     @cached_property
     def dragged(self) -> Array:
-        """Twice the share of speed x thickness that is dragged over the faces after the lines, (N, M or 1)."""
+        """Twice the share of speed x thickness dragged over the faces after the lines, (N, M or 1)."""
         if self.fluidity is None:
             return np.ones((len(self.cells.angle), 1))
         return 2.0 * at_faces(self.fluidity.dragged, self.cells.opening != FILM)
@@ -278,7 +278,7 @@ class ConservedFilm:
         )
 
     def falls(self, state: ConservedState) -> Array:
-        """Return by how much the pressure falls from each cell to the next along the bearing, (N, M) [1/s]."""
+        """Return by how much the pressure falls from cell to cell along the bearing, (N, M) [1/s]."""
         end = state.equations.end_pressure
         fall = -np.diff(state.solution.pressure, append=end)
         fall[np.abs(fall) <= ROUNDOFF * end] = 0.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Protocol, Self
 
 import numpy as np
@@ -12,6 +13,7 @@ from ....model import Array
 from ....results import BearingLosses
 from ...films.conserved.conserved_cells import FILM
 from ...films.conserved.conserved_film import ConservedFilm, ConservedState
+from ...oil import Cooling, Oil
 from ...oil.heat_balance import FilmHeat, balance_temperature, fed_temperature, film_heat
 
 if TYPE_CHECKING:
@@ -68,6 +70,11 @@ class JFOHeat:
         """Whether the temperature of the film is left to the heat balance."""
         return self.bearing.is_warming
 
+    @property
+    def cooled(self: _Film) -> tuple[Oil, Cooling]:
+        """Oil and cooling of its bearing; InputError if one of them is not given."""
+        return self.bearing.cooled
+
     def coldest(self: _Film) -> float:
         """Return the temperature below which the film never gets [K]; raises InputError without cooling."""
         return self.bearing.coldest()
@@ -88,6 +95,9 @@ class JFOHeat:
         Parameters and errors are those of `losses`.
         """
         oil, cooling = self.bearing.cooled
+        if self.supply_flow is not None:
+            # What arrives at an opening cannot leave by it: all of it goes on.
+            cooling = replace(cooling, carry_over=1.0)
 
         def heat(temperature: float) -> FilmHeat:
             film = self.at_temperature(temperature)

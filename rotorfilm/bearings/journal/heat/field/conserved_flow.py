@@ -1,10 +1,9 @@
-"""Where the oil of a film goes that conserves it, as heat asks: what `film_flow` has for Reynolds' rupture."""
+"""Where the oil of a film goes that conserves it: what `film_flow` has for Reynolds' rupture."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from .....model import Array
 from ....films.conserved.conserved_cells import FILM
 from ....films.conserved.conserved_film import ConservedFilm, ConservedState
 from .film_flow import FilmFlow, film_weight, in_cells, through

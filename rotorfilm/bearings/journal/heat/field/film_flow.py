@@ -202,7 +202,7 @@ def film_weight(full: np.ndarray, opening: np.ndarray) -> Array:
 
 
 def in_cells(around: Array, along: Array, weight: Array) -> Array:
-    """Return what belongs to faces after the lines (N, M) and between cells (N, M - 1), shared by the cells."""
+    """Return what faces after lines (N, M) and between cells (N, M - 1) have, shared by the cells."""
     here, there = _shared(around, weight, np.roll(weight, -1, axis=0))
     total = here + np.roll(there, 1, axis=0)
     here, there = _shared(along, weight[:, :-1], weight[:, 1:])

@@ -1,4 +1,4 @@
-"""The film that conserves its oil, with a given viscosity field: all that `JFOFilm` tells, at frozen temperature."""
+"""The film that conserves its oil with a given viscosity field: all of `JFOFilm` at frozen temperature."""
 
 from __future__ import annotations
 

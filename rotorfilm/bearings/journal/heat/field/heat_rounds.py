@@ -1,4 +1,4 @@
-"""Film and temperature solved in turn until both rest: what films with a temperature field share (T2 and T3)."""
+"""Film and temperature solved in turn until both rest: what films with a field share (T2 and T3)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A film that conserves its oil with the temperature of that oil over it, or over and across it (T2 and T3)."""
+"""A film that conserves its oil with its temperature over it, or over and across it (T2 and T3)."""
 
 from __future__ import annotations
 

@@ -97,7 +97,7 @@ class HeatedState(FilmAtRest):
 
 
 class FoundFilm(NamedTuple):
-    """What a film says without its heat, in the units of `HeatedState`; `pumped` is the supply's power [W]."""
+    """What a film says without its heat, in units of `HeatedState`; `pumped` is the supply's power [W]."""
 
     force: Array
     angle: Array
