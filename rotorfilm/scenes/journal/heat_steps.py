@@ -113,8 +113,8 @@ class HeatSteps:
     def _start_on(self, cells: tuple[int, int]) -> WarmRest:
         """Return the start by one temperature on these cells, whose own error is none of the heat.
 
-        A field is on the cells of the steps, whose error is its own; and films by Reynolds rupture that openings
-        feed start only where there is oil, which is not the film of one temperature.
+        A field is on the cells of the steps, whose error is its own; and films by Reynolds rupture that
+        openings feed start only where there is oil, which is not the film of one temperature.
         """
         own, film = self.own, self._film(cells)
         fed = isinstance(film, HeatedFilm) and film.bearing.geometry.openings()

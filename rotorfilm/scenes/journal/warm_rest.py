@@ -114,7 +114,7 @@ def uniform_rest(
 def warm_field(
     bearing: JournalBearing | JFOFilm, cells: tuple[int, int], profile: FilmProfile
 ) -> HeatedFilm | HeatedJFOFilm:
-    """Return the film of a bearing with a temperature field; one that conserves its oil where openings end."""
+    """Return a film with a temperature field; one that conserves its oil where openings end within it."""
     if ends_within(bearing):
         bearing = JFOFilm(bearing=bearing)  # type: ignore[arg-type]  # no JFOFilm
     if isinstance(bearing, JFOFilm):

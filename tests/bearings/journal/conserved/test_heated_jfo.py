@@ -27,6 +27,7 @@ from rotorfilm.errors import FilmContactError, InputError
 
 R, L, c, T_S = 0.05, 0.05, 75e-6, 318.15
 OMEGA, POSITION, LOAD = 314.0, np.array([22e-6, -37e-6]), np.array([0.0, -5000.0])
+REST = np.zeros(2)
 TOP = Groove(center=0.5 * np.pi, width=np.radians(20.0), length=0.04)
 HOLES = tuple(FeedHole(center=angle, diameter=0.014) for angle in (0.3, 2.8))
 SIDES = tuple(Groove(center=angle, width=np.radians(20.0)) for angle in (0.0, np.pi))
@@ -149,10 +150,10 @@ def test_slopes_of_the_frozen_film_are_exact():
 @pytest.mark.convergence
 def test_open_grooves_are_those_of_reynolds_rupture():
     """Film starts at its openings there: both are the same film in the limit, on other cells."""
-    film = heated("open", cells=(144, 12), walls=WALLS)
+    film = heated("open", cells=(108, 10), walls=WALLS)
     found = heated_equilibrium(film, LOAD, OMEGA)
     other = heated_equilibrium(HeatedFilm(bearing=film.bearing, walls=WALLS, cells=(80, 8)), LOAD, OMEGA)
-    np.testing.assert_allclose(found.rest.position, other.rest.position, atol=3e-3 * c)
+    np.testing.assert_allclose(found.rest.position, other.rest.position, atol=5e-3 * c)
     np.testing.assert_allclose(found.rest.residual, 0.0, atol=1e-10)
     assert found.state.power_loss == pytest.approx(other.state.power_loss, rel=5e-3)
     assert found.state.maximum_temperature == pytest.approx(other.state.maximum_temperature, abs=0.2)
@@ -164,7 +165,7 @@ def test_order_of_the_cells():
     states, sizes = c * np.array([[0.3, -0.5], [0.45, -0.3], [0.2, -0.3]]), (1, 2, 3)
 
     def answers(n):
-        film = heated(cells=(36 * n, 4 * n), walls=WALLS)
+        film = heated("open", cells=(36 * n, 4 * n), walls=WALLS)
         found = [film.solve(position, OMEGA) for position in states]
         return np.array([[*s.force, s.power_loss, s.maximum_temperature - T_S] for s in found])
 
@@ -179,9 +180,9 @@ def test_what_breaks_a_rule_is_named():
     film = heated()
     with pytest.raises(InputError, match="take HeatedJFOFilm"):
         HeatedFilm(bearing=film.bearing)
+    cold = JFOFilm(bearing=JournalBearing(radius=R, length=L, clearance=c, viscosity=0.03, grooves=(TOP,)))
     with pytest.raises(InputError, match="oil and cooling must be given"):
-        cold = JournalBearing(radius=R, length=L, clearance=c, viscosity=0.03, grooves=(TOP,))
-        HeatedJFOFilm(film=JFOFilm(bearing=cold))
+        HeatedJFOFilm(film=cold)
     with pytest.raises(InputError, match="film must be a JFOFilm"):
         HeatedJFOFilm(film=film.bearing)
     with pytest.raises(InputError, match="speed must not be 0"):
@@ -191,7 +192,7 @@ def test_what_breaks_a_rule_is_named():
 
 
 def test_it_rests_where_one_temperature_has_it_about_and_is_drawn():
-    film = heated("holes", walls=WALLS, profile=PROFILES["layers"])
+    film = heated("pocket", walls=WALLS, profile=PROFILES["layers"])
     found = heated_equilibrium(film, LOAD, OMEGA)
     one = equilibrium(film.film, LOAD, OMEGA)
     np.testing.assert_allclose(found.rest.position, one.position, atol=0.08 * c)
