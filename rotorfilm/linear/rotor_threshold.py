@@ -13,6 +13,7 @@ from scipy.optimize import brentq
 
 from ..inputs.kinds import arguments
 from ..model import Array, Reaction
+from ..progress import Report, silent
 from ..readable.result import Readable
 from ..rotors import FlexibleRotor
 from .large.remembered import require_all_growing
@@ -73,7 +74,7 @@ class StabilityChange(Readable):
 
 @arguments
 def rotor_threshold(
-    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike, *, report: Report = silent
 ) -> RotorThreshold:
     """Return the first of a range of speeds at which a rotor on its films loses stability.
 
@@ -84,6 +85,9 @@ def rotor_threshold(
     speeds : array_like, shape (n,) [rad/s]
         Rising or falling, of either sign, searched in this order; stability lost and regained within one step
         goes unseen.
+    report : callable, optional
+        Told how far the search is, as the share of the speeds that are done and the next one: on films that
+        remember each takes seconds.
 
     Notes
     -----
@@ -106,7 +110,8 @@ def rotor_threshold(
     grid = speeds_in_turn(speeds)
     if search.growing(float(grid[0])):
         return RotorThreshold(reason="unstable at the first speed given")
-    found = next(search.changes(grid), None)
+    found = next(search.changes(grid, report), None)
+    report(1.0, "")
     if found is None:
         return RotorThreshold(reason="stable at every speed given")
     return RotorThreshold(
@@ -119,7 +124,7 @@ def rotor_threshold(
 
 @arguments
 def stability_changes(
-    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike, *, report: Report = silent
 ) -> tuple[StabilityChange, ...]:
     """Return every speed of a range at which a motion of a rotor on its films begins or ceases to grow.
 
@@ -130,6 +135,8 @@ def stability_changes(
     speeds : array_like, shape (n,) [rad/s]
         Rising or falling, of either sign, searched in this order; a motion that begins and ceases to grow
         within one step goes unseen.
+    report : callable, optional
+        As in `rotor_threshold`.
 
     Notes
     -----
@@ -137,7 +144,9 @@ def stability_changes(
     to n, growth number m + 1 to n, by falling growth, vanishes in between: no whirl has to be followed. The
     speeds have the error of `rotor_threshold`.
     """
-    return tuple(_Stability(rotor, bearings).changes(speeds_in_turn(speeds)))
+    found = tuple(_Stability(rotor, bearings).changes(speeds_in_turn(speeds), report))
+    report(1.0, "")
+    return found
 
 
 class _Growth(NamedTuple):
@@ -182,9 +191,15 @@ class _Stability(NamedTuple):
         require_all_growing(self.rotor, self.bearings, speed, found.motions.eigenvalues, found.growing)
         return found
 
-    def changes(self, speeds: Array) -> Iterator[StabilityChange]:
+    def changes(self, speeds: Array, report: Report) -> Iterator[StabilityChange]:
         """Yield the changes of a grid of speeds in its order."""
-        for low, high in pairwise(self._counted(float(speed)) for speed in speeds):
+
+        def looked_at() -> Iterator[_Growth]:
+            for done, speed in enumerate(speeds.tolist()):
+                report(done / len(speeds), f"what grows at {speed:.4g} rad/s")
+                yield self._counted(speed)
+
+        for low, high in pairwise(looked_at()):
             yield from self._between(low, high)
 
     def _between(self, low: _Growth, high: _Growth) -> Iterator[StabilityChange]:

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from ...sources import show
 
 if TYPE_CHECKING:
+    from ..differences import extrapolated_value
     from ..oil.heat_balance import heat_surplus
     from ..oil.heated_bearing import HeatedBearing as HeatedBearing
     from .arc_pressure import middle_pressure, tension
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
         RUPTURE_CELLS,
         RuptureError as RuptureError,
         both_films,
-        extrapolated_value,
         rupture_error as rupture_error,
     )
     from .extrapolated_film import ExtrapolatedFilm as ExtrapolatedFilm

@@ -18,10 +18,11 @@ from ....errors import (
     require_non_negative,
     require_number,
     require_positive,
-    warn_user,
 )
+from ....inputs.kinds import arguments
 from ....inputs.si_arguments import quantities
 from ....model import Array
+from ...films.conserved.air_at_ends import warn_of_air
 from ...films.conserved.conserved_cells import require_conserved_cells
 from ...films.conserved.conserved_film import ConservedFilm, ConservedState, circular_gap, direction
 from ...films.conserved.conserved_motion import dynamic_stiffness, slow_motion
@@ -32,9 +33,6 @@ from ...stepped_reaction import StepTrial
 from .damper_supply import DamperSupply
 from .jfo_orbit import JFOOrbit, jfo_orbit
 from .scaled_film import ScaledFilm, scaled_film
-
-AIR_SHARE = 0.01
-"""Of the side flow, what ends in air may draw in before a warning."""
 
 CIRCULAR = 1e-9
 """Radial velocity over the whole one, beyond which an orbit is no circle."""
@@ -74,7 +72,7 @@ class JFODamper(SteppedFilm):
     Warns
     -----
     ValidityWarning
-        If ends in air would draw in more than `AIR_SHARE` of the side flow.
+        If ends in air would draw in more than 1 % of the side flow.
 
     Examples
     --------
@@ -157,6 +155,7 @@ class JFODamper(SteppedFilm):
         found[:, 4] = 0.0
         return found
 
+    @arguments
     def orbit(self, eccentricity_ratio: float, speed: float) -> JFOOrbit:
         """Return the film on a centered circular orbit.
 
@@ -182,6 +181,7 @@ class JFODamper(SteppedFilm):
         self.warn_of_air(found.drawn_in, found.side_flow)
         return found
 
+    @arguments
     def complex_stiffness(
         self, eccentricity_ratio: float, speed: float, s: complex
     ) -> NDArray[np.complex128]:
@@ -191,7 +191,7 @@ class JFODamper(SteppedFilm):
 
         Parameters
         ----------
-        eccentricity_ratio, speed
+        eccentricity_ratio, speed : float [1], [rad/s]
             As in `orbit`; speed 0 for a rotor at rest.
         s : complex [1/s]
         """
@@ -257,11 +257,7 @@ class JFODamper(SteppedFilm):
 
     def warn_of_air(self, drawn_in: float, side_flow: float) -> None:
         """Warn where ends in air would draw in air."""
-        if not self.supply.submerged and drawn_in > AIR_SHARE * side_flow:
-            warn_user(
-                "submerged must be True for ends that draw in oil: in air they would draw in air, "
-                f"{100.0 * drawn_in / side_flow:.2g} % of the side flow"
-            )
+        warn_of_air(self.supply.submerged, drawn_in, side_flow)
 
     def _turning(self, eccentricity_ratio: float, speed: float) -> ConservedState:
         """Return the film in axes that turn with the orbit, in which its wall carries the oil back."""

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from ....errors import ConvergenceError, require_inside, require_positive
 from ....model import Array
 from ....signals import Signal, force_outputs, journal_inputs
+from ...cubic import cubic
 from ...reaction import NOMINAL_SPEED, input_vector
 from ...stepped_reaction import StepTrial
 from .conserved_film import ConservedFilm, ConservedState, circular_gap
@@ -216,9 +217,5 @@ class SteppedFilm:
 
 def between(begin: Array, end: Array, dt: float, share: float) -> Array:
     """Return (x, y, vx, vy, speed) on the cubic between two motions, dt [s] apart, at a share of that."""
-    s, way = share, end[:2] - begin[:2]
-    v0, v1 = begin[2:4] * dt, end[2:4] * dt
-    bent, turned = v0 + v1 - 2.0 * way, 3.0 * way - 2.0 * v0 - v1
-    place = begin[:2] + s * (v0 + s * (turned + s * bent))
-    velocity = (v0 + s * (2.0 * turned + 3.0 * s * bent)) / dt
-    return np.concatenate([place, velocity, [begin[4] + s * (end[4] - begin[4])]])
+    place, way = cubic(begin[:2], end[:2], begin[2:4] * dt, end[2:4] * dt, share)
+    return np.concatenate([place, way / dt, [begin[4] + share * (end[4] - begin[4])]])

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .....errors import ConvergenceError, InputError, require_finite, require_inside, require_number
+from .....inputs.kinds import arguments
 from .....model import Array
 from ....films.conserved.fluidity import Fluidity
 from .film_flow import FilmFlow
@@ -67,6 +68,7 @@ class HeatRounds:
         """Temperature of the fresh oil [K]."""
         return oil_and_cooling(self.bearing)[1].supply_temperature
 
+    @arguments
     def solve(self, position: ArrayLike, speed: float) -> HeatedState:
         """Return the film with its temperature for a journal at rest.
 
