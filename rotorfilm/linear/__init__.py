@@ -60,7 +60,7 @@ if TYPE_CHECKING:
         heated_equilibrium as heated_equilibrium,
     )
     from .linearize import OperatingPoint as OperatingPoint, linearize as linearize
-    from .memory.counted_threshold import CountedThreshold as CountedThreshold
+    from .memory.counted_threshold import CountedThreshold as CountedThreshold, threshold_near
     from .memory.film_system import FilmSystem as FilmSystem, film_system as film_system
     from .nonlinear_system import ModelSystem, to_nlsys as to_nlsys
     from .orbit_coefficients import (

@@ -13,6 +13,7 @@ from scipy.optimize import brentq
 
 from ..inputs.kinds import arguments
 from ..model import Array, Reaction
+from ..progress import Report, silent
 from ..readable.result import Readable
 from ..rotors import FlexibleRotor
 from .large.remembered import require_all_growing
@@ -84,7 +85,7 @@ class StabilityChange(Readable):
 
 @arguments
 def rotor_threshold(
-    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike, *, report: Report = silent
 ) -> RotorThreshold:
     """Return the first of a range of speeds at which a rotor on its films loses stability.
 
@@ -95,6 +96,9 @@ def rotor_threshold(
     speeds : array_like, shape (n,) [rad/s]
         Rising or falling, of either sign, searched in this order; stability lost and regained within one step
         goes unseen.
+    report : callable, optional
+        Told how far the search is, as the share of the speeds that are done and the next one: on films that
+        remember each takes seconds.
 
     Notes
     -----
@@ -116,7 +120,8 @@ def rotor_threshold(
     grid = speeds_in_turn(speeds)
     with counted(*COUNTS) as work:
         unstable = search.growing(float(grid[0])) > 0
-        found = None if unstable else next(search.changes(grid), None)
+        found = None if unstable else next(search.changes(grid, report), None)
+    report(1.0, "")
     if found is None:
         reason = "unstable at the first speed given" if unstable else "stable at every speed given"
         return RotorThreshold(reason=reason, work=dict(work))
@@ -132,7 +137,7 @@ def rotor_threshold(
 
 @arguments
 def stability_changes(
-    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike
+    rotor: FlexibleRotor, bearings: Mapping[str, Reaction], speeds: ArrayLike, *, report: Report = silent
 ) -> CountedTuple[StabilityChange]:
     """Return every speed of a range at which a motion of a rotor on its films begins or ceases to grow.
 
@@ -143,6 +148,8 @@ def stability_changes(
     speeds : array_like, shape (n,) [rad/s]
         Rising or falling, of either sign, searched in this order; a motion that begins and ceases to grow
         within one step goes unseen.
+    report : callable, optional
+        As in `rotor_threshold`.
 
     Returns
     -------
@@ -155,9 +162,9 @@ def stability_changes(
     to n, growth number m + 1 to n, by falling growth, vanishes in between: no whirl has to be followed. The
     speeds have the error of `rotor_threshold`.
     """
-    grid = speeds_in_turn(speeds)
     with counted(*COUNTS) as work:
-        found = list(_Stability(rotor, bearings).changes(grid))
+        found = list(_Stability(rotor, bearings).changes(speeds_in_turn(speeds), report))
+    report(1.0, "")
     return CountedTuple(found, work)
 
 
@@ -203,9 +210,15 @@ class _Stability(NamedTuple):
         require_all_growing(self.rotor, self.bearings, speed, found.motions.eigenvalues, found.growing)
         return found
 
-    def changes(self, speeds: Array) -> Iterator[StabilityChange]:
+    def changes(self, speeds: Array, report: Report) -> Iterator[StabilityChange]:
         """Yield the changes of a grid of speeds in its order."""
-        for low, high in pairwise(self._counted(float(speed)) for speed in speeds):
+
+        def looked_at() -> Iterator[_Growth]:
+            for done, speed in enumerate(speeds.tolist()):
+                report(done / len(speeds), f"what grows at {speed:.4g} rad/s")
+                yield self._counted(speed)
+
+        for low, high in pairwise(looked_at()):
             yield from self._between(low, high)
 
     def _between(self, low: _Growth, high: _Growth) -> Iterator[StabilityChange]:

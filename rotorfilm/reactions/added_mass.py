@@ -57,6 +57,26 @@ def inertial(reaction: Any) -> InertialReaction | None:
     return reaction if heavy else None
 
 
+def orbit_mass(
+    reaction: Any, position: NDArray[np.float64], velocity: NDArray[np.float64], speed: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
+    """Return mass (2, 2, ...) [kg] and its slopes times -speed^2 position (2, 4, ...); None without inertia.
+
+    Parameters
+    ----------
+    reaction : Reaction
+    position, velocity : ndarray, shape (2, ...) [m], [m/s]
+        On circular orbits.
+    speed : float [rad/s]
+    """
+    heavy = inertial(reaction)
+    if heavy is None:
+        return None
+    by_motion = heavy.mass_slopes(position, velocity, speed)[:, :, :4]
+    slopes = np.einsum("ijk...,j...->ik...", by_motion, -(speed**2) * position)
+    return heavy.mass(position, velocity, speed), slopes
+
+
 def require_turning(reaction: Any, rotor: Any) -> None:
     """Warn, or raise InputError, where a rotor turns too fast for the inertia of its bearing.
 

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from ...sources import show
 
 if TYPE_CHECKING:
+    from ..differences import extrapolated_value
     from ..oil.heat_balance import heat_surplus
     from ..oil.heated_bearing import HeatedBearing as HeatedBearing
     from .arc_pressure import middle_pressure, tension
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
         RUPTURE_CELLS,
         RuptureError as RuptureError,
         both_films,
-        extrapolated_value,
         rupture_error as rupture_error,
     )
     from .extrapolated_film import ExtrapolatedFilm as ExtrapolatedFilm
@@ -28,7 +28,9 @@ if TYPE_CHECKING:
     from .grooves.openings import is_mappable
     from .heat.balanced_bearing import BalancedBearing as BalancedBearing
     from .heat.field.energy_film import MeanTemperature as MeanTemperature
-    from .heat.field.heated_film import FilmProfile, HeatedFilm as HeatedFilm
+    from .heat.field.heat_rounds import FilmProfile
+    from .heat.field.heated_film import HeatedFilm as HeatedFilm
+    from .heat.field.heated_jfo import HeatedJFOFilm as HeatedJFOFilm, HeatedJFOState as HeatedJFOState
     from .heat.field.heated_state import HeatAccount, HeatedState as HeatedState
     from .heat.field.layers_film import LayeredTemperature as LayeredTemperature
     from .heat.field.walls import (

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...bearings.cubic import cubic
 from ...bearings.stepped_reaction import SteppedReaction
 from ...errors import ContactError, ConvergenceError, FilmContactError, InputError, require_finite
 from ...model import Array, Dynamic, breakpoints
@@ -149,7 +150,5 @@ class _Record:
 
 def _cubic(last: Moment, now: Moment, s: float) -> Array:
     """Return the rotor's state at a share of the time between two moments."""
-    dt, way = now.time - last.time, now.state - last.state
-    bent = dt * (last.rate + now.rate) - 2.0 * way
-    turned = 3.0 * way - dt * (2.0 * last.rate + now.rate)
-    return np.asarray(last.state + s * (dt * last.rate + s * (turned + s * bent)))
+    dt = now.time - last.time
+    return np.asarray(cubic(last.state, now.state, dt * last.rate, dt * now.rate, s)[0])

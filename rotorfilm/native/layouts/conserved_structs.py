@@ -14,8 +14,11 @@ class OilCellsStruct(ctypes.Structure):
     _fields_: ClassVar[Sequence[Any]] = [
         ("lines", c_size_t),
         ("nodes", c_size_t),
-        *((name, c_void_p) for name in ("wedge", "around", "along", "store", "width", "conductance")),
-        *((name, c_double) for name in ("center", "center_pressure", "end_pressure")),
+        *(
+            (name, c_void_p)
+            for name in ("wedge", "around", "along", "store", "width", "conductance", "center")
+        ),
+        *((name, c_double) for name in ("center_pressure", "end_pressure")),
         *((name, c_void_p) for name in ("old", "opening", "fed", "flow")),
         ("openings", c_size_t),
         ("backward", c_int32),

@@ -22,7 +22,7 @@ from ...linear import (
     unbalance_response,
 )
 from ...model import Array
-from ...progress import Report, silent
+from ...progress import Report, part_of, silent
 from ...readable.result import Drawable
 from ..excitation_table import UnbalanceTable
 from ..film_table import oil_remarks
@@ -108,7 +108,7 @@ def solve_rotor(scene: Scene, report: Report = silent) -> RotorAnswer:
     report(0.35, "critical speeds")
     critical = critical_speeds(rotor, bearings, speeds)
     report(0.65, "threshold of stability")
-    threshold = rotor_threshold(rotor, bearings, speeds)
+    threshold = rotor_threshold(rotor, bearings, speeds, report=part_of(report, 0.65, 0.85))
     report(0.85, "unbalance response")
     turned = resonant_speeds(speeds, critical)
     response = unbalance_response(rotor, bearings, turned) if rotor.assembly.unbalance.any() else None

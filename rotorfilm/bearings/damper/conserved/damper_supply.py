@@ -13,15 +13,12 @@ from ....errors import (
     require_non_negative,
     require_number,
     require_tuple,
-    warn_user,
 )
 from ....inputs.si_arguments import quantities
+from ...films.conserved.air_at_ends import warn_of_air
 from ...films.conserved.conserved_film import Supply
 from ...films.conserved.oil_spec import OilNumbers
 from ...films.geometry import FeedHole, FilmGeometry, Pocket
-
-AIR_SHARE = 0.01
-"""Of the side flow, what ends in air may draw in before a warning."""
 
 REMEDY = (
     "supply_pressure with circumferential_groove (its width), end_groove=True or "
@@ -109,11 +106,7 @@ class DamperSupply:
 
     def warn_of_air(self, drawn_in: float, side_flow: float) -> None:
         """Warn where ends in air would draw in air."""
-        if not self.submerged and drawn_in > AIR_SHARE * side_flow:
-            warn_user(
-                "submerged must be True for ends that draw in oil: in air they would draw in air, "
-                f"{100.0 * drawn_in / side_flow:.2g} % of the side flow"
-            )
+        warn_of_air(self.submerged, drawn_in, side_flow)
 
 
 class SuppliedFilm(NamedTuple):

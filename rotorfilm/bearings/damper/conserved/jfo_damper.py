@@ -19,6 +19,7 @@ from ....errors import (
     require_number,
     require_positive,
 )
+from ....inputs.kinds import arguments
 from ....inputs.si_arguments import quantities
 from ....model import Array
 from ...films.conserved.conserved_cells import require_conserved_cells
@@ -71,7 +72,7 @@ class JFODamper(SteppedFilm):
     Warns
     -----
     ValidityWarning
-        If ends in air would draw in more than `AIR_SHARE` of the side flow.
+        If ends in air would draw in more than 1 % of the side flow.
 
     Examples
     --------
@@ -159,6 +160,7 @@ class JFODamper(SteppedFilm):
         found[:, 4] = 0.0
         return found
 
+    @arguments
     def orbit(self, eccentricity_ratio: float, speed: float) -> JFOOrbit:
         """Return the film on a centered circular orbit.
 
@@ -184,6 +186,7 @@ class JFODamper(SteppedFilm):
         self.supply.warn_of_air(found.drawn_in, found.side_flow)
         return found
 
+    @arguments
     def complex_stiffness(
         self, eccentricity_ratio: float, speed: float, s: complex
     ) -> NDArray[np.complex128]:
@@ -193,7 +196,7 @@ class JFODamper(SteppedFilm):
 
         Parameters
         ----------
-        eccentricity_ratio, speed
+        eccentricity_ratio, speed : float [1], [rad/s]
             As in `orbit`; speed 0 for a rotor at rest.
         s : complex [1/s]
         """

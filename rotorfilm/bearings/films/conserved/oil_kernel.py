@@ -20,9 +20,9 @@ class OilCells(NamedTuple):
 
     Attributes
     ----------
-    wedge : ndarray, shape (N,) [1/s]
-        Oil that a full gap carries over the face after a line.
-    around : ndarray, shape (N,)
+    wedge : ndarray, shape (N, M), or (N, 1) where it is the same along [1/s]
+        Oil that a full gap carries over the face after a cell, around the film.
+    around : ndarray, shape (N, M) or (N, 1)
         Conductance of that face.
     along : ndarray, shape (N,)
         Conductance of a line's cells along the bearing.
@@ -32,8 +32,10 @@ class OilCells(NamedTuple):
         Of the cells along the bearing.
     conductance : ndarray, shape (N, M)
         1/distance to the next cell, the last to the end.
-    center, center_pressure, end_pressure : float
-        1/distance to a groove at mid-length, 0 without one; its pressure, and that at the end [1/s].
+    center : ndarray, shape (N,)
+        1/distance from the first cell to a groove at mid-length, 0 without one.
+    center_pressure, end_pressure : float [1/s]
+        Of that groove, and at the end.
     old : ndarray, shape (N, M), or None [1/s]
         Oil that the cells held.
     opening : ndarray of int32, shape (N, M)
@@ -52,7 +54,7 @@ class OilCells(NamedTuple):
     store: Array
     width: Array
     conductance: Array
-    center: float
+    center: Array
     center_pressure: float
     end_pressure: float
     old: Array | None
@@ -165,7 +167,8 @@ def oil_response(
 def oil_struct(cells: OilCells) -> tuple[OilCellsStruct, list[np.ndarray]]:
     """Return what C reads, and the arrays that it must outlive."""
     lines, nodes = cells.opening.shape
-    kept: list[np.ndarray] = [_float(row) for row in (*cells[:6], cells.flow)]
+    faces = (np.broadcast_to(face, cells.opening.shape) for face in cells[:2])
+    kept: list[np.ndarray] = [_float(row) for row in (*faces, *cells[2:7], cells.flow)]
     kept += [
         np.ascontiguousarray(cells.opening, dtype=np.int32),
         np.ascontiguousarray(cells.fed, dtype=np.uint8),
@@ -175,7 +178,7 @@ def oil_struct(cells: OilCells) -> tuple[OilCellsStruct, list[np.ndarray]]:
         kept.append(_float(cells.old))
     old = None if cells.old is None else kept[-1].ctypes.data
     struct = OilCellsStruct(
-        *(lines, nodes, *factors, *cells[6:9], old, opening, fed, flow, len(cells.flow), cells.backward)
+        *(lines, nodes, *factors, *cells[7:9], old, opening, fed, flow, len(cells.flow), cells.backward)
     )
     return struct, kept
 
