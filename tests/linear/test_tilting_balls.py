@@ -19,9 +19,7 @@ LENGTH, DIAMETER, MASS, UNBALANCE = 0.12, 0.03, 0.02, 1e-8
 
 def overhung() -> rf.ShaftRotor:
     """Return a mass at the end of a slender light shaft that one bearing holds."""
-    piece = rf.ShaftElement(
-        length=LENGTH, outer_diameter=DIAMETER, material=LIGHT, shear_coefficient=1e7
-    )
+    piece = rf.ShaftElement(length=LENGTH, outer_diameter=DIAMETER, material=LIGHT, shear_coefficient=1e7)
     return rf.ShaftRotor(
         elements=piece.split(2),
         speed=0.0,

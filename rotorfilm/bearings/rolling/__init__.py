@@ -6,7 +6,8 @@ from ...sources import show
 
 if TYPE_CHECKING:
     from .ball_bearing import BallBearing as BallBearing
-    from .ball_films import ball_films as ball_films
+    from .ball_degrees import MOST_PRESSURE, MOST_TRACTION
+    from .ball_films import ball_films as ball_films, film_parameter as film_parameter
     from .ball_law import RunningBalls as RunningBalls, StaticBalls as StaticBalls
     from .ball_results import BallLoads as BallLoads, BallRest as BallRest
     from .bearing_pair import (
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
         palmgren_stiffness as palmgren_stiffness,
         stribeck_load as stribeck_load,
     )
+    from .palmgren_balls import PalmgrenBalls as PalmgrenBalls
     from .rolling_material import RollingMaterial as RollingMaterial
     from .tilting_balls import TiltingBalls as TiltingBalls
 else:

@@ -177,10 +177,15 @@ class BallBearing(BallElement):
     @cached_property
     def contacts(self) -> tuple[EllipticContact, EllipticContact]:
         """Inner and outer contact of a ball, at the free contact angle."""
-        cosine = math.cos(self.free_contact_angle)
+        return self.contacts_at(self.free_contact_angle, self.free_contact_angle)
+
+    def contacts_at(self, inner_angle: float, outer_angle: float) -> tuple[EllipticContact, EllipticContact]:
+        """Return inner and outer contact of a ball at these contact angles [rad]."""
         compliance = self.ball_material.compliance + self.ring_material.compliance
+        sides = (1.0, self.inner_conformity, inner_angle), (-1.0, self.outer_conformity, outer_angle)
         found = []
-        for side, conformity in ((1.0, self.inner_conformity), (-1.0, self.outer_conformity)):
+        for side, conformity, angle in sides:
+            cosine = math.cos(angle)
             race = 2.0 * cosine / (self.pitch_diameter - side * self.ball_diameter * cosine)
             groove = (2.0 - 1.0 / conformity) / self.ball_diameter
             found.append(
