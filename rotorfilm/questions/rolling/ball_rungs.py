@@ -22,6 +22,7 @@ from ...scenes.rolling.ball_rest import (
     rest_near,
     rest_under,
     single_of,
+    still,
     with_single,
 )
 
@@ -163,9 +164,7 @@ class ClosedRung(BallRung):
 
     def estimate(self, found: Found, before: Found | None, tolerance: float) -> ErrorEstimate:
         """Return the distance from running balls, found from static ones."""
-        single = single_of(self.bearing)
-        still = with_single(self.bearing, replace(single, law=StaticBalls()))
-        return self.moved(found.value, self.question.rest(still))
+        return self.moved(found.value, self.question.rest(still(self.bearing)))
 
 
 def is_radial(bearing: BallBearing) -> bool:
@@ -279,10 +278,9 @@ def rungs_of(bearing: Balls, question: BallQuestion, *, fixed: bool) -> tuple[Ru
     given = BallLawRung(bearing=bearing, question=question)
     if fixed:
         return (given,)
-    static = with_single(bearing, replace(single_of(bearing), law=StaticBalls()))
     rungs: tuple[Rung, ...] = (
         ClosedRung(bearing=bearing, question=question),
-        BallLawRung(bearing=static, question=question),
+        BallLawRung(bearing=still(bearing), question=question),
         given,
     )
     return rungs if question.oil is None else (*rungs, FilmsRung(bearing=bearing, question=question))

@@ -11,7 +11,7 @@ from ...bearings.rolling import MOST_TRACTION, BearingPair, RunningBalls, Static
 from ...errors import RotorfilmError, ValidityWarning
 from ...model import Array
 from ..remarks import Remark, said
-from .ball_rest import Balls, RaceOil, RestingBalls, rest_under, single_of, with_single
+from .ball_rest import Balls, RaceOil, RestingBalls, rest_under, single_of, still, with_single
 
 APART, TOUCHING = 3.0, 1.0
 """Film parameters above which the surfaces are apart, and below which they touch."""
@@ -102,8 +102,7 @@ def _idle(rest: RestingBalls) -> Array:
     """Return which balls the rings do not press, where thrust or preload should press all, shape (balls,)."""
     if not _presses_all(rest.bearing):
         return np.zeros(rest.balls.inner_load.size, dtype=bool)
-    still = with_single(rest.bearing, replace(single_of(rest.bearing), law=StaticBalls()))
-    pressed = still.loads(rest.displacement).inner_load
+    pressed = still(rest.bearing).loads(rest.displacement).inner_load
     return np.asarray(np.minimum(pressed, rest.balls.inner_load) == 0.0)
 
 

@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
-from ...bearings.rolling import BallBearing, BallLoads, BearingPair, ball_films, film_parameter
+from ...bearings.rolling import (
+    BallBearing,
+    BallLoads,
+    BearingPair,
+    StaticBalls,
+    ball_films,
+    film_parameter,
+)
+from ...errors import RotorfilmError
 from ...linear import equilibrium
 from ...model import Array
 
@@ -120,8 +129,19 @@ def rest_at(bearing: Balls, position: Array, speed: float) -> RestingBalls:
 
 
 def rest_under(bearing: Balls, load: tuple[float, float], speed: float) -> RestingBalls:
-    """Return the equilibrium under a load [N]."""
-    return rest_at(bearing, equilibrium(bearing, load, speed).position, speed)
+    """Return the equilibrium under a load [N], sought from that of static balls."""
+    try:
+        at = equilibrium(still(bearing), load, speed)
+        near = rest_at(still(bearing), at.position, speed)
+        found, left = moved_to(bearing, near, load)
+    except RotorfilmError:
+        left = math.inf
+    return found if left <= EXACT else rest_at(bearing, equilibrium(bearing, load, speed).position, speed)
+
+
+def still(bearing: Balls) -> Balls:
+    """Return a bearing with static balls."""
+    return with_single(bearing, replace(single_of(bearing), law=StaticBalls()))
 
 
 def moved_to(bearing: Balls, near: RestingBalls, load: tuple[float, float]) -> tuple[RestingBalls, float]:
