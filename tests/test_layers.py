@@ -61,6 +61,7 @@ PARTS = {
     "bearings/contact": [["film"], ["motion"]],
     "bearings/damper": [["built", "conserved"]],
     "bearings/pads": [["dam", "tilting"]],
+    "bearings/rolling": [["cage"]],
     "rotors": [["shaft"], ["driven"]],
     "linear": [["memory"], ["large", "search"]],
     "motion": [["compiled"], ["transient", "circular"], ["periodic"]],

@@ -34,5 +34,9 @@ if TYPE_CHECKING:
     from .periodic.hopf import HopfPoint as HopfPoint, hopf_point as hopf_point
     from .periodic.periodic_orbit import PeriodicOrbit as PeriodicOrbit, periodic_orbit as periodic_orbit
     from .transient.simulate import simulate as simulate
+    from .variable_compliance import (
+        VariableCompliance as VariableCompliance,
+        variable_compliance as variable_compliance,
+    )
 else:
     show(__name__)

@@ -25,5 +25,6 @@ if TYPE_CHECKING:
     from .palmgren_balls import PalmgrenBalls as PalmgrenBalls
     from .rolling_material import RollingMaterial as RollingMaterial
     from .tilting_balls import TiltingBalls as TiltingBalls
+    from .waviness import Waviness as Waviness
 else:
     show(__name__)

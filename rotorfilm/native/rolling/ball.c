@@ -182,6 +182,7 @@ static void tell(const rf_ball_row *row, const balance *at, double speed, rf_bal
     ball->centrifugal = at->inertia.force[0];
     ball->gyroscopic = at->inertia.moment[0] * row->diameter;
     ball->orbit = at->inertia.orbit * speed;
+    ball->gap = at->in.length - row->inner;
     const double inner = at->share[0] * m, outer = at->share[1] * m;
     ball->traction = outer > 0.0 ? outer / at->out.load : 0.0;
     if (inner > 0.0)
@@ -201,6 +202,7 @@ static void stand(const rf_ball_row *row, const double *a, double speed, rf_ball
     for (int k = 0; k < 4; ++k)
         ball->by_place[k] = -c.by[k];
     ball->orbit = 0.5 * speed * (1.0 - row->ratio * c.e[1]);
+    ball->gap = (a[1] > 0.0 ? c.length : 0.0) - row->inner - row->outer;
 }
 
 static int run(const rf_ball_row *row, int inertia, const double *a, double speed, rf_ball *ball)

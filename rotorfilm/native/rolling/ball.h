@@ -43,6 +43,7 @@ typedef struct rf_ball {
     double centrifugal;  /* force [N] */
     double gyroscopic;   /* moment, negative for positive angles [N m] */
     double orbit;        /* angular speed about the shaft [rad/s] */
+    double gap;          /* approach of the inner contact, of static balls of both; negative where it is open [m] */
     double traction;     /* friction over load that the gyroscopic moment asks for, the larger of both contacts */
 } rf_ball;
 
