@@ -155,7 +155,7 @@ def test_a_slow_rotor_follows_the_places_of_rest():
 def test_cage_ratio_is_that_of_the_balls():
     fast = replace(THRUST, waviness=(), tilt=(0.0, 0.0))
     rest = fast.rest([0.0, 0.0, 400.0, 0.0, 0.0], 300.0)
-    assert fast.cage_ratio == pytest.approx(rest.balls.orbit_speed.mean() / 300.0, rel=2e-3)
+    assert fast.cage_ratio == pytest.approx(rest.balls.orbit_speed.mean() / 300.0, rel=1e-2)
     assert (
         TurningBalls(bearing=fast, cage_ratio=0.41).derivative(0.0, [0.0, 0.0], [0.0] * 4 + [100.0])[0]
         == 41.0
