@@ -69,7 +69,7 @@ PARTS = {
     "fmu": [["description"], ["python", "check"], ["native"]],
     "scenes": [["reading"], ["journal"], ["damper", "contact", "bush", "shaft", "pads", "rolling", *FURTHER]],
     "questions": [["journal"], ["damper", "contact", "bush", "shaft", "pads", "rolling"]],
-    "comparisons": [["journal", "contact", "coupling"], ["limits", "pads"]],
+    "comparisons": [["journal", "contact", "coupling"], ["limits", "pads", "rolling"]],
     "charts": [["comparisons"]],
     "cli": [["charts"]],
     "native": [["layouts"], ["pads"]],

@@ -49,8 +49,8 @@ class VariableCompliance(Drawable):
         Of the harmonics of the ball-pass frequency along x and y, the first one first.
     mean_stiffness : ndarray, shape (2, 2) [N/m]
         Averaged over the pitch.
-    first_harmonic : ndarray of complex, shape (2, 2) [N/m]
-        H of K = mean + Re(H exp(i angle 2 pi/pitch)): the parametric excitation.
+    first_harmonic : ndarray, shape (2, 2, 2) [N/m]
+        A, B of K = mean + A cos(2 pi angle/pitch) + B sin(2 pi angle/pitch): the parametric excitation.
     ball_pass_frequency : float [rad/s]
         At the speed of the shaft: balls times the speed of the cage.
     load : (float, float) [N]
@@ -62,7 +62,7 @@ class VariableCompliance(Drawable):
     swing: Array
     amplitude: Array
     mean_stiffness: Array
-    first_harmonic: Any
+    first_harmonic: Array
     ball_pass_frequency: float
     load: tuple[float, float]
     speed: float
@@ -103,13 +103,14 @@ def variable_compliance(
         [coefficients(one, at, speed).stiffness for one, at in zip(turned, places, strict=True)]
     )
     position = np.array(places).T
+    first = np.fft.fft(stiffness, axis=0)[1]
     return VariableCompliance(
         cage_angle=angles,
         position=position,
         swing=np.ptp(position, axis=1),
         amplitude=2.0 / samples * np.abs(np.fft.rfft(position)[:, 1 : samples // 2]),
         mean_stiffness=stiffness.mean(axis=0),
-        first_harmonic=2.0 / samples * np.fft.fft(stiffness, axis=0)[1],
+        first_harmonic=2.0 / samples * np.stack([first.real, -first.imag]),
         ball_pass_frequency=2.0 * np.pi / bearing.pitch * bearing.cage_ratio * abs(speed),
         load=load,
         speed=speed,

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from ...errors import require_count, require_non_negative, require_positive
 from ...inputs.si_arguments import quantities
-from ...model import Array
+from ...model import Array, Tangent
 from ..reaction import StaticReaction
 from .load_zone import palmgren_stiffness
 
@@ -78,6 +79,23 @@ class PalmgrenBalls(StaticReaction):
 
     def require_film(self, position: Array) -> None:
         """Accept every position: balls push back wherever the shaft goes."""
+
+    def prepare_tangent(self) -> Tangent:
+        """Return force and derivatives as one function of five numbers; see `model.TangentReaction`."""
+        constant, damping = self.constant, self.damping
+
+        def tangent(
+            x: float, y: float, vx: float, vy: float, speed: float
+        ) -> tuple[float, float, tuple[float, ...]]:
+            way = math.hypot(x, y)
+            root = constant * math.sqrt(way)
+            half = 0.5 * root / way**2 if way else 0.0
+            across = -half * x * y
+            along = -root - half * x * x, -root - half * y * y
+            rows = (along[0], across, -damping, 0.0, 0.0, across, along[1], 0.0, -damping, 0.0)
+            return -root * x - damping * vx, -root * y - damping * vy, rows
+
+        return tangent
 
     def prepared_force(self, position: Array, velocity: Array, speed: Array) -> Array:
         """Return `force` for inner loops: float arrays of equal batch shape."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from ...errors import FilmContactError, UndefinedDerivativeError
+from ...errors import ConvergenceError, FilmContactError, UndefinedDerivativeError
 from ...model import Tangent
 
 MAXIMUM_ECCENTRICITY = 0.9999
@@ -137,7 +137,7 @@ def _point(target: StaticTarget, s: float, phi: float, steps: int) -> StaticPoin
     x, y = distance * math.cos(phi), distance * math.sin(phi)
     try:
         fx, fy, D = target.tangent(x, y, 0.0, 0.0, target.speed)
-    except (UndefinedDerivativeError, FilmContactError):
+    except (UndefinedDerivativeError, FilmContactError, ConvergenceError):
         return StaticPoint(s, phi, steps)
     size = math.hypot(fx, fy)
     if not 0.0 < size < math.inf:

@@ -34,6 +34,9 @@ def test_its_derivatives_are_those_of_its_force():
     assert not BALLS.jacobian(np.zeros(2), v)[:, :2].any()
     batch = BALLS.force(np.stack([q, q], axis=1), v[:, None], np.zeros(2))
     np.testing.assert_array_equal(batch[:, 1], BALLS.force(q, v))
+    *force, slopes = BALLS.prepare_tangent()(*q, *v, 0.0)
+    np.testing.assert_allclose(force, BALLS.force(q, v), rtol=1e-14)
+    np.testing.assert_allclose(np.reshape(slopes, (2, 5)), BALLS.jacobian(q, v), rtol=1e-13)
     assert isinstance(BALLS, Reaction)
 
 
