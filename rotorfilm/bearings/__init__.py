@@ -35,7 +35,6 @@ if TYPE_CHECKING:
     from .own_reaction import OwnReaction as OwnReaction, as_reaction as as_reaction
     from .pads import *
     from .rolling import *
-    from .rolling.cage import *
     from .sprung import Sprung as Sprung
     from .tabulated import TabulatedBearing as TabulatedBearing
 else:

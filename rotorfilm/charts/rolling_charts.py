@@ -43,10 +43,10 @@ def plot_compliance(result: VariableCompliance, *, axes: Axes | None = None) -> 
         Where to draw; a new figure by default.
     """
     axes = axes or new_axes("Swing as balls pass")
-    orders = np.arange(1, min(SHOWN, result.amplitude.shape[1]) + 1)
+    orders = np.arange(1, min(SHOWN, result.swing_amplitude.shape[1]) + 1)
     passing = result.ball_pass_frequency / (2.0 * math.pi)
     unit = passing or 1.0
-    for name, row, side in zip("xy", result.amplitude, (-0.1, 0.1), strict=True):
+    for name, row, side in zip("xy", result.swing_amplitude, (-0.1, 0.1), strict=True):
         axes.vlines(
             (orders + side) * unit, 1e-12, 1e9 * row[: orders.size], label=name, lw=4.0, color=_color(side)
         )
@@ -56,7 +56,7 @@ def plot_compliance(result: VariableCompliance, *, axes: Axes | None = None) -> 
         ylabel="amplitude of the place [nm]",
         title=f"Swing under {math.hypot(*result.load):.4g} N as balls pass, {passing:.4g} Hz",
     )
-    axes.set_ylim(1e-3 * 1e9 * result.amplitude.max(), 3e9 * result.amplitude.max())
+    axes.set_ylim(1e-3 * 1e9 * result.swing_amplitude.max(), 3e9 * result.swing_amplitude.max())
     _finish(axes)
     return axes
 

@@ -45,7 +45,7 @@ class VariableCompliance(Drawable):
         Where the shaft rests.
     swing : ndarray, shape (2,) [m]
         Peak to peak along x and y.
-    amplitude : ndarray, shape (2, harmonics) [m]
+    swing_amplitude : ndarray, shape (2, harmonics) [m]
         Of the harmonics of the ball-pass frequency along x and y, the first one first.
     mean_stiffness : ndarray, shape (2, 2) [N/m]
         Averaged over the pitch.
@@ -60,7 +60,7 @@ class VariableCompliance(Drawable):
     cage_angle: Array
     position: Array
     swing: Array
-    amplitude: Array
+    swing_amplitude: Array
     mean_stiffness: Array
     first_harmonic: Array
     ball_pass_frequency: float
@@ -108,7 +108,7 @@ def variable_compliance(
         cage_angle=angles,
         position=position,
         swing=np.ptp(position, axis=1),
-        amplitude=2.0 / samples * np.abs(np.fft.rfft(position)[:, 1 : samples // 2]),
+        swing_amplitude=2.0 / samples * np.abs(np.fft.rfft(position)[:, 1 : samples // 2]),
         mean_stiffness=stiffness.mean(axis=0),
         first_harmonic=2.0 / samples * np.stack([first.real, -first.imag]),
         ball_pass_frequency=2.0 * np.pi / bearing.pitch * bearing.cage_ratio * abs(speed),

@@ -45,7 +45,7 @@ def test_the_spectrum_of_a_swing_is_its_picture():
     found = variable_compliance(bearing, (0.0, -500.0), 300.0, samples=16)
     axes = found.plot()
     tops = [segment[1, 1] for lines in axes.collections for segment in lines.get_segments()]
-    assert tops == pytest.approx(1e9 * found.amplitude.ravel())
+    assert tops == pytest.approx(1e9 * found.swing_amplitude.ravel())
     still = variable_compliance(bearing, (0.0, -500.0), samples=8)
     assert "multiple of the ball-pass frequency" in plot_compliance(still).get_xlabel()
 

@@ -23,7 +23,7 @@ ONE = BallBearing(
     pitch_diameter=33.5e-3,
     contact_angle=math.radians(20.0),
     damping=120.0,
-    waviness=(Waviness(inner=True, lobes=10, amplitude=0.3e-6, phase=0.4),),
+    waviness=(Waviness(inner=True, lobes=10, radial_amplitude=0.3e-6, phase=0.4),),
 )
 PAIR = back_to_back(replace(ONE, waviness=(), damping=0.0), distance=0.02, preload=200.0)
 MODELS = {"wavy": FiveDegreeBalls(bearing=ONE), "pair": FiveDegreeBalls(bearing=PAIR)}

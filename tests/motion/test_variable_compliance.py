@@ -92,7 +92,7 @@ def test_stiffness_averaged_over_the_pitch_is_two_thirds_across():
 def test_lobes_of_the_outer_race(lobes, presses):
     """Lobes of m Z press all balls alike, of m Z +- 1 they move the shaft: preload, next to no load."""
     pressed = replace(TIGHT, internal_clearance=-10e-6)
-    wavy = replace(pressed, waviness=(Waviness(inner=False, lobes=lobes, amplitude=0.2e-6),))
+    wavy = replace(pressed, waviness=(Waviness(inner=False, lobes=lobes, radial_amplitude=0.2e-6),))
     tiny = (0.0, -1.0)
     found, plain = variable_compliance(wavy, tiny, samples=16), variable_compliance(pressed, tiny, samples=16)
     change = np.ptp(found.position, axis=1) - np.ptp(plain.position, axis=1)
@@ -110,7 +110,7 @@ def test_lobes_of_the_outer_race(lobes, presses):
 @pytest.mark.closed_form
 def test_other_lobes_neither_move_nor_press():
     pressed = replace(TIGHT, internal_clearance=-10e-6)
-    wavy = replace(pressed, waviness=(Waviness(inner=False, lobes=5, amplitude=0.2e-6),))
+    wavy = replace(pressed, waviness=(Waviness(inner=False, lobes=5, radial_amplitude=0.2e-6),))
     found = variable_compliance(wavy, (0.0, -1.0), samples=16)
     assert np.max(found.swing) < 0.01e-6
 
@@ -119,9 +119,9 @@ def test_frequency_and_harmonics():
     found = variable_compliance(DEEP, (0.0, -500.0), 300.0, samples=16)
     ratio = 0.5 * (1.0 - 7.938 / 33.5 * math.cos(DEEP.free_contact_angle))
     assert found.ball_pass_frequency == pytest.approx(8.0 * ratio * 300.0)
-    assert found.amplitude.shape == (2, 7)
+    assert found.swing_amplitude.shape == (2, 7)
     rebuilt = np.fft.rfft(found.position[1] - found.position[1].mean())
-    assert found.amplitude[1, 0] == pytest.approx(2.0 / 16.0 * abs(rebuilt[1]))
+    assert found.swing_amplitude[1, 0] == pytest.approx(2.0 / 16.0 * abs(rebuilt[1]))
     with pytest.raises(InputError, match="samples must be"):
         variable_compliance(DEEP, (0.0, -1.0), samples=2)
     with pytest.raises(InputError, match="bearing must be a BallBearing or a BearingPair"):

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
         face_to_face as face_to_face,
         tandem as tandem,
     )
+    from .cage.five_degree_balls import FiveDegreeBalls as FiveDegreeBalls
+    from .cage.turning_balls import TurningBalls as TurningBalls
     from .elliptic_contact import EllipticContact as EllipticContact, elliptic_integrals
     from .load_zone import (
         load_integrals as load_integrals,

@@ -22,8 +22,8 @@ class Waviness:
         Whether it is on the inner ring, which turns, or on the outer one, which stands.
     lobes : int
         Around the circumference.
-    amplitude : float [m]
-        Radial, added to the distance of the groove centers: positive where it takes clearance.
+    radial_amplitude : float [m]
+        Added radially to the distance of the groove centers: positive where it takes clearance.
     axial_amplitude : float [m]
         The same along the thrust that the row carries.
     phase : float [rad]
@@ -37,15 +37,15 @@ class Waviness:
 
     inner: bool
     lobes: int
-    amplitude: float
+    radial_amplitude: float
     axial_amplitude: float = 0.0
     phase: float = 0.0
 
     def __post_init__(self) -> None:
         require_count("lobes", self.lobes)
-        require_each(self, require_number, "amplitude", "axial_amplitude", "phase")
+        require_each(self, require_number, "radial_amplitude", "axial_amplitude", "phase")
 
     @property
     def numbers(self) -> tuple[float, float, float, float, float]:
         """As the compiled kernel reads it."""
-        return float(self.inner), float(self.lobes), self.amplitude, self.axial_amplitude, self.phase
+        return float(self.inner), float(self.lobes), self.radial_amplitude, self.axial_amplitude, self.phase

@@ -42,6 +42,7 @@ class BallCurves(Readable):
     preloads : tuple of float [N]
         As pairs back to back were clamped.
     running_preload : ndarray, shape (preloads, n) [N]
+        With which the rows of these pairs press each other at speed.
     radial_stiffness, axial_stiffness : ndarray, shape (preloads, n) [N/m]
         Of these pairs, unloaded.
     swing : VariableCompliance

@@ -23,8 +23,8 @@ from rotorfilm import (
 from rotorfilm.model import Dynamic, Model, Reaction, Switched
 
 WAVES = (
-    Waviness(inner=True, lobes=9, amplitude=0.3e-6, phase=0.4),
-    Waviness(inner=False, lobes=7, amplitude=-0.2e-6, axial_amplitude=0.1e-6),
+    Waviness(inner=True, lobes=9, radial_amplitude=0.3e-6, phase=0.4),
+    Waviness(inner=False, lobes=7, radial_amplitude=-0.2e-6, axial_amplitude=0.1e-6),
 )
 THRUST = BallBearing(
     balls=9,
@@ -82,7 +82,9 @@ def test_derivatives_of_a_turning_cage(bearing):
 @pytest.mark.closed_form
 def test_the_force_is_the_slope_of_a_potential():
     """Static balls, with waves, have a potential whose slopes are their force."""
-    model = FiveDegreeBalls(bearing=replace(DEEP, waviness=(Waviness(inner=False, lobes=8, amplitude=1e-6),)))
+    model = FiveDegreeBalls(
+        bearing=replace(DEEP, waviness=(Waviness(inner=False, lobes=8, radial_amplitude=1e-6),))
+    )
     u = np.array([2e-6, -9e-6, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.2, 0.0])
     row = DEEP.rows[0]
     K = (row[9] ** (-2.0 / 3.0) + row[10] ** (-2.0 / 3.0)) ** -1.5
@@ -174,7 +176,7 @@ def test_cage_ratio_is_that_of_the_balls():
         (lambda: FiveDegreeBalls(bearing=DEEP).output(0.0, [], [0.0]), r"u must have shape \(10,\)"),
         (lambda: FiveDegreeBalls(bearing=DEEP).inputs_at([0.0], 1.0), r"displacement must have shape \(5,\)"),
         (lambda: TurningBalls(bearing=DEEP).output(0.0, [0.0], [0.0] * 5), r"x must have shape \(2,\)"),
-        (lambda: Waviness(inner=True, lobes=0, amplitude=1e-6), "lobes must be"),
+        (lambda: Waviness(inner=True, lobes=0, radial_amplitude=1e-6), "lobes must be"),
         (lambda: replace(DEEP, waviness=(1.0,)), r"waviness\[0\] must be a Waviness"),
     ],
 )
