@@ -70,6 +70,11 @@ if TYPE_CHECKING:
         plot_result as plot_result,
         plot_trajectory as plot_trajectory,
     )
+    from .rolling_charts import (
+        plot_ball_accuracy as plot_ball_accuracy,
+        plot_ball_curves as plot_ball_curves,
+        plot_compliance as plot_compliance,
+    )
     from .rotor_charts import (
         plot_campbell as plot_campbell,
         plot_critical_speed_map as plot_critical_speed_map,

@@ -22,6 +22,7 @@ from .canvas import new_axes, new_figure
 from .certified_charts import plot_separation_margins, plot_shaft_statics, plot_stability_level_one
 from .comparisons.scene_ladder import RungPoint, plot_scene_ladder
 from .damper_charts import plot_bistable, plot_damper_run, plot_damper_turn, plot_eccentricity
+from .rolling_charts import plot_compliance
 from .rotor_charts import plot_campbell
 from .whirl_charts import plot_orbit_curves, plot_periodic_orbit
 
@@ -181,5 +182,6 @@ PICTURES: dict[str, Callable[..., Any]] = {
     "DamperTurn": plot_damper_turn,
     "ContactRun": plot_contact_run,
     "QuestionAnswer": plot_question,
+    "VariableCompliance": plot_compliance,
 }
 """What draws a result, by the name of its class."""

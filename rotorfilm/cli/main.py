@@ -56,6 +56,7 @@ CHARTS = {
     "charts.chart_commands.stability": "chart stability --ld 0.5 --json",
     "charts.pad_commands.bearings": "chart bearings --ld 0.5 --mass '250 kg'",
     "charts.pad_commands.pads": "chart pads --ld 0.5 --json",
+    "charts.rolling_command.rolling": "chart rolling --speed '30000 rpm'",
     "charts.chart_commands.contact": "chart contact --cells 48 --json",
     "charts.chart_commands.contact_cases": "chart contact-cases --cells 40",
     "charts.chart_commands.contact_limits": "chart contact-limits --json",

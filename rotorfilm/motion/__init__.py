@@ -39,5 +39,9 @@ if TYPE_CHECKING:
     from .periodic.periodic_orbit import PeriodicOrbit as PeriodicOrbit, periodic_orbit as periodic_orbit
     from .transient.ring_contacts import RingContacts as RingContacts, ring_contacts as ring_contacts
     from .transient.simulate import simulate as simulate
+    from .variable_compliance import (
+        VariableCompliance as VariableCompliance,
+        variable_compliance as variable_compliance,
+    )
 else:
     show(__name__)

@@ -185,6 +185,10 @@ MADE = [
     ANGULAR_CONTACT,
     rf.back_to_back(ANGULAR_CONTACT, distance=0.02, preload=100.0),
     rf.TiltingBalls(bearing=ANGULAR_CONTACT),
+    rf.TurningBalls(bearing=ANGULAR_CONTACT, cage_ratio=0.4),
+    rf.FiveDegreeBalls(bearing=ANGULAR_CONTACT),
+    rf.PalmgrenBalls(balls=8, ball_diameter=8e-3, contact_angle=0.1, damping=10.0),
+    rf.Waviness(inner=True, lobes=9, radial_amplitude=1e-7, axial_amplitude=2e-8, phase=0.3),
     rf.BearingPair(
         bearing=ANGULAR_CONTACT,
         distance=0.02,

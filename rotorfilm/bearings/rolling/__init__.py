@@ -7,7 +7,12 @@ from ...sources import show
 if TYPE_CHECKING:
     from ..ellipse import elliptic_integrals
     from .ball_bearing import BallBearing as BallBearing
-    from .ball_films import ball_films as ball_films, race_films as race_films
+    from .ball_degrees import MOST_PRESSURE, MOST_TRACTION
+    from .ball_films import (
+        ball_films as ball_films,
+        film_parameter as film_parameter,
+        race_films as race_films,
+    )
     from .ball_law import RunningBalls as RunningBalls, StaticBalls as StaticBalls
     from .ball_results import BallLoads as BallLoads, BallRest as BallRest
     from .bearing_pair import (
@@ -16,6 +21,8 @@ if TYPE_CHECKING:
         face_to_face as face_to_face,
         tandem as tandem,
     )
+    from .cage.five_degree_balls import FiveDegreeBalls as FiveDegreeBalls
+    from .cage.turning_balls import TurningBalls as TurningBalls
     from .elliptic_contact import EllipticContact as EllipticContact
     from .film_damping import FilmDamping as FilmDamping, film_damping as film_damping
     from .load_zone import (
@@ -27,8 +34,10 @@ if TYPE_CHECKING:
         LubricatedBalls as LubricatedBalls,
         lubricated_balls as lubricated_balls,
     )
+    from .palmgren_balls import PalmgrenBalls as PalmgrenBalls
     from .race_film import RaceFilm as RaceFilm
     from .rolling_material import RollingMaterial as RollingMaterial
     from .tilting_balls import TiltingBalls as TiltingBalls
+    from .waviness import Waviness as Waviness
 else:
     show(__name__)

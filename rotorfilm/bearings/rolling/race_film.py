@@ -98,14 +98,22 @@ class RaceFilm:
     @property
     def central_film(self) -> float:
         """Central film thickness by Hamrock & Dowson (1977) [m]."""
+        return self._numbers.central_film * self.touch.rolling_radius
+
+    @property
+    def minimum_film(self) -> float:
+        """Smallest film thickness by Hamrock & Dowson (1977) [m]."""
+        return self._numbers.minimum_film * self.touch.rolling_radius
+
+    @property
+    def _numbers(self) -> HamrockDowson:
         radius, modulus = self.touch.rolling_radius, self.touch.combined_modulus
-        numbers = HamrockDowson(
+        return HamrockDowson(
             self.viscosity * self.rolling_speed / (modulus * radius),
             self.pressure_coefficient * modulus,
             self.load / (modulus * radius**2),
             self.touch.ellipticity,
         )
-        return numbers.central_film * radius
 
     @property
     def stiffness(self) -> float:
